@@ -12,7 +12,9 @@
 
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;
-use fastphong::shading::{Entry, Info, LightModel, Linear, Lit, MethodParameter, Shader};
+use fastphong::shading::{
+    Entry, Info, LightModel, Linear, Lit, MethodParameter, Shader, Span, Value,
+};
 use std::io::Write;
 
 /// Cel shading: the diffuse term in a few bands, and a highlight with a hard edge.
@@ -33,18 +35,19 @@ impl Shader for Toon {
         name: "toon",
         title: "bands of light, and a highlight with a hard edge",
         // The default, the least and the most.
-        parameters: &[MethodParameter::new("bands", "bands of light", 3, 1, 8)],
+        parameters: &[MethodParameter::whole("bands", "bands of light", 3, [1, 8])],
         ..Info::OF_PIXELS
     };
     // A vertex carries its normal and nothing else, so it need not be visited.
     const PASSES_NORMAL: bool = true;
+    type Constants<F: Num> = (); // nothing is set up per polygon
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Linear<Vec3<F>>; // three additions per pixel
 
     #[inline(always)]
-    fn new(parameters: &[u32], _: &LightModel) -> Self {
+    fn new(parameters: &[Value], _: &LightModel) -> Self {
         Toon {
-            bands: parameters[0],
+            bands: parameters[0].whole().unwrap_or(3),
         }
     }
     #[inline(always)]
@@ -52,8 +55,8 @@ impl Shader for Toon {
         n
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Linear<Vec3<F>>) -> Linear<Vec3<F>> {
-        span
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+        span.linear()
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
@@ -66,7 +69,7 @@ impl Shader for Toon {
                 // `gate`: the number where the condition is above a value, 0 elsewhere.
                 diffuse = diffuse + l_n.like(width).gate(l_n, (band as f32 + 0.5) * width);
             }
-            let highlight = lit.highlight(&light, l_n, n.dot(lit.view)).gate(l_n, 0.0);
+            let highlight = lit.highlight(&light, l_n, n.dot(lit.view())).gate(l_n, 0.0);
             let specular = l_n.like(1.0).gate(highlight, 0.9);
             colour = lit.plus(colour, &light, diffuse, specular);
         }

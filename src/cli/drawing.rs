@@ -11,7 +11,7 @@ use fastphong::number::suggest::unknown;
 use fastphong::picture::encoding::{quantise, srgb_encode, store};
 use fastphong::picture::image_file::{FilePicture, FilePixels, Format, PpmWriter};
 use fastphong::picture::{Alpha, Encoding, Picture, Picture8};
-use fastphong::raster::{Edges, Renderer};
+use fastphong::raster::{Edges, Plan, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{Entry, METHODS, Variant};
@@ -125,6 +125,9 @@ impl RenderJob {
         let name = method.to_string();
         let (title, content) = match (engine, method) {
             (EngineFlag::Scanlines(_), Method::Variant(variant)) => {
+                if let Plan::Refused(reason) = variant.plan(&frame, renderer) {
+                    return Err(format!("`{variant}` is not for this picture: {reason}").into());
+                }
                 let content = PictureContent::Scanlines(variant.clone(), renderer);
                 return Ok(RenderJob::new(frame, content, name));
             }
@@ -174,7 +177,8 @@ impl RenderJob {
         let drawn_by = match &self.content {
             PictureContent::Scanlines(variant, renderer) => {
                 let plan = variant.plan(&self.frame, *renderer);
-                return (DrawnBy::new(plan.renderer), plan.reason);
+                let drawn_by = plan.renderer().unwrap_or(*renderer);
+                return (DrawnBy::new(drawn_by), plan.reason());
             }
             PictureContent::Barycentric(..) => DrawnBy::BARYCENTRIC,
             PictureContent::Cs171(..) => in_f64("cs171"),

@@ -55,14 +55,20 @@ impl ExplainArgs {
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
-        section("perspective", &wrapped(info.perspective.sentence(), 2));
-        section("lights at positions", &wrapped(info.local.sentence(), 2));
+        section(
+            "perspective",
+            &wrapped(self.method.entry().perspective.sentence(), 2),
+        );
+        section(
+            "lights at positions",
+            &wrapped(self.method.entry().local.sentence(), 2),
+        );
         let engines = engines_with(self.method.entry());
         section("engines", &format!("  {engines}\n"));
         let mut parameters = String::new();
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
             let (value, default) = (p.text(*value), p.text(p.default));
-            let (name, meaning, range) = (p.name, p.meaning, p.range());
+            let (name, meaning, range) = (p.name, p.meaning, p.values());
             let text = format!("{name}={value}: {meaning}; {range}, default {default}");
             parameters += &wrapped(&text, 2);
             if let Some(auto) = p.auto {

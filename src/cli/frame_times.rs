@@ -103,6 +103,7 @@ impl FrameTime {
     ) -> Result<FrameTime, FrameError> {
         let mut frame = scene.frame()?;
         let plan = variant.plan(&frame, renderer);
+        let drawn_by = plan.renderer().unwrap_or(renderer);
         let mut picture = Picture8::new(0, 0, [0; 4]);
         let mut samples = Vec::with_capacity(count.frames);
         for number in 0..count.warmup + count.frames {
@@ -121,10 +122,10 @@ impl FrameTime {
             width: picture.width(),
             height: picture.height(),
             method: variant.to_string(),
-            engine: plan.renderer.engine().name(),
-            level: plan.renderer.level().name(),
+            engine: drawn_by.engine().name(),
+            level: drawn_by.level().name(),
             threads: rayon::current_num_threads(),
-            reason: plan.reason,
+            reason: plan.reason(),
             count,
             ms_median: timing.median_ns / 1e6,
             ms_min: timing.min_ns / 1e6,

@@ -260,16 +260,24 @@ fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
 impl AutoChoice {
     /// Writes the choice in words.
     fn text(&self) -> String {
-        let Plan { renderer, reason } = self.plan;
-        let (engine, level) = (renderer.engine().name(), renderer.level());
+        let methods = self.methods.join(", ");
+        let reason = self.plan.reason();
         let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
-        format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
+        match self.plan.renderer() {
+            Some(renderer) => {
+                let (engine, level) = (renderer.engine().name(), renderer.level());
+                format!("{engine}, {level}: {methods}{reason}")
+            }
+            None => format!("none: {methods}{reason}"),
+        }
     }
 
     /// Returns the choice as data.
     fn json(&self) -> Value {
-        let Plan { renderer, reason } = self.plan;
-        let (engine, level) = (renderer.engine().name(), renderer.level().name());
-        json!({ "engine": engine, "level": level, "reason": reason, "methods": self.methods })
+        let renderer = self.plan.renderer();
+        let engine = renderer.map(|renderer| renderer.engine().name());
+        let level = renderer.map(|renderer| renderer.level().name());
+        let (reason, methods) = (self.plan.reason(), &self.methods);
+        json!({ "engine": engine, "level": level, "reason": reason, "methods": methods })
     }
 }

@@ -10,7 +10,7 @@ use fastphong::lectures::{FIGURES, Figure};
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::{SCENES, ShippedScene};
-use fastphong::shading::{Entry, Info, METHODS, Roundings, Stepped};
+use fastphong::shading::{Entry, Info, METHODS, Range, Roundings, Stepped};
 use serde_json::{Value, json};
 
 /// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
@@ -114,13 +114,13 @@ fn method_text(method: &Entry) -> String {
     let info = method.info;
     let mut about = vec![
         info.title.to_owned(),
-        format!("perspective: {}", info.perspective.sentence()),
-        format!("positions: {}", info.local.sentence()),
+        format!("perspective: {}", method.perspective.sentence()),
+        format!("positions: {}", method.local.sentence()),
         exactness(info),
         format!("engines: {}", engines_with(method)),
     ];
     for p in info.parameters {
-        let (name, range, default) = (p.name, p.range(), p.text(p.default));
+        let (name, range, default) = (p.name, p.values(), p.text(p.default));
         about.push(format!("{name}={range}, default {default}: {}", p.meaning));
         about.extend(p.auto.map(|auto| format!("{name}=auto: {}", auto.meaning)));
     }
@@ -148,13 +148,22 @@ fn stepped(of: Stepped) -> &'static str {
     }
 }
 
+/// Returns the least and the most of a parameter, or its words.
+fn range_json(range: Range) -> Value {
+    match range {
+        Range::Whole(least, most) => json!([least, most]),
+        Range::Decimal(least, most) => json!([least, most]),
+        Range::Words(words) => json!(words),
+    }
+}
+
 /// Describes a method as data, without its texts of more than one line.
 pub fn method_json(method: &Entry) -> Value {
     let info = method.info;
     let parameters = info.parameters.iter().map(|p| {
         json!({
             "name": p.name, "meaning": p.meaning, "default": parameter_json(p, p.default),
-            "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning),
+            "range": range_json(p.range), "auto": p.auto.map(|auto| auto.meaning),
         })
     });
     let Roundings { start, step, of } = info.roundings;
@@ -164,8 +173,8 @@ pub fn method_json(method: &Entry) -> Value {
         "source": info.source,
         "model": info.model.name(),
         "roundings": { "start": start, "step": step, "of": stepped(of) },
-        "perspective": info.perspective.sentence(),
-        "local": info.local.sentence(),
+        "perspective": method.perspective.sentence(),
+        "local": method.local.sentence(),
         "barycentric": method.is_barycentric(),
         "parameters": parameters.collect::<Value>(),
     })

@@ -201,6 +201,12 @@ impl Frame {
         self.geometry.position(vertex, self.origin)
     }
 
+    /// Returns the attributes of a vertex that methods outside this crate may read: its colour and 1, if it was given no others.
+    pub fn attributes(&self, vertex: u32) -> [f32; 4] {
+        let [r, g, b] = self.colour(vertex);
+        [r, g, b, 1.0]
+    }
+
     /// Returns the colour of a vertex, linear; white if the frame was given no colours. At a clip corner it means nothing.
     #[inline(always)]
     pub fn colour(&self, vertex: u32) -> [f32; 3] {

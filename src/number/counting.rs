@@ -21,6 +21,8 @@ pub struct Counts {
     pub trigonometric: u32,
     /// Powers to an exponent that is not an integer.
     pub powers: u32,
+    /// Numbers read from a table, between two entries: two reads, three additions and a multiplication each.
+    pub lookups: u32,
 }
 
 /// The counter that [`Counted`] numbers write to.
@@ -88,6 +90,14 @@ impl MulAdd for Counted<'_> {}
 
 impl Num for Counted<'_> {
     const WIDTH: usize = 1;
+    type One = Self;
+
+    fn one(self, x: f32) -> Self {
+        self.like(x)
+    }
+    fn of_each(self, mut of: impl FnMut(usize) -> Self) -> Self {
+        of(0)
+    }
 
     fn like(self, value: f32) -> Self {
         Counted { value, ..self }
@@ -97,6 +107,12 @@ impl Num for Counted<'_> {
     }
     fn powf(self, exponent: f32) -> Self {
         self.did(|c| &mut c.powers, Num::powf(self.value, exponent))
+    }
+    fn exp2(self) -> Self {
+        self.did(|c| &mut c.powers, Num::exp2(self.value))
+    }
+    fn lookup(self, table: &[f32]) -> Self {
+        self.did(|c| &mut c.lookups, Num::lookup(self.value, table))
     }
     fn max(self, least: f32) -> Self {
         self.did(|c| &mut c.comparisons, Num::max(self.value, least))

@@ -62,7 +62,13 @@ pub trait Num:
 {
     /// Pixels that one number holds.
     const WIDTH: usize;
+    /// A number of one pixel.
+    type One: Real;
 
+    /// Returns `x` as a number of one pixel.
+    fn one(self, x: f32) -> Self::One;
+    /// Returns the numbers that `of` gives for each pixel.
+    fn of_each(self, of: impl FnMut(usize) -> Self::One) -> Self;
     /// Returns `x` as a number of this backend.
     fn like(self, x: f32) -> Self;
     /// Returns the square root.
@@ -75,6 +81,10 @@ pub trait Num:
     }
     /// Returns `self`, 0 or more, to the power `exponent`.
     fn powf(self, exponent: f32) -> Self;
+    /// Returns 2 to the power `self`, of −126..127.
+    fn exp2(self) -> Self;
+    /// Returns the entry of a table at `self`, 0 ≤ `self` ≤ `table.len() − 1`, linear between entries.
+    fn lookup(self, table: &[f32]) -> Self;
     /// Returns the larger of `self` and `least`; `least` where `self` is NaN.
     fn max(self, least: f32) -> Self;
     /// Returns `self` where `condition > least`, else 0 (also where `condition` is NaN).
@@ -84,7 +94,7 @@ pub trait Num:
 }
 
 /// A number of the set-up of edges and runs, where angles are affordable.
-pub trait Real: Num {
+pub trait Real: Num<One = Self> {
     /// Returns sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// Returns the angle in radians of the point (`x`, self).

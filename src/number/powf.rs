@@ -38,8 +38,19 @@ pub(super) fn powf<S: Simd>(x: f32x8<S>, n: f32) -> f32x8<S> {
     }
     let exponent: f32x8<S> = fearless_simd::SimdCvtFloat::float_from(e);
     let log = SimdFloat::mul_add(s * series, of(2.0 * core::f32::consts::LOG2_E), exponent);
+    let scaled = exp2(log * n);
+    // log₂ 0 is −∞, which the bits of 0 do not say.
+    let positive = x.simd_gt(of(0.0));
+    let at_zero = if n == 0.0 { 1.0 } else { 0.0 };
+    simd.select_f32x8(positive, scaled, of(at_zero))
+}
+
+/// Returns 2^y, by the second line of [`powf`]; of less than 2⁻¹²⁶ and more than 2¹²⁷ these.
+#[inline(always)]
+pub(super) fn exp2<S: Simd>(y: f32x8<S>) -> f32x8<S> {
+    let of = |c: f32| f32x8::splat(y.simd, c);
     // Below 2⁻¹²⁶ there are no normal numbers: what is smaller is so small that it is the same level.
-    let y = (log * n).max(of(-126.0)).min(of(127.0));
+    let y = y.max(of(-126.0)).min(of(127.0));
     let nearest = y.round_ties_even();
     let f = (y - nearest) * core::f32::consts::LN_2;
     let mut power = of(1.0 / 5040.0);
@@ -47,9 +58,6 @@ pub(super) fn powf<S: Simd>(x: f32x8<S>, n: f32) -> f32x8<S> {
         power = SimdFloat::mul_add(power, f, of(1.0 / factorial));
     }
     let shift: i32x8<S> = fearless_simd::SimdCvtTruncate::truncate_from(nearest);
-    let scaled = power * number((shift + whole(127)) << 23);
-    // log₂ 0 is −∞, which the bits of 0 do not say.
-    let positive = x.simd_gt(of(0.0));
-    let at_zero = if n == 0.0 { 1.0 } else { 0.0 };
-    simd.select_f32x8(positive, scaled, of(at_zero))
+    let scale: f32x8<S> = fearless_simd::Bytes::bitcast((shift + i32x8::splat(y.simd, 127)) << 23);
+    power * scale
 }

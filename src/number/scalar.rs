@@ -6,6 +6,16 @@ impl MulAdd for f32 {}
 
 impl Num for f32 {
     const WIDTH: usize = 1;
+    type One = f32;
+
+    #[inline(always)]
+    fn one(self, x: f32) -> f32 {
+        x
+    }
+    #[inline(always)]
+    fn of_each(self, mut of: impl FnMut(usize) -> f32) -> f32 {
+        of(0)
+    }
 
     #[inline(always)]
     fn like(self, x: f32) -> f32 {
@@ -22,6 +32,17 @@ impl Num for f32 {
     #[inline(always)]
     fn powf(self, exponent: f32) -> f32 {
         libm::powf(self, exponent)
+    }
+    #[inline(always)]
+    fn exp2(self) -> f32 {
+        libm::exp2f(self)
+    }
+    #[inline(always)]
+    fn lookup(self, table: &[f32]) -> f32 {
+        // The last step of the table may be reached, and be passed by a rounding.
+        let below = (self as usize).min(table.len() - 2);
+        let (low, high) = (table[below], table[below + 1]);
+        low + (high - low) * (self - below as f32)
     }
     #[inline(always)]
     fn max(self, least: f32) -> f32 {

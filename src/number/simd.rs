@@ -1,7 +1,7 @@
 //! Blocks of 8 or 16 neighbouring pixels, and the width of a block on each instruction set ([`Token`]). Only a machine that has the
 //! instruction set can make its token.
 
-use super::powf::powf;
+use super::powf::{exp2, powf};
 use super::{Level, MulAdd, Num, Vec3, vec3};
 use fearless_simd::{
     Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
@@ -112,7 +112,7 @@ mod x86 {
 }
 
 macro_rules! block {
-    ($block:ident, $bits:ident, $width:literal, $estimate:ident, $powf:ident) => {
+    ($block:ident, $bits:ident, $width:literal, $estimate:ident, $powf:ident, $exp2:ident) => {
         impl<S: Simd> MulAdd for $block<S> {
             #[inline(always)]
             fn mul_add(self, factor: Self, summand: Self) -> Self {
@@ -122,6 +122,21 @@ macro_rules! block {
 
         impl<S: Simd> Num for $block<S> {
             const WIDTH: usize = $width;
+            type One = f32;
+
+            #[inline(always)]
+            fn one(self, x: f32) -> f32 {
+                x
+            }
+            #[inline(always)]
+            fn of_each(self, mut of: impl FnMut(usize) -> f32) -> Self {
+                // Not `array::from_fn`: it would not be inlined.
+                let mut lanes = [0.0; $width];
+                for k in 0..$width {
+                    lanes[k] = of(k);
+                }
+                Self::simd_from(self.simd, lanes)
+            }
 
             #[inline(always)]
             fn like(self, x: f32) -> Self {
@@ -148,6 +163,18 @@ macro_rules! block {
                 $powf(self, exponent)
             }
             #[inline(always)]
+            fn exp2(self) -> Self {
+                $exp2(self)
+            }
+            #[inline(always)]
+            fn lookup(self, table: &[f32]) -> Self {
+                let places = self.as_slice();
+                self.of_each(
+                    #[inline(always)]
+                    |k| Num::lookup(places[k], table),
+                )
+            }
+            #[inline(always)]
             fn max(self, least: f32) -> Self {
                 // x86 gives the second operand where one is NaN: `least`, which is a number.
                 match cfg!(target_arch = "x86_64") {
@@ -167,8 +194,8 @@ macro_rules! block {
         }
     };
 }
-block!(f32x8, i32x8, 8, estimate_8, powf);
-block!(f32x16, i32x16, 16, estimate_16, powf_16);
+block!(f32x8, i32x8, 8, estimate_8, powf, exp2);
+block!(f32x16, i32x16, 16, estimate_16, powf_16, exp2_16);
 
 /// Returns 1/√x to the precision of the processor's estimate, or in full.
 #[inline(always)]
@@ -227,6 +254,12 @@ pub fn rsqrt_checksum(level: Level) -> Option<u64> {
 fn powf_16<S: Simd>(x: f32x16<S>, n: f32) -> f32x16<S> {
     let (low, high) = x.simd.split_f32x16(x);
     x.simd.combine_f32x8(powf(low, n), powf(high, n))
+}
+
+#[inline(always)]
+fn exp2_16<S: Simd>(y: f32x16<S>) -> f32x16<S> {
+    let (low, high) = y.simd.split_f32x16(y);
+    y.simd.combine_f32x8(exp2(low), exp2(high))
 }
 
 /// Returns a function that makes a block of the first eight vectors of a list.

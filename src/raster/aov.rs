@@ -15,7 +15,7 @@ use super::target::{Target, draw_anyhow, draw_rows, empty, linear_samples};
 use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Rgb};
 use crate::scene::Interpolation;
-use crate::shading::Variant;
+use crate::shading::{RunList, UniformsIndex, Variant};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -41,7 +41,7 @@ impl Variant {
     /// the numbers are those of the loops that draw the method.
     pub fn polygon_numbers(&self, frame: &Frame, renderer: Renderer) -> Picture<u32> {
         #[cfg(feature = "simd")]
-        if let Renderer::Row(level) = self.plan(frame, renderer).renderer {
+        if let Some(Renderer::Row(level)) = self.plan(frame, renderer).renderer() {
             return super::rows::polygon_numbers(self, frame, level);
         }
         let _ = renderer; // without SIMD there is one engine
@@ -80,23 +80,24 @@ fn interpolate(
     visit: &mut dyn FnMut(usize, usize, [f32; 4]),
 ) {
     const COUNT: usize = 4;
-    let numbers = |start: &[f32]| [start[0], start[1], start[2], start[3]];
-    let mut starts = Vec::new();
+    let numbers = |at: &[f32]| [at[0], at[1], at[2], at[3]];
+    let mut list = RunList::new(COUNT);
     match edges {
         Some(edges) => {
-            barycentric::scan(frame, varyings, edges, &mut |_, x, row, starts| {
-                visit(x, row, numbers(starts));
-                starts.clear();
+            barycentric::scan(frame, varyings, edges, &mut |_, x, row, list| {
+                visit(x, row, numbers(list.starts.of(0)[0]));
+                list.clear();
             });
         }
         None => scan(frame, varyings, &mut |row, line, edges| {
             line.runs(|span, pixels| {
-                starts.clear();
-                edges.start(span, pixels.start as u32 - span.start, &mut starts);
-                let (at, step) = starts.split_at_mut(COUNT);
+                list.clear();
+                let uniforms = UniformsIndex(0); // nothing is lit
+                edges.add_run(span, (row, pixels.clone()), uniforms, &mut list);
+                let [mut at, step] = list.starts.of(0).map(numbers);
                 for x in pixels {
-                    visit(x, row, numbers(at));
-                    at.iter_mut().zip(&*step).for_each(|(at, step)| *at += step);
+                    visit(x, row, at);
+                    at.iter_mut().zip(step).for_each(|(at, step)| *at += step);
                 }
             });
         }),

@@ -1,6 +1,6 @@
 //! The method that draws naive Phong's picture in the least time.
 
-use super::engine::{Engine, Renderer};
+use super::engine::Renderer;
 use crate::frame::Frame;
 use crate::shading::Variant;
 
@@ -31,10 +31,10 @@ impl Variant {
             "under lights or an eye at positions nothing as exact is faster one pixel at a time";
         let span = "naive Phong's picture in less time, one pixel at a time";
         let row = "naive Phong's picture in the least time of the row engine";
-        match rsqrt.plan(frame, renderer).renderer.engine() {
-            Engine::Span if frame.is_local() => (named("naive-phong"), near),
-            Engine::Span => (rsqrt, span),
-            Engine::Row => (rsqrt, row),
+        match rsqrt.plan(frame, renderer).renderer() {
+            Some(Renderer::Row(_)) => (rsqrt, row),
+            _ if frame.is_local() => (named("naive-phong"), near),
+            _ => (rsqrt, span),
         }
     }
 }

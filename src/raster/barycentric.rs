@@ -10,7 +10,7 @@ use super::spans::NOTHING;
 use super::target::Target;
 use crate::frame::Frame;
 use crate::picture::Picture;
-use crate::shading::Run;
+use crate::shading::{Run, RunList};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -56,9 +56,9 @@ impl EdgeFunction {
     }
 }
 
-/// A function that takes a visible pixel: the polygon, the column, the row, and the starts of runs at all pixels since it took
-/// some out.
-type VisitPixel<'a> = dyn FnMut(u32, usize, usize, &mut Vec<f32>) + 'a;
+/// A function that takes a visible pixel: the polygon, the column, the row, and what the runs of all pixels since it took some out
+/// start from.
+type VisitPixel<'a> = dyn FnMut(u32, usize, usize, &mut RunList) + 'a;
 
 /// Calls `visit` with the visible pixels of each triangle, in drawing order and row by row. Polygons with more corners are
 /// passed over. Returns the starts that are left.
@@ -67,10 +67,10 @@ pub(super) fn scan(
     varyings: &Varyings<'_>,
     edges: Edges,
     visit: &mut VisitPixel<'_>,
-) -> Vec<f32> {
+) -> RunList {
     let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
-    let mut starts = Vec::new();
+    let mut list = RunList::new(varyings.count);
     for (number, polygon) in (0..).zip(frame.polygons()) {
         let &[a, b, c] = frame.corners(polygon) else {
             continue;
@@ -127,22 +127,21 @@ pub(super) fn scan(
                 // A run of one pixel: its steps are 0.
                 if let Some([x, y, z]) = three {
                     // The fast path: three numbers, without a loop.
-                    starts.extend_from_slice(&[mix(x), mix(y), mix(z), 0.0, 0.0, 0.0]);
+                    list.starts.push([mix(x), mix(y), mix(z)], [0.0; 3]);
                 } else {
-                    let end = starts.len() + 2 * varyings.count;
-                    match constant {
-                        Some(constant) => starts.extend_from_slice(constant),
-                        None => {
-                            starts.extend((0..varyings.count).map(|k| mix(each(|i| values[i][k]))))
-                        }
+                    let [at, _] = list.starts.add();
+                    for (k, at) in at.iter_mut().enumerate() {
+                        *at = match constant {
+                            Some(constant) => constant[k],
+                            None => mix(each(|i| values[i][k])),
+                        };
                     }
-                    starts.resize(end, 0.0);
                 }
-                visit(number, column, row, &mut starts);
+                visit(number, column, row, &mut list);
             }
         }
     }
-    starts
+    list
 }
 
 /// Returns what a function gives for each of the three corners, or for the edges opposite to them.
@@ -159,45 +158,44 @@ const BATCH: usize = 256;
 struct Waiting {
     /// Pixels that touch: the column of the first one, the row, and how many.
     places: Vec<[usize; 3]>,
-    runs: Vec<Run>,
     colours: Vec<[f32; 3]>,
 }
 
 impl Waiting {
-    /// Shades all pixels from `starts` and stores them.
-    fn flush(&mut self, setup: &SetUp<'_>, starts: &mut Vec<f32>, target: &mut dyn Target) {
-        self.colours.resize(self.runs.len(), [0.0; 3]);
-        (setup.kernels.pixels)(&setup.pixels(&self.runs, starts), &mut self.colours);
+    /// Shades the pixels of `list` and stores them.
+    fn flush(&mut self, setup: &SetUp<'_>, list: &mut RunList, target: &mut dyn Target) {
+        self.colours.resize(list.runs.len(), [0.0; 3]);
+        (setup.kernels.pixels)(&setup.pixels(list), &mut self.colours);
         let mut shaded = &self.colours[..];
         for [x, row, count] in self.places.drain(..) {
             let (here, rest) = shaded.split_at(count);
             target.store(x, row, here);
             shaded = rest;
         }
-        self.runs.clear();
-        starts.clear();
+        list.clear();
     }
 }
 
 /// Draws the triangles of a method's frame into `target`.
 pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
     let mut waiting = Waiting::default();
-    let visit = &mut |number, column, row, starts: &mut Vec<f32>| {
-        waiting.runs.push(Run {
+    let visit = &mut |number, column: usize, row, list: &mut RunList| {
+        list.runs.push(Run {
             uniforms: setup.uniforms_of(number),
-            x: 0,
+            polygon: number,
+            x: column as u32,
             pixels: 1,
         });
         match waiting.places.last_mut() {
             Some([x, its_row, count]) if *its_row == row && *x + *count == column => *count += 1,
             _ => waiting.places.push([column, row, 1]),
         }
-        if waiting.runs.len() >= BATCH {
-            waiting.flush(setup, starts, target);
+        if list.runs.len() >= BATCH {
+            waiting.flush(setup, list, target);
         }
     };
-    let mut starts = scan(setup.frame, &setup.varyings, edges, visit);
-    waiting.flush(setup, &mut starts, target);
+    let mut list = scan(setup.frame, &setup.varyings, edges, visit);
+    waiting.flush(setup, &mut list, target);
 }
 
 /// Returns the number of the polygon that the barycentric renderer shows at each pixel, an index into [`Frame::polygons`], or
@@ -206,14 +204,14 @@ pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
 /// It agrees with [`polygon_numbers`](super::polygon_numbers) except where depths are equal within rounding.
 pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
-    let visit = &mut |number, column, row, _: &mut Vec<f32>| picture.row_mut(row)[column] = number;
+    let visit = &mut |number, column, row, _: &mut RunList| picture.row_mut(row)[column] = number;
     scan(frame, &Varyings::none(), edges, visit);
     picture
 }
 
 /// Returns the pixels of 0 to `limit` whose centres lie between the least and the largest of three coordinates.
 fn pixels([a, b, c]: [i64; 3], limit: usize) -> Range<usize> {
-    // Centres at 256 p + 128, both ends included for closed edges.
+    // Centres at 256 p + 128, both starts included for closed edges.
     let first = (a.min(b).min(c) + 127).div_euclid(256).max(0) as usize;
     let end = (a.max(b).max(c) - 128).div_euclid(256) + 1;
     first.min(limit)..(end.max(0) as usize).min(limit)

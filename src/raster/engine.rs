@@ -83,11 +83,46 @@ impl Renderer {
     }
 }
 
-/// The renderer that is actually used: see [`crate::shading::Variant::plan`].
+/// The polygons of a frame that a method draws in one way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plan {
-    /// The renderer.
-    pub renderer: Renderer,
-    /// The reason why it is not the one that was asked for, if it is another.
-    pub reason: Option<&'static str>,
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
+pub struct PolygonKind {
+    /// The name of the kind.
+    pub name: &'static str,
+    /// The polygons.
+    pub polygons: usize,
+}
+
+/// The answer to a method, a frame and a renderer: see [`crate::shading::Variant::plan`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plan {
+    /// The renderer that was asked for draws.
+    AsAsked(Renderer),
+    /// Another renderer draws.
+    Instead {
+        /// The renderer.
+        renderer: Renderer,
+        /// The reason, as a sentence without its full stop.
+        reason: &'static str,
+    },
+    /// The method is not for such frames ([`crate::shading::Shader::refuses`]), with the reason: no renderer draws it.
+    Refused(&'static str),
+}
+
+impl Plan {
+    /// Returns the renderer that draws, if one does.
+    pub fn renderer(self) -> Option<Renderer> {
+        match self {
+            Plan::AsAsked(renderer) | Plan::Instead { renderer, .. } => Some(renderer),
+            Plan::Refused(_) => None,
+        }
+    }
+
+    /// Returns the reason why it is not the renderer that was asked for, if it is not.
+    pub fn reason(self) -> Option<&'static str> {
+        match self {
+            Plan::AsAsked(_) => None,
+            Plan::Instead { reason, .. } | Plan::Refused(reason) => Some(reason),
+        }
+    }
 }

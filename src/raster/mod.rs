@@ -40,5 +40,5 @@ mod target;
 
 pub use aov::{checkerboard, coverage, depth, normals, polygon_numbers, vertex_colours};
 pub use barycentric::{Edges, barycentric_polygon_numbers};
-pub use engine::{Engine, Plan, Renderer};
+pub use engine::{Engine, Plan, PolygonKind, Renderer};
 pub use spans::{EdgeCrossing, NOTHING};

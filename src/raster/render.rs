@@ -4,7 +4,7 @@
 use super::bands::{draw_bands, stream_bands};
 use super::barycentric::{self, Edges};
 use super::depth::SampleDepth;
-use super::engine::{Plan, Renderer};
+use super::engine::{Plan, PolygonKind, Renderer};
 use super::setup::SetUp;
 use super::spans;
 use super::target::{Stored, draw_anyhow, draw_rows, empty};
@@ -53,13 +53,17 @@ impl Variant {
     }
 
     /// Returns the renderer that draws `frame` with this method where `renderer` is asked for: the span engine, with a reason,
-    /// if the row engine cannot draw it.
+    /// if the row engine cannot draw it; none if the method is not for such frames.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
+        if let Some(reason) = (self.entry().refuses)(frame) {
+            return Plan::Refused(reason);
+        }
         let depth = SampleDepth::new(frame);
         let reason = match renderer {
             Renderer::Row(level) if level == Level::Scalar || !level.is_available() => {
                 Some("the row engine needs SIMD instructions that this machine does not have")
             }
+            Renderer::Row(_) if self.entry().scalar_only().is_some() => self.entry().scalar_only(),
             Renderer::Row(_) if !depth.is_interpolated() => {
                 Some("the row engine interpolates depth and does not compute it per sample")
             }
@@ -72,10 +76,37 @@ impl Variant {
             }
             _ => None,
         };
-        Plan {
-            renderer: reason.map_or(renderer, |_| Renderer::Span),
-            reason,
+        match reason {
+            Some(reason) => Plan::Instead {
+                renderer: Renderer::Span,
+                reason,
+            },
+            None => Plan::AsAsked(renderer),
         }
+    }
+
+    /// Returns how many polygons of `frame` the method draws by each of its kinds ([`crate::shading::Shader::KINDS`]), in their order;
+    /// nothing for methods that do not tell polygons apart.
+    pub fn polygon_kinds(&self, frame: &Frame) -> Vec<PolygonKind> {
+        let names = self.entry().kinds();
+        if names.is_empty() {
+            return Vec::new();
+        }
+        let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
+        let count = |kind: usize| {
+            setup
+                .kinds()
+                .iter()
+                .filter(|k| usize::from(**k) == kind)
+                .count()
+        };
+        let kinds = names.iter().enumerate();
+        kinds
+            .map(|(kind, name)| PolygonKind {
+                name,
+                polygons: count(kind),
+            })
+            .collect()
     }
 
     /// Draws `frame` with an engine and an instruction set into `picture`, which is made anew unless it has the size of the
@@ -101,7 +132,7 @@ impl Variant {
     /// Draws `frame` into a picture of its size.
     fn draw<T: Stored>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
         #[cfg(feature = "simd")]
-        if let Renderer::Row(level) = self.plan(frame, renderer).renderer {
+        if let Some(Renderer::Row(level)) = self.plan(frame, renderer).renderer() {
             let is_bytes = T::bytes(&mut []).is_some();
             let pixels = picture.pixels_mut();
             return super::rows::draw(self, frame, level, is_bytes, &mut |height, draw| {
@@ -145,7 +176,7 @@ impl Variant {
         mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>,
     ) -> Result<(), E> {
         #[cfg(feature = "simd")]
-        if let Renderer::Row(level) = self.plan(frame, renderer).renderer
+        if let Some(Renderer::Row(level)) = self.plan(frame, renderer).renderer()
             && frame.encoding() == Encoding::Linear
         {
             let mut taken = Ok(());

@@ -8,8 +8,8 @@ use crate::scene::Interpolation;
 use crate::shading::increments::GreatCircle;
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    Extras, Kernels, LitAt, Local, Perspective, Pixels, Run, UniformsIndex, Variant, VertexKernel,
-    Vertices, ramp,
+    Corner, Corners, Extras, Kernels, LitAt, Local, Perspective, Pixels, PolygonConstants, RunList,
+    UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
 };
 use alloc::borrow::Cow;
 use alloc::vec;
@@ -33,8 +33,10 @@ pub(super) struct Varyings<'a> {
     /// Numbers of each varying.
     pub count: usize,
     pub per: Per,
-    /// True for unit normals, which walk great circles.
-    pub great_circle: bool,
+    /// True for unit normals, which edges carry along great circles.
+    pub great_circles: bool,
+    /// True if runs start from the varyings at both ends of their spans, and know their places there.
+    pub keeps_ends: bool,
 }
 
 impl<'a> Varyings<'a> {
@@ -44,7 +46,8 @@ impl<'a> Varyings<'a> {
             values: values.into(),
             count,
             per: Per::Vertex,
-            great_circle: false,
+            great_circles: false,
+            keeps_ends: false,
         }
     }
 
@@ -78,7 +81,7 @@ impl<'a> Varyings<'a> {
 pub(super) struct SetUp<'a> {
     pub frame: &'a Frame,
     pub kernels: &'static Kernels,
-    pub parameters: &'a [u32],
+    pub parameters: &'a [Value],
     pub extras: Extras,
     /// Those of the polygons, where each sees light and eye at positions from its own place; then those of the materials. The
     /// numbers of polygons come first, so that the row engine, which stores them as floats, has exact ones.
@@ -86,6 +89,8 @@ pub(super) struct SetUp<'a> {
     /// True if each polygon has uniforms of its own.
     pub is_by_polygon: bool,
     pub varyings: Varyings<'a>,
+    /// What the method sets up for each polygon.
+    constants: PolygonConstants,
     /// Lights vertices on the instruction set of the engine.
     light: VertexKernel,
 }
@@ -95,20 +100,29 @@ const BATCH: usize = 64;
 /// Vertices that are lit on one thread.
 const CHUNK: usize = 1 << 13;
 
-/// A vertex to be lit: its uniforms, normal and position.
-type Item = (UniformsIndex, [f32; 3], [f32; 3]);
+/// A vertex to be lit.
+#[derive(Clone, Copy)]
+struct Item {
+    uniforms: UniformsIndex,
+    normal: [f32; 3],
+    position: [f32; 3],
+    /// Its attributes, if the method reads them.
+    attributes: [f32; 4],
+}
 
 impl<'a> SetUp<'a> {
     /// Computes uniforms and varyings of a method on a frame: on an instruction set, with colours multiplied by a scale, in memory
     /// whose contents do not matter.
     pub fn new(variant: &'a Variant, frame: &'a Frame, how: (Level, f32, Vec<f32>)) -> Self {
         let (level, scale, memory) = how;
-        let (entry, info, near) = (variant.entry(), variant.info(), frame.is_local());
+        let (entry, near) = (variant.entry(), frame.is_local());
         let kernels = entry.kernels(frame.light_count(), near);
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
         let lightings = frame.lightings().iter();
-        let mut uniforms: Vec<Uniforms> = lightings.map(|l| Uniforms::new(l, scale)).collect();
-        let is_by_polygon = near && info.local == Local::PerPolygon;
+        let mut uniforms: Vec<Uniforms> = lightings
+            .map(|l| Uniforms::new(l, variant.power(), scale))
+            .collect();
+        let is_by_polygon = near && entry.local == Local::PerPolygon;
         if is_by_polygon {
             let polygons = frame.polygons().iter();
             let seen =
@@ -118,9 +132,10 @@ impl<'a> SetUp<'a> {
         }
         let extras = entry.extras(near, is_perspective);
         let vertices = (kernels.simd)(level).and_then(|simd| simd.vertices);
-        let [own, _] = (kernels.counts)(frame.light_count());
+        let [own, ..] = (kernels.counts)(frame.light_count());
         let mut varyings = Varyings::of_vertices(&[][..], own + extras.count());
-        varyings.great_circle = kernels.great_circle;
+        varyings.great_circles = kernels.great_circles;
+        varyings.keeps_ends = kernels.reads_span;
         let mut all = SetUp {
             frame,
             kernels,
@@ -129,16 +144,110 @@ impl<'a> SetUp<'a> {
             uniforms,
             is_by_polygon,
             varyings,
+            constants: PolygonConstants::default(),
             light: vertices.unwrap_or(kernels.vertices),
         };
         let is_weighted =
-            is_perspective && matches!(info.perspective, Perspective::Free | Perspective::Divides);
-        (all.varyings.values, all.varyings.per) = match info.lit_at {
-            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(info.lit_at),
-            _ if is_by_polygon && !kernels.great_circle => all.light_corners(is_weighted),
+            is_perspective && matches!(entry.perspective, Perspective::Free | Perspective::Divides);
+        (all.varyings.values, all.varyings.per) = match entry.lit_at {
+            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(entry.lit_at),
+            _ if is_by_polygon && !kernels.great_circles => all.light_corners(is_weighted),
             _ => all.light_vertices(is_weighted, memory),
         };
+        all.constants = all.set_up_polygons();
         all
+    }
+
+    /// Has the method set up every polygon, if it sets up anything.
+    fn set_up_polygons(&self) -> PolygonConstants {
+        let (frame, mut constants) = (self.frame, PolygonConstants::default());
+        let [_, _, count] = (self.kernels.counts)(frame.light_count());
+        let has_kinds = !self.kernels.kinds.is_empty();
+        if count == 0 && !has_kinds {
+            return constants;
+        }
+        // A polygon is set up in one record, so that threads share a list: its kind, then its numbers.
+        let polygons = frame.polygons();
+        let stride = 1 + count;
+        let mut records = vec![0.0; polygons.len() * stride];
+        for_each_chunk(
+            &mut records[..],
+            CHUNK * stride,
+            &|first, records: &mut [f32]| {
+                let (mut corners, mut whole) = (Vec::new(), Vec::new());
+                for (number, record) in (first / stride..).zip(records.chunks_exact_mut(stride)) {
+                    let polygon = self.corners_of(&polygons[number], &mut corners, &mut whole);
+                    let uniforms = &self.uniforms[self.uniforms_of(number as u32).0 as usize];
+                    let kind = (self.kernels.polygon)(
+                        self.parameters,
+                        uniforms,
+                        &polygon,
+                        &mut record[1..],
+                    );
+                    record[0] = f32::from(kind);
+                }
+            },
+        );
+        for record in records.chunks_exact(stride) {
+            if has_kinds {
+                constants.kinds.push(record[0] as u8);
+            }
+            constants.numbers.extend_from_slice(&record[1..]);
+        }
+        constants
+    }
+
+    /// Returns a polygon as methods set it up, in two lists that are made anew.
+    fn corners_of<'c>(
+        &self,
+        polygon: &Polygon,
+        corners: &'c mut Vec<Corner<f32>>,
+        whole: &'c mut Vec<Vec3<f32>>,
+    ) -> Corners<'c, f32> {
+        let frame = self.frame;
+        corners.clear();
+        whole.clear();
+        for &corner in frame.corners(polygon) {
+            let vertex = &frame.vertices()[corner as usize];
+            corners.push(Corner {
+                normal: vec3(frame.normal(corner)),
+                // Exact: coordinates have at most 24 bits.
+                place: [vertex.x, vertex.y].map(|at| at.to_bits() as f32 * (1.0 / 256.0)),
+                weight: match frame.interpolation() {
+                    Interpolation::Screen => 1.0,
+                    Interpolation::Perspective => vertex.inv_w,
+                },
+                position: frame.is_local().then(|| vec3(frame.position(corner))),
+            });
+            self.collect_whole(corner, whole);
+        }
+        Corners {
+            face: vec3(frame.polygon_normal(polygon)),
+            is_whole: frame
+                .corners(polygon)
+                .iter()
+                .all(|&v| frame.clip_corner(v).is_none()),
+            mean: vec3(frame.mean(polygon).normal),
+            all: corners,
+            whole,
+        }
+    }
+
+    /// Collects the normals of the scene's vertices between which a corner's normal lies: its own, or those at the ends of the edge
+    /// on which clipping made it.
+    fn collect_whole(&self, corner: u32, whole: &mut Vec<Vec3<f32>>) {
+        match self.frame.clip_corner(corner) {
+            None => whole.push(vec3(self.frame.normal(corner))),
+            Some(cut) => {
+                self.collect_whole(cut.a, whole);
+                self.collect_whole(cut.b, whole);
+            }
+        }
+    }
+
+    /// Returns the kind of each polygon; nothing if the method has no kinds.
+    pub fn kinds(&self) -> &[u8] {
+        &self.constants.kinds
     }
 
     /// Returns the number of the uniforms of a polygon.
@@ -165,13 +274,13 @@ impl<'a> SetUp<'a> {
     }
 
     /// Returns the job of a kernel that shades runs, or walks along them.
-    pub fn pixels<'p>(&'p self, runs: &'p [Run], starts: &'p [f32]) -> Pixels<'p> {
+    pub fn pixels<'p>(&'p self, list: &'p RunList) -> Pixels<'p> {
         Pixels {
             parameters: self.parameters,
             uniforms: &self.uniforms,
             extras: self.extras,
-            runs,
-            starts,
+            constants: &self.constants,
+            list,
         }
     }
 
@@ -185,7 +294,7 @@ impl<'a> SetUp<'a> {
             return (normals.as_flattened().into(), Per::Vertex);
         }
         // Normals of one material need not be gathered.
-        let ready = alone.filter(|_| has_one_material && !near);
+        let ready = alone.filter(|_| has_one_material && !near && !self.kernels.reads_attributes);
         let item = |i: usize| {
             let vertex = i as u32;
             let point = match near {
@@ -194,13 +303,36 @@ impl<'a> SetUp<'a> {
             };
             // The only material need not be read.
             let material = (!has_one_material).then(|| frame.material(vertex));
-            let uniforms = self.uniforms_of_material(material.unwrap_or(0));
-            (uniforms, frame.normal(vertex), point)
+            Item {
+                uniforms: self.uniforms_of_material(material.unwrap_or(0)),
+                normal: frame.normal(vertex),
+                position: point,
+                attributes: self.attributes(vertex),
+            }
         };
         let mut values = self.lit(memory, frame.vertices().len(), ready.unwrap_or(&[]), &item);
-        let great_circle = self.varyings.great_circle;
+        let great_circle = self.varyings.great_circles;
         finish(frame, &mut values, (count, great_circle), is_weighted);
         (values.into(), Per::Vertex)
+    }
+
+    /// Returns the attributes of a vertex, if the method reads them.
+    #[inline(always)]
+    fn attributes(&self, vertex: u32) -> [f32; 4] {
+        match self.kernels.reads_attributes {
+            true => self.frame.attributes(vertex),
+            false => [0.0; 4],
+        }
+    }
+
+    /// Returns a corner to be lit by the light that its polygon sees.
+    fn corner(&self, polygon: u32, vertex: u32) -> Item {
+        Item {
+            uniforms: self.uniforms_of(polygon),
+            normal: self.frame.normal(vertex),
+            position: [0.0; 3],
+            attributes: self.attributes(vertex),
+        }
     }
 
     /// Lights each polygon once.
@@ -212,7 +344,12 @@ impl<'a> SetUp<'a> {
                 LitAt::PolygonMean => vec3(frame.mean(polygon).normal).unit().array(),
                 _ => frame.polygon_normal(polygon),
             };
-            (self.uniforms_of(number as u32), normal, [0.0; 3])
+            Item {
+                uniforms: self.uniforms_of(number as u32),
+                normal,
+                position: [0.0; 3],
+                attributes: [0.0; 4],
+            }
         };
         let values = self.lit(Vec::new(), frame.polygons().len(), &[], &item);
         (values.into(), Per::Polygon)
@@ -227,10 +364,7 @@ impl<'a> SetUp<'a> {
             let vertices = frame.corners(polygon).iter();
             corners.extend(vertices.map(|&vertex| (number, vertex)));
         }
-        let item = |i: usize| {
-            let (number, vertex) = corners[i];
-            (self.uniforms_of(number), frame.normal(vertex), [0.0; 3])
-        };
+        let item = |i: usize| self.corner(corners[i].0, corners[i].1);
         let mut values = self.lit(Vec::new(), corners.len(), &[], &item);
         for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
             if frame.clip_corner(vertex).is_some() {
@@ -247,18 +381,12 @@ impl<'a> SetUp<'a> {
     /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
     fn clipped(&self, number: u32, vertex: u32) -> Vec<f32> {
         let Some(corner) = self.frame.clip_corner(vertex) else {
-            let item = |_| {
-                (
-                    self.uniforms_of(number),
-                    self.frame.normal(vertex),
-                    [0.0; 3],
-                )
-            };
+            let item = |_| self.corner(number, vertex);
             return self.lit(Vec::new(), 1, &[], &item);
         };
         let ends = [corner.a, corner.b].map(|v| self.clipped(number, v));
         let mut to = vec![0.0; self.varyings.count];
-        between(self.varyings.great_circle, &corner, &ends, &mut to);
+        between(self.varyings.great_circles, &corner, &ends, &mut to);
         to
     }
 
@@ -288,27 +416,30 @@ impl<'a> SetUp<'a> {
                 let normals = &ready[first..first + whole];
                 let (here, others) = rest.split_at_mut(whole * stride);
                 // Directional lights do not ask for points.
-                self.light(self.uniforms_of_material(0), normals, normals, here);
+                self.light(self.uniforms_of_material(0), [normals; 2], &[], here);
                 (rest, first) = (others, first + whole);
             }
             let (mut normals, mut points) = ([[0.0; 3]; BATCH], [[0.0; 3]; BATCH]);
+            let mut attributes = [[0.0; 4]; BATCH];
             let mut lit = vec![0.0; BATCH * own];
             while !rest.is_empty() {
                 let most = BATCH.min(rest.len() / stride);
-                let (number, mut k) = (item(first).0, 0);
+                let (number, mut k) = (item(first).uniforms, 0);
                 while k < most {
-                    let (other, normal, point) = item(first + k);
-                    if other != number {
+                    let item = item(first + k);
+                    if item.uniforms != number {
                         break;
                     }
-                    (normals[k], points[k]) = (normal, point);
+                    (normals[k], points[k]) = (item.normal, item.position);
+                    attributes[k] = item.attributes;
                     k += 1;
                 }
                 let padded = k.next_multiple_of(BLOCK);
                 let to = &mut lit[..padded * own];
-                self.light(number, &normals[..padded], &points[..padded], to);
+                let vectors = [&normals[..padded], &points[..padded]];
+                self.light(number, vectors, &attributes[..padded], to);
                 let (here, others) = rest.split_at_mut(k * stride);
-                // The house's extras stand behind the varyings of the method.
+                // The engine's own varyings (position, 1/w) follow the method's.
                 for (k, to) in here.chunks_exact_mut(stride).enumerate() {
                     to[..own].copy_from_slice(&lit[k * own..][..own]);
                     if extras.point {
@@ -328,8 +459,8 @@ impl<'a> SetUp<'a> {
     fn light(
         &self,
         uniforms: UniformsIndex,
-        normals: &[[f32; 3]],
-        points: &[[f32; 3]],
+        [normals, points]: [&[[f32; 3]]; 2],
+        attributes: &[[f32; 4]],
         to: &mut [f32],
     ) {
         debug_assert_eq!(normals.len(), points.len(), "a position a normal");
@@ -338,6 +469,7 @@ impl<'a> SetUp<'a> {
             uniforms: &self.uniforms[uniforms.0 as usize],
             normals,
             points,
+            attributes,
         };
         (self.light)(&vertices, to);
     }

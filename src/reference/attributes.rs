@@ -1,10 +1,10 @@
 //! Colours and normals: at the vertices, and between them.
 
-use super::Model;
 use super::coverage::{Crossing, Scanline, SpanPlace, VertexWeights};
 use super::illumination::{illuminate, sum, wide};
+use super::{ClosedForm, Model};
 use crate::frame::{ClipCorner, Frame, Polygon};
-use crate::scene::Interpolation;
+use crate::scene::{Interpolation, Power};
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -50,6 +50,7 @@ fn unit(n: DVec3) -> DVec3 {
 pub(crate) struct VertexAttributes<'a> {
     frame: &'a Frame,
     model: Model,
+    power: Power,
     /// Colours (Gouraud) or normals (Phong, slerp); none for flat shading.
     values: Vec<DVec3>,
     /// True if a light or the eye is at a position.
@@ -63,12 +64,13 @@ impl<'a> VertexAttributes<'a> {
     ///
     /// A vertex that clipping made lies between two others, which may be such vertices too: its value is interpolated as the
     /// model does, and it is not lit by a normal of its own.
-    pub fn new(frame: &'a Frame, model: Model) -> Self {
+    pub fn new(frame: &'a Frame, ClosedForm { model, power }: ClosedForm) -> Self {
         let position = |number: u32| wide(frame.position(number));
         let normal = |number: u32| wide(frame.normal(number));
         let unclamped = |number: u32| {
             sum(
                 &frame.lightings()[frame.material(number) as usize],
+                power,
                 normal(number),
                 position(number),
             )
@@ -114,6 +116,7 @@ impl<'a> VertexAttributes<'a> {
         VertexAttributes {
             frame,
             model,
+            power,
             values,
             is_local,
             positions,
@@ -132,7 +135,7 @@ impl<'a> VertexAttributes<'a> {
                 DVec3::ZERO
             }
         };
-        let at_mean = |n: DVec3| illuminate(lighting, n, place());
+        let at_mean = |n: DVec3| illuminate(lighting, self.power, n, place());
         Some(match self.model {
             Model::Flat => {
                 scanline.edges(x)?;
@@ -155,6 +158,7 @@ impl<'a> VertexAttributes<'a> {
                 };
                 illuminate(
                     lighting,
+                    self.power,
                     unit(self.interpolated(&self.values, &weights)),
                     position,
                 )

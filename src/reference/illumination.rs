@@ -1,6 +1,7 @@
 //! The illumination model (L21 2.1), as it is printed, with the clamps that it leaves out.
 
-use crate::scene::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
+use super::power::powered;
+use crate::scene::{Falloff, LightTerm, Lighting, Place, Power, SpecularGate, SpecularModel};
 use glam::DVec3;
 
 /// A direction or colour of the frame in double precision.
@@ -34,6 +35,18 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
     }
 }
 
+/// Returns the strongest channel of a highlight, of any light at its nearest.
+fn strongest_highlight(lighting: &Lighting) -> f64 {
+    let of_light = |light: &LightTerm| {
+        let strength = match light.place {
+            Place::Local(_) => strength(light.falloff, 0.0),
+            Place::Infinite(_) => 1.0,
+        };
+        wide(light.specular).max_element() * strength
+    };
+    lighting.lights.iter().map(of_light).fold(0.0, f64::max)
+}
+
 /// The unit vector halfway between two others; zero where they are opposite to within [`SpecularModel::LEAST_SUM`].
 fn halfway(l: DVec3, v: DVec3) -> DVec3 {
     let sum = l + v;
@@ -51,8 +64,8 @@ fn halfway(l: DVec3, v: DVec3) -> DVec3 {
 /// R = 2 (L·N) N − L                                     or N·H, H = (L + V) / |L + V|      (CS171 2)
 /// ```
 /// A light behind the surface (L·N ≤ 0) adds nothing, no highlight either unless the scene asks for it; R·V and N·H count
-/// from 0 up. 0⁰ is 1. The zero vector has no direction: ambient light only.
-pub(crate) fn sum(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
+/// from 0 up. 0⁰ is 1. The zero vector has no direction: ambient light only. Another function than a power may stand for it.
+pub(crate) fn sum(lighting: &Lighting, power: Power, n: DVec3, p: DVec3) -> DVec3 {
     let (v, _) = toward(lighting.view, p);
     let mut intensity = wide(lighting.ambient);
     for light in &lighting.lights {
@@ -62,7 +75,9 @@ pub(crate) fn sum(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
             SpecularModel::Phong => (2.0 * l_n * n - l).dot(v), // R = 2 (L·N) N − L
             SpecularModel::Blinn => n.dot(halfway(l, v)),       // h = (e + l) / |e + l|
         };
-        let highlight = libm::pow(cosine.max(0.0), f64::from(lighting.shininess));
+        let highlight = powered(power, lighting.shininess.into(), cosine.max(0.0), || {
+            strongest_highlight(lighting)
+        });
         let highlight = match lighting.gate {
             SpecularGate::Gated if l_n > 0.0 => highlight,
             SpecularGate::Gated => 0.0,
@@ -81,18 +96,21 @@ pub(crate) fn sum(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
 }
 
 /// Returns the sum clamped to 0..=1, once, at the end.
-pub(crate) fn illuminate(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
-    sum(lighting, n, p).clamp(DVec3::ZERO, DVec3::ONE)
+pub(crate) fn illuminate(lighting: &Lighting, power: Power, n: DVec3, p: DVec3) -> DVec3 {
+    sum(lighting, power, n, p).clamp(DVec3::ZERO, DVec3::ONE)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::LightTerm;
     use alloc::vec;
     use alloc::vec::Vec;
 
     const Z: [f32; 3] = [0.0, 0.0, 1.0];
+
+    fn lit(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
+        illuminate(lighting, Power::Squaring, n, p)
+    }
 
     fn lighting(lights: Vec<LightTerm>, view: [f32; 3], shininess: f32) -> Lighting {
         Lighting {
@@ -123,7 +141,7 @@ mod tests {
         };
         // L = V = N: L·N = R·V = 1.
         assert_eq!(
-            illuminate(&lighting(vec![light], Z, 7.0), DVec3::Z, DVec3::ZERO),
+            lit(&lighting(vec![light], Z, 7.0), DVec3::Z, DVec3::ZERO),
             DVec3::new(0.625, 0.75, 0.75)
         );
     }
@@ -131,7 +149,7 @@ mod tests {
     #[test]
     fn the_highlight_is_a_power_of_the_reflected_ray() {
         // L = (0.6, 0, 0.8) about N = z gives R = (−0.6, 0, 0.8): R·V = 0.8 for V = z, cubed 0.512. L·N = 0.8.
-        let i = illuminate(
+        let i = lit(
             &lighting(vec![white([0.6, 0.0, 0.8], 0.25, 0.5)], Z, 3.0),
             DVec3::Z,
             DVec3::ZERO,
@@ -142,14 +160,14 @@ mod tests {
         // Seen along L, R·V = 0.64 − 0.36 = 0.28.
         let along = lighting(vec![white([0.6, 0.0, 0.8], 0.0, 1.0)], [0.6, 0.0, 0.8], 1.0);
         // R·V moves by 2 · (0.6 + 0.8) · 2⁻²⁵ and l_n, which is in it twice, by as much again: below 2⁻²².
-        assert!((illuminate(&along, DVec3::Z, DVec3::ZERO).y - 0.28).abs() < 2.4e-7);
+        assert!((lit(&along, DVec3::Z, DVec3::ZERO).y - 0.28).abs() < 2.4e-7);
     }
 
     #[test]
     fn a_light_behind_the_surface_leaves_ambient_light() {
         let ambient = DVec3::new(0.125, 0.0, 0.25);
         assert_eq!(
-            illuminate(
+            lit(
                 &lighting(vec![white([0.0, 0.0, -1.0], 1.0, 0.0)], Z, 2.0),
                 DVec3::Z,
                 DVec3::ZERO
@@ -162,16 +180,16 @@ mod tests {
             [0.0, 0.0, -1.0],
             2.0,
         );
-        assert_eq!(illuminate(&back, DVec3::Z, DVec3::ZERO), ambient);
+        assert_eq!(lit(&back, DVec3::Z, DVec3::ZERO), ambient);
         // A grazing light, L·N = 0, is behind: n = 0 would add k_s.
         let grazing = lighting(vec![white([1.0, 0.0, 0.0], 1.0, 1.0)], Z, 0.0);
-        assert_eq!(illuminate(&grazing, DVec3::Z, DVec3::ZERO), ambient);
+        assert_eq!(lit(&grazing, DVec3::Z, DVec3::ZERO), ambient);
     }
 
     #[test]
     fn the_far_side_of_the_highlight_is_dark_even_for_even_exponents() {
         // R = z, V = −z: R·V = −1, squared 1.
-        let i = illuminate(
+        let i = lit(
             &lighting(vec![white(Z, 0.0, 1.0)], [0.0, 0.0, -1.0], 2.0),
             DVec3::Z,
             DVec3::ZERO,
@@ -181,7 +199,7 @@ mod tests {
 
     #[test]
     fn zero_to_the_power_of_zero_is_one() {
-        let i = illuminate(
+        let i = lit(
             &lighting(vec![white(Z, 0.0, 0.5)], [0.0, 0.0, -1.0], 0.0),
             DVec3::Z,
             DVec3::ZERO,
@@ -193,16 +211,16 @@ mod tests {
     fn lights_are_summed_then_clamped() {
         let two = lighting(vec![white(Z, 0.25, 0.0), white(Z, 0.5, 0.0)], Z, 1.0);
         assert_eq!(
-            illuminate(&two, DVec3::Z, DVec3::ZERO),
+            lit(&two, DVec3::Z, DVec3::ZERO),
             DVec3::new(0.875, 0.75, 1.0)
         );
         let bright = lighting(vec![white(Z, 0.75, 0.0), white(Z, 0.75, 0.0)], Z, 1.0);
-        assert_eq!(illuminate(&bright, DVec3::Z, DVec3::ZERO), DVec3::ONE);
+        assert_eq!(lit(&bright, DVec3::Z, DVec3::ZERO), DVec3::ONE);
     }
 
     #[test]
     fn no_direction_no_light() {
-        let i = illuminate(
+        let i = lit(
             &lighting(vec![white(Z, 1.0, 1.0)], Z, 0.0),
             DVec3::ZERO,
             DVec3::ZERO,

@@ -16,6 +16,7 @@ pub(crate) mod attributes;
 pub(crate) mod coverage;
 pub mod cs171;
 pub(crate) mod illumination;
+mod power;
 mod visibility;
 
 #[cfg(test)]
@@ -28,6 +29,7 @@ pub use visibility::{Visibility, visibility};
 
 use crate::frame::Frame;
 use crate::picture::{Alpha, LinearPicture, Picture, Picture8};
+use crate::scene::Power;
 use attributes::VertexAttributes;
 use coverage::Scanline;
 
@@ -86,6 +88,24 @@ impl Model {
     }
 }
 
+/// The closed form of a variant: a model, and the power function of its highlights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClosedForm {
+    /// The model.
+    pub model: Model,
+    /// The power function: [`Power::Squaring`] is tⁿ.
+    pub power: Power,
+}
+
+impl From<Model> for ClosedForm {
+    fn from(model: Model) -> Self {
+        ClosedForm {
+            model,
+            power: Power::Squaring,
+        }
+    }
+}
+
 /// A picture of the reference, with polygon and depth of each sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferencePicture {
@@ -138,19 +158,23 @@ fn filtered(samples: &Picture<[f64; 4]>, side: usize, alpha: Alpha) -> Picture<[
     picture
 }
 
-/// Renders `frame` under `model`.
-pub fn render(frame: &Frame, model: Model) -> ReferencePicture {
-    shade(frame, &visibility(frame), model)
+/// Renders `frame` under a model.
+pub fn render(frame: &Frame, form: impl Into<ClosedForm>) -> ReferencePicture {
+    shade(frame, &visibility(frame), form)
 }
 
-/// Shades `frame` under `model`, given its `visibility`, which several models share.
+/// Shades `frame` under a model, given its `visibility`, which several models share.
 ///
 /// `visibility` must be that of `frame`; where it names what `frame` does not have, the background is left.
-pub fn shade(frame: &Frame, visibility: &Visibility, model: Model) -> ReferencePicture {
+pub fn shade(
+    frame: &Frame,
+    visibility: &Visibility,
+    form: impl Into<ClosedForm>,
+) -> ReferencePicture {
     let (width, height) = (visibility.polygons.width(), visibility.polygons.height());
     let [r, g, b] = frame.background().map(f64::from);
     let mut picture = Picture::new(width, height, [r, g, b, 0.0]);
-    let attributes = VertexAttributes::new(frame, model);
+    let attributes = VertexAttributes::new(frame, form.into());
     let mut scanline = Scanline::new(frame);
     for y in 0..height {
         // Pixels of one polygon side by side share its scanline.

@@ -196,8 +196,8 @@ impl MethodData {
             formula: info.formula,
             source: info.source,
             fails: info.fails,
-            perspective: info.perspective.sentence(),
-            local: info.local.sentence(),
+            perspective: variant.entry().perspective.sentence(),
+            local: variant.entry().local.sentence(),
             operations: [1, 4].map(operations).into(),
         }
     }

@@ -8,11 +8,13 @@ pub mod file;
 pub mod input;
 mod lighting;
 mod of_mesh;
+mod power;
 mod settings;
 
 pub use camera::{Camera, Projection};
 pub use camera_fit::{DEPTH_SLACK, Fit};
 pub use lighting::{Falloff, Light, LightTerm, Lighting, Place, SpecularGate, SpecularModel};
+pub use power::Power;
 pub use settings::{
     Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation,
     PainterKey,

@@ -3,9 +3,9 @@
 use super::extent::{Extent, wide};
 use super::lighting::highlight_error;
 use super::spread::{PolygonSpread, SeenLights, Spread};
-use super::{LitAt, Local, Perspective, Variant};
+use super::{Approximation, LitAt, Local, Perspective, Value, Variant};
 use crate::frame::{Frame, Polygon};
-use crate::scene::{Interpolation, LightTerm, Lighting, SpecularGate, SpecularModel};
+use crate::scene::{Interpolation, LightTerm, Lighting, Power, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
@@ -63,7 +63,7 @@ impl Variant {
     ///
     /// **Triangles in the row engine** have barycentric coordinates, which take 5 roundings at the start of a run, with differences. Their
     /// growth takes 5, over a run on which both grow by 1 at most: 15 δ. A small triangle begins up to 15 rows and 7 columns away, where
-    /// coordinates are up to g larger ([`Extent::growth`]): both starts take 10 g, and both growths 12 g, 22 g δ more. From there to a
+    /// coordinates are up to g larger (`Extent::growth`): both starts take 10 g, and both growths 12 g, 22 g δ more. From there to a
     /// pixel are 17 sums at most, of values as large as `1 + 2 g δ`. Only lines are stepped: of a cosine two vectors, which
     /// are rounded by 0.87 each.
     ///
@@ -91,6 +91,9 @@ impl Variant {
     /// so that t^n is off by a share of `(43 + n) 2⁻²³`; the roundings of a highlight, n times 4 · 2⁻²⁴, leave room for that.
     /// An exponent below 1 has its threshold below all errors of cosines, and (4 e)^n holds there as elsewhere.
     ///
+    /// What a method leaves out by design ([`super::Info::approximation`]) is added to the error of cosines or colours. Another power
+    /// function ([`Power`]) has its own slope and roundings in place of n and none.
+    ///
     /// Where a parameter is left to the method ([`super::Auto`]), lengths may be too large by the relative error E that it
     /// allows itself. The diffuse terms D are divided by them: they lose E D at most, of which after the clamp, as all other
     /// terms are 0 or more, E/(1 − E) is left at most. Of N·H, which is divided by them too, the power n loses n times as much
@@ -104,6 +107,28 @@ impl Variant {
         self.polygon_bounds(frame).fold(0.0, f64::max)
     }
 
+    /// Returns the largest difference, in a linear channel of 0..=1, that the variant may make by design from its method's model with
+    /// tⁿ: what the method leaves out ([`super::Info::approximation`]), and what its power function does ([`Power::error`]).
+    pub fn approximation(&self, frame: &Frame) -> f64 {
+        let spread = Spread::of(frame);
+        let materials = frame.lightings().iter().zip(&spread.materials);
+        let materials: Vec<MaterialBound<'_>> = materials
+            .map(|(lighting, seen)| self.material_bound(lighting, seen))
+            .collect();
+        let of_polygon = |polygon: &Polygon| {
+            let material = &materials[polygon.material as usize];
+            let power = self.power().error(f64::from(material.lighting.shininess));
+            let highlights = material.specular.into_iter().fold(0.0, f64::max) * power;
+            let by_method = match (self.info().approximation)(frame, polygon) {
+                Approximation::Cosine(error) => material.of(error, 0.0) + material.jump(error),
+                Approximation::Length(error) => material.of(error, 0.0),
+                Approximation::Colour(error) => error,
+            };
+            f64::min(1.0, by_method + highlights)
+        };
+        frame.polygons().iter().map(of_polygon).fold(0.0, f64::max)
+    }
+
     /// Returns [`Variant::bound`] for the pixels of each polygon of `frame`, in order.
     pub fn polygon_bounds<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = f64> + 'a {
         let spread = Spread::of(frame);
@@ -113,8 +138,15 @@ impl Variant {
             .collect();
         let polygons = frame.polygons().iter().enumerate();
         polygons.map(move |(number, polygon)| {
-            let (cosine, stepped) = self.errors(frame, polygon, spread.on(number));
-            let bound = materials[polygon.material as usize].of(cosine, stepped);
+            let (cosine, colour) = self.errors(frame, polygon, spread.on(number));
+            let material = &materials[polygon.material as usize];
+            let bound = match (self.info().approximation)(frame, polygon) {
+                Approximation::Cosine(error) => {
+                    material.of(cosine + error, colour) + material.jump(error)
+                }
+                Approximation::Length(error) => material.of(cosine + error, colour),
+                Approximation::Colour(error) => material.of(cosine, colour) + error,
+            };
             // No channel differs by more.
             if bound <= 1.0 { bound } else { 1.0 }
         })
@@ -127,14 +159,14 @@ impl Variant {
         let Roundings { start, step, of } = info.roundings;
         let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
         // A rounding where the weight of perspective is largest counts for more where it is smallest.
-        let weights = match (info.perspective, frame.interpolation()) {
+        let weights = match (self.entry().perspective, frame.interpolation()) {
             (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => {
                 extent.weights
             }
             _ => 1.0,
         };
         // True if vectors to places are stepped beside normals.
-        let is_followed = frame.is_local() && info.local == Local::PerPixel;
+        let is_followed = frame.is_local() && self.entry().local == Local::PerPixel;
         // Colours may differ by all that they are, weights by 1 − 1/σ of the largest.
         let apart = match of {
             Stepped::Colours | Stepped::Sums => 1.0,
@@ -153,7 +185,7 @@ impl Variant {
         };
         let rounding = ROUNDING * weights;
         // The least length that a normal has before it is normalised.
-        let length = match info.lit_at {
+        let length = match self.entry().lit_at {
             LitAt::Polygon | LitAt::Vertex => 1.0,
             LitAt::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
             LitAt::Pixel => extent.cosine,
@@ -212,6 +244,7 @@ impl Variant {
         let most = |c: usize| f64::from(lighting.ambient[c]) + diffuse[c] + specular[c];
         MaterialBound {
             lighting,
+            power: self.power(),
             half: seen.half,
             most: match self.info().roundings.of {
                 Stepped::Sums => f64::max(1.0, of_channels(&most)),
@@ -226,7 +259,7 @@ impl Variant {
     /// Returns the relative error of lengths that the method allows itself on a material.
     fn length_error(&self, lighting: &Lighting) -> f64 {
         let all = self.info().parameters.iter().zip(self.parameters());
-        all.filter(|(parameter, value)| parameter.is_auto(**value))
+        all.filter(|(_, value)| **value == Value::Auto)
             .filter_map(|(parameter, _)| parameter.auto)
             .map(|auto| f64::from((auto.length_error)(lighting)))
             .fold(0.0, f64::max)
@@ -236,6 +269,7 @@ impl Variant {
 /// The light model on a material, as it passes errors on.
 struct MaterialBound<'a> {
     lighting: &'a Lighting,
+    power: Power,
     /// The least |L + V|.
     half: f64,
     /// All light together, where colours are clamped after they are stepped; else 1.
@@ -250,7 +284,7 @@ struct MaterialBound<'a> {
 impl MaterialBound<'_> {
     /// Returns the bound where cosines are off by `cosine`, and colours of at most 1 that are stepped by `stepped`.
     fn of(&self, cosine: f64, stepped: f64) -> f64 {
-        let highlight = highlight_error(self.lighting, self.half, cosine);
+        let highlight = highlight_error(self.lighting, self.power, self.half, cosine);
         // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
         let falls = if self.lighting.is_attenuated() {
             2.0
@@ -263,6 +297,23 @@ impl MaterialBound<'_> {
         };
         let lit = [0, 1, 2].map(off).into_iter().fold(cosine, f64::max);
         lit + stepped * self.most + self.other
+    }
+
+    /// Returns the most that a highlight may be where L·N is off by `error` from 0: there it ends with a jump, if it is gated.
+    ///
+    /// With L·N = 0 the cosine R·V is −L·V, and N·H at most √(1 − (L·V)²)/h = √((1 − L·V)/2), as h² = 2 + 2 L·V.
+    fn jump(&self, error: f64) -> f64 {
+        let lighting = self.lighting;
+        if error == 0.0 || lighting.gate != SpecularGate::Gated {
+            return 0.0;
+        }
+        let l_v = self.half * self.half / 2.0 - 1.0;
+        let cosine = match lighting.specular {
+            SpecularModel::Phong => (-l_v).max(0.0),
+            SpecularModel::Blinn => libm::sqrt((1.0 - l_v) / 2.0),
+        };
+        let highlight = libm::pow(cosine, f64::from(lighting.shininess));
+        self.specular.into_iter().fold(0.0, f64::max) * highlight
     }
 }
 

@@ -1,12 +1,12 @@
 //! Operation counts: a method runs on numbers that count.
 
 use super::increments::{GreatCircle, Walk};
-use super::kernels::{clamped, ramp};
+use super::kernels::colour;
 use super::lighting::{Lit, Uniforms};
-use super::planes::{Planes, each};
-use super::varying::Varying;
-use super::{LitAt, Local, Shader, Span, SpanBench, Variant};
-use crate::number::{Counted, Counter, Counts, vec3};
+use super::planes::each;
+use super::span::RunStart;
+use super::{Corner, Corners, LitAt, Local, Shader, Span, SpanBench, SpanPlace, Variant, ramp};
+use crate::number::{Counted, Counter, Counts, Real, vec3};
 use alloc::vec::Vec;
 
 /// The operations of one method at each rate, for a material of shininess 32 (five multiplications per light).
@@ -28,33 +28,41 @@ pub struct OperationCounts {
     pub shade: Counts,
 }
 
-/// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices and edges.
-pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> OperationCounts {
+/// What was counted on a span.
+pub(super) struct CountedSpan {
+    pub operations: OperationCounts,
+    /// The colour of the first pixel: that of an engine, to the bit.
+    #[cfg_attr(not(test), expect(dead_code))]
+    pub colour: [f32; 3],
+}
+
+/// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices and edges: by the functions with
+/// which engines start edges and spans, walk and shade.
+pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
     let counter = Counter::default();
     let number = |x: f32| counter.number(x);
     let three = |v: [f32; 3]| vec3(v.map(number));
-    let (info, extras) = (variant.info(), bench.extras(variant));
-    let Uniforms { model, lights } = &bench.uniforms(info.local, 1.0);
-    let method = M::new(variant.parameters(), model);
-    let lit = |point| Lit::new(*model, lights, point, model.is_general);
-    let is_polygon = matches!(info.lit_at, LitAt::Polygon | LitAt::PolygonMean);
+    let (entry, extras) = (variant.entry(), bench.extras(variant));
+    let uniforms = bench.uniforms(variant, 1.0);
+    let mut method = M::new(variant.parameters(), &uniforms.model);
+    let (face, zero) = (three(SpanBench::FACE), number(0.0));
+    let lit = Lit::new(uniforms.stored(), zero, uniforms.model.is_general);
+    let is_polygon = matches!(entry.lit_at, LitAt::Polygon | LitAt::PolygonMean);
     let mut counts = OperationCounts::default();
 
     let corners = [0, 1, 2].map(|i| {
         counter.take();
-        let normal = match info.lit_at {
-            LitAt::Polygon => three(SpanBench::FACE),
+        let normal = match entry.lit_at {
+            LitAt::Polygon => face,
             LitAt::PolygonMean => {
                 let [a, b, c] = bench.normals.map(vec3);
                 three(((a + b + c) * (1.0 / 3.0)).array()).unit()
             }
             LitAt::Vertex | LitAt::Pixel => three(bench.normals[i]),
         };
-        let varying = method.vertex(&lit(three(bench.points[i])), normal);
+        let varying = method.vertex(&lit.at(three(bench.points[i])), normal);
         let mut corner: Vec<Counted<'_>> = Vec::new();
-        each(varying, |_, x| {
-            corner.push(clamped::<M, _>(*x, model.scale))
-        });
+        each(varying, |_, x| corner.push(*x));
         if extras.point {
             corner.extend(bench.points[i].map(number));
         }
@@ -66,62 +74,165 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> Operatio
     if !is_polygon {
         counts.vertex = counter.take();
     }
-    if info.local == Local::PerPolygon && bench.is_near() {
+    if entry.local == Local::PerPolygon && bench.is_near() {
         // Light and eye as the polygon sees them.
-        let Uniforms { model, lights } = Uniforms::new(&bench.lighting, 1.0);
-        let lit = Lit::new(model, &lights, three(bench.points[0]), true);
+        let uniforms = Uniforms::new(&bench.lighting, variant.power(), 1.0);
+        let lit = Lit::new(uniforms.stored(), zero, true).at(three(bench.points[0]));
         lit.lights().count();
     }
     counts.polygon = counter.take();
 
-    let (face, t0, dt) = (three(SpanBench::FACE), number(0.01), number(0.02));
+    let all = [0, 1, 2].map(|i| Corner {
+        normal: three(bench.normals[i]),
+        place: SpanBench::CORNERS[i].map(number),
+        weight: number(1.0),
+        position: bench.is_near().then(|| three(bench.points[i])),
+    });
+    let whole = bench.normals.map(three);
+    let polygon = Corners {
+        all: &all,
+        face,
+        is_whole: true,
+        whole: &whole,
+        mean: (whole[0] + whole[1] + whole[2]) * (1.0 / 3.0),
+    };
+    counter.take();
+    let (kind, constants) = method.polygon(&lit, &polygon);
+    let planned = counter.take();
+    if M::READS_SPAN {
+        counts.polygon = planned;
+    }
+    method = method.of_kind(kind);
+
     let [a, b, c] = &corners;
-    let (mut start, mut extra) = (Vec::new(), Vec::new());
-    if <M::Varying<Counted<'_>> as Varying<Counted<'_>>>::GREAT_CIRCLE {
-        let normal = |corner: &[_]| vec3([corner[0], corner[1], corner[2]]);
+    let [t0, dt] = SpanBench::EDGE.map(number);
+    let vector = |numbers: &[_]| vec3([numbers[0], numbers[1], numbers[2]]);
+    let ends: [Vec<Counted<'_>>; 2];
+    if M::GREAT_CIRCLES {
         let circle = |from, to| GreatCircle::new(face, [from, to], t0, dt);
-        let mut left = circle(normal(a), normal(c));
-        counts.edge = counter.take();
-        left.sines.next();
-        counts.edge_step = counter.take();
-        let right = circle(normal(b), normal(c));
+        let [left, right] = [a, b].map(|corner| circle(vector(corner), vector(c)));
         counter.take();
-        let span = circle(left.normal(), right.normal());
-        each(span, |_, value| start.push(*value));
+        circle(vector(a), vector(c));
+        counts.edge = counter.take();
+        left.sines.clone().next();
+        counts.edge_step = counter.take();
+        ends = [left, right].map(|circle| circle.normal().array().to_vec());
     } else {
         let ramps = |from: &[_], to: &[_]| -> Vec<_> {
             let ends = from.iter().zip(to);
             ends.map(|(a, b)| ramp(*a, *b, t0, dt)).collect()
         };
-        let column =
-            |ramps: &[[_; 2]], i: usize| -> Vec<_> { ramps.iter().map(|r| r[i]).collect() };
         let mut left = ramps(a, c);
         counts.edge = counter.take();
+        let at: Vec<_> = left.iter().map(|ramp| ramp[0]).collect();
         left.iter_mut().for_each(|[at, step]| *at = *at + *step);
         counts.edge_step = counter.take();
-        let right = ramps(b, c);
+        let right = ramps(b, c).iter().map(|ramp| ramp[0]).collect();
         counter.take();
-        let mut span = ramps(&column(&left, 0), &column(&right, 0));
-        extra = span.split_off(span.len() - extras.count());
-        start = [column(&span, 0), column(&span, 1)].concat();
+        ends = [at, right];
     }
     if is_polygon {
         // Nothing is interpolated.
         counter.take();
         (counts.edge, counts.edge_step) = Default::default();
     }
-    let here = lit(three(bench.points[0]));
-    let span = Span::<M, _>::filled(lights.len(), start[0]);
-    let mut walk = method.walk(&here, each(span, |i, number| *number = start[i]));
+
+    let [t0, dt] = SpanBench::SPAN.map(number);
+    let pairs = ends[0].iter().zip(&ends[1]);
+    let [mut first, mut second] = [Vec::new(), Vec::new()];
+    for (a, b) in pairs {
+        let [at, step] = match M::READS_SPAN {
+            true => [*a, *b],
+            false if is_polygon => [*a, zero],
+            false => ramp(*a, *b, t0, dt),
+        };
+        first.push(at);
+        second.push(step);
+    }
+    let mut planned = Vec::new();
+    each(constants, |_, number| planned.push(*number));
+    let start = RunStart {
+        numbers: [&first, &second],
+        x: 0,
+        place: M::READS_SPAN.then_some(SpanPlace { y: 0, t0, dt }),
+        constants: &planned,
+    };
+    let mut walk = method.walk(&lit, Span::of_run(lit.count(), start, zero));
     counts.span = counter.take();
 
+    let own = first.len() - extras.count();
+    let mut extra = extras.start(own, &start, zero);
+    counter.take();
     let pixel = walk.next();
-    for [at, step] in extra {
-        let _ = at + step;
-    }
     counts.walk = counter.take();
-    let (pixel, point) = extras.divided(pixel, (here.point, number(1.0)));
-    method.shade(&lit(point), pixel);
+    // Position and weight: those that are there.
+    counts.walk.additions += extras.count() as u32;
+    let extra = extra.next();
+    counter.take();
+    let colour = colour(method, lit, extras, (pixel, extra));
     counts.shade = counter.take();
-    counts
+    CountedSpan {
+        operations: counts,
+        colour: colour.array().map(|channel| channel.value()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+    use crate::raster::Renderer;
+    use crate::scene::{Falloff, Interpolation};
+    use crate::shading::METHODS;
+
+    /// Returns the triangle of a bench as a frame, on which the span engine draws its span first.
+    fn frame(bench: &SpanBench, interpolation: Interpolation) -> Frame {
+        let mut builder = FrameBuilder::new(64, 64);
+        let material = builder.lighting(bench.lighting.clone());
+        builder.interpolation(interpolation);
+        let corners = [0, 1, 2].map(|i| {
+            let [x, y] = SpanBench::CORNERS[i].map(SubPixel::from_num);
+            let corner = builder.vertex(Vertex {
+                x,
+                y,
+                depth: 0.5,
+                inv_w: 1.0,
+                normal: bench.normals[i],
+                material,
+            });
+            builder.position(corner, bench.points[i]);
+            corner
+        });
+        builder.polygon(&corners, SpanBench::FACE, 0);
+        builder.finish().expect("a frame in its range")
+    }
+
+    /// What is counted is what an engine does: the colour of the first pixel is the same to the bit.
+    #[test]
+    fn counted_spans_are_those_of_the_engine() {
+        let near = |falloff, interpolation| SpanBench::local(20.0, 2, falloff, interpolation);
+        let benches = [
+            (SpanBench::new(20.0, 1), Interpolation::Screen),
+            (SpanBench::new(20.0, 4), Interpolation::Screen),
+            (
+                near(Falloff::InverseSquare, Interpolation::Screen),
+                Interpolation::Screen,
+            ),
+            (
+                near(Falloff::None, Interpolation::Perspective),
+                Interpolation::Perspective,
+            ),
+        ];
+        for (number, (bench, interpolation)) in benches.iter().enumerate() {
+            let frame = frame(bench, *interpolation);
+            for entry in METHODS {
+                let variant = entry.variant();
+                let counted = (entry.count[usize::from(bench.is_near())])(bench, &variant);
+                let picture = variant.render_linear_with(&frame, Renderer::LECTURE);
+                let [drawn @ .., _] = picture.get(0, 0);
+                let counted = counted.colour.map(|channel| channel.clamp(0.0, 1.0));
+                assert_eq!(drawn, counted, "{variant} on bench {number}");
+            }
+        }
+    }
 }

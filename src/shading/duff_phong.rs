@@ -4,7 +4,7 @@ use super::fast_phong_rsqrt::FAST_PHONG_RSQRT;
 use super::increments::Quadratic;
 use super::lighting::toward;
 use super::planes::scaled;
-use super::{Info, Linear, Lit, PerLight, Pixel, Roundings, Shader, Span, Stepped};
+use super::{Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -32,6 +32,12 @@ pub struct DuffPhong<const L: usize, const RSQRT: bool = false>;
 
 impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
     const INFO: Info = if RSQRT { FAST_PHONG_RSQRT } else { DUFF_PHONG };
+    const LOCAL: Local = if RSQRT {
+        Local::PerPolygon
+    } else {
+        Local::PerPixel
+    };
+    type Constants<F: Num> = ();
     type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
 
@@ -40,9 +46,9 @@ impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
         (lit.products(n), n)
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
-        let (at, n) = span.at;
-        let (step, dn) = span.step;
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let Linear { at, step } = span.linear();
+        let ((at, n), (step, dn)) = (at, step);
         (Linear { at, step }, Quadratic::square(n, dn)) // 4.3
     }
     #[inline(always)]
@@ -71,17 +77,19 @@ type Each<Q> = ((Q, Q), Q);
 
 impl<const L: usize> Shader for DuffPhongNear<L> {
     const INFO: Info = DUFF_PHONG;
+    type Constants<F: Num> = ();
     type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
     // N·N, V·V, N·V, 1/w²; L·L, L·N and L·V of each light
     type Walk<F: Num> = (Shared<Quadratic<F>>, Each<PerLight<Quadratic<F>, L>>);
 
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (n, lit.point, n.x.like(1.0))
+        (n, lit.point(), n.x.like(1.0))
     }
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
-        let ((n, p, w), (dn, dp, dw)) = (span.at, span.step);
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let Linear { at, step } = span.linear();
+        let ((n, p, w), (dn, dp, dw)) = (at, step);
         let eye = lit.model.eye;
         let (v, dv) = (toward(eye, p, w), toward(eye, dp, dw));
         let half = w * dw;

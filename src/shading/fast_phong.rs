@@ -2,8 +2,8 @@
 
 use super::increments::{Newton, NewtonSteps};
 use super::{
-    Auto, Info, LightModel, Linear, Lit, Local, MethodParameter, PerLight, Pixel, Roundings,
-    Shader, Span, Stepped,
+    Auto, Info, LightModel, Linear, Lit, Local, MethodParameter, PerLight, Pixel, Range, Roundings,
+    Shader, Span, Stepped, Value,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -37,34 +37,39 @@ impl<const L: usize> Shader for FastPhong<L> {
         parameters: &[MethodParameter {
             name: "steps",
             meaning: "steps of Newton's method per pixel",
-            default: MethodParameter::AUTO,
-            least: 1,
-            most: NewtonSteps::MOST,
+            default: Value::Auto,
+            range: Range::Whole(1, NewtonSteps::MOST),
             auto: Some(Auto {
                 meaning: "the fewest Newton steps (1 to 3) that keep the relative error on a span below 0.001; an exact root otherwise, and always with SIMD, where it costs no more",
                 length_error: |lighting| largest_error(lighting.specular, lighting.shininess),
             }),
         }],
-        local: Local::PerPolygon,
         ..Info::OF_PIXELS
     };
+    const LOCAL: Local = Local::PerPolygon;
+    type Constants<F: Num> = ();
     type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Newton<F>); // J of each light, K; d, D
 
     #[inline(always)]
-    fn new(parameters: &[u32], model: &LightModel) -> Self {
+    fn new(parameters: &[Value], model: &LightModel) -> Self {
         let error = largest_error(model.specular, model.shininess);
-        let steps = NewtonSteps::new(parameters[0], error);
+        let steps = NewtonSteps::new(parameters[0].whole().unwrap_or(0), error);
         FastPhong { steps }
+    }
+    /// What chooses its steps from span to span remembers nothing in blocks.
+    #[inline(always)]
+    fn walks_along_runs(self) -> bool {
+        !self.steps.is_auto()
     }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
         (lit.products(n), n)
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
-        let (at, n) = span.at;
-        let (step, dn) = span.step;
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let Linear { at, step } = span.linear();
+        let ((at, n), (step, dn)) = (at, step);
         (Linear { at, step }, Newton::new(n, dn, &self.steps)) // 4.3, 4.4
     }
     #[inline(always)]

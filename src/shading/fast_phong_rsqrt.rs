@@ -1,6 +1,6 @@
 //! Fast Phong shading in the terms of today's hardware: the reciprocal root that processors have, D by second differences.
 
-use super::{Info, Local, Roundings, Stepped};
+use super::{Info, Roundings, Stepped};
 use crate::reference::Model;
 
 /// Fast Phong shading for processors that have a reciprocal square root, for up to `L` lights: `J = L·N` and `K = V·N` by one
@@ -20,6 +20,5 @@ pub const FAST_PHONG_RSQRT: Info = Info {
     derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
                  are off by 2",
     fails: "where normals cancel inside a span, D is a small difference of large sums",
-    local: Local::PerPolygon,
     ..Info::OF_PIXELS
 };

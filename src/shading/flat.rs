@@ -22,21 +22,22 @@ impl Shader for Flat {
         roundings: Roundings::new(4.0, 0.0, Stepped::Colours),
         derivation: "nothing is stepped; L.N and R.V take 8 roundings each of at most half of 2^-24",
         fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
-        perspective: Perspective::Unaffected,
-        local: Local::PerPolygon,
-        lit_at: LitAt::Polygon,
         ..Info::OF_PIXELS
     };
+    const LIT_AT: LitAt = LitAt::Polygon;
+    const LOCAL: Local = Local::PerPolygon;
+    const PERSPECTIVE: Perspective = Perspective::Unaffected;
+    type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // the colour
     type Walk<F: Num> = Constant<Vec3<F>>;
 
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        lit.shade(n) // 2.1
+        lit.clamped(lit.shade(n)) // 2.1
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Constant<Vec3<F>> {
-        Constant(span.at)
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
+        Constant(span.linear().at)
     }
     #[inline(always)]
     fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {

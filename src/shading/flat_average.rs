@@ -1,7 +1,7 @@
 //! Flat shading in the other definition: one colour per polygon, from the mean of its vertices (CS171 3, Algorithm 6).
 
 use super::flat::Flat;
-use super::{Info, LitAt, Roundings, Shader, Stepped};
+use super::{Info, Roundings, Shader, Stepped};
 use crate::reference::Model;
 
 /// Flat shading as CS171 defines it: the mean of the vertex normals, at the mean of the vertex positions, lit once by the
@@ -17,6 +17,5 @@ pub const FLAT_AVERAGE: Info = Info {
     roundings: Roundings::new(8.0, 0.0, Stepped::Colours),
     derivation: "as flat, and the mean normal takes 4 more roundings until it is a unit vector",
     fails: "as flat; where the vertex normals cancel there is no mean normal, and ambient light remains",
-    lit_at: LitAt::PolygonMean,
     ..Flat::INFO
 };

@@ -23,21 +23,22 @@ impl Shader for Gouraud {
         derivation: "a vertex is lit as in flat shading; each step of a colour of at most 1 rounds by half of 2^-24, and so does the \
                      weight under perspective",
         fails: "highlights inside a polygon are lost or smeared; the slope of the intensity still jumps at edges",
-        perspective: Perspective::Divides,
-        local: Local::PerVertex,
-        lit_at: LitAt::Vertex,
         ..Info::OF_PIXELS
     };
+    const LIT_AT: LitAt = LitAt::Vertex;
+    const LOCAL: Local = Local::PerVertex;
+    const PERSPECTIVE: Perspective = Perspective::Divides;
+    type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // the colour I
     type Walk<F: Num> = Linear<Vec3<F>>;
 
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        lit.shade(n) // 2.1
+        lit.clamped(lit.shade(n)) // 2.1
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Linear<Vec3<F>> {
-        span // 3.5, 3.6
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+        span.linear() // 3.5, 3.6
     }
     #[inline(always)]
     fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {

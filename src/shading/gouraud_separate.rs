@@ -1,7 +1,9 @@
 //! Gouraud shading with diffuse and specular light interpolated apart (L21 3; OpenGL's separate specular colour).
 
 use super::gouraud::Gouraud;
-use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
+use super::{
+    Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -26,6 +28,10 @@ impl Shader for GouraudSeparate {
         fails: "as Gouraud",
         ..Gouraud::INFO
     };
+    const LIT_AT: LitAt = Gouraud::LIT_AT;
+    const LOCAL: Local = Gouraud::LOCAL;
+    const PERSPECTIVE: Perspective = Gouraud::PERSPECTIVE;
+    type Constants<F: Num> = ();
     type Varying<F: Num> = (Vec3<F>, Vec3<F>); // D, S
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;
 
@@ -34,8 +40,8 @@ impl Shader for GouraudSeparate {
         lit.shade_apart(n) // 2.1
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
-        span // 3.5, 3.6
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        span.linear() // 3.5, 3.6
     }
     #[inline(always)]
     fn shade<F: Num>(self, _: &Lit<'_, F>, (diffuse, specular): Pixel<Self, F>) -> Vec3<F> {

@@ -1,13 +1,15 @@
 //! Descriptions of methods: the texts and bounds that the tool, the tests and the report share.
 
 use super::bound::{Roundings, Stepped};
+use crate::frame::{Frame, Polygon};
 use crate::number::NameError;
+use crate::number::suggest::one_of;
 use crate::reference::Model;
 use crate::scene::Lighting;
 use alloc::format;
 use alloc::string::{String, ToString};
 
-/// A number that a method can be given after its name, as in `fast-phong:steps=1`.
+/// A parameter that a method can be given after its name, as in `fast-phong:steps=1`.
 #[derive(Clone, Copy, Debug)]
 pub struct MethodParameter {
     /// The name.
@@ -15,13 +17,55 @@ pub struct MethodParameter {
     /// The meaning, in a few words.
     pub meaning: &'static str,
     /// The value when none is given.
-    pub default: u32,
-    /// The smallest value allowed.
-    pub least: u32,
-    /// The largest value allowed.
-    pub most: u32,
-    /// The choice left to the method, if it can be: written `auto`, the value [`MethodParameter::AUTO`].
+    pub default: Value,
+    /// The values allowed.
+    pub range: Range,
+    /// The choice left to the method, if it can be: written `auto`.
     pub auto: Option<Auto>,
+}
+
+/// The value of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// The choice is left to the method.
+    Auto,
+    /// A whole number.
+    Whole(u32),
+    /// A number with decimals.
+    Decimal(f64),
+    /// A word, by its place in [`Range::Words`].
+    Word(usize),
+}
+
+impl Value {
+    /// Returns the whole number that it is; `None` if the choice is left to the method.
+    pub fn whole(self) -> Option<u32> {
+        match self {
+            Value::Whole(number) => Some(number),
+            Value::Auto => None,
+            other => unreachable!("a parameter has values of its range, and not {other:?}"),
+        }
+    }
+
+    /// Returns the number that it is; `None` if the choice is left to the method.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Value::Decimal(number) => Some(number),
+            Value::Auto => None,
+            other => unreachable!("a parameter has values of its range, and not {other:?}"),
+        }
+    }
+}
+
+/// The values that a parameter may have.
+#[derive(Clone, Copy, Debug)]
+pub enum Range {
+    /// Whole numbers from the first to the second.
+    Whole(u32, u32),
+    /// Numbers from the first to the second.
+    Decimal(f64, f64),
+    /// Words.
+    Words(&'static [&'static str]),
 }
 
 /// A choice that a method makes by itself, from span to span.
@@ -34,23 +78,49 @@ pub struct Auto {
 }
 
 impl MethodParameter {
-    /// The value that stands for `auto`.
-    pub const AUTO: u32 = 0;
-
-    /// Makes a parameter of `least` to `most`, without `auto`.
-    pub const fn new(
+    /// Makes a parameter of the whole numbers from `least` to `most`.
+    pub const fn whole(
         name: &'static str,
         meaning: &'static str,
         default: u32,
-        least: u32,
-        most: u32,
+        [least, most]: [u32; 2],
     ) -> MethodParameter {
         MethodParameter {
             name,
             meaning,
-            default,
-            least,
-            most,
+            default: Value::Whole(default),
+            range: Range::Whole(least, most),
+            auto: None,
+        }
+    }
+
+    /// Makes a parameter of the numbers from `least` to `most`.
+    pub const fn decimal(
+        name: &'static str,
+        meaning: &'static str,
+        default: f64,
+        [least, most]: [f64; 2],
+    ) -> MethodParameter {
+        MethodParameter {
+            name,
+            meaning,
+            default: Value::Decimal(default),
+            range: Range::Decimal(least, most),
+            auto: None,
+        }
+    }
+
+    /// Makes a parameter of some words, the first of which is the default.
+    pub const fn word(
+        name: &'static str,
+        meaning: &'static str,
+        words: &'static [&'static str],
+    ) -> MethodParameter {
+        MethodParameter {
+            name,
+            meaning,
+            default: Value::Word(0),
+            range: Range::Words(words),
             auto: None,
         }
     }
@@ -59,37 +129,65 @@ impl MethodParameter {
     ///
     /// # Errors
     /// [`NameError`] when it is neither in the range nor `auto` where that is allowed.
-    pub fn parse(&self, text: &str) -> Result<u32, NameError> {
-        let (name, least, most) = (self.name, self.least, self.most);
-        match text.parse() {
-            _ if text == "auto" && self.auto.is_some() => Ok(MethodParameter::AUTO),
-            Ok(value) if (least..=most).contains(&value) => Ok(value),
-            _ => {
-                let auto = self.auto.map_or("", |_| "`auto` or ");
-                let expected = format!("{auto}a whole number from {least} to {most}");
-                Err(NameError(format!("`{name}={text}`: expected {expected}")))
-            }
+    pub fn parse(&self, text: &str) -> Result<Value, NameError> {
+        if text == "auto" && self.auto.is_some() {
+            return Ok(Value::Auto);
         }
+        let value = match self.range {
+            Range::Whole(least, most) => (text.parse().ok())
+                .filter(|value| (least..=most).contains(value))
+                .map(Value::Whole),
+            Range::Decimal(least, most) => (text.parse().ok())
+                .filter(|value| (least..=most).contains(value))
+                .map(Value::Decimal),
+            Range::Words(words) => words.iter().position(|word| *word == text).map(Value::Word),
+        };
+        value.ok_or_else(|| {
+            let auto = self.auto.map_or("", |_| "`auto` or ");
+            let expected = match self.range {
+                Range::Whole(least, most) => {
+                    format!("expected {auto}a whole number from {least} to {most}")
+                }
+                Range::Decimal(least, most) => {
+                    format!("expected {auto}a number from {least} to {most}")
+                }
+                Range::Words(words) => one_of(words.iter().copied()),
+            };
+            NameError(format!("`{}={text}`: {expected}", self.name))
+        })
     }
 
     /// Writes a value as [`MethodParameter::parse`] reads it.
-    pub fn text(&self, value: u32) -> String {
-        match self.is_auto(value) {
-            true => "auto".into(),
-            false => value.to_string(),
+    pub fn text(&self, value: Value) -> String {
+        match (value, self.range) {
+            (Value::Auto, _) => "auto".into(),
+            (Value::Whole(number), _) => number.to_string(),
+            (Value::Decimal(number), _) => number.to_string(),
+            (Value::Word(place), Range::Words(words)) => words[place].into(),
+            (Value::Word(_), _) => unreachable!("a word of a parameter that has none"),
         }
     }
 
     /// Returns the values allowed, as people read them: `auto or 1..8`.
-    pub fn range(&self) -> String {
+    pub fn values(&self) -> String {
         let auto = self.auto.map_or("", |_| "auto or ");
-        format!("{auto}{}..{}", self.least, self.most)
+        match self.range {
+            Range::Whole(least, most) => format!("{auto}{least}..{most}"),
+            Range::Decimal(least, most) => format!("{auto}{least}..{most}"),
+            Range::Words(words) => format!("{auto}{}", words.join(" or ")),
+        }
     }
+}
 
-    /// True if the choice is left to the method.
-    pub fn is_auto(&self, value: u32) -> bool {
-        self.auto.is_some() && value == MethodParameter::AUTO
-    }
+/// The error that a method makes by design, on a polygon: beside its roundings, and against its closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Approximation {
+    /// Of L·N and V·N of unit normals. The light model passes it on as it does roundings, and a highlight may end elsewhere.
+    Cosine(f64),
+    /// Of the length that normals are divided by, relative to it: as of cosines, but these keep their signs.
+    Length(f64),
+    /// Of a linear colour channel of 0..=1.
+    Colour(f64),
 }
 
 /// The answer of a method to perspective interpolation.
@@ -175,16 +273,12 @@ pub struct Info {
     pub roundings: Roundings,
     /// The reason for so many roundings and no more.
     pub derivation: &'static str,
+    /// The error that it makes by design on a polygon of a frame, 0 for most.
+    pub approximation: fn(&Frame, &Polygon) -> Approximation,
     /// The cases in which its picture is bad, or its arithmetic fails.
     pub fails: &'static str,
     /// The parameters after the name.
     pub parameters: &'static [MethodParameter],
-    /// The answer to perspective interpolation.
-    pub perspective: Perspective,
-    /// The points from which it sees lights and eye at positions.
-    pub local: Local,
-    /// The rate at which it evaluates the light model.
-    pub lit_at: LitAt,
 }
 
 impl Info {
@@ -197,17 +291,8 @@ impl Info {
         model: Model::Phong,
         roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
         derivation: "no bound was derived",
+        approximation: |_, _| Approximation::Colour(0.0),
         fails: "",
         parameters: &[],
-        perspective: Perspective::Free,
-        local: Local::PerPixel,
-        lit_at: LitAt::Pixel,
     };
-
-    /// True if one of these parameters leaves a choice to the method.
-    #[inline(always)]
-    pub fn is_auto(&self, parameters: &[u32]) -> bool {
-        let mut all = self.parameters.iter().zip(parameters);
-        all.any(|(parameter, value)| parameter.is_auto(*value))
-    }
 }

@@ -3,37 +3,27 @@
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
-use super::increments::{GreatCircle, Linear, Walk};
-use super::lighting::{Lit, Uniforms};
-use super::planes::{Planes, count, each, scaled};
-use super::varying::Varying;
-use super::{LitAt, Pixel, Shader, Stepped};
 #[cfg(feature = "simd")]
-use super::{Variant, lighting::LightUniforms};
+use super::LitAt;
+use super::increments::{Linear, Walk};
+#[cfg(feature = "simd")]
+use super::lighting::Stored;
+#[cfg(feature = "simd")]
+use super::lighting::at_most;
+use super::lighting::{LightModel, Lit, Uniforms};
+use super::planes::{Planes, count, each, scaled};
+use super::span::{RunList, RunStart};
+use super::{Corners, Pixel, PolygonConstants, Run, Shader, Span, Value};
 #[cfg(feature = "simd")]
 use crate::number::simd::{Block, Token, deinterleaved, vectorize};
 use crate::number::{BLOCK, Level, Num, Vec3, vec3};
 #[cfg(feature = "simd")]
 use fearless_simd::*;
 
-/// The state that a span of a method starts from.
-pub type Span<S, F> = <<S as Shader>::Varying<F> as Varying<F>>::Span;
-
 /// The number of some uniforms in the list of a method on a frame. It is not the number of a material: under local lights each polygon
 /// may have uniforms of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UniformsIndex(pub u32);
-
-/// A run of pixels of one polygon on one scanline. Its start values stand in a list beside it, `start_len` numbers per run.
-#[derive(Clone, Copy, Debug)]
-pub struct Run {
-    /// The uniforms that it is shaded with.
-    pub uniforms: UniformsIndex,
-    /// The column of its first pixel.
-    pub x: u32,
-    /// The number of its pixels.
-    pub pixels: u32,
-}
 
 /// The varyings that kernels add to those of a method, in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,6 +53,20 @@ impl Extras {
         (point, weight)
     }
 
+    /// Starts the walk of position and weight, which stand behind `own` varyings of the method.
+    #[inline(always)]
+    pub(super) fn start<F: Num<One = F>>(
+        self,
+        own: usize,
+        run: &RunStart<'_, F>,
+        zero: F,
+    ) -> Linear<(Vec3<F>, F)> {
+        Linear {
+            at: self.of(zero, |i| run.ramp(own + i)[0]),
+            step: self.of(zero, |i| run.ramp(own + i)[1]),
+        }
+    }
+
     /// Divides the varyings of a pixel and its position by the weight of perspective, if there is one.
     #[inline(always)]
     pub(super) fn divided<F: Num, P: Planes<F>>(
@@ -81,33 +85,28 @@ impl Extras {
     }
 }
 
-/// Returns the number of values that a run starts from: its `varyings` at the first pixel, then their steps; or for great circles
-/// both unit normals, t and Δt at the first pixel, and the polygon's normal.
-pub(crate) const fn start_len(great_circle: bool, varyings: usize) -> usize {
-    if great_circle { 11 } else { 2 * varyings }
-}
-
 /// The vertices whose varyings are computed together: they have the same uniforms. SIMD kernels take whole blocks of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertices<'a> {
-    pub parameters: &'a [u32],
+    pub parameters: &'a [Value],
     pub uniforms: &'a Uniforms,
     pub normals: &'a [[f32; 3]],
     /// Positions, one a normal; any vectors if nothing is lit from a position.
     pub points: &'a [[f32; 3]],
+    /// Attributes, one a normal; none if the method does not read them.
+    pub attributes: &'a [[f32; 4]],
 }
 
 /// Runs of pixels that are shaded, or walked along, together.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pixels<'a> {
-    pub parameters: &'a [u32],
+    pub parameters: &'a [Value],
     /// The uniforms, indexed by [`Run::uniforms`].
     pub uniforms: &'a [Uniforms],
     pub extras: Extras,
+    pub constants: &'a PolygonConstants,
     /// The runs, whose pixels stand one after the other.
-    pub runs: &'a [Run],
-    /// The numbers that each run starts from.
-    pub starts: &'a [f32],
+    pub list: &'a RunList,
 }
 
 impl<'a> Pixels<'a> {
@@ -116,43 +115,62 @@ impl<'a> Pixels<'a> {
         self.uniforms.first().map_or(0, |all| all.lights.len())
     }
 
-    /// Returns neighbouring runs of the same uniforms together, each with the `len` numbers that it starts from.
+    /// Returns neighbouring runs of the same uniforms together, each with its number.
     fn by_uniforms(
         &self,
-        len: usize,
-    ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (&'a Run, &'a [f32])>)> {
-        let (uniforms, mut starts) = (self.uniforms, self.starts);
-        debug_assert_eq!(
-            starts.len(),
-            self.runs.len() * len,
-            "each run has all numbers that it starts from"
-        );
-        let groups = self.runs.chunk_by(|a, b| a.uniforms == b.uniforms);
+    ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (usize, &'a Run)>)> {
+        let (uniforms, mut first) = (self.uniforms, 0);
+        let groups = self.list.runs.chunk_by(|a, b| a.uniforms == b.uniforms);
         groups.map(move |runs| {
-            let (here, rest) = starts.split_at(runs.len() * len);
-            starts = rest;
+            let here = first..first + runs.len();
+            first = here.end;
             let uniforms = &uniforms[runs[0].uniforms.0 as usize];
-            (uniforms, runs.iter().zip(here.chunks_exact(len)))
+            (uniforms, here.zip(runs))
         })
+    }
+
+    /// Returns the kind of a run's polygon, and the run as a walk starts from it.
+    #[inline(always)]
+    fn start<M: Shader>(&self, number: usize, run: &Run) -> (u8, RunStart<'a, f32>) {
+        let (kind, constants) = self.constants.of::<M>(self.lights(), run.polygon);
+        let start = RunStart {
+            numbers: self.list.starts.of(number),
+            x: run.x,
+            place: M::READS_SPAN.then(|| self.list.places[number]),
+            constants,
+        };
+        (kind, start)
     }
 }
 
 pub(crate) type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
+pub(crate) type PolygonKernel = fn(&[Value], &Uniforms, &Corners<'_, f32>, &mut [f32]) -> u8;
+pub(crate) type PixelKernel = fn(&Pixels<'_>, &mut [[f32; 3]]);
 pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
 /// A method compiled for one number of lights.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernels {
-    /// Returns the numbers of a varying and of a pixel for so many lights.
-    pub(crate) counts: fn(usize) -> [usize; 2],
-    pub(crate) great_circle: bool,
+    /// Returns the numbers of a varying, of a pixel and of the constants of a polygon for so many lights.
+    pub(crate) counts: fn(usize) -> [usize; 3],
+    pub(crate) great_circles: bool,
+    pub(crate) kinds: &'static [&'static str],
+    /// True if walks need more of a run than its varyings: [`Shader::READS_SPAN`].
+    pub(crate) reads_span: bool,
     /// True if pixels are the varyings themselves.
     pub(crate) linear: bool,
     pub(crate) passes_normal: bool,
+    pub(crate) reads_attributes: bool,
+    /// True if SIMD walks along runs with these parameters: [`Shader::walks_along_runs`].
+    pub(crate) walks_along_runs: fn(&[Value], &LightModel) -> bool,
+    /// Sets up a polygon, and returns its kind.
+    pub(crate) polygon: PolygonKernel,
     /// Computes the varyings of vertices from normals and positions.
     pub(crate) vertices: VertexKernel,
     /// Shades runs: the scalar pixel loop.
-    pub(crate) pixels: fn(&Pixels<'_>, &mut [[f32; 3]]),
+    pub(crate) pixels: PixelKernel,
+    /// The reason why it has no SIMD kernels, if it has none.
+    pub(crate) scalar_only: Option<&'static str>,
     /// Returns the kernels of an instruction set; `None` for scalar code.
     pub(crate) simd: fn(Level) -> Option<&'static SimdKernels>,
 }
@@ -174,39 +192,94 @@ impl Kernels {
         Kernels {
             counts: |lights| {
                 let varyings = count::<M::Varying<f32>>(lights);
-                [varyings, count::<Pixel<M, f32>>(lights)]
+                let constants = count::<M::Constants<f32>>(lights);
+                [varyings, count::<Pixel<M, f32>>(lights), constants]
             },
-            great_circle: <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE,
+            great_circles: M::GREAT_CIRCLES,
+            kinds: {
+                assert!(
+                    M::KINDS.is_empty() || M::SCALAR_ONLY.is_some(),
+                    "the G-buffer does not keep kinds, so methods of kinds are scalar only"
+                );
+                assert!(M::KINDS.len() <= 4, "at most four kinds");
+                M::KINDS
+            },
+            reads_span: M::READS_SPAN,
             linear: <M::Walk<f32> as Walk<f32>>::LINEAR,
             passes_normal: M::PASSES_NORMAL,
+            reads_attributes: M::READS_ATTRIBUTES,
+            walks_along_runs: |parameters, model| M::new(parameters, model).walks_along_runs(),
+            polygon: polygon::<M>,
             vertices: vertices::<M>,
             pixels: pixels::<M>,
-            simd: |level| match level {
-                #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-                Level::Avx2 => Some(const { &SimdKernels::of::<M, Avx2, Avx2>() }),
-                #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-                Level::Avx512 => Some(const { &SimdKernels::of::<M, Avx2, Avx512>() }),
-                #[cfg(all(feature = "simd", target_arch = "aarch64"))]
-                Level::Neon => Some(const { &SimdKernels::of::<M, Neon, Neon>() }),
-                _ => None,
+            scalar_only: M::SCALAR_ONLY,
+            simd: match M::SCALAR_ONLY {
+                None => by_level::<M>,
+                Some(_) => |_| None,
             },
         }
     }
 }
 
-/// Clamps a number of a vertex to 0..=`scale` if it is a colour that is not clamped later.
-#[inline(always)]
-pub(super) fn clamped<M: Shader, F: Num>(value: F, scale: f32) -> F {
-    match (M::INFO.lit_at, M::INFO.roundings.of) {
-        (LitAt::Pixel, _) | (_, Stepped::Sums) => value,
-        _ => at_most(value, scale),
+impl Kernels {
+    /// Makes the kernels of a method from those of `M`, which lights its vertices, and a plain function for its pixels: for methods
+    /// whose numbers are no [`Num`], as integers are. They are scalar only, for the reason `why`.
+    #[cfg_attr(not(test), expect(dead_code))]
+    pub(super) const fn of_functions<M: Shader>(pixels: PixelKernel, why: &'static str) -> Kernels {
+        Kernels {
+            pixels,
+            scalar_only: Some(why),
+            simd: |_| None,
+            ..Kernels::of::<M>()
+        }
     }
 }
 
-/// Returns a number clamped to 0..=`most`; NaN becomes 0.
+/// True if a method may walk along runs, with some parameters.
+const fn may_walk_along_runs<M: Shader>() -> bool {
+    M::READS_SPAN || <M::Walk<f32> as Walk<f32>>::REMEMBERS
+}
+
+/// Returns the kernels of a method on an instruction set.
+#[cfg_attr(not(feature = "simd"), expect(clippy::extra_unused_type_parameters))]
+fn by_level<M: Shader>(level: Level) -> Option<&'static SimdKernels> {
+    match level {
+        #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+        Level::Avx2 => Some(const { &SimdKernels::of::<M, Avx2, Avx2>() }),
+        #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+        Level::Avx512 => Some(const { &SimdKernels::of::<M, Avx2, Avx512>() }),
+        #[cfg(all(feature = "simd", target_arch = "aarch64"))]
+        Level::Neon => Some(const { &SimdKernels::of::<M, Neon, Neon>() }),
+        _ => None,
+    }
+}
+
+/// Sets up a polygon.
+fn polygon<M: Shader>(
+    parameters: &[Value],
+    uniforms: &Uniforms,
+    polygon: &Corners<'_, f32>,
+    to: &mut [f32],
+) -> u8 {
+    let lit = Lit::new(uniforms.stored(), 0.0, true);
+    let (kind, constants) = M::new(parameters, &uniforms.model).polygon(&lit, polygon);
+    debug_assert!(
+        usize::from(kind) < M::KINDS.len().max(1),
+        "a kind of the method's"
+    );
+    each(constants, |i, number| to[i] = *number);
+    kind
+}
+
+/// Calls `run` with the method for a polygon's kind, which is a literal in each arm: each has a loop of its own.
 #[inline(always)]
-fn at_most<F: Num>(value: F, most: f32) -> F {
-    -(-value.max(0.0)).max(-most)
+fn by_kind<M: Shader>(method: M, kind: u8, mut run: impl FnMut(M)) {
+    match kind {
+        1 if M::KINDS.len() > 1 => run(method.of_kind(1)),
+        2 if M::KINDS.len() > 2 => run(method.of_kind(2)),
+        3 if M::KINDS.len() > 3 => run(method.of_kind(3)),
+        _ => run(method.of_kind(0)),
+    }
 }
 
 /// Lights vertices one at a time.
@@ -224,9 +297,9 @@ fn light<M: Shader, F: Num>(
     gather: impl Fn(&[[f32; 3]]) -> Vec3<F>,
     lanes: impl Fn(F) -> [f32; BLOCK],
 ) {
-    let (model, lights) = (job.uniforms.model, &job.uniforms.lights[..]);
-    let method = M::new(job.parameters, &model);
-    let own = count::<M::Varying<f32>>(lights.len());
+    let stored = job.uniforms.stored();
+    let method = M::new(job.parameters, &stored.model);
+    let own = count::<M::Varying<f32>>(stored.lights.len());
     debug_assert!(
         job.normals.len().is_multiple_of(F::WIDTH),
         "vertices are lit in whole blocks"
@@ -239,15 +312,21 @@ fn light<M: Shader, F: Num>(
     let points = job.points.chunks_exact(F::WIDTH);
     let vertices = job.normals.chunks_exact(F::WIDTH).zip(points);
     let out = out.chunks_exact_mut((F::WIDTH * own).max(1));
-    for ((normals, points), out) in vertices.zip(out) {
+    for (block, ((normals, points), out)) in vertices.zip(out).enumerate() {
         let n = gather(normals);
-        let point = if general { gather(points) } else { n };
-        let varying = method.vertex(&Lit::new(model, lights, point, general), n);
+        let mut lit = Lit::new(stored, n.x, general);
+        lit = lit.at(if general { gather(points) } else { n });
+        if M::READS_ATTRIBUTES {
+            let all = &job.attributes[block * F::WIDTH..][..F::WIDTH];
+            let of = |i: usize| n.x.of_each(|k| n.x.one(all[k][i]));
+            lit = lit.with_attributes([of(0), of(1), of(2), of(3)]);
+        }
+        let varying = method.vertex(&lit, n);
         each(
             varying,
             #[inline(always)]
             |i, number| {
-                let values = lanes(clamped::<M, F>(*number, model.scale));
+                let values = lanes(*number);
                 for k in 0..F::WIDTH {
                     out[k * own + i] = values[k];
                 }
@@ -256,38 +335,26 @@ fn light<M: Shader, F: Num>(
     }
 }
 
-/// Starts a span from the numbers of a run, of which the steps follow `step` numbers after the first.
-#[inline(always)]
-fn start<M: Shader>(lights: usize, step: usize, numbers: &[f32]) -> Span<M, f32> {
-    let span = Span::<M, f32>::filled(lights, 0.0);
-    if <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE {
-        let mut list = [0.0; 12];
-        each(circle(numbers), |i, number| list[i] = *number);
-        return each(span, |i, number| *number = list[i % 12]);
-    }
-    let own = count::<M::Varying<f32>>(lights);
-    let (at, steps) = (&numbers[..own], &numbers[step..step + own]);
-    each(span, |i, number| {
-        *number = if i < own { at[i] } else { steps[i - own] };
-    })
-}
-
-fn circle(numbers: &[f32]) -> GreatCircle<f32> {
-    let three = |i: usize| vec3([numbers[i], numbers[i + 1], numbers[i + 2]]);
-    GreatCircle::new(three(8), [three(0), three(3)], numbers[6], numbers[7])
-}
-
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
-    let numbers = count::<M::Varying<f32>>(job.lights()) + job.extras.count();
-    let len = start_len(<M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE, numbers);
-    for (uniforms, runs) in job.by_uniforms(len) {
+    for (uniforms, runs) in job.by_uniforms() {
         out = if uniforms.model.is_general || job.extras != Extras::default() {
             shade_runs::<M>(job, uniforms, true, runs, out)
         } else {
-            shade_runs::<M>(job, uniforms, false, runs, out)
+            shade_fast_runs::<M>(job, uniforms, runs, out)
         };
     }
+}
+
+/// Shades runs without extras and general lights: a function of its own, whose loop then has more registers.
+#[inline(never)]
+fn shade_fast_runs<'a, 'b, M: Shader>(
+    job: &Pixels<'_>,
+    uniforms: &Uniforms,
+    runs: impl Iterator<Item = (usize, &'a Run)>,
+    out: &'b mut [[f32; 3]],
+) -> &'b mut [[f32; 3]] {
+    shade_runs::<M>(job, uniforms, false, runs, out)
 }
 
 /// Shades runs of the same uniforms, and returns the pixels after them. Without `general`, a literal, there are no extras and
@@ -295,43 +362,61 @@ fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
 #[inline(always)]
 fn shade_runs<'a, 'b, M: Shader>(
     job: &Pixels<'_>,
-    Uniforms { model, lights }: &Uniforms,
+    uniforms: &Uniforms,
     general: bool,
-    runs: impl Iterator<Item = (&'a Run, &'a [f32])>,
+    runs: impl Iterator<Item = (usize, &'a Run)>,
     mut out: &'b mut [[f32; 3]],
 ) -> &'b mut [[f32; 3]] {
-    let (model, extras) = (*model, job.extras);
-    let own = count::<M::Varying<f32>>(lights.len());
-    let step = own + extras.count();
-    let method = M::new(job.parameters, &model);
-    let directional = Lit::new(model, lights, vec3([0.0; 3]), general);
-    for (run, numbers) in runs {
-        let mut walk = method.walk(&directional, start::<M>(lights.len(), step, numbers));
-        let mut extra = Linear {
-            at: extras.of(0.0, |i| numbers[own + i]),
-            step: extras.of(0.0, |i| numbers[step + own + i]),
-        };
+    let stored = uniforms.stored();
+    let extras = if general {
+        job.extras
+    } else {
+        Extras::default()
+    };
+    let lights = stored.lights.len();
+    let own = count::<M::Varying<f32>>(lights);
+    let method = M::new(job.parameters, &stored.model);
+    let directional = Lit::new(stored, 0.0, general);
+    for (number, run) in runs {
+        let (kind, start) = job.start::<M>(number, run);
+        let extra = extras.start(own, &start, 0.0);
         let (here, rest) = out.split_at_mut(run.pixels as usize);
         out = rest;
-        // An iterator counts triples by a division: 3 % of Gouraud's frames.
-        #[expect(clippy::needless_range_loop)]
-        for x in 0..here.len() {
-            let (mut pixel, mut lit) = (walk.next(), directional);
-            if general {
-                let point;
-                (pixel, point) = extras.divided(pixel, Walk::<f32>::next(&mut extra));
-                lit = Lit::new(model, lights, point, true);
-            }
-            here[x] = method.shade(&lit, pixel).array();
-        }
+        by_kind(
+            method,
+            kind,
+            #[inline(always)]
+            |method| {
+                let span = Span::of_run(lights, start, 0.0);
+                let (mut walk, mut extra) = (method.walk(&directional, span), extra);
+                // An iterator counts triples by a division: 3 % of Gouraud's frames.
+                #[expect(clippy::needless_range_loop)]
+                for x in 0..here.len() {
+                    let pixel = (walk.next(), extra.next());
+                    here[x] = colour(method, directional, extras, pixel).array();
+                }
+            },
+        );
     }
     out
+}
+
+/// Returns the colour of a pixel from its state and its extras.
+#[inline(always)]
+pub(super) fn colour<M: Shader, F: Num>(
+    method: M,
+    lit: Lit<'_, F>,
+    extras: Extras,
+    (pixel, extra): (Pixel<M, F>, (Vec3<F>, F)),
+) -> Vec3<F> {
+    let (pixel, point) = extras.divided(pixel, extra);
+    method.shade(&lit.at(point), pixel)
 }
 
 /// A row of the G-buffer to be shaded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadeRow<'a> {
-    pub parameters: &'a [u32],
+    pub parameters: &'a [Value],
     pub uniforms: &'a Uniforms,
     pub extras: Extras,
     /// The numbers of a pixel in the G-buffer: depth, planes, extras, and others that kernels do not read.
@@ -352,22 +437,16 @@ impl SimdKernels {
     /// Compiles a method: its pixel loop for `S`, all else for `T`, which machines with `S` have too.
     const fn of<M: Shader, T: Token, S: Token>() -> SimdKernels {
         SimdKernels {
-            vertices: match M::INFO.lit_at {
+            vertices: match M::LIT_AT {
                 LitAt::Pixel => None,
                 _ => Some(vertex_blocks::<M, T>),
             },
-            walk: match <M::Walk<f32> as Walk<f32>>::REMEMBERS {
+            walk: match may_walk_along_runs::<M>() {
                 true => Some(walk::<M, T>),
                 false => None,
             },
             shade: shade::<M, S>,
         }
-    }
-
-    /// Returns the walk of a variant, if it has one. What chooses from span to span (`auto`) remembers nothing in blocks.
-    pub fn walk_of(&self, variant: &Variant) -> Option<WalkKernel> {
-        self.walk
-            .filter(|_| !variant.info().is_auto(variant.parameters()))
     }
 }
 
@@ -389,40 +468,21 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
 #[cfg(feature = "simd")]
 fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
     let (simd, lights) = (S::get(), job.lights());
-    let own = count::<M::Varying<f32>>(lights);
     let planes = count::<Pixel<M, f32>>(lights);
-    let great_circle = <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE;
     vectorize(
         simd,
         #[inline(always)]
         move || {
             let zero = f32x8::splat(simd, 0.0);
-            let counted = f32x8::from_slice(simd, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-            for (uniforms, runs) in job.by_uniforms(start_len(great_circle, own)) {
+            for (uniforms, runs) in job.by_uniforms() {
                 let method = M::new(job.parameters, &uniforms.model);
-                let lit = Lit::new(uniforms.model, &uniforms.lights, vec3([zero; 3]), true);
-                for (run, numbers) in runs {
+                let lit = Lit::new(uniforms.stored(), zero, true);
+                for (number, run) in runs {
+                    let (_, start) = job.start::<M>(number, run);
                     let length = (run.pixels as usize).next_multiple_of(BLOCK);
                     let (here, rest) = core::mem::take(&mut out).split_at_mut(planes * length);
                     out = rest;
-                    let circle = match great_circle {
-                        true => circle_in_blocks(numbers),
-                        false => [0.0; 12 * BLOCK],
-                    };
-                    let span = each(
-                        Span::<M, f32x8<S>>::filled(lights, zero),
-                        #[inline(always)]
-                        |i, block| {
-                            *block = match i {
-                                _ if great_circle => {
-                                    f32x8::from_slice(simd, &circle[i % 12 * BLOCK..][..BLOCK])
-                                }
-                                _ if i < own => counted * numbers[own + i] + numbers[i],
-                                _ => zero.like(numbers[i] * BLOCK as f32),
-                            };
-                        },
-                    );
-                    let mut walk = method.walk(&lit, span);
+                    let mut walk = method.walk(&lit, Span::of_run(lights, start, zero));
                     for x in (0..length).step_by(BLOCK) {
                         each(
                             walk.next(),
@@ -436,42 +496,24 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
     );
 }
 
-/// Starts a great circle in blocks: each pixel of the first block from the recurrence itself, one sine a run instead of one a
-/// pixel; then steps a block long.
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn circle_in_blocks(numbers: &[f32]) -> [f32; 12 * BLOCK] {
-    let mut circle = circle(numbers);
-    let mut lanes = [0.0; 12 * BLOCK];
-    for k in 0..BLOCK {
-        each(circle, |i, number| lanes[i * BLOCK + k] = *number);
-        circle.sines.next();
-    }
-    // The step of a block: eight turns of the step of a pixel, as three doublings.
-    let (mut sin, mut cos) = circle.sines.step;
-    for _ in 0..BLOCK.trailing_zeros() {
-        (sin, cos) = (2.0 * sin * cos, cos * cos - sin * sin);
-    }
-    lanes[10 * BLOCK..][..BLOCK].fill(sin);
-    lanes[11 * BLOCK..].fill(cos);
-    lanes
-}
-
 /// Shades a row of the G-buffer. Its cells are [depth, pixel, extras], each of [`BLOCK`] values; whole [`Token::Block`]s.
 #[cfg(feature = "simd")]
 fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowColours<'_>) {
-    let lights = &job.uniforms.lights[..];
+    let stored = job.uniforms.stored();
     vectorize(
         S::get(),
         #[inline(always)]
         || {
             let is_bytes = matches!(out, RowColours::Bytes(..));
             let is_fast = job.uniforms.model.is_fast && job.extras == Extras::default();
-            match lights {
-                _ if !(is_bytes && is_fast) => shade_blocks::<M, S>(job, lights, true, cells, out),
+            match stored.lights {
+                _ if !(is_bytes && is_fast) => shade_blocks::<M, S>(job, stored, true, cells, out),
                 // One light as a slice of length 1: its loop is unrolled.
-                [one] => shade_blocks::<M, S>(job, &[*one], false, cells, out),
-                all => shade_blocks::<M, S>(job, all, false, cells, out),
+                [one] => {
+                    let lights = &[*one];
+                    shade_blocks::<M, S>(job, Stored { lights, ..stored }, false, cells, out)
+                }
+                _ => shade_blocks::<M, S>(job, stored, false, cells, out),
             }
         },
     );
@@ -483,23 +525,28 @@ fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowCo
 #[inline(always)]
 fn shade_blocks<M: Shader, S: Token>(
     job: &ShadeRow<'_>,
-    lights: &[LightUniforms],
+    stored: Stored<'_>,
     general: bool,
     row: &[f32],
     out: &mut RowColours<'_>,
 ) {
-    let (simd, model, extras) = (S::get(), job.uniforms.model, job.extras);
-    let method = M::new(job.parameters, &model);
+    let (simd, lights) = (S::get(), stored.lights.len());
+    let extras = if general {
+        job.extras
+    } else {
+        Extras::default()
+    };
+    let method = M::new(job.parameters, &stored.model);
     let stride = BLOCK * job.numbers;
     let second = (S::Block::CELLS - 1) * stride;
     // Known when compiled, but for methods that may choose.
-    let is_walked = <M::Walk<f32> as Walk<f32>>::REMEMBERS && !M::INFO.is_auto(job.parameters);
+    let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();
     let planes = match is_walked {
-        true => count::<Pixel<M, f32>>(lights.len()),
-        false => count::<M::Varying<f32>>(lights.len()),
+        true => count::<Pixel<M, f32>>(lights),
+        false => count::<M::Varying<f32>>(lights),
     };
     let own = BLOCK * (1 + planes);
-    let len = own + BLOCK * extras.count() * usize::from(general);
+    let len = own + BLOCK * extras.count();
     let mut first = 0;
     for pair in row.chunks_exact(S::Block::CELLS * stride) {
         let here = first..first + S::Block::WIDTH;
@@ -512,36 +559,28 @@ fn shade_blocks<M: Shader, S: Token>(
             }
             continue;
         }
-        let mut pixel = if is_walked {
+        let lit = Lit::new(stored, depth, general);
+        let pixel = if is_walked {
             each(
-                Pixel::<M, S::Block>::filled(lights.len(), depth),
+                Pixel::<M, S::Block>::filled(lights, depth),
                 #[inline(always)]
                 |i, number| *number = S::Block::load(simd, cells, BLOCK * (1 + i)),
             )
         } else {
-            let start = each(
-                Span::<M, S::Block>::filled(lights.len(), depth.like(0.0)),
+            let at = each(
+                M::Varying::<S::Block>::filled(lights, depth),
                 #[inline(always)]
-                |i, number| {
-                    if i < planes {
-                        *number = S::Block::load(simd, cells, BLOCK * (1 + i));
-                    }
-                },
+                |i, number| *number = S::Block::load(simd, cells, BLOCK * (1 + i)),
             );
-            let lit = Lit::new(model, lights, vec3([depth; 3]), general);
+            let start = Span::of_block(lights, at, depth);
             method.walk(&lit, start).next()
         };
-        let mut point = vec3([depth; 3]);
-        if general {
-            let extra = extras.of(
-                depth,
-                #[inline(always)]
-                |i| S::Block::load(simd, cells, own + BLOCK * i),
-            );
-            (pixel, point) = extras.divided(pixel, extra);
-        }
-        let lit = Lit::new(model, lights, point, general);
-        let mut colour = method.shade(&lit, pixel).array();
+        let extra = extras.of(
+            depth,
+            #[inline(always)]
+            |i| S::Block::load(simd, cells, own + BLOCK * i),
+        );
+        let mut colour = colour(method, lit, extras, (pixel, extra)).array();
         match out {
             RowColours::Bytes(to, background) => {
                 if general {
@@ -558,15 +597,4 @@ fn shade_blocks<M: Shader, S: Token>(
             }
         }
     }
-}
-
-/// Counts the set-up of a linearly interpolated number: its value at `t0` between `a` and `b`, and its growth in a step of `dt`.
-///
-/// ```text
-/// ΔI = (I_2 − I_1) / (y_2 − y_1)  along edges,   ΔI = (I_2 − I_1) / (x_2 − x_1)  along scan lines      (L21 3.5, 4.1)
-/// ```
-#[inline(always)]
-pub(crate) fn ramp<F: Num>(a: F, b: F, t0: F, dt: F) -> [F; 2] {
-    let difference = b - a;
-    [a + difference * t0, difference * dt] // 3.5, 4.1
 }

@@ -20,7 +20,7 @@
 
 use super::planes::PerLight;
 use crate::number::{Num, Vec3, vec3};
-use crate::scene::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
+use crate::scene::{Falloff, Lighting, Place, Power, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 
 /// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.
@@ -36,6 +36,8 @@ pub struct Uniforms {
     pub model: LightModel,
     /// The lights.
     pub lights: Vec<LightUniforms>,
+    /// The table of [`Power::Table`], in steps of the cosine from the faintest highlight to 1; else empty.
+    powers: Vec<f32>,
 }
 
 /// The uniforms of a material that all its lights share. Pixel loops copy them: behind a reference they would be loaded again
@@ -61,6 +63,16 @@ pub struct LightModel {
     pub is_fast: bool,
 }
 
+/// The uniforms of a material as pixel loops hold them.
+#[derive(Clone, Copy, Debug)]
+pub struct Stored<'a> {
+    /// The part that all lights share.
+    pub model: LightModel,
+    /// The lights.
+    pub lights: &'a [LightUniforms],
+    pub(super) powers: &'a [f32],
+}
+
 /// A light on a material.
 #[derive(Clone, Copy, Debug)]
 pub struct LightUniforms {
@@ -76,7 +88,7 @@ pub struct LightUniforms {
 
 impl Uniforms {
     /// Prepares the light on a material, with colours multiplied by `scale`.
-    pub fn new(lighting: &Lighting, scale: f32) -> Uniforms {
+    pub fn new(lighting: &Lighting, power: Power, scale: f32) -> Uniforms {
         let lights = lighting.lights.iter().map(|light| LightUniforms {
             place: light.place.map(vec3),
             falloff: light.falloff,
@@ -93,17 +105,19 @@ impl Uniforms {
             specular: lighting.specular,
             gate: lighting.gate,
             shininess: lighting.shininess,
-            exponent: Exponent::new(lighting.shininess),
-            faint: faint(lighting.shininess, scale, &lights),
+            exponent: Exponent::Whole(0),
+            faint: faint(power, lighting.shininess, scale, &lights),
             is_general: true,
             is_fast: false,
         };
-        Uniforms::derived(model, lights)
+        let exponent = Exponent::new(power, model.shininess, model.faint);
+        let powers = exponent.table(model.shininess, model.faint);
+        Uniforms::derived(LightModel { exponent, ..model }, lights, powers)
     }
 
     /// Returns the same light as directional lights: as `point` sees it. The lecture assumes so along a polygon (L21 1).
     pub fn seen_from(&self, point: [f32; 3]) -> Uniforms {
-        let lit = Lit::new(self.model, &self.lights, vec3(point), true);
+        let lit = Lit::new(self.stored(), 0.0, true).at(vec3(point));
         let lights = lit.lights().map(|seen| {
             let strength = seen.strength.unwrap_or(1.0);
             LightUniforms {
@@ -114,12 +128,27 @@ impl Uniforms {
             }
         });
         let eye = Place::Infinite(lit.view);
-        Uniforms::derived(LightModel { eye, ..self.model }, lights.collect())
+        let model = LightModel { eye, ..self.model };
+        Uniforms::derived(model, lights.collect(), self.powers.clone())
+    }
+
+    /// Returns them as points see them.
+    #[inline(always)]
+    pub fn stored(&self) -> Stored<'_> {
+        Stored {
+            model: self.model,
+            lights: &self.lights,
+            powers: &self.powers,
+        }
     }
 
     /// Fills in all that follows from the places and colours of the lights: cosines between light and eye, and the path that
     /// loops may take.
-    fn derived(mut model: LightModel, mut lights: Vec<LightUniforms>) -> Uniforms {
+    fn derived(
+        mut model: LightModel,
+        mut lights: Vec<LightUniforms>,
+        powers: Vec<f32>,
+    ) -> Uniforms {
         let mut most = magnitude(model.ambient);
         for light in &mut lights {
             light.l_v = vector(light.place).dot(vector(model.eye));
@@ -130,11 +159,21 @@ impl Uniforms {
             || lights.iter().any(|light| light.place.is_local())
             || model.specular != SpecularModel::Phong
             || model.gate != SpecularGate::Gated
-            || model.exponent == Exponent::Whole(0);
+            || model.exponent.is_lit_at_zero();
         let is_few_squarings = matches!(model.exponent, Exponent::Squarings(_));
         model.is_fast = !model.is_general && is_few_squarings && most < MOST_LEVELS;
-        Uniforms { model, lights }
+        Uniforms {
+            model,
+            lights,
+            powers,
+        }
     }
+}
+
+/// Returns a number clamped to 0..=`most`; NaN becomes 0.
+#[inline(always)]
+pub(super) fn at_most<F: Num>(value: F, most: f32) -> F {
+    -(-value.max(0.0)).max(-most)
 }
 
 /// Returns the largest magnitude of a channel.
@@ -182,7 +221,7 @@ fn over_sum<F: Num>(l_v: F) -> F {
 
 /// Returns the cosine up to which no light has a highlight over 2⁻²⁴, t = (2⁻²⁴ / k)^(1/n), with k the strongest highlight at
 /// its light's greatest strength. No power over t is subnormal. To the power 0 every cosine is 1.
-fn faint(shininess: f32, scale: f32, lights: &[LightUniforms]) -> f32 {
+fn faint(function: Power, shininess: f32, scale: f32, lights: &[LightUniforms]) -> f32 {
     if shininess == 0.0 {
         return f32::NEG_INFINITY;
     }
@@ -191,8 +230,24 @@ fn faint(shininess: f32, scale: f32, lights: &[LightUniforms]) -> f32 {
         magnitude(light.specular) * nearest.unwrap_or(1.0)
     });
     let faint = FAINT * scale;
-    let power = faint / strongest.fold(faint, f32::max);
-    libm::powf(power.max(LEAST_POWER), 1.0 / shininess)
+    let power = (faint / strongest.fold(faint, f32::max)).max(LEAST_POWER);
+    let n = shininess;
+    let cosine = match function {
+        Power::Squaring | Power::Table { .. } => libm::powf(power, 1.0 / n),
+        _ if n < 1.0 => libm::powf(power, 1.0 / n),
+        Power::Exp => 1.0 + libm::logf(power) / n,
+        Power::Lyon { k } => {
+            let m = (1 << k) as f32;
+            1.0 - (1.0 - libm::powf(power, 1.0 / m)) * m / n
+        }
+        Power::Schlick => power * n / (1.0 + power * (n - 1.0)),
+    };
+    // A function that is over it at 0 is so everywhere.
+    if cosine < 0.0 {
+        f32::NEG_INFINITY
+    } else {
+        cosine
+    }
 }
 
 /// Twice the least normal number: t and its power are rounded. Only lights over 2.5 that fall off by 1/r² get here; what is left
@@ -211,7 +266,11 @@ const LEAST_POWER: f32 = 2.0 * f32::MIN_POSITIVE;
 /// as `aⁿ ≤ bⁿ + (a − b)ⁿ` for a over b. Its power is a logarithm's, off by `(0.7 n (|log₂ x| + 1.5) + 2) 2⁻²³` of xⁿ itself
 /// (`number/powf.rs`), which is below 8 · 2⁻²⁴, as `y 2⁻ʸ` is at most 0.54. The power 0 is 1, exactly;
 /// it counts as the power 1. Where the highlight is weighted with L·N, it has the error of that, too.
-pub(super) fn highlight_error(lighting: &Lighting, half: f64, e: f64) -> f64 {
+///
+/// Of the other functions ([`Power`]) none is steeper than n, and their roundings are: of 2^y, y = n log₂ e (t − 1), 2 of y, which
+/// y 2^y ln 2 < ½ multiplies, and 6 of 2^y itself (`number/powf.rs`); of Lyon's line 3, which 2ᵏ multiplies, and 2ᵏ of the squarings; of
+/// Schlick's quotient 6; of the place in a table 3 of t, which n multiplies, and 4 of its entries and the line between them.
+pub(super) fn highlight_error(lighting: &Lighting, power: Power, half: f64, e: f64) -> f64 {
     let gain = match lighting.specular {
         SpecularModel::Phong => 4.0,
         SpecularModel::Blinn => 2.0 / half + 1.0 / (half * half),
@@ -223,7 +282,16 @@ pub(super) fn highlight_error(lighting: &Lighting, half: f64, e: f64) -> f64 {
     let power = match f64::from(lighting.shininess) {
         0.0 => gain * e,
         n if n < 1.0 => libm::pow(gain * e, n) + 8.0 * f64::from(FAINT),
-        n => gain * n * e,
+        n => {
+            let roundings = match power {
+                Power::Squaring => 0.0,
+                Power::Exp => 8.0,
+                Power::Lyon { k } => 4.0 * f64::from(1u32 << k),
+                Power::Schlick => 6.0,
+                Power::Table { .. } => 3.0 * n + 4.0,
+            };
+            gain * n * e + roundings * f64::from(FAINT)
+        }
     };
     power + weight
 }
@@ -235,11 +303,14 @@ pub struct Lit<'a, F> {
     pub model: LightModel,
     /// The lights as they are stored.
     pub(super) stored: &'a [LightUniforms],
-    /// The position of the point, if anything is at a position.
-    pub point: Vec3<F>,
-    /// The unit vector V toward the eye.
-    pub view: Vec3<F>,
+    powers: &'a [f32],
+    /// The point, and the unit vector toward the eye from it: see [`Lit::at`].
+    point: Vec3<F>,
+    view: Vec3<F>,
+    has_point: bool,
+    attributes: [F; 4],
     general: bool,
+    zero: F,
 }
 
 /// A light as a point sees it.
@@ -258,21 +329,78 @@ pub struct Seen<'a, F> {
 }
 
 impl<'a, F: Num> Lit<'a, F> {
-    /// Prepares the view from `point`. Pass a constant for `general`: `false` compiles the branch-free loop, which is valid only
-    /// for models that are not general.
+    /// Prepares the light as it is before a point is known: only what is at infinity can be asked for. `zero` may be any number.
+    /// Pass a constant for `general`: `false` compiles the branch-free loop, which is valid only for models that are not general.
     #[inline(always)]
-    pub fn new(model: LightModel, all: &'a [LightUniforms], point: Vec3<F>, general: bool) -> Self {
-        let mut view = vector(model.eye).like(point.x);
-        if general && model.eye.is_local() {
-            view = (view - point).unit();
-        }
+    pub fn new(stored: Stored<'a>, zero: F, general: bool) -> Self {
+        let Stored {
+            model,
+            lights,
+            powers,
+        } = stored;
+        let zero = zero.like(0.0);
         Lit {
             model,
-            stored: all,
-            point,
-            view,
+            stored: lights,
+            powers,
+            point: vec3([zero; 3]),
+            view: vector(model.eye).like(zero),
+            has_point: false,
+            attributes: [zero; 4],
             general,
+            zero,
         }
+    }
+
+    /// Returns the light as `point` sees it.
+    #[inline(always)]
+    pub fn at(mut self, point: Vec3<F>) -> Self {
+        if self.general && self.model.eye.is_local() {
+            self.view = (vector(self.model.eye).like(self.zero) - point).unit();
+        }
+        (self.point, self.has_point) = (point, true);
+        self
+    }
+
+    /// Returns the light with the attributes of a vertex.
+    #[inline(always)]
+    pub(super) fn with_attributes(self, attributes: [F; 4]) -> Self {
+        Lit { attributes, ..self }
+    }
+
+    /// Returns the attributes of a vertex ([`Frame::attributes`](crate::frame::Frame::attributes)), for methods that read them.
+    #[inline(always)]
+    pub fn attributes(&self) -> [F; 4] {
+        self.attributes
+    }
+
+    /// Returns 0 as a number of this backend.
+    #[inline(always)]
+    pub fn zero(&self) -> F {
+        self.zero
+    }
+
+    /// Returns the number of lights.
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        self.stored.len()
+    }
+
+    /// Returns the position of the point in the world; it means something only if a light or the eye is at a position.
+    #[inline(always)]
+    pub fn point(&self) -> Vec3<F> {
+        debug_assert!(self.has_point, "a walk has no point");
+        self.point
+    }
+
+    /// Returns the unit vector V toward the eye.
+    #[inline(always)]
+    pub fn view(&self) -> Vec3<F> {
+        debug_assert!(
+            self.has_point || !self.model.eye.is_local(),
+            "a walk has no point that an eye at a position could be seen from"
+        );
+        self.view
     }
 
     /// Returns the lights as the point sees them.
@@ -286,8 +414,12 @@ impl<'a, F: Num> Lit<'a, F> {
 
     #[inline(always)]
     fn seen(&self, index: usize) -> Seen<'a, F> {
-        let (light, one) = (&self.stored[index], self.point.x.like(1.0));
+        let (light, one) = (&self.stored[index], self.zero.like(1.0));
         let is_near = light.place.is_local();
+        debug_assert!(
+            self.has_point || !is_near,
+            "a walk has no point that a light at a position could be seen from"
+        );
         let mut seen = Seen {
             index,
             to: vector(light.place).like(one),
@@ -341,13 +473,20 @@ impl<'a, F: Num> Lit<'a, F> {
         for light in self.lights() {
             j.values[light.index] = n.dot(light.to); // J = L · N
         }
-        (j, n.dot(self.view)) // K = V · N
+        (j, n.dot(self.view())) // K = V · N
     }
 
     /// Returns `I_a k_a`.
     #[inline(always)]
     pub fn ambient(&self) -> Vec3<F> {
-        self.model.ambient.like(self.point.x)
+        self.model.ambient.like(self.zero)
+    }
+
+    /// Returns a colour with each channel clamped to 0..=1: for vertices whose pixels need no clamp.
+    #[inline(always)]
+    pub fn clamped(&self, colour: Vec3<F>) -> Vec3<F> {
+        let (Vec3 { x, y, z }, most) = (colour, self.model.scale);
+        vec3([at_most(x, most), at_most(y, most), at_most(z, most)])
     }
 
     /// True if highlights are those of N·H.
@@ -421,7 +560,7 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns the colour of [`Lit::shade`] in two parts: ambient and diffuse light, and highlights.
     #[inline(always)]
     pub fn shade_apart(&self, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
-        let (mut dull, mut bright) = (self.ambient(), vec3([self.point.x.like(0.0); 3]));
+        let (mut dull, mut bright) = (self.ambient(), vec3([self.zero; 3]));
         for light in self.lights() {
             let l_n = n.dot(light.to);
             let diffuse = l_n.max(0.0);
@@ -452,12 +591,18 @@ impl<'a, F: Num> Lit<'a, F> {
         }
         let mut power = match exponent {
             Exponent::Squarings(times) => squared_up_to_7(cosine, times),
+            Exponent::Table { from, scale } => {
+                ((cosine - from).max(0.0) * scale).lookup(self.powers)
+            }
             _ if !self.general && F::WIDTH > 1 => return None, // the fast path has no other
             _ => exponent.of(cosine),
         };
         if self.general {
-            if gated && exponent == Exponent::Whole(0) {
-                power = power.gate(diffuse, 0.0); // 0⁰ is 1, behind the surface too
+            if exponent.is_lit_at_zero() {
+                power = power.gate(cosine, self.model.faint);
+                if gated {
+                    power = power.gate(diffuse, 0.0); // 0⁰ is 1, behind the surface too
+                }
             }
             if gate == SpecularGate::Weighted {
                 power = power * diffuse;
@@ -478,7 +623,7 @@ impl<F: Num> Seen<'_, F> {
     }
 }
 
-/// The exponent n of a highlight, as it is best computed.
+/// The power function of a highlight, as it is best computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exponent {
     /// 1, 2, 4, … 128: by so many squarings.
@@ -487,16 +632,65 @@ pub enum Exponent {
     Whole(u32),
     /// Any other: by the backend's power function.
     Fractional(f32),
+    /// e^(−n (1 − t)) = 2^(r (t − 1)), with r = n log₂ e.
+    Exp(f32),
+    /// A table of tⁿ from the cosine `from` on, `scale` steps for a cosine of 1.
+    Table {
+        /// The cosine of the first entry.
+        from: f32,
+        /// The steps for a cosine of 1.
+        scale: f32,
+    },
+    /// Lyon's function, `1 − (1 − t) slope` squared so many times.
+    Lyon {
+        /// n / 2ᵏ.
+        slope: f32,
+        /// k.
+        squarings: u32,
+    },
+    /// Schlick's function of the exponent.
+    Schlick(f32),
 }
 
 impl Exponent {
-    /// Makes the exponent for a shininess of 0 or more.
-    pub fn new(shininess: f32) -> Self {
+    /// Makes a function for a shininess n of 0 or more, whose highlights begin at the cosine `faint`.
+    pub fn new(power: Power, shininess: f32, faint: f32) -> Self {
         let n = shininess as u32;
-        match n {
+        match power {
+            Power::Exp if n > 0 => Exponent::Exp(shininess * core::f32::consts::LOG2_E),
+            Power::Table { size } if n > 0 => Exponent::Table {
+                from: faint,
+                scale: size as f32 / (1.0 - faint),
+            },
+            Power::Lyon { k } if n > 0 => Exponent::Lyon {
+                slope: shininess / (1 << k) as f32,
+                squarings: k,
+            },
+            Power::Schlick if n > 0 => Exponent::Schlick(shininess),
             _ if n as f32 != shininess => Exponent::Fractional(shininess),
             _ if n.is_power_of_two() && n <= 128 => Exponent::Squarings(n.trailing_zeros()),
             _ => Exponent::Whole(n),
+        }
+    }
+
+    /// Returns the entries of a table; none for other functions.
+    fn table(self, shininess: f32, faint: f32) -> Vec<f32> {
+        let Exponent::Table { scale, .. } = self else {
+            return Vec::new();
+        };
+        let (from, n) = (f64::from(faint), f64::from(shininess));
+        let size = libm::round(f64::from(scale) * (1.0 - from)) as u32;
+        let entry = |i: u32| from + (1.0 - from) * f64::from(i) / f64::from(size);
+        let power = |i| libm::pow(entry(i), n) as f32;
+        (0..=size).map(power).collect()
+    }
+
+    /// True if the function is not 0 at 0 as all others are.
+    fn is_lit_at_zero(self) -> bool {
+        match self {
+            Exponent::Whole(0) | Exponent::Exp(_) => true,
+            Exponent::Lyon { slope, .. } => slope < 1.0,
+            _ => false,
         }
     }
 
@@ -509,6 +703,13 @@ impl Exponent {
             Exponent::Whole(0) => return base.like(1.0),
             Exponent::Whole(n) => n,
             Exponent::Fractional(n) => return base.powf(n),
+            Exponent::Exp(rate) => return ((base.max(0.0) - 1.0) * rate).exp2(),
+            Exponent::Lyon { slope, squarings } => {
+                let linear = ((base.max(0.0) - 1.0) * slope + 1.0).max(0.0);
+                return squared_up_to_7(linear, squarings);
+            }
+            Exponent::Schlick(n) => return base / (base * (1.0 - n) + n),
+            Exponent::Table { .. } => unreachable!("`Lit::power` reads tables"),
         };
         let (mut square, mut left) = (base, n);
         while left & 1 == 0 {

@@ -23,6 +23,7 @@ mod count;
 pub(crate) mod extent;
 mod info;
 mod kernels;
+mod span;
 mod span_bench;
 mod spread;
 mod table;
@@ -30,8 +31,8 @@ mod variant;
 
 pub mod increments;
 pub mod lighting;
-pub mod varying;
 
+mod duff_newton;
 mod duff_phong;
 mod fast_phong;
 mod fast_phong_rsqrt;
@@ -42,25 +43,31 @@ mod gouraud_separate;
 mod naive_phong;
 mod phong_rsqrt;
 mod planes;
+mod six_point;
+mod slerp_chebyshev;
 mod slerp_phong;
 mod slerp_phong_vector;
 
 pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
 pub use increments::{Constant, Linear, Walk};
-pub use info::{Auto, Info, LitAt, Local, MethodParameter, Perspective};
-pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices, ramp};
-pub use kernels::{Kernels, Run, Span, UniformsIndex};
+pub use info::{
+    Approximation, Auto, Info, LitAt, Local, MethodParameter, Perspective, Range, Value,
+};
+pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices};
+pub use kernels::{Kernels, UniformsIndex};
 #[cfg(feature = "simd")]
-pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel, start_len};
+pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
 pub use lighting::{LightModel, Lit, Seen};
 pub use planes::{PerLight, Planes};
+pub use span::{Corner, Corners, Run, Span, SpanPlace};
+pub(crate) use span::{PolygonConstants, RunList, Starts, ramp};
 pub use span_bench::SpanBench;
 pub use table::{Entry, METHODS};
 pub use variant::Variant;
-pub use varying::{UnitNormal, Varying};
 
-use crate::number::{Num, Vec3};
+use crate::frame::Frame;
+use crate::number::{Num, Real, Vec3};
 
 /// A shading method: what is computed once per vertex, along a span, and once per pixel.
 ///
@@ -68,22 +75,64 @@ use crate::number::{Num, Vec3};
 pub trait Shader: Copy + Default + 'static {
     /// The description of the method.
     const INFO: Info;
+    /// The rate at which it evaluates the light model: what engines light, and when.
+    const LIT_AT: LitAt = LitAt::Pixel;
+    /// The points from which it sees lights and eye at positions.
+    const LOCAL: Local = Local::PerPixel;
+    /// The answer to perspective interpolation.
+    const PERSPECTIVE: Perspective = Perspective::Free;
     /// True if `vertex` returns the normal unchanged: engines then read the frame's normals and skip the vertex pass.
     const PASSES_NORMAL: bool = false;
-    /// The varyings of a vertex, which spans interpolate: numbers, vectors and tuples of them, or a [`UnitNormal`].
-    type Varying<F: Num>: Varying<F>;
+    /// True if `vertex` reads [`Lit::attributes`].
+    const READS_ATTRIBUTES: bool = false;
+    /// True if its varying is a unit normal that edges carry along great circles (L21 4.7).
+    const GREAT_CIRCLES: bool = false;
+    /// The reason why it is not compiled for SIMD, if it is not.
+    const SCALAR_ONLY: Option<&'static str> = None;
+    /// The kinds of polygons that it tells apart, by name: up to 4, or none. Those of [`Shader::SCALAR_ONLY`] methods only, as the
+    /// G-buffer does not keep them: see [`Shader::of_kind`].
+    const KINDS: &'static [&'static str] = &[];
+    /// True if `walk` asks a span for its ends, its place or the polygon's constants: engines then keep these, and walk along runs.
+    const READS_SPAN: bool = false;
+    /// What is set up once per polygon: numbers, vectors and tuples of them; `()` if nothing is.
+    type Constants<F: Num>: Planes<F>;
+    /// The varyings of a vertex, which edges and spans interpolate: numbers, vectors and tuples of them.
+    type Varying<F: Num>: Planes<F>;
     /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.
     type Walk<F: Num>: Walk<F>;
 
+    /// Returns the reason why it is not for a frame, if it is not, as a sentence without its full stop: no renderer draws the frame
+    /// with it then, and comparisons leave it out. It may ask for lights, positions, exponents, and the sides of polygons.
+    fn refuses(_frame: &Frame) -> Option<&'static str> {
+        None
+    }
     /// Makes the method for `parameters`, in the order of [`Info::parameters`], on a material.
     #[inline(always)]
-    fn new(_parameters: &[u32], _model: &LightModel) -> Self {
+    fn new(_parameters: &[Value], _model: &LightModel) -> Self {
         Self::default()
+    }
+    /// Sets up a polygon: its kind, an index into [`Shader::KINDS`], and its constants. Of the light `lit` tells what the whole polygon
+    /// shares; lights at positions are seen from its mean.
+    #[inline(always)]
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, _: &Corners<'_, R>) -> (u8, Self::Constants<R>) {
+        (0, Self::Constants::<R>::filled(lit.count(), lit.zero()))
+    }
+    /// Returns the method for polygons of a kind: a literal, so that what it decides by is decided before a run's first pixel.
+    #[inline(always)]
+    fn of_kind(self, _kind: u8) -> Self {
+        self
+    }
+    /// True if SIMD walks along runs with these parameters, as a pixel needs the pixels before it or its span. Else each block is a
+    /// walk of its own, from varyings that are interpolated over triangles, and remembers nothing.
+    #[inline(always)]
+    fn walks_along_runs(self) -> bool {
+        Self::READS_SPAN || <Self::Walk<f32> as Walk<f32>>::REMEMBERS
     }
     /// Returns the varyings of a vertex with the unit normal `n`; once per polygon for methods that are lit there.
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
-    /// Starts the walk along a span.
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F>;
+    /// Starts a walk. With steps of 0, as a block starts it, it must give what it gives along a run at the same varyings, but for
+    /// rounding.
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F>;
     /// Returns the colour of a pixel: linear, not yet clamped.
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F>;
 }

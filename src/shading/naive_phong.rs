@@ -28,6 +28,7 @@ impl Shader for NaivePhong {
         ..Info::OF_PIXELS
     };
     const PASSES_NORMAL: bool = true;
+    type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Linear<Vec3<F>>;
 
@@ -36,8 +37,8 @@ impl Shader for NaivePhong {
         n
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Linear<Vec3<F>> {
-        span // 4.1, 4.2
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+        span.linear() // 4.1, 4.2
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {

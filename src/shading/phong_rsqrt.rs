@@ -25,6 +25,7 @@ impl Shader for PhongRsqrt {
         ..Info::OF_PIXELS
     };
     const PASSES_NORMAL: bool = true;
+    type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Linear<Vec3<F>>;
 
@@ -33,13 +34,13 @@ impl Shader for PhongRsqrt {
         n
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Linear<Vec3<F>> {
-        span // 4.2
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+        span.linear() // 4.2
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
         let r = n.dot(n).rsqrt(); // D = N · N
-        let v_n = n.dot(lit.view) * r; // K = V · N
+        let v_n = n.dot(lit.view()) * r; // K = V · N
         let mut colour = lit.ambient();
         for light in lit.lights() {
             let l_n = n.dot(light.to) * r; // J = L · N

@@ -34,6 +34,35 @@ pub(crate) fn scaled<F: Num, P: Planes<F>>(value: P, factor: F) -> P {
     each(value, |_, number| *number = *number * factor)
 }
 
+/// No number.
+impl<F: Num> Planes<F> for () {
+    #[inline(always)]
+    fn filled(_: usize, _: F) {}
+    #[inline(always)]
+    fn each(&mut self, _: &mut usize, _: &mut impl FnMut(usize, &mut F)) {}
+    #[inline(always)]
+    fn zip(&mut self, _: (), _: impl Fn(F, F) -> F + Copy) {}
+}
+
+impl<F: Num, P: Planes<F>, const N: usize> Planes<F> for [P; N] {
+    #[inline(always)]
+    fn filled(lights: usize, number: F) -> Self {
+        [P::filled(lights, number); N]
+    }
+    #[inline(always)]
+    fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
+        for value in self {
+            value.each(next, to);
+        }
+    }
+    #[inline(always)]
+    fn zip(&mut self, other: Self, of: impl Fn(F, F) -> F + Copy) {
+        for (value, other) in self.iter_mut().zip(other) {
+            value.zip(other, of);
+        }
+    }
+}
+
 impl<F: Num> Planes<F> for F {
     #[inline(always)]
     fn filled(_: usize, number: F) -> F {
@@ -70,7 +99,6 @@ macro_rules! planes {
         }
     };
 }
-pub(super) use planes;
 
 planes!([] Vec3<F>, { x: F, y: F, z: F }, |x, y, z| Vec3 { x, y, z });
 planes!([A, B] (A, B), { 0: A, 1: B }, |a, b| (a, b));
@@ -120,5 +148,64 @@ impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
         for i in 0..self.len() {
             self.values[i] = of(self.values[i], other.values[i]);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// Puts a value and takes it back, where there are `lights` lights; returns its numbers.
+    fn put_and_taken<P: Planes<f32>>(lights: usize, value: P) -> Vec<f32> {
+        let all = |value: P| {
+            let mut all = Vec::new();
+            each(value, |_, x: &mut f32| all.push(*x));
+            all
+        };
+        let numbers = all(value);
+        assert_eq!(count::<P>(lights), numbers.len());
+        let back = each(P::filled(lights, 0.0), |i, x| *x = numbers[i]);
+        assert_eq!(all(back), numbers);
+        let twice: Vec<f32> = numbers.iter().map(|x| x + x).collect();
+        let mut sum = value;
+        sum.zip(back, |a, b| a + b);
+        assert_eq!(all(sum), twice);
+        numbers
+    }
+
+    #[test]
+    fn values_come_back_as_they_were_put() {
+        let v = |x: f32| Vec3 {
+            x,
+            y: x + 1.0,
+            z: x + 2.0,
+        };
+        assert_eq!(put_and_taken(1, 4.0), [4.0]);
+        assert_eq!(put_and_taken(1, v(1.0)), [1.0, 2.0, 3.0]);
+        assert_eq!(put_and_taken(1, (1.0, v(2.0))), [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(
+            put_and_taken(1, (1.0, 2.0, (3.0, 4.0))),
+            [1.0, 2.0, 3.0, 4.0]
+        );
+        assert_eq!(
+            put_and_taken(1, [(1.0, 2.0), (3.0, 4.0)]),
+            [1.0, 2.0, 3.0, 4.0]
+        );
+        assert!(put_and_taken(1, ()).is_empty());
+    }
+
+    /// Of few lights all that there is room for are stepped, of many as many as there are.
+    #[test]
+    fn there_is_a_number_for_each_light() {
+        fn of<const L: usize>(lights: usize) -> Vec<f32> {
+            let mut all = PerLight::<f32, L>::new(lights, 0.5);
+            (0..lights).for_each(|i| all.values[i] = i as f32);
+            put_and_taken(lights, all)
+        }
+        assert_eq!(of::<1>(1), [0.0]);
+        assert_eq!(of::<4>(3), [0.0, 1.0, 2.0, 0.5]);
+        assert_eq!(of::<64>(3), [0.0, 1.0, 2.0]);
+        assert_eq!(of::<64>(64).len(), 64);
     }
 }

@@ -2,9 +2,9 @@
 
 use super::increments::GreatCircle;
 use super::{
-    Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span, Stepped, UnitNormal,
+    Corners, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
-use crate::number::{Num, Vec3};
+use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
 
 /// Slerp Phong shading, scalar form, for up to `L` lights: unit normals walk great circles along the edges; along a span only
@@ -25,23 +25,32 @@ impl<const L: usize> Shader for SlerpPhong<L> {
                      rotation whose entries are rounded by half of 2^-24",
         fails: "on short spans, which pay one inverse tangent, three pairs of sine and cosine, two roots and a \
                 division each; on triangles the picture depends on how they lie; opposite normals have no great circle",
-        perspective: Perspective::ScreenOnly,
-        local: Local::PerPolygon,
         ..Info::OF_PIXELS
     };
-    type Varying<F: Num> = UnitNormal<F>;
+    const LOCAL: Local = Local::PerPolygon;
+    const PERSPECTIVE: Perspective = Perspective::ScreenOnly;
+    const GREAT_CIRCLES: bool = true;
+    const READS_SPAN: bool = true;
+    type Constants<F: Num> = Vec3<F>; // the polygon's normal
+    type Varying<F: Num> = Vec3<F>;
     type Walk<F: Num> = GreatCircle<F, (PerLight<F, L>, F)>; // J of each light, K
 
     #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> UnitNormal<F> {
-        UnitNormal(n)
+    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
+        (0, polygon.face)
     }
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
+    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let circle =
+            GreatCircle::start(span.constants(), span.ends(), span.parameter(), lit.zero());
         GreatCircle {
-            from: lit.products(span.from), // 4.8, times L and V
-            to: lit.products(span.to),
-            sines: span.sines, // 4.9–4.12
+            from: lit.products(circle.from), // 4.8, times L and V
+            to: lit.products(circle.to),
+            sines: circle.sines, // 4.9–4.12
         }
     }
     #[inline(always)]

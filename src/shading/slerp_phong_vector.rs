@@ -2,8 +2,8 @@
 
 use super::increments::GreatCircle;
 use super::slerp_phong::SlerpPhong;
-use super::{Info, Lit, Pixel, Shader, Span, UnitNormal};
-use crate::number::{Num, Vec3};
+use super::{Corners, Info, Lit, Local, Perspective, Pixel, Shader, Span};
+use crate::number::{Num, Real, Vec3};
 
 /// Slerp Phong shading, vector form: unit normals walk great circles along edges *and* along spans, then eq 2.1 at every pixel,
 /// without renormalising (L21 4.4, steps i–iv).
@@ -20,16 +20,25 @@ impl Shader for SlerpPhongVector {
         fails: "as slerp-phong, at a higher price per pixel",
         ..SlerpPhong::<1>::INFO
     };
-    type Varying<F: Num> = UnitNormal<F>;
+    const LOCAL: Local = SlerpPhong::<1>::LOCAL;
+    const PERSPECTIVE: Perspective = SlerpPhong::<1>::PERSPECTIVE;
+    const GREAT_CIRCLES: bool = true;
+    const READS_SPAN: bool = true;
+    type Constants<F: Num> = Vec3<F>; // the polygon's normal
+    type Varying<F: Num> = Vec3<F>;
     type Walk<F: Num> = GreatCircle<F>;
 
     #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> UnitNormal<F> {
-        UnitNormal(n)
+    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
+        (0, polygon.face)
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> GreatCircle<F> {
-        span // 4.8–4.12
+    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> GreatCircle<F> {
+        GreatCircle::start(span.constants(), span.ends(), span.parameter(), lit.zero()) // 4.8–4.12
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {

@@ -3,7 +3,7 @@
 use super::lighting::Uniforms;
 use super::{Extras, Local, OperationCounts, Variant};
 use crate::mesh::Material;
-use crate::scene::{Falloff, Interpolation, Light, Lighting, Place};
+use crate::scene::{Falloff, Interpolation, Light, Lighting, Place, Power};
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -24,6 +24,12 @@ const COLOUR: [f32; 3] = [0.9, 0.8, 0.7];
 impl SpanBench {
     /// The unit normal of the triangle.
     pub(crate) const FACE: [f32; 3] = [0.0, 0.0, 1.0];
+    /// The corners on the picture, in pixels.
+    pub(super) const CORNERS: [[f32; 2]; 3] = [[0.0, 0.0], [50.0, 0.0], [0.0, 50.0]];
+    /// t₀ and Δt of its edges down from the first scanline, whose centres lie at 0.5 pixels.
+    pub(super) const EDGE: [f32; 2] = [0.5 / 50.0, 1.0 / 50.0];
+    /// t₀ and Δt of the span there, which is 49.5 pixels long.
+    pub(super) const SPAN: [f32; 2] = [0.5 * (1.0 / 49.5), 1.0 / 49.5];
 
     /// Makes a span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1) or four,
     /// and the default material.
@@ -64,7 +70,7 @@ impl SpanBench {
         }
         let (sin, cos) = libm::sincosf(degrees.to_radians() / 2.0);
         SpanBench {
-            uniforms: Uniforms::new(&lighting, 1.0),
+            uniforms: Uniforms::new(&lighting, Power::default(), 1.0),
             lighting,
             normals: [[-sin, 0.0, cos], [sin, 0.0, cos], [0.0, sin, cos]],
             points: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -72,10 +78,10 @@ impl SpanBench {
         }
     }
 
-    /// Returns the uniforms at `scale` for a method that sees lights from `local`.
-    pub(crate) fn uniforms(&self, local: Local, scale: f32) -> Uniforms {
-        let uniforms = Uniforms::new(&self.lighting, scale);
-        match local {
+    /// Returns the uniforms of a method at `scale`.
+    pub(crate) fn uniforms(&self, variant: &Variant, scale: f32) -> Uniforms {
+        let uniforms = Uniforms::new(&self.lighting, variant.power(), scale);
+        match variant.entry().local {
             Local::PerPolygon if self.is_near() => uniforms.seen_from([1.0 / 3.0, 1.0 / 3.0, 0.0]),
             _ => uniforms,
         }
@@ -102,6 +108,6 @@ impl Variant {
 
     /// Returns the operations of each kind that the method takes on a span.
     pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
-        (self.entry().count[usize::from(bench.is_near())])(bench, self)
+        (self.entry().count[usize::from(bench.is_near())])(bench, self).operations
     }
 }

@@ -1,6 +1,7 @@
 //! The method table: add a line here for a new file beside this one.
 
-use super::count::{OperationCounts, count};
+use super::count::{CountedSpan, count};
+use super::duff_newton::DuffNewton;
 use super::duff_phong::{DuffPhong, DuffPhongNear};
 use super::fast_phong::FastPhong;
 use super::flat::Flat;
@@ -9,16 +10,20 @@ use super::gouraud::Gouraud;
 use super::gouraud_separate::GouraudSeparate;
 use super::naive_phong::NaivePhong;
 use super::phong_rsqrt::PhongRsqrt;
+use super::six_point::SixPoint;
+use super::slerp_chebyshev::SlerpChebyshev;
 use super::slerp_phong::SlerpPhong;
 use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
-use super::{Extras, Info, Kernels, Local, Perspective, Shader, Variant};
+use super::{Extras, Info, Kernels, LitAt, Local, Perspective, Shader, Variant};
+use crate::frame::Frame;
 
 /// All shading methods.
 pub static METHODS: &[Entry] = &[
     Entry::of::<Flat>(),
     Entry {
         info: &FLAT_AVERAGE,
+        lit_at: LitAt::PolygonMean,
         ..Entry::of::<Flat>()
     },
     Entry::of::<Gouraud>(),
@@ -34,7 +39,11 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<PhongRsqrt>(),
     Entry::by_lights::<DuffPhong<1>, DuffPhong<4>, DuffPhong<8>, DuffPhong<64>>()
         .near::<DuffPhongNear<4>, DuffPhongNear<64>>(),
+    Entry::by_lights::<DuffNewton<1>, DuffNewton<4>, DuffNewton<8>, DuffNewton<64>>(),
+    Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>(),
     Entry::by_lights::<SlerpPhong<1>, SlerpPhong<4>, SlerpPhong<8>, SlerpPhong<64>>(),
+    Entry::by_lights::<SlerpChebyshev<1>, SlerpChebyshev<4>, SlerpChebyshev<8>, SlerpChebyshev<64>>(
+    ),
     Entry::of::<SlerpPhongVector>(),
 ];
 
@@ -46,16 +55,35 @@ type ByLights = [&'static Kernels; 4];
 pub struct Entry {
     /// The description of the method.
     pub info: &'static Info,
+    /// The rate at which it evaluates the light model.
+    pub lit_at: LitAt,
+    /// The points from which it sees lights and eye at positions.
+    pub local: Local,
+    /// The answer to perspective interpolation.
+    pub perspective: Perspective,
+    /// Returns the reason why it is not for a frame: [`Shader::refuses`].
+    pub(crate) refuses: fn(&Frame) -> Option<&'static str>,
     directional: ByLights,
     near: ByLights,
     /// The functions that count operations: without a light or the eye at a position, and with one.
-    pub(super) count: [fn(&SpanBench, &Variant) -> OperationCounts; 2],
+    pub(super) count: [fn(&SpanBench, &Variant) -> CountedSpan; 2],
 }
 
 impl Entry {
     /// Makes the row of a method, also of one defined outside this crate.
     pub const fn of<M: Shader>() -> Entry {
         Entry::by_lights::<M, M, M, M>()
+    }
+
+    /// Makes the row of a method by kernels of its own; what else engines ask is as `M` answers.
+    #[cfg_attr(not(test), expect(dead_code))]
+    const fn of_kernels<M: Shader>(info: &'static Info, kernels: &'static Kernels) -> Entry {
+        Entry {
+            info,
+            directional: [kernels; 4],
+            near: [kernels; 4],
+            ..Entry::of::<M>()
+        }
     }
 
     /// Makes the row of a method whose varyings hold a number per light: compiled for 1, 4, 8 and 64 of them.
@@ -70,6 +98,10 @@ impl Entry {
         };
         Entry {
             info: &A::INFO,
+            lit_at: A::LIT_AT,
+            local: A::LOCAL,
+            perspective: A::PERSPECTIVE,
+            refuses: A::refuses,
             directional: all,
             near: all,
             // For up to eight lights as many are stepped, for up to 64 as many as there are: what is counted.
@@ -92,16 +124,26 @@ impl Entry {
         METHODS.iter().find(|entry| entry.info.name == name)
     }
 
+    /// Returns the reason why it is drawn by scalar code only, if it is.
+    pub fn scalar_only(&self) -> Option<&'static str> {
+        self.directional[0].scalar_only
+    }
+
+    /// Returns the names of the kinds of polygons that it tells apart: [`Shader::KINDS`].
+    pub fn kinds(&self) -> &'static [&'static str] {
+        self.directional[0].kinds
+    }
+
     /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
     pub fn is_barycentric(&self) -> bool {
-        self.directional[0].linear
+        self.directional[0].linear && !self.directional[0].reads_span
     }
 
     /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
     /// position (`near`) or not.
     pub(crate) fn extras(&self, near: bool, perspective: bool) -> Extras {
-        let point = near && self.info.local == Local::PerPixel && self.near[0].linear;
-        let divides = self.info.perspective == Perspective::Divides;
+        let point = near && self.local == Local::PerPixel && self.near[0].linear;
+        let divides = self.perspective == Perspective::Divides;
         Extras {
             point,
             weight: perspective && (divides || point),
@@ -123,7 +165,8 @@ impl Entry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::Level;
+    use crate::number::{Level, Num, Vec3};
+    use crate::shading::{Linear, Lit, Span};
     use std::collections::BTreeSet;
 
     /// Returns the functions in the tables of these methods, each once: AVX-512 takes those of AVX2 but for its shading.
@@ -160,5 +203,105 @@ mod tests {
                 entry.info.name
             );
         }
+    }
+
+    /// Gouraud shading in integers of 1/65,536 of a level: plain functions in a row of the table.
+    mod integers {
+        use super::super::*;
+        use crate::shading::kernels::Pixels;
+
+        const INFO: Info = Info {
+            name: "integer-gouraud",
+            ..<Gouraud as Shader>::INFO
+        };
+        static KERNELS: Kernels = Kernels::of_functions::<Gouraud>(pixels, "it is integers");
+        pub static ENTRY: Entry = Entry::of_kernels::<Gouraud>(&INFO, &KERNELS);
+
+        fn pixels(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
+            const ONE: f32 = 255.0 * 65_536.0;
+            let mut out = out.iter_mut();
+            for (number, run) in job.list.runs.iter().enumerate() {
+                let [at, step] = job.list.starts.of(number);
+                let fixed = |x: &[f32]| [x[0], x[1], x[2]].map(|x| (x * ONE) as i32);
+                let (mut at, step) = (fixed(at), fixed(step));
+                for pixel in out.by_ref().take(run.pixels as usize) {
+                    *pixel = at.map(|x| (x >> 16) as f32 * (1.0 / 255.0));
+                    at = [0, 1, 2].map(|c| at[c] + step[c]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_of_plain_functions_is_drawn() {
+        use crate::mesh::builtin::builtin;
+        use crate::raster::{Plan, Renderer};
+        use crate::scene::Scene;
+        let frame = Scene::of_mesh(builtin("sphere").unwrap()).frame().unwrap();
+        let [integer, float] = [
+            integers::ENTRY.variant(),
+            Variant::parse("gouraud").unwrap(),
+        ];
+        let fastest = Renderer::fastest();
+        if fastest != Renderer::Span {
+            let (renderer, reason) = (Renderer::Span, "it is integers");
+            assert_eq!(
+                integer.plan(&frame, fastest),
+                Plan::Instead { renderer, reason }
+            );
+        }
+        let [ours, theirs] = [integer, float].map(|variant| variant.render(&frame));
+        let levels = ours.pixels().iter().zip(theirs.pixels());
+        let most = levels
+            .flat_map(|(a, b)| [0, 1, 2].map(|c| a[c].abs_diff(b[c])))
+            .max();
+        // Cut down, where the other is rounded; and a step's 1/65,536 a pixel.
+        assert_eq!(most, Some(1));
+    }
+
+    /// Phong shading for frames of one light.
+    #[derive(Clone, Copy, Default)]
+    struct OneLight;
+
+    impl Shader for OneLight {
+        const INFO: Info = Info {
+            name: "one-light",
+            ..<NaivePhong as Shader>::INFO
+        };
+        type Constants<F: Num> = ();
+        type Varying<F: Num> = Vec3<F>;
+        type Walk<F: Num> = Linear<Vec3<F>>;
+
+        fn refuses(frame: &Frame) -> Option<&'static str> {
+            (frame.light_count() > 1).then_some("it knows one light")
+        }
+        fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+            n
+        }
+        fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+            span.linear()
+        }
+        fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+            lit.shade(n.unit())
+        }
+    }
+
+    static ONE_LIGHT: Entry = Entry::of::<OneLight>();
+
+    #[test]
+    fn a_method_may_refuse_a_frame() {
+        use crate::mesh::builtin::builtin;
+        use crate::raster::{Plan, Renderer};
+        use crate::scene::{Light, Scene};
+        let mut scene = Scene::of_mesh(builtin("sphere").unwrap());
+        let plan = |scene: &Scene| {
+            let frame = scene.frame().unwrap();
+            ONE_LIGHT.variant().plan(&frame, Renderer::Span)
+        };
+        assert_eq!(plan(&scene), Plan::AsAsked(Renderer::Span));
+        scene
+            .lights
+            .push(Light::directional(glam::DVec3::X, [1.0; 3]));
+        assert_eq!(plan(&scene), Plan::Refused("it knows one light"));
     }
 }

@@ -1,8 +1,10 @@
 //! A method as a user names it.
 
-use super::{Entry, Info, METHODS};
+use super::{Entry, Info, METHODS, Value};
 use crate::number::NameError;
 use crate::number::suggest::{one_of, unknown};
+use crate::reference::ClosedForm;
+use crate::scene::Power;
 use alloc::format;
 use alloc::vec::Vec;
 use core::fmt;
@@ -11,7 +13,8 @@ use core::fmt;
 #[derive(Clone, Debug)]
 pub struct Variant {
     entry: &'static Entry,
-    parameters: Vec<u32>,
+    parameters: Vec<Value>,
+    power: Power,
 }
 
 impl Entry {
@@ -21,6 +24,7 @@ impl Entry {
         Variant {
             entry: self,
             parameters: defaults.collect(),
+            power: Power::default(),
         }
     }
 }
@@ -39,6 +43,18 @@ impl Variant {
         let mut variant = entry.variant();
         for part in parts {
             let (key, value) = part.split_once('=').unwrap_or((part, ""));
+            if key == "power" {
+                variant.power = Power::named(value)?;
+                continue;
+            }
+            if variant
+                .power
+                .parameter()
+                .is_some_and(|(name, _)| name == key)
+            {
+                variant.power = variant.power.with(key, value)?;
+                continue;
+            }
             let place = parameters.iter().position(|p| p.name == key);
             let place = place.ok_or_else(|| unknown_parameter(entry.info, key))?;
             variant.parameters[place] = parameters[place].parse(value)?;
@@ -57,13 +73,29 @@ impl Variant {
     }
 
     /// Returns the values of its parameters, in the order of [`Info::parameters`].
-    pub fn parameters(&self) -> &[u32] {
+    pub fn parameters(&self) -> &[Value] {
         &self.parameters
+    }
+
+    /// Returns the power function of its highlights.
+    pub fn power(&self) -> Power {
+        self.power
+    }
+
+    /// Returns the closed form that its picture is measured against.
+    pub fn closed_form(&self) -> ClosedForm {
+        ClosedForm {
+            model: self.info().model,
+            power: self.power,
+        }
     }
 
     /// True if all parameters have their default values.
     pub fn is_default(&self) -> bool {
-        self.parameters == self.entry.variant().parameters
+        let Variant {
+            parameters, power, ..
+        } = self.entry.variant();
+        self.parameters == parameters && self.power == power
     }
 }
 
@@ -75,6 +107,9 @@ impl fmt::Display for Variant {
             if *value != parameter.default {
                 write!(f, ":{}={}", parameter.name, parameter.text(*value))?;
             }
+        }
+        if self.power != Power::default() {
+            write!(f, ":power={}", self.power)?;
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ use fastphong::mesh::builtin::BUILTINS;
 use fastphong::number::Level;
 use fastphong::raster::Engine;
 use fastphong::scene::input::SCENES;
-use fastphong::shading::METHODS;
+use fastphong::shading::{Entry, METHODS};
 
 #[test]
 fn lists_have_an_entry_for_everything_in_their_table() {
@@ -342,6 +342,10 @@ fn info_reports_the_choice_of_auto() {
     let choices =
         |input: &str| folder.run(&format!("info {input} --json")).done().json()["auto"].clone();
     let far = choices("teapot");
+    let scalar = METHODS
+        .iter()
+        .filter(|method| method.scalar_only().is_some())
+        .count();
     assert_eq!(
         (&far[0]["engine"], &far[0]["level"]),
         (&"row".into(), &best.name().into())
@@ -351,8 +355,17 @@ fn info_reports_the_choice_of_auto() {
             &far[0]["reason"],
             far[0]["methods"].as_array().map(Vec::len)
         ),
-        (&serde_json::Value::Null, Some(METHODS.len()))
+        (&serde_json::Value::Null, Some(METHODS.len() - scalar))
     );
+    // The others, one by one, say why they are scalar.
+    for choice in &far.as_array().unwrap()[1..] {
+        let name = choice["methods"][0].as_str().unwrap();
+        let why = Entry::named(name).unwrap().scalar_only();
+        assert_eq!(
+            (choice["engine"].as_str(), choice["reason"].as_str()),
+            (Some("span"), why)
+        );
+    }
     let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
     // Positional lights, many lights and narrow depth buffers do not change the choice.
     for flags in ["--light-at 9,9,9", five, "--depth-bits 16"] {
@@ -369,7 +382,7 @@ fn info_reports_the_choice_of_auto() {
     );
     assert_eq!(
         sampled[0]["methods"].as_array().map(Vec::len),
-        Some(METHODS.len())
+        Some(METHODS.len() - scalar)
     );
     folder
         .run("info teapot --light-at 9,9,9")

@@ -234,6 +234,62 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: ROOT + DIVIDE + (lights + 1) * MULTIPLY + lights * (highlight() + light()),
             }
         }
+        // As Duff's method, but 1/√D takes two steps of Newton's method from the previous pixel: D/2, and in each step times r twice,
+        // 3/2 less that, times r. A span also chooses its steps: the product D ΔN·ΔN less the square of N·ΔN if that is below 0, the
+        // square of ΔN·ΔN, and a product, a difference and a comparison for each number of steps tried; and 1/√D of the first pixel.
+        "duff-newton" => {
+            let duff = by_hand("duff-phong", lights);
+            let choice = COMPARE + 3 * MULTIPLY + ADD + 2 * (MULTIPLY + ADD + COMPARE);
+            ByHand {
+                span: duff.span + choice + ROOT + DIVIDE,
+                walk: duff.walk + MULTIPLY + 2 * (3 * MULTIPLY + ADD),
+                shade: (lights + 1) * MULTIPLY + lights * (highlight() + light()),
+                ..duff
+            }
+        }
+        // Seiler 1998: J of each light and K at three corners and, of normals halved and normalised, at three edges. A quadratic in
+        // two coordinates is made of these, which a span starts at its first pixel, and which takes two additions a pixel.
+        "six-point" => {
+            let products = lights + 1;
+            let midway = 3 * (3 * ADD + DOT + ROOT + DIVIDE + 3 * MULTIPLY);
+            let area = 4 * ADD + 2 * MULTIPLY + ADD + DIVIDE + 4 * MULTIPLY;
+            let weighted = 3 * 3 * MULTIPLY;
+            // Of b, c, b², bc and c²: four products and three sums of the six values, or three and two.
+            let of_corners = 4 * (3 * MULTIPLY + 2 * ADD) + (4 * MULTIPLY + 3 * ADD);
+            // Of x, y (two products and a sum each), x², xy and y² (three and two).
+            let of_screen = 2 * (2 * MULTIPLY + ADD) + 3 * (3 * MULTIPLY + 2 * ADD);
+            let squares = 12 * MULTIPLY + ADD;
+            let start = 8 * ADD + 7 * MULTIPLY;
+            ByHand {
+                vertex: NONE,
+                polygon: midway
+                    + area
+                    + weighted
+                    + 6 * products * DOT
+                    + products * (of_corners + of_screen)
+                    + squares,
+                edge: 3 * ramp(),
+                edge_step: 3 * ADD,
+                span: 2 * ADD + products * start,
+                walk: 2 * products * ADD,
+                shade: lights * (highlight() + light()),
+            }
+        }
+        // Barrera, Hast, Bengtsson 2004: slerp whose span follows J of each light and K by ΔF −= α F. The first ΔN takes sines of
+        // neighbours, from 1 − cos δ = sin² δ / (1 + cos δ).
+        "slerp-chebyshev" => {
+            let slerp = by_hand("slerp-phong", lights);
+            let differences = (MULTIPLY + ADD + DIVIDE)
+                + 2 * (2 * MULTIPLY + ADD)
+                + 2 * 3 * MULTIPLY
+                + 3 * ADD
+                + ADD;
+            ByHand {
+                span: slerp.span + weighted_normal() + differences,
+                walk: (lights + 1) * (MULTIPLY + 2 * ADD),
+                ..slerp
+            }
+        }
         // 4.4: normals along edges. A span computes K and J of each light at both ends, then blends
         // them by their weights. A pixel takes 2JK − L·V for each light.
         "slerp-phong" => ByHand {

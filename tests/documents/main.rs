@@ -4,6 +4,7 @@
 mod flags;
 mod lectures;
 mod markdown;
+mod methods;
 mod obj;
 mod rooms;
 mod tidy;

@@ -38,10 +38,10 @@ use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
 use crate::picture::encoding::{Displayed, store};
 use crate::picture::{Alpha, Encoding, LinearPicture, Picture8};
-use crate::raster::{Renderer, coverage};
+use crate::raster::{Plan, PolygonKind, Renderer, coverage};
 use crate::reference::Model;
 use crate::scene::Interpolation;
-use crate::shading::{METHODS, MethodParameter, Variant};
+use crate::shading::{self, METHODS, MethodParameter, Variant};
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -103,6 +103,9 @@ pub struct Comparison {
     requested: Renderer,
     /// The variants drawn by scanlines, in the order given; before them naive Phong if it was not given.
     pub rows: Vec<MethodRow>,
+    /// The variants that are not for this frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<LeftOut>,
     /// The methods of the barycentric renderer that the rows are measured against.
     pub barycentric: Vec<MethodRow>,
     /// The effect of cutting the polygons into triangles; `None` if they are triangles.
@@ -124,6 +127,15 @@ pub struct Triangulation {
     pub not_simple: usize,
     /// The difference, where both show the same polygon.
     pub difference: Difference,
+}
+
+/// A variant that is not for a frame.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// The variant as a user names it.
+    pub variant: String,
+    /// The reason, as a sentence without its full stop.
+    pub reason: &'static str,
 }
 
 /// The loops that drew a picture.
@@ -178,13 +190,20 @@ pub struct MethodRow {
     /// The difference from its own closed form ([`crate::shading::Info::model`]): how well it does what it means to do. In
     /// the barycentric renderer that is the closed form on triangles.
     pub own: Difference,
-    /// The most that rounding can make of `own.max` on this frame: [`crate::shading::Variant::bound`].
+    /// The most that rounding, and what the method leaves out by design, can make of `own.max` on this frame:
+    /// [`crate::shading::Variant::bound`].
     pub bound: f64,
+    /// The most that the variant may differ by design from its method's model with tⁿ: [`crate::shading::Variant::approximation`]. 0 for
+    /// most.
+    pub approximation: f64,
     /// True if `own.max` is at most `bound`. Newton's method on short spans with large angles may exceed it.
     pub within_bound: bool,
     /// Pixels at which it shows another polygon than the reference; they are left out of `error`, as their colours tell
     /// of depth and not of shading.
     pub other_polygon: usize,
+    /// The polygons that it draws by each of its kinds, if it tells polygons apart.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub kinds: Vec<PolygonKind>,
     /// The speed, if times were taken.
     pub speed: Option<Speed>,
     /// The stored picture.
@@ -212,11 +231,12 @@ fn variant_members<S: Serializer>(variant: &Variant, to: S) -> Result<S::Ok, S::
     members.end()
 }
 
-/// Returns the value of a parameter of a method: a number, or `"auto"`.
-pub fn parameter_json(parameter: &MethodParameter, value: u32) -> Value {
-    match parameter.is_auto(value) {
-        true => "auto".into(),
-        false => value.into(),
+/// Returns the value of a parameter of a method: a number, or a word, of which `"auto"` is one.
+pub fn parameter_json(parameter: &MethodParameter, value: shading::Value) -> Value {
+    match value {
+        shading::Value::Whole(number) => number.into(),
+        shading::Value::Decimal(number) => number.into(),
+        word => parameter.text(word).into(),
     }
 }
 
@@ -266,7 +286,17 @@ pub fn draw(
         frame
     });
     let frame = flattened.as_ref().unwrap_or(input.frame);
-    let variants = with_baseline(variants);
+    let (mut drawn, mut left_out) = (Vec::new(), Vec::new());
+    for variant in with_baseline(variants) {
+        match variant.plan(frame, renderer) {
+            Plan::Refused(reason) => left_out.push(LeftOut {
+                variant: variant.to_string(),
+                reason,
+            }),
+            _ => drawn.push(variant),
+        }
+    }
+    let variants = drawn;
     let counterparts = counterparts(&variants);
     let steps = (variants.len() + counterparts.len() + 1) as f32;
     let mut step = 0.0;
@@ -309,6 +339,7 @@ pub fn draw(
         renderer: DrawnBy::new(renderer),
         requested: renderer,
         rows,
+        left_out,
         barycentric,
         triangulation: references.triangulation(),
         reference,

@@ -7,7 +7,8 @@ use crate::frame::triangulate::Triangulated;
 use crate::picture::encoding::{Displayed, store};
 use crate::picture::{Encoding, LinearPicture, Picture, Picture8};
 use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
-use crate::reference::{self, Model, Visibility};
+use crate::reference::{self, ClosedForm, Model, Visibility};
+use crate::scene::Power;
 use crate::shading::Variant;
 use alloc::borrow::Cow;
 use core::cell::OnceCell;
@@ -41,8 +42,11 @@ impl<'a> ClosedForms<'a> {
     }
 
     fn picture(&self, model: Model) -> &LinearPicture {
-        let make = || reference::shade(self.frame, &self.visibility, model).to_linear();
-        self.pictures[model as usize].get_or_init(make)
+        self.pictures[model as usize].get_or_init(|| self.shaded(model.into()))
+    }
+
+    fn shaded(&self, form: ClosedForm) -> LinearPicture {
+        reference::shade(self.frame, &self.visibility, form).to_linear()
     }
 }
 
@@ -67,15 +71,16 @@ impl<'a> References<'a> {
     /// Draws a variant by `renderer` and compares it.
     pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
         let forms = &self.closed_forms;
-        let planned = variant.plan(forms.frame, renderer).renderer;
+        let planned = variant.plan(forms.frame, renderer).renderer();
+        let planned = planned.unwrap_or(renderer);
         let by = DrawnBy::new(planned);
         let shown = &*self.shown(variant, planned);
         let linear = variant.render_linear_with(forms.frame, renderer);
         let mut picture = Picture::new(0, 0, [0; 4]);
         variant.render_with(forms.frame, renderer, &mut picture);
-        let own = match variant.info().model {
-            Model::Phong => None,
-            model => Some(forms.difference(model, &linear, shown)),
+        let own = match variant.closed_form() {
+            form if form == Model::Phong.into() => None,
+            form => Some(forms.difference(form, &linear, shown)),
         };
         let own = (own, variant.bound(forms.frame));
         self.row(variant, by, (picture, linear), shown, own)
@@ -95,7 +100,7 @@ impl<'a> References<'a> {
         let linear = variant.render_barycentric_linear(&self.cut.frame, Edges::TopLeft)?;
         let picture = variant.render_barycentric(&self.cut.frame, Edges::TopLeft)?;
         let forms = self.on_triangles.as_ref().unwrap_or(&self.closed_forms);
-        let own = forms.difference(variant.info().model, &linear, &self.barycentric);
+        let own = forms.difference(variant.closed_form(), &linear, &self.barycentric);
         let (by, shown) = (DrawnBy::BARYCENTRIC, self.origins(&self.barycentric));
         let own = (Some(own), variant.bound(&self.cut.frame));
         Some(self.row(variant, by, (picture, linear), &shown, own))
@@ -136,8 +141,10 @@ impl<'a> References<'a> {
             error,
             own,
             bound,
+            approximation: variant.approximation(self.closed_forms.frame),
             within_bound: own.max <= bound,
             other_polygon: error.excluded,
+            kinds: variant.polygon_kinds(self.closed_forms.frame),
             speed: None,
             picture,
         }
@@ -146,14 +153,19 @@ impl<'a> References<'a> {
 
 impl ClosedForms<'_> {
     /// Compares `actual` with a closed form where both show the same polygon.
-    fn difference(&self, model: Model, actual: &LinearPicture, shown: &Picture<u32>) -> Difference {
-        let seen = &self.visibility.polygons;
-        difference(
-            self.picture(model),
-            actual,
-            [seen, shown],
-            self.frame.encoding(),
-        )
+    fn difference(
+        &self,
+        form: impl Into<ClosedForm>,
+        actual: &LinearPicture,
+        shown: &Picture<u32>,
+    ) -> Difference {
+        let (form, seen) = (form.into(), &self.visibility.polygons);
+        // Those of other powers are asked for once or twice, and not kept.
+        let reference = match form.power {
+            Power::Squaring => Cow::Borrowed(self.picture(form.model)),
+            _ => Cow::Owned(self.shaded(form)),
+        };
+        difference(&reference, actual, [seen, shown], self.frame.encoding())
     }
 }
 

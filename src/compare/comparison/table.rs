@@ -123,6 +123,17 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     if comparison.all_rows().any(|row| !row.within_bound) {
         text += "! farther from its own closed form than rounding explains\n";
     }
+    for row in comparison.rows.iter().filter(|row| !row.kinds.is_empty()) {
+        let kinds = row
+            .kinds
+            .iter()
+            .map(|kind| format!("{} {}", kind.polygons, kind.name));
+        let kinds: Vec<String> = kinds.collect();
+        text += &format!("{}: polygons by kind: {}\n", row.name(), kinds.join(", "));
+    }
+    for left_out in &comparison.left_out {
+        text += &format!("{} is left out: {}\n", left_out.variant, left_out.reason);
+    }
     if shows_others {
         text +=
             "other: pixels that show another polygon than the reference, and are not compared\n";

@@ -7,6 +7,7 @@ use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::reference::{self, Model};
 use crate::scene::{Camera, Fit, Light, Lighting, Object, Scene};
+use crate::shading::increments::NewtonSteps;
 use alloc::borrow::ToOwned;
 use alloc::{format, vec};
 use core::time::Duration;
@@ -201,10 +202,10 @@ fn rows_are_within_the_bound_of_their_closed_form() {
     // Use the most Newton steps, because short spans over large angles need more than the default.
     let with_all_steps =
         |variant: Variant| match variant.info().parameters.iter().find(|p| p.name == "steps") {
-            Some(steps) => Variant::parse(&alloc::format!(
+            Some(_) => Variant::parse(&alloc::format!(
                 "{}:steps={}",
                 variant.info().name,
-                steps.most
+                NewtonSteps::MOST
             ))
             .unwrap(),
             None => variant,
@@ -363,6 +364,13 @@ fn tables_have_a_row_a_method() {
                     .pop()
                     .is_some_and(|legend| legend.starts_with("other: pixels"))
             );
+        }
+        let kinds = comparison.rows.iter().filter(|row| !row.kinds.is_empty());
+        for row in kinds {
+            // Triangles about the poles, quads between them.
+            let line = lines.pop().unwrap();
+            let expected = "six-point: polygons by kind: 12 quadratic, 24 roots";
+            assert_eq!((line, &*row.name()), (expected, "six-point"));
         }
         assert_eq!(
             lines.len(),

@@ -266,7 +266,8 @@ impl Scaling {
 
 impl Curve {
     fn new((variant, renderer, _): &Way, frame: &Frame) -> Curve {
-        let renderer = variant.plan(frame, *renderer).renderer;
+        let planned = variant.plan(frame, *renderer).renderer();
+        let renderer = planned.unwrap_or(*renderer);
         Curve {
             method: variant.to_string(),
             engine: renderer.engine().name(),

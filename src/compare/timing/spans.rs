@@ -1,11 +1,11 @@
 //! One span shaded by the kernels of a method alone, without an engine.
 
-use crate::number::Level;
 use crate::number::simd::BLOCK;
+use crate::number::{Level, vec3};
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    Extras, Kernels, Pixels, RowColours, Run, ShadeRow, SpanBench, UniformsIndex, Variant,
-    Vertices, ramp, start_len,
+    Corner, Corners, Extras, Kernels, Pixels, PolygonConstants, RowColours, Run, RunList, ShadeRow,
+    SpanBench, SpanPlace, UniformsIndex, Variant, Vertices, ramp,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -17,9 +17,8 @@ const MOST: usize = 40;
 struct Started {
     kernels: &'static Kernels,
     extras: Extras,
-    run: [Run; 1],
-    start: [f32; MOST],
-    len: usize,
+    list: RunList,
+    constants: PolygonConstants,
 }
 
 impl Started {
@@ -29,8 +28,8 @@ impl Started {
             parameters: variant.parameters(),
             uniforms: core::slice::from_ref(uniforms),
             extras: self.extras,
-            runs: &self.run,
-            starts: &self.start[..self.len],
+            constants: &self.constants,
+            list: &self.list,
         }
     }
 }
@@ -40,16 +39,19 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
     let lights = uniforms.lights.len();
     let kernels = variant.entry().kernels(lights, bench.is_near());
     let extras = bench.extras(variant);
-    let [own, _] = (kernels.counts)(lights);
+    let [own, _, planned] = (kernels.counts)(lights);
     let varyings = own + extras.count();
     let mut ends = [0.0; MOST];
-    let (a, b) = ends.split_at_mut(varyings);
-    for (k, end) in [&mut *a, &mut *b].into_iter().enumerate() {
+    for (k, end) in ends[..2 * varyings]
+        .chunks_exact_mut(varyings.max(1))
+        .enumerate()
+    {
         let vertex = Vertices {
             parameters: variant.parameters(),
             uniforms,
             normals: &bench.normals[k..=k],
             points: &bench.points[k..=k],
+            attributes: &[[0.0; 4]],
         };
         (kernels.vertices)(&vertex, &mut end[..own]);
         if extras.point {
@@ -59,27 +61,56 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
             end[varyings - 1] = 1.0;
         }
     }
-    let (mut start, dt) = ([0.0; MOST], 1.0 / pixels as f32);
-    if kernels.great_circle {
-        start[..3].copy_from_slice(&a[..3]);
-        start[3..6].copy_from_slice(&b[..3]);
-        (start[6], start[7]) = (0.5 * dt, dt);
-        start[8..11].copy_from_slice(&SpanBench::FACE);
-    } else {
-        for i in 0..varyings {
-            [start[i], start[varyings + i]] = ramp(a[i], b[i], 0.5 * dt, dt);
-        }
+    let dt = 1.0 / pixels as f32;
+    let mut constants = PolygonConstants::default();
+    if planned > 0 || !kernels.kinds.is_empty() {
+        let all = [0, 1, 2].map(|i| Corner {
+            normal: vec3(bench.normals[i]),
+            place: [bench.points[i][0], bench.points[i][1]].map(|at| at * pixels as f32),
+            weight: 1.0,
+            position: bench.is_near().then(|| vec3(bench.points[i])),
+        });
+        let whole = bench.normals.map(vec3);
+        let polygon = Corners {
+            all: &all,
+            face: vec3(SpanBench::FACE),
+            is_whole: true,
+            whole: &whole,
+            mean: (whole[0] + whole[1] + whole[2]) * (1.0 / 3.0),
+        };
+        constants.numbers.resize(planned, 0.0);
+        let to = &mut constants.numbers;
+        constants.kinds = vec![(kernels.polygon)(
+            variant.parameters(),
+            uniforms,
+            &polygon,
+            to,
+        )];
+    }
+    let mut list = RunList::new(varyings);
+    let [first, second] = list.starts.add();
+    for i in 0..varyings {
+        let ends = [ends[i], ends[varyings + i]];
+        [first[i], second[i]] = match kernels.reads_span {
+            true => ends,
+            false => ramp(ends[0], ends[1], 0.5 * dt, dt),
+        };
+    }
+    list.runs.push(Run {
+        uniforms: UniformsIndex(0),
+        polygon: 0,
+        x: 0,
+        pixels: pixels as u32,
+    });
+    if kernels.reads_span {
+        let t0 = 0.5 * dt;
+        list.places.push(SpanPlace { y: 0, t0, dt });
     }
     Started {
         kernels,
         extras,
-        run: [Run {
-            uniforms: UniformsIndex(0),
-            x: 0,
-            pixels: pixels as u32,
-        }],
-        start,
-        len: start_len(kernels.great_circle, varyings),
+        list,
+        constants,
     }
 }
 
@@ -96,10 +127,10 @@ impl SpanRow {
     /// Makes room for `pixels` pixels, a multiple of 16.
     pub fn new(variant: &Variant, bench: &SpanBench, pixels: usize) -> SpanRow {
         assert!(pixels.is_multiple_of(2 * BLOCK), "whole blocks");
-        let uniforms = bench.uniforms(variant.info().local, 255.0);
+        let uniforms = bench.uniforms(variant, 255.0);
         let lights = uniforms.lights.len();
         let kernels = variant.entry().kernels(lights, bench.is_near());
-        let [varyings, planes] = (kernels.counts)(lights);
+        let [varyings, planes, _] = (kernels.counts)(lights);
         let planes = planes.max(varyings) + bench.extras(variant).count();
         SpanRow {
             uniforms,
@@ -130,8 +161,10 @@ impl Variant {
         let Some(simd) = (started.kernels.simd)(level) else {
             return;
         };
-        let [varyings, walked] = (started.kernels.counts)(row.uniforms.lights.len());
-        let walk = simd.walk_of(self);
+        let [varyings, walked, _] = (started.kernels.counts)(row.uniforms.lights.len());
+        let walks_along =
+            (started.kernels.walks_along_runs)(self.parameters(), &row.uniforms.model);
+        let walk = simd.walk.filter(|_| walks_along);
         let planes = walk.map_or(varyings + started.extras.count(), |walk| {
             walk(&started.job(self, &row.uniforms), &mut row.walked);
             walked
@@ -143,7 +176,7 @@ impl Variant {
                     to.copy_from_slice(&row.walked[plane * pixels + first..][..BLOCK]);
                     continue;
                 }
-                let (at, step) = (started.start[plane], started.start[planes + plane]);
+                let [at, step] = started.list.starts.of(0).map(|numbers| numbers[plane]);
                 for (k, to) in to.iter_mut().enumerate() {
                     *to = at + (first + k) as f32 * step;
                 }

@@ -41,6 +41,7 @@ use crate::number::parallel::for_each_chunk;
 use crate::number::simd::{BLOCK, Token, vectorize};
 use crate::picture::Picture;
 use crate::shading::extent::TILE_HEIGHT as HEIGHT;
+use crate::shading::lighting::Uniforms;
 use crate::shading::{SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -169,8 +170,12 @@ impl<'a> RowEngine<'a> {
         let level = how.0;
         let setup = SetUp::new(variant, frame, how);
         let kernels = (setup.kernels.simd)(level)?;
-        let [_, walked] = (setup.kernels.counts)(frame.light_count());
-        let walk = kernels.walk_of(variant);
+        let [_, walked, _] = (setup.kernels.counts)(frame.light_count());
+        let walks_along =
+            |first: &Uniforms| (setup.kernels.walks_along_runs)(setup.parameters, &first.model);
+        let walk = kernels
+            .walk
+            .filter(|_| setup.uniforms.first().is_some_and(walks_along));
         let planes = walk.map_or(setup.varyings.count, |_| walked);
         let only = only_uniforms(&setup);
         let numbers = 1 + planes + usize::from(only.is_none());
@@ -223,6 +228,7 @@ impl<'a> RowEngine<'a> {
     ) {
         let width = self.setup.frame.width();
         buffers.tile.prepare(HEIGHT, width, self.numbers);
+        buffers.queue.prepare(self.setup.varyings.count);
         for polygons in bins.band(number) {
             match level {
                 #[cfg(target_arch = "x86_64")]

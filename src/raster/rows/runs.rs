@@ -9,7 +9,7 @@ use crate::raster::setup::SetUp;
 use crate::raster::spans::active::ActiveEdges;
 use crate::raster::spans::edge::{EdgeCrossing, first_centre};
 use crate::raster::spans::edge_table::{TableEdge, for_each_edge};
-use crate::shading::{Run, UniformsIndex, WalkKernel, start_len};
+use crate::shading::{Run, RunList, WalkKernel};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
@@ -25,9 +25,7 @@ struct RunPlace {
 #[derive(Debug, Default)]
 pub(crate) struct RunQueue {
     places: Vec<RunPlace>,
-    runs: Vec<Run>,
-    /// The start of each run: see [`start_len`].
-    starts: Vec<f32>,
+    list: RunList,
     /// The pixels that the walks return.
     walked: Vec<f32>,
     /// Blocks of all runs.
@@ -40,16 +38,9 @@ pub(crate) struct RunQueue {
 const MOST_BLOCKS: usize = 128;
 
 impl RunQueue {
-    /// Adds a run, whose start stands at the end of `starts` already.
-    #[inline(always)]
-    fn push(&mut self, uniforms: UniformsIndex, pixels: Range<usize>, place: RunPlace) {
-        self.blocks += pixels.len().div_ceil(BLOCK);
-        self.places.push(place);
-        self.runs.push(Run {
-            uniforms,
-            x: pixels.start as u32,
-            pixels: pixels.len() as u32,
-        });
+    /// Makes ready for runs of so many varyings and extras.
+    pub fn prepare(&mut self, count: usize) {
+        self.list.prepare(count);
     }
 
     /// True if the runs are enough to be drawn.
@@ -87,12 +78,13 @@ impl RunQueue {
                 break;
             }
             active.spans(width, |active, span| {
-                active.start(&span, 0, &mut self.starts);
-                let place = RunPlace {
+                let pixels = (row as usize, span.start as usize..span.end as usize);
+                self.blocks += pixels.1.len().div_ceil(BLOCK);
+                active.add_run(&span, pixels, uniforms, &mut self.list);
+                self.places.push(RunPlace {
                     row: row as usize - rows.start,
                     depth: [span.depth, span.depth_step],
-                };
-                self.push(uniforms, span.start as usize..span.end as usize, place);
+                });
             });
         }
         active.clear();
@@ -101,12 +93,12 @@ impl RunQueue {
 
     /// True if no run waits.
     pub fn is_empty(&self) -> bool {
-        self.runs.is_empty()
+        self.list.runs.is_empty()
     }
 
     /// Reports the blocks of a tile that the runs may draw.
     pub fn extend(&self, tile: &mut Tile) {
-        for run in &self.runs {
+        for run in &self.list.runs {
             let pixels = pixels_of(run);
             tile.extend(pixels.start / BLOCK..pixels.end.div_ceil(BLOCK));
         }
@@ -128,13 +120,12 @@ impl RunQueue {
             // Padding of a block before and after: block loads may overrun, and those lanes are masked.
             let len = self.walked.len().max(room + 2 * BLOCK);
             self.walked.resize(len, 0.0);
-            let job = setup.pixels(&self.runs, &self.starts);
+            let job = setup.pixels(&self.list);
             walk(&job, &mut self.walked[BLOCK..BLOCK + room]);
         }
-        debug_assert_eq!(self.runs.len(), self.places.len(), "a place a run");
-        let len = start_len(setup.varyings.great_circle, setup.varyings.count);
+        debug_assert_eq!(self.list.runs.len(), self.places.len(), "a place a run");
         let mut walked = BLOCK;
-        for (i, (run, place)) in self.runs.iter().zip(&self.places).enumerate() {
+        for (i, (run, place)) in self.list.runs.iter().zip(&self.places).enumerate() {
             let (material, pixels) = (m.splat(run.uniforms.0 as f32), pixels_of(run));
             if walk.is_some() {
                 let length = pixels.len().next_multiple_of(BLOCK);
@@ -153,7 +144,7 @@ impl RunQueue {
                 );
                 walked += length * planes;
             } else {
-                let (at, step) = self.starts[i * len..][..len].split_at(planes);
+                let [at, step] = self.list.starts.of(i);
                 draw_run(
                     m,
                     (*place, pixels),
@@ -167,8 +158,7 @@ impl RunQueue {
             }
         }
         self.places.clear();
-        self.runs.clear();
-        self.starts.clear();
+        self.list.clear();
         self.blocks = 0;
     }
 }

@@ -7,9 +7,10 @@ use crate::number::{Vec3, vec3};
 use crate::raster::depth::SampleDepth;
 use crate::raster::setup::{Per, Varyings, unit};
 use crate::shading::increments::{GreatCircle, Walk};
-use crate::shading::ramp;
+use crate::shading::{Run, RunList, SpanPlace, Starts, UniformsIndex, ramp};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
+use core::ops::Range;
 
 /// An edge on its way down the picture: its crossing, and depth and varyings, each stepped from scanline to scanline.
 #[derive(Clone, Copy, Debug)]
@@ -175,7 +176,7 @@ pub(crate) struct ActiveEdges<'a> {
 impl<'a> ActiveEdges<'a> {
     pub fn new(frame: &'a Frame, varyings: &'a Varyings<'a>) -> Self {
         let is_walked = varyings.count > 0 && !matches!(varyings.per, Per::Polygon);
-        let is_many = is_walked && varyings.count > GROUP && !varyings.great_circle;
+        let is_many = is_walked && varyings.count > GROUP && !varyings.great_circles;
         ActiveEdges {
             frame,
             varyings,
@@ -189,7 +190,7 @@ impl<'a> ActiveEdges<'a> {
                 free: Vec::new(),
             },
             is_walked,
-            has_slots: is_many || varyings.great_circle,
+            has_slots: is_many || varyings.great_circles,
         }
     }
 
@@ -270,7 +271,7 @@ impl<'a> ActiveEdges<'a> {
     #[inline(always)]
     fn start_varyings(&mut self, edge: &TableEdge, parameter: [f32; 2]) -> (Group, u32) {
         let (ends, mut slot) = (self.ends(edge), 0);
-        if self.varyings.great_circle {
+        if self.varyings.great_circles {
             let polygon = &self.frame.polygons()[edge.polygon as usize];
             let face = vec3(self.frame.polygon_normal(polygon));
             slot = self.more.enter_circle(face, ends, parameter);
@@ -355,52 +356,83 @@ impl<'a> ActiveEdges<'a> {
         }
     }
 
-    /// Appends the start of a run, `skipped` pixels into a span: see [`start_len`](crate::shading::start_len).
+    /// Adds the run of `pixels` of a span on scanline `row`.
     #[inline(always)]
-    pub fn start(&self, span: &PolygonSpan, skipped: u32, to: &mut Vec<f32>) {
+    pub fn add_run(
+        &self,
+        span: &PolygonSpan,
+        (row, pixels): (usize, Range<usize>),
+        uniforms: UniformsIndex,
+        to: &mut RunList,
+    ) {
+        let x = pixels.start as u32;
         // A run that begins inside its span starts at its own first pixel's parameter.
-        let t0 = span.t0 + skipped as f32 * span.dt;
+        let (y, t0, dt) = (
+            row as u32,
+            span.t0 + (x - span.start) as f32 * span.dt,
+            span.dt,
+        );
+        to.runs.push(Run {
+            uniforms,
+            polygon: span.polygon,
+            x,
+            pixels: pixels.len() as u32,
+        });
+        if self.varyings.keeps_ends {
+            to.places.push(SpanPlace { y, t0, dt });
+        }
+        self.start(span, [t0, dt], &mut to.starts);
+    }
+
+    /// Adds the varyings of a span at the parameter `t0` and their growth in a step of `dt`, or those at its ends.
+    #[inline(always)]
+    fn start(&self, span: &PolygonSpan, [t0, dt]: [f32; 2], to: &mut Starts) {
         let left = &self.edges[span.left as usize];
         let right = &self.edges[span.left as usize + 1];
         if self.varyings.count == 3 && self.is_walked && !self.has_slots {
             // The fast path: three numbers, without a loop.
-            let Group { at, step } = between([left.varyings, right.varyings], [t0, span.dt]);
-            to.extend_from_slice(&[at[0], at[1], at[2], step[0], step[1], step[2]]);
+            let Group { at, step } = self.between([left.varyings, right.varyings], [t0, dt]);
+            to.push([at[0], at[1], at[2]], [step[0], step[1], step[2]]);
             return;
         }
-        if self.varyings.great_circle {
+        if self.varyings.great_circles {
             let circles = &self.more.circles;
-            to.extend(circles[left.slot as usize].normal().array()); // 4.8
-            to.extend(circles[right.slot as usize].normal().array());
-            to.extend([t0, span.dt]);
-            let polygon = &self.frame.polygons()[span.polygon as usize];
-            to.extend(self.frame.polygon_normal(polygon));
+            let of = |edge: &ActiveEdge| circles[edge.slot as usize].normal().array(); // 4.8
+            debug_assert!(self.varyings.keeps_ends, "circles are no straight lines");
+            to.push(of(left), of(right));
             return;
         }
-        let (count, first) = (self.varyings.count, to.len());
+        let [first, second] = to.add();
         if let Some(constant) = self.varyings.of_polygon(span.polygon) {
-            to.extend_from_slice(constant);
-            to.resize(first + 2 * count, 0.0);
+            first.copy_from_slice(constant);
+            if self.varyings.keeps_ends {
+                second.copy_from_slice(constant);
+            }
             return;
         }
-        // Whole groups are appended; the numbers that they have too many are cut off.
         let more = [left, right].map(|edge| self.more.groups(edge.slot));
-        for part in 0..2 {
-            let mut append = |ends| {
-                let group = between(ends, [t0, span.dt]);
-                to.extend_from_slice(&[group.at, group.step][part]);
-            };
-            append([left.varyings, right.varyings]);
-            (more[0].iter().zip(more[1])).for_each(|(a, b)| append([*a, *b]));
-            to.truncate(first + (1 + part) * count);
+        let groups = core::iter::once([left.varyings, right.varyings])
+            .chain(more[0].iter().zip(more[1]).map(|(a, b)| [*a, *b]));
+        let places = first.chunks_mut(GROUP).zip(second.chunks_mut(GROUP));
+        for ((first, second), ends) in places.zip(groups) {
+            // The last group may have more numbers than there are.
+            let group = self.between(ends, [t0, dt]);
+            first.copy_from_slice(&group.at[..first.len()]);
+            second.copy_from_slice(&group.step[..second.len()]);
         }
     }
-}
 
-/// Returns the varyings between two edges at the parameter `t0`, with steps of `dt`.
-#[inline(always)]
-fn between([left, right]: [Group; 2], parameter: [f32; 2]) -> Group {
-    Group::new([left.at, right.at], parameter)
+    /// Returns the varyings between two edges at the parameter `t0`, with steps of `dt`; or both ends.
+    #[inline(always)]
+    fn between(&self, [left, right]: [Group; 2], parameter: [f32; 2]) -> Group {
+        match self.varyings.keeps_ends {
+            true => Group {
+                at: left.at,
+                step: right.at,
+            },
+            false => Group::new([left.at, right.at], parameter),
+        }
+    }
 }
 
 /// Puts the edges of a polygon in order, by insertion: crossings change places only where edges cross each other. Ties keep the

@@ -24,9 +24,8 @@ use super::depth::SampleDepth;
 use super::setup::{SetUp, Varyings};
 use super::target::Target;
 use crate::frame::Frame;
-use crate::shading::Run;
+use crate::shading::RunList;
 use alloc::vec;
-use alloc::vec::Vec;
 use edge_table::EdgeTable;
 
 /// Goes down the scanlines of a frame. Calls `visit` with each one on which anything is drawn: its number, its visible spans, and
@@ -53,22 +52,17 @@ pub(super) fn scan(
 /// Draws a method on its frame into `target`.
 pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
     let mut colours = vec![[0.0f32; 3]; setup.frame.width()];
-    let (mut runs, mut starts) = (Vec::new(), Vec::new());
+    let mut list = RunList::new(setup.varyings.count);
     scan(setup.frame, &setup.varyings, &mut |row, line, edges| {
-        runs.clear();
-        starts.clear();
+        list.clear();
         line.runs(|span, pixels| {
-            edges.start(span, pixels.start as u32 - span.start, &mut starts);
-            runs.push(Run {
-                uniforms: setup.uniforms_of(span.polygon),
-                x: pixels.start as u32,
-                pixels: pixels.len() as u32,
-            });
+            let uniforms = setup.uniforms_of(span.polygon);
+            edges.add_run(span, (row, pixels), uniforms, &mut list);
         });
-        (setup.kernels.pixels)(&setup.pixels(&runs, &starts), &mut colours);
+        (setup.kernels.pixels)(&setup.pixels(&list), &mut colours);
         let mut rest = &colours[..];
         // Runs that touch are stored together.
-        for touching in runs.chunk_by(|a, b| a.x + a.pixels == b.x) {
+        for touching in list.runs.chunk_by(|a, b| a.x + a.pixels == b.x) {
             let [first, last] = [&touching[0], &touching[touching.len() - 1]];
             let (here, others) = rest.split_at((last.x + last.pixels - first.x) as usize);
             target.store(first.x as usize, row, here);

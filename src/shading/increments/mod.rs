@@ -3,14 +3,18 @@
 //! A [`Walk`] gives the value here and steps on. One text serves one pixel at a time and blocks of pixels: a block starts from
 //! the values of each of its pixels, with steps a block long.
 
+mod chebyshev;
 mod linear;
 mod newton;
 mod quadratic;
+mod rsqrt;
 mod sines;
 
+pub use chebyshev::Chebyshev;
 pub use linear::{Constant, Linear};
 pub use newton::{Newton, NewtonSteps};
 pub use quadratic::Quadratic;
+pub use rsqrt::{WarmRsqrt, WarmSteps};
 pub use sines::{GreatCircle, Sines};
 
 use crate::number::Num;

@@ -42,6 +42,12 @@ impl NewtonSteps {
         NewtonSteps { steps, within }
     }
 
+    /// True if the choice is left to the rule.
+    #[inline(always)]
+    pub fn is_auto(&self) -> bool {
+        self.steps == 0
+    }
+
     /// Chooses the steps for a span whose normal starts as `n` and grows by `dn` a step; 0 is a true root.
     ///
     /// One pixel at a time a number that was asked for is taken as it is, as in the lecture. In blocks the guess is a whole

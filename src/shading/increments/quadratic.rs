@@ -34,6 +34,17 @@ impl<F: Num> Quadratic<F> {
         Self::new(a.dot(a), half + half, da.dot(da))
     }
 
+    /// Makes 0.
+    #[inline(always)]
+    pub fn zero(like: F) -> Self {
+        let zero = like.like(0.0);
+        Quadratic {
+            at: zero,
+            step: zero,
+            second: zero,
+        }
+    }
+
     /// Makes `q + p k + s k²` at step k.
     #[inline(always)]
     pub fn new(q: F, p: F, s: F) -> Self {

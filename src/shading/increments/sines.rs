@@ -1,7 +1,7 @@
 //! Great circles between unit normals, by incremental sines and cosines.
 
 use super::Walk;
-use crate::number::{Num, Real, Vec3};
+use crate::number::{Num, Real, Vec3, vec3};
 use crate::shading::planes::Planes;
 
 /// The weights of spherical linear interpolation, `sin((1−t)φ)` and `sin(tφ)`, stepped by the addition theorems: four additions
@@ -104,6 +104,62 @@ impl<R: Real> GreatCircle<R> {
             sines,
         }
     }
+}
+
+/// The most pixels of a block.
+const MOST: usize = 16;
+
+impl<F: Num> GreatCircle<F> {
+    /// Starts at `t0` as [`GreatCircle::new`], at each pixel of a block: from the recurrence itself, one sine a run instead of one
+    /// a pixel; then with steps a block long.
+    #[inline(always)]
+    pub fn start(
+        face: Vec3<F::One>,
+        ends: [Vec3<F::One>; 2],
+        [t0, dt]: [F::One; 2],
+        like: F,
+    ) -> Self {
+        let GreatCircle {
+            from,
+            to,
+            mut sines,
+        } = GreatCircle::new(face, ends, t0, dt);
+        let (mut sin, mut cos) = sines.step;
+        let mut lanes = [sines; MOST];
+        for lane in &mut lanes[1..F::WIDTH] {
+            sines.next();
+            *lane = sines;
+        }
+        // The step of a block: eight turns of the step of a pixel, as three doublings.
+        for _ in 0..F::WIDTH.trailing_zeros() {
+            (sin, cos) = (sin * cos * 2.0, cos * cos - sin * sin);
+        }
+        GreatCircle {
+            from: splat(from, like),
+            to: splat(to, like),
+            sines: Sines {
+                t: (
+                    like.of_each(|k| lanes[k].t.0),
+                    like.of_each(|k| lanes[k].t.1),
+                ),
+                rest: (
+                    like.of_each(|k| lanes[k].rest.0),
+                    like.of_each(|k| lanes[k].rest.1),
+                ),
+                step: (like.of_each(|_| sin), like.of_each(|_| cos)),
+            },
+        }
+    }
+}
+
+/// Returns a vector at all pixels of a block.
+#[inline(always)]
+fn splat<F: Num>(v: Vec3<F::One>, like: F) -> Vec3<F> {
+    vec3([
+        like.of_each(|_| v.x),
+        like.of_each(|_| v.y),
+        like.of_each(|_| v.z),
+    ])
 }
 
 impl<F: Num, V: Planes<F>> GreatCircle<F, V> {

@@ -386,37 +386,51 @@ mod blocks {
     use crate::mesh::Material;
     use crate::number::Level;
     use crate::number::simd::BLOCK;
-    use crate::scene::{Light, Lighting};
+    use crate::scene::{Light, Lighting, Power};
     use crate::shading::lighting::Uniforms;
-    use crate::shading::{Entry, Extras, Pixels, Run, UniformsIndex};
+    use crate::shading::{
+        Entry, Extras, Pixels, PolygonConstants, Run, RunList, SpanPlace, UniformsIndex, Value,
+    };
     use glam::DVec3;
     use std::vec;
 
     /// Returns the planes of the pixels that a method with one light walks along, by instruction
-    /// set. The run starts from `start`. A run before it and one behind it must not affect it.
+    /// set. The run starts from two numbers of each varying, at `t0` with steps of `dt`. A run before it and one behind it must not affect it.
     fn walked(
         method: &str,
-        parameters: &[u32],
-        start: &[f32],
+        parameters: &[Value],
+        ([first, second], [t0, dt]): ([&[f32]; 2], [f32; 2]),
         pixels: usize,
     ) -> Vec<(Level, Vec<Vec<f32>>)> {
         let light = Light::directional(DVec3::Z, [1.0; 3]);
         let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
-        let uniforms = [Uniforms::new(&lighting, 1.0)];
+        let uniforms = [Uniforms::new(&lighting, Power::default(), 1.0)];
         let run = |pixels: usize| Run {
             uniforms: UniformsIndex(0),
+            polygon: 0,
             x: 0,
             pixels: pixels as u32,
         };
+        let mut list = RunList::new(first.len());
+        for pixels in [3, pixels, 9] {
+            list.runs.push(run(pixels));
+            let [to_first, to_second] = list.starts.add();
+            to_first.copy_from_slice(first);
+            to_second.copy_from_slice(second);
+            list.places.push(SpanPlace { y: 0, t0, dt });
+        }
         let job = Pixels {
             parameters,
             uniforms: &uniforms,
             extras: Extras::default(),
-            runs: &[run(3), run(pixels), run(9)],
-            starts: &start.repeat(3),
+            constants: &PolygonConstants {
+                kinds: Vec::new(),
+                numbers: vec![0.0, 0.0, 1.0],
+            },
+            list: &list,
         };
         let kernels = Entry::named(method).expect("a method").kernels(1, false);
-        let [_, planes] = (kernels.counts)(1);
+        let [_, planes, _] = (kernels.counts)(1);
         let (before, length) = (planes * BLOCK, pixels.next_multiple_of(BLOCK));
         Level::available()
             .skip(1)
@@ -433,8 +447,8 @@ mod blocks {
     }
 
     /// Returns the start of fast Phong: J, K and N, and their steps.
-    fn start([j, dj]: [f32; 2], [k, dk]: [f32; 2], (n, dn): Line) -> Vec<f32> {
-        [&[j, k][..], &n.array(), &[dj, dk], &dn.array()].concat()
+    fn start([j, dj]: [f32; 2], [k, dk]: [f32; 2], (n, dn): Line) -> [[f32; 5]; 2] {
+        [[j, k, n.x, n.y, n.z], [dj, dk, dn.x, dn.y, dn.z]]
     }
 
     #[test]
@@ -443,7 +457,15 @@ mod blocks {
         for _ in 0..50 {
             let mut number = || [random.signed(), random.signed() / 512.0];
             let (j, k, still) = (number(), number(), (vec3([0.0, 0.0, 1.0]), vec3([0.0; 3])));
-            for (level, planes) in walked("fast-phong", &[1], &start(j, k, still), 509) {
+            for (level, planes) in walked(
+                "fast-phong",
+                &[Value::Whole(1)],
+                (
+                    start(j, k, still).each_ref().map(|list| &list[..]),
+                    [f32::NAN; 2],
+                ),
+                509,
+            ) {
                 for ([at, step], plane) in [j, k].into_iter().zip(&planes) {
                     let most = f64::from(at.abs()).max(f64::from(at + 512.0 * step).abs());
                     for (i, value) in plane.iter().enumerate() {
@@ -464,8 +486,8 @@ mod blocks {
         for degrees in [1.0f32, 30.0, 120.0, 178.0] {
             let (sin, cos) = (degrees / 2.0).to_radians().sin_cos();
             let (t0, dt) = (0.4 / 512.0, 1.0 / 512.0);
-            let start = [-sin, 0.0, cos, sin, 0.0, cos, t0, dt, 0.0, 0.0, 1.0];
-            for (level, planes) in walked("slerp-phong-vector", &[], &start, 512) {
+            let ends = [&[-sin, 0.0, cos][..], &[sin, 0.0, cos]];
+            for (level, planes) in walked("slerp-phong-vector", &[], (ends, [t0, dt]), 512) {
                 let half = f64::from(sin).atan2(f64::from(cos));
                 for i in 0..512 {
                     let angle = (2.0 * (f64::from(t0) + i as f64 * f64::from(dt)) - 1.0) * half;
@@ -482,10 +504,19 @@ mod blocks {
         }
     }
 
+    /// Returns the value of `steps`; 0 is `auto`.
+    fn steps_of(steps: u32) -> Value {
+        match steps {
+            0 => Value::Auto,
+            steps => Value::Whole(steps),
+        }
+    }
+
     /// Returns the lengths that fast Phong computes.
     fn lengths(n: Line, steps: u32, pixels: usize) -> impl Iterator<Item = (Level, Vec<f32>)> {
         let start = start([0.0; 2], [0.0; 2], n);
-        let all = walked("fast-phong", &[steps], &start, pixels).into_iter();
+        let start = (start.each_ref().map(|list| &list[..]), [f32::NAN; 2]);
+        let all = walked("fast-phong", &[steps_of(steps)], start, pixels).into_iter();
         all.map(|(level, mut planes)| (level, planes.swap_remove(2)))
     }
 

@@ -4,6 +4,7 @@ use super::*;
 use crate::mesh::Material;
 use crate::number::test_random::Random;
 use crate::scene::Light;
+use crate::scene::Power;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use glam::DVec3;
 
@@ -14,7 +15,7 @@ fn whole_powers_are_products() {
     for n in (0..=70).chain([96, 127, 128, 129, 255, 256, 300, 512, 1000, 4096, 65_536]) {
         let base = 1.0 - 1.0 / (n as f32 + 3.0);
         let truth = f64::from(base).powi(n);
-        let exponent = Exponent::new(n as f32);
+        let exponent = Exponent::new(Power::default(), n as f32, 0.0);
         let found = exponent.of(base);
         let bound = 1.1 * f64::from(n) * f64::powi(2.0, -24) * truth;
         assert!(
@@ -22,9 +23,18 @@ fn whole_powers_are_products() {
             "{exponent:?}: {found}, expected {truth}"
         );
     }
-    assert_eq!(Exponent::new(32.0), Exponent::Squarings(5));
-    assert_eq!(Exponent::new(24.0), Exponent::Whole(24));
-    assert_eq!(Exponent::new(0.5), Exponent::Fractional(0.5));
+    assert_eq!(
+        Exponent::new(Power::default(), 32.0, 0.0),
+        Exponent::Squarings(5)
+    );
+    assert_eq!(
+        Exponent::new(Power::default(), 24.0, 0.0),
+        Exponent::Whole(24)
+    );
+    assert_eq!(
+        Exponent::new(Power::default(), 0.5, 0.0),
+        Exponent::Fractional(0.5)
+    );
 }
 
 /// A light behind a point, nearly opposite to the eye, makes no highlight: L·V is rounded to −1,
@@ -44,17 +54,17 @@ fn opposite_light_and_eye_have_no_highlight() {
         gate: SpecularGate::Ungated,
         ..Lighting::new(&material, [1.0; 3], &[light], DVec3::Z)
     };
-    let uniforms = Uniforms::new(&lighting, 1.0);
+    let uniforms = Uniforms::new(&lighting, Power::default(), 1.0);
     for i in 0..1000 {
         // At (x, 0.3 x, −2) the light is x/3 off the axis and the eye x/2: |L + V| is below
         // 1.05 · 5/6 x, which is below 2⁻¹⁰.
         let x = i as f32 * 1e-6;
         let n = vec3([-0.6, 0.0, 0.8]); // on the side of L + V
         let point = [x, 0.3 * x, -2.0];
-        let lit = Lit::new(uniforms.model, &uniforms.lights, vec3(point), true);
+        let lit = Lit::new(uniforms.stored(), 0.0, true).at(vec3(point));
         assert_eq!(lit.shade(n), vec3([0.25; 3]), "{x}");
         let light = lit.lights().next().expect("one light");
-        let highlight = lit.highlight(&light, n.dot(light.to), n.dot(lit.view));
+        let highlight = lit.highlight(&light, n.dot(light.to), n.dot(lit.view()));
         assert_eq!(
             lit.add(lit.ambient(), &light, 0.0, highlight),
             vec3([0.25; 3]),
@@ -119,6 +129,14 @@ impl crate::number::MulAdd for Normal {
 
 impl Num for Normal {
     const WIDTH: usize = 2;
+    type One = f32;
+
+    fn one(self, x: f32) -> f32 {
+        x
+    }
+    fn of_each(self, mut of: impl FnMut(usize) -> f32) -> Normal {
+        Normal([of(0), of(1)])
+    }
 
     fn like(self, x: f32) -> Normal {
         x.into()
@@ -131,6 +149,12 @@ impl Num for Normal {
     }
     fn powf(self, exponent: f32) -> Normal {
         self.with(exponent, Num::powf).checked()
+    }
+    fn exp2(self) -> Normal {
+        self.with(0.0, |x, _| Num::exp2(x))
+    }
+    fn lookup(self, table: &[f32]) -> Normal {
+        self.with(0.0, |x, _| Num::lookup(x, table))
     }
     fn max(self, least: f32) -> Normal {
         self.with(least, Num::max)
@@ -180,9 +204,8 @@ fn cosines(model: &LightModel) -> Vec<f32> {
 /// Returns the colour of a point at distance 1 from the light, where L·N is `cosine` and R·V or N·H
 /// is `highlight`.
 fn lit<F: Num>(uniforms: &Uniforms, cosine: F, highlight: F, general: bool) -> F {
-    let Uniforms { model, lights } = uniforms;
     let nowhere = vec3([cosine.like(0.0); 3]);
-    let lit = Lit::new(*model, lights, nowhere, general);
+    let lit = Lit::new(uniforms.stored(), nowhere.x, general).at(nowhere);
     let light = lit.lights().next().expect("one light");
     lit.add(lit.ambient(), &light, cosine, highlight).x
 }
@@ -210,7 +233,7 @@ fn no_power_is_subnormal() {
                     gate,
                     ..shining(colour, shininess, falloff)
                 };
-                let uniforms = Uniforms::new(&lighting, 1.0);
+                let uniforms = Uniforms::new(&lighting, Power::default(), 1.0);
                 for cosine in cosines(&uniforms.model) {
                     let alone = lit(&uniforms, 1.0, cosine, true);
                     for beside in [0.0, 1.0] {
@@ -238,7 +261,8 @@ fn faint_highlights_are_left_out_and_no_others() {
             (20.0, Falloff::None, 1.0),
             (0.5, Falloff::InverseSquare, 1e30),
         ] {
-            let uniforms = Uniforms::new(&shining(colour, shininess, falloff), 1.0);
+            let uniforms =
+                Uniforms::new(&shining(colour, shininess, falloff), Power::default(), 1.0);
             let limit = f64::powi(2.0, -24);
             let rounding = 1.0 + (43.0 + f64::from(shininess)) * f64::powi(2.0, -23);
             let (mut faint, mut seen) = (0, 0);
@@ -267,7 +291,7 @@ fn no_highlight_of_power_zero_is_faint() {
             gate,
             ..shining(0.5, 0.0, Falloff::None)
         };
-        let uniforms = Uniforms::new(&lighting, 1.0);
+        let uniforms = Uniforms::new(&lighting, Power::default(), 1.0);
         let [cosines, highlights] = [cosine, highlight].map(|x| Normal([x, 1.0]));
         let both = lit(&uniforms, cosines, highlights, true);
         let one = lit(&uniforms, cosine, highlight, true);
@@ -289,7 +313,7 @@ fn faint_highlights_by_the_halfway_vector_are_left_out() {
         specular: SpecularModel::Blinn,
         ..shining(1.0, 32.0, Falloff::None)
     };
-    let uniforms = Uniforms::new(&lighting, 1.0);
+    let uniforms = Uniforms::new(&lighting, Power::default(), 1.0);
     let colour = |n_h: f32| lit(&uniforms, 1.0, n_h, true);
     // 2^(-24/32) is 0.5946.
     assert_eq!((colour(0.594), colour(1.0)), (0.0, 1.0));
@@ -313,7 +337,7 @@ fn four_lights(random: &mut Random, shininess: f32) -> Lighting {
 
 /// Returns the colours at unit normals.
 fn at<F: Num>(uniforms: &Uniforms, n: Vec3<F>, general: bool) -> Vec3<F> {
-    Lit::new(uniforms.model, &uniforms.lights, n, general).shade(n)
+    Lit::new(uniforms.stored(), n.x, general).at(n).shade(n)
 }
 
 /// The fast path gives the colours of the general one to the last bit.
@@ -322,7 +346,8 @@ fn the_fast_path_has_the_same_colours() {
     let mut random = Random::new(21);
     for shininess in (0..8).map(|k| (1 << k) as f32) {
         for _ in 0..20 {
-            let uniforms = Uniforms::new(&four_lights(&mut random, shininess), 1.0);
+            let uniforms =
+                Uniforms::new(&four_lights(&mut random, shininess), Power::default(), 1.0);
             assert!(uniforms.model.is_fast, "what most scenes ask for");
             for _ in 0..200 {
                 let n = vec3(random.unit());
@@ -340,7 +365,7 @@ fn the_fast_path_has_the_same_colours() {
 #[test]
 fn colours_are_scaled() {
     let lighting = four_lights(&mut Random::new(2), 32.0);
-    let [one, four] = [1.0, 4.0].map(|scale| Uniforms::new(&lighting, scale));
+    let [one, four] = [1.0, 4.0].map(|scale| Uniforms::new(&lighting, Power::default(), scale));
     let n = vec3([0.6, 0.0, 0.8]);
     assert_eq!(at(&four, n, false), at(&one, n, false) * 4.0);
 }
@@ -351,7 +376,9 @@ fn other_models_do_not_take_the_fast_path() {
     let is_fast = |change: &dyn Fn(&mut Lighting)| {
         let mut lighting = lighting.clone();
         change(&mut lighting);
-        Uniforms::new(&lighting, 255.0).model.is_fast
+        Uniforms::new(&lighting, Power::default(), 255.0)
+            .model
+            .is_fast
     };
     assert!(is_fast(&|_| ()));
     assert!(is_fast(&|l| l.shininess = 1.0));
@@ -380,7 +407,8 @@ fn pixels_do_not_depend_on_their_neighbours() {
     fn of<S: Token>() {
         let mut random = Random::new(4);
         for (shininess, general) in [(8.0, false), (8.0, true), (24.0, true), (7.5, true)] {
-            let uniforms = Uniforms::new(&four_lights(&mut random, shininess), 1.0);
+            let uniforms =
+                Uniforms::new(&four_lights(&mut random, shininess), Power::default(), 1.0);
             let colours = |normals: [[f32; 3]; 8]| {
                 let lanes = |i: usize| f32x8::from_slice(S::get(), &normals.map(|n| n[i]));
                 let colour = at(&uniforms, vec3([lanes(0), lanes(1), lanes(2)]), general);

@@ -21,7 +21,9 @@ pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
     let mut plans = Vec::new();
     let mut all = renderers();
     all.retain(|&renderer| {
-        let drawn_by = variant.plan(frame, renderer).renderer;
+        let Some(drawn_by) = variant.plan(frame, renderer).renderer() else {
+            return false;
+        };
         let is_new = !plans.contains(&drawn_by);
         plans.push(drawn_by);
         is_new

@@ -1,0 +1,92 @@
+//! A reciprocal square root that is followed from pixel to pixel by Newton's method.
+
+use super::{Quadratic, Walk};
+use crate::number::Num;
+
+/// 1/√D of a quadratic D, from the value of the previous pixel: no root and no division.
+///
+/// ```text
+/// r ← r (3/2 − (D/2) r²),      e ← −(3/2) e² − e³/2        e the relative error
+/// ```
+/// The step is Newton's method for 1/r² − D = 0. Unlike that for the root ([`super::Newton`]) it divides by nothing, and diverges
+/// where D grows threefold at once: [`WarmSteps`] chooses.
+#[derive(Clone, Copy, Debug)]
+pub struct WarmRsqrt<F> {
+    square: Quadratic<F>,
+    root: F,
+    steps: u32,
+}
+
+/// The most steps that are taken: three cost more than a root and a division.
+const MOST: u32 = 2;
+
+impl<F: Num> WarmRsqrt<F> {
+    /// Follows 1/√D of a quadratic from `square` on, by as many steps.
+    #[inline(always)]
+    pub fn new(square: Quadratic<F>, first: F, steps: u32) -> Self {
+        WarmRsqrt {
+            square,
+            root: first.like(1.0) / first.sqrt(),
+            steps,
+        }
+    }
+}
+
+/// The largest changes of a normal that one and two steps follow.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WarmSteps {
+    /// `within[s]`: up to this δ², s + 1 steps leave no more than the largest error.
+    within: [f32; MOST as usize],
+}
+
+impl WarmSteps {
+    /// Makes the rule for a relative error of at most `largest_error`, E.
+    ///
+    /// δ is how far a length may be from that of the pixel before, relative to the least length along the span. The guess is off
+    /// by `e_0 ≤ δ + E (1 + δ)`, and a step leaves at most 2 e² of an e of up to 1. So backwards from E: `e ← √(e/2)`.
+    pub fn new(largest_error: f32) -> Self {
+        let mut within = [0.0; MOST as usize];
+        let mut e = largest_error;
+        for within in &mut within {
+            e = Num::sqrt(0.5 * e);
+            let change = Num::max((e - largest_error) / (1.0 + largest_error), 0.0);
+            *within = change * change;
+        }
+        WarmSteps { within }
+    }
+
+    /// Chooses the steps for a span whose squared lengths are D = `square`, of which a step changes `growth` = ΔN·ΔN and `along` =
+    /// N·ΔN; 0 is a true root and a division.
+    ///
+    /// ```text
+    /// D_min = D − min(0, N·ΔN)² / ΔN·ΔN,      δ² = ΔN·ΔN / D_min ≤ T      times ΔN·ΔN
+    /// ```
+    #[inline(always)]
+    pub fn of_span<F: Num>(&self, square: F, along: F, growth: F) -> u32 {
+        let room = square * growth - (along * along).gate(-along, 0.0);
+        let growth = growth * growth;
+        for (steps, within) in (1..).zip(self.within) {
+            if !(growth - room * within).any_over(0.0) {
+                return steps;
+            }
+        }
+        0
+    }
+}
+
+impl<F: Num> Walk<F> for WarmRsqrt<F> {
+    type Pixel = F;
+
+    #[inline(always)]
+    fn next(&mut self) -> F {
+        let square = self.square.next();
+        if self.steps == 0 {
+            return square.like(1.0) / square.sqrt();
+        }
+        let half = square * 0.5;
+        for _ in 0..self.steps {
+            self.root = self.root * (-(half * self.root * self.root) + 1.5);
+        }
+        self.root
+    }
+}

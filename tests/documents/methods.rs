@@ -1,0 +1,136 @@
+//! Writes what the code says of methods into `docs/methods.md`, or checks that it stands there.
+//!
+//! `FASTPHONG_BLESS=1 cargo test --test documents methods` writes. Between the heading of a method and the line `<!-- by hand -->` stands
+//! what `Info` and the constants of its `Shader` say; what follows that line is nobody else's.
+
+use crate::markdown::read;
+use fastphong::number::Counts;
+use fastphong::shading::{Entry, METHODS};
+use std::fmt::Write;
+
+const FILE: &str = "docs/methods.md";
+const BY_HAND: &str = "<!-- by hand -->\n";
+
+/// Formats a method's operations with one and with four lights: one number if both agree, without rates that have no operations.
+fn operations(entry: &'static Entry) -> String {
+    let (one, four) = (entry.variant().operations(1), entry.variant().operations(4));
+    let cells = |a: Counts, b: Counts| {
+        let kinds: [fn(&Counts) -> u32; 8] = [
+            |c| c.additions,
+            |c| c.multiplications,
+            |c| c.divisions,
+            |c| c.roots,
+            |c| c.comparisons,
+            |c| c.trigonometric,
+            |c| c.powers,
+            |c| c.lookups,
+        ];
+        let others = kinds[6..].iter().map(|kind| kind(&a) + kind(&b));
+        assert_eq!(
+            others.sum::<u32>(),
+            0,
+            "the table has no column for powers and tables"
+        );
+        let cell = |kind: &fn(&Counts) -> u32| match (kind(&a), kind(&b)) {
+            (0, 0) => " |".to_string(),
+            (a, b) if a == b => format!(" {a} |"),
+            (a, b) => format!(" {a} / {b} |"),
+        };
+        kinds[..6].iter().map(cell).collect::<String>()
+    };
+    let rates = [
+        ("vertex", one.vertex, four.vertex),
+        ("polygon", one.polygon, four.polygon),
+        ("edge", one.edge, four.edge),
+        ("edge and scanline", one.edge_step, four.edge_step),
+        ("span", one.span, four.span),
+        ("pixel: walk", one.walk, four.walk),
+        ("pixel: shade", one.shade, four.shade),
+    ];
+    let mut table = String::from(
+        "| once per | + − | × | ÷ | √ | compare | sin, atan |\n|---|---|---|---|---|---|---|\n",
+    );
+    for (rate, one, four) in rates {
+        if (one, four) != Default::default() {
+            table += &format!("| {rate} |{}\n", cells(one, four));
+        }
+    }
+    table
+}
+
+/// Returns what the code says of a method.
+fn described(entry: &'static Entry) -> String {
+    let info = entry.info;
+    let mut text = format!("\n{}.\n\n```text\n{}\n```\n\n", info.title, info.formula);
+    let mut say = |head: &str, what: &str| {
+        writeln!(text, "**{head}:** {}.\n", what.trim_end_matches('.')).expect("a string");
+    };
+    say("Source", info.source);
+    say("Where it fails", info.fails);
+    let roundings = info.roundings;
+    let steps = match roundings.step {
+        0.0 => String::new(),
+        step => format!(", and {step} more at each step"),
+    };
+    let error = format!(
+        "{} roundings of 2⁻²⁴ against `{}`{steps}: {}",
+        roundings.start,
+        info.model.name(),
+        info.derivation
+    );
+    say("Error", &error);
+    say("Perspective", entry.perspective.sentence());
+    say("Lights at positions", entry.local.sentence());
+    for p in info.parameters {
+        let auto = p
+            .auto
+            .map_or(String::new(), |auto| format!("; `auto`: {}", auto.meaning));
+        let (values, default) = (p.values(), p.text(p.default));
+        let what = format!("{}, {values}, default {default}{auto}", p.meaning);
+        say(&format!("`{}`", p.name), &what);
+    }
+    if !entry.kinds().is_empty() {
+        say("Kinds of polygons", &entry.kinds().join(", "));
+    }
+    if let Some(why) = entry.scalar_only() {
+        say("Scalar only", why);
+    }
+    text + &operations(entry) + "\n"
+}
+
+#[test]
+fn methods_are_described_as_the_code_does() {
+    let old = read(FILE);
+    let mut new = old.clone();
+    for entry in METHODS {
+        let name = entry.info.name;
+        let heading = format!("\n## `{name}`\n");
+        let place = new.find(&heading);
+        let from = place.unwrap_or_else(|| panic!("{FILE} has no heading for `{name}`"));
+        let from = from + heading.len();
+        let length = new[from..].find(BY_HAND);
+        let length = length.unwrap_or_else(|| panic!("{FILE}: no `{BY_HAND}` after `{name}`"));
+        assert!(
+            !new[from..from + length].contains("\n## "),
+            "{FILE}: no `{BY_HAND}` for `{name}`"
+        );
+        new.replace_range(from..from + length, &described(entry));
+    }
+    let headings = new
+        .lines()
+        .filter_map(|line| line.strip_prefix("## `")?.strip_suffix('`'));
+    for name in headings {
+        assert!(
+            Entry::named(name).is_some(),
+            "{FILE} describes `{name}`, which does not exist"
+        );
+    }
+    if std::env::var_os("FASTPHONG_BLESS").is_some() {
+        std::fs::write(crate::markdown::root().join(FILE), &new).expect("a file to write");
+    } else {
+        assert!(
+            old == new,
+            "{FILE} differs from the code: write it by FASTPHONG_BLESS=1 cargo test --test documents methods"
+        );
+    }
+}
