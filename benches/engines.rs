@@ -9,7 +9,7 @@ mod scenes;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
 use fastphong::picture::Picture;
-use fastphong::raster::Renderer;
+use fastphong::raster::{DrawOptions, Renderer};
 use fastphong::scene::Scene;
 use fastphong::shading::Variant;
 use std::hint::black_box;
@@ -53,7 +53,9 @@ fn engines(c: &mut Criterion) {
             for renderer in Renderer::available() {
                 let name = format!("{}-{}", renderer.engine().name(), renderer.level());
                 group.bench_function(BenchmarkId::new(name, method), |b| {
-                    b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
+                    b.iter(|| {
+                        variant.draw(black_box(&frame), &mut picture, DrawOptions::by(renderer))
+                    });
                 });
             }
         }
@@ -76,7 +78,9 @@ fn large(c: &mut Criterion) {
                 (Renderer::fastest(), "fastest"),
             ] {
                 group.bench_function(BenchmarkId::new(kind, method), |b| {
-                    b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
+                    b.iter(|| {
+                        variant.draw(black_box(&frame), &mut picture, DrawOptions::by(renderer))
+                    });
                 });
             }
         }
@@ -108,7 +112,9 @@ fn over_floor(c: &mut Criterion) {
                 prepared
                     .frame_into(black_box(&mut frame))
                     .expect("a valid view");
-                variant.render_with(&frame, Renderer::fastest(), &mut picture);
+                variant
+                    .draw(&frame, &mut picture, DrawOptions::by(Renderer::fastest()))
+                    .expect("a picture of the frame's size");
             });
         });
     }

@@ -12,7 +12,7 @@ use criterion::{
 };
 use fastphong::frame::triangulate::triangulated;
 use fastphong::picture::Picture;
-use fastphong::raster::{Edges, NOTHING, Renderer, polygon_numbers};
+use fastphong::raster::{DrawOptions, Edges, NOTHING, Renderer, polygon_numbers};
 use fastphong::shading::METHODS;
 use std::hint::black_box;
 use std::time::Duration;
@@ -38,7 +38,11 @@ fn frames(c: &mut Criterion) {
             let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
             group.bench_function(BenchmarkId::new("fastest", &variant), |b| {
                 b.iter(|| {
-                    variant.render_with(black_box(&frame), Renderer::fastest(), &mut picture)
+                    variant.draw(
+                        black_box(&frame),
+                        &mut picture,
+                        DrawOptions::by(Renderer::fastest()),
+                    )
                 });
             });
             if variant.entry().is_barycentric() {

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Needs no feature of the crate: it also runs with `--no-default-features`, as on a machine without an operating system.
-//! With the default features `Variant::render_with(&frame, Renderer::fastest(), …)` draws on SIMD.
+//! `Variant::draw` draws into memory of yours, on SIMD where `Renderer::fastest()` has it, and beside a depth buffer of yours.
 
 use fastphong::frame::{FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;

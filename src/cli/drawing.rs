@@ -10,7 +10,7 @@ use fastphong::number::Level;
 use fastphong::number::suggest::unknown;
 use fastphong::picture::encoding::{quantise, srgb_encode, store};
 use fastphong::picture::image_file::{FilePicture, FilePixels, Format, PpmWriter};
-use fastphong::picture::{Alpha, Encoding, Picture, Picture8};
+use fastphong::picture::{Alpha, Encoding, Picture};
 use fastphong::raster::{Edges, Plan, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
@@ -221,7 +221,9 @@ impl RenderJob {
         let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
         match &self.content {
             PictureContent::Scanlines(variant, renderer) => {
-                variant.render_rows(&self.frame, *renderer, |pixels| file.pixels(pixels))?;
+                let drawn =
+                    variant.render_rows(&self.frame, *renderer, |pixels| file.pixels(pixels));
+                drawn.map_err(io::Error::other)??;
             }
             _ => file.pixels(self.drawn(false).to_stored().pixels())?,
         }
@@ -293,12 +295,7 @@ impl RenderJob {
                 FilePicture::linear(variant.render_linear_with(frame, *renderer))
             }
             PictureContent::Scanlines(variant, renderer) => {
-                // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write
-                // to it, each in rows of its own.
-                let [width, height] = self.size();
-                let mut picture = Picture8::new(width, height, [0; 4]);
-                variant.render_with(frame, *renderer, &mut picture);
-                FilePicture::stored(picture)
+                FilePicture::stored(variant.render_with(frame, *renderer))
             }
             PictureContent::Barycentric(variant, edges) if linear => {
                 let picture = variant.render_barycentric_linear(frame, *edges);

@@ -5,9 +5,9 @@ use super::CliError;
 use super::measured::{Measurement, command_line};
 use super::values::number;
 use fastphong::compare::timing::{Machine, Timing};
-use fastphong::frame::{FrameError, PreparedScene};
+use fastphong::frame::PreparedScene;
 use fastphong::picture::Picture8;
-use fastphong::raster::Renderer;
+use fastphong::raster::{DrawOptions, Renderer};
 use fastphong::shading::Variant;
 use serde::Serialize;
 use serde_json::json;
@@ -100,18 +100,19 @@ impl FrameTime {
         variant: &Variant,
         renderer: Renderer,
         count: FrameCount,
-    ) -> Result<FrameTime, FrameError> {
+    ) -> Result<FrameTime, CliError> {
         let mut frame = scene.frame()?;
         let plan = variant.plan(&frame, renderer);
         let drawn_by = plan.renderer().unwrap_or(renderer);
-        let mut picture = Picture8::new(0, 0, [0; 4]);
+        let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         let mut samples = Vec::with_capacity(count.frames);
         for number in 0..count.warmup + count.frames {
             let started = Instant::now();
             black_box(scene).frame_into(&mut frame)?;
-            variant.render_with(&frame, renderer, &mut picture);
+            let drawn = variant.draw(&frame, &mut picture, DrawOptions::by(renderer));
             let spent = started.elapsed();
             black_box(&mut picture);
+            drawn?;
             if number >= count.warmup {
                 samples.push(spent.as_nanos() as f64);
             }

@@ -1,12 +1,15 @@
 //! Pictures: in memory, as grey levels, in files. A picture is a rectangle of pixels, row 0 at the top.
 
 mod alpha;
+mod borrowed;
 pub mod encoding;
 #[cfg(feature = "io")]
 pub mod image_file;
 mod pixel;
 
 pub use alpha::{Alpha, over};
+pub use borrowed::PictureMut;
+pub(crate) use borrowed::PixelsMut;
 pub use encoding::Encoding;
 pub use pixel::{LevelRows, Levels, Pixel};
 

@@ -11,7 +11,7 @@ use super::barycentric::{self, Edges};
 use super::engine::Renderer;
 use super::setup::{Varyings, finish, unit};
 use super::spans::{NOTHING, scan};
-use super::target::{Target, draw_anyhow, draw_rows, empty, linear_samples};
+use super::target::{Target, drawn, drawn_anyhow, linear_samples};
 use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Rgb};
 use crate::scene::Interpolation;
@@ -168,7 +168,6 @@ fn shown(
 ) -> LinearPicture {
     let is_weighted = frame.interpolation() == Interpolation::Perspective;
     let varyings = of_vertices(frame, of);
-    let mut picture = empty(frame);
     let draw = |target: &mut dyn Target| {
         interpolate(frame, &varyings, edges, &mut |x, row, numbers| {
             let [a, b, c, weight] = numbers;
@@ -177,9 +176,8 @@ fn shown(
         });
     };
     match edges {
-        None => draw_rows(frame, picture.pixels_mut(), draw),
+        None => drawn(frame, draw),
         // The barycentric renderer comes back to samples that it drew.
-        Some(_) => draw_anyhow(frame, picture.pixels_mut(), draw),
+        Some(_) => drawn_anyhow(frame, draw),
     }
-    picture
 }

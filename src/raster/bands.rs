@@ -1,7 +1,6 @@
 //! A picture as bands of scanlines, which are drawn independently, on several threads.
 
-use super::target::{Stored, Target, draw_rows};
-use crate::frame::Frame;
+use super::target::{Format, Rows, Surface, Target};
 use crate::number::parallel::{for_each_chunk, threads};
 use alloc::vec;
 use core::ops::Range;
@@ -16,44 +15,54 @@ pub(super) type EachBand<'a> = dyn FnMut(usize, &DrawBand<'_>) + 'a;
 /// Bands that are drawn before they are given away, for each thread: some are done sooner than others.
 const BANDS_A_THREAD: usize = 4;
 
-/// Draws a picture of bytes that is never in memory as a whole: gives its pixels to `take` from the top, some bands at a time,
-/// until it returns false.
-pub(super) fn stream_bands(
-    frame: &Frame,
+/// Draws a picture that is never in memory as a whole: gives its pixels to `take` from the top, some bands at a time, until it
+/// returns false.
+pub(super) fn stream_bands<F: Format<Pixel = [u8; 4]>>(
+    surface: Surface<'_, F>,
     height: usize,
     take: &mut dyn FnMut(&[[u8; 4]]) -> bool,
     draw: &DrawBand<'_>,
 ) {
-    let a_band = height / frame.samples() * frame.picture_width();
-    let all = frame.picture_width() * frame.picture_height();
-    let bands = BANDS_A_THREAD * threads();
-    let mut window = vec![[0; 4]; (bands * a_band).min(all)];
-    for first in (0..all.div_ceil(a_band)).step_by(bands) {
-        let end = window.len().min(all - first * a_band);
-        draw_bands(frame, (height, first), &mut window[..end], draw);
-        if !take(&window[..end]) {
+    let frame = surface.frame;
+    let (width, all) = (frame.picture_width(), frame.picture_height());
+    let a_band = height / frame.samples();
+    let a_window = BANDS_A_THREAD * threads() * a_band;
+    let mut window = vec![[0; 4]; a_window.min(all) * width];
+    for first in (0..all).step_by(a_window) {
+        let count = a_window.min(all - first);
+        let pixels = &mut window[..count * width];
+        let rows = Rows {
+            pixels,
+            stride: width,
+            count,
+            depth: None,
+            samples: frame.width() * frame.samples(),
+        };
+        draw_bands(surface, (height, first / a_band), rows, draw);
+        if !take(&window[..count * width]) {
             return;
         }
     }
 }
 
-/// Draws bands of `height` scanlines of samples from the `first` on: as many as `pixels` has.
-pub(super) fn draw_bands<T: Stored>(
-    frame: &Frame,
+/// Draws bands of `height` scanlines of samples from the `first` on: as many as there are rows.
+pub(super) fn draw_bands<F: Format>(
+    surface: Surface<'_, F>,
     (height, first): (usize, usize),
-    pixels: &mut [T],
+    rows: Rows<'_, F::Pixel>,
     draw: &DrawBand<'_>,
 ) {
+    let frame = surface.frame;
     assert!(height.is_multiple_of(frame.samples()), "whole pixels");
-    let a_band = height / frame.samples() * frame.picture_width();
-    for_each_chunk(pixels, a_band, &|start, pixels: &mut [T]| {
+    let a_band = height / frame.samples();
+    for_each_chunk(rows, a_band, &|start, mut rows: Rows<'_, F::Pixel>| {
         let number = first + start / a_band;
-        let rows = number * height..((number + 1) * height).min(frame.height());
-        if frame.samples() > 1 || T::bytes(&mut []).is_none() {
-            pixels.fill(T::background(frame)); // bytes are stored in whole rows
+        let scanlines = number * height..((number + 1) * height).min(frame.height());
+        if frame.samples() > 1 || !surface.format.is_levels() {
+            surface.clear(&mut rows); // levels are stored in whole rows
         }
-        draw_rows(frame, pixels, |target| {
-            draw(number, rows, target);
+        surface.draw_rows(rows, |target| {
+            draw(number, scanlines, target);
         });
     });
 }

@@ -110,6 +110,18 @@ impl SampleDepth {
     }
 }
 
+/// Compares the depth of a pixel with the one that the caller of an engine keeps for it: stores it there if it is less, and makes it
+/// infinite, as if nothing had been drawn, if it is not. Returns true if the pixel is hidden.
+#[inline(always)]
+pub(super) fn hide(depth: &mut f32, stored: &mut f32) -> bool {
+    let is_seen = *depth < *stored;
+    (*stored, *depth) = match is_seen {
+        true => (*depth, *depth),
+        false => (*stored, f32::INFINITY),
+    };
+    !is_seen
+}
+
 /// Returns the depths `z` of a block as levels of a depth buffer whose largest is `most`, which is below 2²⁴: exactly as
 /// [`SampleDepth::kept`] does, half-way up. For instruction sets whose products are fused with sums.
 ///

@@ -29,6 +29,7 @@ mod barycentric;
 #[cfg(feature = "simd")]
 mod bins;
 mod depth;
+mod draw;
 mod engine;
 pub mod painter;
 mod render;
@@ -40,5 +41,6 @@ mod target;
 
 pub use aov::{checkerboard, coverage, depth, normals, polygon_numbers, vertex_colours};
 pub use barycentric::{Edges, barycentric_polygon_numbers};
+pub use draw::{Background, DrawError, DrawOptions};
 pub use engine::{Engine, Plan, PolygonKind, Renderer};
 pub use spans::{EdgeCrossing, NOTHING};

@@ -4,19 +4,25 @@
 use super::bands::{draw_bands, stream_bands};
 use super::barycentric::{self, Edges};
 use super::depth::SampleDepth;
+use super::draw::{DrawError, DrawOptions};
 use super::engine::{Plan, PolygonKind, Renderer};
 use super::setup::SetUp;
 use super::spans;
-use super::target::{Stored, draw_anyhow, draw_rows, empty};
+use super::target::{Eight, Floats, Format, Rgba, Rows, Surface, rows_of};
 use crate::frame::Frame;
 use crate::number::Level;
+#[cfg(feature = "simd")]
+use crate::picture::encoding::Encoder;
 use crate::picture::encoding::store;
-use crate::picture::{Encoding, LinearPicture, Picture, Picture8};
+use crate::picture::{Encoding, LinearPicture, Picture, Picture8, PictureMut};
 use crate::shading::Variant;
 use alloc::vec::Vec;
 
 impl Variant {
-    /// Draws `frame` as a stored picture, by the span engine.
+    /// Draws `frame` as a stored picture, by the lecture's engine: [`Variant::draw`] into a new picture.
+    ///
+    /// # Panics
+    /// When the method is not for such frames ([`Plan::Refused`]), which none of [`METHODS`](crate::shading::METHODS) says of any.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
@@ -36,20 +42,41 @@ impl Variant {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn render(&self, frame: &Frame) -> Picture8 {
-        let mut picture = Picture8::new(0, 0, [0; 4]);
-        self.render_into(frame, &mut picture);
-        picture
+        self.render_with(frame, Renderer::LECTURE)
     }
 
-    /// Draws `frame` into `picture`, which is made anew unless it has the size of the frame's picture: for drawing many frames
-    /// without asking for memory each time.
-    pub fn render_into(&self, frame: &Frame, picture: &mut Picture8) {
-        self.render_with(frame, Renderer::LECTURE, picture);
-    }
-
-    /// Draws `frame` before rounding: linear channels, clamped to 0..=1.
+    /// Draws `frame` before rounding, as [`Variant::render`] does: linear channels, in 0..=1.
+    ///
+    /// # Panics
+    /// As [`Variant::render`] does.
     pub fn render_linear(&self, frame: &Frame) -> LinearPicture {
         self.render_linear_with(frame, Renderer::LECTURE)
+    }
+
+    /// Draws as [`Variant::render`], by another renderer.
+    #[doc(hidden)]
+    pub fn render_with(&self, frame: &Frame, renderer: Renderer) -> Picture8 {
+        self.render_anew(frame, renderer, [0; 4])
+    }
+
+    /// Draws as [`Variant::render_linear`], by another renderer.
+    #[doc(hidden)]
+    pub fn render_linear_with(&self, frame: &Frame, renderer: Renderer) -> LinearPicture {
+        self.render_anew(frame, renderer, [0.0; 4])
+    }
+
+    /// Draws into a new picture.
+    fn render_anew<T: Copy>(&self, frame: &Frame, renderer: Renderer, zero: T) -> Picture<T>
+    where
+        for<'a> &'a mut Picture<T>: Into<PictureMut<'a>>,
+    {
+        // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write to it, each
+        // in rows of its own.
+        let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), zero);
+        match self.draw(frame, &mut picture, DrawOptions::by(renderer)) {
+            Ok(_) => picture,
+            Err(error) => panic!("`{self}`: {error}"),
+        }
     }
 
     /// Returns the renderer that draws `frame` with this method where `renderer` is asked for: the span engine, with a reason,
@@ -109,49 +136,36 @@ impl Variant {
             .collect()
     }
 
-    /// Draws `frame` with an engine and an instruction set into `picture`, which is made anew unless it has the size of the
-    /// frame's picture.
-    pub fn render_with(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture8) {
-        if frame.encoding() != Encoding::Linear {
-            *picture = store(&self.render_linear_with(frame, renderer), frame.encoding());
-            return;
-        }
-        if (picture.width(), picture.height()) != (frame.picture_width(), frame.picture_height()) {
-            *picture = empty(frame);
-        }
-        self.draw(frame, renderer, picture);
-    }
-
-    /// Draws `frame` with an engine and an instruction set, before rounding: linear channels, clamped to 0..=1.
-    pub fn render_linear_with(&self, frame: &Frame, renderer: Renderer) -> LinearPicture {
-        let mut picture = empty(frame);
-        self.draw(frame, renderer, &mut picture);
-        picture
-    }
-
-    /// Draws `frame` into a picture of its size.
-    fn draw<T: Stored>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
+    /// Draws rows of the picture of a frame.
+    pub(super) fn draw_rows<F: Format>(
+        &self,
+        renderer: Renderer,
+        surface: Surface<'_, F>,
+        mut rows: Rows<'_, F::Pixel>,
+    ) {
+        let frame = surface.frame;
         #[cfg(feature = "simd")]
-        if let Some(Renderer::Row(level)) = self.plan(frame, renderer).renderer() {
-            let is_bytes = T::bytes(&mut []).is_some();
-            let pixels = picture.pixels_mut();
-            return super::rows::draw(self, frame, level, is_bytes, &mut |height, draw| {
-                draw_bands(frame, (height, 0), pixels, draw);
+        if let Renderer::Row(level) = renderer {
+            let mut rows = Some(rows);
+            let is_levels = surface.format.is_levels();
+            return super::rows::draw(self, frame, level, is_levels, &mut |height, draw| {
+                if let Some(rows) = rows.take() {
+                    draw_bands(surface, (height, 0), rows, draw);
+                }
             });
         }
-        picture.pixels_mut().fill(T::background(frame));
         let _ = renderer; // without SIMD there is one engine
+        surface.clear(&mut rows);
         let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
-        draw_rows(frame, picture.pixels_mut(), |target| {
-            spans::draw(&setup, target)
-        });
+        surface.draw_rows(rows, |target| spans::draw(&setup, target));
     }
 
-    /// Draws `frame` as [`Variant::render_with`] does, and gives its pixels to `take` from the top, some rows at a time, each
-    /// soon after it was drawn. The picture is in memory as a whole only where the span engine draws it, and for sRGB.
+    /// Draws `frame` as a stored picture, and gives its pixels to `take` from the top, some rows at a time, each soon after it was
+    /// drawn. The picture is in memory as a whole only where the span engine draws it: for files larger than memory.
     ///
     /// # Errors
-    /// Returns the error of `take`, after which no more is drawn.
+    /// [`DrawError::Refused`] if the method is not for such frames, before anything is drawn; and within it the error of `take`, after
+    /// which no more is drawn.
     ///
     /// ```
     /// use core::convert::Infallible;
@@ -165,7 +179,7 @@ impl Variant {
     /// Variant::parse("phong-rsqrt")?.render_rows(&frame, Renderer::fastest(), |rows| {
     ///     pixels += rows.len();
     ///     Ok::<(), Infallible>(())
-    /// })?;
+    /// })??;
     /// assert_eq!(pixels, frame.picture_width() * frame.picture_height());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -174,47 +188,64 @@ impl Variant {
         frame: &Frame,
         renderer: Renderer,
         mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>,
-    ) -> Result<(), E> {
+    ) -> Result<Result<(), E>, DrawError> {
+        let plan = self.plan(frame, renderer);
         #[cfg(feature = "simd")]
-        if let Some(Renderer::Row(level)) = self.plan(frame, renderer).renderer()
-            && frame.encoding() == Encoding::Linear
-        {
+        if let Some(Renderer::Row(level)) = plan.renderer() {
+            let encoder = (frame.encoding() == Encoding::Srgb).then(Encoder::srgb);
+            let surface = Surface::new(frame, Eight::<Rgba>::new(encoder.as_ref()));
+            let is_levels = surface.format.is_levels();
             let mut taken = Ok(());
-            super::rows::draw(self, frame, level, true, &mut |height, draw| {
+            super::rows::draw(self, frame, level, is_levels, &mut |height, draw| {
                 let mut take = |pixels: &[[u8; 4]]| {
                     taken = take(pixels);
                     taken.is_ok()
                 };
-                stream_bands(frame, height, &mut take, draw);
+                stream_bands(surface, height, &mut take, draw);
             });
-            return taken;
+            return Ok(taken);
         }
-        let mut picture = Picture8::new(0, 0, [0; 4]);
-        self.render_with(frame, renderer, &mut picture);
-        take(picture.pixels())
+        match plan {
+            Plan::Refused(reason) => Err(DrawError::Refused(reason)),
+            _ => Ok(take(self.render(frame).pixels())),
+        }
     }
 
     /// Draws the triangles of `frame` with the barycentric renderer. Returns `None` if it does not have this method.
+    #[doc(hidden)]
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
         match frame.encoding() {
-            Encoding::Linear => self.triangles(frame, edges),
-            encoding => Some(store(&self.triangles(frame, edges)?, encoding)),
+            Encoding::Linear => {
+                self.triangles(Surface::new(frame, Eight::<Rgba>::new(None)), edges, [0; 4])
+            }
+            encoding => Some(store(
+                &self.render_barycentric_linear(frame, edges)?,
+                encoding,
+            )),
         }
     }
 
     /// Draws as [`Variant::render_barycentric`], before rounding.
+    #[doc(hidden)]
     pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
-        self.triangles(frame, edges)
+        self.triangles(Surface::new(frame, Floats), edges, [0.0; 4])
     }
 
-    /// Draws the triangles of `frame` over an empty picture.
-    fn triangles<T: Stored>(&self, frame: &Frame, edges: Edges) -> Option<Picture<T>> {
+    /// Draws the triangles of a frame over an empty picture.
+    fn triangles<F: Format>(
+        &self,
+        surface: Surface<'_, F>,
+        edges: Edges,
+        zero: F::Pixel,
+    ) -> Option<Picture<F::Pixel>> {
         if !self.entry().is_barycentric() {
             return None;
         }
-        let mut picture = empty(frame);
+        let frame = surface.frame;
+        let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), zero);
+        surface.clear(&mut rows_of(frame, &mut picture));
         let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
-        draw_anyhow(frame, picture.pixels_mut(), |target| {
+        surface.draw_anyhow(rows_of(frame, &mut picture), |target| {
             barycentric::draw(&setup, edges, target);
         });
         Some(picture)

@@ -1,113 +1,326 @@
-//! The targets of engines: pictures of bytes or linear floats, directly or through a box filter over several samples.
+//! The targets of engines: rows of pixels in any format, directly or through a box filter over several samples.
+
+#![cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine draws levels
 
 use crate::frame::Frame;
-use crate::picture::encoding::quantise;
-use crate::picture::{Alpha, LinearPicture, Picture};
+use crate::number::parallel::Parts;
+use crate::picture::encoding::{Encoder, quantise};
+use crate::picture::{Alpha, Encoding, LinearPicture, Picture};
 use alloc::vec;
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
-/// A pixel as a picture stores it.
-pub(super) trait Stored: Copy + Send + Sync {
+/// A way to store pixels.
+pub(super) trait Format: Copy + Sync {
+    /// A pixel in memory.
+    type Pixel: Copy + Send + Sync;
     /// Stores a linear colour and alpha, clamped to 0..=1.
-    fn of(rgba: [f32; 4]) -> Self;
-    /// Returns pixels as bytes, if they are stored so.
-    #[cfg(feature = "simd")]
-    fn bytes(_pixels: &mut [Self]) -> Option<&mut [[u8; 4]]> {
+    fn of(self, rgba: [f32; 4]) -> Self::Pixel;
+    /// Returns the linear colour and alpha of a pixel.
+    fn linear(self, pixel: Self::Pixel) -> [f32; 4];
+    /// True if pixels are levels of linear intensity, which kernels compute themselves.
+    fn is_levels(self) -> bool;
+    /// Stores such levels: red, green, blue and alpha.
+    fn of_levels(self, rgba: [u8; 4]) -> Self::Pixel;
+    /// Returns pixels as levels, if they are in this order in memory.
+    fn levels(_pixels: &mut [Self::Pixel]) -> Option<&mut [[u8; 4]]> {
         None
-    }
-
-    /// Stores the background: transparent.
-    fn background(frame: &Frame) -> Self {
-        let [r, g, b] = frame.background();
-        Self::of([r, g, b, 0.0])
     }
 }
 
-impl Stored for [u8; 4] {
+/// Linear floats.
+#[derive(Clone, Copy)]
+pub(super) struct Floats;
+
+impl Format for Floats {
+    type Pixel = [f32; 4];
     #[inline(always)]
-    fn of([r, g, b, alpha]: [f32; 4]) -> Self {
-        [quantise(r), quantise(g), quantise(b), quantise(alpha)]
+    fn of(self, rgba: [f32; 4]) -> [f32; 4] {
+        rgba.map(|c| c.clamp(0.0, 1.0))
     }
-    #[cfg(feature = "simd")]
-    fn bytes(pixels: &mut [Self]) -> Option<&mut [[u8; 4]]> {
+    fn linear(self, pixel: [f32; 4]) -> [f32; 4] {
+        pixel
+    }
+    fn is_levels(self) -> bool {
+        false
+    }
+    fn of_levels(self, rgba: [u8; 4]) -> [f32; 4] {
+        rgba.map(|level| f32::from(level) / 255.0)
+    }
+}
+
+/// An order of four channels in a pixel.
+pub(super) trait Order: Copy + Sync {
+    type Pixel: Copy + Send + Sync;
+    fn pack(rgba: [u8; 4]) -> Self::Pixel;
+    fn unpack(pixel: Self::Pixel) -> [u8; 4];
+    fn levels(_pixels: &mut [Self::Pixel]) -> Option<&mut [[u8; 4]]> {
+        None
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Rgba;
+
+impl Order for Rgba {
+    type Pixel = [u8; 4];
+    #[inline(always)]
+    fn pack(rgba: [u8; 4]) -> [u8; 4] {
+        rgba
+    }
+    fn unpack(pixel: [u8; 4]) -> [u8; 4] {
+        pixel
+    }
+    fn levels(pixels: &mut [[u8; 4]]) -> Option<&mut [[u8; 4]]> {
         Some(pixels)
     }
 }
 
-impl Stored for [f32; 4] {
+#[derive(Clone, Copy)]
+pub(super) struct Bgra;
+
+impl Order for Bgra {
+    type Pixel = [u8; 4];
     #[inline(always)]
-    fn of(rgba: [f32; 4]) -> Self {
-        rgba.map(|c| c.clamp(0.0, 1.0))
+    fn pack([r, g, b, alpha]: [u8; 4]) -> [u8; 4] {
+        [b, g, r, alpha]
+    }
+    fn unpack([b, g, r, alpha]: [u8; 4]) -> [u8; 4] {
+        [r, g, b, alpha]
     }
 }
 
-/// A picture, or some rows of one, that takes finished runs, whatever it stores: engines are compiled once for all kinds.
+/// `0xAARRGGBB`.
+#[derive(Clone, Copy)]
+pub(super) struct Argb;
+
+impl Order for Argb {
+    type Pixel = u32;
+    #[inline(always)]
+    fn pack([r, g, b, alpha]: [u8; 4]) -> u32 {
+        u32::from_be_bytes([alpha, r, g, b])
+    }
+    fn unpack(pixel: u32) -> [u8; 4] {
+        let [alpha, r, g, b] = pixel.to_be_bytes();
+        [r, g, b, alpha]
+    }
+}
+
+/// Eight bits a channel.
+#[derive(Clone, Copy)]
+pub(super) struct Eight<'a, O> {
+    /// Stores intensities with a transfer function; `None` for linear levels.
+    encoder: Option<&'a Encoder>,
+    order: PhantomData<O>,
+}
+
+impl<'a, O: Order> Eight<'a, O> {
+    pub fn new(encoder: Option<&'a Encoder>) -> Self {
+        Eight {
+            encoder,
+            order: PhantomData,
+        }
+    }
+}
+
+impl<O: Order> Format for Eight<'_, O> {
+    type Pixel = O::Pixel;
+    #[inline(always)]
+    fn of(self, rgba: [f32; 4]) -> O::Pixel {
+        O::pack(match self.encoder {
+            None => rgba.map(quantise),
+            Some(encoder) => encoder.store(rgba),
+        })
+    }
+    fn linear(self, pixel: O::Pixel) -> [f32; 4] {
+        let encoding = self.encoder.map_or(Encoding::Linear, |_| Encoding::Srgb);
+        let [r, g, b, alpha] = O::unpack(pixel).map(|level| f64::from(level) / 255.0);
+        let [r, g, b] = [r, g, b].map(|c| encoding.decode(c));
+        [r, g, b, alpha].map(|c| c as f32)
+    }
+    fn is_levels(self) -> bool {
+        self.encoder.is_none()
+    }
+    #[inline(always)]
+    fn of_levels(self, rgba: [u8; 4]) -> O::Pixel {
+        O::pack(rgba)
+    }
+    fn levels(pixels: &mut [O::Pixel]) -> Option<&mut [[u8; 4]]> {
+        O::levels(pixels)
+    }
+}
+
+/// Rows of pixels from the top, and the depth of their samples.
+pub(super) struct Rows<'a, P> {
+    pub pixels: &'a mut [P],
+    /// The distance from one row to the next; the last row may be shorter.
+    pub stride: usize,
+    /// The rows of pixels.
+    pub count: usize,
+    /// The depth buffer of the caller, if there is one: the samples of a row of pixels, then those of the next.
+    pub depth: Option<&'a mut [f32]>,
+    /// The samples of a row of pixels.
+    pub samples: usize,
+}
+
+impl<P: Send> Parts for Rows<'_, P> {
+    fn len(&self) -> usize {
+        self.count
+    }
+    fn split(self, at: usize) -> (Self, Self) {
+        let Rows {
+            stride, samples, ..
+        } = self;
+        let (above, below) = self.pixels.split_at_mut(at * stride);
+        let depth = self.depth.map(|depth| depth.split_at_mut(at * samples));
+        let (depth_above, depth_below) = depth.unzip();
+        let part = |pixels, count, depth| Rows {
+            pixels,
+            stride,
+            count,
+            depth,
+            samples,
+        };
+        (
+            part(above, at, depth_above),
+            part(below, self.count - at, depth_below),
+        )
+    }
+}
+
+/// Rows of samples that take finished runs, however they are stored: engines are compiled once for all formats.
 pub(super) trait Target {
     /// Stores a run of pixels from (`x`, `row`) on, linear and not clamped.
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]);
-    /// Returns the pixels of row `row` if they are stored as bytes: the caller may then write all of them there.
+    /// Returns memory for row `row` as levels of linear intensity, if it is stored as such: the caller then writes all of them,
+    /// alpha 0 where there is nothing, and calls [`Target::finish`].
     #[cfg(feature = "simd")]
-    fn bytes(&mut self, _row: usize) -> Option<&mut [[u8; 4]]> {
+    fn levels(&mut self, _row: usize) -> Option<&mut [[u8; 4]]> {
         None
     }
+    /// Stores the levels of a row.
+    #[cfg(feature = "simd")]
+    fn finish(&mut self, _row: usize) {}
+    /// Returns the depth of the samples of row `row` that the caller keeps.
+    fn depth(&mut self, row: usize) -> Option<&mut [f32]>;
+}
+
+/// A picture of a frame in some format, of which rows are drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<'a, F> {
+    pub frame: &'a Frame,
+    pub format: F,
+    /// True if pixels that nothing covers stay as they are.
+    pub keeps_background: bool,
 }
 
 /// Rows of pixels that are stored as they are drawn.
-struct Direct<'a, T> {
-    pixels: &'a mut [T],
-    width: usize,
+struct Direct<'a, F: Format> {
+    surface: Surface<'a, F>,
+    rows: Rows<'a, F::Pixel>,
+    /// The levels of a row, unless they are written where they belong.
+    line: Vec<[u8; 4]>,
 }
 
-impl<T: Stored> Target for Direct<'_, T> {
+impl<F: Format> Direct<'_, F> {
+    fn row(&mut self, row: usize) -> &mut [F::Pixel] {
+        &mut self.rows.pixels[row * self.rows.stride..][..self.surface.frame.width()]
+    }
+}
+
+impl<F: Format> Target for Direct<'_, F> {
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
-        let row = &mut self.pixels[row * self.width..][..self.width];
-        for (pixel, &[r, g, b]) in row[x..].iter_mut().zip(colours) {
-            *pixel = T::of([r, g, b, 1.0]);
+        let format = self.surface.format;
+        for (pixel, &[r, g, b]) in self.row(row)[x..].iter_mut().zip(colours) {
+            *pixel = format.of([r, g, b, 1.0]);
         }
     }
     #[cfg(feature = "simd")]
-    fn bytes(&mut self, row: usize) -> Option<&mut [[u8; 4]]> {
-        T::bytes(&mut self.pixels[row * self.width..][..self.width])
+    fn levels(&mut self, row: usize) -> Option<&mut [[u8; 4]]> {
+        if !self.surface.format.is_levels() {
+            return None;
+        }
+        let is_in_place = !self.surface.keeps_background && F::levels(&mut []).is_some();
+        if is_in_place {
+            return F::levels(self.row(row));
+        }
+        self.line.resize(self.surface.frame.width(), [0; 4]);
+        Some(&mut self.line)
+    }
+    #[cfg(feature = "simd")]
+    fn finish(&mut self, row: usize) {
+        let line = core::mem::take(&mut self.line);
+        let Surface {
+            format,
+            keeps_background,
+            ..
+        } = self.surface;
+        for (pixel, &levels) in self.row(row).iter_mut().zip(&line) {
+            if levels[3] > 0 || !keeps_background {
+                *pixel = format.of_levels(levels);
+            }
+        }
+        self.line = line;
+    }
+    fn depth(&mut self, row: usize) -> Option<&mut [f32]> {
+        depth_row(&mut self.rows, self.surface.frame, row)
     }
 }
 
+/// Returns the depth of a row of samples.
+fn depth_row<'r, P>(rows: &'r mut Rows<'_, P>, frame: &Frame, row: usize) -> Option<&'r mut [f32]> {
+    let width = frame.width();
+    Some(&mut rows.depth.as_deref_mut()?[row * width..][..width])
+}
+
 /// A box filter in linear light: the mean of each pixel's covered samples, or of all n × n, where the background stands for
-/// samples that nothing covers, as [`Alpha`] says; alpha is the covered share.
+/// samples that nothing covers, as [`Alpha`] says; alpha is the covered share. Over a background that is kept, the covered share
+/// of a pixel lies over what was there.
 ///
 /// Sums are exact: an f64 holds any 64 numbers of 24 bits each and of one magnitude, so that a constant colour stays constant.
-struct BoxFilter<'a, T> {
-    pixels: &'a mut [T],
-    frame: &'a Frame,
+struct BoxFilter<'a, F: Format> {
+    surface: Surface<'a, F>,
+    rows: Rows<'a, F::Pixel>,
     /// The row of pixels that is being collected; those before it are finished.
     row: usize,
     /// Sum of the colours and number of the covered samples, by pixel.
     sums: Vec<([f64; 3], u32)>,
 }
 
-impl<T: Stored> BoxFilter<'_, T> {
+impl<F: Format> BoxFilter<'_, F> {
     /// Stores the row that was being collected.
     fn flush(&mut self) {
-        let all = self.frame.samples().pow(2) as f64;
-        let background = self.frame.background().map(f64::from);
-        let row = self.pixels[self.row * self.sums.len()..].iter_mut();
+        let Surface {
+            frame,
+            format,
+            keeps_background,
+        } = self.surface;
+        let all = frame.samples().pow(2) as f64;
+        let [r, g, b] = frame.background().map(f64::from);
+        let row = self.rows.pixels[self.row * self.rows.stride..].iter_mut();
         for (pixel, (sum, covered)) in row.zip(&mut self.sums) {
             if *covered > 0 {
                 let share = f64::from(*covered);
-                let mean = |c: usize| match self.frame.alpha() {
-                    Alpha::Straight => (sum[c] / share) as f32,
-                    Alpha::Flattened => ((sum[c] + (all - share) * background[c]) / all) as f32,
+                let below = match keeps_background {
+                    true => format.linear(*pixel).map(f64::from),
+                    false => [r, g, b, 0.0],
                 };
-                *pixel = T::of([mean(0), mean(1), mean(2), (share / all) as f32]);
+                let rest = (all - share) * below[3];
+                let mean = |c: usize| match frame.alpha() {
+                    Alpha::Straight => ((sum[c] + rest * below[c]) / (share + rest)) as f32,
+                    Alpha::Flattened => ((sum[c] + (all - share) * below[c]) / all) as f32,
+                };
+                *pixel = format.of([mean(0), mean(1), mean(2), ((share + rest) / all) as f32]);
                 (*sum, *covered) = ([0.0; 3], 0);
             }
         }
     }
 }
 
-impl<T: Stored> Target for BoxFilter<'_, T> {
+impl<F: Format> Target for BoxFilter<'_, F> {
     /// Takes rows in order.
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
-        let samples = self.frame.samples();
+        let samples = self.surface.frame.samples();
         if row / samples != self.row {
             self.flush();
             self.row = row / samples;
@@ -120,61 +333,109 @@ impl<T: Stored> Target for BoxFilter<'_, T> {
             *covered += 1;
         }
     }
+    fn depth(&mut self, row: usize) -> Option<&mut [f32]> {
+        depth_row(&mut self.rows, self.surface.frame, row)
+    }
 }
 
-/// Has `draw` draw samples, row by row, into `pixels`: whole rows of the frame's picture that hold its background. Row 0 is
-/// the first of them.
-pub(super) fn draw_rows<T: Stored>(
-    frame: &Frame,
-    pixels: &mut [T],
-    draw: impl FnOnce(&mut dyn Target),
-) {
-    let width = frame.picture_width();
-    if frame.samples() == 1 {
-        return draw(&mut Direct { pixels, width });
+impl<'a, F: Format> Surface<'a, F> {
+    /// Makes a surface on which the background is drawn.
+    pub fn new(frame: &'a Frame, format: F) -> Self {
+        Surface {
+            frame,
+            format,
+            keeps_background: false,
+        }
     }
-    let mut filter = BoxFilter {
-        pixels,
-        frame,
-        row: 0,
-        sums: vec![([0.0; 3], 0); width],
-    };
-    draw(&mut filter);
-    filter.flush();
-}
 
-/// Has `draw` draw samples in any order into `pixels`, as [`draw_rows`] does: all samples are kept until it is done.
-pub(super) fn draw_anyhow<T: Stored>(
-    frame: &Frame,
-    pixels: &mut [T],
-    draw: impl FnOnce(&mut dyn Target),
-) {
-    if frame.samples() == 1 {
-        return draw_rows(frame, pixels, draw);
-    }
-    let mut samples = linear_samples(frame);
-    draw(&mut Direct {
-        width: frame.width(),
-        pixels: samples.pixels_mut(),
-    });
-    draw_rows(frame, pixels, |target| {
-        for row in 0..samples.height() {
-            for (x, &[r, g, b, alpha]) in samples.row(row).iter().enumerate() {
-                if alpha > 0.0 {
-                    target.store(x, row, &[[r, g, b]]);
-                }
+    /// Fills rows with the background, unless it is kept.
+    pub fn clear(&self, rows: &mut Rows<'_, F::Pixel>) {
+        if !self.keeps_background {
+            let [r, g, b] = self.frame.background();
+            let background = self.format.of([r, g, b, 0.0]);
+            for row in rows.pixels.chunks_mut(rows.stride).take(rows.count) {
+                row[..self.frame.picture_width()].fill(background);
             }
         }
-    });
+    }
+
+    /// Has `draw` draw samples, row by row, into rows that hold the background. Row 0 is the first of them.
+    pub fn draw_rows(self, rows: Rows<'_, F::Pixel>, draw: impl FnOnce(&mut dyn Target)) {
+        if self.frame.samples() == 1 {
+            return draw(&mut Direct {
+                surface: self,
+                rows,
+                line: Vec::new(),
+            });
+        }
+        let mut filter = BoxFilter {
+            surface: self,
+            rows,
+            row: 0,
+            sums: vec![([0.0; 3], 0); self.frame.picture_width()],
+        };
+        draw(&mut filter);
+        filter.flush();
+    }
+
+    /// Has `draw` draw samples in any order, as [`Surface::draw_rows`] does: all samples are kept until it is done.
+    pub fn draw_anyhow(self, rows: Rows<'_, F::Pixel>, draw: impl FnOnce(&mut dyn Target)) {
+        let frame = self.frame;
+        if frame.samples() == 1 {
+            return self.draw_rows(rows, draw);
+        }
+        let mut samples = linear_samples(frame);
+        draw(&mut Direct {
+            surface: Surface::new(frame, Floats),
+            rows: rows_of(frame, &mut samples),
+            line: Vec::new(),
+        });
+        self.draw_rows(rows, |target| {
+            for row in 0..samples.height() {
+                for (x, &[r, g, b, alpha]) in samples.row(row).iter().enumerate() {
+                    if alpha > 0.0 {
+                        target.store(x, row, &[[r, g, b]]);
+                    }
+                }
+            }
+        });
+    }
 }
 
-/// Returns an empty picture for `frame`: its background, alpha 0.
-pub(super) fn empty<T: Stored>(frame: &Frame) -> Picture<T> {
+/// Makes a linear picture of `frame`: has `draw` draw samples, row by row.
+pub(super) fn drawn(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> LinearPicture {
+    let mut picture = empty(frame);
+    Surface::new(frame, Floats).draw_rows(rows_of(frame, &mut picture), draw);
+    picture
+}
+
+/// Makes a linear picture of `frame`: has `draw` draw samples in any order.
+pub(super) fn drawn_anyhow(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> LinearPicture {
+    let mut picture = empty(frame);
+    Surface::new(frame, Floats).draw_anyhow(rows_of(frame, &mut picture), draw);
+    picture
+}
+
+/// Returns all rows of a picture.
+pub(super) fn rows_of<'a, P: Copy>(frame: &Frame, picture: &'a mut Picture<P>) -> Rows<'a, P> {
+    Rows {
+        stride: picture.width(),
+        count: picture.height(),
+        pixels: picture.pixels_mut(),
+        depth: None,
+        samples: frame.width() * frame.samples(),
+    }
+}
+
+/// Returns an empty linear picture for `frame`: its background, alpha 0.
+fn empty(frame: &Frame) -> LinearPicture {
+    let [r, g, b] = frame.background();
     let (width, height) = (frame.picture_width(), frame.picture_height());
-    Picture::new(width, height, T::background(frame))
+    Picture::new(width, height, Floats.of([r, g, b, 0.0]))
 }
 
 /// Returns an empty linear picture with a pixel for each sample.
 pub(super) fn linear_samples(frame: &Frame) -> LinearPicture {
-    Picture::new(frame.width(), frame.height(), Stored::background(frame))
+    let [r, g, b] = frame.background();
+    Picture::new(frame.width(), frame.height(), Floats.of([r, g, b, 0.0]))
 }

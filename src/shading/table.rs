@@ -291,7 +291,8 @@ mod tests {
     #[test]
     fn a_method_may_refuse_a_frame() {
         use crate::mesh::builtin::builtin;
-        use crate::raster::{Plan, Renderer};
+        use crate::picture::Picture8;
+        use crate::raster::{DrawError, DrawOptions, Plan, Renderer};
         use crate::scene::{Light, Scene};
         let mut scene = Scene::of_mesh(builtin("sphere").unwrap());
         let plan = |scene: &Scene| {
@@ -302,6 +303,16 @@ mod tests {
         scene
             .lights
             .push(Light::directional(glam::DVec3::X, [1.0; 3]));
-        assert_eq!(plan(&scene), Plan::Refused("it knows one light"));
+        let reason = "it knows one light";
+        assert_eq!(plan(&scene), Plan::Refused(reason));
+        let (frame, variant) = (scene.frame().unwrap(), ONE_LIGHT.variant());
+        let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [7; 4]);
+        for renderer in Renderer::available() {
+            let drawn = variant.draw(&frame, &mut picture, DrawOptions::by(renderer));
+            assert_eq!(drawn, Err(DrawError::Refused(reason)));
+            let rows = variant.render_rows(&frame, renderer, |_| Err("drawn"));
+            assert_eq!(rows, Err(DrawError::Refused(reason)));
+        }
+        assert!(picture.pixels().iter().all(|pixel| *pixel == [7; 4]));
     }
 }

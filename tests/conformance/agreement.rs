@@ -8,7 +8,7 @@ use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::Picture;
-use fastphong::raster::Edges;
+use fastphong::raster::{DrawOptions, Edges};
 use fastphong::reference::{self, Model};
 use fastphong::scene::{Interpolation, Light, Lighting, Place, Scene};
 use fastphong::shading::{METHODS, Variant};
@@ -176,7 +176,10 @@ fn stored_and_linear_pictures_agree() {
         let rounded = linear.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
         assert_eq!(stored, rounded, "{}", entry.info.name);
         let mut reused = Picture::new(96, 72, [7u8; 4]);
-        entry.variant().render_into(&frame, &mut reused);
+        let drawn = entry
+            .variant()
+            .draw(&frame, &mut reused, DrawOptions::default());
+        drawn.expect("a picture of the frame's size");
         assert_eq!(stored, reused, "{}", entry.info.name);
         assert_eq!(
             stored,

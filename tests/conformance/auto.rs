@@ -26,11 +26,8 @@ fn auto_draws_naive_phongs_picture_to_a_level() {
         };
         for renderer in renderers() {
             let (method, _) = Variant::auto(&case.frame, renderer);
-            let pictures = [&naive, &method].map(|variant| {
-                let mut picture = Picture8::new(1, 1, [0; 4]);
-                variant.render_with(&case.frame, renderer, &mut picture);
-                picture
-            });
+            let pictures =
+                [&naive, &method].map(|variant| variant.render_with(&case.frame, renderer));
             check(name(renderer), &method, pictures);
         }
         let (method, _) = Variant::auto(&case.frame, Renderer::LECTURE);

@@ -106,8 +106,7 @@ fn pictures_are_the_blessed_ones() {
         for variant in METHODS.iter().map(|entry| entry.variant()) {
             let name = format!("{scene}/{}", variant.info().name);
             for renderer in distinct(&variant, frame) {
-                let mut picture = Picture8::new(1, 1, [0; 4]);
-                variant.render_with(frame, renderer, &mut picture);
+                let picture = variant.render_with(frame, renderer);
                 let by = format!("{name} by {}", renderers::name(renderer));
                 failures.extend(check_where(&by, &blessed(&name), &picture, |x, y| {
                     decided.get(x, y)

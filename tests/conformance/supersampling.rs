@@ -7,7 +7,7 @@ use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{Frame, FrameBuilder, FrameError};
 use fastphong::picture::encoding::{quantise, srgb_encode};
 use fastphong::picture::{Alpha, Encoding, LinearPicture, Picture, over};
-use fastphong::raster::{self, Edges};
+use fastphong::raster::{self, DrawOptions, Edges};
 use fastphong::reference::{self, Model};
 use fastphong::scene::Scene;
 use fastphong::shading::{METHODS, Variant};
@@ -222,7 +222,10 @@ fn every_sample_is_shaded() {
                 entry.info.name
             );
             let mut reused = Picture::new(48, 36, [9; 4]);
-            entry.variant().render_into(&frame, &mut reused);
+            let drawn = entry
+                .variant()
+                .draw(&frame, &mut reused, DrawOptions::default());
+            drawn.expect("a picture of the frame's size");
             assert_eq!(stored, reused, "{}", entry.info.name);
         }
     }
@@ -288,13 +291,13 @@ fn all_targets_hold_straight_alpha() {
     for renderer in support::renderers::renderers() {
         let naive = Variant::parse("naive-phong").expect("a method");
         let linear = naive.render_linear_with(&frame, renderer);
-        let mut stored = Picture::new(1, 1, [0; 4]);
-        naive.render_with(&frame, renderer, &mut stored);
+        let stored = naive.render_with(&frame, renderer);
         let mut rows = Vec::new();
-        let Ok(()) = naive.render_rows(&frame, renderer, |pixels| {
+        let drawn = naive.render_rows(&frame, renderer, |pixels| {
             rows.extend_from_slice(pixels);
             Ok::<(), std::convert::Infallible>(())
         });
+        assert_eq!(drawn, Ok(Ok(())));
         assert_eq!(stored.pixels(), rows);
         let near = |a: u8, b: u8| a.abs_diff(b) <= 1;
         for (stored, linear) in stored.pixels().iter().zip(linear.pixels()) {

@@ -4,7 +4,7 @@ use super::renderers::{depth_rounding, distinct, name, renderers};
 use fastphong::frame::{Frame, FrameBuilder, FrameError};
 use fastphong::mesh::Material;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
-use fastphong::raster::{self, Edges, NOTHING, Renderer};
+use fastphong::raster::{self, DrawOptions, Edges, NOTHING, Renderer};
 use fastphong::reference::{self, Model, Visibility};
 use fastphong::scene::{
     Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Lighting, Place, Scene,
@@ -302,8 +302,10 @@ impl<'a> Seen<'a> {
         let frame = self.frame;
         let who = || format!("{} by {}", variant.info().name, name(renderer));
         let draw = || {
-            let mut stored = Picture8::new(1, 1, [7; 4]);
-            variant.render_with(frame, renderer, &mut stored);
+            let mut stored = Picture8::new(frame.picture_width(), frame.picture_height(), [7; 4]);
+            let options = DrawOptions::by(renderer);
+            let drawn = variant.draw(frame, &mut stored, options);
+            drawn.expect("a picture of the frame's size");
             (stored, variant.render_linear_with(frame, renderer))
         };
         let [one, three] = [0, 1].map(|pool| pools()[pool].install(draw));

@@ -3,7 +3,6 @@
 use super::renderers::distinct;
 use super::scene;
 use super::world::World;
-use fastphong::picture::Picture8;
 use fastphong::raster;
 use fastphong::reference::{self, Model};
 use fastphong::scene::{Falloff, Place, Projection, Scene};
@@ -109,8 +108,7 @@ pub fn draw(mut scene: Scene, changes: &[Change]) -> bool {
     for entry in METHODS {
         let variant = entry.variant();
         for renderer in distinct(&variant, &frame) {
-            let mut picture = Picture8::new(1, 1, [0; 4]);
-            variant.render_with(&frame, renderer, &mut picture);
+            variant.render_with(&frame, renderer);
             variant.render_linear_with(&frame, renderer);
         }
         variant.bound(&frame);

@@ -76,8 +76,7 @@ impl<'a> References<'a> {
         let by = DrawnBy::new(planned);
         let shown = &*self.shown(variant, planned);
         let linear = variant.render_linear_with(forms.frame, renderer);
-        let mut picture = Picture::new(0, 0, [0; 4]);
-        variant.render_with(forms.frame, renderer, &mut picture);
+        let picture = variant.render_with(forms.frame, renderer);
         let own = match variant.closed_form() {
             form if form == Model::Phong.into() => None,
             form => Some(forms.difference(form, &linear, shown)),

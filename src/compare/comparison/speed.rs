@@ -3,7 +3,6 @@
 use super::{Comparison, MethodRow, counterpart, is_baseline};
 use crate::compare::timing::{Candidate, Ratio, TimeLimits, Timing, time_interleaved};
 use crate::frame::Frame;
-use crate::picture::Picture;
 use crate::raster::Edges;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -40,9 +39,7 @@ pub(super) fn time(
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
     for MethodRow { variant, .. } in &comparison.rows {
         candidates.push(Box::new(move || {
-            let mut picture = Picture::new(0, 0, [0; 4]);
-            variant.render_with(black_box(frame), renderer, &mut picture);
-            black_box(picture);
+            black_box(variant.render_with(black_box(frame), renderer));
         }));
     }
     for MethodRow { variant, .. } in &comparison.barycentric {

@@ -22,7 +22,7 @@ use super::timing::Candidate;
 use crate::frame::{Frame, FrameError, PreparedScene};
 use crate::mesh::builtin::{BuiltinError, builtin};
 use crate::picture::Picture8;
-use crate::raster::Renderer;
+use crate::raster::{DrawOptions, Renderer};
 use crate::scene::Scene;
 use crate::shading::{METHODS, Variant};
 use alloc::boxed::Box;
@@ -63,8 +63,9 @@ struct Canvas(RefCell<(Frame, Picture8)>);
 
 impl Canvas {
     fn new(scene: &PreparedScene) -> Result<Canvas, FrameError> {
-        let picture = Picture8::new(0, 0, [0; 4]);
-        Ok(Canvas(RefCell::new((scene.frame()?, picture))))
+        let frame = scene.frame()?;
+        let picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
+        Ok(Canvas(RefCell::new((frame, picture))))
     }
 
     /// Returns a candidate that projects the scene, and draws it if a `method` is given.
@@ -78,7 +79,8 @@ impl Canvas {
             let projected = black_box(scene).frame_into(frame);
             projected.expect("a scene that was projected before");
             if let Some((variant, renderer)) = method {
-                variant.render_with(frame, renderer, picture);
+                let drawn = variant.draw(frame, &mut *picture, DrawOptions::by(renderer));
+                drawn.expect("a picture of the scene's size, and a method for it");
             }
             black_box((frame, picture));
         })

@@ -214,12 +214,7 @@ fn levels_off(
     for corner in corners {
         let drawn = |variant: &Variant| match corner.work {
             Work::Kernel => span_picture(variant, corner, span),
-            Work::Frame => {
-                let mut picture = Picture8::new(0, 0, [0; 4]);
-                let renderer = Renderer::on(level(corner.scalar));
-                variant.render_with(&frame, renderer, &mut picture);
-                picture
-            }
+            Work::Frame => variant.render_with(&frame, Renderer::on(level(corner.scalar))),
         };
         if let Some(naive) = variants.iter().find(|variant| is_baseline(variant)) {
             let naive = drawn(naive);

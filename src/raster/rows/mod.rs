@@ -33,13 +33,13 @@ use super::depth::SampleDepth;
 use super::setup::{SetUp, Varyings};
 use super::spans::NOTHING;
 use super::spans::active::ActiveEdges;
-use super::target::Stored;
 use crate::frame::{Frame, Polygon};
 use crate::number::Level;
 use crate::number::lanes::Lanes;
 use crate::number::parallel::for_each_chunk;
 use crate::number::simd::{BLOCK, Token, vectorize};
 use crate::picture::Picture;
+use crate::picture::encoding::quantise;
 use crate::shading::extent::TILE_HEIGHT as HEIGHT;
 use crate::shading::lighting::Uniforms;
 use crate::shading::{SimdKernels, UniformsIndex, Variant, WalkKernel};
@@ -89,15 +89,15 @@ struct RowEngine<'a> {
     background: [u8; 4],
 }
 
-/// Draws a method on a frame, tile by tile. `is_bytes` where the picture stores bytes.
+/// Draws a method on a frame, tile by tile. `is_levels` where the picture stores levels of linear intensity.
 pub(super) fn draw(
     variant: &Variant,
     frame: &Frame,
     level: Level,
-    is_bytes: bool,
+    is_levels: bool,
     each_band: &mut EachBand<'_>,
 ) {
-    let is_scaled = is_bytes && frame.samples() == 1;
+    let is_scaled = is_levels && frame.samples() == 1;
     let scale = if is_scaled { 255.0 } else { 1.0 };
     let memory = BUFFERS.with_borrow_mut(|buffers| core::mem::take(&mut buffers.varyings));
     let Some(rows) = RowEngine::new(variant, frame, (level, scale, memory)) else {
@@ -179,13 +179,14 @@ impl<'a> RowEngine<'a> {
         let planes = walk.map_or(setup.varyings.count, |_| walked);
         let only = only_uniforms(&setup);
         let numbers = 1 + planes + usize::from(only.is_none());
+        let [r, g, b] = frame.background().map(quantise);
         Some(RowEngine {
             test: SampleDepth::new(frame),
             is_planar: walk.is_none() && numbers <= MOST,
             planes,
             numbers,
             only,
-            background: Stored::background(frame),
+            background: [r, g, b, 0],
             kernels,
             walk,
             setup,

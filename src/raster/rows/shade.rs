@@ -25,9 +25,12 @@ impl RowEngine<'_> {
     pub(super) fn shade(&self, row: usize, buffers: &mut Buffers, target: &mut dyn Target) {
         let Buffers { tile, line, .. } = buffers;
         let width = self.setup.frame.width();
+        if let Some(stored) = target.depth(row) {
+            tile.hide_behind(row, stored);
+        }
         let (blocks, background) = (tile.drawn(), self.background);
         let drawn = (blocks.start * BLOCK).min(width)..(blocks.end * BLOCK).min(width);
-        if let Some(to) = target.bytes(row) {
+        if let Some(to) = target.levels(row) {
             to[..drawn.start].fill(background);
             to[drawn.end..].fill(background);
         }
@@ -41,7 +44,7 @@ impl RowEngine<'_> {
                 numbers: self.numbers,
             };
             let part = pixels.start - steps.start..pixels.end - steps.start;
-            if let Some(to) = target.bytes(row) {
+            if let Some(to) = target.levels(row) {
                 if pixels == steps {
                     let mut out = RowColours::Bytes(&mut to[pixels], background);
                     return (self.kernels.shade)(&job, cells, &mut out);
@@ -74,6 +77,7 @@ impl RowEngine<'_> {
                 }
             }
         });
+        target.finish(row);
         buffers.tile.clear_row(row);
     }
 

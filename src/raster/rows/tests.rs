@@ -8,7 +8,7 @@ use crate::mesh::builtin::builtin;
 use crate::number::simd::{BLOCK, tests::on_each_level};
 use crate::number::test_random::Random;
 use crate::picture::Picture8;
-use crate::raster::{Renderer, coverage, polygon_numbers};
+use crate::raster::{DrawOptions, Renderer, coverage, polygon_numbers};
 use crate::scene::{Light, Lighting, Scene};
 use crate::shading::METHODS;
 use alloc::vec;
@@ -212,12 +212,13 @@ fn memory_that_is_kept_leaves_no_trace() {
     };
     let draw = move |meshes: &[&str]| {
         let variant = Variant::parse("gouraud").expect("a method");
-        let mut picture = Picture8::new(0, 0, [0; 4]);
+        let mut picture = Picture8::new(64, 48, [0; 4]);
         for mesh in meshes {
             let mut scene = Scene::of_mesh(builtin(mesh).expect("a built-in mesh"));
             (scene.width, scene.height) = (64, 48);
             let frame = scene.frame().expect("a scene in its range");
-            variant.render_with(&frame, renderer, &mut picture);
+            let drawn = variant.draw(&frame, &mut picture, DrawOptions::by(renderer));
+            assert_eq!(drawn, Ok(renderer));
         }
         picture
     };

@@ -3,7 +3,7 @@
 
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
-use crate::raster::depth::{SampleDepth, level_of};
+use crate::raster::depth::{SampleDepth, hide, level_of};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
@@ -76,6 +76,19 @@ impl Tile {
     pub fn row(&self, row: usize, blocks: Range<usize>) -> &[f32] {
         let first = (row * self.blocks + blocks.start) * self.stride();
         &self.values[first..first + blocks.len() * self.stride()]
+    }
+
+    /// Empties those pixels of a row that are not nearer than the depths `stored`, and stores the depths of the others there.
+    pub fn hide_behind(&mut self, row: usize, stored: &mut [f32]) {
+        let (drawn, stride) = (self.drawn(), self.stride());
+        let first = (row * self.blocks + drawn.start) * stride;
+        let stored = stored.get_mut(drawn.start * BLOCK..).unwrap_or_default();
+        let blocks = self.values[first..][..drawn.len() * stride].chunks_exact_mut(stride);
+        for (block, stored) in blocks.zip(stored.chunks_mut(BLOCK)) {
+            for (depth, stored) in block.iter_mut().zip(stored) {
+                hide(depth, stored);
+            }
+        }
     }
 
     /// Empties what was drawn of a row.

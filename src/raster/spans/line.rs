@@ -1,7 +1,7 @@
 //! The visible line: the span seen at each pixel of a scanline, by a depth buffer of one line and the span engine's depth test.
 
 use super::active::PolygonSpan;
-use crate::raster::depth::SampleDepth;
+use crate::raster::depth::{SampleDepth, hide};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::mem::take;
@@ -74,6 +74,19 @@ impl VisibleLine {
             walk(&span, pixels, number, |q, depth| rule.seen(q, depth));
         }
         self.spans.push(span);
+    }
+
+    /// Empties those pixels that are not nearer than the depths `stored`, and stores the depths of the others there.
+    pub fn hide_behind(&mut self, stored: &mut [f32]) {
+        let drawn = self.drawn.clone();
+        for (pixel, stored) in self.pixels[drawn.clone()]
+            .iter_mut()
+            .zip(&mut stored[drawn])
+        {
+            if hide(&mut pixel.0, stored) {
+                *pixel = EMPTY;
+            }
+        }
     }
 
     /// Returns the depth at each pixel, as finely as it is stored; infinite where nothing was drawn.

@@ -33,7 +33,7 @@ use edge_table::EdgeTable;
 pub(super) fn scan(
     frame: &Frame,
     varyings: &Varyings<'_>,
-    visit: &mut dyn FnMut(usize, &VisibleLine, &ActiveEdges<'_>),
+    visit: &mut dyn FnMut(usize, &mut VisibleLine, &ActiveEdges<'_>),
 ) {
     let table = EdgeTable::new(frame);
     let mut line = VisibleLine::new(frame.width(), SampleDepth::new(frame));
@@ -45,7 +45,7 @@ pub(super) fn scan(
         }
         line.clear();
         active.spans(frame.width() as u32, |_, span| line.draw(span));
-        visit(row, &line, &active);
+        visit(row, &mut line, &active);
     }
 }
 
@@ -55,6 +55,9 @@ pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
     let mut list = RunList::new(setup.varyings.count);
     scan(setup.frame, &setup.varyings, &mut |row, line, edges| {
         list.clear();
+        if let Some(stored) = target.depth(row) {
+            line.hide_behind(stored);
+        }
         line.runs(|span, pixels| {
             let uniforms = setup.uniforms_of(span.polygon);
             edges.add_run(span, (row, pixels), uniforms, &mut list);

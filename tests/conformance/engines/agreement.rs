@@ -4,7 +4,7 @@ use super::frames::kinds;
 use crate::support::cases::{Case, cases};
 use crate::support::differences::{largest_difference, levels_apart};
 use crate::support::renderers::{distinct, name, renderers};
-use fastphong::picture::{Encoding, Picture};
+use fastphong::picture::Encoding;
 use fastphong::raster::Renderer;
 use fastphong::shading::{METHODS, Variant};
 
@@ -26,8 +26,7 @@ fn check(case: &Case, variant: &Variant, renderers: &[Renderer], failures: &mut 
         let bound = 2.0 * own;
         let ours = variant.render_linear_with(frame, renderer);
         let (max, uncovered) = largest_difference(&linear, &ours, |x, y| decided.get(x, y));
-        let mut picture = Picture::new(1, 1, [0; 4]);
-        variant.render_with(frame, renderer, &mut picture);
+        let picture = variant.render_with(frame, renderer);
         let (levels, _) = levels_apart(&stored, &picture, |x, y| decided.get(x, y));
         // Values less than a level apart are stored as the same level or as neighbours.
         let allowed = f64::max((255.0 * slope * 2.0 * own).ceil(), 1.0);

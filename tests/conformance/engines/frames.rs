@@ -120,3 +120,21 @@ pub fn kinds(width: u32, height: u32) -> impl Iterator<Item = (&'static str, Fra
         (name, scene.frame().expect("a frame"))
     })
 }
+
+/// Returns a frame of each kind that has both balls, and those of the first and of the second one alone, as the same camera sees
+/// them.
+pub fn parts(width: u32, height: u32) -> impl Iterator<Item = (&'static str, Frame, [Frame; 2])> {
+    KINDS.into_iter().filter_map(move |(name, change)| {
+        let mut both = scene(width, height);
+        change(&mut both);
+        let [first, second] = &both.objects[..] else {
+            return None;
+        };
+        let alone = [first, second].map(|object| {
+            let mut scene = both.clone();
+            scene.objects = vec![object.clone()];
+            scene.frame().expect("a frame")
+        });
+        Some((name, both.frame().expect("a frame"), alone))
+    })
+}

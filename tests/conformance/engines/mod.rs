@@ -4,5 +4,6 @@
 mod agreement;
 mod coverage;
 mod frames;
+mod memory;
 mod streamed;
 mod threads;

@@ -14,7 +14,7 @@ const HEIGHT: u32 = 270;
 /// Returns the picture assembled from streamed rows, and the number of parts.
 fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, usize) {
     let (mut pixels, mut parts) = (Vec::new(), 0);
-    let Ok(()) = variant.render_rows(frame, renderer, |rows| {
+    let drawn = variant.render_rows(frame, renderer, |rows| {
         assert!(
             !rows.is_empty() && rows.len().is_multiple_of(frame.picture_width()),
             "whole rows"
@@ -23,6 +23,7 @@ fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, 
         parts += 1;
         Ok::<(), Infallible>(())
     });
+    assert_eq!(drawn, Ok(Ok(())));
     let picture = Picture::from_pixels(frame.picture_width(), frame.picture_height(), pixels)
         .expect("every pixel once");
     (picture, parts)
@@ -34,8 +35,7 @@ fn streamed_rows_make_the_picture() {
     for (kind, frame) in kinds(21, HEIGHT) {
         for variant in METHODS.iter().map(|entry| entry.variant()) {
             for renderer in renderers() {
-                let mut whole = Picture::new(0, 0, [0; 4]);
-                variant.render_with(&frame, renderer, &mut whole);
+                let whole = variant.render_with(&frame, renderer);
                 for threads in [1, 2] {
                     let (picture, parts) =
                         on_threads(threads, || streamed(&variant, &frame, renderer));
@@ -64,7 +64,7 @@ fn a_failed_receiver_stops_the_drawing() {
             });
             assert_eq!(
                 (taken, calls),
-                (Err("full"), 1),
+                (Ok(Err("full")), 1),
                 "{kind} by {}",
                 name(renderer)
             );

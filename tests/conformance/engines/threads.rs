@@ -6,14 +6,15 @@ use crate::support::renderers::{name, on_threads, renderers};
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::{Picture, Picture8};
-use fastphong::raster::Renderer;
+use fastphong::raster::{DrawOptions, Renderer};
 use fastphong::scene::Scene;
 use fastphong::shading::{METHODS, Variant};
 
 /// Returns the stored picture, drawn over an old one, and the bits of the linear picture.
 fn bytes(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, Picture<[u32; 4]>) {
     let mut stored = Picture::new(frame.picture_width(), frame.picture_height(), [7u8; 4]);
-    variant.render_with(frame, renderer, &mut stored);
+    let drawn = variant.draw(frame, &mut stored, DrawOptions::by(renderer));
+    drawn.expect("a picture of the frame's size");
     (
         stored,
         variant

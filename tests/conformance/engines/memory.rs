@@ -1,0 +1,341 @@
+//! Drawing into memory of the caller: formats, strides, backgrounds that are kept, and depth buffers.
+
+use super::frames::{kinds, parts};
+use crate::support::renderers::{distinct, name, on_threads};
+use fastphong::frame::Frame;
+use fastphong::picture::{Alpha, LinearPicture, Picture, Picture8, PictureMut};
+use fastphong::raster::{Background, DrawError, DrawOptions, Renderer, depth};
+use fastphong::scene::{DepthBits, DepthBuffer, HiddenSurfaces};
+use fastphong::shading::Variant;
+
+const SIZE: [usize; 2] = [48, 36];
+
+/// Calls `check` with a name, a frame of each kind, a method, and each renderer that draws it in a way of its own.
+fn each_way(mut check: impl FnMut(&str, &Frame, &Variant, Renderer)) {
+    for (kind, frame) in kinds(SIZE[0] as u32, SIZE[1] as u32) {
+        for method in ["gouraud", "phong-rsqrt", "fast-phong", "slerp-phong"] {
+            let variant = Variant::parse(method).expect("a method");
+            for renderer in distinct(&variant, &frame) {
+                let who = format!("{kind}, {method} by {}", name(renderer));
+                check(&who, &frame, &variant, renderer);
+            }
+        }
+    }
+}
+
+fn draw<'p>(
+    variant: &Variant,
+    frame: &Frame,
+    picture: impl Into<PictureMut<'p>>,
+    options: DrawOptions<'_>,
+) {
+    let drawn = variant.draw(frame, picture, options);
+    drawn.expect("picture and depth buffer of the frame's size");
+}
+
+fn kept(renderer: Renderer) -> DrawOptions<'static> {
+    DrawOptions {
+        background: Background::Kept,
+        ..DrawOptions::by(renderer)
+    }
+}
+
+#[test]
+fn all_formats_hold_the_same_picture_and_leave_what_lies_between_rows() {
+    const STRIDE: usize = 61;
+    each_way(|who, frame, variant, renderer| {
+        let [width, height] = [frame.picture_width(), frame.picture_height()];
+        let expected = variant.render_with(frame, renderer);
+        // The last row ends with its last pixel.
+        let len = STRIDE * (height - 1) + width;
+        let (mut rgba, mut bgra) = (vec![[9; 4]; len], vec![[9; 4]; len]);
+        let (mut argb, mut floats) = (vec![9; len], vec![[9.0; 4]; len]);
+        let all = [
+            PictureMut::rgba8(&mut rgba, width, height),
+            PictureMut::bgra8(&mut bgra, width, height),
+            PictureMut::argb(&mut argb, width, height),
+            PictureMut::linear(&mut floats, width, height),
+        ];
+        for picture in all {
+            let options = DrawOptions::by(renderer);
+            draw(variant, frame, picture.stride(STRIDE), options);
+        }
+        let linear = variant.render_linear_with(frame, renderer);
+        for place in 0..len {
+            let (x, y) = (place % STRIDE, place / STRIDE);
+            let found = (rgba[place], bgra[place], argb[place], floats[place]);
+            let pixels = match x < width {
+                true => {
+                    let [r, g, b, alpha] = expected.get(x, y);
+                    let number = u32::from_be_bytes([alpha, r, g, b]);
+                    ([r, g, b, alpha], [b, g, r, alpha], number, linear.get(x, y))
+                }
+                false => ([9; 4], [9; 4], 9, [9.0; 4]),
+            };
+            assert_eq!(found, pixels, "{who}: {x}, {y}");
+        }
+    });
+}
+
+#[test]
+fn a_kept_background_shows_where_nothing_is() {
+    each_way(|who, frame, variant, renderer| {
+        if frame.samples() > 1 {
+            return;
+        }
+        let before = [10, 20, 30, 40];
+        let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), before);
+        draw(variant, frame, &mut picture, kept(renderer));
+        let expected = variant
+            .render_with(frame, renderer)
+            .map(|pixel| match pixel {
+                [_, _, _, 0] => before,
+                pixel => pixel,
+            });
+        assert!(expected.pixels().contains(&before), "{who}: no background");
+        assert!(picture == expected, "{who}");
+    });
+}
+
+/// Over a picture that is the frame's background everywhere, the frame is what it is over its background.
+#[test]
+fn the_covered_share_of_a_pixel_lies_over_what_was_there() {
+    let (_, mut frame) = kinds(48, 36)
+        .find(|(kind, _)| *kind == "four samples per pixel")
+        .expect("a kind");
+    let variant = Variant::parse("phong-rsqrt").expect("a method");
+    for renderer in distinct(&variant, &frame) {
+        for alpha in [Alpha::Straight, Alpha::Flattened] {
+            let [r, g, b] = frame.background();
+            let mut picture = Picture::new(48, 36, [r, g, b, 1.0]);
+            frame.set_alpha(alpha);
+            draw(&variant, &frame, &mut picture, kept(renderer));
+            frame.set_alpha(Alpha::Flattened);
+            let expected = variant.render_linear_with(&frame, renderer);
+            let shares = expected.pixels().iter().map(|pixel| pixel[3]);
+            assert!(shares.clone().any(|alpha| 0.0 < alpha && alpha < 1.0));
+            assert_eq!(
+                picture,
+                expected.map(|[r, g, b, _]| [r, g, b, 1.0]),
+                "{alpha:?}"
+            );
+        }
+        // Over nothing, straight alpha is straight alpha.
+        frame.set_alpha(Alpha::Straight);
+        let mut picture = LinearPicture::new(48, 36, [0.25, 0.5, 0.75, 0.0]);
+        draw(&variant, &frame, &mut picture, kept(renderer));
+        let alone = variant.render_linear_with(&frame, renderer);
+        for (found, alone) in picture.pixels().iter().zip(alone.pixels()) {
+            match alone[3] {
+                0.0 => assert_eq!(*found, [0.25, 0.5, 0.75, 0.0]),
+                _ => assert_eq!(found, alone),
+            }
+        }
+    }
+}
+
+/// The two balls drawn one after the other with one depth buffer, in either order, are the picture of both.
+#[test]
+fn two_frames_compose_as_one() {
+    let mut compared = 0;
+    for (kind, both, [first, second]) in parts(48, 36) {
+        let HiddenSurfaces::ZBuffer(DepthBuffer {
+            bits: DepthBits::ThirtyTwo,
+            ..
+        }) = both.hidden_surfaces()
+        else {
+            continue;
+        };
+        if both.samples() > 1 {
+            continue; // a pixel that shows both is filtered twice
+        }
+        for method in ["gouraud", "phong-rsqrt", "fast-phong", "slerp-phong"] {
+            let variant = Variant::parse(method).expect("a method");
+            for renderer in distinct(&variant, &both) {
+                let expected = variant.render_with(&both, renderer);
+                for (frames, threads) in [([&first, &second], 1), ([&second, &first], 2)] {
+                    let mut depths = vec![f32::INFINITY; both.width() * both.height()];
+                    let mut picture = Picture8::new(both.width(), both.height(), [7; 4]);
+                    for (number, frame) in frames.into_iter().enumerate() {
+                        let options = DrawOptions {
+                            renderer,
+                            background: [Background::Drawn, Background::Kept][number],
+                            depth: Some(&mut depths),
+                        };
+                        on_threads(threads, || draw(&variant, frame, &mut picture, options));
+                    }
+                    let who = format!("{kind}, {method} by {}", name(renderer));
+                    assert!(picture == expected, "{who}: another picture");
+                    if renderer == Renderer::LECTURE {
+                        assert_eq!(depths, depth(&both).pixels(), "{who}");
+                    }
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 100, "{compared} pictures");
+}
+
+/// What the caller has drawn hides what is behind it, sample by sample, and nothing is written there.
+#[test]
+fn what_lies_in_front_stays() {
+    each_way(|who, frame, variant, renderer| {
+        let HiddenSurfaces::ZBuffer(DepthBuffer {
+            bits: DepthBits::ThirtyTwo,
+            ..
+        }) = frame.hidden_surfaces()
+        else {
+            return;
+        };
+        // In front of everything left of the middle.
+        let middle = frame.width() / 2;
+        let is_hidden = |place: usize| place % frame.width() < middle;
+        let samples = 0..frame.width() * frame.height();
+        let mut depths: Vec<f32> = samples
+            .map(|place| {
+                if is_hidden(place) {
+                    -9.0
+                } else {
+                    f32::INFINITY
+                }
+            })
+            .collect();
+        let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [7; 4]);
+        let options = DrawOptions {
+            depth: Some(&mut depths),
+            ..kept(renderer)
+        };
+        draw(variant, frame, &mut picture, options);
+        let whole = variant.render_with(frame, renderer);
+        let left = frame.picture_width() / 2;
+        for (y, x) in (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (y, x)))
+        {
+            match whole.get(x, y)[3] {
+                // A run that begins elsewhere is rounded elsewhere.
+                255 if x >= left => {
+                    let [found, whole] = [picture.get(x, y), whole.get(x, y)];
+                    let is_near = |c: usize| found[c].abs_diff(whole[c]) <= 1;
+                    assert!((0..4).all(is_near), "{who}: {found:?}, {whole:?}");
+                }
+                1..255 if x >= left => (),
+                _ => assert_eq!(picture.get(x, y), [7; 4], "{who}: {x}, {y}"),
+            }
+        }
+        assert!((0..depths.len()).all(|place| is_hidden(place) == (depths[place] == -9.0)));
+        assert!(
+            depths.iter().any(|depth| (0.0..1.0).contains(depth)),
+            "{who}"
+        );
+    });
+}
+
+#[test]
+fn what_does_not_go_together_is_an_error_and_draws_nothing() {
+    let variant = Variant::parse("gouraud").expect("a method");
+    let frame = |kind: &str| {
+        kinds(48, 36)
+            .find(|(name, _)| *name == kind)
+            .expect("a kind")
+            .1
+    };
+    let plain = frame("one material");
+    let mut pixels = vec![[7; 4]; 48 * 36];
+    let mut found =
+        |width: usize, height: usize, stride: usize, frame: &Frame, depth: Option<usize>| {
+            let mut depths = vec![0.5; depth.unwrap_or(0)];
+            let options = DrawOptions {
+                depth: depth.map(|_| &mut depths[..]),
+                ..DrawOptions::by(Renderer::fastest())
+            };
+            let picture = PictureMut::rgba8(&mut pixels, width, height).stride(stride);
+            let result = variant.draw(frame, picture, options);
+            if result.is_err() {
+                assert!(
+                    pixels.iter().all(|pixel| *pixel == [7; 4]) && depths.iter().all(|z| *z == 0.5)
+                );
+            }
+            result.map(|_| ())
+        };
+    let cases = [
+        (
+            found(36, 48, 36, &plain, None),
+            DrawError::Size {
+                found: [36, 48],
+                expected: [48, 36],
+            },
+            "the picture is 36x48: the frame draws 48x36 pixels",
+        ),
+        (
+            found(48, 36, 47, &plain, None),
+            DrawError::Stride {
+                stride: 47,
+                width: 48,
+            },
+            "a stride of 47 pixels is shorter than a row of 48",
+        ),
+        (
+            found(48, 36, 49, &plain, None),
+            DrawError::Pixels {
+                found: 48 * 36,
+                expected: 49 * 35 + 48,
+            },
+            "the picture has memory for 1728 pixels: its rows take 1763",
+        ),
+        (
+            found(48, 36, usize::MAX, &plain, None),
+            DrawError::Pixels {
+                found: 48 * 36,
+                expected: usize::MAX,
+            },
+            "the picture has memory for 1728 pixels: its rows take 18446744073709551615",
+        ),
+        (
+            found(48, 36, 48, &plain, Some(48 * 35)),
+            DrawError::Depth {
+                found: 48 * 35,
+                expected: 48 * 36,
+            },
+            "the depth buffer has 1680 numbers: the frame has 1728 samples",
+        ),
+        // One a sample, not one a pixel.
+        (
+            found(48, 36, 48, &frame("four samples per pixel"), Some(48 * 36)),
+            DrawError::Depth {
+                found: 48 * 36,
+                expected: 96 * 72,
+            },
+            "the depth buffer has 1728 numbers: the frame has 6912 samples",
+        ),
+        (
+            found(48, 36, 48, &frame("painter"), Some(48 * 36)),
+            DrawError::DepthNotTested,
+            "the frame is drawn in order, without a depth test: leave the depth buffer out, or give the frame one",
+        ),
+        (
+            found(48, 36, 48, &frame("in the order of drawing"), Some(48 * 36)),
+            DrawError::DepthNotTested,
+            "the frame is drawn in order, without a depth test: leave the depth buffer out, or give the frame one",
+        ),
+        (
+            found(
+                48,
+                36,
+                48,
+                &frame("a depth buffer of 16 bits"),
+                Some(48 * 36),
+            ),
+            DrawError::DepthRounded(DepthBits::Sixteen),
+            "the frame rounds depth to 16 bits: give it a depth buffer of 32",
+        ),
+    ];
+    for (found, error, text) in cases {
+        assert_eq!(found, Err(error));
+        assert_eq!(error.to_string(), text);
+    }
+    // More memory than is needed is none.
+    assert_eq!(
+        found(48, 36, 48, &frame("four samples per pixel"), None),
+        Ok(())
+    );
+}
