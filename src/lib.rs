@@ -57,6 +57,9 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+pub use fixed;
+pub use glam;
+
 pub mod compare;
 pub mod frame;
 #[cfg(feature = "cli")]

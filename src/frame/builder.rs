@@ -125,14 +125,23 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the colour of a vertex. See [`Frame::colour`].
+    /// Sets the colour of a vertex: its attributes are the colour and 1.
     ///
     /// # Panics
     /// When there is no such vertex.
-    pub fn colour(&mut self, vertex: u32, colour: [f32; 3]) -> &mut Self {
+    pub fn colour(&mut self, vertex: u32, [r, g, b]: [f32; 3]) -> &mut Self {
+        self.attributes(vertex, [r, g, b, 1.0])
+    }
+
+    /// Sets the attributes of a vertex: four numbers for a method of your own. See [`Frame::attributes`].
+    ///
+    /// # Panics
+    /// When there is no such vertex.
+    pub fn attributes(&mut self, vertex: u32, attributes: [f32; 4]) -> &mut Self {
         let geometry = self.geometry();
-        geometry.colours.resize(geometry.normals.len(), [1.0; 3]);
-        geometry.colours[vertex as usize] = colour;
+        let count = geometry.normals.len();
+        geometry.attributes.resize(count, Geometry::NO_ATTRIBUTES);
+        geometry.attributes[vertex as usize] = attributes;
         self
     }
 
@@ -200,8 +209,11 @@ impl FrameBuilder {
             return Err(FrameError::TooLarge);
         }
         frame.check_lightings()?;
-        let finite = |all: &[[f32; 3]]| all.iter().position(|v| !v.iter().all(|c| c.is_finite()));
-        if let Some(index) = finite(&geometry.positions).or_else(|| finite(&geometry.colours)) {
+        fn not_finite<const N: usize>(all: &[[f32; N]]) -> Option<usize> {
+            all.iter().position(|v| !v.iter().all(|c| c.is_finite()))
+        }
+        let attributes = || not_finite(&geometry.attributes);
+        if let Some(index) = not_finite(&geometry.positions).or_else(attributes) {
             return Err(FrameError::Vertex { index });
         }
         if let Some(index) = (0..frame.vertices.len()).find(|&v| !frame.vertex_is_valid(v)) {

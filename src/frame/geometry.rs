@@ -11,8 +11,8 @@ pub(crate) struct Geometry {
     pub normals: Vec<[f32; 3]>,
     /// The lighting of each vertex.
     pub materials: Vec<u32>,
-    /// One a vertex, or none.
-    pub colours: Vec<[f32; 3]>,
+    /// Four numbers a vertex, or none: a colour and 1 where a mesh gave no others.
+    pub attributes: Vec<[f32; 4]>,
     /// Positions from the origin of the frame, one per vertex, or none: those of [`Geometry::models`] then.
     pub positions: Vec<[f32; 3]>,
     /// Positions of vertices in model space, one per vertex, or none.
@@ -79,6 +79,9 @@ impl Models {
 }
 
 impl Geometry {
+    /// The attributes of a vertex that was given none.
+    pub const NO_ATTRIBUTES: [f32; 4] = [1.0; 4];
+
     /// Returns the number of vertices, on both sides together.
     #[inline(always)]
     pub fn vertex_count(&self) -> usize {
@@ -105,9 +108,9 @@ impl Geometry {
     }
 
     #[inline(always)]
-    pub fn colour(&self, vertex: u32) -> [f32; 3] {
-        if self.colours.is_empty() {
-            return [1.0; 3];
+    pub fn attributes(&self, vertex: u32) -> [f32; 4] {
+        if self.attributes.is_empty() {
+            return Geometry::NO_ATTRIBUTES;
         }
         let front = if (vertex as usize) < self.normals.len() {
             Some(vertex as usize)
@@ -115,9 +118,9 @@ impl Geometry {
             self.front(vertex)
         };
         front
-            .and_then(|front| self.colours.get(front))
+            .and_then(|front| self.attributes.get(front))
             .copied()
-            .unwrap_or([1.0; 3])
+            .unwrap_or(Geometry::NO_ATTRIBUTES)
     }
 
     /// Returns the position of a vertex relative to `origin`.

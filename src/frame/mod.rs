@@ -201,16 +201,19 @@ impl Frame {
         self.geometry.position(vertex, self.origin)
     }
 
-    /// Returns the attributes of a vertex that methods outside this crate may read: its colour and 1, if it was given no others.
+    /// Returns the attributes of a vertex, which a method may read ([`Lit::attributes`](crate::shading::Lit::attributes)): four numbers of
+    /// [`FrameBuilder::attributes`] or of [`MeshBuilder::attributes`](crate::mesh::MeshBuilder::attributes), else its colour and 1. At a clip
+    /// corner they mean nothing.
     pub fn attributes(&self, vertex: u32) -> [f32; 4] {
-        let [r, g, b] = self.colour(vertex);
-        [r, g, b, 1.0]
+        self.geometry.attributes(vertex)
     }
 
-    /// Returns the colour of a vertex, linear; white if the frame was given no colours. At a clip corner it means nothing.
+    /// Returns the colour of a vertex, linear: the first three of its attributes; white if the frame was given none. At a
+    /// clip corner it means nothing.
     #[inline(always)]
     pub fn colour(&self, vertex: u32) -> [f32; 3] {
-        self.geometry.colour(vertex)
+        let [r, g, b, _] = self.geometry.attributes(vertex);
+        [r, g, b]
     }
 
     /// Returns the mean of a polygon's corners as they were before it was clipped or cut into triangles.

@@ -41,6 +41,7 @@ pub struct PolygonMesh {
     smoothing_groups: Vec<u32>,
     given_normals: Option<GivenNormals>,
     colours: Vec<Vec3>,
+    attributes: Vec<[f32; 4]>,
     materials: Vec<Material>,
     polygon_materials: Vec<u32>,
 }
@@ -123,6 +124,11 @@ impl PolygonMesh {
         &self.colours
     }
 
+    /// Returns four numbers for each position, for methods outside this crate; empty where the mesh has none.
+    pub fn attributes(&self) -> &[[f32; 4]] {
+        &self.attributes
+    }
+
     /// Returns the materials that polygons refer to; may be empty.
     pub fn materials(&self) -> &[Material] {
         &self.materials
@@ -159,7 +165,7 @@ impl PolygonMesh {
 /// A mesh that could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshError {
-    /// A position, normal or colour holds a NaN or an infinity.
+    /// A position, normal, colour or attribute holds a NaN or an infinity.
     NotFinite {
         /// The number of the vector, counted from 0.
         index: usize,
@@ -178,6 +184,13 @@ pub enum MeshError {
     },
     /// The colours are not one a position.
     ColourCount {
+        /// The number found.
+        found: usize,
+        /// The number expected.
+        expected: usize,
+    },
+    /// The attributes are not four numbers a position.
+    AttributeCount {
         /// The number found.
         found: usize,
         /// The number expected.
@@ -222,6 +235,12 @@ impl fmt::Display for MeshError {
             ),
             MeshError::ColourCount { found, expected } => {
                 write!(f, "{found} colours where {expected} were expected")
+            }
+            MeshError::AttributeCount { found, expected } => {
+                write!(
+                    f,
+                    "attributes of {found} positions where {expected} were expected"
+                )
             }
             MeshError::GroupCount { found, expected } => {
                 write!(
@@ -283,6 +302,7 @@ impl MeshBuilder {
                 smoothing_groups: Vec::new(),
                 given_normals: None,
                 colours: Vec::new(),
+                attributes: Vec::new(),
                 materials: Vec::new(),
                 polygon_materials: Vec::new(),
             },
@@ -327,6 +347,13 @@ impl MeshBuilder {
         self
     }
 
+    /// Adds attributes, four numbers a position: a method may read them at each vertex
+    /// ([`Lit::attributes`](crate::shading::Lit::attributes)), in the place of colours.
+    pub fn attributes(&mut self, attributes: Vec<[f32; 4]>) -> &mut Self {
+        self.mesh.attributes = attributes;
+        self
+    }
+
     /// Adds materials, and for each polygon the one it has (an index past the end means none).
     pub fn materials(&mut self, materials: Vec<Material>, of_polygons: Vec<u32>) -> &mut Self {
         self.mesh.materials = materials;
@@ -363,6 +390,16 @@ impl MeshBuilder {
         if !mesh.colours.is_empty() && mesh.colours.len() != mesh.positions.len() {
             return Err(MeshError::ColourCount {
                 found: mesh.colours.len(),
+                expected: mesh.positions.len(),
+            });
+        }
+        let is_finite = |numbers: &[f32; 4]| numbers.iter().all(|number| number.is_finite());
+        if let Some(index) = mesh.attributes.iter().position(|four| !is_finite(four)) {
+            return Err(MeshError::NotFinite { index });
+        }
+        if !mesh.attributes.is_empty() && mesh.attributes.len() != mesh.positions.len() {
+            return Err(MeshError::AttributeCount {
+                found: mesh.attributes.len(),
                 expected: mesh.positions.len(),
             });
         }

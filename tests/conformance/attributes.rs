@@ -1,12 +1,15 @@
 //! Pictures of interpolated attributes: vertex colours and Lecture 5's checkerboard, wrong and
 //! right.
 
-use fastphong::frame::Frame;
+use crate::support::renderers::{name, renderers};
+use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::mesh::{MeshBuilder, PolygonMesh};
+use fastphong::mesh::{MeshBuilder, MeshError, PolygonMesh};
+use fastphong::number::{Num, Vec3 as Vector, vec3};
 use fastphong::picture::LinearPicture;
 use fastphong::raster::{Edges, checkerboard, vertex_colours};
 use fastphong::scene::{Camera, Culling, Interpolation, Object, Projection, Scene};
+use fastphong::shading::{Entry, Info, Linear, Lit, Perspective, Shader, Span};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
@@ -25,21 +28,24 @@ fn camera() -> Camera {
 }
 
 fn seen(mesh: PolygonMesh, interpolation: Interpolation) -> Frame {
+    scene_of(mesh, interpolation).frame().expect("a frame")
+}
+
+fn scene_of(mesh: PolygonMesh, interpolation: Interpolation) -> Scene {
     let object = Object {
         mesh: Arc::new(mesh),
         transform: DAffine3::IDENTITY,
         material: None,
         normals: NormalSource::Averaged,
     };
-    let scene = Scene {
+    Scene {
         width: WIDTH as u32,
         height: HEIGHT as u32,
         interpolation,
         culling: Culling::None,
         objects: vec![object],
         ..Scene::new(camera())
-    };
-    scene.frame().expect("a frame")
+    }
 }
 
 /// Builds a floor over −4..4 in x and z whose colour is linear in x and z, of two triangles or one
@@ -244,4 +250,157 @@ fn colours_are_one_a_position_or_none() {
         refused(vec![Vec3::ONE, Vec3::NAN, Vec3::ONE]),
         "vector 1 is not finite"
     );
+}
+
+/// Four attributes of a vertex, drawn as a colour: the first three over the fourth.
+#[derive(Clone, Copy, Default)]
+struct Quotients;
+
+static QUOTIENTS: Entry = Entry::of::<Quotients>();
+
+impl Shader for Quotients {
+    const INFO: Info = Info {
+        name: "quotients",
+        ..Info::OF_PIXELS
+    };
+    const READS_ATTRIBUTES: bool = true;
+    const PERSPECTIVE: Perspective = Perspective::Divides;
+    type Constants<F: Num> = ();
+    type Varying<F: Num> = (Vector<F>, F);
+    type Walk<F: Num> = Linear<(Vector<F>, F)>;
+
+    #[inline(always)]
+    fn vertex<F: Num>(self, lit: &Lit<'_, F>, _: Vector<F>) -> (Vector<F>, F) {
+        let [x, y, z, w] = lit.attributes();
+        (vec3([x, y, z]), w)
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        span.linear()
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, _: &Lit<'_, F>, (v, w): (Vector<F>, F)) -> Vector<F> {
+        v * (w.like(1.0) / w)
+    }
+}
+
+/// A method of one's own draws attributes as the vertex colours are drawn: linear on the surface, and where the near plane cuts
+/// it. Dividing by a fourth number undoes the multiplication by it.
+#[test]
+fn a_method_reads_the_attributes_that_a_mesh_brings() {
+    for (near, triangles) in [(1.0, true), (8.0, true), (8.0, false)] {
+        let with = |attributes: Option<f32>| {
+            let coloured = floor(triangles);
+            let mut builder = MeshBuilder::new(coloured.positions().to_vec());
+            for polygon in coloured.polygons() {
+                builder.polygon(polygon);
+            }
+            let colours = coloured.colours();
+            match attributes {
+                Some(w) => {
+                    let scaled = colours.iter().map(|c| *c * w);
+                    builder.attributes(scaled.map(|c| [c.x, c.y, c.z, w]).collect())
+                }
+                None => builder.colours(colours.to_vec()),
+            };
+            let mut scene = scene_of(
+                builder.finish().expect("a mesh"),
+                Interpolation::Perspective,
+            );
+            scene.camera.near = near;
+            scene.frame().expect("a frame")
+        };
+        let expected = vertex_colours(&with(None), None);
+        for w in [None, Some(1.0), Some(4.0)] {
+            let frame = with(w);
+            assert_eq!(frame.clip_corners().is_empty(), near == 1.0);
+            for renderer in renderers() {
+                let picture = QUOTIENTS.variant().render_linear_with(&frame, renderer);
+                let mut covered = 0;
+                for (found, expected) in picture.pixels().iter().zip(expected.pixels()) {
+                    assert_eq!(found[3], expected[3]);
+                    covered += usize::from(found[3] > 0.0);
+                    // A colour, a weight and a fourth number are each stepped along a row and an edge: rounded twice a pixel by
+                    // half of 2^-23 of numbers up to 1, over weights of 1/4 and more here.
+                    let most = 4.0 * 3.0 * 2.0 * (WIDTH + HEIGHT) as f32 / 2.0_f32.powi(24);
+                    for c in 0..3 {
+                        let off = (found[c] - expected[c]).abs();
+                        assert!(off <= most, "{}: {off:e} > {most:e}", name(renderer));
+                    }
+                }
+                assert!(covered > 400, "{covered} pixels");
+            }
+        }
+    }
+}
+
+/// Attributes are one a position or none, and stand for those of their object alone.
+#[test]
+fn attributes_are_four_a_position_or_none() {
+    let of = |attributes: Vec<[f32; 4]>| {
+        let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Z]);
+        builder.polygon(&[0, 2, 1]).attributes(attributes);
+        builder.finish()
+    };
+    let (found, expected) = (2, 3);
+    assert_eq!(
+        of(vec![[0.0; 4]; 2]).err(),
+        Some(MeshError::AttributeCount { found, expected })
+    );
+    let wrong = vec![[0.0; 4], [f32::NAN; 4], [0.0; 4]];
+    assert_eq!(of(wrong).err(), Some(MeshError::NotFinite { index: 1 }));
+
+    let own = vec![[2.0, -3.0, 4.0, 5.0], [0.0; 4], [7.0; 4]];
+    for normals in [NormalSource::Averaged, NormalSource::Crease(1.0)] {
+        let mut scene = scene_of(of(Vec::new()).expect("a mesh"), Interpolation::Screen);
+        let plain = scene.objects[0].clone();
+        for mesh in [of(own.clone()).expect("a mesh"), floor(true)] {
+            let mesh = Arc::new(mesh);
+            scene.objects.push(Object {
+                mesh,
+                ..plain.clone()
+            });
+        }
+        scene.objects.push(plain);
+        scene
+            .objects
+            .iter_mut()
+            .for_each(|object| object.normals = normals);
+        scene.two_sided = true;
+        let frame = scene.frame().expect("a frame");
+        let vertices = frame.vertices().len() as u32;
+        let attributes: Vec<[f32; 4]> = (0..vertices).map(|v| frame.attributes(v)).collect();
+        let count = |four: &[f32; 4]| attributes.iter().filter(|a| *a == four).count();
+        let sides = 2;
+        assert_eq!(count(&[1.0; 4]), 2 * 3 * sides);
+        assert!(own.iter().all(|four| count(four) == sides));
+        let c = colour(-4.0, -4.0).as_vec3();
+        assert!(count(&[c.x, c.y, c.z, 1.0]) >= sides);
+    }
+
+    let mut builder = FrameBuilder::new(8, 8);
+    let vertex = Vertex {
+        x: SubPixel::ZERO,
+        y: SubPixel::ZERO,
+        depth: 0.5,
+        inv_w: 1.0,
+        normal: [0.0, 0.0, 1.0],
+        material: 0,
+    };
+    builder.lighting(fastphong::scene::Lighting::new(
+        &Default::default(),
+        [1.0; 3],
+        &[],
+        DVec3::Z,
+    ));
+    let [a, b, c] = [0; 3].map(|_| builder.vertex(vertex));
+    builder.attributes(b, own[0]).colour(c, [0.5, 0.25, 0.125]);
+    let frame = builder.clone().finish().expect("a frame");
+    assert_eq!(
+        [a, b, c].map(|v| frame.attributes(v)),
+        [[1.0; 4], own[0], [0.5, 0.25, 0.125, 1.0]]
+    );
+    assert_eq!(frame.colour(b), [2.0, -3.0, 4.0]);
+    builder.attributes(a, [0.0, 0.0, 0.0, f32::INFINITY]);
+    assert!(builder.finish().is_err());
 }

@@ -178,11 +178,11 @@ impl Preparation {
                 .iter()
                 .map(|&position| first as u32 + position),
         );
-        if !mesh.colours().is_empty() {
-            geometry.colours.resize(first, [1.0; 3]);
-            geometry
-                .colours
-                .extend(mesh.colours().iter().map(|colour| colour.to_array()));
+        if has_attributes(mesh) {
+            geometry.attributes.resize(first, Geometry::NO_ATTRIBUTES);
+            let positions = 0..mesh.positions().len();
+            let attributes = positions.filter_map(|position| attributes(mesh, position));
+            geometry.attributes.extend(attributes);
         }
     }
 
@@ -204,16 +204,16 @@ impl Preparation {
         let in_world = collect(normals.values.len(), CHUNK, |i| {
             source.normal(normals.values[i])
         });
-        if !mesh.colours().is_empty() {
-            geometry.colours.resize(first, [1.0; 3]);
+        if has_attributes(mesh) {
+            geometry.attributes.resize(first, Geometry::NO_ATTRIBUTES);
         }
         for (number, &[position, normal, material]) in numbers.iter().zip(&keys) {
             if geometry.normals.len() == first + *number as usize {
                 geometry.normals.push(in_world[normal as usize]);
                 geometry.materials.push(material);
                 geometry.models.push(mesh.positions()[position as usize]);
-                let colour = mesh.colours().get(position as usize);
-                geometry.colours.extend(colour.map(|c| c.to_array()));
+                let attributes = attributes(mesh, position as usize);
+                geometry.attributes.extend(attributes);
             }
         }
         debug_assert_eq!(geometry.normals.len(), first + count);
@@ -234,8 +234,9 @@ impl Preparation {
         if self.table.materials.iter().all(|&material| material == 0) {
             self.table.materials = Vec::new();
         }
-        if !geometry.colours.is_empty() {
-            geometry.colours.resize(geometry.normals.len(), [1.0; 3]);
+        if !geometry.attributes.is_empty() {
+            let count = geometry.normals.len();
+            geometry.attributes.resize(count, Geometry::NO_ATTRIBUTES);
         }
         if geometry.two_sided {
             let second = geometry.normals.len() as u32;
@@ -288,4 +289,15 @@ fn starts<'a>(meshes: impl Iterator<Item = &'a PolygonMesh>, polygons: usize) ->
     }
     starts.push(first);
     starts
+}
+/// True if vertices of the mesh have attributes.
+fn has_attributes(mesh: &PolygonMesh) -> bool {
+    !(mesh.attributes().is_empty() && mesh.colours().is_empty())
+}
+
+/// Returns the attributes of a position: its own, or its colour and 1.
+fn attributes(mesh: &PolygonMesh, position: usize) -> Option<[f32; 4]> {
+    let own = mesh.attributes().get(position).copied();
+    let colour = || mesh.colours().get(position).map(|c| [c.x, c.y, c.z, 1.0]);
+    own.or_else(colour)
 }
