@@ -7,12 +7,12 @@
 //!
 //! Needs no feature of the crate, so it also runs with `--no-default-features`.
 
+use fastphong::glam::{DAffine3, DVec3, Vec3};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, Material, MeshBuilder};
 use fastphong::picture::Encoding;
 use fastphong::scene::{Camera, Light, Object, Projection, Scene};
 use fastphong::shading::Variant;
-use glam::{DAffine3, DVec3, Vec3};
 use std::error::Error;
 use std::io::Write;
 use std::sync::Arc;

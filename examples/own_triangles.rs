@@ -9,10 +9,10 @@
 //! `Variant::draw` draws into memory of yours, on SIMD where `Renderer::fastest()` has it, and beside a depth buffer of yours.
 
 use fastphong::frame::{FrameBuilder, SubPixel, Vertex};
+use fastphong::glam::{DVec3, Vec3};
 use fastphong::mesh::Material;
 use fastphong::scene::{Light, Lighting};
 use fastphong::shading::Variant;
-use glam::{DVec3, Vec3};
 use std::error::Error;
 use std::io::Write;
 

@@ -41,10 +41,15 @@
 //! | scenes | [`scene::Scene::of_mesh`], [`scene::Camera`], [`scene::Light`], `scene::file::SceneFile`, `scene::input::load` |
 //! | frames | [`frame::Frame`], the interface between geometry and shading: from [`scene::Scene::frame`], [`frame::PreparedScene`] for many frames, [`frame::FrameBuilder`] for polygons from elsewhere |
 //! | the reference | [`mod@reference`]: four closed forms in `f64` |
-//! | methods | [`shading::Variant::render`], [`shading::METHODS`]; [`shading::Shader`] to add one from outside this crate |
+//! | methods | [`shading::Variant::render`], [`shading::methods`], [`shading::METHODS`]; [`shading::Shader`] to add one from outside this crate |
+//! | a window, a depth buffer of your own | [`shading::Variant::draw`] into a [`picture::PictureMut`] |
+//! | a rasterizer of your own | [`shading::SpanShader`]: a method without an engine |
+//! | numbers of your own at vertices | [`mesh::MeshBuilder::attributes`], [`frame::FrameBuilder::attributes`], [`shading::Lit::attributes`] |
 //! | engines | [`raster`]: scan lines as in the lecture, SIMD rows, barycentric coordinates to compare with |
-//! | errors, times | [`compare::metrics::compare`], [`compare::metrics::difference_map`], [`shading::Variant::operations`], `compare::comparison` |
-//! | figures | `lectures` |
+//! | errors, times | [`compare::metrics::compare`], [`compare::metrics::difference_map`], [`shading::Variant::operations`] |
+//!
+//! Vectors of scenes and meshes are those of [`glam`], coordinates on the picture numbers of [`fixed`]: both are re-exported, so that
+//! versions agree. A shader computes with [`number::Vec3`], whose components may be blocks of pixels.
 //!
 //! # Features
 //!
@@ -63,6 +68,7 @@ pub use glam;
 pub mod compare;
 pub mod frame;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod lectures;
 pub mod mesh;
 pub mod number;
@@ -70,6 +76,7 @@ pub mod picture;
 pub mod raster;
 pub mod reference;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod report;
 pub mod scene;
 pub mod shading;

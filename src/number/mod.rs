@@ -22,7 +22,9 @@ pub(crate) mod parallel;
 mod powf;
 mod scalar;
 #[cfg(feature = "simd")]
+#[doc(hidden)]
 pub mod simd;
+#[doc(hidden)]
 pub mod suggest;
 #[cfg(test)]
 pub(crate) mod test_random;

@@ -152,6 +152,17 @@ impl Encoder {
     }
 }
 
+/// Stores a line of linear colours, as [`SpanShader`](crate::shading::SpanShader) shades it, with alpha 255: clamped, and with the transfer
+/// function of an encoder, which is made once a program, or linear without one.
+pub fn store_line(colours: &[[f32; 3]], encoder: Option<&Encoder>, to: &mut [[u8; 4]]) {
+    for (pixel, &[r, g, b]) in to.iter_mut().zip(colours) {
+        *pixel = match encoder {
+            None => [quantise(r), quantise(g), quantise(b), 255],
+            Some(encoder) => encoder.store([r, g, b, 1.0]),
+        };
+    }
+}
+
 /// Returns a linear picture as it is stored.
 pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
     match encoding {

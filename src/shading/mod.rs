@@ -25,12 +25,14 @@ mod info;
 mod kernels;
 mod span;
 mod span_bench;
+mod span_shader;
 mod spread;
 mod table;
 mod variant;
 
 pub mod increments;
 pub mod lighting;
+pub mod methods;
 
 mod duff_newton;
 mod duff_phong;
@@ -63,6 +65,7 @@ pub use planes::{PerLight, Planes};
 pub use span::{Corner, Corners, Run, Span, SpanPlace};
 pub(crate) use span::{PolygonConstants, RunList, Starts, ramp};
 pub use span_bench::SpanBench;
+pub use span_shader::{SpanShader, SpanVertex};
 pub use table::{Entry, METHODS};
 pub use variant::Variant;
 

@@ -18,6 +18,7 @@ mod lights;
 mod ndc_cube;
 mod pins;
 mod regression;
+mod span_shader;
 mod supersampling;
 mod support;
 mod two_sided;

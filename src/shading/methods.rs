@@ -1,0 +1,77 @@
+//! The methods of [`METHODS`] as constants: `methods::PHONG_RSQRT.variant()` draws without a name that may be misspelt.
+//!
+//! [`Entry::info`] says of each what it computes, and where it fails.
+
+use super::{Entry, METHODS};
+
+/// Flat shading, lit once a polygon by the polygon's own normal.
+pub const FLAT: &Entry = named("flat");
+/// Flat shading by the mean of the corners' normals.
+pub const FLAT_AVERAGE: &Entry = named("flat-average");
+/// Vertex colours, interpolated.
+pub const GOURAUD: &Entry = named("gouraud");
+/// Vertex colours, interpolated; highlights apart from the rest.
+pub const GOURAUD_SEPARATE: &Entry = named("gouraud-separate");
+/// Normals, interpolated and made unit vectors at each pixel.
+pub const NAIVE_PHONG: &Entry = named("naive-phong");
+/// Fast Phong shading with Newton's root.
+pub const FAST_PHONG: &Entry = named("fast-phong");
+/// Fast Phong shading with the processor's reciprocal root.
+pub const FAST_PHONG_RSQRT: &Entry = named("fast-phong-rsqrt");
+/// Naive Phong shading from scalars, with the processor's reciprocal root: mostly the fastest with naive Phong's picture.
+pub const PHONG_RSQRT: &Entry = named("phong-rsqrt");
+/// Duff's forward differences.
+pub const DUFF_PHONG: &Entry = named("duff-phong");
+/// Duff's forward differences with Newton's root.
+pub const DUFF_NEWTON: &Entry = named("duff-newton");
+/// Quadratics through six points of a triangle.
+pub const SIX_POINT: &Entry = named("six-point");
+/// Normals along great circles, as products.
+pub const SLERP_PHONG: &Entry = named("slerp-phong");
+/// Normals along great circles, as vectors.
+pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
+/// Normals along great circles by Chebyshev's recurrence.
+pub const SLERP_CHEBYSHEV: &Entry = named("slerp-chebyshev");
+
+/// Returns the row of the table called `name`; a name without a row does not compile.
+const fn named(name: &str) -> &'static Entry {
+    let mut number = 0;
+    while !are_equal(METHODS[number].info.name.as_bytes(), name.as_bytes()) {
+        number += 1;
+    }
+    &METHODS[number]
+}
+
+const fn are_equal(a: &[u8], b: &[u8]) -> bool {
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// Every method of the table is a constant, whose name is its own in capitals.
+    #[test]
+    fn constants_are_the_table() {
+        let lines = include_str!("methods.rs").lines();
+        let constants = lines.filter_map(|line| {
+            let (constant, rest) = line
+                .strip_prefix("pub const ")?
+                .split_once(": &Entry = named(\"")?;
+            let name = rest.strip_suffix("\");")?;
+            assert_eq!(constant.to_ascii_lowercase().replace('_', "-"), name);
+            Some(name)
+        });
+        let names = METHODS.iter().map(|entry| entry.info.name);
+        assert_eq!(constants.collect::<Vec<_>>(), names.collect::<Vec<_>>());
+        assert!(core::ptr::eq(
+            PHONG_RSQRT,
+            Entry::named("phong-rsqrt").unwrap()
+        ));
+    }
+}

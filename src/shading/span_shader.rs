@@ -1,0 +1,217 @@
+//! Shading for a rasterizer of one's own: a line of pixels from its two ends, by the scalar kernels of any method.
+
+use super::lighting::Uniforms;
+use super::{
+    Corners, Extras, Kernels, Local, Perspective, Pixels, PolygonConstants, Run, RunList,
+    SpanPlace, UniformsIndex, Variant, Vertices, ramp,
+};
+use crate::scene::{Interpolation, Lighting};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// A vertex as [`SpanShader::vertex`] lights it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpanVertex {
+    /// The unit normal, in the space of the directions of lights: the polygon's own for flat shading.
+    pub normal: [f32; 3],
+    /// The position in the space of lights and eye at positions; any if there are none.
+    pub position: [f32; 3],
+    /// Four numbers for methods that read them: [`Lit::attributes`](super::Lit::attributes).
+    pub attributes: [f32; 4],
+    /// near/w, the weight of perspective; 1 without.
+    pub inv_w: f32,
+}
+
+impl SpanVertex {
+    /// Makes a vertex of a unit normal, under lights at infinity and without perspective.
+    pub fn of_normal(normal: [f32; 3]) -> Self {
+        SpanVertex {
+            normal,
+            position: [0.0; 3],
+            attributes: [1.0; 4],
+            inv_w: 1.0,
+        }
+    }
+}
+
+/// A method on a material and its lights, for a rasterizer of your own, which keeps edges, pixels and hidden surfaces to itself.
+///
+/// A vertex becomes a few numbers, its *varyings*: a colour for Gouraud shading, the normal for naive Phong shading, products of the
+/// normal for fast Phong shading. Carry them along edges as you carry depth, linearly; [`SpanShader::shade`] takes them at both ends of a
+/// line of pixels. `examples/own_rasterizer.rs` is a whole rasterizer.
+///
+/// ```
+/// use fastphong::glam::DVec3;
+/// use fastphong::mesh::Material;
+/// use fastphong::picture::encoding::store_line;
+/// use fastphong::scene::{Interpolation, Light, Lighting};
+/// use fastphong::shading::{SpanShader, SpanVertex, methods};
+///
+/// let light = Light::directional(DVec3::Z, [1.0; 3]);
+/// let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
+/// let variant = methods::PHONG_RSQRT.variant();
+/// let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen);
+/// let ends = [[-0.6, 0.0, 0.8], [0.6, 0.0, 0.8]].map(|n| shader.vertex(SpanVertex::of_normal(n)));
+///
+/// // The line from column 10.25 to column 26.25 covers the centres of pixels 10 to 25.
+/// let mut colours = [[0.0; 3]; 16];
+/// shader.shade([(10.25, &ends[0]), (26.25, &ends[1])], [10, 0], &mut colours);
+/// let mut bytes = [[0; 4]; 16];
+/// store_line(&colours, None, &mut bytes);
+/// assert!(bytes[8][0] > bytes[0][0], "the highlight is in the middle");
+/// ```
+#[derive(Clone, Debug)]
+pub struct SpanShader {
+    variant: Variant,
+    kernels: &'static Kernels,
+    extras: Extras,
+    is_weighted: bool,
+    /// The numbers of a vertex: the method's, then position and weight.
+    varyings: usize,
+    /// As lights are seen from anywhere, and as polygons see them.
+    uniforms: [Uniforms; 2],
+    constants: PolygonConstants,
+    /// True until a polygon is set up, if the method wants one.
+    wants_polygon: bool,
+    is_by_polygon: bool,
+    list: RunList,
+}
+
+impl SpanShader {
+    /// Prepares a method on a material with its lights, whose varyings you interpolate linearly on the screen, or in perspective: then
+    /// varyings are multiplied by the weight of their vertex.
+    pub fn new(variant: &Variant, lighting: &Lighting, interpolation: Interpolation) -> Self {
+        let (entry, lights) = (variant.entry(), lighting.lights.len());
+        let (near, is_perspective) = (
+            lighting.is_local(),
+            interpolation == Interpolation::Perspective,
+        );
+        let kernels = entry.kernels(lights, near);
+        let extras = entry.extras(near, is_perspective);
+        let [own, _, constants] = (kernels.counts)(lights);
+        let uniforms = Uniforms::new(lighting, variant.power(), 1.0);
+        let is_by_polygon = near && entry.local == Local::PerPolygon;
+        SpanShader {
+            is_weighted: is_perspective
+                && matches!(entry.perspective, Perspective::Free | Perspective::Divides),
+            varyings: own + extras.count(),
+            uniforms: [uniforms.clone(), uniforms],
+            constants: PolygonConstants {
+                kinds: vec![0],
+                numbers: vec![0.0; constants],
+            },
+            wants_polygon: constants > 0 || !kernels.kinds.is_empty() || is_by_polygon,
+            is_by_polygon,
+            list: RunList::new(own + extras.count()),
+            variant: variant.clone(),
+            kernels,
+            extras,
+        }
+    }
+
+    /// Returns the number of a vertex's varyings.
+    pub fn varyings(&self) -> usize {
+        self.varyings
+    }
+
+    /// True if [`SpanShader::polygon`] must be called for each polygon, before its vertices: slerp methods and `six-point` ask for it, and
+    /// where a light or the eye is at a position, methods that see it from a polygon's mean.
+    pub fn wants_polygons(&self) -> bool {
+        self.is_by_polygon || !self.constants.numbers.is_empty() || !self.kernels.kinds.is_empty()
+    }
+
+    /// Sets up a polygon, for methods that want it; does nothing for others.
+    pub fn polygon(&mut self, corners: &Corners<'_, f32>) {
+        if self.is_by_polygon {
+            let mut mean = [0.0; 3];
+            let positions = corners.all.iter().filter_map(|corner| corner.position);
+            for position in positions {
+                for (mean, c) in mean.iter_mut().zip(position.array()) {
+                    *mean += c / corners.all.len() as f32;
+                }
+            }
+            self.uniforms[1] = self.uniforms[0].seen_from(mean);
+        }
+        let (parameters, numbers) = (self.variant.parameters(), &mut self.constants.numbers);
+        let kind = (self.kernels.polygon)(parameters, &self.uniforms[1], corners, numbers);
+        self.constants.kinds = vec![kind];
+        self.wants_polygon = false;
+    }
+
+    /// Returns the varyings of a vertex: for methods that light vertices this lights one.
+    pub fn vertex(&self, vertex: SpanVertex) -> Vec<f32> {
+        let mut to = vec![0.0; self.varyings];
+        let own = self.varyings - self.extras.count();
+        let job = Vertices {
+            parameters: self.variant.parameters(),
+            uniforms: &self.uniforms[1],
+            normals: &[vertex.normal],
+            points: &[vertex.position],
+            attributes: &[vertex.attributes],
+        };
+        (self.kernels.vertices)(&job, &mut to[..own]);
+        if self.extras.point {
+            to[own..own + 3].copy_from_slice(&vertex.position);
+        }
+        if self.extras.weight {
+            to[self.varyings - 1] = 1.0;
+        }
+        if self.is_weighted {
+            to.iter_mut().for_each(|number| *number *= vertex.inv_w);
+        }
+        to
+    }
+
+    /// Shades the pixels of a line from a column and a row on: linear and not clamped. `ends` are the columns where the
+    /// line's edges cross the centre of its scanline, in pixels, and the varyings there; pixel `i` has its centre at column i + ½.
+    ///
+    /// A line that is seen in part is shaded in part: pass the same ends and the pixels that are seen.
+    ///
+    /// # Panics
+    /// When an end has not as many varyings as [`SpanShader::varyings`] says, or a polygon is wanted and was not set up.
+    pub fn shade(
+        &mut self,
+        ends: [(f32, &[f32]); 2],
+        [first, row]: [u32; 2],
+        colours: &mut [[f32; 3]],
+    ) {
+        assert!(
+            !self.wants_polygon,
+            "`{}` wants every polygon to be set up",
+            self.variant
+        );
+        let [(x1, left), (x2, right)] = ends;
+        assert!(
+            left.len() == self.varyings && right.len() == self.varyings,
+            "an end has {} varyings",
+            self.varyings
+        );
+        let dt = if x2 > x1 { 1.0 / (x2 - x1) } else { 0.0 };
+        let t0 = (first as f32 + 0.5 - x1) * dt;
+        self.list.clear();
+        let [at, step] = self.list.starts.add();
+        for i in 0..self.varyings {
+            [at[i], step[i]] = match self.kernels.reads_span {
+                true => [left[i], right[i]],
+                false => ramp(left[i], right[i], t0, dt),
+            };
+        }
+        self.list.runs.push(Run {
+            uniforms: UniformsIndex(0),
+            polygon: 0,
+            x: first,
+            pixels: colours.len() as u32,
+        });
+        if self.kernels.reads_span {
+            self.list.places.push(SpanPlace { y: row, t0, dt });
+        }
+        let job = Pixels {
+            parameters: self.variant.parameters(),
+            uniforms: core::slice::from_ref(&self.uniforms[1]),
+            extras: self.extras,
+            constants: &self.constants,
+            list: &self.list,
+        };
+        (self.kernels.pixels)(&job, colours);
+    }
+}

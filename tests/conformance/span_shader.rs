@@ -1,0 +1,202 @@
+//! Spans that a rasterizer outside of the crate asks for: the colours are those of the span engine.
+
+use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::mesh::Material;
+use fastphong::number::vec3;
+use fastphong::scene::{Interpolation, Light, Lighting};
+use fastphong::shading::{Corner, Corners, METHODS, SpanShader, SpanVertex, Variant};
+use glam::{DVec3, Vec3};
+
+#[allow(dead_code)] // its `main`
+#[path = "../../examples/own_rasterizer.rs"]
+mod own_rasterizer;
+
+const WIDTH: u32 = 64;
+
+/// An upright rectangle from column 8 to column 56, with other normals on its left side than on its right.
+struct Rectangle {
+    vertices: [Vertex; 4],
+    positions: [[f32; 3]; 4],
+    lighting: Lighting,
+    interpolation: Interpolation,
+}
+
+const FACE: [f32; 3] = [0.0, 0.0, 1.0];
+
+impl Rectangle {
+    fn new(lights: &[Light], interpolation: Interpolation) -> Self {
+        let lean = |x: f32| Vec3::new(x, 0.2, 0.9).normalize().to_array();
+        let corner = |x: i32, y: i32| {
+            let is_left = x == 8;
+            Vertex {
+                x: SubPixel::from_num(x),
+                y: SubPixel::from_num(y),
+                depth: 0.5,
+                inv_w: match interpolation {
+                    Interpolation::Screen => 1.0,
+                    Interpolation::Perspective => [0.25, 1.0][usize::from(is_left)],
+                },
+                normal: lean(if is_left { -0.4 } else { 0.3 }),
+                material: 0,
+            }
+        };
+        let material = Material::default();
+        Rectangle {
+            vertices: [corner(8, 0), corner(8, 4), corner(56, 4), corner(56, 0)],
+            positions: [
+                [-1.0, 0.2, 0.0],
+                [-1.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [1.0, 0.2, 0.0],
+            ],
+            lighting: Lighting::new(&material, [1.0; 3], lights, DVec3::Z),
+            interpolation,
+        }
+    }
+
+    fn frame(&self) -> Frame {
+        let mut builder = FrameBuilder::new(WIDTH, 4);
+        builder.interpolation(self.interpolation);
+        builder.lighting(self.lighting.clone());
+        let numbers = self.vertices.map(|vertex| builder.vertex(vertex));
+        for (number, position) in numbers.into_iter().zip(self.positions) {
+            builder.position(number, position);
+        }
+        builder.polygon(&numbers, FACE, 0);
+        builder.finish().expect("a frame")
+    }
+
+    /// Shades columns `first` on of row 2 without an engine.
+    fn shade(&self, variant: &Variant, first: u32, colours: &mut [[f32; 3]]) {
+        let mut shader = SpanShader::new(variant, &self.lighting, self.interpolation);
+        let near = self.lighting.is_local();
+        let all: [Corner<f32>; 4] = [0, 1, 2, 3].map(|i| Corner {
+            normal: vec3(self.vertices[i].normal),
+            place: [self.vertices[i].x, self.vertices[i].y].map(|at| at.to_num()),
+            weight: self.vertices[i].inv_w,
+            position: near.then(|| vec3(self.positions[i])),
+        });
+        let whole = all.map(|corner| corner.normal);
+        let frame = self.frame();
+        let mean = vec3(frame.mean(&frame.polygons()[0]).normal);
+        if shader.wants_polygons() {
+            shader.polygon(&Corners {
+                all: &all,
+                face: vec3(FACE),
+                is_whole: true,
+                whole: &whole,
+                mean,
+            });
+        }
+        // Positions differ from row to row: here both ends are half-way between rows 0 and 4, but for half a pixel.
+        let t = 2.5 / 4.0;
+        let ends = [[0, 1], [3, 2]].map(|sides: [usize; 2]| {
+            let [upper, lower] = sides.map(|i| {
+                let Vertex { normal, inv_w, .. } = self.vertices[i];
+                let normal = match variant.info().name {
+                    "flat" => FACE,
+                    "flat-average" => mean.unit().array(),
+                    _ => normal,
+                };
+                shader.vertex(SpanVertex {
+                    normal,
+                    position: self.positions[i],
+                    attributes: [1.0; 4],
+                    inv_w,
+                })
+            });
+            let both = upper.iter().zip(&lower);
+            both.map(|(a, b)| a + t * (b - a)).collect::<Vec<f32>>()
+        });
+        let ends = [(8.0, &ends[0][..]), (56.0, &ends[1][..])];
+        shader.shade(ends, [first, 2], colours);
+    }
+}
+
+#[test]
+fn spans_are_those_of_the_engine() {
+    let directional = [
+        Light::directional(DVec3::new(0.3, 0.4, 0.9).normalize(), [0.5; 3]),
+        Light::directional(DVec3::new(-0.5, 0.1, 0.7).normalize(), [0.4; 3]),
+    ];
+    let near = [Light::positional(DVec3::new(0.3, 0.5, 2.0), [0.6; 3])];
+    let mut compared = 0;
+    for lights in [&directional[..1], &directional[..], &near[..]] {
+        for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
+            let rectangle = Rectangle::new(lights, interpolation);
+            let frame = rectangle.frame();
+            for variant in METHODS.iter().map(|entry| entry.variant()) {
+                let picture = variant.render_linear(&frame);
+                let mut colours = [[0.0; 3]; 48];
+                rectangle.shade(&variant, 8, &mut colours);
+                let mut part = [[0.0; 3]; 20];
+                rectangle.shade(&variant, 30, &mut part);
+                for (i, colour) in colours.iter().enumerate() {
+                    let [r, g, b, alpha] = picture.get(8 + i, 2);
+                    let who = format!("{variant}, {interpolation:?}, {} lights", lights.len());
+                    assert_eq!(alpha, 1.0, "{who}");
+                    for (found, expected) in colour.iter().zip([r, g, b]) {
+                        let off = (found.clamp(0.0, 1.0) - expected).abs();
+                        // Vertices of a side are alike where lights are at infinity: its edge steps by 0, unless it is a great
+                        // circle, whose normals are rounded.
+                        let is_circle = variant.info().name.starts_with("slerp");
+                        let most = match rectangle.lighting.is_local() || is_circle {
+                            true => variant.bound(&frame) as f32,
+                            false => 0.0,
+                        };
+                        assert!(off <= most, "{who}: {off:e} at {i}");
+                    }
+                    // A part of the line is a part of its colours.
+                    if let Some(again) = i.checked_sub(22).and_then(|i| part.get(i)) {
+                        for (found, whole) in again.iter().zip(colour) {
+                            let off = (found - whole).abs();
+                            assert!(off <= 2.0 * variant.bound(&frame) as f32, "{who}: {off:e}");
+                        }
+                    }
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(compared, 3 * 2 * METHODS.len() * 48);
+}
+
+#[test]
+#[should_panic(expected = "wants every polygon to be set up")]
+fn a_polygon_that_is_wanted_is_asked_for() {
+    let lighting = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
+    let variant = Variant::parse("slerp-phong").expect("a method");
+    let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen);
+    let end = shader.vertex(SpanVertex::of_normal(FACE));
+    shader.shade([(0.0, &end), (1.0, &end)], [0, 0], &mut [[0.0; 3]]);
+}
+
+/// The example draws three balls without holes: every row of a ball is one run of pixels.
+#[test]
+fn the_rasterizer_of_the_example_draws_three_balls() {
+    let pixels = own_rasterizer::picture();
+    let mut brightest = [0; 3];
+    for (ball, brightest) in brightest.iter_mut().enumerate() {
+        let (mut covered, mut runs) = (0, 0);
+        for row in pixels.chunks_exact(480) {
+            let row = &row[160 * ball..160 * (ball + 1)];
+            let is_drawn: Vec<bool> = row.iter().map(|[r, g, b, _]| r | g | b > 0).collect();
+            covered += is_drawn.iter().filter(|drawn| **drawn).count();
+            runs += is_drawn.windows(2).filter(|two| !two[0] && two[1]).count();
+            let most = row.iter().map(|[r, ..]| *r).max();
+            *brightest = most.max(Some(*brightest)).unwrap_or_default();
+        }
+        // The outline is a 16-gon at most, which has over 0.97 of its circle; rings cut a little from it.
+        let disc = std::f64::consts::PI * 70.0 * 70.0;
+        assert!(
+            (0.95 * disc..disc).contains(&(covered as f64)),
+            "{covered} of {disc}"
+        );
+        assert_eq!(runs, 140, "one run in each of 140 rows");
+    }
+    let [gouraud, rsqrt, duff] = brightest;
+    assert!(
+        gouraud + 50 < rsqrt && rsqrt.abs_diff(duff) <= 1,
+        "{brightest:?}"
+    );
+}
