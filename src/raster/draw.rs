@@ -165,6 +165,7 @@ impl Variant {
     /// Two frames of one size, drawn one after the other with one depth buffer, make the picture of both:
     ///
     /// ```
+    /// use fastphong::glam::{DAffine3, DVec3};
     /// use fastphong::mesh::builtin::builtin;
     /// use fastphong::picture::PictureMut;
     /// use fastphong::raster::{Background, DrawOptions};
@@ -175,6 +176,7 @@ impl Variant {
     /// (scene.width, scene.height) = (64, 48);
     /// let torus = scene.frame()?;
     /// scene.objects[0].mesh = builtin("sphere")?.into();
+    /// scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(0.5));
     /// let sphere = scene.frame()?;
     ///
     /// let mut window = vec![0u32; 80 * 48]; // 0xAARRGGBB, rows 80 pixels apart
