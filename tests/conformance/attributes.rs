@@ -339,7 +339,12 @@ fn a_method_reads_the_attributes_that_a_mesh_brings() {
 fn attributes_are_four_a_position_or_none() {
     let of = |attributes: Vec<[f32; 4]>| {
         let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Z]);
-        builder.polygon(&[0, 2, 1]).attributes(attributes);
+        builder.polygon(&[0, 2, 1]);
+        if !attributes.is_empty() {
+            // Attributes stand in the place of colours.
+            builder.colours(vec![Vec3::splat(0.5); 3]);
+        }
+        builder.attributes(attributes);
         builder.finish()
     };
     let (found, expected) = (2, 3);
