@@ -45,6 +45,10 @@ fn streamed_rows_make_the_picture() {
                         name(renderer)
                     );
                     assert!(picture == whole, "{who}: the rows make another picture");
+                    // Whatever the encoding: only the span engine has the picture in memory as a whole.
+                    let plan = variant.plan(&frame, renderer).renderer();
+                    let by_rows = matches!(plan, Some(Renderer::Row(_)));
+                    assert_eq!(parts > 1, by_rows, "{who}: {parts} parts");
                     in_parts += usize::from(parts > 1);
                 }
             }
