@@ -16,6 +16,13 @@ pub(super) trait Format: Copy + Sync {
     type Pixel: Copy + Send + Sync;
     /// Stores a linear colour and alpha, clamped to 0..=1.
     fn of(self, rgba: [f32; 4]) -> Self::Pixel;
+    /// Stores a run of linear colours, of covered pixels.
+    #[inline(always)]
+    fn store(self, pixels: &mut [Self::Pixel], colours: &[[f32; 3]]) {
+        for (pixel, &[r, g, b]) in pixels.iter_mut().zip(colours) {
+            *pixel = self.of([r, g, b, 1.0]);
+        }
+    }
     /// Returns the linear colour and alpha of a pixel.
     fn linear(self, pixel: Self::Pixel) -> [f32; 4];
     /// True if pixels are levels of linear intensity, which kernels compute themselves.
@@ -132,6 +139,19 @@ impl<O: Order> Format for Eight<'_, O> {
             Some(encoder) => encoder.store(rgba),
         })
     }
+    #[inline(always)]
+    fn store(self, pixels: &mut [O::Pixel], colours: &[[f32; 3]]) {
+        let pixels = pixels.iter_mut().zip(colours);
+        // Decided before the loop and not for each pixel.
+        match self.encoder {
+            None => pixels.for_each(|(pixel, &[r, g, b])| {
+                *pixel = O::pack([quantise(r), quantise(g), quantise(b), 255]);
+            }),
+            Some(encoder) => pixels.for_each(|(pixel, &[r, g, b])| {
+                *pixel = O::pack(encoder.store([r, g, b, 1.0]));
+            }),
+        }
+    }
     fn linear(self, pixel: O::Pixel) -> [f32; 4] {
         let encoding = self.encoder.map_or(Encoding::Linear, |_| Encoding::Srgb);
         let [r, g, b, alpha] = O::unpack(pixel).map(|level| f64::from(level) / 255.0);
@@ -231,9 +251,7 @@ impl<F: Format> Direct<'_, F> {
 impl<F: Format> Target for Direct<'_, F> {
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
         let format = self.surface.format;
-        for (pixel, &[r, g, b]) in self.row(row)[x..].iter_mut().zip(colours) {
-            *pixel = format.of([r, g, b, 1.0]);
-        }
+        format.store(&mut self.row(row)[x..], colours);
     }
     #[cfg(feature = "simd")]
     fn levels(&mut self, row: usize) -> Option<&mut [[u8; 4]]> {
