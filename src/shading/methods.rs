@@ -28,10 +28,10 @@ pub const DUFF_NEWTON: &Entry = named("duff-newton");
 pub const SIX_POINT: &Entry = named("six-point");
 /// Normals along great circles, as products.
 pub const SLERP_PHONG: &Entry = named("slerp-phong");
-/// Normals along great circles, as vectors.
-pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
 /// Normals along great circles by Chebyshev's recurrence.
 pub const SLERP_CHEBYSHEV: &Entry = named("slerp-chebyshev");
+/// Normals along great circles, as vectors.
+pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
 
 /// Returns the row of the table called `name`; a name without a row does not compile.
 const fn named(name: &str) -> &'static Entry {
