@@ -59,12 +59,20 @@ impl<'a> Varyings<'a> {
     /// Returns the numbers of corner `corner` of polygon `number`, whose vertex is `vertex`.
     #[inline(always)]
     pub fn of_corner(&self, number: u32, corner: u32, vertex: u32) -> &[f32] {
+        self.of_corner_with(self.count, number, [corner, vertex])
+    }
+
+    /// Returns the numbers of a corner and its vertex as [`Varyings::of_corner`] does, where `count` is [`Varyings::count`]: a literal,
+    /// so that loops over them are unrolled.
+    #[inline(always)]
+    pub fn of_corner_with(&self, count: usize, number: u32, [corner, vertex]: [u32; 2]) -> &[f32] {
+        debug_assert_eq!(count, self.count, "all numbers of the corner");
         let place = match &self.per {
             Per::Vertex => vertex,
             Per::Corner(first) => first[number as usize] + corner,
             Per::Polygon => number,
         };
-        &self.values[place as usize * self.count..][..self.count]
+        &self.values[place as usize * count..][..count]
     }
 
     /// Returns the numbers of polygon `number`, if they hold over all of it.
@@ -150,8 +158,8 @@ impl<'a> SetUp<'a> {
         let is_weighted =
             is_perspective && matches!(entry.perspective, Perspective::Free | Perspective::Divides);
         (all.varyings.values, all.varyings.per) = match entry.lit_at {
-            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(entry.lit_at),
-            _ if is_by_polygon && !kernels.great_circles => all.light_corners(is_weighted),
+            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(entry.lit_at, memory),
+            _ if is_by_polygon && !kernels.great_circles => all.light_corners(is_weighted, memory),
             _ => all.light_vertices(is_weighted, memory),
         };
         all.constants = all.set_up_polygons();
@@ -336,7 +344,7 @@ impl<'a> SetUp<'a> {
     }
 
     /// Lights each polygon once.
-    fn light_polygons(&self, at: LitAt) -> (Cow<'a, [f32]>, Per) {
+    fn light_polygons(&self, at: LitAt, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
         let frame = self.frame;
         let item = |number: usize| {
             let polygon = &frame.polygons()[number];
@@ -351,12 +359,12 @@ impl<'a> SetUp<'a> {
                 attributes: [0.0; 4],
             }
         };
-        let values = self.lit(Vec::new(), frame.polygons().len(), &[], &item);
+        let values = self.lit(memory, frame.polygons().len(), &[], &item);
         (values.into(), Per::Polygon)
     }
 
     /// Lights the corners of each polygon by the light that the polygon sees.
-    fn light_corners(&self, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
+    fn light_corners(&self, is_weighted: bool, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
         let (frame, count) = (self.frame, self.varyings.count);
         let (mut first, mut corners) = (Vec::new(), Vec::new());
         for (number, polygon) in (0..).zip(frame.polygons()) {
@@ -365,7 +373,7 @@ impl<'a> SetUp<'a> {
             corners.extend(vertices.map(|&vertex| (number, vertex)));
         }
         let item = |i: usize| self.corner(corners[i].0, corners[i].1);
-        let mut values = self.lit(Vec::new(), corners.len(), &[], &item);
+        let mut values = self.lit(memory, corners.len(), &[], &item);
         for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
             if frame.clip_corner(vertex).is_some() {
                 to.copy_from_slice(&self.clipped(number, vertex));

@@ -5,6 +5,7 @@
 
 #[cfg(feature = "simd")]
 use super::LitAt;
+use super::cell::CellLayout;
 use super::increments::{Linear, Walk};
 #[cfg(feature = "simd")]
 use super::lighting::Stored;
@@ -419,8 +420,8 @@ pub(crate) struct ShadeRow<'a> {
     pub parameters: &'a [Value],
     pub uniforms: &'a Uniforms,
     pub extras: Extras,
-    /// The numbers of a pixel in the G-buffer: depth, planes, extras, and others that kernels do not read.
-    pub numbers: usize,
+    /// The layout of the G-buffer.
+    pub cell: CellLayout,
 }
 
 /// The memory for the colours of a row, block by block.
@@ -496,7 +497,7 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
     );
 }
 
-/// Shades a row of the G-buffer. Its cells are [depth, pixel, extras], each of [`BLOCK`] values; whole [`Token::Block`]s.
+/// Shades a row of the G-buffer: whole [`Token::Block`]s of its cells.
 #[cfg(feature = "simd")]
 fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowColours<'_>) {
     let stored = job.uniforms.stored();
@@ -537,22 +538,27 @@ fn shade_blocks<M: Shader, S: Token>(
         Extras::default()
     };
     let method = M::new(job.parameters, &stored.model);
-    let stride = BLOCK * job.numbers;
-    let second = (S::Block::CELLS - 1) * stride;
     // Known when compiled, but for methods that may choose.
     let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();
     let planes = match is_walked {
         true => count::<Pixel<M, f32>>(lights),
         false => count::<M::Varying<f32>>(lights),
     };
-    let own = BLOCK * (1 + planes);
-    let len = own + BLOCK * extras.count();
+    // From numbers that are known when compiled: so are the places of all that is loaded.
+    let cell = CellLayout {
+        varyings: planes,
+        extras: extras.count(),
+        ..job.cell
+    };
+    debug_assert_eq!(cell, job.cell, "the engine's layout is the method's");
+    let (stride, len) = (cell.stride(), BLOCK * cell.uniforms());
+    let second = (S::Block::CELLS - 1) * stride;
     let mut first = 0;
     for pair in row.chunks_exact(S::Block::CELLS * stride) {
         let here = first..first + S::Block::WIDTH;
         first = here.end;
         let cells = [&pair[..len], &pair[second..second + len]];
-        let depth = S::Block::load(simd, cells, 0);
+        let depth = S::Block::load(simd, cells, BLOCK * CellLayout::DEPTH);
         if !(-depth).any_over(f32::NEG_INFINITY) {
             if let RowColours::Bytes(to, background) = out {
                 to[here].fill(*background);
@@ -564,13 +570,13 @@ fn shade_blocks<M: Shader, S: Token>(
             each(
                 Pixel::<M, S::Block>::filled(lights, depth),
                 #[inline(always)]
-                |i, number| *number = S::Block::load(simd, cells, BLOCK * (1 + i)),
+                |i, number| *number = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
             )
         } else {
             let at = each(
                 M::Varying::<S::Block>::filled(lights, depth),
                 #[inline(always)]
-                |i, number| *number = S::Block::load(simd, cells, BLOCK * (1 + i)),
+                |i, number| *number = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
             );
             let start = Span::of_block(lights, at, depth);
             method.walk(&lit, start).next()
@@ -578,7 +584,7 @@ fn shade_blocks<M: Shader, S: Token>(
         let extra = extras.of(
             depth,
             #[inline(always)]
-            |i| S::Block::load(simd, cells, own + BLOCK * i),
+            |i| S::Block::load(simd, cells, BLOCK * cell.extra(i)),
         );
         let mut colour = colour(method, lit, extras, (pixel, extra)).array();
         match out {

@@ -19,6 +19,7 @@
 //! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
 
 mod bound;
+mod cell;
 mod count;
 pub(crate) mod extent;
 mod info;
@@ -51,6 +52,8 @@ mod slerp_phong;
 mod slerp_phong_vector;
 
 pub use bound::{Roundings, Stepped};
+#[cfg(feature = "simd")]
+pub(crate) use cell::CellLayout;
 pub use count::OperationCounts;
 pub use increments::{Constant, Linear, Walk};
 pub use info::{
@@ -78,7 +81,8 @@ use crate::number::{Num, Real, Vec3};
 pub trait Shader: Copy + Default + 'static {
     /// The description of the method.
     const INFO: Info;
-    /// The rate at which it evaluates the light model: what engines light, and when.
+    /// The rate at which it evaluates the light model: what engines light, and when. Where that is not the pixel, `shade` may read
+    /// no uniforms but [`LightModel::scale`]: the row engine hands it those of any material.
     const LIT_AT: LitAt = LitAt::Pixel;
     /// The points from which it sees lights and eye at positions.
     const LOCAL: Local = Local::PerPixel;

@@ -4,8 +4,8 @@ use crate::number::simd::BLOCK;
 use crate::number::{Level, vec3};
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    Corner, Corners, Extras, Kernels, Pixels, PolygonConstants, RowColours, Run, RunList, ShadeRow,
-    SpanBench, SpanPlace, UniformsIndex, Variant, Vertices, ramp,
+    CellLayout, Corner, Corners, Extras, Kernels, Pixels, PolygonConstants, RowColours, Run,
+    RunList, ShadeRow, SpanBench, SpanPlace, UniformsIndex, Variant, Vertices, ramp,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -165,13 +165,19 @@ impl Variant {
         let walks_along =
             (started.kernels.walks_along_runs)(self.parameters(), &row.uniforms.model);
         let walk = simd.walk.filter(|_| walks_along);
-        let planes = walk.map_or(varyings + started.extras.count(), |walk| {
+        let mut cell = CellLayout {
+            varyings,
+            extras: started.extras.count(),
+            has_uniforms: false,
+        };
+        if let Some(walk) = walk {
             walk(&started.job(self, &row.uniforms), &mut row.walked);
-            walked
-        });
-        let cells = row.cells.chunks_exact_mut(BLOCK * (1 + planes));
-        for (first, cell) in (0..pixels).step_by(BLOCK).zip(cells) {
-            for (plane, to) in cell.chunks_exact_mut(BLOCK).skip(1).enumerate() {
+            (cell.varyings, cell.extras) = (walked, 0);
+        }
+        let cells = row.cells.chunks_exact_mut(cell.stride());
+        for (first, block) in (0..pixels).step_by(BLOCK).zip(cells) {
+            let varyings = &mut block[BLOCK * CellLayout::varying(0)..];
+            for (plane, to) in varyings.chunks_exact_mut(BLOCK).enumerate() {
                 if walk.is_some() {
                     to.copy_from_slice(&row.walked[plane * pixels + first..][..BLOCK]);
                     continue;
@@ -186,9 +192,9 @@ impl Variant {
             parameters: self.parameters(),
             uniforms: &row.uniforms,
             extras: started.extras,
-            numbers: 1 + planes,
+            cell,
         };
         let mut colours = RowColours::Bytes(&mut row.bytes, [0; 4]);
-        (simd.shade)(&job, &row.cells[..(1 + planes) * pixels], &mut colours);
+        (simd.shade)(&job, &row.cells[..cell.count() * pixels], &mut colours);
     }
 }

@@ -12,6 +12,8 @@
 //! and material. Then each row is shaded once, by `shade_blocks` in `shading/kernels.rs`. So the shading cost per pixel does not
 //! depend on the size of triangles, and hidden pixels are never shaded. Bands are independent: each is one job for a thread.
 //!
+//! Where each polygon has one colour, that colour is the only varying, packed as the picture stores it (`packed.rs`).
+//!
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
 //! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles and slivers by the crossings
 //! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Only
@@ -20,6 +22,7 @@
 //! A method is its [`Kernels`](crate::shading::Kernels) here, called for a stretch of a row or a batch of runs. All of this is
 //! compiled once per instruction set.
 
+mod packed;
 mod runs;
 mod shade;
 mod small;
@@ -42,7 +45,7 @@ use crate::picture::Picture;
 use crate::picture::encoding::quantise;
 use crate::shading::extent::TILE_HEIGHT as HEIGHT;
 use crate::shading::lighting::Uniforms;
-use crate::shading::{SimdKernels, UniformsIndex, Variant, WalkKernel};
+use crate::shading::{CellLayout, LitAt, SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::cell::RefCell;
@@ -50,9 +53,34 @@ use core::ops::Range;
 use runs::RunQueue;
 use shade::RowBuffers;
 use small::{RowStarts, SmallTriangle};
-use tile::{MOST, NumberCount, Tile};
+use tile::{MOST, Tile};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, bits};
+
+/// Evaluates an expression in which a name stands for the [`Token`] of a level.
+macro_rules! with_level {
+    ($level:expr, $token:ident => $work:expr) => {
+        match $level {
+            #[cfg(target_arch = "x86_64")]
+            $crate::number::Level::Avx2 => {
+                type $token = fearless_simd::Avx2;
+                $work
+            }
+            #[cfg(target_arch = "x86_64")]
+            $crate::number::Level::Avx512 => {
+                type $token = fearless_simd::Avx512;
+                $work
+            }
+            #[cfg(target_arch = "aarch64")]
+            $crate::number::Level::Neon => {
+                type $token = fearless_simd::Neon;
+                $work
+            }
+            level => unreachable!("the method has loops for {level:?}"),
+        }
+    };
+}
+use with_level;
 
 /// Memory that a thread keeps from tile to tile, and from frame to frame.
 #[derive(Debug, Default)]
@@ -63,8 +91,9 @@ struct Buffers {
     starts: RowStarts,
     queue: RunQueue,
     line: RowBuffers,
-    /// Memory for the varyings of the next frame.
+    /// Memory for the varyings of the next frame, and for its packed colours.
     varyings: Vec<f32>,
+    packed: Vec<f32>,
 }
 
 std::thread_local! {
@@ -73,6 +102,7 @@ std::thread_local! {
 
 /// A method on a frame, and the layout of its pixels.
 struct RowEngine<'a> {
+    level: Level,
     setup: SetUp<'a>,
     kernels: &'a SimdKernels,
     /// Walks along runs, if the method remembers the pixel before.
@@ -80,12 +110,11 @@ struct RowEngine<'a> {
     /// True if triangles are drawn by plane equations, not run by run as all other polygons are.
     is_planar: bool,
     test: SampleDepth,
-    /// The varyings of a pixel in the G-buffer, in floats.
-    planes: usize,
-    /// The floats of a pixel in the G-buffer: depth, varyings, and the material if materials differ.
-    numbers: usize,
-    /// The uniforms of all pixels, if they are the same.
+    cell: CellLayout,
+    /// The uniforms that all pixels can be shaded with, if there are any such.
     only: Option<UniformsIndex>,
+    /// True if the only varying is a polygon's colour: `packed.rs`.
+    is_packed: bool,
     background: [u8; 4],
 }
 
@@ -99,21 +128,31 @@ pub(super) fn draw(
 ) {
     let is_scaled = is_levels && frame.samples() == 1;
     let scale = if is_scaled { 255.0 } else { 1.0 };
-    let memory = BUFFERS.with_borrow_mut(|buffers| core::mem::take(&mut buffers.varyings));
-    let Some(rows) = RowEngine::new(variant, frame, (level, scale, memory)) else {
+    let [memory, packed] = BUFFERS.with_borrow_mut(|buffers| {
+        [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take)
+    });
+    let Some(mut rows) = RowEngine::new(variant, frame, (level, scale, memory)) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
+    };
+    let kept = match is_scaled {
+        true => rows.pack(packed),
+        false => packed,
     };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|number, band, target| {
         BUFFERS.with_borrow_mut(|buffers| {
-            rows.fill_tile(level, &bins, (number, &band), buffers);
+            rows.fill_tile(&bins, (number, &band), buffers);
             for row in 0..band.len() {
                 rows.shade(row, buffers, target);
             }
         });
     });
     if let Cow::Owned(values) = rows.setup.varyings.values {
-        BUFFERS.with_borrow_mut(|buffers| buffers.varyings = values);
+        let (varyings, packed) = match rows.is_packed {
+            true => (kept, values),
+            false => (values, kept),
+        };
+        BUFFERS.with_borrow_mut(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
     }
 }
 
@@ -136,7 +175,7 @@ pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) ->
             let number = start / a_band;
             let band = number * HEIGHT..((number + 1) * HEIGHT).min(frame.height());
             BUFFERS.with_borrow_mut(|buffers| {
-                rows.fill_tile(level, &bins, (number, &band), buffers);
+                rows.fill_tile(&bins, (number, &band), buffers);
                 for (row, to) in pixels.chunks_exact_mut(frame.width()).enumerate() {
                     rows.take_numbers(row, &mut buffers.tile, to);
                 }
@@ -146,15 +185,21 @@ pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) ->
     picture
 }
 
-/// Returns the number of the uniforms that all polygons have, if they are the same: objects of a scene bring their own materials,
-/// which are often equal.
-fn only_uniforms(setup: &SetUp<'_>) -> Option<UniformsIndex> {
+/// Returns the number of some uniforms that all pixels can be shaded with, if there are any: where the method reads none there but
+/// the scale, or where all polygons have the same ones. Objects of a scene bring their own materials, which are often equal.
+fn only_uniforms(setup: &SetUp<'_>, lit_at: LitAt) -> Option<UniformsIndex> {
     let (frame, polygons) = (setup.frame, setup.frame.polygons());
+    // A frame without polygons may have no material either.
+    let first = polygons.first()?.material;
+    if lit_at != LitAt::Pixel {
+        // Colours that are too large for the fast path are then clamped, whichever material they are of.
+        let is_slow = |uniforms: &Uniforms| !uniforms.model.is_fast;
+        let slow = setup.uniforms.iter().position(is_slow);
+        return Some(UniformsIndex(slow.unwrap_or(0) as u32));
+    }
     if setup.is_by_polygon {
         return None;
     }
-    // A frame without polygons may have no material either.
-    let first = polygons.first()?.material;
     let is_first = |polygon: &Polygon| polygon.material == first;
     let are_alike = frame.lightings().windows(2).all(|two| two[0] == two[1]);
     (are_alike || polygons.iter().all(is_first)).then(|| setup.uniforms_of_material(first))
@@ -176,15 +221,24 @@ impl<'a> RowEngine<'a> {
         let walk = kernels
             .walk
             .filter(|_| setup.uniforms.first().is_some_and(walks_along));
-        let planes = walk.map_or(setup.varyings.count, |_| walked);
-        let only = only_uniforms(&setup);
-        let numbers = 1 + planes + usize::from(only.is_none());
+        let only = only_uniforms(&setup, variant.entry().lit_at);
+        let extras = setup.extras.count();
+        let (varyings, extras) = match walk {
+            Some(_) => (walked, 0),
+            None => (setup.varyings.count - extras, extras),
+        };
+        let cell = CellLayout {
+            varyings,
+            extras,
+            has_uniforms: only.is_none(),
+        };
         let [r, g, b] = frame.background().map(quantise);
         Some(RowEngine {
+            level,
             test: SampleDepth::new(frame),
-            is_planar: walk.is_none() && numbers <= MOST,
-            planes,
-            numbers,
+            is_planar: walk.is_none() && cell.count() <= MOST,
+            cell,
+            is_packed: false,
             only,
             background: [r, g, b, 0],
             kernels,
@@ -197,7 +251,10 @@ impl<'a> RowEngine<'a> {
     fn numbering(mut self) -> Self {
         self.setup.varyings = Varyings::none();
         self.setup.is_by_polygon = true;
-        (self.planes, self.numbers) = (0, 2);
+        self.cell = CellLayout {
+            has_uniforms: true,
+            ..CellLayout::default()
+        };
         (self.only, self.walk) = (None, None);
         self
     }
@@ -210,9 +267,9 @@ impl<'a> RowEngine<'a> {
         let blocks = cells.chunks_exact(tile.stride());
         for (to, block) in to.chunks_mut(BLOCK).zip(blocks) {
             for (x, to) in to.iter_mut().enumerate() {
-                if block[x] < f32::INFINITY {
-                    // Exact: `Variant::plan` gives the row engine fewer than 2²⁴ polygons.
-                    *to = block[BLOCK + x] as u32;
+                if block[BLOCK * CellLayout::DEPTH + x] < f32::INFINITY {
+                    let number = block[BLOCK * tile.cell.uniforms() + x];
+                    *to = CellLayout::uniforms_of(number).0;
                 }
             }
         }
@@ -222,24 +279,15 @@ impl<'a> RowEngine<'a> {
     /// Empties a tile and rasterises all polygons of a band into it.
     fn fill_tile(
         &self,
-        level: Level,
         bins: &Bins,
         (number, band): (usize, &Range<usize>),
         buffers: &mut Buffers,
     ) {
         let width = self.setup.frame.width();
-        buffers.tile.prepare(HEIGHT, width, self.numbers);
+        buffers.tile.prepare(HEIGHT, width, self.cell);
         buffers.queue.prepare(self.setup.varyings.count);
         for polygons in bins.band(number) {
-            match level {
-                #[cfg(target_arch = "x86_64")]
-                Level::Avx2 => self.rasterise::<fearless_simd::Avx2>(polygons, band, buffers),
-                #[cfg(target_arch = "x86_64")]
-                Level::Avx512 => self.rasterise::<fearless_simd::Avx512>(polygons, band, buffers),
-                #[cfg(target_arch = "aarch64")]
-                Level::Neon => self.rasterise::<fearless_simd::Neon>(polygons, band, buffers),
-                _ => unreachable!("the method has loops for {level:?}"),
-            }
+            with_level!(self.level, S => self.rasterise::<S>(polygons, band, buffers));
         }
     }
 
@@ -253,7 +301,11 @@ impl<'a> RowEngine<'a> {
             if next.is_triangle() && self.is_planar {
                 // Triangles are drawn at once: runs from before them come first.
                 self.draw_runs(simd, buffers);
-                taken = match self.numbers {
+                // The numbers that most methods have on most scenes.
+                taken = match self.cell.count() {
+                    2 => self.triangles::<S, 2>(simd, rest, rows, buffers),
+                    5 => self.triangles::<S, 5>(simd, rest, rows, buffers),
+                    6 => self.triangles::<S, 6>(simd, rest, rows, buffers),
                     4 => self.triangles::<S, 4>(simd, rest, rows, buffers),
                     _ => self.triangles::<S, 0>(simd, rest, rows, buffers),
                 };
@@ -288,7 +340,7 @@ impl<'a> RowEngine<'a> {
                 let (m, top) = (Lanes(simd), rows.start);
                 let (batch, fragments) = (&mut buffers.batch, &buffers.fragments);
                 let all = tiny | others;
-                batch.set_up_planes(m, &self.setup, NumberCount::<N>(self.numbers), all);
+                batch.set_up_planes::<S, N>(m, &self.setup, self.cell, all);
                 let writer = &mut buffers.tile.writer::<S, N>(m, self.test);
                 for k in bits(all) {
                     if others >> k & 1 == 0 {
@@ -318,7 +370,7 @@ impl<'a> RowEngine<'a> {
             || {
                 let m = Lanes(simd);
                 let writer = tile.writer(m, self.test);
-                queue.draw(m, &self.setup, self.walk, self.planes, writer);
+                queue.draw(m, &self.setup, self.walk, self.cell, writer);
             },
         );
     }

@@ -9,7 +9,7 @@ use crate::raster::setup::SetUp;
 use crate::raster::spans::active::ActiveEdges;
 use crate::raster::spans::edge::{EdgeCrossing, first_centre};
 use crate::raster::spans::edge_table::{TableEdge, for_each_edge};
-use crate::shading::{Run, RunList, WalkKernel};
+use crate::shading::{CellLayout, Run, RunList, WalkKernel};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
@@ -104,17 +104,18 @@ impl RunQueue {
         }
     }
 
-    /// Draws the runs, in order, with `planes` varyings per pixel: those that `walk` returns, if the method has a walk, else those
-    /// that it interpolates.
+    /// Draws the runs, in order, with the varyings of `cell`: those that `walk` returns, if the method has a walk, else those that it
+    /// interpolates, and extras.
     #[inline(always)]
     pub fn draw<S: Simd>(
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
         walk: Option<WalkKernel>,
-        planes: usize,
+        cell: CellLayout,
         mut writer: Writer<'_, S, 0>,
     ) {
+        let (planes, count) = (cell.varyings, cell.varyings + cell.extras);
         if let Some(walk) = walk {
             let room = self.blocks * BLOCK * planes;
             // Padding of a block before and after: block loads may overrun, and those lanes are masked.
@@ -126,7 +127,10 @@ impl RunQueue {
         debug_assert_eq!(self.list.runs.len(), self.places.len(), "a place a run");
         let mut walked = BLOCK;
         for (i, (run, place)) in self.list.runs.iter().zip(&self.places).enumerate() {
-            let (material, pixels) = (m.splat(run.uniforms.0 as f32), pixels_of(run));
+            let (uniforms, pixels) = (
+                m.splat(CellLayout::of_uniforms(run.uniforms)),
+                pixels_of(run),
+            );
             if walk.is_some() {
                 let length = pixels.len().next_multiple_of(BLOCK);
                 let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
@@ -135,11 +139,11 @@ impl RunQueue {
                     (*place, pixels),
                     &mut writer,
                     #[inline(always)]
-                    |number, x| match number - 1 {
-                        plane if plane < planes => {
+                    |number, x| match number - CellLayout::varying(0) {
+                        plane if plane < count => {
                             m.load(&from[(BLOCK as isize + x) as usize + plane * length..])
                         }
-                        _ => material,
+                        _ => uniforms,
                     },
                 );
                 walked += length * planes;
@@ -150,9 +154,9 @@ impl RunQueue {
                     (*place, pixels),
                     &mut writer,
                     #[inline(always)]
-                    |number, x| match number - 1 {
-                        plane if plane < planes => m.ramp(at[plane], x as i32, step[plane]),
-                        _ => material,
+                    |number, x| match number - CellLayout::varying(0) {
+                        i if i < count => m.ramp(at[i], x as i32, step[i]),
+                        _ => uniforms,
                     },
                 );
             }
@@ -184,7 +188,7 @@ fn draw_run<S: Simd, const N: usize>(
             outside(m, block, &pixels),
             #[inline(always)]
             |i| match i {
-                0 => m.ramp(depth[0], x as i32, depth[1]),
+                CellLayout::DEPTH => m.ramp(depth[0], x as i32, depth[1]),
                 _ => number(i, x),
             },
         );
@@ -237,7 +241,7 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
                 let at = batch.planes.at(m, k, count, [weight(2, 0), weight(0, 1)]);
                 let place = RunPlace {
                     row: row as usize - top,
-                    depth: [at[0], step[0]],
+                    depth: [at[CellLayout::DEPTH], step[CellLayout::DEPTH]],
                 };
                 draw_run(
                     m,

@@ -2,12 +2,14 @@
 //! its pixels is `shade_blocks` in `shading/kernels.rs`.
 
 use super::tile::Tile;
-use super::{Buffers, RowEngine};
-use crate::number::simd::BLOCK;
+use super::{Buffers, RowEngine, with_level};
+use crate::number::lanes::Lanes;
+use crate::number::simd::{BLOCK, Token, vectorize};
 use crate::raster::target::Target;
-use crate::shading::{RowColours, ShadeRow, UniformsIndex};
+use crate::shading::{CellLayout, RowColours, ShadeRow, UniformsIndex};
 use alloc::vec::Vec;
 use core::ops::Range;
+use fearless_simd::{SimdBase, SimdMask, i32x8};
 
 /// Pixels that kernels take at a time, at most: rows are shaded from a multiple of this on.
 const STEP: usize = 2 * BLOCK;
@@ -18,6 +20,8 @@ pub(crate) struct RowBuffers {
     bytes: Vec<[u8; 4]>,
     channels: [Vec<f32>; 3],
     run: Vec<[f32; 3]>,
+    /// Stretches of a row, with their uniforms.
+    stretches: Vec<(UniformsIndex, Range<usize>)>,
 }
 
 impl RowEngine<'_> {
@@ -34,85 +38,128 @@ impl RowEngine<'_> {
             to[..drawn.start].fill(background);
             to[drawn.end..].fill(background);
         }
-        self.each_uniforms(tile, row, drawn, |uniforms, pixels| {
-            let steps = pixels.start / STEP * STEP..pixels.end.next_multiple_of(STEP);
-            let cells = tile.row(row, steps.start / BLOCK..steps.end / BLOCK);
-            let job = ShadeRow {
-                parameters: self.setup.parameters,
-                uniforms: &self.setup.uniforms[uniforms.0 as usize],
-                extras: self.setup.extras,
-                numbers: self.numbers,
-            };
-            let part = pixels.start - steps.start..pixels.end - steps.start;
-            if let Some(to) = target.levels(row) {
-                if pixels == steps {
-                    let mut out = RowColours::Bytes(&mut to[pixels], background);
-                    return (self.kernels.shade)(&job, cells, &mut out);
-                }
-                line.bytes.resize(steps.len(), background);
-                let mut out = RowColours::Bytes(&mut line.bytes, background);
-                (self.kernels.shade)(&job, cells, &mut out);
-                to[pixels].copy_from_slice(&line.bytes[part]);
-            } else {
-                let channels = line.channels.each_mut().map(|channel| {
-                    channel.resize(steps.len(), 0.0);
-                    &mut channel[..]
-                });
-                (self.kernels.shade)(&job, cells, &mut RowColours::Linear(channels));
-                let is_drawn =
-                    |x: usize| cells[x / BLOCK * tile.stride() + x % BLOCK] < f32::INFINITY;
-                let [r, g, b] = &line.channels;
-                let mut x = part.start;
-                while x < part.end {
-                    let start = x;
-                    while x < part.end && is_drawn(x) {
-                        line.run.push([r[x], g[x], b[x]]);
-                        x += 1;
-                    }
-                    if !line.run.is_empty() {
-                        target.store(steps.start + start, row, &line.run);
-                        line.run.clear();
-                    }
-                    x += 1;
-                }
+        match self.only {
+            _ if drawn.is_empty() => (),
+            _ if self.is_packed => {
+                let levels = target.levels(row);
+                let to = &mut levels.expect("colours are packed for levels")[drawn];
+                with_level!(self.level, S => self.show::<S>(tile, row, to));
             }
-        });
+            Some(only) => self.shade_stretch(tile, (row, drawn), only, line, target),
+            None => {
+                let mut stretches = core::mem::take(&mut line.stretches);
+                with_level!(self.level, S => {
+                    self.find_stretches::<S>(tile, row, drawn, &mut stretches);
+                });
+                for (uniforms, pixels) in stretches.drain(..) {
+                    self.shade_stretch(tile, (row, pixels), uniforms, line, target);
+                }
+                line.stretches = stretches;
+            }
+        }
         target.finish(row);
-        buffers.tile.clear_row(row);
+        tile.clear_row(row);
     }
 
-    /// Calls `visit` with the number of some uniforms and pixels of which all that are drawn have these.
-    fn each_uniforms(
+    /// Shades some pixels of row `row` of a tile, all with the same uniforms.
+    #[inline(always)]
+    fn shade_stretch(
+        &self,
+        tile: &Tile,
+        (row, pixels): (usize, Range<usize>),
+        uniforms: UniformsIndex,
+        line: &mut RowBuffers,
+        target: &mut dyn Target,
+    ) {
+        let steps = pixels.start / STEP * STEP..pixels.end.next_multiple_of(STEP);
+        let cells = tile.row(row, steps.start / BLOCK..steps.end / BLOCK);
+        let job = ShadeRow {
+            parameters: self.setup.parameters,
+            uniforms: &self.setup.uniforms[uniforms.0 as usize],
+            extras: self.setup.extras,
+            cell: self.cell,
+        };
+        let part = pixels.start - steps.start..pixels.end - steps.start;
+        if let Some(to) = target.levels(row) {
+            if pixels == steps {
+                let mut out = RowColours::Bytes(&mut to[pixels], self.background);
+                return (self.kernels.shade)(&job, cells, &mut out);
+            }
+            line.bytes.resize(steps.len(), self.background);
+            let mut out = RowColours::Bytes(&mut line.bytes, self.background);
+            (self.kernels.shade)(&job, cells, &mut out);
+            to[pixels].copy_from_slice(&line.bytes[part]);
+            return;
+        }
+        let channels = line.channels.each_mut().map(|channel| {
+            channel.resize(steps.len(), 0.0);
+            &mut channel[..]
+        });
+        (self.kernels.shade)(&job, cells, &mut RowColours::Linear(channels));
+        let depths = BLOCK * CellLayout::DEPTH;
+        let is_drawn =
+            |x: usize| cells[x / BLOCK * tile.stride() + depths + x % BLOCK] < f32::INFINITY;
+        let [r, g, b] = &line.channels;
+        let mut x = part.start;
+        while x < part.end {
+            let start = x;
+            while x < part.end && is_drawn(x) {
+                line.run.push([r[x], g[x], b[x]]);
+                x += 1;
+            }
+            if !line.run.is_empty() {
+                target.store(steps.start + start, row, &line.run);
+                line.run.clear();
+            }
+            x += 1;
+        }
+    }
+
+    /// Finds stretches of the pixels `drawn` of a row, and for each the number of some uniforms that all of its drawn pixels have.
+    /// Block by block: most blocks go on with the number of the pixels before.
+    pub(super) fn find_stretches<S: Token>(
         &self,
         tile: &Tile,
         row: usize,
         drawn: Range<usize>,
-        mut visit: impl FnMut(UniformsIndex, Range<usize>),
+        to: &mut Vec<(UniformsIndex, Range<usize>)>,
     ) {
-        if drawn.is_empty() {
-            return;
-        }
-        if let Some(only) = self.only {
-            return visit(only, drawn);
-        }
-        let first = drawn.start / BLOCK;
-        let cells = tile.row(row, first..drawn.end.div_ceil(BLOCK));
-        let at = |x: usize, number: usize| {
-            cells[(x / BLOCK - first) * tile.stride() + number * BLOCK + x % BLOCK]
-        };
-        let (mut from, mut same) = (drawn.start, None);
-        for x in drawn.clone() {
-            if at(x, 0) < f32::INFINITY {
-                let uniforms = UniformsIndex(at(x, self.numbers - 1) as u32);
-                if let Some(same) = same.filter(|same| *same != uniforms) {
-                    visit(same, from..x);
-                    from = x;
+        let m = Lanes(S::get());
+        let cells = tile.row(row, drawn.start / BLOCK..drawn.end.div_ceil(BLOCK));
+        vectorize(
+            m.0,
+            #[inline(always)]
+            || {
+                let (mut from, mut same) = (drawn.start, None);
+                let starts = drawn.clone().step_by(BLOCK);
+                for (start, block) in starts.zip(cells.chunks_exact(tile.stride())) {
+                    let depth = m.load(&block[BLOCK * CellLayout::DEPTH..]);
+                    let all = &block[BLOCK * self.cell.uniforms()..][..BLOCK];
+                    let (numbers, mut later) = (m.load(all), u32::MAX);
+                    let is_empty: i32x8<S> = depth.simd_ge(m.splat(f32::INFINITY)).to_vector();
+                    loop {
+                        // No number is below 0.
+                        let is_same = numbers.simd_eq(m.splat(same.unwrap_or(-1.0)));
+                        let others = m.bits_not_negative(is_same.to_vector() | is_empty) & later;
+                        let k = others.trailing_zeros() as usize;
+                        // The last block may end behind the picture.
+                        if k >= BLOCK || start + k >= drawn.end {
+                            break;
+                        }
+                        if let Some(same) = same {
+                            to.push((CellLayout::uniforms_of(same), from..start + k));
+                            from = start + k;
+                        }
+                        (same, later) = (Some(all[k]), u32::MAX << k);
+                    }
                 }
-                same = Some(uniforms);
-            }
-        }
-        // A row that shows nothing is background whatever it is shaded with.
-        let first = self.setup.uniforms_of_material(0);
-        visit(same.unwrap_or(first), from..drawn.end);
+                // A row that shows nothing is background whatever it is shaded with.
+                let first = || self.setup.uniforms_of_material(0);
+                to.push((
+                    same.map_or_else(first, CellLayout::uniforms_of),
+                    from..drawn.end,
+                ));
+            },
+        );
     }
 }

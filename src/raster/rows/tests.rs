@@ -8,6 +8,7 @@ use crate::mesh::builtin::builtin;
 use crate::number::simd::{BLOCK, tests::on_each_level};
 use crate::number::test_random::Random;
 use crate::picture::Picture8;
+use crate::raster::target::Target;
 use crate::raster::{DrawOptions, Renderer, coverage, polygon_numbers};
 use crate::scene::{Light, Lighting, Scene};
 use crate::shading::METHODS;
@@ -52,6 +53,13 @@ fn soup(random: &mut Random, width: usize, height: usize) -> Vec<[[i32; 2]; 3]> 
     (0..150).map(&mut triangle).collect()
 }
 
+/// Pixels of two varyings, for the coordinates.
+const TWO_VARYINGS: CellLayout = CellLayout {
+    varyings: 2,
+    extras: 0,
+    has_uniforms: false,
+};
+
 /// A pixel (row and column), with the barycentric coordinates of the second and third corner.
 type Pixel = ((usize, usize), [f32; 2]);
 
@@ -62,7 +70,7 @@ fn drawn<S: Token>(
     draw: impl FnOnce(&mut tile::Writer<'_, S, 0>),
 ) -> Vec<Pixel> {
     let mut tile = Tile::default();
-    tile.prepare(HEIGHT, width, 3);
+    tile.prepare(HEIGHT, width, TWO_VARYINGS);
     draw(&mut tile.writer(Lanes(simd), test));
     let stride = tile.stride();
     let mut found = vec![];
@@ -114,7 +122,7 @@ fn check<S: Token>(
     let mut counts = [0; 4];
     let mut buffers = Buffers::default();
     while !rest.is_empty() {
-        buffers.tile.prepare(HEIGHT, width, 3);
+        buffers.tile.prepare(HEIGHT, width, TWO_VARYINGS);
         let (taken, tiny, others) = find(simd, frame, rest, &rows, &mut buffers);
         assert!(taken > 0 && tiny & others == 0);
         let blocks = buffers.tile.drawn();
@@ -289,5 +297,161 @@ fn polygon_numbers_are_those_of_the_polygons_that_each_method_shows() {
         let is_row = renderer != Renderer::Span;
         assert_eq!(found.len(), 1 + usize::from(is_row), "{renderer:?}");
         assert_eq!(found.contains(&polygon_numbers(&frame)), !is_row);
+    }
+}
+
+/// A picture of levels, as a target.
+struct Levels<'a>(&'a mut Picture8);
+
+impl Target for Levels<'_> {
+    fn store(&mut self, _: usize, _: usize, _: &[[f32; 3]]) {
+        unreachable!("the picture takes levels");
+    }
+    fn levels(&mut self, row: usize) -> Option<&mut [[u8; 4]]> {
+        let width = self.0.width();
+        Some(&mut self.0.pixels_mut()[row * width..][..width])
+    }
+    fn depth(&mut self, _: usize) -> Option<&mut [f32]> {
+        None
+    }
+}
+
+/// Draws a method on a frame as [`draw`] does, with packed colours if `packs`. Returns the picture, and true if they were packed.
+fn drawn_as_levels(
+    variant: &Variant,
+    frame: &Frame,
+    level: Level,
+    packs: bool,
+) -> (Picture8, bool) {
+    let mut engine = RowEngine::new(variant, frame, (level, 255.0, Vec::new())).expect("loops");
+    if packs {
+        engine.pack(vec![f32::NAN; 5]);
+    }
+    let (width, height) = (frame.width(), frame.height());
+    let mut picture = Picture8::new(width, height, [1; 4]);
+    let bins = Bins::new(frame, HEIGHT);
+    let mut buffers = Buffers::default();
+    for (number, first) in (0..height).step_by(HEIGHT).enumerate() {
+        let band = first..(first + HEIGHT).min(height);
+        let mut rows = Picture8::new(width, band.len(), [1; 4]);
+        engine.fill_tile(&bins, (number, &band), &mut buffers);
+        for row in 0..band.len() {
+            engine.shade(row, &mut buffers, &mut Levels(&mut rows));
+        }
+        picture.pixels_mut()[first * width..][..band.len() * width].copy_from_slice(rows.pixels());
+    }
+    (picture, engine.is_packed)
+}
+
+/// Returns the instruction sets of this machine that the row engine has loops for.
+fn levels() -> impl Iterator<Item = Level> {
+    Renderer::available().filter_map(|renderer| match renderer {
+        Renderer::Row(level) => Some(level),
+        _ => None,
+    })
+}
+
+/// Triangles and quadrangles, each of a material of its own, in a picture whose width is not a multiple of a block.
+#[test]
+fn packed_colours_are_those_of_unpacked_ones() {
+    let frame = coplanar(1);
+    for level in levels() {
+        for entry in METHODS {
+            let variant = entry.variant();
+            if variant.plan(&frame, Renderer::Row(level)).renderer() != Some(Renderer::Row(level)) {
+                continue;
+            }
+            let (plain, _) = drawn_as_levels(&variant, &frame, level, false);
+            let (packed, is_packed) = drawn_as_levels(&variant, &frame, level, true);
+            let is_by_polygon = matches!(entry.lit_at, LitAt::Polygon | LitAt::PolygonMean);
+            assert_eq!(is_packed, is_by_polygon, "{variant}");
+            assert!(plain.pixels() == packed.pixels(), "{variant} on {level:?}");
+            let shown = plain.pixels().iter().filter(|[.., alpha]| *alpha == 255);
+            assert!(shown.count() > 1000, "the polygons are seen");
+        }
+    }
+}
+
+/// A method that is lit at vertices draws all materials with the uniforms of one. Levels of no `i32` must be clamped all the
+/// same, whichever material has them.
+#[test]
+fn colours_beyond_integers_are_white_beside_any_material() {
+    let mut builder = FrameBuilder::new(32, 16);
+    for (number, ambient) in [0.5, 1e10].into_iter().enumerate() {
+        let colour = Material {
+            ambient: [ambient; 3],
+            ..Material::default()
+        };
+        let material = builder.lighting(Lighting::new(&colour, [1.0; 3], &[], DVec3::Z));
+        let left = 16 * number as i32;
+        let corners = [[left, 0], [left + 16, 0], [left, 16]].map(|place| {
+            let [x, y] = place.map(SubPixel::from_num);
+            builder.vertex(Vertex {
+                x,
+                y,
+                depth: 0.5,
+                inv_w: 1.0,
+                normal: [0.0, 0.0, 1.0],
+                material,
+            })
+        });
+        builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
+    }
+    let frame = builder.finish().expect("corners inside the guard band");
+    for level in levels() {
+        let variant = Variant::parse("gouraud-separate").expect("a method");
+        let picture = variant.render_with(&frame, Renderer::Row(level));
+        assert_eq!(picture.get(2, 2), [128, 128, 128, 255]);
+        assert_eq!(picture.get(18, 2), [255; 4]);
+    }
+}
+
+/// Stretches of random rows are those that are found pixel by pixel.
+#[test]
+fn stretches_have_the_uniforms_of_their_pixels() {
+    let frame = coplanar(1);
+    let (width, mut random) = (frame.width(), Random::new(31));
+    let variant = Variant::parse("naive-phong").expect("a method");
+    for level in levels() {
+        let engine = RowEngine::new(&variant, &frame, (level, 255.0, vec![])).expect("loops");
+        assert_eq!(engine.only, None, "each polygon has a material");
+        let mut tile = Tile::default();
+        let mut most = 0;
+        for _ in 0..400 {
+            tile.prepare(HEIGHT, width, engine.cell);
+            tile.extend(0..width.div_ceil(BLOCK));
+            let (few, empty) = (1 + random.below(4), random.below(3));
+            let mut expected = vec![None; width];
+            let length = 1 + random.below(20);
+            let mut last = None;
+            for x in 0..tile.drawn().len() * BLOCK {
+                if random.below(length) == 0 {
+                    last = (random.below(3) >= empty).then(|| random.below(few) as u32);
+                }
+                let depth = if last.is_some() { 0.5 } else { f32::INFINITY };
+                tile.set(x, CellLayout::DEPTH, depth);
+                // What is left of pixels that were drawn before.
+                let number = last.unwrap_or(random.below(9) as u32);
+                tile.set(x, engine.cell.uniforms(), number as f32);
+                if let Some(expected) = expected.get_mut(x) {
+                    *expected = last;
+                }
+            }
+            let mut found = vec![];
+            with_level!(level, S => engine.find_stretches::<S>(&tile, 0, 0..width, &mut found));
+            let mut next = 0;
+            for (uniforms, pixels) in &found {
+                assert_eq!(pixels.start, next, "one after the other");
+                next = pixels.end;
+                let mut all = expected[pixels.clone()].iter().flatten();
+                assert!(all.all(|number| *number == uniforms.0), "{found:?}");
+            }
+            assert_eq!(next, width, "all pixels");
+            let mut shown: Vec<u32> = expected.iter().flatten().copied().collect();
+            shown.dedup();
+            assert_eq!(found.len(), shown.len().max(1), "no more than are needed");
+            most = most.max(found.len());
+        }
+        assert!(most > 20, "{most} stretches");
     }
 }

@@ -4,6 +4,7 @@
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
 use crate::raster::depth::{SampleDepth, hide, level_of};
+use crate::shading::CellLayout;
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
@@ -22,11 +23,7 @@ impl<const N: usize> NumberCount<N> {
     }
 }
 
-/// A tile of pixels in blocks of 8. Each block is contiguous:
-///
-/// ```text
-/// depth × 8 | first varying × 8 | second varying × 8 | … | material × 8
-/// ```
+/// A tile of pixels in blocks of 8. Each block is contiguous, number after number as [`CellLayout`] has them.
 ///
 /// Loads have the address and width of the last triangle's stores, so that store-to-load forwarding works.
 #[derive(Debug, Default)]
@@ -34,23 +31,22 @@ pub(crate) struct Tile {
     rows: usize,
     /// Blocks per row, an even number.
     blocks: usize,
-    /// Floats per pixel: depth, varyings, and the material if materials differ.
-    numbers: usize,
+    pub cell: CellLayout,
     values: Vec<f32>,
     /// The blocks of a row between which anything may have been drawn: see [`Tile::drawn`].
     drawn: Range<usize>,
 }
 
 impl Tile {
-    /// Makes room for `rows` rows of `width` pixels of `numbers` numbers, all of them empty.
-    pub fn prepare(&mut self, rows: usize, width: usize, numbers: usize) {
+    /// Makes room for `rows` rows of `width` pixels, all of them empty.
+    pub fn prepare(&mut self, rows: usize, width: usize, cell: CellLayout) {
         let blocks = width.div_ceil(2 * BLOCK) * 2;
         // Shading leaves the tile cleared, so only a change of layout clears it here.
-        if (self.rows, self.blocks, self.numbers) != (rows, blocks, numbers) {
-            (self.rows, self.blocks, self.numbers) = (rows, blocks, numbers);
+        if (self.rows, self.blocks, self.cell) != (rows, blocks, cell) {
+            (self.rows, self.blocks, self.cell) = (rows, blocks, cell);
             self.values.clear();
             self.values
-                .resize(rows * blocks * numbers * BLOCK, f32::INFINITY);
+                .resize(rows * blocks * cell.stride(), f32::INFINITY);
         }
         self.drawn = blocks..0;
     }
@@ -69,7 +65,7 @@ impl Tile {
 
     /// Returns the distance from one block to the next, in values.
     pub fn stride(&self) -> usize {
-        self.numbers * BLOCK
+        self.cell.stride()
     }
 
     /// Returns blocks of a row, from left to right.
@@ -85,10 +81,18 @@ impl Tile {
         let stored = stored.get_mut(drawn.start * BLOCK..).unwrap_or_default();
         let blocks = self.values[first..][..drawn.len() * stride].chunks_exact_mut(stride);
         for (block, stored) in blocks.zip(stored.chunks_mut(BLOCK)) {
-            for (depth, stored) in block.iter_mut().zip(stored) {
+            let depths = &mut block[BLOCK * CellLayout::DEPTH..][..BLOCK];
+            for (depth, stored) in depths.iter_mut().zip(stored) {
                 hide(depth, stored);
             }
         }
+    }
+
+    /// Stores number `number` of pixel `x` of the first row.
+    #[cfg(test)]
+    pub fn set(&mut self, x: usize, number: usize, value: f32) {
+        let block = x / BLOCK * self.stride();
+        self.values[block + number * BLOCK + x % BLOCK] = value;
     }
 
     /// Empties what was drawn of a row.
@@ -96,7 +100,7 @@ impl Tile {
         let (drawn, stride) = (self.drawn(), self.stride());
         let first = (row * self.blocks + drawn.start) * stride;
         for block in self.values[first..][..drawn.len() * stride].chunks_exact_mut(stride) {
-            block[..BLOCK].fill(f32::INFINITY);
+            block[BLOCK * CellLayout::DEPTH..][..BLOCK].fill(f32::INFINITY);
         }
     }
 
@@ -106,7 +110,7 @@ impl Tile {
         let in_block = column & m.int(BLOCK as i32 - 1);
         // 32 bits hold the numbers of a tile, which has at most 16 rows.
         let pixels = row * m.int((self.blocks * BLOCK) as i32) + (column - in_block);
-        pixels * m.int(self.numbers as i32) + in_block
+        pixels * m.int(self.cell.count() as i32) + in_block
     }
 
     /// Returns write access to all blocks. Report the blocks written with [`Tile::extend`], or they are not shaded.
@@ -122,7 +126,7 @@ impl Tile {
             test,
             least: lanes.splat(if test.hides { -never } else { never }),
             blocks: self.blocks,
-            count: NumberCount(self.numbers),
+            count: NumberCount(self.cell.count()),
             values: &mut self.values,
         }
     }

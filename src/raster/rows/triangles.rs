@@ -12,6 +12,7 @@ use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use crate::raster::bins::Listed;
 use crate::raster::setup::{Per, SetUp};
+use crate::shading::CellLayout;
 use crate::shading::extent::{STEEPEST, TINY_HEIGHT, TINY_WIDTH};
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
@@ -94,8 +95,8 @@ pub(super) type Numbers = [f32; LINE];
 /// ```
 /// β and γ come from exact integers and are in 0..=1 inside, so that nothing cancels, however thin the triangle is.
 ///
-/// Depth first, then varyings and extras, then the material. The numbers of a corner lie together, as they are read and as a
-/// pixel needs them; in whole blocks, whose last numbers mean nothing.
+/// The numbers of a corner lie together, in the order of [`CellLayout`], as they are read and as a pixel needs them; in whole
+/// blocks, whose last numbers mean nothing.
 #[derive(Debug, Default)]
 #[repr(align(32))]
 pub(super) struct PlaneEquations(pub [[Numbers; 3]; BATCH]);
@@ -356,19 +357,20 @@ impl Batch {
         m.store(beyond - falls, &mut to.ends[1][first..]);
     }
 
-    /// Sets up the plane equations of the triangles whose bits `drawn` has: depth, varyings, and the number of the uniforms if
-    /// pixels have one. A separate loop, so that cache misses overlap.
+    /// Sets up the plane equations of the triangles whose bits `drawn` has, for the `N` numbers of `cell`, or any of them for
+    /// `N` = 0. A separate loop, so that cache misses overlap.
     #[inline(always)]
     pub fn set_up_planes<S: Simd, const N: usize>(
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        count: NumberCount<N>,
+        cell: CellLayout,
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
+        let count = NumberCount::<N>(cell.count());
         // The fast path: three numbers per vertex, without a loop over them.
-        if N == 4 && matches!(varyings.per, Per::Vertex) {
+        if N == 4 && !cell.has_uniforms && matches!(varyings.per, Per::Vertex) {
             let values = varyings.values.as_chunks::<3>().0;
             // Bounded once for both.
             let most = vertices.len().min(values.len());
@@ -381,7 +383,21 @@ impl Batch {
                 |_, _, vertex, line| {
                     let [x, y, z] = values[vertex as usize];
                     let depth = vertices[vertex as usize].depth;
-                    (line[0], line[1], line[2], line[3]) = (depth, x, y, z);
+                    cell.write(line, depth, &[x, y, z], || unreachable!("it has none"));
+                },
+            );
+        }
+        let all = N.saturating_sub(CellLayout::varying(0));
+        if N > 0 && !cell.has_uniforms && varyings.count == all {
+            return self.read(
+                m,
+                drawn,
+                count,
+                #[inline(always)]
+                |number, corner, vertex, line| {
+                    let depth = vertices[vertex as usize].depth;
+                    let varying = varyings.of_corner_with(all, number, [corner, vertex]);
+                    cell.write(line, depth, varying, || unreachable!("it has none"));
                 },
             );
         }
@@ -391,14 +407,9 @@ impl Batch {
             count,
             #[inline(always)]
             |number, corner, vertex, line| {
-                line[0] = vertices[vertex as usize].depth;
+                let depth = vertices[vertex as usize].depth;
                 let varying = varyings.of_corner(number, corner, vertex);
-                for (to, value) in line[1..].iter_mut().zip(varying) {
-                    *to = *value;
-                }
-                if count.get() > 1 + varyings.count {
-                    line[count.get() - 1] = setup.uniforms_of(number).0 as f32;
-                }
+                cell.write(line, depth, varying, || setup.uniforms_of(number));
             },
         );
     }
