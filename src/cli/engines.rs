@@ -104,13 +104,13 @@ pub fn cs171_shading(info: &Info) -> Option<Shading> {
     }
 }
 
-/// Reads `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
+/// Reads `auto`, `span`, `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
 /// `cs171:normals=unit|as-printed`.
 pub fn engine(text: &str) -> Result<EngineFlag, String> {
-    const NAMES: [&str; 6] = ["auto", "span", "scanline", "row", "barycentric", "cs171"];
+    const NAMES: [&str; 5] = ["auto", "span", "row", "barycentric", "cs171"];
     match text {
         "auto" => return Ok(EngineFlag::Scanlines(None)),
-        "span" | "scanline" => return Ok(EngineFlag::Scanlines(Some(Engine::Span))),
+        "span" => return Ok(EngineFlag::Scanlines(Some(Engine::Span))),
         "row" => return Ok(EngineFlag::Scanlines(Some(Engine::Row))),
         "barycentric" | "barycentric:edges=top-left" => {
             return Ok(EngineFlag::Barycentric(Edges::TopLeft));
@@ -133,7 +133,7 @@ pub fn engine(text: &str) -> Result<EngineFlag, String> {
 /// A scanline engine, which can be compared with the barycentric renderer; `None` is `auto`.
 pub type ScanlineEngine = Option<Engine>;
 
-/// Reads `auto`, `span` (or `scanline`) or `row`.
+/// Reads `auto`, `span` or `row`.
 pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
     const NAMES: [&str; 3] = ["auto", "span", "row"];
     match engine(text) {

@@ -44,7 +44,7 @@ pub struct RenderArgs {
     /// the model that `reference:model=flat|gouraud|phong|slerp` names
     #[arg(short, long, default_value = AUTO, value_parser = drawing::method)]
     method: AskedMethod,
-    /// Engine that finds the pixels: `span` (or `scanline`), as in the lecture, one pixel at a time; `row` (SIMD); `auto`: `row` if
+    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time; `row` (SIMD); `auto`: `row` if
     /// it supports the scene, else `span`; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with
     /// `:normals=unit|as-printed`. See `fastphong list engines`
     #[arg(long, default_value = "auto", value_parser = engines::engine)]

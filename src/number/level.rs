@@ -95,10 +95,6 @@ impl FromStr for Level {
             _ if name == "auto" => return Ok(Level::best()),
             Some(level) if level.is_available() => return Ok(level),
             Some(level) => format!("this machine does not have `{level}`: {}", one_of(here)),
-            None if name == "sse4.2" => {
-                let other = "use `scalar` for one pixel at a time, or `auto`";
-                format!("unknown instruction set `{name}`: it is no longer compiled for; {other}")
-            }
             None => unknown("instruction set", name, here),
         };
         Err(NameError(problem))

@@ -182,7 +182,6 @@ fn times(ratio: Option<f64>) -> String {
 fn on(level: &str) -> String {
     match level {
         "scalar" => "in scalar code".into(),
-        "sse2" => "in baseline x86-64 code".into(),
         "avx512" => "in AVX-512 code".into(),
         level => format!("in {} code", level.to_uppercase()),
     }

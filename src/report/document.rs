@@ -256,7 +256,6 @@ pub fn parse(text: &str) -> Result<Value, DocumentError> {
     }
     let fields: Value = serde_json::from_str(FIELDS)?;
     check(&document, &fields, "the document").map_err(DocumentError::Field)?;
-    complete(&mut document);
     if is_older(&document) {
         drop_changed(&mut document);
     }
@@ -323,36 +322,6 @@ fn drop_changed(document: &mut Value) {
                 (row["error"]["ssim"], row["error"]["flip"]) = (Value::Null, Value::Null);
             }
         }
-    }
-}
-
-/// Adds the fields that older documents and those of benchmarks lack: all was drawn in the lecture's own form before there
-/// were other engines.
-fn complete(document: &mut Value) {
-    let lecture = json!({ "engine": "span", "level": "scalar", "threads": 1 });
-    let mut names = Vec::new();
-    for comparison in document["comparisons"].as_array_mut().into_iter().flatten() {
-        if comparison["renderer"].is_null() {
-            comparison["renderer"] = lecture.clone();
-        }
-        for field in ["title", "description"] {
-            let text = self::text(comparison, &format!("/{field}")).to_string();
-            comparison[field] = text.into();
-        }
-        for rows in ["rows", "barycentric"] {
-            for row in comparison[rows].as_array_mut().into_iter().flatten() {
-                names.push(self::text(row, "/variant").to_string());
-                for field in ["level", "threads"] {
-                    if row[field].is_null() {
-                        row[field] = lecture[field].clone();
-                    }
-                }
-            }
-        }
-    }
-    document["baseline"] = BASELINE.into();
-    if list(document, "/methods").is_empty() {
-        document["methods"] = json!(described(&mut names.into_iter()));
     }
 }
 

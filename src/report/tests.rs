@@ -371,30 +371,6 @@ fn parameters_are_numbers_or_auto() {
     );
 }
 
-/// Documents from before there were several engines lack engines, methods and machines beside. They
-/// read as the span engine's.
-#[test]
-fn older_documents_are_read_as_the_span_engines() {
-    let mut document = document(&[("prism", "prism")]);
-    let comparison = &mut document.comparisons[0];
-    (comparison.title, comparison.description) = Default::default();
-    let mut older: Value = serde_json::from_str(&document.to_text()).unwrap();
-    for field in ["methods", "baseline"] {
-        assert!(older.as_object_mut().unwrap().remove(field).is_some());
-    }
-    let comparison = older["comparisons"][0].as_object_mut().unwrap();
-    for field in ["renderer", "title", "description"] {
-        assert!(comparison.remove(field).is_some());
-    }
-    for rows in ["rows", "barycentric"] {
-        for row in comparison[rows].as_array_mut().unwrap() {
-            let row = row.as_object_mut().unwrap();
-            assert!(row.remove("level").is_some() && row.remove("threads").is_some());
-        }
-    }
-    assert_eq!(parse(&older.to_string()).unwrap(), report(&document).data);
-}
-
 #[test]
 fn the_description_names_every_field() {
     let description = include_str!("../../docs/bench-json.md");

@@ -8,8 +8,8 @@ pub enum Interpolation {
     /// Linearly on the screen, as the lecture does.
     #[default]
     Screen,
-    /// Linearly in space: attributes are divided by w at the corners (`methods.md` finding: degree-0 methods need no
-    /// division per pixel).
+    /// Linearly in space: attributes are divided by w at the corners. A method that normalises its vectors anyway needs
+    /// no division per pixel: the common factor cancels.
     Perspective,
 }
 

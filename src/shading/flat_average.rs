@@ -7,7 +7,7 @@ use crate::reference::Model;
 /// Flat shading as CS171 defines it: the mean of the vertex normals, at the mean of the vertex positions, lit once by the
 /// kernels of [`Flat`].
 ///
-/// The mean is normalised, which Algorithm 6 leaves out: the lighting model is for unit normals (trap T20).
+/// The mean is normalised, which Algorithm 6 leaves out: the lighting model is for unit normals.
 pub const FLAT_AVERAGE: Info = Info {
     name: "flat-average",
     title: "one colour per polygon, from the mean of its vertex normals",

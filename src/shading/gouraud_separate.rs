@@ -10,7 +10,7 @@ use crate::reference::Model;
 /// Gouraud shading whose vertex colours are not clamped: ambient and diffuse light in one colour, specular light in another,
 /// both interpolated, summed and clamped at each pixel.
 ///
-/// As interpolation is linear this is the unclamped sum of vertex colours, clamped last (trap T12): where lights add up to over
+/// As interpolation is linear this is the unclamped sum of vertex colours, clamped last: where lights add up to over
 /// 1 at a vertex, [`Gouraud`] shows a slope that starts at once, and this method a plateau first. Kept apart, the two
 /// colours can be treated apart: a texture would be multiplied by the first only.
 #[derive(Clone, Copy, Debug, Default)]

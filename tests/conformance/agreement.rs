@@ -111,7 +111,7 @@ fn any_number_of_lights() {
     assert!(scene.frame().is_err(), "one light more than there may be");
 }
 
-/// A light behind the sphere makes no highlight (trap T9). There L·N < 0, but R·V = 1 − 2 (N·V)² is
+/// A light behind the sphere makes no highlight. There L·N < 0, but R·V = 1 − 2 (N·V)² is
 /// positive toward the rim.
 #[test]
 fn a_light_behind_makes_no_highlight() {

@@ -127,7 +127,7 @@ fn in_front_of_the_eye_the_test_equals_clipping() {
     }
 }
 
-/// Trap T29: a polygon through the eye plane projects wrongly. All visible ground is missing, and
+/// A polygon through the eye plane projects wrongly. All visible ground is missing, and
 /// pixels are drawn where nothing should be.
 #[test]
 fn through_the_plane_of_the_eye_the_test_is_wrong() {

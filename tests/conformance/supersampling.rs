@@ -153,7 +153,7 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
     }
 }
 
-/// Trap T34: samples are averaged in linear light, and the mean is encoded afterwards.
+/// Samples are averaged in linear light, and the mean is encoded afterwards.
 #[test]
 fn samples_are_filtered_before_they_are_encoded() {
     let n = 4;

@@ -36,7 +36,7 @@ pub fn weights([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
 
 /// Returns γ as CS171 prints it, `f_ab(p) / f_ac(p)`: the quotient of two distances from p, which is no weight. As f_ac(b) is
 /// −f_ab(c) it is −γ/β, below 0 all over the inside, so that only the edge ab would be filled. At c, where γ is 1, it
-/// divides by zero. It is here to be looked at, and nothing else calls it.
+/// divides by zero. Only the figure of barycentric weights draws it.
 pub fn printed_gamma([a, b, c]: [DVec2; 3], p: DVec2) -> f64 {
     f(a, b, p) / f(a, c, p)
 }
@@ -98,7 +98,7 @@ pub fn weights_of_areas([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
 /// α = A_A / (A_A + A_B + A_C),      A_A = ½ ‖PB × PC‖      (L5, Proportional Areas)
 /// ```
 /// Inside of the triangle they are the weights. Outside they are wrong, and lie in 0..=1 none the less: whoever asks them
-/// whether a point is inside is always told yes. They are here to be looked at, and nothing else calls them.
+/// whether a point is inside is always told yes. Only the figure of barycentric weights draws them.
 pub fn unsigned_weights([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     let areas = [[p, b, c], [a, p, c], [a, b, p]].map(|triangle| signed_area(triangle).abs());
     areas.map(|area| area / (areas[0] + areas[1] + areas[2]))

@@ -35,7 +35,7 @@ pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
         let cosine = match light.specular {
             SpecularModel::Blinn => {
                 let sum = e_direction + l_direction;
-                // Opposite vectors have none halfway between them (trap T11).
+                // Opposite vectors have none halfway between them.
                 let is_sum = sum.length_squared() > f64::from(SpecularModel::LEAST_SUM);
                 if is_sum { n.dot(sum.normalize()) } else { 0.0 }
             }

@@ -327,7 +327,6 @@ fn unknown(what: &str, found: &str, at: Range<usize>, known: &[&'static str]) ->
     let (title, known) = (format!("unknown {what} `{found}`"), known.iter().copied());
     let error = SceneError::new(Origin::File(at), title, suggest::one_of(known.clone()));
     match suggest::nearest(found, known) {
-        _ if found == "depth_test" => error.help("what hides a polygon is said by `visibility`"),
         Some(nearest) => error.help(format!("did you mean `{nearest}`?")),
         None => error,
     }

@@ -14,14 +14,6 @@ fn invalid_toml_and_unknown_keys() {
         Some("did you mean `camera`?"),
     );
     check(
-        "«depth_test» = false\n",
-        "unknown key `depth_test`",
-        "expected one of `title`, `description`, `ambient`, `interpolation`, `viewer`, `specular`, `shininess_for`, \
-         `specular_gate`, `cull`, `visibility`, `depth_bits`, `depth`, `painter_key`, `clipping`, `two_sided`, `image`, \
-         `camera`, `material`, `light`, `object`",
-        Some("what hides a polygon is said by `visibility`"),
-    );
-    check(
         "[material]\nka = 0.1\n«shinines» = 3\n",
         "unknown key `shinines`",
         "expected one of `ka`, `kd`, `ks`, `shininess`",
