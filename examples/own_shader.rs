@@ -64,13 +64,13 @@ impl Shader for Toon {
         let mut colour = lit.ambient();
         for light in lit.lights() {
             let l_n = n.dot(light.to);
-            let mut diffuse = l_n.like(0.0);
+            let mut diffuse = l_n.broadcast(0.0);
             for band in 0..self.bands {
                 // `gate`: the number where the condition is above a value, 0 elsewhere.
-                diffuse = diffuse + l_n.like(width).gate(l_n, (band as f32 + 0.5) * width);
+                diffuse = diffuse + l_n.broadcast(width).gate(l_n, (band as f32 + 0.5) * width);
             }
             let highlight = lit.highlight(&light, l_n, n.dot(lit.view())).gate(l_n, 0.0);
-            let specular = l_n.like(1.0).gate(highlight, 0.9);
+            let specular = l_n.broadcast(1.0).gate(highlight, 0.9);
             colour = lit.plus(colour, &light, diffuse, specular);
         }
         colour

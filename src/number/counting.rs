@@ -57,7 +57,7 @@ impl Counted<'_> {
         let mut counts = self.counter.0.get();
         *kind(&mut counts) += 1;
         self.counter.0.set(counts);
-        self.like(value)
+        self.broadcast(value)
     }
 }
 
@@ -82,7 +82,7 @@ operator!(Add add additions, Sub sub additions, Mul mul multiplications, Div div
 impl Neg for Counted<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        self.like(-self.value)
+        self.broadcast(-self.value)
     }
 }
 
@@ -93,13 +93,13 @@ impl Num for Counted<'_> {
     type One = Self;
 
     fn one(self, x: f32) -> Self {
-        self.like(x)
+        self.broadcast(x)
     }
     fn of_each(self, mut of: impl FnMut(usize) -> Self) -> Self {
         of(0)
     }
 
-    fn like(self, value: f32) -> Self {
+    fn broadcast(self, value: f32) -> Self {
         Counted { value, ..self }
     }
     fn sqrt(self) -> Self {
@@ -129,7 +129,7 @@ impl Num for Counted<'_> {
 impl Real for Counted<'_> {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = Real::sin_cos(self.value);
-        (self.did(|c| &mut c.trigonometric, sin), self.like(cos))
+        (self.did(|c| &mut c.trigonometric, sin), self.broadcast(cos))
     }
     fn atan2(self, x: Self) -> Self {
         self.did(|c| &mut c.trigonometric, Real::atan2(self.value, x.value))

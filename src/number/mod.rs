@@ -72,14 +72,14 @@ pub trait Num:
     /// Returns the numbers that `of` gives for each pixel.
     fn of_each(self, of: impl FnMut(usize) -> Self::One) -> Self;
     /// Returns `x` as a number of this backend.
-    fn like(self, x: f32) -> Self;
+    fn broadcast(self, x: f32) -> Self;
     /// Returns the square root.
     fn sqrt(self) -> Self;
     /// Returns 1/√x for x > 0: by the processor's estimate and one step of Newton's method where it has an estimate (off by
     /// less than 2⁻²¹ of the value), else by a root and a division.
     #[inline(always)]
     fn rsqrt(self) -> Self {
-        self.like(1.0) / self.sqrt()
+        self.broadcast(1.0) / self.sqrt()
     }
     /// Returns `self`, 0 or more, to the power `exponent`.
     fn powf(self, exponent: f32) -> Self;

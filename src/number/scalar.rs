@@ -18,7 +18,7 @@ impl Num for f32 {
     }
 
     #[inline(always)]
-    fn like(self, x: f32) -> f32 {
+    fn broadcast(self, x: f32) -> f32 {
         x
     }
     #[inline(always)]

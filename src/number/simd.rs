@@ -139,7 +139,7 @@ macro_rules! block {
             }
 
             #[inline(always)]
-            fn like(self, x: f32) -> Self {
+            fn broadcast(self, x: f32) -> Self {
                 Self::splat(self.simd, x)
             }
             #[inline(always)]

@@ -54,7 +54,7 @@ impl<F: Num> Vec3<F> {
     /// Returns `self + s · v`.
     #[inline(always)]
     pub fn plus(self, s: F, v: Vec3<f32>) -> Self {
-        let v = v.like(s);
+        let v = v.broadcast(s);
         vec3([
             s.mul_add(v.x, self.x),
             s.mul_add(v.y, self.y),
@@ -66,7 +66,7 @@ impl<F: Num> Vec3<F> {
     #[inline(always)]
     pub fn unit(self) -> Self {
         let square = self.dot(self);
-        self * (square.like(1.0) / square.sqrt())
+        self * (square.broadcast(1.0) / square.sqrt())
     }
 
     /// Returns the components.
@@ -77,9 +77,13 @@ impl<F: Num> Vec3<F> {
 }
 
 impl Vec3<f32> {
-    /// Returns the vector in numbers like `like`.
+    /// Returns the vector, the same in all lanes of a number like `like`.
     #[inline(always)]
-    pub fn like<F: Num>(self, like: F) -> Vec3<F> {
-        vec3([like.like(self.x), like.like(self.y), like.like(self.z)])
+    pub fn broadcast<F: Num>(self, like: F) -> Vec3<F> {
+        vec3([
+            like.broadcast(self.x),
+            like.broadcast(self.y),
+            like.broadcast(self.z),
+        ])
     }
 }

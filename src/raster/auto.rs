@@ -27,13 +27,13 @@ impl Variant {
     pub fn auto(frame: &Frame, renderer: Renderer) -> (Variant, &'static str) {
         let named = |name| Variant::parse(name).expect("a method of the table");
         let rsqrt = named("phong-rsqrt");
-        let near =
+        let local =
             "under lights or an eye at positions nothing as exact is faster one pixel at a time";
         let span = "naive Phong's picture in less time, one pixel at a time";
         let row = "naive Phong's picture in the least time of the row engine";
         match rsqrt.plan(frame, renderer).renderer() {
             Some(Renderer::Row(_)) => (rsqrt, row),
-            _ if frame.is_local() => (named("naive-phong"), near),
+            _ if frame.is_local() => (named("naive-phong"), local),
             _ => (rsqrt, span),
         }
     }

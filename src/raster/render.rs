@@ -119,7 +119,7 @@ impl Variant {
         if names.is_empty() {
             return Vec::new();
         }
-        let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
+        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
         let count = |kind: usize| {
             setup
                 .kinds()
@@ -156,7 +156,7 @@ impl Variant {
         }
         let _ = renderer; // without SIMD there is one engine
         surface.clear(&mut rows);
-        let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
+        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
         surface.draw_rows(rows, |target| spans::draw(&setup, target));
     }
 
@@ -244,7 +244,7 @@ impl Variant {
         let frame = surface.frame;
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), zero);
         surface.clear(&mut rows_of(frame, &mut picture));
-        let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
+        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
         surface.draw_anyhow(rows_of(frame, &mut picture), |target| {
             barycentric::draw(&setup, edges, target);
         });

@@ -121,16 +121,21 @@ struct Item {
 impl<'a> SetUp<'a> {
     /// Computes uniforms and varyings of a method on a frame: on an instruction set, with colours multiplied by a scale, in memory
     /// whose contents do not matter.
-    pub fn new(variant: &'a Variant, frame: &'a Frame, how: (Level, f32, Vec<f32>)) -> Self {
-        let (level, scale, memory) = how;
-        let (entry, near) = (variant.entry(), frame.is_local());
-        let kernels = entry.kernels(frame.light_count(), near);
+    pub fn new(
+        variant: &'a Variant,
+        frame: &'a Frame,
+        level: Level,
+        scale: f32,
+        memory: Vec<f32>,
+    ) -> Self {
+        let (entry, is_local) = (variant.entry(), frame.is_local());
+        let kernels = entry.kernels(frame.light_count(), is_local);
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
         let lightings = frame.lightings().iter();
         let mut uniforms: Vec<Uniforms> = lightings
             .map(|l| Uniforms::new(l, variant.power(), scale))
             .collect();
-        let is_by_polygon = near && entry.local == Local::PerPolygon;
+        let is_by_polygon = is_local && entry.local == Local::PerPolygon;
         if is_by_polygon {
             let polygons = frame.polygons().iter();
             let seen =
@@ -138,7 +143,7 @@ impl<'a> SetUp<'a> {
             let by_polygon: Vec<Uniforms> = polygons.map(seen).collect();
             uniforms.splice(..0, by_polygon);
         }
-        let extras = entry.extras(near, is_perspective);
+        let extras = entry.extras(is_local, is_perspective);
         let vertices = (kernels.simd)(level).and_then(|simd| simd.vertices);
         let [own, ..] = (kernels.counts)(frame.light_count());
         let mut varyings = Varyings::of_vertices(&[][..], own + extras.count());
@@ -294,7 +299,7 @@ impl<'a> SetUp<'a> {
 
     /// Lights every vertex, or borrows the frame's normals where a method interpolates nothing else.
     fn light_vertices(&self, is_weighted: bool, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
-        let (frame, count, near) = (self.frame, self.varyings.count, self.frame.is_local());
+        let (frame, count, is_local) = (self.frame, self.varyings.count, self.frame.is_local());
         let has_one_material = frame.lightings().len() == 1;
         let normals = frame.normals_on_screen();
         let alone = normals.filter(|_| self.extras == Extras::default());
@@ -302,10 +307,11 @@ impl<'a> SetUp<'a> {
             return (normals.as_flattened().into(), Per::Vertex);
         }
         // Normals of one material need not be gathered.
-        let ready = alone.filter(|_| has_one_material && !near && !self.kernels.reads_attributes);
+        let ready =
+            alone.filter(|_| has_one_material && !is_local && !self.kernels.reads_attributes);
         let item = |i: usize| {
             let vertex = i as u32;
-            let point = match near {
+            let point = match is_local {
                 true => frame.position(vertex),
                 false => [0.0; 3],
             };
@@ -557,7 +563,7 @@ mod tests {
             let frame = scene.frame().expect("a scene in its range");
             for method in ["naive-phong", "phong-rsqrt"] {
                 let variant = Variant::parse(method).expect("a method");
-                let setup = SetUp::new(&variant, &frame, (Level::Scalar, 1.0, Vec::new()));
+                let setup = SetUp::new(&variant, &frame, Level::Scalar, 1.0, Vec::new());
                 let Varyings { values, count, .. } = &setup.varyings;
                 let is_borrowed = matches!(values, Cow::Borrowed(_));
                 assert_eq!(is_borrowed, is_there);

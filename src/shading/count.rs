@@ -74,7 +74,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     if !is_polygon {
         counts.vertex = counter.take();
     }
-    if entry.local == Local::PerPolygon && bench.is_near() {
+    if entry.local == Local::PerPolygon && bench.is_local() {
         // Light and eye as the polygon sees them.
         let uniforms = Uniforms::new(&bench.lighting, variant.power(), 1.0);
         let lit = Lit::new(uniforms.stored(), zero, true).at(three(bench.points[0]));
@@ -86,7 +86,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         normal: three(bench.normals[i]),
         place: SpanBench::CORNERS[i].map(number),
         weight: number(1.0),
-        position: bench.is_near().then(|| three(bench.points[i])),
+        position: bench.is_local().then(|| three(bench.points[i])),
     });
     let whole = bench.normals.map(three);
     let polygon = Corners {
@@ -210,16 +210,16 @@ mod tests {
     /// What is counted is what an engine does: the colour of the first pixel is the same to the bit.
     #[test]
     fn counted_spans_are_those_of_the_engine() {
-        let near = |falloff, interpolation| SpanBench::local(20.0, 2, falloff, interpolation);
+        let local = |falloff, interpolation| SpanBench::local(20.0, 2, falloff, interpolation);
         let benches = [
             (SpanBench::new(20.0, 1), Interpolation::Screen),
             (SpanBench::new(20.0, 4), Interpolation::Screen),
             (
-                near(Falloff::InverseSquare, Interpolation::Screen),
+                local(Falloff::InverseSquare, Interpolation::Screen),
                 Interpolation::Screen,
             ),
             (
-                near(Falloff::None, Interpolation::Perspective),
+                local(Falloff::None, Interpolation::Perspective),
                 Interpolation::Perspective,
             ),
         ];
@@ -227,7 +227,7 @@ mod tests {
             let frame = frame(bench, *interpolation);
             for entry in METHODS {
                 let variant = entry.variant();
-                let counted = (entry.count[usize::from(bench.is_near())])(bench, &variant);
+                let counted = (entry.count[usize::from(bench.is_local())])(bench, &variant);
                 let picture = variant.render_linear_with(&frame, Renderer::LECTURE);
                 let [drawn @ .., _] = picture.get(0, 0);
                 let counted = counted.colour.map(|channel| channel.clamp(0.0, 1.0));

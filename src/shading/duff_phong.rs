@@ -53,7 +53,7 @@ impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
-        let one = d.like(1.0);
+        let one = d.broadcast(1.0);
         let r = if RSQRT { d.rsqrt() } else { one / d.sqrt() };
         lit.shade_products(scaled(products, r))
     }
@@ -70,12 +70,12 @@ impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
 ///
 /// Under perspective all of them are divided by w², which cancels; only the falloff of a light needs 1/w² itself.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct DuffPhongNear<const L: usize>;
+pub struct DuffPhongLocal<const L: usize>;
 
 type Shared<Q> = ((Q, Q), (Q, Q));
 type Each<Q> = ((Q, Q), Q);
 
-impl<const L: usize> Shader for DuffPhongNear<L> {
+impl<const L: usize> Shader for DuffPhongLocal<L> {
     const INFO: Info = DUFF_PHONG;
     type Constants<F: Num> = ();
     type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
@@ -84,7 +84,7 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
 
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (n, lit.point(), n.x.like(1.0))
+        (n, lit.point(), n.x.broadcast(1.0))
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -109,7 +109,7 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
         let (((nn, vv), (nv, ww)), ((ll, ln), lv)) = pixel;
-        let one = nn.like(1.0);
+        let one = nn.broadcast(1.0);
         let (over_n, over_v) = (one / nn.sqrt(), one / vv.sqrt());
         let v_n = nv * over_n * over_v;
         let mut colour = lit.ambient();

@@ -74,7 +74,7 @@ impl<const L: usize> Shader for FastPhong<L> {
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, ((j, k), (d, square)): Pixel<Self, F>) -> Vec3<F> {
-        let (over_d, twice_k) = (d.like(1.0) / d, k * 2.0 / square);
+        let (over_d, twice_k) = (d.broadcast(1.0) / d, k * 2.0 / square);
         let mut colour = lit.ambient();
         for light in lit.lights() {
             let j = j.values[light.index];

@@ -78,7 +78,7 @@ impl Extras {
         if !self.weight {
             return (pixel, point);
         }
-        let w = weight.like(1.0) / weight;
+        let w = weight.broadcast(1.0) / weight;
         if self.point {
             point = point * w;
         }

@@ -187,10 +187,15 @@ const MOST_LEVELS: f32 = 1_073_741_824.0;
 /// Returns how strong a light is at the squared distance `square`; `None` is full strength. `unit` is 1, or the factor in
 /// all squared distances.
 #[inline(always)]
-pub(super) fn strength<F: Num>(is_near: bool, falloff: Falloff, square: F, unit: F) -> Option<F> {
+pub(super) fn strength<F: Num>(
+    is_positional: bool,
+    falloff: Falloff,
+    square: F,
+    unit: F,
+) -> Option<F> {
     let square = square.max(LEAST_SQUARE);
     match falloff {
-        _ if !is_near => None,
+        _ if !is_positional => None,
         Falloff::None => None,
         Falloff::Attenuation(k) => Some(unit / (unit + square * k)), // 1 / (1 + k d²)
         Falloff::InverseSquare => Some(unit / square),               // 1 / r²
@@ -208,7 +213,7 @@ fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
 /// Returns the vector from `point` toward a place, not normalised; both multiplied by `weight`, as under perspective.
 #[inline(always)]
 pub(super) fn toward<F: Num>(place: Place<Vec3<f32>>, point: Vec3<F>, weight: F) -> Vec3<F> {
-    let to = vector(place).like(weight) * weight;
+    let to = vector(place).broadcast(weight) * weight;
     if place.is_local() { to - point } else { to }
 }
 
@@ -216,7 +221,7 @@ pub(super) fn toward<F: Num>(place: Place<Vec3<f32>>, point: Vec3<F>, weight: F)
 #[inline(always)]
 fn over_sum<F: Num>(l_v: F) -> F {
     let square = l_v * 2.0 + 2.0;
-    (square.like(1.0) / square.sqrt()).gate(square, SpecularModel::LEAST_SUM)
+    (square.broadcast(1.0) / square.sqrt()).gate(square, SpecularModel::LEAST_SUM)
 }
 
 /// Returns the cosine up to which no light has a highlight over 2⁻²⁴, t = (2⁻²⁴ / k)^(1/n), with k the strongest highlight at
@@ -338,13 +343,13 @@ impl<'a, F: Num> Lit<'a, F> {
             lights,
             powers,
         } = stored;
-        let zero = zero.like(0.0);
+        let zero = zero.broadcast(0.0);
         Lit {
             model,
             stored: lights,
             powers,
             point: vec3([zero; 3]),
-            view: vector(model.eye).like(zero),
+            view: vector(model.eye).broadcast(zero),
             has_point: false,
             attributes: [zero; 4],
             general,
@@ -356,7 +361,7 @@ impl<'a, F: Num> Lit<'a, F> {
     #[inline(always)]
     pub fn at(mut self, point: Vec3<F>) -> Self {
         if self.general && self.model.eye.is_local() {
-            self.view = (vector(self.model.eye).like(self.zero) - point).unit();
+            self.view = (vector(self.model.eye).broadcast(self.zero) - point).unit();
         }
         (self.point, self.has_point) = (point, true);
         self
@@ -414,27 +419,27 @@ impl<'a, F: Num> Lit<'a, F> {
 
     #[inline(always)]
     fn seen(&self, index: usize) -> Seen<'a, F> {
-        let (light, one) = (&self.stored[index], self.zero.like(1.0));
-        let is_near = light.place.is_local();
+        let (light, one) = (&self.stored[index], self.zero.broadcast(1.0));
+        let is_positional = light.place.is_local();
         debug_assert!(
-            self.has_point || !is_near,
+            self.has_point || !is_positional,
             "a walk has no point that a light at a position could be seen from"
         );
         let mut seen = Seen {
             index,
-            to: vector(light.place).like(one),
-            l_v: one.like(light.l_v),
-            half: one.like(light.half),
+            to: vector(light.place).broadcast(one),
+            l_v: one.broadcast(light.l_v),
+            half: one.broadcast(light.half),
             strength: None,
             light,
         };
-        if self.general && is_near {
+        if self.general && is_positional {
             let to = seen.to - self.point;
             let square = to.dot(to);
             seen.to = to * (one / square.sqrt());
-            seen.strength = strength(is_near, light.falloff, square, one);
+            seen.strength = strength(is_positional, light.falloff, square, one);
         }
-        if self.general && (is_near || self.model.eye.is_local()) {
+        if self.general && (is_positional || self.model.eye.is_local()) {
             seen.l_v = seen.to.dot(self.view);
             if self.is_halfway() {
                 seen.half = over_sum(seen.l_v);
@@ -479,7 +484,7 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns `I_a k_a`.
     #[inline(always)]
     pub fn ambient(&self) -> Vec3<F> {
-        self.model.ambient.like(self.zero)
+        self.model.ambient.broadcast(self.zero)
     }
 
     /// Returns a colour with each channel clamped to 0..=1: for vertices whose pixels need no clamp.
@@ -700,7 +705,7 @@ impl Exponent {
     pub fn of<F: Num>(self, base: F) -> F {
         let n = match self {
             Exponent::Squarings(times) => return squared_up_to_7(base, times),
-            Exponent::Whole(0) => return base.like(1.0),
+            Exponent::Whole(0) => return base.broadcast(1.0),
             Exponent::Whole(n) => n,
             Exponent::Fractional(n) => return base.powf(n),
             Exponent::Exp(rate) => return ((base.max(0.0) - 1.0) * rate).exp2(),

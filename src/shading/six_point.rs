@@ -118,7 +118,7 @@ impl<const L: usize> Shader for SixPoint<L> {
         lit: &Lit<'_, R>,
         polygon: &Corners<'_, R>,
     ) -> (u8, Self::Constants<R>) {
-        let zero = polygon.face.x.like(0.0);
+        let zero = polygon.face.x.broadcast(0.0);
         let none = ([(PerLight::new(lit.count(), zero), zero); 6], [zero; 2]);
         let &[a, b, c] = polygon.all else {
             return (ROOTS, none);
@@ -126,7 +126,7 @@ impl<const L: usize> Shader for SixPoint<L> {
         let from_a = |at: [R; 2]| [at[0] - a.place[0], at[1] - a.place[1]];
         let ([bx, by], [cx, cy]) = (from_a(b.place), from_a(c.place));
         let area = bx * cy - by * cx;
-        let over_area = zero.like(1.0) / area;
+        let over_area = zero.broadcast(1.0) / area;
         // b = p x + q y, c = r x + s y
         let [p, q, r, s] = [cy, -cx, -by, bx].map(|side| side * over_area);
         let extent = [bx, by, cx, cy].map(|side| side.value().abs());
@@ -214,7 +214,7 @@ impl<F: Num, const L: usize> Walk<F> for SixPointWalk<F, L> {
             None => products,
             Some(square) => {
                 let square = square.next();
-                scaled(products, square.like(1.0) / square.sqrt())
+                scaled(products, square.broadcast(1.0) / square.sqrt())
             }
         }
     }

@@ -150,7 +150,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         Span {
             start: Start::Block(at),
             lights,
-            zero: zero.like(0.0),
+            zero: zero.broadcast(0.0),
         }
     }
 
@@ -160,7 +160,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         Span {
             start: Start::Run(run),
             lights,
-            zero: zero.like(0.0),
+            zero: zero.broadcast(0.0),
         }
     }
 
@@ -229,7 +229,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         [
             self.zero
                 .of_each(|k| self.zero.one((x + k as u32) as f32 + 0.5)),
-            self.zero.like(y as f32 + 0.5),
+            self.zero.broadcast(y as f32 + 0.5),
         ]
     }
 

@@ -51,10 +51,10 @@ impl SpanBench {
     }
 
     /// Makes a span with so many lights, of a falloff if they and the eye are at positions.
-    fn lit(degrees: f32, lights: usize, near: Option<Falloff>, perspective: bool) -> Self {
+    fn lit(degrees: f32, lights: usize, local: Option<Falloff>, perspective: bool) -> Self {
         let light = |i: usize| {
             let (sin, cos) = (libm::sin(i as f64), libm::cos(i as f64));
-            let Some(falloff) = near else {
+            let Some(falloff) = local else {
                 let direction = DVec3::new(0.5 * cos, 0.5 * sin, 1.0);
                 return Light::directional(direction.normalize(), COLOUR);
             };
@@ -65,7 +65,7 @@ impl SpanBench {
         };
         let lights: Vec<Light> = (0..lights).map(light).collect();
         let mut lighting = Lighting::new(&Material::default(), [1.0; 3], &lights, DVec3::Z);
-        if near.is_some() {
+        if local.is_some() {
             lighting.view = Place::Local([0.0, 0.0, 8.0]);
         }
         let (sin, cos) = libm::sincosf(degrees.to_radians() / 2.0);
@@ -82,20 +82,20 @@ impl SpanBench {
     pub(crate) fn uniforms(&self, variant: &Variant, scale: f32) -> Uniforms {
         let uniforms = Uniforms::new(&self.lighting, variant.power(), scale);
         match variant.entry().local {
-            Local::PerPolygon if self.is_near() => uniforms.seen_from([1.0 / 3.0, 1.0 / 3.0, 0.0]),
+            Local::PerPolygon if self.is_local() => uniforms.seen_from([1.0 / 3.0, 1.0 / 3.0, 0.0]),
             _ => uniforms,
         }
     }
 
     /// True if a light or the eye is at a position.
-    pub(crate) fn is_near(&self) -> bool {
+    pub(crate) fn is_local(&self) -> bool {
         self.lighting.is_local()
     }
 
     /// Returns the varyings that kernels add to those of a method.
     pub(crate) fn extras(&self, variant: &Variant) -> Extras {
         let entry = variant.entry();
-        entry.extras(self.is_near(), self.perspective)
+        entry.extras(self.is_local(), self.perspective)
     }
 }
 
@@ -108,6 +108,6 @@ impl Variant {
 
     /// Returns the operations of each kind that the method takes on a span.
     pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
-        (self.entry().count[usize::from(bench.is_near())])(bench, self).operations
+        (self.entry().count[usize::from(bench.is_local())])(bench, self).operations
     }
 }

@@ -82,15 +82,15 @@ impl SpanShader {
     /// varyings are multiplied by the weight of their vertex.
     pub fn new(variant: &Variant, lighting: &Lighting, interpolation: Interpolation) -> Self {
         let (entry, lights) = (variant.entry(), lighting.lights.len());
-        let (near, is_perspective) = (
+        let (is_local, is_perspective) = (
             lighting.is_local(),
             interpolation == Interpolation::Perspective,
         );
-        let kernels = entry.kernels(lights, near);
-        let extras = entry.extras(near, is_perspective);
+        let kernels = entry.kernels(lights, is_local);
+        let extras = entry.extras(is_local, is_perspective);
         let [own, _, constants] = (kernels.counts)(lights);
         let uniforms = Uniforms::new(lighting, variant.power(), 1.0);
-        let is_by_polygon = near && entry.local == Local::PerPolygon;
+        let is_by_polygon = is_local && entry.local == Local::PerPolygon;
         SpanShader {
             is_weighted: is_perspective
                 && matches!(entry.perspective, Perspective::Free | Perspective::Divides),

@@ -2,7 +2,7 @@
 
 use super::count::{CountedSpan, count};
 use super::duff_newton::DuffNewton;
-use super::duff_phong::{DuffPhong, DuffPhongNear};
+use super::duff_phong::{DuffPhong, DuffPhongLocal};
 use super::fast_phong::FastPhong;
 use super::flat::Flat;
 use super::flat_average::FLAT_AVERAGE;
@@ -38,7 +38,7 @@ pub static METHODS: &[Entry] = &[
     >(),
     Entry::of::<PhongRsqrt>(),
     Entry::by_lights::<DuffPhong<1>, DuffPhong<4>, DuffPhong<8>, DuffPhong<64>>()
-        .near::<DuffPhongNear<4>, DuffPhongNear<64>>(),
+        .positional::<DuffPhongLocal<4>, DuffPhongLocal<64>>(),
     Entry::by_lights::<DuffNewton<1>, DuffNewton<4>, DuffNewton<8>, DuffNewton<64>>(),
     Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>(),
     Entry::by_lights::<SlerpPhong<1>, SlerpPhong<4>, SlerpPhong<8>, SlerpPhong<64>>(),
@@ -64,7 +64,7 @@ pub struct Entry {
     /// Returns the reason why it is not for a frame: [`Shader::refuses`].
     pub(crate) refuses: fn(&Frame) -> Option<&'static str>,
     directional: ByLights,
-    near: ByLights,
+    positional: ByLights,
     /// The functions that count operations: without a light or the eye at a position, and with one.
     pub(super) count: [fn(&SpanBench, &Variant) -> CountedSpan; 2],
 }
@@ -81,7 +81,7 @@ impl Entry {
         Entry {
             info,
             directional: [kernels; 4],
-            near: [kernels; 4],
+            positional: [kernels; 4],
             ..Entry::of::<M>()
         }
     }
@@ -103,17 +103,17 @@ impl Entry {
             perspective: A::PERSPECTIVE,
             refuses: A::refuses,
             directional: all,
-            near: all,
+            positional: all,
             // For up to eight lights as many are stepped, for up to 64 as many as there are: what is counted.
             count: [count::<D>; 2],
         }
     }
 
     /// Takes other kernels where a light or the eye is at a position: for 4 lights and for 64.
-    pub const fn near<A: Shader, B: Shader>(self) -> Entry {
+    pub const fn positional<A: Shader, B: Shader>(self) -> Entry {
         let [few, many] = const { [&Kernels::of::<A>(), &Kernels::of::<B>()] };
         Entry {
-            near: [few, few, many, many],
+            positional: [few, few, many, many],
             count: [self.count[0], count::<B>],
             ..self
         }
@@ -134,15 +134,15 @@ impl Entry {
         self.directional[0].kinds
     }
 
-    /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
+    /// True if a pixel depends only on the varyings there; the barycentric renderer draws only such methods.
     pub fn is_barycentric(&self) -> bool {
         self.directional[0].linear && !self.directional[0].reads_span
     }
 
     /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
-    /// position (`near`) or not.
-    pub(crate) fn extras(&self, near: bool, perspective: bool) -> Extras {
-        let point = near && self.local == Local::PerPixel && self.near[0].linear;
+    /// position (`is_local`) or not.
+    pub(crate) fn extras(&self, is_local: bool, perspective: bool) -> Extras {
+        let point = is_local && self.local == Local::PerPixel && self.positional[0].linear;
         let divides = self.perspective == Perspective::Divides;
         Extras {
             point,
@@ -150,9 +150,13 @@ impl Entry {
         }
     }
 
-    /// Returns the kernels for so many lights, some at positions (`near`) or none.
-    pub(crate) fn kernels(&self, lights: usize, near: bool) -> &'static Kernels {
-        let all = if near { self.near } else { self.directional };
+    /// Returns the kernels for so many lights, some at positions (`is_local`) or none.
+    pub(crate) fn kernels(&self, lights: usize, is_local: bool) -> &'static Kernels {
+        let all = if is_local {
+            self.positional
+        } else {
+            self.directional
+        };
         match lights {
             0 | 1 => all[0],
             2..=4 => all[1],
@@ -174,7 +178,7 @@ mod tests {
         let mut kernels = BTreeSet::new();
         for entry in entries {
             kernels.extend(entry.count.map(|count| count as usize));
-            for table in [entry.directional, entry.near].as_flattened() {
+            for table in [entry.directional, entry.positional].as_flattened() {
                 kernels.extend([table.vertices as usize, table.pixels as usize]);
                 for simd in Level::ALL.into_iter().filter_map(table.simd) {
                     kernels.insert(simd.shade as usize);
@@ -196,9 +200,9 @@ mod tests {
             let own = compiled(&[*entry]);
             let by_lights = !core::ptr::eq(entry.directional[0], entry.directional[3]);
             let most = if by_lights { 24 } else { 8 };
-            let near = !core::ptr::eq(entry.directional[0], entry.near[0]);
+            let has_positional = !core::ptr::eq(entry.directional[0], entry.positional[0]);
             assert!(
-                own <= most * (1 + usize::from(near)),
+                own <= most * (1 + usize::from(has_positional)),
                 "{}: {own}",
                 entry.info.name
             );

@@ -280,7 +280,7 @@ impl Shader for Quotients {
     }
     #[inline(always)]
     fn shade<F: Num>(self, _: &Lit<'_, F>, (v, w): (Vector<F>, F)) -> Vector<F> {
-        v * (w.like(1.0) / w)
+        v * (w.broadcast(1.0) / w)
     }
 }
 

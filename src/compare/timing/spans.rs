@@ -37,7 +37,7 @@ impl Started {
 /// Lights both vertices of a span of `pixels` pixels, and sets it up.
 fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usize) -> Started {
     let lights = uniforms.lights.len();
-    let kernels = variant.entry().kernels(lights, bench.is_near());
+    let kernels = variant.entry().kernels(lights, bench.is_local());
     let extras = bench.extras(variant);
     let [own, _, planned] = (kernels.counts)(lights);
     let varyings = own + extras.count();
@@ -68,7 +68,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
             normal: vec3(bench.normals[i]),
             place: [bench.points[i][0], bench.points[i][1]].map(|at| at * pixels as f32),
             weight: 1.0,
-            position: bench.is_near().then(|| vec3(bench.points[i])),
+            position: bench.is_local().then(|| vec3(bench.points[i])),
         });
         let whole = bench.normals.map(vec3);
         let polygon = Corners {
@@ -129,7 +129,7 @@ impl SpanRow {
         assert!(pixels.is_multiple_of(2 * BLOCK), "whole blocks");
         let uniforms = bench.uniforms(variant, 255.0);
         let lights = uniforms.lights.len();
-        let kernels = variant.entry().kernels(lights, bench.is_near());
+        let kernels = variant.entry().kernels(lights, bench.is_local());
         let [varyings, planes, _] = (kernels.counts)(lights);
         let planes = planes.max(varyings) + bench.extras(variant).count();
         SpanRow {

@@ -110,7 +110,7 @@ fn operations_of<S: Token, F: Block<S>>() {
     compare!(S, F, |a, b, c| a + 0.5);
     compare!(S, F, |a, b, c| a - 0.5);
     compare!(S, F, |a, b, c| a * 0.3);
-    compare!(S, F, |a, b, c| a.like(3.0));
+    compare!(S, F, |a, b, c| a.broadcast(3.0));
     compare!(S, F, |a, b, c| Num::max(a, 0.0));
     compare!(S, F, |a, b, c| Num::max(a, -0.75));
     compare!(S, F, |a, b, c| Num::gate(a, b, 0.0));

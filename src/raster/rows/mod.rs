@@ -131,7 +131,7 @@ pub(super) fn draw(
     let [memory, packed] = BUFFERS.with_borrow_mut(|buffers| {
         [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take)
     });
-    let Some(mut rows) = RowEngine::new(variant, frame, (level, scale, memory)) else {
+    let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
     let kept = match is_scaled {
@@ -162,7 +162,7 @@ pub(super) fn draw(
 /// another one. The tiles are therefore filled by the method's own loops, with polygon numbers in the place of varyings.
 pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
-    let Some(rows) = RowEngine::new(variant, frame, (level, 1.0, Vec::new())) else {
+    let Some(rows) = RowEngine::new(variant, frame, level, 1.0, Vec::new()) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
     let rows = rows.numbering();
@@ -210,10 +210,11 @@ impl<'a> RowEngine<'a> {
     fn new(
         variant: &'a Variant,
         frame: &'a Frame,
-        how: (Level, f32, Vec<f32>),
+        level: Level,
+        scale: f32,
+        memory: Vec<f32>,
     ) -> Option<RowEngine<'a>> {
-        let level = how.0;
-        let setup = SetUp::new(variant, frame, how);
+        let setup = SetUp::new(variant, frame, level, scale, memory);
         let kernels = (setup.kernels.simd)(level)?;
         let [_, walked, _] = (setup.kernels.counts)(frame.light_count());
         let walks_along =

@@ -323,7 +323,7 @@ fn drawn_as_levels(
     level: Level,
     packs: bool,
 ) -> (Picture8, bool) {
-    let mut engine = RowEngine::new(variant, frame, (level, 255.0, Vec::new())).expect("loops");
+    let mut engine = RowEngine::new(variant, frame, level, 255.0, Vec::new()).expect("loops");
     if packs {
         engine.pack(vec![f32::NAN; 5]);
     }
@@ -413,7 +413,7 @@ fn stretches_have_the_uniforms_of_their_pixels() {
     let (width, mut random) = (frame.width(), Random::new(31));
     let variant = Variant::parse("naive-phong").expect("a method");
     for level in levels() {
-        let engine = RowEngine::new(&variant, &frame, (level, 255.0, vec![])).expect("loops");
+        let engine = RowEngine::new(&variant, &frame, level, 255.0, vec![]).expect("loops");
         assert_eq!(engine.only, None, "each polygon has a material");
         let mut tile = Tile::default();
         let mut most = 0;

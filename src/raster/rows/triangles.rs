@@ -7,7 +7,7 @@
 //! Edge functions hold the fill rule: left and top edges own the pixel centres that lie on them (`Batch::edge`).
 
 use super::tile::{MOST, NumberCount};
-use crate::frame::{Frame, ScreenVertex};
+use crate::frame::Frame;
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use crate::raster::bins::Listed;
@@ -45,12 +45,12 @@ pub(super) enum CoveragePath {
 #[derive(Debug, Default)]
 pub(crate) struct Batch {
     pub(super) count: usize,
-    /// The corners from the top down, at equal height from left to right: depth is rounded by that order, and so does not depend
-    /// on the corner that a polygon begins with, nor on the way in which it runs.
+    /// The polygons.
     listed: [Listed; BATCH],
-    /// The numbers that these corners have in the polygon.
-    numbers: [[u32; 3]; BATCH],
-    /// Columns and rows of the corners in sub-pixels.
+    /// The numbers of the corners in their polygon, from the top down, at equal height from left to right: depth is rounded by that
+    /// order, and so does not depend on the corner that a polygon begins with, nor on the way in which it runs.
+    numbers: [Ints; 3],
+    /// Columns and rows of the corners in sub-pixels, once they are bounded in the order of `numbers`.
     pub(super) x: [Ints; 3],
     pub(super) y: [Ints; 3],
     /// The pixels of the tile whose centres the bounding boxes hold: first column and the one after the last, rows.
@@ -136,42 +136,24 @@ impl PlaneEquations {
     }
 }
 
-/// The place of a triangle's corner and its number there, packed in the order in which corners are sorted: the row, which is within
-/// ±2²³ sub-pixels, the column from −2³¹ on, and two bits of the number.
+/// Sorts the corners of eight triangles from the top down, at equal height from left to right, and their numbers with them.
 ///
 /// Corners of a triangle that has an area are at three places, so that nothing else decides their order.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct CornerPlace(i64);
-
-impl CornerPlace {
-    #[inline(always)]
-    fn new(vertex: &ScreenVertex, number: usize) -> Self {
-        let column = vertex.x.to_bits().wrapping_sub(i32::MIN) as u32;
-        let row = i64::from(vertex.y.to_bits());
-        CornerPlace(row << 34 | i64::from(column) << 2 | number as i64)
-    }
-
-    /// Returns three of them in order, without branches.
-    #[inline(always)]
-    fn sorted([a, b, c]: [Self; 3]) -> [Self; 3] {
-        let (a, b) = (a.min(b), a.max(b));
-        let (b, c) = (b.min(c), b.max(c));
-        [a.min(b), a.max(b), c]
-    }
-
-    #[inline(always)]
-    fn x(self) -> i32 {
-        ((self.0 >> 2) as i32).wrapping_add(i32::MIN)
-    }
-
-    #[inline(always)]
-    fn y(self) -> i32 {
-        (self.0 >> 34) as i32
-    }
-
-    #[inline(always)]
-    fn number(self) -> u32 {
-        self.0 as u32 & 3
+#[inline(always)]
+fn sort_corners<S: Simd>(
+    m: Lanes<S>,
+    x: &mut [i32x8<S>; 3],
+    y: &mut [i32x8<S>; 3],
+    number: &mut [i32x8<S>; 3],
+) {
+    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+        let is_level = (y[i].less(y[j]) | y[j].less(y[i])) ^ m.int(-1);
+        let swaps = y[j].less(y[i]) | (is_level & x[j].less(x[i]));
+        for values in [&mut *x, &mut *y, &mut *number] {
+            // Without a branch: exclusive or with the difference of bits is an exchange, with 0 it is none.
+            let difference = (values[i] ^ values[j]) & swaps;
+            (values[i], values[j]) = (values[i] ^ difference, values[j] ^ difference);
+        }
     }
 }
 
@@ -205,14 +187,11 @@ impl Batch {
         let polygons = &polygons[..most];
         let mut k = 0;
         while k < most && polygons[k].is_triangle() {
-            let Listed { number, corners } = polygons[k];
-            let place = |i: usize| CornerPlace::new(&vertices[corners[i] as usize], i);
-            let places = CornerPlace::sorted([place(0), place(1), place(2)]);
-            self.listed[k].number = number;
+            let corners = polygons[k].corners;
+            self.listed[k] = polygons[k];
             for i in 0..3 {
-                (self.x[i][k], self.y[i][k]) = (places[i].x(), places[i].y());
-                self.numbers[k][i] = places[i].number();
-                self.listed[k].corners[i] = corners[places[i].number() as usize];
+                let vertex = &vertices[corners[i] as usize];
+                (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
             }
             k += 1;
         }
@@ -261,7 +240,14 @@ impl Batch {
         let (zero, all) = (m.int(0), m.int(-1));
         let of = |corner: &Ints| m.load_int(&corner[first..]);
         let load = |from: &[Ints; 3]| [of(&from[0]), of(&from[1]), of(&from[2])];
-        let (x, y) = (load(&self.x), load(&self.y));
+        let (mut x, mut y) = (load(&self.x), load(&self.y));
+        let mut number = [m.int(0), m.int(1), m.int(2)];
+        sort_corners(m, &mut x, &mut y, &mut number);
+        for i in 0..3 {
+            m.store_int(x[i], &mut self.x[i][first..]);
+            m.store_int(y[i], &mut self.y[i][first..]);
+            m.store_int(number[i], &mut self.numbers[i][first..]);
+        }
         let (left, right) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
         let [top, _, bottom] = y;
         // `first_centre` in 32 bits: coordinates are within ±2²³.
@@ -424,11 +410,12 @@ impl Batch {
         read: impl Fn(u32, u32, u32, &mut Numbers),
     ) {
         for k in bits(drawn) {
-            let (Listed { number, corners }, numbers) = (self.listed[k], self.numbers[k]);
+            let Listed { number, corners } = self.listed[k];
             let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
-            read(number, numbers[0], corners[0], &mut at);
-            read(number, numbers[1], corners[1], &mut to_b);
-            read(number, numbers[2], corners[2], &mut to_c);
+            for (i, to) in [&mut at, &mut to_b, &mut to_c].into_iter().enumerate() {
+                let corner = self.numbers[i][k] as u32;
+                read(number, corner, corners[corner as usize], to);
+            }
             let to = &mut self.planes.0[k];
             let mut i = 0;
             while i < count.get() {

@@ -37,7 +37,7 @@ impl<F: Num> Quadratic<F> {
     /// Makes 0.
     #[inline(always)]
     pub fn zero(like: F) -> Self {
-        let zero = like.like(0.0);
+        let zero = like.broadcast(0.0);
         Quadratic {
             at: zero,
             step: zero,

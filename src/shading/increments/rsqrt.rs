@@ -26,7 +26,7 @@ impl<F: Num> WarmRsqrt<F> {
     pub fn new(square: Quadratic<F>, first: F, steps: u32) -> Self {
         WarmRsqrt {
             square,
-            root: first.like(1.0) / first.sqrt(),
+            root: first.broadcast(1.0) / first.sqrt(),
             steps,
         }
     }
@@ -81,7 +81,7 @@ impl<F: Num> Walk<F> for WarmRsqrt<F> {
     fn next(&mut self) -> F {
         let square = self.square.next();
         if self.steps == 0 {
-            return square.like(1.0) / square.sqrt();
+            return square.broadcast(1.0) / square.sqrt();
         }
         let half = square * 0.5;
         for _ in 0..self.steps {

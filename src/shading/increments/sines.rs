@@ -87,16 +87,16 @@ impl<R: Real> GreatCircle<R> {
         let half = sin_half.atan2(cos_half);
         let phi = half + half; // φ
         let (a, b, phi, sin_phi) = if phi.value() > LARGEST_ANGLE {
-            let phi = phi.like(SMALLEST_ANGLE);
+            let phi = phi.broadcast(SMALLEST_ANGLE);
             (face, face, phi, phi)
         } else if phi.value() < SMALLEST_ANGLE {
-            let phi = phi.like(SMALLEST_ANGLE);
+            let phi = phi.broadcast(SMALLEST_ANGLE);
             (a, b, phi, phi)
         } else {
             // sin φ = 2 sin(φ/2) cos(φ/2), and |b − a| = 2 sin(φ/2), |a + b| = 2 cos(φ/2) for unit vectors.
             (a, b, phi, sin_half * 0.5 * cos_half) // sin φ
         };
-        let scale = phi.like(1.0) / sin_phi;
+        let scale = phi.broadcast(1.0) / sin_phi;
         let sines = Sines::new(phi, t0, dt);
         GreatCircle {
             from: a * scale, // 4.7

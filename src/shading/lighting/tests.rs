@@ -138,7 +138,7 @@ impl Num for Normal {
         Normal([of(0), of(1)])
     }
 
-    fn like(self, x: f32) -> Normal {
+    fn broadcast(self, x: f32) -> Normal {
         x.into()
     }
     fn sqrt(self) -> Normal {
@@ -204,7 +204,7 @@ fn cosines(model: &LightModel) -> Vec<f32> {
 /// Returns the colour of a point at distance 1 from the light, where L·N is `cosine` and R·V or N·H
 /// is `highlight`.
 fn lit<F: Num>(uniforms: &Uniforms, cosine: F, highlight: F, general: bool) -> F {
-    let nowhere = vec3([cosine.like(0.0); 3]);
+    let nowhere = vec3([cosine.broadcast(0.0); 3]);
     let lit = Lit::new(uniforms.stored(), nowhere.x, general).at(nowhere);
     let light = lit.lights().next().expect("one light");
     lit.add(lit.ambient(), &light, cosine, highlight).x
