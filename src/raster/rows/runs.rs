@@ -71,6 +71,7 @@ impl RunQueue {
             let count = rest.iter().position(is_later).unwrap_or(rest.len());
             let (new, later) = rest.split_at(count);
             rest = later;
+            // In most rows no edge begins or ends: they are stepped where they are and not copied.
             if !(new.is_empty() && active.step(row)) {
                 active.next(new.iter().map(|(_, edge)| edge), row);
             }

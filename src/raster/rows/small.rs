@@ -142,6 +142,7 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
         let first_block = rows.start * writer.blocks + self.blocks[0];
         for row in 0..rows.len() {
+            // The limits of eight rows are found at once, in the lanes of a block.
             let of_eight = row % BLOCK;
             if of_eight == 0 {
                 self.start_rows(starts, row, count);

@@ -85,6 +85,7 @@ impl Fragments {
             let mut row = 0;
             while row < TINY_HEIGHT && m.any_not_negative(below) {
                 let outside = here[0] | here[1] | here[2] | below | beside;
+                // One comparison for five signs: an or is below 0 where any of its terms is.
                 covered |= m.int(-1).less(outside) & bit;
                 m.store_int(place, &mut self.places.as_flattened_mut()[at..]);
                 let [to_b, to_c] = &mut self.weights;
@@ -101,6 +102,7 @@ impl Fragments {
             slot += TINY_HEIGHT as usize;
         }
         m.store_int(covered, &mut self.covered[first..]);
+        // Not `bits_not_negative(covered)`: it would have the lanes without a pixel.
         m.bits_not_negative(m.int(0).less(covered) ^ m.int(-1))
     }
 

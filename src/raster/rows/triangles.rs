@@ -260,12 +260,14 @@ impl Batch {
         let is_there = columns[0].less(columns[1]) & rows[0].less(rows[1]) & is_gathered;
         let is_small = (right - left).less(m.int(256 * SMALL_WIDTH + 1))
             & (bottom - top).less(m.int(256 * SMALL_HEIGHT));
+        // All corners of the others are moved into one point, so that no product below needs more than 32 bits.
         let exact = is_there & is_small;
         let from = |a: i32x8<S>, origin: i32x8<S>| (a - origin) & exact;
         let x = [from(x[0], left), from(x[1], left), from(x[2], left)];
         let y = [from(y[0], top), from(y[1], top), from(y[2], top)];
         let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
         let turned = area.less(zero);
+        // Negated where `turned` is −1: −x = !x + 1.
         let area = (area ^ turned) - turned;
         let over_area = m.splat(1.0) / m.float(area);
         let drawn = exact & zero.less(area);
@@ -315,6 +317,8 @@ impl Batch {
         let dx = ((x[j] - x[i]) ^ turned) - turned;
         let dy = ((y[j] - y[i]) ^ turned) - turned;
         let level = (dy.less(zero) | zero.less(dy)) ^ m.int(-1);
+        // Turned the one way round, left edges go up and top edges go right: −1 cancels the 1 there. A centre on another edge, where
+        // the function is 0, gets −1 and lies outside.
         let disowns = m.int(1) + (dy.less(zero) | (level & zero.less(dx)));
         let to = &mut self.edges[edge];
         let at = dx * (bounded.py - y[i]) - dy * (bounded.px - x[i]) - disowns;
@@ -334,6 +338,7 @@ impl Batch {
             m.store(m.float(down) * over_area, &mut to.fall[first..]);
         }
         let right = m.float(right);
+        // Level edges divide by 0: both selections below leave these infinities out.
         let columns = m.splat(-1.0) / right;
         m.store(m.where_less(none, right, columns), &mut to.begins[first..]);
         m.store(m.where_less(right, none, columns), &mut to.ends[0][first..]);

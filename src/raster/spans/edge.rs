@@ -82,6 +82,7 @@ impl EdgeCrossing {
     pub fn advance(&mut self) {
         self.pixel += self.step_pixels; // 3.3
         self.rest -= self.step_rest;
+        // Once is enough: the rest of a step is less than a pixel.
         if self.rest < 0 {
             self.rest += self.denominator;
             self.pixel += 1;

@@ -111,6 +111,7 @@ impl VisibleLine {
     pub fn runs(&self, mut visit: impl FnMut(&PolygonSpan, Range<usize>)) {
         let mut x = self.drawn.start;
         while x < self.drawn.end {
+            // Runs of pixels that show nothing are found like any other, and not visited.
             let number = self.pixels[x].1;
             let start = x;
             x += 1;
