@@ -1,0 +1,80 @@
+//! A method compiled outside the crate beside the same one inside: naive Phong shading, by every engine and instruction set. What
+//! crosses the crate's border must not cost a pixel anything.
+//!
+//! ```text
+//! cargo bench --bench own_shader
+//! ```
+
+mod scenes;
+
+use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
+use fastphong::number::{Num, Vec3};
+use fastphong::picture::Picture;
+use fastphong::raster::{DrawOptions, Renderer};
+use fastphong::shading::{Entry, Info, Linear, Lit, Shader, Span};
+use std::hint::black_box;
+
+/// A copy of `src/shading/naive_phong.rs`.
+#[derive(Clone, Copy, Default)]
+struct Outside;
+
+impl Shader for Outside {
+    const INFO: Info = Info {
+        name: "outside",
+        title: "naive Phong shading, compiled outside the crate",
+        ..Info::OF_PIXELS
+    };
+    const PASSES_NORMAL: bool = true;
+    type Constants<F: Num> = ();
+    type Varying<F: Num> = Vec3<F>; // N
+    type Walk<F: Num> = Linear<Vec3<F>>;
+
+    #[inline(always)]
+    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+        span.linear()
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        lit.shade(n.unit())
+    }
+}
+
+static OUTSIDE: Entry = Entry::of::<Outside>();
+
+fn own_shader(c: &mut Criterion) {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .use_current_thread()
+        .build_global()
+        .expect("no pool before");
+    let inside = Entry::named("naive-phong").expect("a method of the table");
+    for (name, mesh) in scenes::SCENES {
+        let frame = scenes::scene(mesh).frame().expect("a valid scene");
+        let mut group = c.benchmark_group(format!("own_shader/{name}"));
+        group.sampling_mode(SamplingMode::Flat);
+        for renderer in Renderer::available() {
+            let pictures = [inside, &OUTSIDE].map(|entry| {
+                let mut picture =
+                    Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
+                let place = format!("{}-{}", renderer.engine().name(), renderer.level());
+                let variant = entry.variant();
+                group.bench_function(BenchmarkId::new(place, variant.info().name), |b| {
+                    b.iter(|| {
+                        variant.draw(black_box(&frame), &mut picture, DrawOptions::by(renderer))
+                    });
+                });
+                picture
+            });
+            let [inside, outside] = &pictures;
+            assert!(inside == outside, "one method draws one picture");
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, own_shader);
+criterion_main!(benches);
