@@ -1,7 +1,7 @@
 //! The report: every method on every scene, in pictures and numbers, as one page that needs nothing else.
 //!
 //! A [`Report`] is one [`Document`], as JSON, and pictures. The page, Markdown and CSV are views of it: Rust writes data, the
-//! page (`report/template.html`, `app.css`, `app.js`) draws it. Start reading in `document.rs`, then `tables.rs`.
+//! page (`report/template.html`, `app.css`, and `script/`, a file a view) draws it. Start reading in `document.rs`, then `tables.rs`.
 //!
 //! ```
 //! use fastphong::compare::comparison::{Input, compare};

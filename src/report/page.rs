@@ -11,7 +11,26 @@ use serde_json::{Number, Value};
 
 const TEMPLATE: &str = include_str!("../../report/template.html");
 const STYLE: &str = include_str!("../../report/app.css");
-const SCRIPT: &str = include_str!("../../report/app.js");
+
+/// Joins files of `report/script`, in this order: a file may use at once what those before it define.
+macro_rules! script {
+    ($($file:literal)*) => {
+        concat!($(include_str!(concat!("../../report/script/", $file, ".js"))),*)
+    };
+}
+
+const SCRIPT: &str = script!(
+    "markup" "controls" "numbers" "data" "marks" "pictures" "errors" "viewer" "charts" "plot" "findings"
+    // Views, and what belongs to one alone.
+    "pareto" "overview"
+    "probe" "row" "scene-table" "scenes"
+    "formulas" "methods"
+    "corners" "growth" "beside" "speed"
+    "lectures"
+    "measured"
+    // All views.
+    "views" "link" "keys" "page"
+);
 
 /// Fills the template.
 pub(super) fn page(report: &Report) -> String {
@@ -187,6 +206,16 @@ mod tests {
         assert!(!escaped.contains('<'));
         let back: String = serde_json::from_str(&escaped).unwrap();
         assert_eq!(back, "</script><!--");
+    }
+
+    #[test]
+    fn every_file_of_the_script_is_joined() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/report/script");
+        let files = std::fs::read_dir(folder).expect("the folder of the script");
+        for file in files.map(|entry| entry.expect("a readable folder").path()) {
+            let text = std::fs::read_to_string(&file).expect("a file of text");
+            assert!(SCRIPT.contains(&text), "{} is not listed", file.display());
+        }
     }
 
     #[test]

@@ -1,0 +1,60 @@
+/* Controls: what is chosen, lists that fold, fades at the ends of what scrolls. */
+
+/* Fades the end of a list or table that scrolls on. */
+function fadeEnd(el) {
+	el.classList.toggle("more-right", el.scrollLeft + el.clientWidth < el.scrollWidth - 2);
+	el.classList.toggle("more-below", el.scrollTop + el.clientHeight < el.scrollHeight - 2);
+}
+
+const SCROLLED = ".scroll, .rail, .list, .choices",
+	fadeEnds = () => $$(SCROLLED).forEach(fadeEnd);
+
+addEventListener("scroll", e => e.target.matches?.(SCROLLED) && fadeEnd(e.target), true);
+
+/* Calls `choose` with the key of the button, mark or row that is chosen. */
+function onChoose(el, choose) {
+	el.onclick = e => {
+		const chosen = e.target.closest("[data-key]");
+		if (chosen) choose(chosen.dataset.key, e);
+	};
+	el.onkeydown = e => {
+		if (!e.target.matches("g") || (e.key !== "Enter" && e.key !== " ")) return;
+		e.preventDefault();
+		choose(e.target.dataset.key, e);
+	};
+}
+
+const unfolded = new Set();
+
+/* The first ones of a long list, and the button that shows the rest. */
+function folded(list, most, what) {
+	const all = unfolded.has(what) || list.length < 1.2 * most;
+	return [
+		all ? list : list.slice(0, most),
+		!all && html`<button class="fold" data-fold="${what}">All ${list.length} ${what}</button>`,
+	];
+}
+
+addEventListener("click", e => {
+	const what = e.target.dataset?.fold;
+	if (!what) return;
+	unfolded.add(what);
+	route();
+});
+
+/* Wires buttons of which one is pressed; returns what marks that one. */
+function segments(el, pressed, choose) {
+	const update = () =>
+		$$("button", el).forEach(b => {
+			b.ariaPressed = b.dataset.key === pressed();
+		});
+	onChoose(el, key => {
+		choose(key);
+		update();
+	});
+	update();
+	return update;
+}
+
+/* Scrolls a chosen entry into sight. */
+const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });

@@ -1,0 +1,105 @@
+/* Charts of the study of speed. */
+
+/* What the study timed: the shading loop and whole pictures, in scalar code and in SIMD. */
+const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [],
+	oneLight = CORNERS.filter(c => c.lights === 1);
+
+let cornerMode = "same";
+
+/* True if a method draws naive Phong's picture in all scenes; without scenes, on the sphere. */
+const isSame = m => (M[m.method]?.max ?? m.levels_off) <= 1;
+const WORKS = { kernel: "loop", frame: "picture" };
+const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
+
+/* The fastest method of a corner that draws naive Phong's picture. */
+const fastest = c =>
+	STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
+
+/* Methods as lines; a place has a name, a note and values [v, low, high]. */
+function slopes(id, label, list, panes, nameOf, format, gap = 20) {
+	const el = $(id),
+		W = widthOf(el),
+		part = W < 460 ? W : W / panes.length,
+		l = 40,
+		t = 44,
+		b = Math.max(430, t + list.length * 16.5);
+	if (!W || !list.length) return;
+	const pane = places => {
+		const values = list.flatMap(m => places.flatMap(p => p.values(m))),
+			last = m => format(places[places.length - 1].values(m)[0]),
+			valueAt = m => p => `${p.name} ${p.note} ${num(p.values(m)[0])}`,
+			tip = m => `${nameOf(m.method)}: ${places.map(valueAt(m)).join(", ")}`,
+			r =
+				part -
+				34 -
+				Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
+		const x = scale(false, 0, places.length - 1, l + 30, r),
+			y = logScale(values, 1.05, b, t);
+		return svg(
+			part,
+			b + 10,
+			label,
+			[
+				axisY(y, l, r, y.ticks(gap)),
+				places.map((p, i) => [
+					line(x(i), t, x(i), b),
+					text(x(i), 14, p.name, "bold mid"),
+					text(x(i), 30, p.note, "tick mid"),
+				]),
+				curves(
+					x,
+					y,
+					list.map(m => ({
+						method: m.method,
+						name: nameOf(m.method),
+						value: last(m),
+						bold: MARKED.has(m.method),
+						kind: MARKED.has(m.method) ? "" : "thin",
+						href: `#methods/${m.method}`,
+						tip: tip(m),
+						points: places.map((p, i) => [i, ...p.values(m)]),
+					})),
+					{ gap: 15.5, out: 22 },
+				),
+			],
+			true,
+		);
+	};
+	el.innerHTML = html`${panes.map(pane)}`;
+}
+
+/* Draws both charts, of all methods or of those with the same picture. */
+function corners(mode) {
+	cornerMode = mode;
+	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]),
+		list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
+	slopes(
+		"#corners",
+		"Speed of methods in the shading loop and in whole pictures",
+		list.filter(m => oneLight.every(c => ratioIn(m, c))),
+		[oneLight.map(c => ({ name: WORKS[c.work], note: levelName(c), values: values(c) }))],
+		nameOf,
+		v => v.toFixed(2),
+	);
+	const kernels = [true, false]
+		.map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar))
+		.filter(pair => pair.length > 1);
+	slopes(
+		"#lights",
+		"Nanoseconds per pixel with one and four lights",
+		list.slice(0, 14),
+		kernels.map(pair =>
+			pair.map(c => ({
+				name: levelName(c),
+				note: plural(c.lights, "light"),
+				values: m =>
+					["median_ns", "p25_ns", "p75_ns"].map(
+						k => m.corners[c.i].timing[k] / STUDY.span,
+					),
+			})),
+		),
+		shortName,
+		v => num(v, 2),
+		40,
+	);
+}

@@ -1,0 +1,87 @@
+/* The document that `fastphong report` wrote, and what the views want to know of it. */
+
+const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
+
+/* The instructions that drew, as readers know them. */
+const levelName = ({ level }) =>
+	level === "scalar" ? level : (LEVELS[level] ?? level.toUpperCase());
+
+const ratioText = q =>
+	q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
+
+const D = JSON.parse($("#fastphong-data").textContent),
+	DOCS = [D, ...(D.beside ?? [])];
+
+const BASE = D.baseline ?? "naive-phong",
+	BARY = "barycentric";
+
+/* A row of a comparison: errors in grey levels, times in ms. */
+function rowOf(
+	scene,
+	{ variant, engine, error, own, speed, within_bound: within, other_polygon: other },
+) {
+	const time = key => speed && speed.timing[key] / 1e6;
+	return {
+		scene,
+		variant,
+		engine,
+		bary: engine === BARY,
+		within,
+		other,
+		max: error.max * 255,
+		rms: error.rms * 255,
+		p99: error.p99 * 255,
+		own: own.max * 255,
+		over1: error.over_one_level,
+		psnr: error.psnr,
+		ssim: error.ssim,
+		worst: error.worst,
+		ms: time("median_ns"),
+		p25: time("p25_ns"),
+		p75: time("p75_ns"),
+		rounds: speed?.timing.rounds,
+		ns: speed?.ns_per_covered_pixel,
+		ratio: speed?.ratio_to_naive,
+		barycentric: speed?.ratio_to_barycentric,
+	};
+}
+
+const S = {};
+
+const SCENES = (D.comparisons ?? []).map((c, number) => {
+	const plain = c.name.replace(/[^A-Za-z0-9]+/g, "-").replace(/^-|-$/g, ""),
+		id = plain && !S[plain] ? plain : `scene-${number + 1}`;
+	const rows = Object.fromEntries(
+		[...c.rows, ...c.barycentric].map(r => [
+			(r.engine === BARY ? "bary:" : "") + r.variant,
+			rowOf(c.name, r),
+		]),
+	);
+	return (S[id] = {
+		...c,
+		id,
+		number,
+		rows,
+		list: c.rows.map(r => r.variant),
+		title: c.title || c.name,
+		w: c.width,
+		h: c.height,
+		drawn: !!$(`#pictures-${number}`),
+	});
+});
+
+const ROWS = SCENES.flatMap(s => Object.values(s.rows));
+
+const METHODS = D.methods ?? [],
+	IDS = METHODS.map(m => m.name),
+	M = Object.fromEntries(METHODS.map(m => [m.name, m]));
+
+const TIMED = ROWS.some(q => q.ratio),
+	MANY = SCENES.length > 1;
+
+const FIGURES = D.figures ?? [],
+	FINDINGS = FIGURES.flatMap(f => f.findings.map(x => ({ ...x, figure: f })));
+
+const STUDY = D.speedups;
+const PICTURES = SCENES.some(s => s.drawn);
+ROOT.classList.toggle("nopictures", !PICTURES);

@@ -1,0 +1,52 @@
+/* Error maps: differences from the reference, in colours. */
+
+/* A stored value in 0..=1 as linear light (IEC 61966-2-1). */
+const fromSrgb = c => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+
+/* Error of each pixel: the largest difference of a channel from the reference, in linear levels. */
+const errors = (s, m) =>
+	memo(`errors ${s.id} ${m}`, async () => {
+		const [{ px: here }, { px: there }] = await Promise.all([
+			picture(s, m),
+			picture(s, "reference"),
+		]);
+		const grey = Float32Array.from({ length: 256 }, (_, c) =>
+				s.encoding === "srgb" ? 255 * fromSrgb(c / 255) : c,
+			),
+			apart = i => Math.abs(grey[here[i]] - grey[there[i]]);
+		return new Float32Array(s.w * s.h).map((_, i) =>
+			Math.max(apart(4 * i), apart(4 * i + 1), apart(4 * i + 2)),
+		);
+	});
+
+/* Colours of the error map; its scale is logarithmic for `top` 0, else linear up to `top`. */
+const STOPS = [
+	"#000004",
+	"#1c1044",
+	"#4f127b",
+	"#812581",
+	"#b5367a",
+	"#e55064",
+	"#fb8761",
+	"#fec287",
+	"#fcfdbf",
+];
+
+/* The scale in 256 colours, as pixels of a picture. */
+const HEAT = (() => {
+	const pen = create("canvas").getContext("2d"),
+		ramp = pen.createLinearGradient(0, 0, 256, 0);
+	STOPS.forEach((colour, i) => ramp.addColorStop(i / (STOPS.length - 1), colour));
+	pen.fillStyle = ramp;
+	pen.fillRect(0, 0, 256, 1);
+	return new Uint32Array(pen.getImageData(0, 0, 256, 1).data.buffer);
+})();
+
+/* The place of an error on the scale, in 0..=1. */
+const heat = (error, top) => (top ? Math.min(1, error / top) : Math.log2(1 + error) / 8);
+
+const errorMap = (s, m, top) =>
+	memo(`map ${s.id} ${m} ${top}`, async () => {
+		const map = await errors(s, m);
+		return canvasOf(s, i => HEAT[Math.round(heat(map[i], top) * 255)]);
+	});

@@ -1,0 +1,38 @@
+/* Findings: what figures measured of what a lecture says. */
+
+const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
+
+/* How many findings have each verdict, of verdicts that there are. */
+const counts = list =>
+	Object.keys(VERDICTS)
+		.map(k => [k, list.filter(x => x.agreement === k).length])
+		.filter(([, n]) => n);
+
+const chip = (verdict, label) =>
+	html`<span class="chip ${verdict}">${VERDICTS[verdict]} ${label}</span>`;
+
+/* A value with its unit, in scientific notation if far from 1. */
+function findingValue({ value, unit }) {
+	const size = Math.abs(value),
+		[digits, power] = value.toExponential(1).replace(/-/g, "−").replace("+", "").split("e");
+	const isFar = size && (size < 0.001 || size >= 1e6),
+		number = isFar ? html`${digits}·10<sup>${power}</sup>` : +value.toPrecision(4);
+	return html`${number} ${unit}`;
+}
+
+/* A table of findings; with `where`, of several figures. */
+function findingTable(list, where) {
+	const figure = f => html`
+		<a href="#lectures/${f.name}">${topic(f)}</a>
+		<small>${f.lecture}</small>`;
+	// A figure, and a finding of several measurements, stand once.
+	const rows = list.map((x, i) => [
+		...(where ? [x.figure !== list[i - 1]?.figure && figure(x.figure)] : []),
+		x.verdict !== list[i - 1]?.verdict && x.verdict,
+		x.label,
+		html`<span title="${x.value}">${findingValue(x)}</span>`,
+		chip(x.agreement, x.agreement),
+	]);
+	const heads = [where && "figure", "finding", "measured", "value", "verdict"].filter(Boolean);
+	return scrolling("Findings", table(heads, rows, "findings"));
+}

@@ -1,0 +1,117 @@
+/* View: lectures. Figures, and what they found. */
+
+const figurePictures = f =>
+	memo("figures", () => JSON.parse($("#figure-pictures").textContent))[FIGURES.indexOf(f)] ?? [];
+
+function chips(f, named) {
+	const all = counts(f.findings).map(([k, n]) => chip(k, n + (named ? " " + k : "")));
+	return html`<span class="chips">${all}</span>`;
+}
+
+const topic = f => f.title.split(":")[0];
+
+/* The blocks of a figure. */
+function figureBody(f) {
+	const files = [...figurePictures(f)];
+	const picture = p => html`
+		<figure>
+			<img src="${files.shift()}" alt="${p.alt}">
+			<figcaption>${p.caption}</figcaption>
+		</figure>`;
+	const show = {
+		text: b => html`<p>${b}</p>`,
+		table: b => scrolling(f.title, table(b.head, b.rows, "plain")),
+		plot: (b, at) => html`
+			<figure class="plot">
+				<h3>${b.title}</h3>
+				<div class="chartbox" data-plot="${at}"></div>
+				<figcaption>${b.caption}</figcaption>
+			</figure>`,
+		pictures: b => html`
+			<div class="shown" style="--columns:${clamp(b.columns, 1, 6)}">
+				${b.shown.map(picture)}
+			</div>`,
+	};
+	return f.blocks.map((block, at) => {
+		const [[kind, content]] = Object.entries(block);
+		return show[kind](content, at);
+	});
+}
+
+function drawPlots(f) {
+	for (const el of $$("[data-plot]")) {
+		const { plot: p } = f.blocks[el.dataset.plot];
+		el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
+	}
+}
+
+/* A figure's first pictures, or its first plot. */
+function preview(f) {
+	const first = f.blocks.find(b => b.plot)?.plot,
+		shown = f.blocks.flatMap(b => b.pictures?.shown ?? []),
+		files = figurePictures(f).slice(0, 3);
+	return files.length
+		? files.map((src, i) => html`<img src="${src}" alt="${shown[i].alt}">`)
+		: first && plot(first, 260, 112);
+}
+
+/* A figure in the gallery. */
+const card = f => html`
+	<a class="fcard" href="#lectures/${f.name}">
+		<span class="preview">${preview(f)}</span>
+		<span class="tx"><b>${f.title}</b><small>${f.lecture}</small>${chips(f)}</span>
+	</a>`;
+
+/* Links to all figures, beside the one that is shown. */
+function figureLinks(shown) {
+	const wrong = html`<span class="chip contradicts" title="contradicts">✗</span>`;
+	const links = FIGURES.map(
+		f => html`
+			<a href="#lectures/${f.name}" ${f === shown && html`aria-current="true"`}>
+				<span>${topic(f)}</span>
+				${f.findings.some(x => x.agreement === "contradicts") && wrong}
+			</a>`,
+	);
+	return html`<nav class="list" aria-label="Figures">${links}</nav>`;
+}
+
+/* #lectures, #lectures/wrong, #lectures/all, #lectures/FIGURE */
+function lectures([part = ""]) {
+	const body = $("#lecture-body"),
+		lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS },
+		list = lists[part],
+		[shown, more] = folded(list ?? [], 40, "findings");
+	segments(
+		$("#lecture-tabs"),
+		() => part,
+		key => go(key ? "lectures/" + key : "lectures"),
+	);
+	const f = FIGURES.find(q => q.name === part) ?? (FIGURES.length === 1 ? FIGURES[0] : null);
+	if (list) {
+		const lead = html`
+			<p class="lead">
+				${list.length} measurements disagree with what is printed,
+				most under conditions that the text does not name.
+			</p>`;
+		body.innerHTML = html`${part === "wrong" && lead}${findingTable(shown, true)}${more}`;
+	} else if (f) {
+		const several = FIGURES.length > 1;
+		body.innerHTML = html`
+			<div class="${several ? "detail" : ""}">
+				${several && figureLinks(f)}
+				<article class="fig">
+					<h2>${f.title}</h2>
+					<p class="facts">${f.lecture}</p>
+					${chips(f, true)}
+					${figureBody(f)}
+					<h3>Findings</h3>
+					${findingTable(f.findings)}
+				</article>
+			</div>`;
+		reveal($(".list [aria-current]", body));
+		drawPlots(f);
+	} else {
+		const [cards, rest] = folded(FIGURES, innerWidth < 700 ? 16 : 30, "figures");
+		body.innerHTML = html`<div class="gallery">${cards.map(card)}</div>${rest}`;
+	}
+}

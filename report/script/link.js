@@ -1,0 +1,87 @@
+/* Addresses: #view/part?left=…&right=…&mode=…&x=…&y=…&zoom=…&row=… */
+
+/* The view that is shown; addresses are not remembered while one is being restored. */
+let view = "",
+	restoring = true;
+
+/* Goes to an address. */
+function go(hash) {
+	clearTimeout(timers.remember);
+	location.hash = hash;
+}
+
+/* Reads a viewer's state from an address. */
+function fromRoute(query, v) {
+	const given = Object.fromEntries(query),
+		whole = key => (given[key] && isFinite(given[key]) ? Math.floor(given[key]) : null),
+		s = S[given.scene] ?? v.scene,
+		state = { scene: s };
+	if (given.left) state.a = given.left;
+	if (given.right) state.b = given.right;
+	if (given.left || given.right || given.mode)
+		state.mode = Object.values(MODES).includes(given.mode) ? given.mode : "slide";
+	if (given.scale) state.top = +given.scale || 0;
+	if (whole("x") != null && whole("y") != null) {
+		const pin = [clamp(whole("x"), 0, s.w - 1), clamp(whole("y"), 0, s.h - 1)];
+		Object.assign(state, {
+			pin,
+			z: clamp(+given.zoom || 1, 1, 32),
+			cx: (pin[0] + 0.5) / s.w,
+			cy: (pin[1] + 0.5) / s.h,
+		});
+	}
+	if (v.row && given.row) state.line = whole("row") ?? 0;
+	return state;
+}
+
+/* Keeps the address in step with a viewer. */
+function remember(v) {
+	if (restoring) return;
+	delay("remember", 60, () => {
+		const own = v === v1 ? "overview" : "scenes",
+			{ scene: s, pin } = v;
+		if (view !== own) return;
+		const zoom = pin && v.z > 1 ? v.z.toFixed(1) : null,
+			state = {
+				scene: v === v1 && s !== SCENES[0] ? s.id : null,
+				left: v.a,
+				right: v.b,
+				mode: v.mode === "slide" ? null : v.mode,
+				scale: v.top || null,
+				x: pin?.[0],
+				y: pin?.[1],
+				zoom,
+				row: v.line,
+			};
+		const given = Object.entries(state).filter(([, value]) => value != null),
+			path = v === v1 ? own : `scenes/${s.id}`;
+		history.replaceState(null, "", `#${path}?${new URLSearchParams(given)}`);
+	});
+}
+
+/* Shows the view that the address names, or the first that has something to show. */
+function route(e) {
+	clearTimeout(timers.remember);
+	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?"),
+		[asked, ...parts] = path.split("/").map(decodeURIComponent),
+		name = VIEWS[asked] && FILLED[asked] ? asked : FILLED.overview ? "overview" : "lectures",
+		changed = name !== view;
+	view = name;
+	restoring = true;
+	$$(".view").forEach(s => s.classList.toggle("on", s.id === name));
+	const link = $(`.top nav a[href="#${name}"]`);
+	$$(".top nav a").forEach(a => {
+		a.ariaCurrent = a === link ? "page" : null;
+	});
+	VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
+	const target = e && document.getElementById("m-" + parts[0]);
+	if (target) target.scrollIntoView();
+	else if (changed || (e && name === "lectures")) scrollTo(0, 0);
+	restoring = false;
+	fadeEnds();
+	const title = name === "overview" ? "" : link.textContent + " · ";
+	document.title = title + "fastphong: Phong shading, measured";
+}
+
+addEventListener("hashchange", route);
+addEventListener("resize", () => delay("resize", 120, route));

@@ -1,0 +1,67 @@
+/* Each method's name, key, colour and mark. */
+
+/* Each family of methods has a hue and a shape, each member a filling; naive Phong is ink. */
+const FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
+const SHAPES = $$("[id^=mark-]:not(#mark-diamond)").map(path => path.id.slice(5));
+
+for (const m of METHODS) {
+	const family = FAMILIES.indexOf(m.family),
+		members = METHODS.filter(o => o.family === m.family);
+	m.hue = family < 0 ? "var(--base)" : `var(--h${family % 11})`;
+	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
+	m.filling = members.indexOf(m) % 3;
+	m.head = members[0] === m;
+	// Over all scenes: the worst error, and the geometric mean of speeds.
+	const drawn = SCENES.filter(s => s.rows[m.name]),
+		ratios = drawn.map(s => s.rows[m.name].ratio?.median).filter(Boolean);
+	m.scene = [...drawn].sort(by(s => -s.rows[m.name].max))[0];
+	m.worst = m.scene?.rows[m.name];
+	m.max = m.worst?.max;
+	m.speed = ratios.length && ratios.length === drawn.length ? mean(ratios) : null;
+}
+
+/* Keys 1 to 9: the first of each family, then the most exact others. */
+const order = m => IDS.indexOf(m.name);
+
+[...METHODS]
+	.sort(by(m => (m.head ? order(m) : 1e6 + (m.max ?? 0))))
+	.slice(0, 9)
+	.sort(by(order))
+	.forEach((m, i) => {
+		m.key = String(i + 1);
+	});
+
+/* How a method is written, in words and by its key and colour. */
+const nameOf = m => M[m]?.label ?? m,
+	shortName = m => nameOf(m).replace(" Phong", ""),
+	hue = m => M[m]?.hue ?? "var(--ink3)";
+
+const keyOf = m => (m === "reference" ? "0" : M[m].key);
+
+const NAMED = $$(".answer .m").map(a => a.dataset.m),
+	BEST = NAMED[0] ?? IDS[IDS.length - 1],
+	MARKED = new Set([BASE, BEST, ...NAMED]);
+
+/* A few methods: those that the answer names, then the fastest. */
+const chosen = n =>
+	IDS.filter(m => m !== BASE && M[m].speed)
+		.sort(by(m => -M[m].speed))
+		.sort(by(m => Math.max(1, M[m].max)))
+		.sort(by(m => !MARKED.has(m)))
+		.slice(0, n);
+
+/* A method's mark around a point of an SVG. */
+function shape(m, x, y, size = 5) {
+	const { shape = "circle", filling = 1 } = M[m] ?? {};
+	return html`
+		<use href="#mark-${shape}" class="mark fill${filling}" style="color:${hue(m)}"
+			transform="translate(${round(x)} ${round(y)}) scale(${size})"/>`;
+}
+
+/* A method's mark in a text. */
+const mark = m => html`
+	<svg width="13" height="13" viewBox="-7 -7 14 14" aria-hidden="true">
+		${shape(m, 0, 0)}
+	</svg>`;
+
+const named = m => html`${mark(m)}${nameOf(m)}`;

@@ -1,0 +1,91 @@
+"use strict";
+/* HTML and SVG from templates, and what is done with elements everywhere. */
+
+const ROOT = document.documentElement;
+const $ = (selector, root = document) => root.querySelector(selector);
+const $$ = (selector, root = document) => [...root.querySelectorAll(selector)];
+const create = tag => document.createElement(tag);
+const ENTITIES = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
+
+/* Text that is HTML or SVG already. */
+class Markup extends String {}
+
+/* Writes a value as markup. Nothing, and `false` of a condition, are left out. */
+function put(v) {
+	if (v instanceof Markup) return v;
+	if (Array.isArray(v)) return v.map(put).join("");
+	if (v == null || v === false) return "";
+	return String(v).replace(/[&<>"']/g, c => ENTITIES[c]);
+}
+
+/* Drops line breaks with their indentation. One before a word, as an attribute, is a space. */
+const joinLines = text => text.replace(/\n\s*(\w?)/g, (_, letter) => letter && " " + letter);
+
+/* Tags a template of HTML or SVG: escapes values that are no markup, and joins lists. */
+function html(texts, ...values) {
+	const [first, ...rest] = texts.map(joinLines);
+	return new Markup(rest.reduce((all, text, i) => all + put(values[i]) + text, first));
+}
+
+/* Puts markup into an element, and gives the focus back to the control that had it. */
+function fill(el, markup) {
+	const key = el.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+	el.innerHTML = markup;
+	if (key != null) $(`[data-key="${CSS.escape(key)}"]`, el)?.focus({ preventScroll: true });
+	delay("fade", 30, fadeEnds);
+}
+
+/* Writes texts into elements, by their ids. */
+function write(texts) {
+	for (const id in texts) $("#" + id).textContent = texts[id];
+}
+
+/* A table: heads, and rows whose first cell names the row. */
+function table(heads, rows, kind = "") {
+	const head = heads.map(h => html`<th scope="col">${h}</th>`);
+	const body = rows.map(
+		([name, ...cells]) =>
+			html`<tr><th scope="row">${name}</th>${cells.map(c => html`<td>${c}</td>`)}</tr>`,
+	);
+	return html`
+		<table class="data ${kind}">
+			<thead><tr>${head}</tr></thead>
+			<tbody>${body}</tbody>
+		</table>`;
+}
+
+/* A part that scrolls by itself, by keys too. */
+const scrolling = (label, body) =>
+	html`<div class="scroll" tabindex="0" role="region" aria-label="${label}">${body}</div>`;
+
+/* A number with a bar beside it. */
+const bar = (value, percent, colour) =>
+	html`
+		<span class="bar">
+			<span>${value}</span>
+			<i><b style="width:${percent}%;background:${colour}"></b></i>
+		</span>`;
+
+const timers = {};
+
+/* Does something later, unless asked again before. */
+function delay(what, ms, action) {
+	clearTimeout(timers[what]);
+	timers[what] = setTimeout(action, ms);
+}
+
+/* Shows a message for a moment. */
+function toast(text) {
+	write({ toast: text });
+	$("#toast").classList.add("on");
+	delay("toast", 1800, () => $("#toast").classList.remove("on"));
+}
+
+/* Has the browser save a file. */
+function save(name, content, type) {
+	const a = create("a");
+	a.download = name;
+	a.href = URL.createObjectURL(new Blob([content], { type }));
+	a.click();
+	setTimeout(() => URL.revokeObjectURL(a.href), 1e4);
+}

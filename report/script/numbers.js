@@ -1,0 +1,40 @@
+/* Numbers, and texts made of them. */
+
+const TIMES = "\u2009×";
+const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
+const by = f => (a, b) => f(a) - f(b);
+const grouped = n => n.toLocaleString("en");
+const sum = list => list.reduce((x, y) => x + y, 0);
+const mean = list => Math.exp(sum(list.map(Math.log)) / list.length); // geometric
+
+/* A number with `digits` significant digits, never in scientific notation. */
+function num(v, digits = 3) {
+	if (v == null || !isFinite(v)) return "–";
+	const size = Math.abs(v);
+	if (size === 0) return "0";
+	if (size >= 1000) return grouped(Math.round(v));
+	if (size < 0.001) return "<\u20090.001";
+	return v.toFixed(clamp(digits - 1 - Math.floor(Math.log10(size)), 0, 4));
+}
+
+const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
+const csvCell = c => (/[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : (c ?? ""));
+
+/* Comma-separated values: a line an object, the names of its fields on top. */
+const csv = list =>
+	[Object.keys(list[0]), ...list.map(Object.values)]
+		.map(row => row.map(csvCell).join(",") + "\r\n")
+		.join("");
+
+const memory = new Map();
+
+/* Keeps what `make` makes, and forgets what was not used for long. */
+function memo(key, make) {
+	const kept = memory.get(key) ?? make();
+	memory.delete(key);
+	memory.set(key, kept);
+	if (memory.size > 220) memory.delete(memory.keys().next().value);
+	return kept;
+}
+
+const round = v => Math.round(v * 10) / 10;

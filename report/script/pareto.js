@@ -1,0 +1,123 @@
+/* The chart of the overview: error against time. */
+
+/* What the chart shows: all scenes, or that of the viewer. */
+let basis = MANY ? "all" : "scene";
+
+/* Error against time of every method, and the line of those that nothing beats. */
+function pareto(v) {
+	const el = $("#pareto"),
+		s = v.scene,
+		all = basis === "all";
+	write({
+		"pareto-sub": all
+			? `Worst error in ${SCENES.length} scenes, mean time.`
+			: `${s.title}, ${s.w} × ${s.h}.`,
+	});
+	const W = widthOf(el),
+		H = Math.max(340, el.clientHeight / zoomOf()),
+		l = 46,
+		r = W - 14,
+		t = 24,
+		b = H - 48;
+	if (!W) return;
+	const points = IDS.filter(m => (all ? M[m].max != null : s.rows[m])).map(m => {
+		const { max, speed } = M[m],
+			q = s.rows[m];
+		return all
+			? { m, error: max, time: speed && 1 / speed, ratio: speed }
+			: { m, error: q.max, time: q.ms, ratio: q.ratio?.median, low: q.p25, high: q.p75 };
+	});
+	const timed = points.every(p => p.time);
+	if (!timed)
+		points.forEach((p, i) => {
+			p.time = i + 1;
+		});
+	const x = logScale(points.flatMap(p => [p.time, p.low, p.high]).filter(Boolean), 1.2, l, r);
+	const y = scale(
+		true,
+		clamp(Math.min(...points.map(p => p.error / 2.2)), 0.0005, 0.3),
+		Math.max(2, ...points.map(p => p.error * 4)),
+		b,
+		t,
+	);
+	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
+	const one = clamp(y(1), t, b),
+		base = points.find(p => p.m === BASE),
+		shown = [];
+	shown.push(
+		html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`,
+		axisY(
+			y,
+			l,
+			r,
+			y.ticks(60).filter(e => Math.log10(e) % 1 === 0),
+		),
+		timed && axisX(x, b, x.ticks(40)),
+	);
+	shown.push(
+		text(
+			(l + r) / 2,
+			H - 8,
+			timed
+				? "← faster   ·   " + (all ? "time as a multiple of naive Phong’s" : "ms a frame")
+				: "no times were taken",
+			"axis mid",
+		),
+		text(
+			l - 38,
+			t - 9,
+			`${all ? "worst error in any scene" : "max error"}, grey levels`,
+			"axis",
+		),
+	);
+	if (base && timed) shown.push(line(base.x, t, base.x, b, "dots"));
+	// The line goes down at each method that is more exact than all faster ones.
+	const steps = [];
+	if (timed)
+		for (const p of [...points].sort((p, q) => p.time - q.time || p.error - q.error)) {
+			const last = steps[steps.length - 1];
+			if (last && p.y <= last[1]) continue;
+			steps.push([p.x, last?.[1] ?? t], [p.x, p.y]);
+			p.front = true;
+		}
+	if (timed) {
+		steps.push([r, steps[steps.length - 1][1]]);
+		shown.push(curve(steps, "front"));
+	}
+	const same = "below one grey level: the same picture",
+		taken = [l, one + 3, l + textWidth(same), one + 20];
+	if (b - one > 24) shown.push(text(l + 8, one + 16, same, "tick halo washed"));
+	for (const p of points) {
+		[p.left, p.right] = [p.m === v.a, p.m === v.b];
+		p.value = p.ratio && (p.left || p.right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
+		p.priority = 3 * p.left + 2 * p.right + !!p.front + MARKED.has(p.m);
+		p.w = textWidth(`${nameOf(p.m)}  ${p.value}`, p.left) + 6;
+	}
+	place(
+		points,
+		[l + 2, t, r, b - 1],
+		[
+			taken,
+			...steps
+				.slice(1)
+				.map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2]),
+		],
+	);
+	for (const p of points) {
+		const time = timed && `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}`,
+			value = html`<tspan dx="4" class="value">${p.value}</tspan>`,
+			kind = `label halo ${p.left ? "bold" : ""}`,
+			ring = p.left || p.right ? "on" : "";
+		shown.push(html`
+			<g class="hit" tabindex="0" role="button" data-key="${p.m}"
+				aria-pressed="${p.left}" style="color:${hue(p.m)}">
+				<title>${nameOf(p.m)}: error ${num(p.error)} levels${time}</title>
+				${p.label?.end && line(p.x, p.y, ...p.label.end, "leader")}
+				${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}
+				<circle class="ring ${ring}" cx="${p.x}" cy="${p.y}" r="10.5"/>
+				${shape(p.m, p.x, p.y, 5.8)}
+				${p.label && text(p.label.x + 2, p.label.y + 4.3, [nameOf(p.m), value], kind)}
+			</g>`);
+	}
+	fill(el, svg(W, H, "Error against time of every method", shown, true));
+}

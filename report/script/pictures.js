@@ -1,0 +1,125 @@
+/* Pictures: planes with the row filters of PNG, deflated. Each adds to the one most like it. */
+
+/* Predicts a byte from its neighbours (PNG specification 9). */
+function predict(filter, left, up, corner) {
+	if (filter === 0) return 0;
+	if (filter === 1) return left;
+	if (filter === 2) return up;
+	if (filter === 3) return (left + up) >> 1;
+	const a = Math.abs(up - corner),
+		b = Math.abs(left - corner),
+		c = Math.abs(left + up - 2 * corner);
+	return a <= b && a <= c ? left : b <= c ? up : corner;
+}
+
+async function unpack(text, { w, h }, count) {
+	const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
+	const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+	const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+	let next = 0;
+	return Array.from({ length: count }, () => {
+		const plane = new Uint8Array(w * h);
+		for (let y = 0, i = 0; y < h; y++) {
+			const filter = bytes[next++];
+			for (let x = 0; x < w; x++, i++)
+				plane[i] =
+					bytes[next++] +
+					predict(
+						filter,
+						x ? plane[i - 1] : 0,
+						y ? plane[i - w] : 0,
+						x && y ? plane[i - w - 1] : 0,
+					);
+		}
+		return plane;
+	});
+}
+
+/* Adds the planes of a picture to others, modulo 256. */
+function add(more, base) {
+	more.forEach((plane, p) => {
+		const under = base[p];
+		for (let i = 0; i < plane.length; i++) plane[i] += under[i];
+	});
+	return more;
+}
+
+const planes = (s, m) =>
+	memo(`planes ${s.id} ${m}`, async () => {
+		const data = memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
+		if (m === "reference") return unpack(data.reference, s, 3);
+		const { on = "reference", add: more } = data.rows[m],
+			base = await planes(s, on);
+		return more ? add(await unpack(more, s, 3), base) : base;
+	});
+
+/* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green, red. */
+function canvasOf(s, word) {
+	const canvas = create("canvas"),
+		image = new ImageData(s.w, s.h),
+		words = new Uint32Array(image.data.buffer);
+	[canvas.width, canvas.height] = [s.w, s.h];
+	for (let i = 0; i < words.length; i++) words[i] = word(i);
+	canvas.getContext("2d").putImageData(image, 0, 0);
+	return { canvas, px: image.data };
+}
+
+/* The picture as it is stored: grey levels, linear or sRGB as the scene says. */
+const picture = (s, m) =>
+	memo(`picture ${s.id} ${m}`, async () => {
+		const [green, red, blue] = await planes(s, m);
+		return canvasOf(
+			s,
+			i =>
+				(255 << 24) |
+				(((blue[i] + green[i]) & 255) << 16) |
+				(green[i] << 8) |
+				((red[i] + green[i]) & 255),
+		);
+	});
+
+let queue = Promise.resolve();
+
+/* Does something when all else is done. */
+const later = what => {
+	queue = queue
+		.then(() => new Promise(done => setTimeout(done, 8)))
+		.then(what)
+		.catch(() => {});
+};
+
+/* Draws the part x, y, w, h of a picture into a canvas of some size. */
+async function drawPart(canvas, s, m, part, size, smooth) {
+	const { canvas: image } = await picture(s, m);
+	[canvas.width, canvas.height] = size;
+	const pen = canvas.getContext("2d");
+	pen.imageSmoothingEnabled = smooth;
+	pen.imageSmoothingQuality = "high";
+	pen.drawImage(image, ...part, 0, 0, ...size);
+}
+
+/* Draws the pictures on the buttons that choose a scene. */
+const thumbs = root =>
+	$$("button", root).forEach(b => {
+		const s = S[b.dataset.key];
+		if (s.drawn)
+			later(() =>
+				drawPart(
+					$("canvas", b),
+					s,
+					"reference",
+					[0, 0, s.w, s.h],
+					[112, (112 * s.h) / s.w],
+					true,
+				),
+			);
+	});
+
+/* Draws a part of a picture around a pixel, its pixels as squares. */
+function crop(canvas, s, m, worst, w, h) {
+	[w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
+	const [cx, cy] = worst ?? [s.w / 2, s.h / 2],
+		x = Math.round(clamp(cx - w / 2, 0, s.w - w)),
+		y = Math.round(clamp(cy - h / 2, 0, s.h - h));
+	later(() => drawPart(canvas, s, m, [x, y, w, h], [w * 2, h * 2], false));
+}

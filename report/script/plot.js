@@ -1,0 +1,60 @@
+/* Plots of curves, as figures and the row of a picture have them. */
+
+const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
+
+/* Curves over one another, on axes unless the chart is a small one. */
+function plot(p, W, H) {
+	const small = H < 150,
+		series = p.series.map((s, i) => ({
+			...keyed(s, i),
+			points: s.points.filter(q => q.every(v => v != null && isFinite(v))),
+		})),
+		[l, r, t, b] = small ? [4, W - 4, 6, H - 6] : [52, W - 12, 22, H - 42];
+	const axis = (values, [, kind], from, to) => {
+		const log = kind === "log",
+			list = values.filter(v => isFinite(v) && (!log || v > 0)),
+			low = Math.min(...list),
+			high = Math.max(...list);
+		return low < high
+			? scale(log, low, high, from, to)
+			: scale(log, low / 2 || -0.5, low * 2 || 0.5, from, to);
+	};
+	const points = series.flatMap(s => s.points),
+		x = axis([...points.map(q => q[0]), ...p.marks], p.x, l, r),
+		y = axis(
+			points.map(q => q[1]),
+			p.y,
+			b,
+			t,
+		),
+		at = ([u, v]) => [x(clamp(u, x.low, x.high)), y(clamp(v, y.low, y.high))];
+	const axes = small
+		? []
+		: [
+				axisY(y, l, r, y.ticks(32)),
+				axisX(x, b, x.ticks(60)),
+				text((l + r) / 2, H - 6, p.x[0], "axis mid"),
+				text(2, 12, p.y[0], "axis"),
+			];
+	return svg(W, H, `${p.title}: ${p.series.map(s => s.label).join(", ")}`, [
+		axes,
+		p.marks.map(m => line(x(m), t, x(m), b, "dots")),
+		series.map(s => html`<g style="color:${s.colour}">${curve(s.points.map(at), s.kind)}</g>`),
+	]);
+}
+
+/* A series with the colour and the dashes of its number, unless it has its own. */
+const keyed = (s, i) => ({ colour: `var(${PLOT_HUES[i % 6]})`, kind: `dash${i % 6}`, ...s });
+
+/* A piece of each curve and its name. */
+function legend(series) {
+	const piece = [[0, 4], [26, 4]];
+	const entries = series.map(keyed).map(
+		s => html`
+			<span style="color:${s.colour}">
+				<svg width="26" height="8" aria-hidden="true">${curve(piece, s.kind)}</svg>
+				<span>${s.label}</span>
+			</span>`,
+	);
+	return html`<div class="legend">${entries}</div>`;
+}

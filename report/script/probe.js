@@ -1,0 +1,66 @@
+/* The pixel that is pointed at, by every method. */
+
+/* Counts the calls: of those that wait for pictures, the last one draws. */
+let probing = 0;
+
+/* Shows every method at the pixel pointed at, held, or worst. */
+async function probe(v) {
+	const s = v.scene,
+		turn = ++probing,
+		of = v.a === "reference" ? v.b : v.a,
+		rest = (v.rest = (!v.hover && !v.pin && s.rows[of]?.worst) || null),
+		pixel = v.hover ?? v.pin ?? rest;
+	if (!s.drawn) return;
+	const list = ["reference", ...s.list],
+		at = pixel && pixel[1] * s.w + pixel[0],
+		found =
+			pixel &&
+			(await Promise.all(
+				list.map(async m => {
+					const [{ px }, map] = await Promise.all([picture(s, m), errors(s, m)]);
+					return [m, { colour: px.slice(4 * at, 4 * at + 3), error: map[at] }];
+				}),
+			));
+	if (turn !== probing) return;
+	const here = Object.fromEntries(found ?? []),
+		shown = list.filter(
+			m =>
+				list.length < 17 ||
+				unfolded.has("methods") ||
+				m === v.a ||
+				m === v.b ||
+				keyOf(m) ||
+				MARKED.has(m),
+		);
+	const value = m => {
+		const { colour, error } = here[m] ?? {};
+		if (!pixel || m === "reference") return pixel && [...colour].join(" ");
+		return error ? error.toFixed(error % 1 ? 1 : 0) : "·";
+	};
+	const why = rest ? ` · worst of ${nameOf(of)}` : v.pin && !v.hover ? " · held" : "";
+	write({ "probe-where": pixel ? pixel.join(", ") + why : "point at the picture" });
+	const entries = shown.map(
+		m => html`
+			<li><button data-key="${m}" class="${m === v.a ? "a" : m === v.b ? "b" : ""}">
+				<kbd>${keyOf(m) ?? "·"}</kbd>
+				${mark(m)}
+				<span class="name">${nameOf(m)}</span>
+				<i style="background:rgb(${here[m]?.colour ?? ""})"></i>
+				<span class="value ${here[m]?.error > 1 ? "bad" : ""}">${value(m)}</span>
+			</button></li>`,
+	);
+	const more =
+		shown.length < list.length &&
+		html`<li><button data-fold="methods">All ${list.length - 1} methods</button></li>`;
+	fill($("#probe-list"), html`${entries}${more}`);
+	if (!pixel) return;
+	// Seven by seven pixels around it, left and right, each ten times as large.
+	const pen = $("#probe canvas").getContext("2d"),
+		images = await Promise.all([picture(s, v.a), picture(s, v.b)]);
+	pen.imageSmoothingEnabled = false;
+	pen.strokeStyle = "#fff";
+	images.forEach(({ canvas }, n) => {
+		pen.drawImage(canvas, pixel[0] - 3, pixel[1] - 3, 7, 7, 72 * n, 0, 70, 70);
+		pen.strokeRect(72 * n + 30.5, 30.5, 9, 9);
+	});
+}

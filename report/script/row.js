@@ -1,0 +1,67 @@
+/* The plot of a row of the picture. */
+
+/* Opens or closes the plot of a row. */
+function toggleRow(v) {
+	showRow(v, v.line == null ? (v.pin ?? v.rest ?? [0, v.scene.h >> 1])[1] : null);
+}
+
+/* Shows a row, or none for `null`. */
+function showRow(v, y) {
+	v.line = y;
+	$("#rowplot").hidden = y == null;
+	$(".row", v.root).ariaPressed = y != null;
+	v.draw();
+	rowPlot(v);
+	remember(v);
+}
+
+/* Intensity of a row by each method, and its slope below. */
+async function rowPlot(v) {
+	const el = $("#rowplot-chart"),
+		s = v.scene;
+	if (v.line == null || !s.drawn) return;
+	const row = (v.line = clamp(v.pin ? v.pin[1] : v.line, 0, s.h - 1)),
+		list = ["reference", ...s.list],
+		pixels = await Promise.all(list.map(m => picture(s, m)));
+	const greys = pixels.map(({ px }) =>
+		Array.from({ length: s.w }, (_, x) =>
+			// The weights of ITU-R BT.709.
+			[0.2126, 0.7152, 0.0722].reduce(
+				(grey, k, c) => grey + k * px[4 * (row * s.w + x) + c],
+				0,
+			),
+		),
+	);
+	const slopes = greys.map(g =>
+		g.map((_, x) => (g[Math.min(s.w - 1, x + 2)] - g[Math.max(0, x - 2)]) / 4),
+	);
+	const bold = m => m === v.a || m === v.b,
+		drawn = [...list].sort(by(bold));
+	const chart = (values, label, H) =>
+		plot(
+			{
+				title: `Row ${row}`,
+				x: ["pixel of the row"],
+				y: [label],
+				marks: v.pin ? [v.pin[0] + 0.5] : [],
+				series: drawn.map(m => ({
+					label: nameOf(m),
+					colour: hue(m),
+					kind: `${bold(m) ? "" : "thin"} ${m === "reference" ? "dash1" : ""}`,
+					points: values[list.indexOf(m)].map((g, x) => [x + 0.5, g]),
+				})),
+			},
+			widthOf(el) || 700,
+			H,
+		);
+	write({ "rowplot-title": `Row ${row} of ${s.title}` });
+	const names = list.map(
+		m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${named(m)}</button>`,
+	);
+	const charts = [
+		chart(greys, "grey level", 230),
+		chart(slopes, "slope, levels per pixel", 170),
+	];
+	fill(el, html`${charts}<div class="legend">${names}</div>`);
+	v.draw();
+}

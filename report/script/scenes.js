@@ -1,0 +1,104 @@
+/* View: scenes. One at a time, with its pictures, pixels, rows and table. */
+
+/* The viewer of this view. */
+let v2;
+
+const openScene = s =>
+	go(`scenes/${s.id}?left=${v2.a}&right=${v2.b}${v2.mode === "slide" ? "" : `&mode=${v2.mode}`}`);
+
+const stepScene = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % SCENES.length]);
+
+function startScenes(s) {
+	const rail = $("#rail");
+	rail.innerHTML = html`${SCENES.map(
+		s => html`
+			<button role="option" data-key="${s.id}">
+				<canvas aria-hidden="true"></canvas>
+				<span>${s.title}</span>
+			</button>`,
+	)}`;
+	thumbs(rail);
+	onChoose(rail, id => openScene(S[id]));
+	const change = (v, changed) => {
+		if (!changed.view) {
+			probe(v);
+			sceneTable();
+			if (!("pin" in changed)) rowPlot(v);
+		}
+		remember(v);
+	};
+	v2 = new Viewer($("#v2"), {
+		scene: s,
+		a: "gouraud",
+		b: "reference",
+		probe,
+		row: toggleRow,
+		change,
+	});
+	for (const id in options)
+		$("#" + id).onclick = e => {
+			e.target.ariaPressed = options[id] = !options[id];
+			sceneTable();
+		};
+	$("#copy").onclick = copyMarkdown;
+	$("#rowplot-close").onclick = () => toggleRow(v2);
+	onChoose($("#probe"), (m, e) => v2.show(m, e.shiftKey));
+	onChoose($("#rowplot-chart"), (m, e) => v2.show(m, e.shiftKey));
+	onChoose($("#table"), chooseInTable);
+}
+
+function scenes([id], query) {
+	const s = S[id] ?? v2?.scene ?? SCENES[0],
+		rail = $("#rail");
+	if (!v2) startScenes(s);
+	if (v2.scene !== s) Object.assign(v2, { pin: null, hover: null, z: 1, cx: 0.5, cy: 0.5 });
+	write({
+		"t-scenes": s.title,
+		"scene-about": (s.description || "").replace(/\s+/g, " "),
+		"scene-facts": sceneFacts(s).filter(Boolean).join(" · "),
+	});
+	const held = rail.contains(document.activeElement);
+	for (const b of $$("button", rail)) {
+		const on = b.dataset.key === s.id;
+		b.ariaSelected = on;
+		b.tabIndex = on ? 0 : -1;
+		if (!on) continue;
+		if (held) b.focus({ preventScroll: true });
+		reveal(b);
+	}
+	const asked = { ...fromRoute(query, v2), scene: s };
+	v2.set(asked);
+	if (asked.line != null) showRow(v2, asked.line);
+	else if (v2.line != null && query.has("left")) showRow(v2, null);
+}
+
+/* What is known of a scene, in some words each. */
+function sceneFacts(s) {
+	const cut = s.triangulation,
+		reasons = {
+			culled: "facing away",
+			outside: "outside the view",
+			zero_area: "without area",
+			no_area: "without area",
+			cancelling: "whose lobes cancel",
+			edge_on: "edge-on",
+			unprojected: "at the plane of the eye",
+		};
+	const left = Object.keys(reasons)
+		.filter(k => s.stats[k])
+		.map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
+	return [
+		`${plural(s.polygons, "polygon")} in view`,
+		plural(s.lights, "light"),
+		`${((s.covered_pixels / s.w / s.h) * 100).toFixed(0)} % covered`,
+		`${s.w} × ${s.h}`,
+		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct",
+		`${levelName(s.renderer)} code, ${plural(s.renderer.threads, "thread")}`,
+		left.length && `left out: ${left.join(", ")}`,
+		cut &&
+			"split into triangles, the reference changes by up to " +
+				`${num(cut.difference.max * 255)} levels`,
+		s.not_simple &&
+			`${plural(s.not_simple, "polygon")} crossing themselves: not drawn by barycentric`,
+	];
+}

@@ -1,0 +1,408 @@
+/* The viewer: two pictures beside, over or after one another, or their errors. */
+
+const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
+
+const KEYS = {
+	" ": v => v.flip(),
+	x: v => v.set({ a: v.b, b: v.a }),
+	"+": v => v.zoom(2),
+	"=": v => v.zoom(2),
+	"-": v => v.zoom(0.5),
+	z: v => v.zoom(0),
+	w: v => v.worst(),
+	r: v => v.row?.(v),
+	png: v => v.save(),
+	p: v => v.hold(v.pin ? null : (v.hover ?? v.rest)),
+	arrowleft: (v, e) => v.slide(-1, e),
+	arrowright: (v, e) => v.slide(1, e),
+};
+
+for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
+
+/* Compares the pictures of methods `a` and `b`. */
+class Viewer {
+	constructor(root, options) {
+		Object.assign(
+			this,
+			{ root, mode: "slide", split: 0.5, z: 1, cx: 0.5, cy: 0.5, top: 0, side: "a", turn: 0 },
+			options,
+		);
+		root.tabIndex = -1;
+		root.append($("#viewer-parts").content.cloneNode(true));
+		[this.canvas, this.stage, this.divider] = [".stage canvas", ".stage", ".divider"].map(
+			part => $(part, root),
+		);
+		this.markMode = segments(
+			$(".seg", root),
+			() => this.mode,
+			mode => this.set({ mode }),
+		);
+		root.onchange = ({ target }) => this.set({ [target.name]: target.value });
+		onChoose($(".vfoot", root), (key, e) =>
+			KEYS[key] ? KEYS[key](this, e) : this.set({ scene: S[key], pin: null }),
+		);
+		$(".row", root).hidden = !this.row;
+		if (this.choices) {
+			$(".choices", root).innerHTML = html`${this.choices.map(
+				s => html`
+					<button data-key="${s.id}" title="${s.title}">
+						<canvas aria-hidden="true"></canvas>
+					</button>`,
+			)}`;
+			setTimeout(() => thumbs($(".choices", root)), 300);
+		}
+		this.listen();
+		new ResizeObserver(() => this.draw()).observe(this.stage);
+	}
+
+	/* Changes scene, pictures or mode. */
+	async set(change) {
+		Object.assign(this, change);
+		const { root, scene: s } = this,
+			error = this.mode === "error",
+			known = (m, otherwise) => (m === "reference" || s.list.includes(m) ? m : otherwise);
+		this.top = Number(this.top);
+		this.a = known(this.a, s.list[0]);
+		this.b = known(this.b, "reference");
+		for (const name of ["a", "b"]) {
+			const select = $(`[name=${name}]`, root);
+			select.innerHTML = html`${["reference", ...s.list].map(
+				m => html`<option value="${m}">${nameOf(m)}</option>`,
+			)}`;
+			select.value = this[name];
+			select.previousElementSibling.innerHTML = mark(this[name]);
+		}
+		this.markMode();
+		$$(".choices button", root).forEach(b => {
+			b.ariaPressed = b.dataset.key === s.id;
+		});
+		this.stage.style.aspectRatio = `${s.w}/${s.h}`;
+		root.dataset.mode = this.mode;
+		if (error) this.drawScale();
+		if (!("side" in change) && ("mode" in change || "a" in change)) this.side = "a";
+		this.change?.(this, change);
+		this.A = this.B = null;
+		if (!s.drawn) return;
+		const turn = ++this.turn,
+			image = m => (error ? errorMap(s, m, this.top) : picture(s, m));
+		try {
+			const [A, B] = await Promise.all([
+				image(this.a),
+				image(error && this.b === "reference" ? this.a : this.b),
+			]);
+			if (turn !== this.turn) return;
+			[this.A, this.B] = [A.canvas, B.canvas];
+			this.draw();
+			root.dataset.shown = [s.id, this.a, this.b, this.mode].join("|");
+		} catch {
+			$(".missing", root).hidden = false;
+		}
+	}
+
+	get single() {
+		return this.mode === "flip" || (this.mode === "error" && this.b === "reference");
+	}
+
+	get slides() {
+		return !this.single && this.mode !== "side";
+	}
+
+	/* The part of the picture that a pane shows: scale, corner, size. */
+	view() {
+		const w = this.stage.clientWidth / (this.mode === "side" ? 2 : 1),
+			h = this.stage.clientHeight,
+			{ w: iw, h: ih } = this.scene;
+		const k = Math.min(w / iw, h / ih) * this.z,
+			corner = (centre, size, seen) =>
+				seen >= size ? (size - seen) / 2 : clamp(centre * size - seen / 2, 0, size - seen);
+		return { k, x: corner(this.cx, iw, w / k), y: corner(this.cy, ih, h / k), w, h, iw, ih };
+	}
+
+	draw() {
+		// The stage and the buttons below it fit into the window.
+		const top = scrollY + this.stage.getBoundingClientRect().top,
+			others = top + $(".vfoot", this.root).offsetHeight + 9;
+		this.stage.style.maxHeight = `max(300px,100vh - ${others}px)`;
+		const view = this.view(),
+			{ k, w, h } = view;
+		if (!this.A || !w) return;
+		const ratio = devicePixelRatio || 1,
+			canvas = this.canvas,
+			pen = canvas.getContext("2d"),
+			side = this.mode === "side",
+			error = this.mode === "error",
+			panes = side ? 2 : 1;
+		[canvas.width, canvas.height] = [w * ratio * panes, h * ratio];
+		pen.scale(ratio, ratio);
+		pen.imageSmoothingEnabled = k * ratio < 2.01 && this.z === 1;
+		pen.imageSmoothingQuality = "high";
+		const pane = (image, from, to, left = 0) =>
+			pen.drawImage(
+				image,
+				view.x + (from - left) / k,
+				view.y,
+				(to - from) / k,
+				h / k,
+				from,
+				0,
+				to - from,
+				h,
+			);
+		const second = this.side === "b" && !error,
+			from = side ? w + 1 : this.split * w;
+		pane(this.single && second ? this.B : this.A, 0, this.single ? w : side ? w - 1 : from);
+		if (!this.single) pane(this.B, from, w * panes, side ? w : 0);
+		const pixel = this.hover ?? this.pin ?? this.rest;
+		for (let n = 0; pixel && n < panes; n++) {
+			const size = Math.max(k, 9),
+				[x, y] = [(pixel[0] - view.x) * k + n * w, (pixel[1] - view.y) * k].map(
+					v => v - (size - k) / 2,
+				);
+			for (const [width, colour] of [
+				[3, "#000a"],
+				[1.4, "#fff"],
+			]) {
+				[pen.lineWidth, pen.strokeStyle] = [width, colour];
+				pen.strokeRect(x, y, size, size);
+			}
+		}
+		if (this.line != null) {
+			pen.fillStyle = "#fff8";
+			pen.fillRect(0, (this.line + 0.5 - view.y) * k - 0.5, w * panes, 1);
+		}
+		this.divider.hidden = !this.slides;
+		this.divider.style.left = this.split * 100 + "%";
+		this.divider.ariaValueNow = Math.round(this.split * 100);
+		this.stage.classList.toggle("slides", this.slides);
+		this.stage.classList.toggle("zoomed", this.z > 1);
+		const label = (part, m, shown) => {
+			const el = $(part, this.root),
+				q = this.scene.rows[m];
+			const time = q?.ms ? ` · ${num(q.ms)} ms` : "",
+				about = q ? `max ${num(q.max)} levels${time}` : "f64, closed form";
+			el.innerHTML = html`<b>${nameOf(m)}${error && " · error"}</b>${about}`;
+			el.classList.toggle("faint", !shown);
+		};
+		label(".tag.a", this.single && second ? this.b : this.a, !this.slides || this.split > 0.16);
+		label(".tag.b", this.b, side || (this.slides && this.split < 0.84));
+		const names = nameOf(this.a) + (this.single ? "" : ` left, ${nameOf(this.b)} right`);
+		canvas.ariaLabel = `${this.scene.title}: ${names}${error ? ", error map" : ""}`;
+	}
+
+	drawScale() {
+		const bar = $(".heat", this.root),
+			ticks = this.top ? [0, this.top / 2, this.top] : [0, 1, 3, 10, 30, 100, 255];
+		bar.style.background = `linear-gradient(90deg, ${STOPS})`;
+		bar.innerHTML = html`${ticks.map(
+			t => html`<span style="left:${heat(t, this.top) * 100}%">${t}</span>`,
+		)}`;
+	}
+
+	/* Zooms by a factor, 0 for the whole picture, around a point of the stage. */
+	zoom(factor, x, y) {
+		const view = this.view(),
+			z = clamp(this.z * factor, 1, 32),
+			k = (view.k / this.z) * z;
+		if (x == null)
+			[x, y] = this.pin
+				? [(this.pin[0] + 0.5 - view.x) * view.k, (this.pin[1] + 0.5 - view.y) * view.k]
+				: [view.w / 2, view.h / 2];
+		this.cx = factor ? (view.x + x / view.k + (view.w / 2 - x) / k) / view.iw : 0.5;
+		this.cy = factor ? (view.y + y / view.k + (view.h / 2 - y) / k) / view.ih : 0.5;
+		this.z = z;
+		this.moved();
+	}
+
+	moved() {
+		this.draw();
+		this.change?.(this, { view: true });
+	}
+
+	move(split) {
+		this.split = clamp(split, 0, 1);
+		this.draw();
+	}
+
+	slide(sign, { shiftKey }) {
+		return this.slides && this.move(this.split + sign * (shiftKey ? 0.1 : 0.02));
+	}
+
+	/* A point of the window on the stage: in its pane, and as a part of its width. */
+	local({ clientX, clientY }) {
+		const box = this.stage.getBoundingClientRect(),
+			view = this.view(),
+			x = clientX - box.left;
+		return {
+			x: this.mode === "side" ? x % view.w : x,
+			y: clientY - box.top,
+			part: x / box.width,
+			view,
+		};
+	}
+
+	pixelAt(e) {
+		const { x, y, view } = this.local(e),
+			pixel = [Math.floor(view.x + x / view.k), Math.floor(view.y + y / view.k)];
+		return pixel.every((v, i) => v >= 0 && v < [view.iw, view.ih][i]) ? pixel : null;
+	}
+
+	look(pixel) {
+		this.hover = pixel;
+		this.probe(this);
+		this.draw();
+	}
+
+	hold(pixel) {
+		this.pin = pixel;
+		this.probe?.(this);
+		this.draw();
+		this.change?.(this, { pin: true });
+	}
+
+	/* One finger or the mouse moves the divider, or a zoomed picture; two fingers zoom. */
+	listen() {
+		const stage = this.stage,
+			fingers = new Map();
+		const pair = () => {
+			const [p, q] = [...fingers.values()];
+			return {
+				apart: Math.hypot(p.clientX - q.clientX, p.clientY - q.clientY),
+				clientX: (p.clientX + q.clientX) / 2,
+				clientY: (p.clientY + q.clientY) / 2,
+			};
+		};
+		let gesture = null;
+		stage.onpointerdown = e => {
+			if (e.button) return;
+			fingers.set(e.pointerId, e);
+			stage.setPointerCapture(e.pointerId);
+			const { part } = this.local(e),
+				near = Math.abs(part - this.split) * stage.clientWidth < 24;
+			gesture = {
+				kind: this.slides && (near || this.z === 1) ? "split" : "pan",
+				from: e,
+				cx: this.cx,
+				cy: this.cy,
+				far: 0,
+			};
+			if (fingers.size === 2)
+				gesture = { kind: "pinch", apart: pair().apart, z: this.z, far: 99 };
+		};
+		stage.onpointermove = e => {
+			if (fingers.has(e.pointerId)) fingers.set(e.pointerId, e);
+			const { part, view } = this.local(e),
+				kind = gesture?.kind;
+			if (kind === "pinch") {
+				if (fingers.size < 2) return;
+				const { apart, ...middle } = pair(),
+					{ x, y } = this.local(middle);
+				return this.zoom((gesture.z * apart) / gesture.apart / this.z, x, y);
+			}
+			if (gesture) {
+				const [dx, dy] = [
+					e.clientX - gesture.from.clientX,
+					e.clientY - gesture.from.clientY,
+				];
+				gesture.far = Math.max(gesture.far, Math.hypot(dx, dy));
+				if (kind === "split" && gesture.far > 2) this.move(part);
+				if (kind === "pan" && this.z > 1) {
+					[this.cx, this.cy] = [
+						gesture.cx - dx / view.k / view.iw,
+						gesture.cy - dy / view.k / view.ih,
+					];
+					this.draw();
+				}
+			}
+			if (this.probe && (kind !== "split" || gesture.far < 3)) this.look(this.pixelAt(e));
+		};
+		stage.onpointerup = e => {
+			fingers.delete(e.pointerId);
+			if (gesture?.far < 4) this.tap(e);
+			else if (gesture && gesture.kind !== "split") this.moved();
+			gesture = null;
+		};
+		stage.onpointercancel = e => {
+			fingers.delete(e.pointerId);
+			gesture = null;
+		};
+		stage.onpointerleave = () => {
+			if (!gesture && this.probe) this.look(null);
+		};
+		stage.addEventListener(
+			"wheel",
+			e => {
+				if (!e.ctrlKey && !e.metaKey) return;
+				e.preventDefault();
+				const { x, y } = this.local(e);
+				this.zoom(2 ** (-e.deltaY / 120), x, y);
+			},
+			{ passive: false },
+		);
+		stage.ondblclick = e => {
+			const { x, y } = this.local(e);
+			if (!e.target.closest(".divider")) this.zoom(e.shiftKey ? 0.25 : 4, x, y);
+		};
+	}
+
+	/* Holds the pixel, or lets it go; without a probe, flips or moves the divider. */
+	tap(e) {
+		if (this.probe) {
+			const pixel = this.pixelAt(e),
+				again =
+					this.pin &&
+					pixel &&
+					Math.hypot(pixel[0] - this.pin[0], pixel[1] - this.pin[1]) < 4;
+			this.hold(again ? null : pixel);
+		} else if (this.mode === "flip") this.flip();
+		else if (this.slides) this.move(this.local(e).part);
+	}
+
+	flip() {
+		if (this.mode !== "flip") return this.set({ mode: "flip", side: "b" });
+		this.side = this.side === "a" ? "b" : "a";
+		this.draw();
+	}
+
+	/* Shows a method on the left or the right. */
+	show(m, right) {
+		if (!this.scene.list.includes(m) && m !== "reference") return;
+		this.set(
+			right ? { b: m } : this.mode === "flip" && m === this.b ? { side: "b" } : { a: m },
+		);
+	}
+
+	worst() {
+		const m = this.a === "reference" ? this.b : this.a,
+			q = this.scene.rows[m],
+			{ w, h } = this.scene;
+		if (!q?.worst) return toast("No pixel differs");
+		Object.assign(this, {
+			z: 12,
+			cx: (q.worst[0] + 0.5) / w,
+			cy: (q.worst[1] + 0.5) / h,
+			hover: null,
+		});
+		this.hold([...q.worst]);
+		toast(`${nameOf(m)}: worst pixel ${q.worst.join(", ")}, ${num(q.max)} levels`);
+	}
+
+	save() {
+		this.canvas.toBlob(png =>
+			save(
+				`${this.scene.id}-${this.a}-${this.b}-${this.mode}.png`.replace(/[^\w.-]/g, "_"),
+				png,
+				"image/png",
+			),
+		);
+	}
+
+	/* True if the key was one of the viewer's. */
+	key(e) {
+		const digit = /^Digit(\d)$/.exec(e.code)?.[1],
+			action = KEYS[e.key.toLowerCase()];
+		if (!digit) return !!action && action(this, e) !== false;
+		const m = ["reference", ...IDS].find(i => keyOf(i) === digit);
+		if (m) this.show(m, e.shiftKey);
+		return true;
+	}
+}

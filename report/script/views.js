@@ -1,0 +1,27 @@
+/* The views, and what there is of them. A new one is a file that `src/report/page.rs` lists, a
+   section and a link of the template, and a name in both lists here. */
+
+/* Functions that draw a view, given the parts of its address, in the order of the navigation. */
+const VIEWS = { overview, scenes, methods, speed, lectures, measured };
+
+/* Parts of the page that have something to show. */
+const FILLED = {
+	scenes: SCENES.length,
+	methods: IDS.length,
+	lectures: FIGURES.length,
+	findings: FINDINGS.length,
+	overview: SCENES.length || FIGURES.length > 1,
+	speed: STUDY || D.scaling || DOCS.length > 1,
+	study: STUDY,
+	growth: D.scaling,
+	beside: DOCS.length > 1,
+	many: MANY,
+	strip: MANY && chosen(1).length,
+	timed: TIMED,
+	untimed: !TIMED,
+	measured: true,
+	numbers: !PICTURES,
+	debug: D.machine.profile !== "release",
+	srgb: SCENES.some(s => s.encoding === "srgb"),
+	depth: ROWS.some(q => q.other),
+};
