@@ -2,7 +2,8 @@
 
 use crate::support::cases::{Case, case, cases};
 use crate::support::differences::largest_difference;
-use crate::support::renderers::{self, distinct, name};
+use crate::support::drawings::{Drawing, assert_none, for_each_drawing};
+use crate::support::renderers::{self, distinct};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::LinearPicture;
@@ -13,65 +14,61 @@ use fastphong::scene::{
     DepthBuffer, Falloff, HiddenSurfaces, LightTerm, Lighting, Place, Power, SpecularGate,
     SpecularModel,
 };
-use fastphong::shading::{Entry, METHODS, Range, Variant};
+use fastphong::shading::{Info, METHODS, Range, Variant};
 use glam::{DQuat, DVec3, EulerRot};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Returns the largest difference where the engine and the reference see the same polygon.
-fn error(scene: &Case, variant: &Variant, truth: &LinearPicture) -> f64 {
-    let ours = variant.render_linear(&scene.frame);
-    let (seen, truly) = (scene.seen(), &scene.visibility().polygons);
-    let same = |x, y| seen.get(x, y) == truly.get(x, y);
-    let (max, uncovered) = largest_difference(truth, &ours, same);
-    assert_eq!(uncovered, 0, "{}", scene.name);
-    max
-}
-
-/// Checks one method on a scene with every renderer. Returns the span engine's error as a share of
-/// the rounding bound, and a message for each failure.
+/// Checks that a drawing is within the rounding bound of its closed form. Returns the error as a share of that bound, or a message.
 ///
-/// The other engines round in other places but no more often. The row engine steps eight pixels
+/// The other engines round in other places than the span engine but no more often. The row engine steps eight pixels
 /// at a time, the barycentric one interpolates by barycentric coordinates.
-fn check(scene: &Case, entry: &'static Entry) -> (f64, Vec<String>) {
-    let (info, frame, variant) = (entry.info, &scene.frame, entry.variant());
-    let (truth, decided) = (scene.truth(info.model), scene.decided());
+fn check(drawing: &Drawing) -> Result<f64, String> {
+    let (case, variant) = (drawing.case, &drawing.variant);
+    let (info, frame) = (variant.info(), &case.frame);
+    let (seen, truly) = (case.seen(), &case.visibility().polygons);
+    // The span engine is compared wherever it sees the reference's polygon, others where rounding cannot change which one is seen.
+    let counts = |x, y| match drawing.is_by_spans() {
+        true => seen.get(x, y) == truly.get(x, y),
+        false => case.decided().get(x, y),
+    };
+    let (max, uncovered) = largest_difference(case.truth(info.model), &drawing.linear(), counts);
     let bound = variant.bound(frame);
-    let mut failures = Vec::new();
-    let max = error(scene, &variant, truth);
-    println!(
-        "{:20} {:20} max {max:.2e} bound {bound:.2e}",
-        scene.name, info.name
-    );
-    if max > bound {
-        failures.push(format!(
-            "{} on {}: {max:.2e} is over {bound:.2e}",
-            info.name, scene.name
+    println!("{drawing}: max {max:.2e}, bound {bound:.2e}");
+    if max > bound || uncovered > 0 {
+        return Err(format!(
+            "{drawing}: {max:.2e} is over {bound:.2e}, {uncovered} pixels drawn in one only"
         ));
-    }
-    for renderer in distinct(&variant, frame).into_iter().skip(1) {
-        let ours = variant.render_linear_with(frame, renderer);
-        let (max, uncovered) = largest_difference(truth, &ours, |x, y| decided.get(x, y));
-        let who = format!("{} on {} by {}", info.name, scene.name, name(renderer));
-        println!("{who}: max {max:.2e}, bound {bound:.2e}");
-        if max > bound || uncovered > 0 {
-            failures.push(format!(
-                "{who}: {max:.2e} is over {bound:.2e}, {uncovered} pixels drawn in one only"
-            ));
-        }
     }
     // These scenes should exercise rounding. The method's own allowance is for coarser scenes, so
     // it is left out, and so is what it leaves out by design.
-    let numbers = with_numbers(entry);
+    let numbers = with_numbers(info);
     let rounding = numbers.bound(frame) - numbers.approximation(frame);
-    (max / rounding.max(0.0), failures)
+    Ok(max / rounding.max(0.0))
+}
+
+/// Checks every drawing of these cases. Returns the span engine's errors as shares of their bounds, with case and method.
+fn check_all<'a>(cases: impl IntoIterator<Item = &'a Case>) -> Vec<(&'a Case, &'static str, f64)> {
+    let found = for_each_drawing(cases, |drawing| {
+        let name = drawing.variant.info().name;
+        check(drawing).map(|share| drawing.is_by_spans().then_some((drawing.case, name, share)))
+    });
+    let mut shares = Vec::new();
+    let mut failures = Vec::new();
+    for one in found {
+        match one {
+            Ok(share) => shares.extend(share),
+            Err(message) => failures.push(Some(message)),
+        }
+    }
+    assert_none(failures);
+    shares
 }
 
 /// Returns the method with every parameter at its least value, so that it chooses nothing itself.
-fn with_numbers(entry: &'static Entry) -> Variant {
-    let mut text = entry.info.name.to_string();
-    for parameter in entry.info.parameters {
+fn with_numbers(info: &Info) -> Variant {
+    let mut text = info.name.to_string();
+    for parameter in info.parameters {
         if let Range::Whole(least, _) = parameter.range {
             text += &format!(":{}={least}", parameter.name);
         }
@@ -83,8 +80,6 @@ fn with_numbers(entry: &'static Entry) -> Variant {
 /// set of this machine. Over all scenes the bound is at most ten times too wide.
 #[test]
 fn every_method_is_within_its_bound_and_the_bound_bites() {
-    let mut nearest: BTreeMap<&str, (f64, &str)> = BTreeMap::new();
-    let mut failures = Vec::new();
     for scene in cases(None) {
         let decided = scene.decided();
         let left_out = decided.pixels().iter().filter(|decided| !**decided).count();
@@ -99,21 +94,15 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
             "{}: {left_out} pixels left out",
             scene.name
         );
-        // Render this before the threads below start. An engine draws it on them, and none of them
-        // may wait for it.
-        scene.seen();
-        let found: Vec<_> = METHODS
-            .par_iter()
-            .map(|entry| check(scene, entry))
-            .collect();
-        for (entry, (share, wrong)) in METHODS.iter().zip(found) {
-            failures.extend(wrong);
-            let nearest = nearest.entry(entry.info.name).or_insert((0.0, ""));
-            if share > nearest.0 {
-                *nearest = (share, &scene.name);
-            }
+    }
+    let mut nearest: BTreeMap<&str, (f64, &str)> = BTreeMap::new();
+    for (scene, method, share) in check_all(cases(None)) {
+        let nearest = nearest.entry(method).or_insert((0.0, ""));
+        if share > nearest.0 {
+            *nearest = (share, &scene.name);
         }
     }
+    let mut failures = Vec::new();
     for (method, (share, scene)) in nearest {
         println!("{method:20} reaches {share:.2} of its bound on {scene}");
         if share < 0.1 {
@@ -128,22 +117,13 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
 /// Checks every method with every renderer on a scene with each exponent. Returns each method's error as a
 /// share of its bound, by exponent.
 fn check_exponents(name: &str, frame: &Frame, exponents: &[f32]) -> Vec<Vec<f64>> {
-    let mut failures = Vec::new();
-    let shares = exponents.iter().map(|&shininess| {
+    let relit = exponents.iter().map(|&shininess| {
         let frame = relit(frame, |lighting| lighting.shininess = shininess);
-        let scene = Case::new(format!("{name} with {shininess}"), frame);
-        scene.seen();
-        let found: Vec<_> = METHODS
-            .par_iter()
-            .map(|entry| check(&scene, entry))
-            .collect();
-        let (shares, wrong): (Vec<f64>, Vec<Vec<String>>) = found.into_iter().unzip();
-        failures.extend(wrong.into_iter().flatten());
-        shares
+        Case::new(format!("{name} with {shininess}"), frame)
     });
-    let shares = shares.collect();
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
-    shares
+    let cases: Vec<Case> = relit.collect();
+    let shares: Vec<f64> = check_all(&cases).iter().map(|(.., share)| *share).collect();
+    shares.chunks(METHODS.len()).map(<[f64]>::to_vec).collect()
 }
 
 /// Exponents below 1 are infinitely steep at 0, where highlights end on all these scenes.
@@ -332,16 +312,11 @@ fn apart(cosine: f64, corners: [[i32; 2]; 4], is_cut: bool) -> Frame {
 const SQUARE: [[i32; 2]; 4] = [[0, 0], [0, 4096], [4096, 4096], [4096, 0]];
 
 /// Checks every method with every renderer. Returns the largest error of the span engine as a share of the bound.
-fn check_all(name: &str, frame: Frame) -> f64 {
-    let scene = Case::new(name.to_owned(), frame);
-    scene.seen();
-    let found: Vec<_> = METHODS
-        .par_iter()
-        .map(|entry| check(&scene, entry))
-        .collect();
-    let failures: Vec<String> = found.iter().flat_map(|(_, wrong)| wrong.clone()).collect();
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
-    found.iter().map(|(share, _)| *share).fold(0.0, f64::max)
+fn most_of_bound(name: &str, frame: Frame) -> f64 {
+    let shares = check_all([&Case::new(name, frame)]);
+    shares
+        .iter()
+        .fold(0.0, |most, (.., share)| most.max(*share))
 }
 
 /// Normals far apart have short ones between them, whose errors of direction are larger. Bounds grow as these do, and no faster.
@@ -350,7 +325,7 @@ fn short_normals_are_within_their_bound_and_it_bites() {
     for is_cut in [false, true] {
         for cosine in [0.7, 0.3, 0.1, 0.03, 0.01] {
             let name = format!("normals at {cosine} of their mean, cut: {is_cut}");
-            let most = check_all(&name, apart(cosine, SQUARE, is_cut));
+            let most = most_of_bound(&name, apart(cosine, SQUARE, is_cut));
             println!("{name}: {most:.2} of the bound");
             assert!(most > 0.02, "{name}: {most:.3} of the bound");
         }
@@ -383,7 +358,7 @@ fn slivers_are_within_their_bound() {
             for is_cut in [false, true] {
                 for cosine in [0.99, 0.6] {
                     let name = format!("slivers {corners:?} at {cosine}, cut: {is_cut}");
-                    found.push(check_all(&name, apart(cosine, corners, is_cut)));
+                    found.push(most_of_bound(&name, apart(cosine, corners, is_cut)));
                 }
             }
         }

@@ -3,7 +3,7 @@
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
-use crate::support::renderers;
+use crate::support::drawings::for_each_drawing;
 use fastphong::frame::Frame;
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
@@ -374,22 +374,17 @@ fn polygons_may_be_more_or_fewer_than_materials_under_local_lights() {
             let polygons = case.frame.polygons().len();
             assert!(drawn.contains(&polygons), "{shape} {count}: {polygons}");
             assert!(case.frame.is_local());
-            for entry in METHODS {
-                let variant = entry.variant();
-                for renderer in renderers::distinct(&variant, &case.frame) {
-                    let picture = variant.render_linear_with(&case.frame, renderer);
-                    let error = most(case.truth(entry.info.model), &picture);
-                    let bound = variant.bound(&case.frame);
-                    let rounding = bound - variant.approximation(&case.frame);
-                    assert!(rounding < 0.02, "{bound} could hide the colour of another");
-                    assert!(
-                        error <= bound,
-                        "{} by {}, {shape} {count} {hidden:?} {near}: {error:.2e} over {bound:.2e}",
-                        entry.info.name,
-                        renderers::name(renderer)
-                    );
-                }
-            }
+            for_each_drawing([&case], |drawing| {
+                let variant = &drawing.variant;
+                let error = most(case.truth(variant.info().model), &drawing.linear());
+                let bound = variant.bound(&case.frame);
+                let rounding = bound - variant.approximation(&case.frame);
+                assert!(rounding < 0.02, "{bound} could hide the colour of another");
+                assert!(
+                    error <= bound,
+                    "{drawing}, {count} {hidden:?} {near}: {error:.2e} over {bound:.2e}"
+                );
+            });
         }
     }
 }

@@ -3,6 +3,7 @@
 
 pub mod cases;
 pub mod differences;
+pub mod drawings;
 pub mod renderers;
 
 use cases::Size;

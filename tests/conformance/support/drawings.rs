@@ -1,0 +1,78 @@
+//! One sweep over frames, methods and renderers for all tests that ask something of every drawing.
+
+use super::cases::Case;
+use super::renderers::{self, distinct};
+use fastphong::picture::{LinearPicture, Picture8};
+use fastphong::raster::Renderer;
+use fastphong::shading::{METHODS, Variant};
+use rayon::prelude::*;
+use std::fmt;
+
+/// A frame drawn by a method and a renderer.
+pub struct Drawing<'a> {
+    pub case: &'a Case,
+    pub variant: Variant,
+    pub renderer: Renderer,
+}
+
+impl Drawing<'_> {
+    /// Draws it before rounding.
+    pub fn linear(&self) -> LinearPicture {
+        self.variant
+            .render_linear_with(&self.case.frame, self.renderer)
+    }
+
+    /// Draws it as it is stored.
+    pub fn stored(&self) -> Picture8 {
+        self.variant.render_with(&self.case.frame, self.renderer)
+    }
+
+    /// True for the scalar span engine, with which the others are compared.
+    pub fn is_by_spans(&self) -> bool {
+        self.renderer == Renderer::LECTURE
+    }
+}
+
+/// Writes `SCENE/METHOD by ENGINE on INSTRUCTIONS`.
+impl fmt::Display for Drawing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (scene, method) = (&self.case.name, self.variant.info().name);
+        write!(f, "{scene}/{method} by {}", renderers::name(self.renderer))
+    }
+}
+
+/// Calls `look` for every method and every renderer of this machine that draws a case in a way of its own, the scalar span engine
+/// first. Returns what `look` returned, in order; methods are drawn in parallel.
+pub fn for_each_drawing<'a, T: Send>(
+    cases: impl IntoIterator<Item = &'a Case>,
+    look: impl Fn(&Drawing) -> T + Sync,
+) -> Vec<T> {
+    let mut found = Vec::new();
+    for case in cases {
+        // Made before the threads below start: engines draw it on them, and none of them may wait for it.
+        case.seen();
+        let drawn = METHODS.par_iter().map(|entry| {
+            let variant = entry.variant();
+            let renderers = distinct(&variant, &case.frame);
+            assert!(!renderers.is_empty(), "{}: not drawn", entry.info.name);
+            let draw = |renderer| {
+                look(&Drawing {
+                    case,
+                    variant: variant.clone(),
+                    renderer,
+                })
+            };
+            renderers.into_iter().map(draw).collect::<Vec<T>>()
+        });
+        let drawn: Vec<Vec<T>> = drawn.collect();
+        found.extend(drawn.into_iter().flatten());
+    }
+    found
+}
+
+/// Fails with the messages of all drawings that have one.
+#[track_caller]
+pub fn assert_none(failures: impl IntoIterator<Item = Option<String>>) {
+    let failures: Vec<String> = failures.into_iter().flatten().collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
