@@ -1,36 +1,13 @@
-/* Pictures: planes with the row filters of PNG, deflated. Each adds to the one most like it. */
+/* Pictures: planes, deflated, of what each picture adds to the one most like it. */
 
-/* Predicts a byte from its neighbours (PNG specification 9). */
-function predict(filter, left, up, corner) {
-	if (filter === 0) return 0;
-	if (filter === 1) return left;
-	if (filter === 2) return up;
-	if (filter === 3) return (left + up) >> 1;
-	const a = Math.abs(up - corner),
-		b = Math.abs(left - corner),
-		c = Math.abs(left + up - 2 * corner);
-	return a <= b && a <= c ? left : b <= c ? up : corner;
-}
-
-async function unpack(text, { w, h }, count) {
+/* Unpacks three planes. Each byte is stored as what it adds to the one before it, modulo 256. */
+async function unpack(text, { w, h }) {
 	const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
 	const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
 	const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-	let next = 0;
-	return Array.from({ length: count }, () => {
-		const plane = new Uint8Array(w * h);
-		for (let y = 0, i = 0; y < h; y++) {
-			const filter = bytes[next++];
-			for (let x = 0; x < w; x++, i++)
-				plane[i] =
-					bytes[next++] +
-					predict(
-						filter,
-						x ? plane[i - 1] : 0,
-						y ? plane[i - w] : 0,
-						x && y ? plane[i - w - 1] : 0,
-					);
-		}
+	return [0, 1, 2].map(p => {
+		const plane = bytes.subarray(p * w * h, (p + 1) * w * h);
+		for (let i = 1; i < plane.length; i++) plane[i] += plane[i - 1];
 		return plane;
 	});
 }
@@ -47,10 +24,10 @@ function add(more, base) {
 const planes = (s, m) =>
 	memo(`planes ${s.id} ${m}`, async () => {
 		const data = memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
-		if (m === "reference") return unpack(data.reference, s, 3);
+		if (m === "reference") return unpack(data.reference, s);
 		const { on = "reference", add: more } = data.rows[m],
 			base = await planes(s, on);
-		return more ? add(await unpack(more, s, 3), base) : base;
+		return more ? add(await unpack(more, s), base) : base;
 	});
 
 /* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green, red. */

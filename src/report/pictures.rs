@@ -1,8 +1,8 @@
 //! Pictures without loss, as the page unpacks them.
 //!
 //! A picture is stored as what it adds, modulo 256, to the picture most like it; methods that draw the same cost a few bytes.
-//! Planes are green, red − green and blue − green, rows filtered as in PNG, all deflated: a browser inflates by itself.
-//! Against lossless WebP by the `image` crate: see `docs/performance.md`.
+//! Planes are green, red − green and blue − green, each byte less the one before it, all deflated: a browser inflates by itself.
+//! `docs/performance.md` compares this with lossless WebP and with the filters of PNG.
 
 use crate::compare::comparison::Comparison;
 use crate::number::parallel::collect;
@@ -44,17 +44,17 @@ impl Pictures {
     /// Packs the reference and each scanline picture.
     pub fn new(comparison: &Comparison) -> Pictures {
         let reference = planes(&store(&comparison.reference, comparison.encoding));
-        let (width, rows) = (comparison.width, &comparison.rows);
+        let rows = &comparison.rows;
         let drawn = collect(rows.len(), 1, |i| planes(&rows[i].picture));
         let packed = |at: usize| {
             let near = nearest(&drawn[at], &reference, &drawn[..at]);
             let base = near.map_or(&reference, |i| &drawn[i]);
-            let add = (base != &drawn[at]).then(|| pack(&added(base, &drawn[at]), width));
+            let add = (base != &drawn[at]).then(|| pack(&added(base, &drawn[at])));
             let on = near.map(|i| rows[i].name());
             (rows[at].name(), PackedPicture { on, add })
         };
         Pictures {
-            reference: pack(&reference, width),
+            reference: pack(&reference),
             rows: collect(rows.len(), 1, packed).into_iter().collect(),
         }
     }
@@ -102,60 +102,19 @@ fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
     ])
 }
 
-/// Filters the rows of planes as PNG does, deflates them, and writes that in base 64.
-fn pack(planes: &[Vec<u8>], width: usize) -> String {
+/// Deflates what each byte of a plane adds, modulo 256, to the one before it, and writes that in base 64.
+fn pack(planes: &[Vec<u8>]) -> String {
     let mut deflate = ZlibEncoder::new(Vec::new(), Compression::new(9));
     for plane in planes {
-        let mut above = alloc::vec![0; width];
-        for row in plane.chunks(width.max(1)) {
-            let filtered = filtered(row, &above);
-            deflate
-                .write_all(&filtered)
-                .expect("memory takes all that is written");
-            above.copy_from_slice(row);
-        }
+        let before = core::iter::once(&0).chain(plane);
+        let steps = plane.iter().zip(before);
+        let steps: Vec<u8> = steps.map(|(v, before)| v.wrapping_sub(*before)).collect();
+        deflate
+            .write_all(&steps)
+            .expect("memory takes all that is written");
     }
     let bytes = deflate.finish().expect("memory takes all that is written");
     STANDARD.encode(bytes)
-}
-
-/// Returns the row by the PNG filter (none, left, up, average, Paeth) of the least sum, behind the number of that.
-fn filtered(row: &[u8], above: &[u8]) -> Vec<u8> {
-    let by = |filter: u8| {
-        let mut out = Vec::with_capacity(row.len() + 1);
-        out.push(filter);
-        for (x, value) in row.iter().enumerate() {
-            let before = x.checked_sub(1);
-            let (left, up) = (before.map_or(0, |i| row[i]), above[x]);
-            let corner = before.map_or(0, |i| above[i]);
-            out.push(value.wrapping_sub(match filter {
-                0 => 0,
-                1 => left,
-                2 => up,
-                3 => ((u16::from(left) + u16::from(up)) / 2) as u8,
-                _ => paeth(left, up, corner),
-            }));
-        }
-        out
-    };
-    let size = |row: &Vec<u8>| -> u32 {
-        let sizes = row[1..].iter().map(|v| (*v).min(v.wrapping_neg()));
-        sizes.map(u32::from).sum()
-    };
-    let all = (0..5).map(by);
-    all.min_by_key(size).expect("five filters")
-}
-
-/// Returns the neighbour nearest to left + up − corner (PNG specification 9.4).
-fn paeth(left: u8, up: u8, corner: u8) -> u8 {
-    let [a, b, c] = [left, up, corner].map(i16::from);
-    let guess = a + b - c;
-    let [da, db, dc] = [a, b, c].map(|v| (guess - v).abs());
-    match () {
-        () if da <= db && da <= dc => left,
-        () if db <= dc => up,
-        () => corner,
-    }
 }
 
 /// Encodes a picture as an opaque PNG file.
@@ -199,31 +158,20 @@ mod tests {
     use std::io::Read;
 
     /// Undoes [`pack`], as the page does.
-    fn unpacked(text: &str, width: usize, planes: usize) -> Vec<Vec<u8>> {
+    fn unpacked(text: &str, planes: usize) -> Vec<Vec<u8>> {
         let packed = STANDARD.decode(text).unwrap();
         let mut bytes = Vec::new();
         ZlibDecoder::new(&packed[..])
             .read_to_end(&mut bytes)
             .unwrap();
-        let rows: Vec<&[u8]> = bytes.chunks(width + 1).collect();
-        let plane = |rows: &[&[u8]]| {
-            let (mut out, mut above) = (Vec::new(), alloc::vec![0; width]);
-            for row in rows {
-                let mut done: Vec<u8> = Vec::new();
-                for x in 0..width {
-                    let left = if x > 0 { done[x - 1] } else { 0 };
-                    let corner = if x > 0 { above[x - 1] } else { 0 };
-                    let mean = ((u16::from(left) + u16::from(above[x])) / 2) as u8;
-                    let paeth = paeth(left, above[x], corner);
-                    let guess = [0, left, above[x], mean, paeth][usize::from(row[0])];
-                    done.push(row[x + 1].wrapping_add(guess));
-                }
-                out.extend(&done);
-                above = done;
-            }
-            out
+        let sums = |plane: &[u8]| {
+            let sum = |sum: &mut u8, step: &u8| {
+                *sum = sum.wrapping_add(*step);
+                Some(*sum)
+            };
+            plane.iter().scan(0, sum).collect()
         };
-        rows.chunks(rows.len() / planes).map(plane).collect()
+        bytes.chunks(bytes.len() / planes).map(sums).collect()
     }
 
     #[test]
@@ -234,8 +182,8 @@ mod tests {
             .collect();
         let ramp: Vec<u8> = (0..1200u32).map(|i| (i % 40 + i / 40) as u8).collect();
         let all = Vec::from([scattered, ramp, alloc::vec![9; 1200]]);
-        assert_eq!(unpacked(&pack(&all, 40), 40, 3), all);
-        assert!(pack(&all[1..], 40).len() < 400);
+        assert_eq!(unpacked(&pack(&all), 3), all);
+        assert!(pack(&all[1..]).len() < 400);
     }
 
     #[test]
