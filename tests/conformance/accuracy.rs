@@ -51,7 +51,8 @@ fn check(drawing: &Drawing) -> Result<f64, String> {
 fn check_all<'a>(cases: impl IntoIterator<Item = &'a Case>) -> Vec<(&'a Case, &'static str, f64)> {
     let found = for_each_drawing(cases, |drawing| {
         let name = drawing.variant.info().name;
-        check(drawing).map(|share| drawing.is_by_spans().then_some((drawing.case, name, share)))
+        let share = check(drawing)?;
+        Ok(drawing.is_by_spans().then_some((drawing.case, name, share)))
     });
     let mut shares = Vec::new();
     let mut failures = Vec::new();
@@ -313,7 +314,8 @@ const SQUARE: [[i32; 2]; 4] = [[0, 0], [0, 4096], [4096, 4096], [4096, 0]];
 
 /// Checks every method with every renderer. Returns the largest error of the span engine as a share of the bound.
 fn most_of_bound(name: &str, frame: Frame) -> f64 {
-    let shares = check_all([&Case::new(name, frame)]);
+    let case = Case::new(name, frame);
+    let shares = check_all([&case]);
     shares
         .iter()
         .fold(0.0, |most, (.., share)| most.max(*share))

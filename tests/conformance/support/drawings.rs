@@ -45,7 +45,7 @@ impl fmt::Display for Drawing<'_> {
 /// first. Returns what `look` returned, in order; methods are drawn in parallel.
 pub fn for_each_drawing<'a, T: Send>(
     cases: impl IntoIterator<Item = &'a Case>,
-    look: impl Fn(&Drawing) -> T + Sync,
+    look: impl Fn(&Drawing<'a>) -> T + Sync,
 ) -> Vec<T> {
     let mut found = Vec::new();
     for case in cases {
