@@ -2,9 +2,9 @@
 
 /* Documents side by side, a column each under its processor. */
 function beside() {
-	const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))],
-		pick = $("#beside-scene"),
-		rowsOf = (d, name) => d.comparisons.find(c => c.name === name)?.rows;
+	const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))];
+	const pick = $("#beside-scene");
+	const rowsOf = (d, name) => d.comparisons.find(c => c.name === name)?.rows;
 	if (!pick.options.length)
 		pick.innerHTML = html`${[...(names.length > 1 ? [""] : []), ...names].map(
 			n => html`<option value="${n}">${n || "all scenes they share"}</option>`,
@@ -17,9 +17,9 @@ function beside() {
 	const cell = (d, m) => {
 		const rows = shared.map(n => rowsOf(d, n)?.find(r => r.variant === m));
 		if (!rows.length || rows.some(r => !r?.speed)) return "–";
-		const ms = mean(rows.map(r => r.speed.timing.median_ns / 1e6)),
-			ratio = mean(rows.map(r => r.speed.ratio_to_naive?.median ?? 1)),
-			worst = sameErrors(rows) ? num(Math.max(...rows.map(r => r.error.max * 255))) : "–";
+		const ms = mean(rows.map(r => r.speed.timing.median_ns / 1e6));
+		const ratio = mean(rows.map(r => r.speed.ratio_to_naive?.median ?? 1));
+		const worst = sameErrors(rows) ? num(Math.max(...rows.map(r => r.error.max * 255))) : "–";
 		return `${num(ms)} ms · ${ratio.toFixed(2)}${TIMES} · ${worst} levels`;
 	};
 	const heads = DOCS.map(({ machine, date }) => {

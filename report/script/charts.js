@@ -38,9 +38,9 @@ const textWidth = (() => {
 
 /* The scale of an axis: from values `low` to `high` to pixels `from` to `to`. */
 function scale(log, low, high, from, to) {
-	const f = log ? Math.log : v => v,
-		k = (to - from) / (f(high) - f(low) || 1),
-		at = v => from + (f(v) - f(low)) * k;
+	const f = log ? Math.log : v => v;
+	const k = (to - from) / (f(high) - f(low) || 1);
+	const at = v => from + (f(v) - f(low)) * k;
 	return Object.assign(at, {
 		low,
 		high,
@@ -56,10 +56,10 @@ const logScale = (values, margin, from, to) =>
 
 /* Round numbers on a scale, at least `gap` pixels apart. */
 function linearTicks({ low, high, from, to }, gap) {
-	const rough = ((high - low) / Math.abs(to - from)) * gap,
-		power = 10 ** Math.floor(Math.log10(rough)),
-		step = [1, 2, 5, 10].map(s => s * power).find(s => s >= rough),
-		first = Math.ceil(low / step);
+	const rough = ((high - low) / Math.abs(to - from)) * gap;
+	const power = 10 ** Math.floor(Math.log10(rough));
+	const step = [1, 2, 5, 10].map(s => s * power).find(s => s >= rough);
+	const first = Math.ceil(low / step);
 	return Array.from(
 		{ length: Math.floor(high / step + 1e-6) - first + 1 },
 		(_, i) => +((first + i) * step).toPrecision(6),
@@ -68,11 +68,11 @@ function linearTicks({ low, high, from, to }, gap) {
 
 /* Numbers of few digits, the roundest first: those that others leave no room for are left out. */
 function logTicks(at, gap) {
-	const first = Math.floor(Math.log10(at.low)),
-		powers = Array.from(
-			{ length: Math.ceil(Math.log10(at.high)) - first + 1 },
-			(_, i) => first + i,
-		);
+	const first = Math.floor(Math.log10(at.low));
+	const powers = Array.from(
+		{ length: Math.ceil(Math.log10(at.high)) - first + 1 },
+		(_, i) => first + i,
+	);
 	const round = [1, 3, 2, 5, 1.5, 7]
 		.flatMap(digit => powers.map(e => +(digit * 10 ** e).toPrecision(3)))
 		.filter(t => t >= at.low * 0.999 && t <= at.high * 1.001);
@@ -105,8 +105,8 @@ const axisX = (x, bottom, ticks) =>
 
 /* Positions near those wished for, at least `gap` apart if there is room. */
 function spread(wished, gap, low, high) {
-	const list = wished.map((y, i) => ({ y, i })).sort(by(p => p.y)),
-		room = (high - low) / Math.max(1, list.length - 1);
+	const list = wished.map((y, i) => ({ y, i })).sort(by(p => p.y));
+	const room = (high - low) / Math.max(1, list.length - 1);
 	gap = Math.min(gap, room);
 	list.reduce((least, p) => (p.y = Math.max(p.y, least)) + gap, low);
 	list.reduceRight((most, p) => (p.y = Math.min(p.y, most)) - gap, high);
@@ -117,24 +117,24 @@ function spread(wished, gap, low, high) {
    A series has points [x, y, low, high], a method or colour, a name, and may have a value, a link
    and a tip. */
 function curves(x, y, series, { gap = 16, out = 9 } = {}) {
-	const end = s => s.points[s.points.length - 1],
-		labels = spread(
-			series.map(s => y(end(s)[1])),
-			gap,
-			y.to,
-			y.from,
-		);
+	const end = s => s.points[s.points.length - 1];
+	const labels = spread(
+		series.map(s => y(end(s)[1])),
+		gap,
+		y.to,
+		y.from,
+	);
 	return series.map((s, n) => {
-		const [ex, ey] = end(s),
-			at = x(ex) + out,
-			far = Math.abs(labels[n] - y(ey)) > 3 && out > 12;
+		const [ex, ey] = end(s);
+		const at = x(ex) + out;
+		const far = Math.abs(labels[n] - y(ey)) > 3 && out > 12;
 		const marks = s.points.map(([px, py, low, high]) => [
 			low && line(x(px), y(low), x(px), y(high), "whisker"),
 			s.method && shape(s.method, x(px), y(py), 4.8),
 		]);
-		const value = s.value && html`<tspan dx="5" class="value">${s.value}</tspan>`,
-			label = [s.name, value],
-			drawn = s.points.map(p => [x(p[0]), y(p[1])]);
+		const value = s.value && html`<tspan dx="5" class="value">${s.value}</tspan>`;
+		const label = [s.name, value];
+		const drawn = s.points.map(p => [x(p[0]), y(p[1])]);
 		const body = html`
 			<title>${s.tip}</title>
 			${curve(drawn, s.kind)}
@@ -150,23 +150,23 @@ function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 
 /* Places labels of points side by side, with a leader if far away; one without room is left out. */
 function place(points, box, bars) {
-	const done = [],
-		squares = points.map(o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9]),
-		overlap = (a, b) =>
-			Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) *
-			Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+	const done = [];
+	const squares = points.map(o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9]);
+	const overlap = (a, b) =>
+		Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) *
+		Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
 	const hits = (d, list) =>
 		list.filter(([x, y]) => x > d[0] && x < d[2] && y > d[1] && y < d[3]).length;
 	for (const p of [...points].sort((a, b) => b.priority - a.priority || a.y - b.y)) {
 		let best = null;
 		for (let ring = 0; ring < 9; ring++)
 			for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
-				const angle = (turn * Math.PI) / 8,
-					r = 13 + ring * 11,
-					cos = Math.cos(angle);
-				const cx = p.x + cos * (r + (Math.abs(cos) > 0.3 ? p.w / 2 : 0)),
-					cy = p.y + Math.sin(angle) * (r + 7),
-					q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
+				const angle = (turn * Math.PI) / 8;
+				const r = 13 + ring * 11;
+				const cos = Math.cos(angle);
+				const cx = p.x + cos * (r + (Math.abs(cos) > 0.3 ? p.w / 2 : 0));
+				const cy = p.y + Math.sin(angle) * (r + 7);
+				const q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
 				if (
 					q[0] < box[0] ||
 					q[1] < box[1] ||
@@ -175,17 +175,14 @@ function place(points, box, bars) {
 					done.some(d => overlap(q, d) > 0)
 				)
 					continue;
-				const ex = clamp(p.x, q[0], q[2]),
-					ey = clamp(p.y, q[1] + 3, q[3] - 3),
-					apart = o =>
-						Math.hypot(o.x - clamp(o.x, q[0], q[2]), o.y - clamp(o.y, q[1], q[3])),
-					tied = ring || points.some(o => apart(o) < apart(p) + 8),
-					leader = tied
-						? [0.2, 0.4, 0.6, 0.8].map(t => [
-								p.x + t * (ex - p.x),
-								p.y + t * (ey - p.y),
-							])
-						: [];
+				const ex = clamp(p.x, q[0], q[2]);
+				const ey = clamp(p.y, q[1] + 3, q[3] - 3);
+				const apart = o =>
+					Math.hypot(o.x - clamp(o.x, q[0], q[2]), o.y - clamp(o.y, q[1], q[3]));
+				const tied = ring || points.some(o => apart(o) < apart(p) + 8);
+				const leader = tied
+					? [0.2, 0.4, 0.6, 0.8].map(t => [p.x + t * (ex - p.x), p.y + t * (ey - p.y)])
+					: [];
 				const crossed =
 					sum(
 						squares.map((d, i) =>

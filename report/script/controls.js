@@ -6,8 +6,8 @@ function fadeEnd(el) {
 	el.classList.toggle("more-below", el.scrollTop + el.clientHeight < el.scrollHeight - 2);
 }
 
-const SCROLLED = ".scroll, .rail, .list, .choices",
-	fadeEnds = () => $$(SCROLLED).forEach(fadeEnd);
+const SCROLLED = ".scroll, .rail, .list, .choices";
+const fadeEnds = () => $$(SCROLLED).forEach(fadeEnd);
 
 addEventListener("scroll", e => e.target.matches?.(SCROLLED) && fadeEnd(e.target), true);
 
@@ -24,6 +24,7 @@ function onChoose(el, choose) {
 	};
 }
 
+/* Lists that are shown whole. */
 const unfolded = new Set();
 
 /* The first ones of a long list, and the button that shows the rest. */

@@ -1,8 +1,8 @@
 /* Charts of the study of speed. */
 
 /* What the study timed: the shading loop and whole pictures, in scalar code and in SIMD. */
-const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [],
-	oneLight = CORNERS.filter(c => c.lights === 1);
+const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [];
+const oneLight = CORNERS.filter(c => c.lights === 1);
 
 let cornerMode = "same";
 
@@ -17,24 +17,24 @@ const fastest = c =>
 
 /* Methods as lines; a place has a name, a note and values [v, low, high]. */
 function slopes(id, label, list, panes, nameOf, format, gap = 20) {
-	const el = $(id),
-		W = widthOf(el),
-		part = W < 460 ? W : W / panes.length,
-		l = 40,
-		t = 44,
-		b = Math.max(430, t + list.length * 16.5);
+	const el = $(id);
+	const W = widthOf(el);
+	const part = W < 460 ? W : W / panes.length;
+	const l = 40;
+	const t = 44;
+	const b = Math.max(430, t + list.length * 16.5);
 	if (!W || !list.length) return;
 	const pane = places => {
-		const values = list.flatMap(m => places.flatMap(p => p.values(m))),
-			last = m => format(places[places.length - 1].values(m)[0]),
-			valueAt = m => p => `${p.name} ${p.note} ${num(p.values(m)[0])}`,
-			tip = m => `${nameOf(m.method)}: ${places.map(valueAt(m)).join(", ")}`,
-			r =
-				part -
-				34 -
-				Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
-		const x = scale(false, 0, places.length - 1, l + 30, r),
-			y = logScale(values, 1.05, b, t);
+		const values = list.flatMap(m => places.flatMap(p => p.values(m)));
+		const last = m => format(places[places.length - 1].values(m)[0]);
+		const valueAt = m => p => `${p.name} ${p.note} ${num(p.values(m)[0])}`;
+		const tip = m => `${nameOf(m.method)}: ${places.map(valueAt(m)).join(", ")}`;
+		const r =
+			part -
+			34 -
+			Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
+		const x = scale(false, 0, places.length - 1, l + 30, r);
+		const y = logScale(values, 1.05, b, t);
 		return svg(
 			part,
 			b + 10,
@@ -71,8 +71,8 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 /* Draws both charts, of all methods or of those with the same picture. */
 function corners(mode) {
 	cornerMode = mode;
-	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]),
-		list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
+	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]);
+	const list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
 	slopes(
 		"#corners",
 		"Speed of methods in the shading loop and in whole pictures",

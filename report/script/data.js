@@ -6,14 +6,16 @@ const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
 const levelName = ({ level }) =>
 	level === "scalar" ? level : (LEVELS[level] ?? level.toUpperCase());
 
+/* A speed over another's; one that may be a tie is marked. */
 const ratioText = q =>
 	q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
 
-const D = JSON.parse($("#fastphong-data").textContent),
-	DOCS = [D, ...(D.beside ?? [])];
+/* The document, and those that it is laid beside. */
+const D = JSON.parse($("#fastphong-data").textContent);
+const DOCS = [D, ...(D.beside ?? [])];
 
-const BASE = D.baseline ?? "naive-phong",
-	BARY = "barycentric";
+const BASE = D.baseline ?? "naive-phong";
+const BARY = "barycentric";
 
 /* A row of a comparison: errors in grey levels, times in ms. */
 function rowOf(
@@ -46,11 +48,12 @@ function rowOf(
 	};
 }
 
+/* The scenes by their part of an address, and in the order of the document. */
 const S = {};
 
 const SCENES = (D.comparisons ?? []).map((c, number) => {
-	const plain = c.name.replace(/[^A-Za-z0-9]+/g, "-").replace(/^-|-$/g, ""),
-		id = plain && !S[plain] ? plain : `scene-${number + 1}`;
+	const plain = c.name.replace(/[^A-Za-z0-9]+/g, "-").replace(/^-|-$/g, "");
+	const id = plain && !S[plain] ? plain : `scene-${number + 1}`;
 	const rows = Object.fromEntries(
 		[...c.rows, ...c.barycentric].map(r => [
 			(r.engine === BARY ? "bary:" : "") + r.variant,
@@ -72,15 +75,17 @@ const SCENES = (D.comparisons ?? []).map((c, number) => {
 
 const ROWS = SCENES.flatMap(s => Object.values(s.rows));
 
-const METHODS = D.methods ?? [],
-	IDS = METHODS.map(m => m.name),
-	M = Object.fromEntries(METHODS.map(m => [m.name, m]));
+/* The methods, their names, and the methods by name. */
+const METHODS = D.methods ?? [];
+const IDS = METHODS.map(m => m.name);
+const M = Object.fromEntries(METHODS.map(m => [m.name, m]));
 
-const TIMED = ROWS.some(q => q.ratio),
-	MANY = SCENES.length > 1;
+/* What the document has: times, several scenes, figures, a study of speed, pictures. */
+const TIMED = ROWS.some(q => q.ratio);
+const MANY = SCENES.length > 1;
 
-const FIGURES = D.figures ?? [],
-	FINDINGS = FIGURES.flatMap(f => f.findings.map(x => ({ ...x, figure: f })));
+const FIGURES = D.figures ?? [];
+const FINDINGS = FIGURES.flatMap(f => f.findings.map(x => ({ ...x, figure: f })));
 
 const STUDY = D.speedups;
 const PICTURES = SCENES.some(s => s.drawn);

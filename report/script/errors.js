@@ -11,9 +11,9 @@ const errors = (s, m) =>
 			picture(s, "reference"),
 		]);
 		const grey = Float32Array.from({ length: 256 }, (_, c) =>
-				s.encoding === "srgb" ? 255 * fromSrgb(c / 255) : c,
-			),
-			apart = i => Math.abs(grey[here[i]] - grey[there[i]]);
+			s.encoding === "srgb" ? 255 * fromSrgb(c / 255) : c,
+		);
+		const apart = i => Math.abs(grey[here[i]] - grey[there[i]]);
 		return new Float32Array(s.w * s.h).map((_, i) =>
 			Math.max(apart(4 * i), apart(4 * i + 1), apart(4 * i + 2)),
 		);
@@ -34,8 +34,8 @@ const STOPS = [
 
 /* The scale in 256 colours, as pixels of a picture. */
 const HEAT = (() => {
-	const pen = create("canvas").getContext("2d"),
-		ramp = pen.createLinearGradient(0, 0, 256, 0);
+	const pen = create("canvas").getContext("2d");
+	const ramp = pen.createLinearGradient(0, 0, 256, 0);
 	STOPS.forEach((colour, i) => ramp.addColorStop(i / (STOPS.length - 1), colour));
 	pen.fillStyle = ramp;
 	pen.fillRect(0, 0, 256, 1);

@@ -1,5 +1,6 @@
 /* Findings: what figures measured of what a lecture says. */
 
+/* What a finding says of the lecture, as a sign. */
 const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
 
 /* How many findings have each verdict, of verdicts that there are. */
@@ -13,10 +14,10 @@ const chip = (verdict, label) =>
 
 /* A value with its unit, in scientific notation if far from 1. */
 function findingValue({ value, unit }) {
-	const size = Math.abs(value),
-		[digits, power] = value.toExponential(1).replace(/-/g, "−").replace("+", "").split("e");
-	const isFar = size && (size < 0.001 || size >= 1e6),
-		number = isFar ? html`${digits}·10<sup>${power}</sup>` : +value.toPrecision(4);
+	const size = Math.abs(value);
+	const [digits, power] = value.toExponential(1).replace(/-/g, "−").replace("+", "").split("e");
+	const isFar = size && (size < 0.001 || size >= 1e6);
+	const number = isFar ? html`${digits}·10<sup>${power}</sup>` : +value.toPrecision(4);
 	return html`${number} ${unit}`;
 }
 

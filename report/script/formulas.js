@@ -1,33 +1,33 @@
 /* Formulas as mathematics: MathML from what `fastphong explain` prints. */
 
-const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" },
-	FUNCTIONS = ["sin", "cos", "sqrt", "rsqrt", "min", "max"];
+const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" };
+const FUNCTIONS = ["sin", "cos", "sqrt", "rsqrt", "min", "max"];
 
 const SIGNS = { ".": "·", "*": "×", "-": "−", "...": "…" };
 
-const operator = t => html`<mo stretchy="false">${t}</mo>`,
-	group = parts => html`<mrow>${parts}</mrow>`;
+const operator = t => html`<mo stretchy="false">${t}</mo>`;
+const group = parts => html`<mrow>${parts}</mrow>`;
 
 /* Words are text: not names of one or two letters, of functions or of Greek letters. */
-const isSpace = t => /^\s+$/.test(t),
-	isWord = t =>
-		(/^[A-Za-z]{3,}$/.test(t) && !FUNCTIONS.includes(t) && !GREEK[t]) ||
-		["by", "of", "at", "to", "on", "eq"].includes(t);
+const isSpace = t => /^\s+$/.test(t);
+const isWord = t =>
+	(/^[A-Za-z]{3,}$/.test(t) && !FUNCTIONS.includes(t) && !GREEK[t]) ||
+	["by", "of", "at", "to", "on", "eq"].includes(t);
 
 /* A name: d… is a difference, trailing letters are an index, N, L, V and the like are vectors. */
 function symbol(t) {
 	if (/^\d/.test(t)) return html`<mn>${t}</mn>`;
 	if (GREEK[t]) return html`<mi>${GREEK[t]}</mi>`;
 	const difference = /^d[a-z]*$/.test(t)
-			? null
-			: /^(d*)([A-Za-z])([a-z0-9]*)(?:_(\w+))?$/.exec(t),
-		[, d, head, letters, mark] = difference ?? [t, "", t];
-	const deltas = d && html`<mi mathvariant="normal">${"Δ".repeat(d.length)}</mi>`,
-		letter = /^[NLVRHP]$/.test(head)
-			? html`<mi mathvariant="normal" class="vector">${head}</mi>`
-			: html`<mi>${head}</mi>`,
-		name = html`${deltas}${letter}`,
-		index = letters || mark;
+		? null
+		: /^(d*)([A-Za-z])([a-z0-9]*)(?:_(\w+))?$/.exec(t);
+	const [, d, head, letters, mark] = difference ?? [t, "", t];
+	const deltas = d && html`<mi mathvariant="normal">${"Δ".repeat(d.length)}</mi>`;
+	const letter = /^[NLVRHP]$/.test(head)
+		? html`<mi mathvariant="normal" class="vector">${head}</mi>`
+		: html`<mi>${head}</mi>`;
+	const name = html`${deltas}${letter}`;
+	const index = letters || mark;
 	return index ? html`<msub>${group(name)}${group(html`<mi>${index}</mi>`)}</msub>` : group(name);
 }
 
@@ -38,9 +38,9 @@ function fractions(items) {
 			while (items[i].loose && items[k + step] && !items[k + step].op) k += step;
 			return k;
 		};
-		const from = end(i - 1, -1),
-			to = Math.min(end(i + 1, 1), items.length - 1),
-			joined = (a, b) => group(items.slice(a, b).map(x => x.html));
+		const from = end(i - 1, -1);
+		const to = Math.min(end(i + 1, 1), items.length - 1);
+		const joined = (a, b) => group(items.slice(a, b).map(x => x.html));
 		items.splice(from, to - from + 1, {
 			html: html`<mfrac>${joined(from, i)}${joined(i + 1, to + 1)}</mfrac>`,
 		});
@@ -50,11 +50,11 @@ function fractions(items) {
 
 /* Reads tokens up to `close` as mathematics; takes them from the list. */
 function mathematics(tokens, close) {
-	const items = [],
-		push = (html, more) => items.push({ html, ...more });
+	const items = [];
+	const push = (html, more) => items.push({ html, ...more });
 	while (tokens.length) {
-		const t = tokens.shift(),
-			before = items[items.length - 1];
+		const t = tokens.shift();
+		const before = items[items.length - 1];
 		if (t === close) break;
 		if (isSpace(t)) {
 			if (before) before.gap = true;
@@ -71,8 +71,8 @@ function mathematics(tokens, close) {
 			push(html`<mtext>\u00a0${words.trim()}\u00a0</mtext>`, { op: true });
 		} else if (FUNCTIONS.includes(t) && tokens[0] === "(") {
 			tokens.shift();
-			const inner = group(mathematics(tokens, ")")),
-				root = html`<msqrt>${inner}</msqrt>`;
+			const inner = group(mathematics(tokens, ")"));
+			const root = html`<msqrt>${inner}</msqrt>`;
 			push(
 				t === "sqrt"
 					? root

@@ -1,17 +1,17 @@
 /* Charts of the growth of cost, and the table of costs fitted to it. */
 
-const curveName = c => (c.engine === "span" ? "lecture’s form" : nameOf(c.method)),
-	curveHue = c => (c.engine === "span" ? "var(--ink3)" : hue(c.method));
+const curveName = c => (c.engine === "span" ? "lecture’s form" : nameOf(c.method));
+const curveHue = c => (c.engine === "span" ? "var(--ink3)" : hue(c.method));
 
 /* Times of whole frames against a count. */
 function grow(id, keep, count, label) {
-	const el = $(id),
-		W = widthOf(el),
-		{ points, curves: all } = D.scaling,
-		chosen = points
-			.map((p, i) => ({ ...p, i, n: count(p) }))
-			.filter(p => !p.away && keep(p))
-			.sort(by(p => p.n));
+	const el = $(id);
+	const W = widthOf(el);
+	const { points, curves: all } = D.scaling;
+	const chosen = points
+		.map((p, i) => ({ ...p, i, n: count(p) }))
+		.filter(p => !p.away && keep(p))
+		.sort(by(p => p.n));
 	if (!W || chosen.length < 2) return;
 	const series = all
 		.map(c => ({
@@ -23,17 +23,17 @@ function grow(id, keep, count, label) {
 			points: chosen.filter(p => c.times[p.i]).map(p => [p.n, c.times[p.i].min_ns / 1e6]),
 		}))
 		.filter(s => s.points.length);
-	const ms = series.flatMap(s => s.points.map(p => p[1])),
-		l = 48,
-		r = W - (W < 480 ? 112 : 150),
-		b = 286;
+	const ms = series.flatMap(s => s.points.map(p => p[1]));
+	const l = 48;
+	const r = W - (W < 480 ? 112 : 150);
+	const b = 286;
 	const x = logScale(
-			chosen.map(p => p.n),
-			1,
-			l + 8,
-			r,
-		),
-		y = logScale(ms, 1.15, b, 14);
+		chosen.map(p => p.n),
+		1,
+		l + 8,
+		r,
+	);
+	const y = logScale(ms, 1.15, b, 14);
 	el.innerHTML = svg(W, 330, `Time of a frame by ${label}`, [
 		axisY(y, l, r + 8, y.ticks(40), " ms"),
 		axisX(x, b, x.ticks(70)),
@@ -55,18 +55,18 @@ const MISFIT = 0.5;
 
 /* Draws the table of fitted costs. */
 function costs() {
-	const all = D.scaling.curves.filter(c => c.costs),
-		list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT),
-		most = k => Math.max(...list.map(c => c.costs[k])) || 1;
+	const all = D.scaling.curves.filter(c => c.costs);
+	const list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT);
+	const most = k => Math.max(...list.map(c => c.costs[k])) || 1;
 	const misfit = c => {
 		const poor = !list.includes(c) && html` <span class="bad">poor fit</span>`;
 		return html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${poor}`;
 	};
 	// The span from which on less work a pixel pays for more work a span.
 	const even = c => {
-		const base = list.find(o => o.method === BASE && o.engine === c.engine)?.costs,
-			more = c.costs.span_ns - base?.span_ns,
-			saved = base?.pixel_ns - c.costs.pixel_ns;
+		const base = list.find(o => o.method === BASE && o.engine === c.engine)?.costs;
+		const more = c.costs.span_ns - base?.span_ns;
+		const saved = base?.pixel_ns - c.costs.pixel_ns;
 		return saved > 0 && list.includes(c) ? (more > 0 ? num(more / saved, 2) : "0") : "–";
 	};
 	$("#costs").innerHTML = table(

@@ -1,8 +1,8 @@
 /* Keys, and the buttons of the bar on top. */
 
 addEventListener("keydown", e => {
-	const v = view === "overview" ? v1 : view === "scenes" ? v2 : null,
-		on = e.target;
+	const v = view === "overview" ? v1 : view === "scenes" ? v2 : null;
+	const on = e.target;
 	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select") || $("#keys").open) return;
 	if (e.key === "?") return $("#keys").showModal();
 	if (!v || (e.key === " " && on.closest("button,a,.hit"))) return;
@@ -22,10 +22,10 @@ addEventListener("keydown", e => {
 $("#help").onclick = () => $("#keys").showModal();
 
 $("#theme").onclick = () => {
-	const { dataset } = ROOT,
-		dark = dataset.theme
-			? dataset.theme === "dark"
-			: matchMedia("(prefers-color-scheme:dark)").matches;
+	const { dataset } = ROOT;
+	const dark = dataset.theme
+		? dataset.theme === "dark"
+		: matchMedia("(prefers-color-scheme:dark)").matches;
 	dataset.theme = dark ? "light" : "dark";
 	try {
 		localStorage.setItem("fastphong-theme", dataset.theme);

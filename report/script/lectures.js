@@ -1,13 +1,16 @@
 /* View: lectures. Figures, and what they found. */
 
+/* The pictures of a figure, as addresses of images. */
 const figurePictures = f =>
 	memo("figures", () => JSON.parse($("#figure-pictures").textContent))[FIGURES.indexOf(f)] ?? [];
 
+/* How many findings of a figure have each verdict. */
 function chips(f, named) {
 	const all = counts(f.findings).map(([k, n]) => chip(k, n + (named ? " " + k : "")));
 	return html`<span class="chips">${all}</span>`;
 }
 
+/* The title of a figure, in short. */
 const topic = f => f.title.split(":")[0];
 
 /* The blocks of a figure. */
@@ -38,6 +41,7 @@ function figureBody(f) {
 	});
 }
 
+/* Draws the plots of a figure into the places that its text has for them. */
 function drawPlots(f) {
 	for (const el of $$("[data-plot]")) {
 		const { plot: p } = f.blocks[el.dataset.plot];
@@ -47,9 +51,9 @@ function drawPlots(f) {
 
 /* A figure's first pictures, or its first plot. */
 function preview(f) {
-	const first = f.blocks.find(b => b.plot)?.plot,
-		shown = f.blocks.flatMap(b => b.pictures?.shown ?? []),
-		files = figurePictures(f).slice(0, 3);
+	const first = f.blocks.find(b => b.plot)?.plot;
+	const shown = f.blocks.flatMap(b => b.pictures?.shown ?? []);
+	const files = figurePictures(f).slice(0, 3);
 	return files.length
 		? files.map((src, i) => html`<img src="${src}" alt="${shown[i].alt}">`)
 		: first && plot(first, 260, 112);
@@ -77,10 +81,10 @@ function figureLinks(shown) {
 
 /* #lectures, #lectures/wrong, #lectures/all, #lectures/FIGURE */
 function lectures([part = ""]) {
-	const body = $("#lecture-body"),
-		lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS },
-		list = lists[part],
-		[shown, more] = folded(list ?? [], 40, "findings");
+	const body = $("#lecture-body");
+	const lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS };
+	const list = lists[part];
+	const [shown, more] = folded(list ?? [], 40, "findings");
 	segments(
 		$("#lecture-tabs"),
 		() => part,

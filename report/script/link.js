@@ -1,8 +1,8 @@
 /* Addresses: #view/part?left=…&right=…&mode=…&x=…&y=…&zoom=…&row=… */
 
 /* The view that is shown; addresses are not remembered while one is being restored. */
-let view = "",
-	restoring = true;
+let view = "";
+let restoring = true;
 
 /* Goes to an address. */
 function go(hash) {
@@ -12,10 +12,10 @@ function go(hash) {
 
 /* Reads a viewer's state from an address. */
 function fromRoute(query, v) {
-	const given = Object.fromEntries(query),
-		whole = key => (given[key] && isFinite(given[key]) ? Math.floor(given[key]) : null),
-		s = S[given.scene] ?? v.scene,
-		state = { scene: s };
+	const given = Object.fromEntries(query);
+	const whole = key => (given[key] && isFinite(given[key]) ? Math.floor(given[key]) : null);
+	const s = S[given.scene] ?? v.scene;
+	const state = { scene: s };
 	if (given.left) state.a = given.left;
 	if (given.right) state.b = given.right;
 	if (given.left || given.right || given.mode)
@@ -38,23 +38,23 @@ function fromRoute(query, v) {
 function remember(v) {
 	if (restoring) return;
 	delay("remember", 60, () => {
-		const own = v === v1 ? "overview" : "scenes",
-			{ scene: s, pin } = v;
+		const own = v === v1 ? "overview" : "scenes";
+		const { scene: s, pin } = v;
 		if (view !== own) return;
-		const zoom = pin && v.z > 1 ? v.z.toFixed(1) : null,
-			state = {
-				scene: v === v1 && s !== SCENES[0] ? s.id : null,
-				left: v.a,
-				right: v.b,
-				mode: v.mode === "slide" ? null : v.mode,
-				scale: v.top || null,
-				x: pin?.[0],
-				y: pin?.[1],
-				zoom,
-				row: v.line,
-			};
-		const given = Object.entries(state).filter(([, value]) => value != null),
-			path = v === v1 ? own : `scenes/${s.id}`;
+		const zoom = pin && v.z > 1 ? v.z.toFixed(1) : null;
+		const state = {
+			scene: v === v1 && s !== SCENES[0] ? s.id : null,
+			left: v.a,
+			right: v.b,
+			mode: v.mode === "slide" ? null : v.mode,
+			scale: v.top || null,
+			x: pin?.[0],
+			y: pin?.[1],
+			zoom,
+			row: v.line,
+		};
+		const given = Object.entries(state).filter(([, value]) => value != null);
+		const path = v === v1 ? own : `scenes/${s.id}`;
 		history.replaceState(null, "", `#${path}?${new URLSearchParams(given)}`);
 	});
 }
@@ -62,10 +62,10 @@ function remember(v) {
 /* Shows the view that the address names, or the first that has something to show. */
 function route(e) {
 	clearTimeout(timers.remember);
-	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?"),
-		[asked, ...parts] = path.split("/").map(decodeURIComponent),
-		name = VIEWS[asked] && FILLED[asked] ? asked : FILLED.overview ? "overview" : "lectures",
-		changed = name !== view;
+	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?");
+	const [asked, ...parts] = path.split("/").map(decodeURIComponent);
+	const name = VIEWS[asked] && FILLED[asked] ? asked : FILLED.overview ? "overview" : "lectures";
+	const changed = name !== view;
 	view = name;
 	restoring = true;
 	$$(".view").forEach(s => s.classList.toggle("on", s.id === name));

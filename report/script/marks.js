@@ -5,15 +5,15 @@ const FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BA
 const SHAPES = $$("[id^=mark-]:not(#mark-diamond)").map(path => path.id.slice(5));
 
 for (const m of METHODS) {
-	const family = FAMILIES.indexOf(m.family),
-		members = METHODS.filter(o => o.family === m.family);
+	const family = FAMILIES.indexOf(m.family);
+	const members = METHODS.filter(o => o.family === m.family);
 	m.hue = family < 0 ? "var(--base)" : `var(--h${family % 11})`;
 	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
 	m.filling = members.indexOf(m) % 3;
 	m.head = members[0] === m;
 	// Over all scenes: the worst error, and the geometric mean of speeds.
-	const drawn = SCENES.filter(s => s.rows[m.name]),
-		ratios = drawn.map(s => s.rows[m.name].ratio?.median).filter(Boolean);
+	const drawn = SCENES.filter(s => s.rows[m.name]);
+	const ratios = drawn.map(s => s.rows[m.name].ratio?.median).filter(Boolean);
 	m.scene = [...drawn].sort(by(s => -s.rows[m.name].max))[0];
 	m.worst = m.scene?.rows[m.name];
 	m.max = m.worst?.max;
@@ -32,15 +32,16 @@ const order = m => IDS.indexOf(m.name);
 	});
 
 /* How a method is written, in words and by its key and colour. */
-const nameOf = m => M[m]?.label ?? m,
-	shortName = m => nameOf(m).replace(" Phong", ""),
-	hue = m => M[m]?.hue ?? "var(--ink3)";
+const nameOf = m => M[m]?.label ?? m;
+const shortName = m => nameOf(m).replace(" Phong", "");
+const hue = m => M[m]?.hue ?? "var(--ink3)";
 
 const keyOf = m => (m === "reference" ? "0" : M[m].key);
 
-const NAMED = $$(".answer .m").map(a => a.dataset.m),
-	BEST = NAMED[0] ?? IDS[IDS.length - 1],
-	MARKED = new Set([BASE, BEST, ...NAMED]);
+/* Methods that the answer names, the best of them, and those that charts emphasise. */
+const NAMED = $$(".answer .m").map(a => a.dataset.m);
+const BEST = NAMED[0] ?? IDS[IDS.length - 1];
+const MARKED = new Set([BASE, BEST, ...NAMED]);
 
 /* A few methods: those that the answer names, then the fastest. */
 const chosen = n =>
@@ -64,4 +65,5 @@ const mark = m => html`
 		${shape(m, 0, 0)}
 	</svg>`;
 
+/* A method's mark and name. */
 const named = m => html`${mark(m)}${nameOf(m)}`;

@@ -3,13 +3,15 @@
 /* Quotes a word for a shell where need be. */
 const quoted = w => (/^[\w\-./:=,+@%]+$/.test(w) ? w : `'${w.replace(/'/g, "'\\''")}'`);
 
+/* #measured */
 function measured() {
-	const command = D.command_line.map(quoted).join(" "),
-		{ machine } = D,
-		[scene] = SCENES,
-		rounds = ROWS.map(q => q.rounds).filter(Boolean);
+	const command = D.command_line.map(quoted).join(" ");
+	const { machine } = D;
+	const [scene] = SCENES;
+	const rounds = ROWS.map(q => q.rounds).filter(Boolean);
 	const about = ({ cpu, os, arch, rustc, version, commit }) =>
-		`${cpu}, ${os} ${arch}; ${rustc}; fastphong ${version}` + (commit ? `, commit ${commit}` : "");
+		`${cpu}, ${os} ${arch}; ${rustc}; fastphong ${version}` +
+		(commit ? `, commit ${commit}` : "");
 	const features =
 		machine.target_features.join() === "sse2"
 			? "baseline x86-64; wider instructions are chosen as it runs"
@@ -17,10 +19,7 @@ function measured() {
 	const facts = [
 		["machine", about(machine)],
 		["logical processors", machine.cores],
-		[
-			"build",
-			`${machine.profile}, opt-level ${machine.opt_level}, for ${features}`,
-		],
+		["build", `${machine.profile}, opt-level ${machine.opt_level}, for ${features}`],
 		["date", D.date],
 		["whole run", D.seconds && `${num(D.seconds)} s`],
 		[
@@ -38,9 +37,9 @@ function measured() {
 		...DOCS.slice(1).map((d, i) => [`beside it, ${i + 1}`, about(d.machine)]),
 	];
 	const spreads = ROWS.filter(q => q.p75)
-			.map(q => (q.p75 - q.p25) / q.ms)
-			.sort(by(v => v)),
-		typical = spreads[spreads.length >> 1] ?? 0;
+		.map(q => (q.p75 - q.p25) / q.ms)
+		.sort(by(v => v));
+	const typical = spreads[spreads.length >> 1] ?? 0;
 	$("#busy").hidden = typical < 0.1;
 	// A mesh alone is lit by the report, not by `compare`.
 	const again = [

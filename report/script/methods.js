@@ -1,5 +1,6 @@
 /* View: methods. */
 
+/* Kinds of operations, in the order of the document. */
 const OPERATIONS = [
 	"additions",
 	"multiplications",
@@ -24,12 +25,12 @@ const RATES = [
 function stack(counts, most) {
 	const list = counts.map((n, i) => [n, OPERATIONS[i], Math.min(i, 5)]).filter(([n]) => n);
 	if (!list.length) return html`<div class="hint">none</div>`;
-	const width = Math.max(4, (sum(counts) / most) * 100),
-		label = list.map(([n, what]) => `${n} ${what}`).join(", ");
+	const width = Math.max(4, (sum(counts) / most) * 100);
+	const label = list.map(([n, what]) => `${n} ${what}`).join(", ");
 	// Divisions, roots and the like are few, and get room for their number.
 	const parts = list.map(([n, what, i]) => {
-		const number = (n / most > 0.035 || i > 2) && n,
-			flex = `${n} 0 ${i > 2 ? 13 : 0}px`;
+		const number = (n / most > 0.035 || i > 2) && n;
+		const flex = `${n} 0 ${i > 2 ? 13 : 0}px`;
 		return html`<i class="o${i}" style="flex:${flex}" title="${n} ${what}">${number}</i>`;
 	});
 	return html`
@@ -38,18 +39,18 @@ function stack(counts, most) {
 
 /* What there is to say of a method. */
 function article(m, most) {
-	const { worst, scene: s } = m,
-		corner = CORNERS.find(c => c.work === "frame" && !c.scalar),
-		frame =
-			corner &&
-			ratioIn(
-				STUDY.methods.find(q => q.method === m.name),
-				corner,
-			);
-	const bad = worst?.max >= 1,
-		rates = RATES.map(([label, of]) => [label, of(m.operations[0])]).filter(
-			([, counts], i) => !i || sum(counts),
+	const { worst, scene: s } = m;
+	const corner = CORNERS.find(c => c.work === "frame" && !c.scalar);
+	const frame =
+		corner &&
+		ratioIn(
+			STUDY.methods.find(q => q.method === m.name),
+			corner,
 		);
+	const bad = worst?.max >= 1;
+	const rates = RATES.map(([label, of]) => [label, of(m.operations[0])]).filter(
+		([, counts], i) => !i || sum(counts),
+	);
 	const figures = [
 		m.speed && [
 			m.speed.toFixed(2) + TIMES,
@@ -65,9 +66,7 @@ function article(m, most) {
 	const verdict = bad
 		? html`<b>Fails</b> most in <a href="${link}">${s.title}</a>`
 		: html`<b>No visible failure</b> ${MANY ? `in ${SCENES.length} scenes` : "in this scene"}`;
-	const costs = rates.map(
-		([label, counts]) => html`<span>${label}</span>${stack(counts, most)}`,
-	);
+	const costs = rates.map(([label, counts]) => html`<span>${label}</span>${stack(counts, most)}`);
 	const kpis = figures.map(
 		([value, label, bad]) =>
 			html`<div><b class="${bad ? "bad" : ""}">${value}</b>${label}</div>`,
@@ -100,10 +99,11 @@ function article(m, most) {
 		</article>`;
 }
 
+/* #methods/METHOD */
 function methods([id]) {
 	if (id) unfolded.add("methods");
-	const el = $("#methodlist"),
-		[shown, more] = folded(METHODS, innerWidth < 1200 ? 6 : 12, "methods");
+	const el = $("#methodlist");
+	const [shown, more] = folded(METHODS, innerWidth < 1200 ? 6 : 12, "methods");
 	if ($$(".method", el).length < shown.length) {
 		const most = Math.max(
 			...METHODS.flatMap(m => RATES.map(([, of]) => sum(of(m.operations[0])))),

@@ -2,6 +2,7 @@
 
 const TIMES = "\u2009×";
 const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
+/* Compares by a number, for `sort`. */
 const by = f => (a, b) => f(a) - f(b);
 const grouped = n => n.toLocaleString("en");
 const sum = list => list.reduce((x, y) => x + y, 0);
@@ -17,6 +18,7 @@ function num(v, digits = 3) {
 	return v.toFixed(clamp(digits - 1 - Math.floor(Math.log10(size)), 0, 4));
 }
 
+/* A count of things. */
 const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
 const csvCell = c => (/[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : (c ?? ""));
 
@@ -26,6 +28,7 @@ const csv = list =>
 		.map(row => row.map(csvCell).join(",") + "\r\n")
 		.join("");
 
+/* The latest uses are last. */
 const memory = new Map();
 
 /* Keeps what `make` makes, and forgets what was not used for long. */
@@ -37,4 +40,5 @@ function memo(key, make) {
 	return kept;
 }
 
+/* A coordinate of a chart, to a tenth of a pixel. */
 const round = v => Math.round(v * 10) / 10;

@@ -2,33 +2,33 @@
 
 /* Speeds of a few methods in each scene, as a strip of marks. */
 function strip() {
-	const el = $("#strip"),
-		W = widthOf(el),
-		few = chosen(4),
-		value = (s, m) => s.rows[m]?.ratio?.median;
+	const el = $("#strip");
+	const W = widthOf(el);
+	const few = chosen(4);
+	const value = (s, m) => s.rows[m]?.ratio?.median;
 	if (!W || !few.length) return;
 	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(
-			by(s => -(value(s, few[0]) ?? 0)),
-		),
-		[rows, more] = folded(timed, 24, "scenes");
-	const [most, l] = W < 520 ? [19, 132] : [34, 208],
-		t = 8,
-		high = 20.5,
-		H = t + rows.length * high + 26,
-		values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
-	const x = logScale(values, 1.06, l, W - 14),
-		shown = [];
+		by(s => -(value(s, few[0]) ?? 0)),
+	);
+	const [rows, more] = folded(timed, 24, "scenes");
+	const [most, l] = W < 520 ? [19, 132] : [34, 208];
+	const t = 8;
+	const high = 20.5;
+	const H = t + rows.length * high + 26;
+	const values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
+	const x = logScale(values, 1.06, l, W - 14);
+	const shown = [];
 	for (const g of x.ticks(30))
 		shown.push(
 			line(x(g), t - 6, x(g), H - 22, g === 1 ? "one" : "grid"),
 			text(x(g), H - 7, g + (g === 1 ? TIMES : ""), "tick mid"),
 		);
 	rows.forEach((s, i) => {
-		const y = t + (i + 0.5) * high,
-			here = few.filter(m => value(s, m)),
-			at = here.map(m => x(value(s, m))),
-			speeds = here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`),
-			title = s.title.length > most ? s.title.slice(0, most - 1) + "…" : s.title;
+		const y = t + (i + 0.5) * high;
+		const here = few.filter(m => value(s, m));
+		const at = here.map(m => x(value(s, m)));
+		const speeds = here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`);
+		const title = s.title.length > most ? s.title.slice(0, most - 1) + "…" : s.title;
 		shown.push(html`
 			<a class="hit" href="#scenes/${s.id}">
 				<title>${s.title}: ${speeds.join(", ")}</title>
@@ -55,8 +55,8 @@ function waffle() {
 
 /* Shows where the lecture's fast method is worst. */
 function breakPair() {
-	const m = "fast-phong",
-		{ scene: s, worst } = M[m] ?? {};
+	const m = "fast-phong";
+	const { scene: s, worst } = M[m] ?? {};
 	$("#take-break").hidden = !worst || worst.max < 1 || !s.drawn;
 	if ($("#take-break").hidden) return;
 	write({
@@ -74,6 +74,7 @@ function breakPair() {
 /* The viewer of this view. */
 let v1;
 
+/* Makes the viewer, and has the chart choose what it shows. */
 function startOverview() {
 	const change = (v, changed) => {
 		if (!changed.view) pareto(v);
@@ -116,6 +117,7 @@ function startOverview() {
 	setTimeout(breakPair, 350);
 }
 
+/* #overview */
 function overview(_, query) {
 	if (FINDINGS.length) waffle();
 	if (!SCENES.length) return;

@@ -5,24 +5,24 @@ let basis = MANY ? "all" : "scene";
 
 /* Error against time of every method, and the line of those that nothing beats. */
 function pareto(v) {
-	const el = $("#pareto"),
-		s = v.scene,
-		all = basis === "all";
+	const el = $("#pareto");
+	const s = v.scene;
+	const all = basis === "all";
 	write({
 		"pareto-sub": all
 			? `Worst error in ${SCENES.length} scenes, mean time.`
 			: `${s.title}, ${s.w} × ${s.h}.`,
 	});
-	const W = widthOf(el),
-		H = Math.max(340, el.clientHeight / zoomOf()),
-		l = 46,
-		r = W - 14,
-		t = 24,
-		b = H - 48;
+	const W = widthOf(el);
+	const H = Math.max(340, el.clientHeight / zoomOf());
+	const l = 46;
+	const r = W - 14;
+	const t = 24;
+	const b = H - 48;
 	if (!W) return;
 	const points = IDS.filter(m => (all ? M[m].max != null : s.rows[m])).map(m => {
-		const { max, speed } = M[m],
-			q = s.rows[m];
+		const { max, speed } = M[m];
+		const q = s.rows[m];
 		return all
 			? { m, error: max, time: speed && 1 / speed, ratio: speed }
 			: { m, error: q.max, time: q.ms, ratio: q.ratio?.median, low: q.p25, high: q.p75 };
@@ -41,9 +41,9 @@ function pareto(v) {
 		t,
 	);
 	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
-	const one = clamp(y(1), t, b),
-		base = points.find(p => p.m === BASE),
-		shown = [];
+	const one = clamp(y(1), t, b);
+	const base = points.find(p => p.m === BASE);
+	const shown = [];
 	shown.push(
 		html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`,
 		axisY(
@@ -84,8 +84,8 @@ function pareto(v) {
 		steps.push([r, steps[steps.length - 1][1]]);
 		shown.push(curve(steps, "front"));
 	}
-	const same = "below one grey level: the same picture",
-		taken = [l, one + 3, l + textWidth(same), one + 20];
+	const same = "below one grey level: the same picture";
+	const taken = [l, one + 3, l + textWidth(same), one + 20];
 	if (b - one > 24) shown.push(text(l + 8, one + 16, same, "tick halo washed"));
 	for (const p of points) {
 		[p.left, p.right] = [p.m === v.a, p.m === v.b];
@@ -104,10 +104,10 @@ function pareto(v) {
 		],
 	);
 	for (const p of points) {
-		const time = timed && `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}`,
-			value = html`<tspan dx="4" class="value">${p.value}</tspan>`,
-			kind = `label halo ${p.left ? "bold" : ""}`,
-			ring = p.left || p.right ? "on" : "";
+		const time = timed && `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}`;
+		const value = html`<tspan dx="4" class="value">${p.value}</tspan>`;
+		const kind = `label halo ${p.left ? "bold" : ""}`;
+		const ring = p.left || p.right ? "on" : "";
 		shown.push(html`
 			<g class="hit" tabindex="0" role="button" data-key="${p.m}"
 				aria-pressed="${p.left}" style="color:${hue(p.m)}">

@@ -21,20 +21,21 @@ function add(more, base) {
 	return more;
 }
 
+/* Green, red − green and blue − green of a method's picture. */
 const planes = (s, m) =>
 	memo(`planes ${s.id} ${m}`, async () => {
 		const data = memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
 		if (m === "reference") return unpack(data.reference, s);
-		const { on = "reference", add: more } = data.rows[m],
-			base = await planes(s, on);
+		const { on = "reference", add: more } = data.rows[m];
+		const base = await planes(s, on);
 		return more ? add(await unpack(more, s), base) : base;
 	});
 
 /* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green, red. */
 function canvasOf(s, word) {
-	const canvas = create("canvas"),
-		image = new ImageData(s.w, s.h),
-		words = new Uint32Array(image.data.buffer);
+	const canvas = create("canvas");
+	const image = new ImageData(s.w, s.h);
+	const words = new Uint32Array(image.data.buffer);
 	[canvas.width, canvas.height] = [s.w, s.h];
 	for (let i = 0; i < words.length; i++) words[i] = word(i);
 	canvas.getContext("2d").putImageData(image, 0, 0);
@@ -55,6 +56,7 @@ const picture = (s, m) =>
 		);
 	});
 
+/* What is still to be drawn. */
 let queue = Promise.resolve();
 
 /* Does something when all else is done. */
@@ -95,8 +97,8 @@ const thumbs = root =>
 /* Draws a part of a picture around a pixel, its pixels as squares. */
 function crop(canvas, s, m, worst, w, h) {
 	[w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
-	const [cx, cy] = worst ?? [s.w / 2, s.h / 2],
-		x = Math.round(clamp(cx - w / 2, 0, s.w - w)),
-		y = Math.round(clamp(cy - h / 2, 0, s.h - h));
+	const [cx, cy] = worst ?? [s.w / 2, s.h / 2];
+	const x = Math.round(clamp(cx - w / 2, 0, s.w - w));
+	const y = Math.round(clamp(cy - h / 2, 0, s.h - h));
 	later(() => drawPart(canvas, s, m, [x, y, w, h], [w * 2, h * 2], false));
 }

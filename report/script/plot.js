@@ -4,30 +4,30 @@ const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
 
 /* Curves over one another, on axes unless the chart is a small one. */
 function plot(p, W, H) {
-	const small = H < 150,
-		series = p.series.map((s, i) => ({
-			...keyed(s, i),
-			points: s.points.filter(q => q.every(v => v != null && isFinite(v))),
-		})),
-		[l, r, t, b] = small ? [4, W - 4, 6, H - 6] : [52, W - 12, 22, H - 42];
+	const small = H < 150;
+	const series = p.series.map((s, i) => ({
+		...keyed(s, i),
+		points: s.points.filter(q => q.every(v => v != null && isFinite(v))),
+	}));
+	const [l, r, t, b] = small ? [4, W - 4, 6, H - 6] : [52, W - 12, 22, H - 42];
 	const axis = (values, [, kind], from, to) => {
-		const log = kind === "log",
-			list = values.filter(v => isFinite(v) && (!log || v > 0)),
-			low = Math.min(...list),
-			high = Math.max(...list);
+		const log = kind === "log";
+		const list = values.filter(v => isFinite(v) && (!log || v > 0));
+		const low = Math.min(...list);
+		const high = Math.max(...list);
 		return low < high
 			? scale(log, low, high, from, to)
 			: scale(log, low / 2 || -0.5, low * 2 || 0.5, from, to);
 	};
-	const points = series.flatMap(s => s.points),
-		x = axis([...points.map(q => q[0]), ...p.marks], p.x, l, r),
-		y = axis(
-			points.map(q => q[1]),
-			p.y,
-			b,
-			t,
-		),
-		at = ([u, v]) => [x(clamp(u, x.low, x.high)), y(clamp(v, y.low, y.high))];
+	const points = series.flatMap(s => s.points);
+	const x = axis([...points.map(q => q[0]), ...p.marks], p.x, l, r);
+	const y = axis(
+		points.map(q => q[1]),
+		p.y,
+		b,
+		t,
+	);
+	const at = ([u, v]) => [x(clamp(u, x.low, x.high)), y(clamp(v, y.low, y.high))];
 	const axes = small
 		? []
 		: [
@@ -48,7 +48,10 @@ const keyed = (s, i) => ({ colour: `var(${PLOT_HUES[i % 6]})`, kind: `dash${i % 
 
 /* A piece of each curve and its name. */
 function legend(series) {
-	const piece = [[0, 4], [26, 4]];
+	const piece = [
+		[0, 4],
+		[26, 4],
+	];
 	const entries = series.map(keyed).map(
 		s => html`
 			<span style="color:${s.colour}">

@@ -5,33 +5,33 @@ let probing = 0;
 
 /* Shows every method at the pixel pointed at, held, or worst. */
 async function probe(v) {
-	const s = v.scene,
-		turn = ++probing,
-		of = v.a === "reference" ? v.b : v.a,
-		rest = (v.rest = (!v.hover && !v.pin && s.rows[of]?.worst) || null),
-		pixel = v.hover ?? v.pin ?? rest;
+	const s = v.scene;
+	const turn = ++probing;
+	const of = v.a === "reference" ? v.b : v.a;
+	const rest = (v.rest = (!v.hover && !v.pin && s.rows[of]?.worst) || null);
+	const pixel = v.hover ?? v.pin ?? rest;
 	if (!s.drawn) return;
-	const list = ["reference", ...s.list],
-		at = pixel && pixel[1] * s.w + pixel[0],
-		found =
-			pixel &&
-			(await Promise.all(
-				list.map(async m => {
-					const [{ px }, map] = await Promise.all([picture(s, m), errors(s, m)]);
-					return [m, { colour: px.slice(4 * at, 4 * at + 3), error: map[at] }];
-				}),
-			));
+	const list = ["reference", ...s.list];
+	const at = pixel && pixel[1] * s.w + pixel[0];
+	const found =
+		pixel &&
+		(await Promise.all(
+			list.map(async m => {
+				const [{ px }, map] = await Promise.all([picture(s, m), errors(s, m)]);
+				return [m, { colour: px.slice(4 * at, 4 * at + 3), error: map[at] }];
+			}),
+		));
 	if (turn !== probing) return;
-	const here = Object.fromEntries(found ?? []),
-		shown = list.filter(
-			m =>
-				list.length < 17 ||
-				unfolded.has("methods") ||
-				m === v.a ||
-				m === v.b ||
-				keyOf(m) ||
-				MARKED.has(m),
-		);
+	const here = Object.fromEntries(found ?? []);
+	const shown = list.filter(
+		m =>
+			list.length < 17 ||
+			unfolded.has("methods") ||
+			m === v.a ||
+			m === v.b ||
+			keyOf(m) ||
+			MARKED.has(m),
+	);
 	const value = m => {
 		const { colour, error } = here[m] ?? {};
 		if (!pixel || m === "reference") return pixel && [...colour].join(" ");
@@ -55,8 +55,8 @@ async function probe(v) {
 	fill($("#probe-list"), html`${entries}${more}`);
 	if (!pixel) return;
 	// Seven by seven pixels around it, left and right, each ten times as large.
-	const pen = $("#probe canvas").getContext("2d"),
-		images = await Promise.all([picture(s, v.a), picture(s, v.b)]);
+	const pen = $("#probe canvas").getContext("2d");
+	const images = await Promise.all([picture(s, v.a), picture(s, v.b)]);
 	pen.imageSmoothingEnabled = false;
 	pen.strokeStyle = "#fff";
 	images.forEach(({ canvas }, n) => {

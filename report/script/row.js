@@ -17,12 +17,12 @@ function showRow(v, y) {
 
 /* Intensity of a row by each method, and its slope below. */
 async function rowPlot(v) {
-	const el = $("#rowplot-chart"),
-		s = v.scene;
+	const el = $("#rowplot-chart");
+	const s = v.scene;
 	if (v.line == null || !s.drawn) return;
-	const row = (v.line = clamp(v.pin ? v.pin[1] : v.line, 0, s.h - 1)),
-		list = ["reference", ...s.list],
-		pixels = await Promise.all(list.map(m => picture(s, m)));
+	const row = (v.line = clamp(v.pin ? v.pin[1] : v.line, 0, s.h - 1));
+	const list = ["reference", ...s.list];
+	const pixels = await Promise.all(list.map(m => picture(s, m)));
 	const greys = pixels.map(({ px }) =>
 		Array.from({ length: s.w }, (_, x) =>
 			// The weights of ITU-R BT.709.
@@ -35,8 +35,8 @@ async function rowPlot(v) {
 	const slopes = greys.map(g =>
 		g.map((_, x) => (g[Math.min(s.w - 1, x + 2)] - g[Math.max(0, x - 2)]) / 4),
 	);
-	const bold = m => m === v.a || m === v.b,
-		drawn = [...list].sort(by(bold));
+	const bold = m => m === v.a || m === v.b;
+	const drawn = [...list].sort(by(bold));
 	const chart = (values, label, H) =>
 		plot(
 			{
@@ -58,10 +58,7 @@ async function rowPlot(v) {
 	const names = list.map(
 		m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${named(m)}</button>`,
 	);
-	const charts = [
-		chart(greys, "grey level", 230),
-		chart(slopes, "slope, levels per pixel", 170),
-	];
+	const charts = [chart(greys, "grey level", 230), chart(slopes, "slope, levels per pixel", 170)];
 	fill(el, html`${charts}<div class="legend">${names}</div>`);
 	v.draw();
 }

@@ -1,8 +1,8 @@
 /* The table of all methods on a scene. */
 
 /* How the table is sorted, and what else it shows. */
-let sort = { key: TIMED ? "ratio" : "max", up: !TIMED },
-	options = { cols: false, bary: false };
+let sort = { key: TIMED ? "ratio" : "max", up: !TIMED };
+let options = { cols: false, bary: false };
 
 /* Columns of the table: key, head, a mark for those that are always shown. */
 const COLUMNS = [
@@ -25,9 +25,9 @@ const DESCENDING = ["ratio", "barycentric", "psnr", "ssim"];
 
 /* A speed over naive Phong's: its interval on the scale `x`, and its median. */
 function speedBar(r, m, x, width) {
-	const ends = [r.low, r.high].map(v => line(x(v), 3, x(v), 15, "whisker")),
-		verdict = r.tie ? "" : r.median > 1 ? "good" : "bad",
-		interval = `${r.low.toFixed(2)}–${r.high.toFixed(2)}`;
+	const ends = [r.low, r.high].map(v => line(x(v), 3, x(v), 15, "whisker"));
+	const verdict = r.tie ? "" : r.median > 1 ? "good" : "bad";
+	const interval = `${r.low.toFixed(2)}–${r.high.toFixed(2)}`;
 	return html`
 		<span class="speed">
 			<svg style="color:${hue(m)}" width="${width}" height="18" aria-hidden="true">
@@ -47,12 +47,12 @@ function sceneTable() {
 			? IDS.indexOf(q.variant)
 			: (q[sort.key]?.median ?? q[sort.key] ?? (sort.key === "psnr" ? 1e9 : -1));
 	const rows = Object.values(v2.scene.rows)
-			.filter(q => options.bary || !q.bary)
-			.sort(by(q => (sort.up ? 1 : -1) * value(q))),
-		[shown, more] = folded(rows, 15, "rows");
-	const ratios = rows.map(q => q.ratio).filter(Boolean),
-		slowest = Math.max(...rows.map(q => q.ms ?? 0)),
-		width = options.cols ? 104 : 170;
+		.filter(q => options.bary || !q.bary)
+		.sort(by(q => (sort.up ? 1 : -1) * value(q)));
+	const [shown, more] = folded(rows, 15, "rows");
+	const ratios = rows.map(q => q.ratio).filter(Boolean);
+	const slowest = Math.max(...rows.map(q => q.ms ?? 0));
+	const width = options.cols ? 104 : 170;
 	const x = scale(
 		true,
 		Math.min(0.77, ...ratios.map(r => r.low * 0.96)),
@@ -61,29 +61,25 @@ function sceneTable() {
 		width - 6,
 	);
 	const level = (e, q) =>
-			bar(
-				num(e),
-				100 * clamp(Math.log(e / 0.001) / Math.log(255 / 0.001), 0, 1),
-				hue(q.variant),
-			),
-		cells = {
-			max: level,
-			rms: level,
-			ms: (ms, q) => (ms ? bar(num(ms), (ms / slowest) * 100, hue(q.variant)) : "–"),
-			own: (e, q) =>
-				q.within === false
-					? html`<span title="more than rounding explains">! ${num(e)}</span>`
-					: num(e),
-			over1: grouped,
-			other: grouped,
-			barycentric: ratioText,
-			psnr: v => v?.toFixed(1) ?? "∞",
-			ssim: v => v?.toFixed(4) ?? "–",
-			ratio: (r, q) => (r ? speedBar(r, q.variant, x, width) : "–"),
-		};
-	const columns = COLUMNS.filter(([, , always]) => options.cols || always),
-		all = [["name", "method"], ...columns],
-		arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
+		bar(num(e), 100 * clamp(Math.log(e / 0.001) / Math.log(255 / 0.001), 0, 1), hue(q.variant));
+	const cells = {
+		max: level,
+		rms: level,
+		ms: (ms, q) => (ms ? bar(num(ms), (ms / slowest) * 100, hue(q.variant)) : "–"),
+		own: (e, q) =>
+			q.within === false
+				? html`<span title="more than rounding explains">! ${num(e)}</span>`
+				: num(e),
+		over1: grouped,
+		other: grouped,
+		barycentric: ratioText,
+		psnr: v => v?.toFixed(1) ?? "∞",
+		ssim: v => v?.toFixed(4) ?? "–",
+		ratio: (r, q) => (r ? speedBar(r, q.variant, x, width) : "–"),
+	};
+	const columns = COLUMNS.filter(([, , always]) => options.cols || always);
+	const all = [["name", "method"], ...columns];
+	const arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
 	const name = q => html`
 		<button class="name" data-key="row ${q.variant}">
 			${named(q.variant)}${q.bary && html` <small>barycentric</small>`}
@@ -107,6 +103,7 @@ function sceneTable() {
 	});
 }
 
+/* Sorts by a column, or shows the method of a row. */
 function chooseInTable(key, e) {
 	if (key.startsWith("row ")) return v2.show(key.slice(4), e.shiftKey);
 	sort = { key, up: sort.key === key ? !sort.up : !DESCENDING.includes(key) };
@@ -116,12 +113,12 @@ function chooseInTable(key, e) {
 /* Copies the shown table, with intervals, as Markdown. */
 async function copyMarkdown() {
 	const cell = c => {
-		const title = $("[title]", c)?.title,
-			words = c.textContent.replace(/[|\\`*_<]/g, "\\$&");
+		const title = $("[title]", c)?.title;
+		const words = c.textContent.replace(/[|\\`*_<]/g, "\\$&");
 		return title == null ? words : `${words} (${title})`;
 	};
-	const lines = $$("#table tr").map(tr => `| ${[...tr.cells].map(cell).join(" | ")} |\n`),
-		[head, ...rows] = lines;
+	const lines = $$("#table tr").map(tr => `| ${[...tr.cells].map(cell).join(" | ")} |\n`);
+	const [head, ...rows] = lines;
 	const markdown = head + head.replace(/[^|\n]+/g, " --: ").replace("--:", "---") + rows.join("");
 	try {
 		await navigator.clipboard.writeText(markdown);

@@ -3,11 +3,13 @@
 /* The viewer of this view. */
 let v2;
 
+/* Opens a scene with what the viewer shows; `stepScene` one after or before it. */
 const openScene = s =>
 	go(`scenes/${s.id}?left=${v2.a}&right=${v2.b}${v2.mode === "slide" ? "" : `&mode=${v2.mode}`}`);
 
 const stepScene = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % SCENES.length]);
 
+/* Makes the viewer and the controls. */
 function startScenes(s) {
 	const rail = $("#rail");
 	rail.innerHTML = html`${SCENES.map(
@@ -47,9 +49,10 @@ function startScenes(s) {
 	onChoose($("#table"), chooseInTable);
 }
 
+/* #scenes/SCENE */
 function scenes([id], query) {
-	const s = S[id] ?? v2?.scene ?? SCENES[0],
-		rail = $("#rail");
+	const s = S[id] ?? v2?.scene ?? SCENES[0];
+	const rail = $("#rail");
 	if (!v2) startScenes(s);
 	if (v2.scene !== s) Object.assign(v2, { pin: null, hover: null, z: 1, cx: 0.5, cy: 0.5 });
 	write({
@@ -74,16 +77,16 @@ function scenes([id], query) {
 
 /* What is known of a scene, in some words each. */
 function sceneFacts(s) {
-	const cut = s.triangulation,
-		reasons = {
-			culled: "facing away",
-			outside: "outside the view",
-			zero_area: "without area",
-			no_area: "without area",
-			cancelling: "whose lobes cancel",
-			edge_on: "edge-on",
-			unprojected: "at the plane of the eye",
-		};
+	const cut = s.triangulation;
+	const reasons = {
+		culled: "facing away",
+		outside: "outside the view",
+		zero_area: "without area",
+		no_area: "without area",
+		cancelling: "whose lobes cancel",
+		edge_on: "edge-on",
+		unprojected: "at the plane of the eye",
+	};
 	const left = Object.keys(reasons)
 		.filter(k => s.stats[k])
 		.map(k => `${grouped(s.stats[k])} ${reasons[k]}`);

@@ -1,10 +1,11 @@
 /* View: speed. */
 
+/* #speed */
 function speed() {
 	if (STUDY) {
-		const lecture = STUDY.methods.find(m => m.method === "fast-phong"),
-			entry = (m, c) =>
-				ratioIn(m, c) ? html`${nameOf(m.method)} <b>${ratioText(ratioIn(m, c))}</b>` : "–";
+		const lecture = STUDY.methods.find(m => m.method === "fast-phong");
+		const entry = (m, c) =>
+			ratioIn(m, c) ? html`${nameOf(m.method)} <b>${ratioText(ratioIn(m, c))}</b>` : "–";
 		$("#speed-summary").innerHTML = table(
 			["", ...oneLight.map(c => `${WORKS[c.work]}, ${levelName(c)}`)],
 			[

@@ -1,5 +1,6 @@
 /* The viewer: two pictures beside, over or after one another, or their errors. */
 
+/* Ways to compare by their keys, and what other keys and buttons do. */
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 
 const KEYS = {
@@ -58,9 +59,9 @@ class Viewer {
 	/* Changes scene, pictures or mode. */
 	async set(change) {
 		Object.assign(this, change);
-		const { root, scene: s } = this,
-			error = this.mode === "error",
-			known = (m, otherwise) => (m === "reference" || s.list.includes(m) ? m : otherwise);
+		const { root, scene: s } = this;
+		const error = this.mode === "error";
+		const known = (m, otherwise) => (m === "reference" || s.list.includes(m) ? m : otherwise);
 		this.top = Number(this.top);
 		this.a = known(this.a, s.list[0]);
 		this.b = known(this.b, "reference");
@@ -83,8 +84,8 @@ class Viewer {
 		this.change?.(this, change);
 		this.A = this.B = null;
 		if (!s.drawn) return;
-		const turn = ++this.turn,
-			image = m => (error ? errorMap(s, m, this.top) : picture(s, m));
+		const turn = ++this.turn;
+		const image = m => (error ? errorMap(s, m, this.top) : picture(s, m));
 		try {
 			const [A, B] = await Promise.all([
 				image(this.a),
@@ -109,29 +110,29 @@ class Viewer {
 
 	/* The part of the picture that a pane shows: scale, corner, size. */
 	view() {
-		const w = this.stage.clientWidth / (this.mode === "side" ? 2 : 1),
-			h = this.stage.clientHeight,
-			{ w: iw, h: ih } = this.scene;
-		const k = Math.min(w / iw, h / ih) * this.z,
-			corner = (centre, size, seen) =>
-				seen >= size ? (size - seen) / 2 : clamp(centre * size - seen / 2, 0, size - seen);
+		const w = this.stage.clientWidth / (this.mode === "side" ? 2 : 1);
+		const h = this.stage.clientHeight;
+		const { w: iw, h: ih } = this.scene;
+		const k = Math.min(w / iw, h / ih) * this.z;
+		const corner = (centre, size, seen) =>
+			seen >= size ? (size - seen) / 2 : clamp(centre * size - seen / 2, 0, size - seen);
 		return { k, x: corner(this.cx, iw, w / k), y: corner(this.cy, ih, h / k), w, h, iw, ih };
 	}
 
 	draw() {
 		// The stage and the buttons below it fit into the window.
-		const top = scrollY + this.stage.getBoundingClientRect().top,
-			others = top + $(".vfoot", this.root).offsetHeight + 9;
+		const top = scrollY + this.stage.getBoundingClientRect().top;
+		const others = top + $(".vfoot", this.root).offsetHeight + 9;
 		this.stage.style.maxHeight = `max(300px,100vh - ${others}px)`;
-		const view = this.view(),
-			{ k, w, h } = view;
+		const view = this.view();
+		const { k, w, h } = view;
 		if (!this.A || !w) return;
-		const ratio = devicePixelRatio || 1,
-			canvas = this.canvas,
-			pen = canvas.getContext("2d"),
-			side = this.mode === "side",
-			error = this.mode === "error",
-			panes = side ? 2 : 1;
+		const ratio = devicePixelRatio || 1;
+		const canvas = this.canvas;
+		const pen = canvas.getContext("2d");
+		const side = this.mode === "side";
+		const error = this.mode === "error";
+		const panes = side ? 2 : 1;
 		[canvas.width, canvas.height] = [w * ratio * panes, h * ratio];
 		pen.scale(ratio, ratio);
 		pen.imageSmoothingEnabled = k * ratio < 2.01 && this.z === 1;
@@ -148,16 +149,16 @@ class Viewer {
 				to - from,
 				h,
 			);
-		const second = this.side === "b" && !error,
-			from = side ? w + 1 : this.split * w;
+		const second = this.side === "b" && !error;
+		const from = side ? w + 1 : this.split * w;
 		pane(this.single && second ? this.B : this.A, 0, this.single ? w : side ? w - 1 : from);
 		if (!this.single) pane(this.B, from, w * panes, side ? w : 0);
 		const pixel = this.hover ?? this.pin ?? this.rest;
 		for (let n = 0; pixel && n < panes; n++) {
-			const size = Math.max(k, 9),
-				[x, y] = [(pixel[0] - view.x) * k + n * w, (pixel[1] - view.y) * k].map(
-					v => v - (size - k) / 2,
-				);
+			const size = Math.max(k, 9);
+			const [x, y] = [(pixel[0] - view.x) * k + n * w, (pixel[1] - view.y) * k].map(
+				v => v - (size - k) / 2,
+			);
 			for (const [width, colour] of [
 				[3, "#000a"],
 				[1.4, "#fff"],
@@ -176,10 +177,10 @@ class Viewer {
 		this.stage.classList.toggle("slides", this.slides);
 		this.stage.classList.toggle("zoomed", this.z > 1);
 		const label = (part, m, shown) => {
-			const el = $(part, this.root),
-				q = this.scene.rows[m];
-			const time = q?.ms ? ` · ${num(q.ms)} ms` : "",
-				about = q ? `max ${num(q.max)} levels${time}` : "f64, closed form";
+			const el = $(part, this.root);
+			const q = this.scene.rows[m];
+			const time = q?.ms ? ` · ${num(q.ms)} ms` : "";
+			const about = q ? `max ${num(q.max)} levels${time}` : "f64, closed form";
 			el.innerHTML = html`<b>${nameOf(m)}${error && " · error"}</b>${about}`;
 			el.classList.toggle("faint", !shown);
 		};
@@ -190,8 +191,8 @@ class Viewer {
 	}
 
 	drawScale() {
-		const bar = $(".heat", this.root),
-			ticks = this.top ? [0, this.top / 2, this.top] : [0, 1, 3, 10, 30, 100, 255];
+		const bar = $(".heat", this.root);
+		const ticks = this.top ? [0, this.top / 2, this.top] : [0, 1, 3, 10, 30, 100, 255];
 		bar.style.background = `linear-gradient(90deg, ${STOPS})`;
 		bar.innerHTML = html`${ticks.map(
 			t => html`<span style="left:${heat(t, this.top) * 100}%">${t}</span>`,
@@ -200,9 +201,9 @@ class Viewer {
 
 	/* Zooms by a factor, 0 for the whole picture, around a point of the stage. */
 	zoom(factor, x, y) {
-		const view = this.view(),
-			z = clamp(this.z * factor, 1, 32),
-			k = (view.k / this.z) * z;
+		const view = this.view();
+		const z = clamp(this.z * factor, 1, 32);
+		const k = (view.k / this.z) * z;
 		if (x == null)
 			[x, y] = this.pin
 				? [(this.pin[0] + 0.5 - view.x) * view.k, (this.pin[1] + 0.5 - view.y) * view.k]
@@ -229,9 +230,9 @@ class Viewer {
 
 	/* A point of the window on the stage: in its pane, and as a part of its width. */
 	local({ clientX, clientY }) {
-		const box = this.stage.getBoundingClientRect(),
-			view = this.view(),
-			x = clientX - box.left;
+		const box = this.stage.getBoundingClientRect();
+		const view = this.view();
+		const x = clientX - box.left;
 		return {
 			x: this.mode === "side" ? x % view.w : x,
 			y: clientY - box.top,
@@ -241,8 +242,8 @@ class Viewer {
 	}
 
 	pixelAt(e) {
-		const { x, y, view } = this.local(e),
-			pixel = [Math.floor(view.x + x / view.k), Math.floor(view.y + y / view.k)];
+		const { x, y, view } = this.local(e);
+		const pixel = [Math.floor(view.x + x / view.k), Math.floor(view.y + y / view.k)];
 		return pixel.every((v, i) => v >= 0 && v < [view.iw, view.ih][i]) ? pixel : null;
 	}
 
@@ -261,8 +262,8 @@ class Viewer {
 
 	/* One finger or the mouse moves the divider, or a zoomed picture; two fingers zoom. */
 	listen() {
-		const stage = this.stage,
-			fingers = new Map();
+		const stage = this.stage;
+		const fingers = new Map();
 		const pair = () => {
 			const [p, q] = [...fingers.values()];
 			return {
@@ -276,8 +277,8 @@ class Viewer {
 			if (e.button) return;
 			fingers.set(e.pointerId, e);
 			stage.setPointerCapture(e.pointerId);
-			const { part } = this.local(e),
-				near = Math.abs(part - this.split) * stage.clientWidth < 24;
+			const { part } = this.local(e);
+			const near = Math.abs(part - this.split) * stage.clientWidth < 24;
 			gesture = {
 				kind: this.slides && (near || this.z === 1) ? "split" : "pan",
 				from: e,
@@ -290,12 +291,12 @@ class Viewer {
 		};
 		stage.onpointermove = e => {
 			if (fingers.has(e.pointerId)) fingers.set(e.pointerId, e);
-			const { part, view } = this.local(e),
-				kind = gesture?.kind;
+			const { part, view } = this.local(e);
+			const kind = gesture?.kind;
 			if (kind === "pinch") {
 				if (fingers.size < 2) return;
-				const { apart, ...middle } = pair(),
-					{ x, y } = this.local(middle);
+				const { apart, ...middle } = pair();
+				const { x, y } = this.local(middle);
 				return this.zoom((gesture.z * apart) / gesture.apart / this.z, x, y);
 			}
 			if (gesture) {
@@ -347,11 +348,9 @@ class Viewer {
 	/* Holds the pixel, or lets it go; without a probe, flips or moves the divider. */
 	tap(e) {
 		if (this.probe) {
-			const pixel = this.pixelAt(e),
-				again =
-					this.pin &&
-					pixel &&
-					Math.hypot(pixel[0] - this.pin[0], pixel[1] - this.pin[1]) < 4;
+			const pixel = this.pixelAt(e);
+			const again =
+				this.pin && pixel && Math.hypot(pixel[0] - this.pin[0], pixel[1] - this.pin[1]) < 4;
 			this.hold(again ? null : pixel);
 		} else if (this.mode === "flip") this.flip();
 		else if (this.slides) this.move(this.local(e).part);
@@ -372,9 +371,9 @@ class Viewer {
 	}
 
 	worst() {
-		const m = this.a === "reference" ? this.b : this.a,
-			q = this.scene.rows[m],
-			{ w, h } = this.scene;
+		const m = this.a === "reference" ? this.b : this.a;
+		const q = this.scene.rows[m];
+		const { w, h } = this.scene;
 		if (!q?.worst) return toast("No pixel differs");
 		Object.assign(this, {
 			z: 12,
@@ -398,8 +397,8 @@ class Viewer {
 
 	/* True if the key was one of the viewer's. */
 	key(e) {
-		const digit = /^Digit(\d)$/.exec(e.code)?.[1],
-			action = KEYS[e.key.toLowerCase()];
+		const digit = /^Digit(\d)$/.exec(e.code)?.[1];
+		const action = KEYS[e.key.toLowerCase()];
 		if (!digit) return !!action && action(this, e) !== false;
 		const m = ["reference", ...IDS].find(i => keyOf(i) === digit);
 		if (m) this.show(m, e.shiftKey);
