@@ -99,17 +99,22 @@ pub fn srgb_decode(encoded: f64) -> f64 {
     libm::pow((encoded + 0.055) / 1.055, 2.4)
 }
 
-/// Stores linear pixels with a transfer function, as fast as a table look-up and as exactly as the function itself.
+/// Stores linear pixels with a transfer function, as fast as two table look-ups and as exactly as the function itself.
 #[derive(Debug)]
 pub struct Encoder {
-    /// The least intensity that is stored as each level; two that no intensity reaches at the end.
+    /// The least intensity that is stored as each level; one that no intensity reaches at the end.
     least: [f32; 257],
-    /// The level of the lowest intensity in each of equal parts of 0..=1.
+    /// The level of the lowest intensity in each part: parts are the floats of the same upper bits.
     guess: [u8; Encoder::PARTS + 1],
 }
 
 impl Encoder {
-    const PARTS: usize = 1024;
+    /// Bits of a float below those that tell its part: 7 bits of its mantissa are left, 128 parts an octave. The function is steepest for
+    /// its octave below 1, where a part of 2⁻⁸ holds 0.7 levels: so no part holds the beginnings of two.
+    const BITS: u32 = 16;
+    /// Intensities below this, 2⁻¹³, are stored as 0: level 1 begins at 0.5 / 255 / 12.92, above 2⁻¹³.
+    const DARK: f32 = 1.0 / 8192.0;
+    const PARTS: usize = 13 << (23 - Encoder::BITS);
 
     /// Makes the encoder of the sRGB transfer function.
     pub fn srgb() -> Self {
@@ -128,21 +133,33 @@ impl Encoder {
         }
         let mut guess = [0; Self::PARTS + 1];
         for (part, guess) in guess.iter_mut().enumerate() {
-            *guess = level(part as f32 / Self::PARTS as f32);
+            *guess = level(Self::first_of(part));
         }
-        Encoder { least, guess }
+        let encoder = Encoder { least, guess };
+        debug_assert!(
+            (0..Self::PARTS).all(|part| {
+                let last = Self::first_of(part + 1).next_down();
+                level(last) <= encoder.guess[part] + 1
+            }),
+            "no part holds the beginnings of two levels"
+        );
+        encoder
+    }
+
+    /// Returns the lowest intensity in a part.
+    fn first_of(part: usize) -> f32 {
+        f32::from_bits(Self::DARK.to_bits() + ((part as u32) << Self::BITS))
     }
 
     /// Returns the stored level of intensity `c`: that of [`srgb_encode`] and [`quantise`].
     #[inline(always)]
     pub fn level(&self, c: f32) -> u8 {
-        let c = if c > 0.0 { c } else { 0.0 };
+        // In this order NaN is stored as 0.
+        let c = if c > Self::DARK { c } else { Self::DARK };
         let c = if c < 1.0 { c } else { 1.0 };
-        let mut level = self.guess[(c * Self::PARTS as f32) as usize];
-        while c >= self.least[usize::from(level) + 1] {
-            level += 1;
-        }
-        level
+        let part = (c.to_bits() - Self::DARK.to_bits()) >> Self::BITS;
+        let level = self.guess[part as usize];
+        level + u8::from(c >= self.least[usize::from(level) + 1])
     }
 
     /// Returns a linear pixel as it is stored; alpha has no transfer function.
