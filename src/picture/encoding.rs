@@ -139,7 +139,7 @@ impl Encoder {
         debug_assert!(
             (0..Self::PARTS).all(|part| {
                 let last = Self::first_of(part + 1).next_down();
-                level(last) <= encoder.guess[part] + 1
+                level(last) <= encoder.guess[part].saturating_add(1)
             }),
             "no part holds the beginnings of two levels"
         );
