@@ -1,4 +1,4 @@
-//! Phong shading on a scanline rasterizer: 14 methods to run, time, look at and check against an f64 reference.
+//! Phong shading on a scanline rasterizer: 21 methods to run, time, look at and check against an f64 reference.
 //!
 //! *Lecture 21: Shading* (L21) shades polygons on a scan-line rasterizer: flat, with vertex colours (Gouraud), with interpolated normals
 //! (Phong), and then draws Phong's picture for a few additions per pixel. Each of these is a *method* here: one file and one
@@ -46,6 +46,7 @@
 //! | a rasterizer of your own | [`shading::SpanShader`]: a method without an engine |
 //! | numbers of your own at vertices | [`mesh::MeshBuilder::attributes`], [`frame::FrameBuilder::attributes`], [`shading::Lit::attributes`] |
 //! | engines | [`raster`]: scan lines as in the lecture, SIMD rows, barycentric coordinates to compare with |
+//! | a processor without a floating-point unit | [`integer`]: spans and triangles in fixed point |
 //! | errors, times | [`compare::metrics::compare`], [`compare::metrics::difference_map`], [`shading::Variant::operations`] |
 //!
 //! Vectors of scenes and meshes are those of [`glam`], coordinates on the picture numbers of [`fixed`]: both are re-exported, so that
@@ -53,30 +54,56 @@
 //!
 //! # Features
 //!
-//! Without features the crate is `no_std` (with `alloc`): no files, no clocks, and the same bits on every platform, as all
+//! Without features the crate is [`integer`] alone: `no_std` without an allocator, for processors without a floating-point unit.
+//! `alloc` adds all else that needs no operating system: no files, no clocks, and the same bits on every platform, as all
 //! functions beyond + − × ÷ and the root are from `libm`. `std` takes roots from the hardware. `io` reads and writes
 //! files: scenes (TOML), meshes (OBJ), pictures (PNG, PPM, PFM). `threads` works on several threads, those of rayon's
 //! current pool, and changes no bit. `cli`, the default, is the command-line tool.
 #![no_std]
+#[cfg(feature = "alloc")]
 extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
 pub use fixed;
+#[cfg(feature = "alloc")]
 pub use glam;
 
+#[cfg(feature = "alloc")]
 pub mod compare;
+#[cfg(feature = "alloc")]
 pub mod frame;
+pub mod integer;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod lectures;
+#[cfg(feature = "alloc")]
 pub mod mesh;
+#[cfg(feature = "alloc")]
 pub mod number;
+#[cfg(feature = "alloc")]
 pub mod picture;
+#[cfg(feature = "alloc")]
 pub mod raster;
+#[cfg(feature = "alloc")]
 pub mod reference;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod report;
+#[cfg(feature = "alloc")]
 pub mod scene;
+#[cfg(feature = "alloc")]
 pub mod shading;
+
+/// Shared ownership and atomics, also on processors without compare-and-swap.
+#[cfg(feature = "alloc")]
+mod sync {
+    #[cfg(target_has_atomic = "ptr")]
+    pub use alloc::sync::Arc;
+    #[cfg(target_has_atomic = "ptr")]
+    pub use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+    #[cfg(not(target_has_atomic = "ptr"))]
+    pub use portable_atomic::{AtomicBool, AtomicUsize, Ordering};
+    #[cfg(not(target_has_atomic = "ptr"))]
+    pub use portable_atomic_util::Arc;
+}

@@ -10,7 +10,7 @@ use crate::picture::{Alpha, Encoding, Rgb};
 use crate::scene::{
     Clipping, Falloff, HiddenSurfaces, Interpolation, LightTerm, Lighting, Place, Scene,
 };
-use alloc::sync::Arc;
+use crate::sync::Arc;
 use alloc::vec::Vec;
 
 /// A builder of a frame: collects vertices and polygons, then checks them once, so no reader of the frame needs to.

@@ -24,7 +24,7 @@ pub use projection::PreparedScene;
 
 use crate::picture::{Alpha, Encoding, Rgb};
 use crate::scene::{Clipping, HiddenSurfaces, Interpolation, Lighting, Scene};
-use alloc::sync::Arc;
+use crate::sync::Arc;
 use alloc::vec::Vec;
 use projection::Scratch;
 

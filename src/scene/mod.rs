@@ -23,7 +23,7 @@ pub use settings::{
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, PolygonMesh};
 use crate::picture::{Encoding, Rgb};
-use alloc::sync::Arc;
+use crate::sync::Arc;
 use alloc::vec::Vec;
 use glam::{DAffine3, DVec3};
 

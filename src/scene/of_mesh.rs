@@ -3,7 +3,7 @@
 use super::{Camera, Fit, Light, Object, Projection, Scene};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, PolygonMesh};
-use alloc::sync::Arc;
+use crate::sync::Arc;
 use alloc::vec;
 use glam::{DAffine3, DVec3};
 

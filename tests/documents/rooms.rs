@@ -8,6 +8,8 @@ use std::fs;
 
 /// The rooms in order, with the rooms that each may import. These stand before it.
 const ROOMS: &[(&str, &str)] = &[
+    // It stands alone: all that a machine without an allocator has.
+    ("integer", ""),
     ("picture", ""),
     ("number", "picture"),
     ("mesh", "picture number"),
@@ -16,7 +18,7 @@ const ROOMS: &[(&str, &str)] = &[
     // `number`, `shading` and `raster` must stay out: the reference shares no arithmetic with the
     // engines.
     ("reference", "picture scene frame"),
-    ("shading", "number mesh scene frame reference"),
+    ("shading", "integer number mesh scene frame reference"),
     // `painter.rs` needs the reference's exact spans. The engines need nothing of it.
     ("raster", "picture number scene frame reference shading"),
     (

@@ -10,6 +10,9 @@ use std::process::Command;
 /// Files under `src` that may be longer than [`MOST_LINES`], with the reason.
 const LONG_FILES: &[(&str, &str)] = &[];
 
+/// The one file that talks to a bare machine: the rules of the crate's own code do not reach it.
+const MACHINE: &str = "examples/small/src/machine.rs";
+
 /// The most lines of code, without comments and tests. A longer file should be split by concept.
 const MOST_LINES: usize = 700;
 
@@ -263,7 +266,8 @@ fn source_files_are_short_and_keep_the_rules() {
                 ("dbg", "!("),
             ] {
                 let word = format!("{head}{tail}");
-                assert!(!source.contains(&word), "{name} has {word}");
+                let is_free = name == MACHINE && head == "unsafe";
+                assert!(is_free || !source.contains(&word), "{name} has {word}");
             }
             for attic in ATTICS {
                 let named = file.file_stem().is_some_and(|s| s == attic)

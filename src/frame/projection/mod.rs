@@ -21,7 +21,7 @@ mod winding;
 use super::{DepthRange, Frame, FrameError, FrameStats, Geometry, Polygon};
 use crate::mesh::Material;
 use crate::scene::{Camera, Light, Scene};
-use alloc::sync::Arc;
+use crate::sync::Arc;
 use alloc::vec::Vec;
 use cut::Cutting;
 use glam::DVec3;

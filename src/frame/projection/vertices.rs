@@ -5,7 +5,7 @@ use crate::frame::{FrameError, Models, ScreenVertex, SubPixel};
 use crate::number::parallel::for_each_chunk;
 use crate::number::vectorized;
 use crate::scene::{Clipping, Projection};
-use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use crate::sync::{AtomicBool, AtomicUsize, Ordering};
 use glam::{DMat4, DVec4};
 
 /// Vertices that are placed together, in arrays of their coordinates, so that the compiler makes vectors of them.

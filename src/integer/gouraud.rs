@@ -1,0 +1,84 @@
+//! Gouraud shading: colours by two additions a pixel.
+
+use super::pixel::{Pixel, halves};
+use super::reciprocal::Reciprocal;
+
+/// Shades `line`, of at most 256 pixels, from the colour of its first pixel to that of the pixel
+/// after its last, both in fields: see [`colour`](super::colour).
+///
+/// Red and blue share a sum, so that I_next = I + ΔI (L21 3.6) takes two additions for three channels.
+/// Steps are cut toward 0: so no channel leaves the values at its ends, and none carries into another.
+/// The sum is right to n 2⁻¹⁶ of the range, 1 level for 256 pixels.
+#[inline(always)]
+pub fn gouraud<P: Pixel>(line: &mut [P], first: u32, end: u32) {
+    let n = Reciprocal::of(line.len());
+    let (from, to) = (halves(first), halves(end));
+    let red = step(from.0 >> 16, to.0 >> 16, n);
+    let blue = step(from.0 & 0xFFFF, to.0 & 0xFFFF, n);
+    let green = step(from.1, to.1, n);
+    run(
+        line,
+        from,
+        ((red << 16).wrapping_add(blue) as u32, green as u32),
+    );
+}
+
+/// Returns the growth from one number of 16 bits to another over n pixels, cut toward 0.
+///
+/// The product is below 2¹⁶ · 2¹⁵.
+#[inline(always)]
+fn step(first: u32, end: u32, n: Reciprocal) -> i32 {
+    let product = (end as i32 - first as i32) * n.mantissa;
+    // The shift cuts downward: one more where it is negative. That is too much only by one unit.
+    (product >> (14 + n.shift)) - (product >> 31)
+}
+
+/// Shades `line` from a colour and its growth per pixel, in halves.
+#[inline(always)]
+pub(super) fn run<P: Pixel>(line: &mut [P], from: (u32, u32), step: (u32, u32)) {
+    let (mut red_blue, mut green) = from;
+    for pixel in line {
+        *pixel = P::from_halves(red_blue, green);
+        red_blue = red_blue.wrapping_add(step.0); // 3.6
+        green = green.wrapping_add(step.1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pixel::Rgb888;
+    use super::*;
+
+    /// Steps are cut toward 0, so that none of the three channels passes its ends or carries.
+    #[test]
+    fn every_channel_stays_between_its_ends() {
+        let level = |[r, g, b]: [u32; 3]| r << 12 | g << 23 | b << 1 | 1 | 2 << 21 | 1 << 11;
+        for (first, end) in [
+            ([255, 0, 255], [0, 255, 0]),
+            ([0, 255, 0], [255, 0, 255]),
+            ([0, 0, 0], [1, 2, 255]),
+            ([7, 8, 255], [6, 9, 254]),
+            ([200, 200, 200], [200, 200, 200]),
+        ] {
+            for n in (1..=256).chain([320, 777, 1024]) {
+                let mut line = std::vec![Rgb888([0; 3]); n];
+                gouraud(&mut line, level(first), level(end));
+                assert_eq!(line[0].0.map(u32::from), first);
+                for (i, pixel) in line.iter().enumerate() {
+                    for c in 0..3 {
+                        let (from, to) = (f64::from(first[c]), f64::from(end[c]));
+                        let exact = from + (to - from) * i as f64 / n as f64;
+                        let found = f64::from(pixel.0[c]);
+                        assert!(found >= from.min(to) && found <= from.max(to));
+                        // Rounding, and n units of 16 bits.
+                        let limit = 0.51 + n as f64 / 256.0;
+                        assert!(
+                            (found - exact).abs() <= limit,
+                            "{n}, {i}: {found}, not {exact}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

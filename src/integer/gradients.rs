@@ -1,0 +1,165 @@
+//! Plane equations over a triangle: how a value at its corners grows from pixel to pixel.
+
+use super::scan::{Point, first_centre};
+use core::num::NonZeroU32;
+
+/// The most that a value may grow by per pixel, with 30 fractional bits: ⅛.
+pub(super) const STEEP: i32 = 1 << 27;
+
+/// A value over the triangle: f(x, y) = f_0 + x ∂f/∂x + y ∂f/∂y at pixel centres, counted from the pixel
+/// `origin` of the triangle's [`Gradients`].
+///
+/// Values have 30 fractional bits. Sums may wrap, as they are right modulo 2³²: within the triangle a
+/// value lies between those of its corners.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Plane {
+    /// The value at the origin.
+    value: i32,
+    /// The growth per column.
+    pub(super) step: i32,
+    /// The growth per row.
+    row: i32,
+}
+
+impl Plane {
+    /// Returns the value at the centre of a pixel, x and y from the origin.
+    #[inline(always)]
+    pub(super) fn at(&self, [x, y]: Point) -> i32 {
+        let along = self.step.wrapping_mul(x);
+        let down = self.row.wrapping_mul(y);
+        self.value.wrapping_add(along).wrapping_add(down)
+    }
+}
+
+/// What all planes over a triangle share.
+#[derive(Clone, Copy)]
+pub(super) struct Gradients {
+    /// Corners 1 and 2 from corner 0, in 2^−(8 − `coarse`) pixels, each number below 2¹³.
+    sides: [Point; 2],
+    coarse: u32,
+    /// The bits of twice the area in those units squared, and 2³¹ over it when it is shifted to 16 bits.
+    bits: u32,
+    inverse: u32,
+    first: Point,
+    /// The pixel with the first centre right of corner 0 and below it.
+    origin: Point,
+}
+
+impl Gradients {
+    /// Returns them, if the triangle is not seen from behind.
+    pub(super) fn new([a, b, c]: [Point; 3]) -> Option<Self> {
+        let sides = [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]];
+        let spread = sides.map(|s| s[0].unsigned_abs() | s[1].unsigned_abs());
+        // Sides of 32 pixels and more lose their lowest bits: 2⁻¹³ of them.
+        let coarse = (32 - (spread[0] | spread[1]).leading_zeros()).saturating_sub(13);
+        let half = (1 << coarse) >> 1;
+        let sides = sides.map(|s| s.map(|x| ((x + half) >> coarse).min(8191)));
+        let area = sides[0][0] * sides[1][1] - sides[1][0] * sides[0][1];
+        // Where bits were lost, the sign of a small area is open. The scan decides.
+        if area <= -16384 || area <= 0 && coarse == 0 {
+            return None;
+        }
+        let area = area.max(1);
+        let bits = 32 - (area as u32).leading_zeros();
+        let normal = (area as u32) << (32 - bits) >> 16;
+        let inverse = 0x8000_0000 / NonZeroU32::new(normal).unwrap_or(NonZeroU32::MIN);
+        let origin = [first_centre(a[0]), first_centre(a[1])];
+        Some(Self {
+            sides,
+            coarse,
+            bits,
+            inverse,
+            first: a,
+            origin,
+        })
+    }
+
+    /// Returns the plane of values with 15 fractional bits from −1 to 1, or `None` if it is steep.
+    #[inline(always)]
+    pub(super) fn plane(&self, values: [i32; 3]) -> Option<Plane> {
+        let [first, ..] = values;
+        let (step, row) = self.growth(values)?;
+        Some(self.at_origin(first << 15, step, row))
+    }
+
+    /// Returns the plane of values of 16 bits, over 2¹⁶, or `None` if it is steep.
+    #[inline(always)]
+    pub(super) fn plane16(&self, values: [u16; 3]) -> Option<Plane> {
+        let [first, ..] = values;
+        let (step, row) = self.growth(values.map(i32::from))?;
+        Some(self.at_origin(i32::from(first) << 14, step >> 1, row >> 1))
+    }
+
+    /// Moves a plane from corner 0 to the pixel centre beside it.
+    #[inline(always)]
+    fn at_origin(&self, value: i32, step: i32, row: i32) -> Plane {
+        let [x, y] = self.offset(self.origin[0], self.origin[1]);
+        // Steps below 2²⁷ times 256 sub-pixels, less 5 bits: 2³⁰.
+        let part = |step: i32, by: i32| ((step >> 5) * by) >> 3;
+        let value = value.wrapping_add(part(step, x)).wrapping_add(part(row, y));
+        Plane { value, step, row }
+    }
+
+    /// Returns the distance of a pixel's centre from corner 0 in sub-pixels.
+    #[inline(always)]
+    fn offset(&self, x: i32, y: i32) -> Point {
+        [
+            (x << 8) + 128 - self.first[0],
+            (y << 8) + 128 - self.first[1],
+        ]
+    }
+
+    /// Returns the growth per column and row of values with 15 fractional bits, with 30 of them, or
+    /// `None` if either is steep. Differences are at most 2¹⁶, so products are at most 2²⁹.
+    ///
+    /// A side that lost bits is off by up to 2^(`coarse` − 9) pixels, and a value by the growth over that
+    /// distance. Where more bits are lost, less growth is called steep: values stay right to 2⁻¹⁰.
+    #[inline(always)]
+    fn growth(&self, [a, b, c]: [i32; 3]) -> Option<(i32, i32)> {
+        let (b, c) = (b - a, c - a);
+        let [[x1, y1], [x2, y2]] = self.sides;
+        let step = self.over_area(b * y2 - c * y1, STEEP >> self.coarse)?;
+        let row = self.over_area(c * x1 - b * x2, STEEP >> self.coarse)?;
+        Some((step, row))
+    }
+
+    /// Returns x/area per pixel with 30 fractional bits, from x of 15 in the sides' units, at most 2³⁰;
+    /// or `None` if it is `limit` or more.
+    ///
+    /// 1/area is `inverse` 2^−(15 + bits). In two halves the product with `inverse` takes 32 bits; on
+    /// a Cortex-M0 a product of 64 bits takes 63 instructions.
+    #[inline(always)]
+    fn over_area(&self, x: i32, limit: i32) -> Option<i32> {
+        let high = (x >> 16) * self.inverse as i32;
+        let low = ((x as u32 & 0xFFFF) * self.inverse) >> 16;
+        let product = high + low as i32;
+        let shift = (self.bits + self.coarse) as i32 - 24;
+        if shift >= 0 {
+            let quotient = product >> shift;
+            (quotient.unsigned_abs() < limit as u32).then_some(quotient)
+        } else {
+            let up = shift.unsigned_abs();
+            (product.unsigned_abs() < limit as u32 >> up).then_some(product << up)
+        }
+    }
+
+    /// Returns the growth of the weight of corner 1 and of corner 2, each per column and row, with 30
+    /// fractional bits, or `None` if any is ¼ or more, or less where sides lost bits.
+    pub(super) fn weights(&self) -> Option<[[i32; 2]; 2]> {
+        let [[x1, y1], [x2, y2]] = self.sides;
+        let one = |x: i32| self.over_area(x << 15, (1 << 28) >> self.coarse);
+        Some([[one(y2)?, one(-x2)?], [one(-y1)?, one(x1)?]])
+    }
+
+    /// Returns a pixel as columns and rows from the origin.
+    #[inline(always)]
+    pub(super) fn place(&self, x: i32, y: i32) -> Point {
+        [x - self.origin[0], y - self.origin[1]]
+    }
+
+    /// Returns how far a pixel's centre lies from corner 0 in pixels, with 8 fractional bits.
+    #[inline(always)]
+    pub(super) fn origin_offset(&self) -> Point {
+        self.offset(self.origin[0], self.origin[1])
+    }
+}

@@ -1,0 +1,172 @@
+//! Lights, kinds of highlights, and the colour of a pixel.
+
+use super::material::{Material, SCALE, TOP};
+use super::pixel::{Pixel, half, saturate};
+use super::vector::{Bits, Vector, bits, dot, normalized};
+
+/// A directional light, with the eye at infinity and a material in the light's colour.
+#[derive(Debug)]
+pub struct Light<'a, P> {
+    /// L, scaled by 255/256.
+    pub(super) toward: Bits,
+    /// V.
+    pub(super) eye: Bits,
+    /// H, scaled by 255/256; 0 where L = −V.
+    pub(super) halfway: Bits,
+    /// L·V with 15 fractional bits, scaled by 255/256, and [`TOP`] above it.
+    pub(super) l_v: i32,
+    top: i32,
+    pub(super) material: &'a Material<P>,
+}
+
+impl<P> Clone for Light<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<P> Copy for Light<'_, P> {}
+
+impl<'a, P: Pixel> Light<'a, P> {
+    /// Makes a light from unit vectors: `toward` the light, `eye` toward the eye.
+    ///
+    /// All lights of a picture share the eye.
+    pub const fn new(toward: Vector, eye: Vector, material: &'a Material<P>) -> Self {
+        let (l, v) = (bits(toward), bits(eye));
+        // (L + V)/2, lengthened until it is at least ½ long.
+        let mut sum = [(l[0] + v[0]) >> 1, (l[1] + v[1]) >> 1, (l[2] + v[2]) >> 1];
+        let mut shifts = 0;
+        while shifts < 15 && dot(sum, sum) < 1 << 28 {
+            sum = [sum[0] << 1, sum[1] << 1, sum[2] << 1];
+            shifts += 1;
+        }
+        let toward = scaled(l);
+        let l_v = dot(toward, v) >> 15;
+        let halfway = scaled(bits(normalized(sum)));
+        Self {
+            toward,
+            eye: v,
+            halfway,
+            l_v,
+            top: TOP + l_v,
+            material,
+        }
+    }
+}
+
+/// Returns a vector times 255/256.
+const fn scaled(v: Bits) -> Bits {
+    let half = 1 << 14;
+    [
+        (v[0] * SCALE + half) >> 15,
+        (v[1] * SCALE + half) >> 15,
+        (v[2] * SCALE + half) >> 15,
+    ]
+}
+
+/// A kind of highlight: [`Reflection`], [`Halfway`] or [`NoHighlight`].
+pub trait Highlight: Copy + sealed::Sealed {
+    /// True if there is one.
+    #[doc(hidden)]
+    const IS_SEEN: bool;
+    /// True if K is the same for all lights.
+    #[doc(hidden)]
+    const SHARES_K: bool;
+    /// Returns the vector whose product with N is K.
+    #[doc(hidden)]
+    fn k_of<P>(light: &Light<'_, P>) -> Bits;
+    /// Returns how far the highlight's cosine lies below the top of its table, from the unit L·N and K,
+    /// all of 15 fractional bits.
+    #[doc(hidden)]
+    fn below<P>(light: &Light<'_, P>, j: i32, k: i32) -> i32;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Reflection {}
+    impl Sealed for super::Halfway {}
+    impl Sealed for super::NoHighlight {}
+}
+
+/// Phong's highlight, (R·V)ⁿ = (2 (L·N)(V·N) − L·V)ⁿ (L21 4.5).
+#[derive(Clone, Copy, Debug)]
+pub struct Reflection;
+
+/// The highlight (N·H)ⁿ, H halfway between L and V: a product fewer, and wider for the same n.
+#[derive(Clone, Copy, Debug)]
+pub struct Halfway;
+
+/// No highlight: for dull materials, and polygons that no highlight falls on.
+#[derive(Clone, Copy, Debug)]
+pub struct NoHighlight;
+
+impl Highlight for Reflection {
+    const IS_SEEN: bool = true;
+    const SHARES_K: bool = true;
+    #[inline(always)]
+    fn k_of<P>(light: &Light<'_, P>) -> Bits {
+        light.eye
+    }
+    #[inline(always)]
+    fn below<P>(light: &Light<'_, P>, j: i32, k: i32) -> i32 {
+        // Cutting one bit less doubles the product. It wraps only for normals that `slerp` is not for.
+        light.top - (j.wrapping_mul(k) >> 14) // 4.5
+    }
+}
+
+impl Highlight for Halfway {
+    const IS_SEEN: bool = true;
+    const SHARES_K: bool = false;
+    #[inline(always)]
+    fn k_of<P>(light: &Light<'_, P>) -> Bits {
+        light.halfway
+    }
+    #[inline(always)]
+    fn below<P>(_: &Light<'_, P>, _: i32, k: i32) -> i32 {
+        TOP - k
+    }
+}
+
+impl Highlight for NoHighlight {
+    const IS_SEEN: bool = false;
+    const SHARES_K: bool = true;
+    #[inline(always)]
+    fn k_of<P>(_: &Light<'_, P>) -> Bits {
+        [0; 3]
+    }
+    #[inline(always)]
+    fn below<P>(_: &Light<'_, P>, _: i32, _: i32) -> i32 {
+        0
+    }
+}
+
+/// Returns the colour of a pixel in fields, from the unit L·N of each light with 31 fractional bits, and
+/// how far the cosine of its highlight lies below [`TOP`] with 15.
+///
+/// L·N is from −1 to below 1, as 32 bits are, so that its upper 9 bits are an index without a check. A cosine may exceed 1 by what [`TOP`] has
+/// room for: above it there is no highlight.
+#[inline(always)]
+pub(super) fn shade<P: Pixel, H: Highlight, const L: usize>(
+    lights: &[Light<'_, P>; L],
+    cosines: impl Fn(usize) -> (i32, i32),
+) -> u32 {
+    let mut sum = 0;
+    let mut i = 0;
+    while i < L {
+        let (light, (j, below)) = (&lights[i], cosines(i));
+        let diffuse = light.material.diffuse[(j as u32 >> 23) as usize];
+        sum = if i == 0 {
+            diffuse
+        } else {
+            saturate(sum + diffuse - half::<P>())
+        };
+        if H::IS_SEEN {
+            // All ones where the light is behind: beyond the table.
+            let step = (below >> light.material.shift | j >> 31) as u32;
+            if let Some(highlight) = light.material.highlight.get(step as usize) {
+                sum = saturate(sum + highlight);
+            }
+        }
+        i += 1;
+    }
+    sum
+}

@@ -1,0 +1,150 @@
+//! Materials: tables of colours, made by the compiler.
+
+use super::pixel::{Pixel, fields, half};
+use core::marker::PhantomData;
+use fixed::types::U16F16;
+
+/// What unit lights are scaled by, with 15 fractional bits: 255/256, so that no cosine's index of 8
+/// bits wraps.
+pub(super) const SCALE: i32 = 32640;
+
+/// The cosine at the top of the table of highlights. Above [`SCALE`] it has room for the error of
+/// 1/√D: at D = ¼ it makes R·V exceed 1 by 2⁻⁸.
+pub(super) const TOP: i32 = SCALE + 160;
+
+/// The entries of a table of highlights. With 256, half a step of shininess 32 is 4 levels of k_s.
+const HIGHLIGHTS: usize = 512;
+
+/// A material in the colour of one light: 512 colours by L·N and 512 by R·V or N·H, 4 KB.
+///
+/// Make it a `static`: the compiler then computes the tables, and they stay in read-only memory.
+#[derive(Clone, Debug)]
+pub struct Material<P> {
+    /// Ambient and diffuse colour by L·N, in steps of 1/255, with ½ to round. The second half is for
+    /// negative L·N, from −1 up, as an index of 9 bits wraps: ambient colour.
+    pub(super) diffuse: [u32; 512],
+    /// Highlight by ([`TOP`] − cosine) >> `shift`.
+    pub(super) highlight: [u32; HIGHLIGHTS],
+    pub(super) shift: u32,
+    /// The entries of `highlight` up to the last that adds anything.
+    pub(super) seen: usize,
+    format: PhantomData<P>,
+}
+
+impl<P: Pixel> Material<P> {
+    /// Makes the tables of I_a k_a + I_p k_d (L·N) and I_p k_s (R·V)ⁿ (L21 2.1), red, green and blue.
+    ///
+    /// Each argument is a product of light and material, as I_a k_a; sums above 1 are clamped. Of
+    /// several lights, one alone carries the ambient colour. Shininess n is 1 to about 1,000.
+    ///
+    /// The highlight's table covers the cosines whose power is at least 2⁻⁹, in up to 512 steps; smaller
+    /// ones are left out.
+    ///
+    /// It computes in integers of 64 bits. Call it in a `static` or `const`.
+    pub const fn new(
+        ambient: [U16F16; 3],
+        diffuse: [U16F16; 3],
+        highlight: [U16F16; 3],
+        shininess: u32,
+    ) -> Self {
+        let mut made = Self {
+            diffuse: [0; 512],
+            highlight: [0; HIGHLIGHTS],
+            shift: shift_for(shininess),
+            seen: 0,
+            format: PhantomData,
+        };
+        // Both tables hold the colours in the middle of their steps.
+        let mut i = 0;
+        while i < 512 {
+            let lit = if i < 256 { 2 * i as u64 + 1 } else { 0 };
+            let mut sum = [0; 3];
+            let mut c = 0;
+            while c < 3 {
+                sum[c] = ambient[c].to_bits() as u64 + diffuse[c].to_bits() as u64 * lit / 510;
+                c += 1;
+            }
+            made.diffuse[i] = fields::<P>(sum) + half::<P>();
+            i += 1;
+        }
+        let mut i = 0;
+        while i < HIGHLIGHTS {
+            let middle = ((i as i32) << made.shift) + (1 << made.shift >> 1);
+            let power = power(TOP - middle, shininess);
+            let mut shine = [0; 3];
+            let mut c = 0;
+            while c < 3 {
+                shine[c] = (highlight[c].to_bits() as u64 * power) >> 30;
+                c += 1;
+            }
+            made.highlight[i] = fields::<P>(shine);
+            if made.highlight[i] != 0 {
+                made.seen = i + 1;
+            }
+            i += 1;
+        }
+        made
+    }
+}
+
+/// Returns the finest steps of a table of highlights that reaches down to a power of 2⁻⁹, as a shift of
+/// 15 fractional bits.
+pub(super) const fn shift_for(shininess: u32) -> u32 {
+    let mut shift = 0;
+    while shift < 6 && power(TOP - ((HIGHLIGHTS as i32) << shift), shininess) > 1 << 21 {
+        shift += 1;
+    }
+    shift
+}
+
+/// Returns (cosine / [`SCALE`])ⁿ with 30 fractional bits, clamped to 0–1.
+const fn power(cosine: i32, n: u32) -> u64 {
+    if cosine <= 0 {
+        return 0;
+    }
+    let cosine = if cosine < SCALE { cosine } else { SCALE } as u64;
+    let (mut base, mut result, mut left) = ((cosine << 30) / SCALE as u64, 1 << 30, n);
+    while left > 0 {
+        if left & 1 == 1 {
+            result = (result * base) >> 30;
+        }
+        base = (base * base) >> 30;
+        left >>= 1;
+    }
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pixel::Rgb888;
+    use super::*;
+
+    #[test]
+    fn powers_are_exact_to_their_cuts() {
+        for n in [1, 2, 5, 32, 100, 1000] {
+            for cosine in [1, 1000, 20000, 30000, 32000, SCALE - 1, SCALE, TOP] {
+                let exact = f64::from(cosine.min(SCALE)) / f64::from(SCALE);
+                let error = power(cosine, n) as f64 / f64::from(1 << 30) - exact.powi(n as i32);
+                // Each of 20 products and the quotient cuts a unit, which powers multiply by n.
+                assert!(
+                    error.abs() < 4e-9 * f64::from(n) + 2e-8,
+                    "{n} {cosine}: {error}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn tables_cover_what_can_be_seen() {
+        let white = [U16F16::ONE; 3];
+        for (n, shift) in [(1, 6), (4, 6), (8, 6), (16, 5), (32, 4), (128, 2), (800, 0)] {
+            let material = Material::<Rgb888>::new([U16F16::ZERO; 3], white, white, n);
+            assert_eq!(material.shift, shift, "shininess {n}");
+            assert_eq!(
+                Rgb888::from_fields(material.highlight[0] + half::<Rgb888>()).0,
+                [255; 3]
+            );
+            assert!(Rgb888::from_fields(material.highlight[HIGHLIGHTS - 1]).0[0] <= 1);
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! 1/n for the lengths of spans, from a table: a Cortex-M0 divides in 200 instructions.
+
+use core::num::NonZeroU32;
+
+/// 1/n as a mantissa m of 14 to 15 bits and a shift: 1/n = m · 2^−(14 + shift), 2¹⁴ ≤ m < 2¹⁵.
+#[derive(Clone, Copy)]
+pub(super) struct Reciprocal {
+    pub(super) mantissa: i32,
+    pub(super) shift: u32,
+}
+
+/// Mantissa and, above its 16 bits, shift of 1/n for n of 1 to 255; that of 1/256 stands at 0.
+static RECIPROCALS: [u32; 256] = {
+    let mut table = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        table[i] = reciprocal(if i == 0 { 256 } else { i as u32 });
+        i += 1;
+    }
+    table
+};
+
+/// Returns the mantissa of 1/n and, above its 16 bits, the shift.
+#[cold]
+#[inline(never)]
+const fn reciprocal(n: u32) -> u32 {
+    // The least power of 2 that is not below n.
+    let shift = 32 - (n - 1).leading_zeros();
+    // A divisor that is not 0 by its type needs no check of it.
+    let divisor = match NonZeroU32::new(n) {
+        Some(divisor) => divisor,
+        None => NonZeroU32::MIN,
+    };
+    shift << 16 | ((1 << (15 + shift)) / divisor.get() + 1) >> 1
+}
+
+impl Reciprocal {
+    /// Returns 1/n; n is 1 to 32,768. Above 256 it divides.
+    #[inline(always)]
+    pub(super) fn of(n: usize) -> Self {
+        let entry = if n <= 256 {
+            RECIPROCALS[n & 255]
+        } else {
+            reciprocal(n as u32)
+        };
+        Self {
+            mantissa: (entry & 0xFFFF) as i32,
+            // Four bits hold every shift. The mask tells the compiler that shifts need no other.
+            shift: entry >> 16 & 15,
+        }
+    }
+
+    /// Returns x/n with 30 fractional bits, for x of 14 fractional bits below 4 in magnitude.
+    ///
+    /// The product is below 2¹⁶ · 2¹⁵. Larger x wrap: parabolas over 120° and more have them. Steps above 2
+    /// (n = 1) wrap too, and are never added.
+    #[inline(always)]
+    pub(super) fn times(self, x: i32) -> i32 {
+        (x.wrapping_mul(self.mantissa) >> self.shift) << 2
+    }
+
+    /// Returns x/n² with 30 fractional bits, for x of 14 fractional bits below 4 in magnitude.
+    ///
+    /// Both products are below 2¹⁶ · 2¹⁵. It is right to 2⁻¹⁴/n² and the mantissa.
+    #[inline(always)]
+    pub(super) fn times_squared(self, x: i32) -> i32 {
+        let once = x.wrapping_mul(self.mantissa).wrapping_add(1 << 14) >> 15;
+        let twice = once * self.mantissa;
+        if self.shift >= 2 {
+            twice >> (2 * self.shift - 3)
+        } else {
+            twice << (3 - 2 * self.shift)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reciprocals_are_right_to_half_a_unit() {
+        for n in (1..=1024).chain([30_000, 32_768]) {
+            let r = Reciprocal::of(n);
+            assert!((1 << 14..1 << 15).contains(&r.mantissa), "{n}");
+            let exact = f64::from(1 << (14 + r.shift)) / n as f64;
+            assert!((f64::from(r.mantissa) - exact).abs() <= 0.5, "{n}");
+        }
+    }
+
+    #[test]
+    fn quotients_of_the_largest_differences_do_not_overflow() {
+        for n in (2..=300).chain([1024, 32_768]) {
+            for x in [-65535, -40000, -1, 0, 1, 12345, 65535] {
+                let (r, exact) = (Reciprocal::of(n), f64::from(x) / 16384.0 / n as f64);
+                let once = f64::from(r.times(x)) / f64::from(1 << 30);
+                // Half a unit of the mantissa's 14 bits, and a cut at 2⁻²⁸.
+                assert!((once - exact).abs() < exact.abs() / 32768.0 + 4e-9 || exact.abs() >= 2.0);
+                let twice = f64::from(r.times_squared(x)) / f64::from(1 << 30);
+                let exact = exact / n as f64;
+                let error = exact.abs() / 16384.0 + 1.0 / 16384.0 / (n * n) as f64 + 1e-9;
+                assert!(
+                    (twice - exact).abs() < error || exact.abs() >= 2.0,
+                    "{n} {x}"
+                );
+            }
+        }
+    }
+}

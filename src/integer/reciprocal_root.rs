@@ -1,0 +1,125 @@
+//! 1/√D from a table of 4 KB, with Newton's steps without a division.
+
+/// What D may exceed 1 by, in 30 fractional bits: second differences drift by less up to 90°.
+const ABOVE_ONE: i32 = 1 << 19;
+
+/// 1/√D with 15 fractional bits, in 2,048 steps from D = 1 + 2⁻¹¹ down to 2⁻¹¹; 2 below D = ¼.
+///
+/// Within a step D is off by at most 2⁻¹², so 1/√D is off by 2⁻¹³ D^(−3/2): by 2⁻¹³ where D is 1, by
+/// 2⁻¹⁰ where it is ¼.
+static ROOTS: [u16; 2048] = {
+    let mut table = [0; 2048];
+    let mut i = 0;
+    while i < 2048 {
+        // D = 1 + 2⁻¹¹ − (i + ½)/2048 = (4097 − 2i)/4096, in the middle of the step.
+        let square = (1 << 42) / (4097 - 2 * i as u64);
+        let root = square.isqrt();
+        table[i] = if root < 65535 { root as u16 } else { 65535 };
+        i += 1;
+    }
+    table
+};
+
+/// Returns 1 + 2⁻¹¹ − D with 32 fractional bits, from D with 30: methods step it in place of D, as its
+/// upper 11 bits are the index into the table. Near D = 0 it wraps, where normals have no direction.
+#[inline(always)]
+pub(super) const fn below_one(d: i32) -> u32 {
+    ((1u32 << 30) + ABOVE_ONE as u32).wrapping_sub(d as u32) << 2
+}
+
+/// Returns 1/√D with 15 fractional bits, from [`below_one`] of D.
+#[inline(always)]
+const fn root(below_one: u32) -> i32 {
+    ROOTS[(below_one >> 21) as usize] as i32
+}
+
+/// Returns 1/√D with 15 fractional bits, for D of 30.
+#[inline(always)]
+pub(super) const fn root_of(d: i32) -> i32 {
+    root(below_one(d))
+}
+
+/// Returns r + r (1 − D r²)/2, one step of Newton's toward 1/√D from the table's r: r and D of 15
+/// fractional bits.
+///
+/// r is below 2 and D r² at most 1 + 2⁻⁷, so both products are below 2³¹. It is right to 2⁻¹⁴ from
+/// D = ¼ on; shorter normals stay between the table's root and theirs.
+#[inline(always)]
+pub(super) const fn newton(r: i32, d: i32) -> i32 {
+    let square = (r as u32).wrapping_mul(r as u32) >> 15;
+    let error = (1 << 30) - d * square as i32;
+    r + ((r * (error >> 16) + (1 << 14)) >> 15)
+}
+
+/// Returns 1/√D with 15 fractional bits by the table and a step of Newton's, for D of 30.
+#[inline(always)]
+pub(super) const fn refined_root(d: i32) -> i32 {
+    newton(root_of(d), ((d >> 14) + 1) >> 1)
+}
+
+/// Returns 1/√D by the table, and with `REFINED` a step of Newton's, from [`below_one`] of D.
+#[inline(always)]
+pub(super) fn root_below<const REFINED: bool>(below_one: u32) -> i32 {
+    let r = root(below_one);
+    if REFINED {
+        // D with 15 fractional bits, rounded.
+        let d = ((1 << 15) + (ABOVE_ONE >> 15)) - (((below_one >> 16) as i32 + 1) >> 1);
+        newton(r, d)
+    } else {
+        r
+    }
+}
+
+/// Returns J/√D with 31 fractional bits, from J with 30 and 1/√D with 15.
+///
+/// |J| ≤ √D 255/256, as J is the product of N and a vector of that length, and r is off by at most 2⁻⁹
+/// of itself: so the product is below 2³¹.
+#[inline(always)]
+pub(super) fn unit_j(j: i32, r: i32) -> i32 {
+    (j >> 14) * r
+}
+
+/// Returns K/√D with 15 fractional bits, from K with 30 and 1/√D with 15. It is at most 1 but for the
+/// error of r, and the product at most 2³⁰.
+#[inline(always)]
+pub(super) fn unit_k(k: i32, r: i32) -> i32 {
+    let cosine = ((k >> 15) * r) >> 15;
+    debug_assert!(
+        cosine.unsigned_abs() < (1 << 15) + 160,
+        "no cosine: {cosine}"
+    );
+    cosine
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The table is off by half a step of D, and by the unit that `isqrt` cuts.
+    #[test]
+    fn roots_are_as_good_as_their_steps() {
+        let mut worst = [0.0f64; 2];
+        for d in ((1 << 28)..=(1 << 30)).step_by(9973) {
+            let exact = 1.0 / (f64::from(d) / f64::from(1 << 30)).sqrt();
+            let table = f64::from(root_of(d)) / 32768.0;
+            let limit = exact.powi(3) / 8192.0 * 1.001 + 1.0 / 32768.0;
+            assert!((table - exact).abs() <= limit, "{d}: {table} {exact}");
+            let refined = f64::from(root_below::<true>(below_one(d))) / 32768.0;
+            worst[0] = worst[0].max((table - exact).abs());
+            if d >= 270_000_000 {
+                worst[1] = worst[1].max((refined - exact).abs());
+            }
+        }
+        assert!(worst[0] > 8e-4 && worst[1] < 1.3e-4, "{worst:?}");
+    }
+
+    #[test]
+    fn no_d_overflows() {
+        for d in (1 << 19..(1 << 30) + ABOVE_ONE)
+            .step_by(4999)
+            .chain([0, 1, (1 << 30) + ABOVE_ONE])
+        {
+            assert!(root_below::<true>(below_one(d)) <= 98_304);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Triangles whose values change too fast for steps: lit pixel by pixel.
+
+use super::canvas::{Canvas, Vertex};
+use super::pixel::Pixel;
+use super::scan::{Point, scan};
+use super::vector::{Bits, bits};
+use core::num::NonZeroU32;
+
+impl<P: Pixel> Canvas<'_, P> {
+    /// Draws a triangle from the weights of its corners at each pixel. `shade` gives the colour in
+    /// fields of the value that corners weigh together.
+    pub(super) fn sliver(
+        &mut self,
+        (points, depths): ([Point; 3], [u16; 3]),
+        values: [Bits; 3],
+        shade: impl Fn(Bits) -> u32,
+    ) {
+        let weights = Weights::new(points);
+        scan(points, (self.width, self.height), |y, first, end| {
+            for x in first..end {
+                let at = weights.at(x, y);
+                let depth = weighed(depths.map(i32::from), at) as u16;
+                if let Some(pixel) = self.pixel(x, y, depth) {
+                    let one = |i: usize| weighed([values[0][i], values[1][i], values[2][i]], at);
+                    *pixel = P::from_fields(shade([one(0), one(1), one(2)]));
+                }
+            }
+        });
+    }
+}
+
+/// The weights of a triangle's corners, exact until they are cut to 15 bits.
+///
+/// The products have 64 bits: a Cortex-M0 takes 63 instructions for each of four a pixel. Slivers have
+/// few pixels.
+struct Weights {
+    first: Point,
+    sides: [Point; 2],
+    /// Twice the area in sub-pixels squared, at least 1.
+    area: i64,
+    /// Its bits, and 2³¹ over it when it is shifted to 16 bits.
+    bits: u32,
+    inverse: u32,
+}
+
+impl Weights {
+    fn new([a, b, c]: [Point; 3]) -> Self {
+        let sides = [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]];
+        let area = cross(sides[0], sides[1]).max(1);
+        let bits = 64 - area.leading_zeros();
+        let normal = sixteen_bits(area, bits);
+        let inverse = 0x8000_0000 / NonZeroU32::new(normal).unwrap_or(NonZeroU32::MIN);
+        Self {
+            first: a,
+            sides,
+            area,
+            bits,
+            inverse,
+        }
+    }
+
+    /// Returns the weights of corners 1 and 2 at a pixel's centre with 15 fractional bits: 0 or more,
+    /// and together below 1. So what they weigh stays between the corners.
+    fn at(&self, x: i32, y: i32) -> (i32, i32) {
+        let offset = [
+            (x << 8) + 128 - self.first[0],
+            (y << 8) + 128 - self.first[1],
+        ];
+        let weight = |doubled: i64| {
+            // Both factors are at most as if it were all of the area, so the product is at most 2³¹.
+            let part = sixteen_bits(doubled.clamp(0, self.area), self.bits);
+            (((part * self.inverse) >> 16) as i32).min(32767)
+        };
+        let second = weight(cross(offset, self.sides[1]));
+        let third = weight(cross(self.sides[0], offset));
+        (second, third.min(32767 - second))
+    }
+}
+
+/// Returns twice the area between two sides. Sides are below 2²⁰.
+fn cross(a: Point, b: Point) -> i64 {
+    i64::from(a[0]) * i64::from(b[1]) - i64::from(a[1]) * i64::from(b[0])
+}
+
+/// Returns the upper 16 of `bits` bits.
+fn sixteen_bits(x: i64, bits: u32) -> u32 {
+    if bits > 16 {
+        (x >> (bits - 16)) as u32
+    } else {
+        (x as u32) << (16 - bits)
+    }
+}
+
+/// Returns a + (b − a) β + (c − a) γ. Differences are at most 2¹⁶ and β + γ below 2¹⁵: sums are below
+/// 2³¹.
+#[inline(always)]
+fn weighed([a, b, c]: [i32; 3], (second, third): (i32, i32)) -> i32 {
+    a + (((b - a) * second + (c - a) * third) >> 15)
+}
+
+/// Returns the normals of a triangle.
+#[inline(always)]
+pub(super) fn normals(t: &[Vertex; 3]) -> [Bits; 3] {
+    [bits(t[0].normal), bits(t[1].normal), bits(t[2].normal)]
+}
