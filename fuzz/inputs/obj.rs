@@ -4,6 +4,7 @@
 
 use fastphong::mesh::obj::{ObjError, parse_obj};
 use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
+use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
 use fastphong::shading::METHODS;
 
@@ -53,7 +54,10 @@ pub fn run(bytes: &[u8]) {
     (scene.width, scene.height) = (16, 12);
     if let Ok(frame) = scene.frame() {
         for entry in METHODS {
-            entry.variant().render_linear(&frame);
+            let variant = entry.variant();
+            if variant.plan(&frame, Renderer::LECTURE).renderer().is_some() {
+                variant.render_linear(&frame);
+            }
         }
     }
 }

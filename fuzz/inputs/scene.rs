@@ -58,7 +58,11 @@ pub fn run(bytes: &[u8]) {
     };
     for entry in METHODS {
         for renderer in [Renderer::LECTURE, Renderer::fastest()] {
-            let picture = entry.variant().render_linear_with(&frame, renderer);
+            let variant = entry.variant();
+            if variant.plan(&frame, renderer).renderer().is_none() {
+                continue; // in integers
+            }
+            let picture = variant.render_linear_with(&frame, renderer);
             for pixel in picture.pixels() {
                 let is_colour = pixel.iter().all(|channel| (0.0..=1.0).contains(channel));
                 assert!(is_colour, "{}: {pixel:?}", entry.info.name);

@@ -9,6 +9,7 @@ const OPERATIONS = [
 	"roots",
 	"sines, arctangents",
 	"powers",
+	"reads of tables",
 ];
 
 /* How often operations are done, and which. */

@@ -40,5 +40,6 @@ function speed() {
 		);
 		costs();
 	}
+	if (D.small) small();
 	if (DOCS.length > 1) beside();
 }

@@ -46,7 +46,8 @@ impl ExplainArgs {
         let formula = info.formula.lines().map(|line| format!("  {line}\n"));
         section("formula", &formula.collect::<String>());
         section("source", &wrapped(info.source, 2));
-        for &(lights, at_positions) in &CASES[..if self.all { CASES.len() } else { 1 }] {
+        let all = if self.all { CASES.len() } else { 1 };
+        for (lights, at_positions) in self.cases().take(all) {
             let s = if lights == 1 { "" } else { "s" };
             let there = " and eye at positions";
             let eye = if at_positions { there } else { "" };
@@ -82,6 +83,14 @@ impl ExplainArgs {
         Ok(text)
     }
 
+    /// Returns those of [`CASES`] that the method draws: in integers, lights are at infinity.
+    fn cases(&self) -> impl Iterator<Item = (usize, bool)> {
+        let is_integer = self.method.entry().is_integer;
+        CASES
+            .into_iter()
+            .filter(move |(_, at_positions)| !(is_integer && *at_positions))
+    }
+
     /// Counts the operations with `lights` lights. At positions, they have no falloff, and varyings are linear on the screen.
     fn operations(&self, lights: usize, at_positions: bool) -> OperationCounts {
         if !at_positions {
@@ -106,10 +115,9 @@ impl ExplainArgs {
         let info = self.method.info();
         let mut json = method_json(self.method.entry());
         let by_lights = |at_positions: bool| -> Value {
-            let cases = CASES.iter().filter(|(_, there)| *there == at_positions);
-            let costs = |&(n, there): &(usize, bool)| costs_json(&self.operations(n, there));
+            let cases = self.cases().filter(|(_, there)| *there == at_positions);
             cases
-                .map(|case| (case.0.to_string(), costs(case)))
+                .map(|(n, there)| (n.to_string(), costs_json(&self.operations(n, there))))
                 .collect()
         };
         json["variant"] = self.method.to_string().into();

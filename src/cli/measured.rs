@@ -20,13 +20,21 @@ use std::time::Duration;
 /// The methods to compare.
 pub type Methods = Vec<Variant>;
 
-/// Reads methods between commas, each once, or `all`.
+/// Reads methods between commas, each once, and families of them: those in floats, in integers, and all.
 pub fn methods(text: &str) -> Result<Methods, NameError> {
-    if text == "all" {
-        return Ok(METHODS.iter().map(Entry::variant).collect());
+    let family = |is_in: fn(&Entry) -> bool| -> Methods {
+        let entries = METHODS.iter().filter(|entry| is_in(entry));
+        entries.map(Entry::variant).collect()
+    };
+    let mut methods = Methods::new();
+    for name in text.split(',') {
+        match name.trim() {
+            "all" => methods.extend(family(|_| true)),
+            "floats" => methods.extend(family(|entry| !entry.is_integer)),
+            "integers" => methods.extend(family(|entry| entry.is_integer)),
+            name => methods.push(Variant::parse(name)?),
+        }
     }
-    let methods = text.split(',').map(|name| Variant::parse(name.trim()));
-    let mut methods = methods.collect::<Result<Methods, _>>()?;
     let mut names = HashSet::new();
     methods.retain(|method| names.insert(method.to_string()));
     Ok(methods)
@@ -77,8 +85,9 @@ impl Measurement<'_> {
 /// The flags that name the methods to time, and the time to spend.
 #[derive(clap::Args, Debug)]
 pub struct TimingFlags {
-    /// Methods between commas, with parameters as in `fast-phong:steps=1`, or `all`; naive-phong is always included
-    #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "all", value_parser = methods)]
+    /// Methods between commas, with parameters as in `fast-phong:steps=1`, or families of them: `floats`, `integers` (for processors
+    /// without a floating-point unit), `all`; naive-phong is always included
+    #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "floats", value_parser = methods)]
     pub methods: Methods,
     /// Seconds of timing per scene; all methods take at least five rounds
     #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, allow_hyphen_values = true)]

@@ -12,7 +12,7 @@ use fastphong::compare::comparison::{self, Comparison, Input};
 use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
 use fastphong::lectures::{FIGURES, Figure};
-use fastphong::report::{Document, Report, ScenePictures, utc_date};
+use fastphong::report::{Document, Report, ScenePictures, small, utc_date};
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
@@ -170,6 +170,7 @@ impl ReportArgs {
             Ok::<_, CliError>((drawn, figures))
         })??;
         document.figures = figures;
+        document.small = Some(small());
         (document.speedups, document.scaling) =
             experiments.make(&self.timing, &|part, next| progress(2, part, next))?;
         let mut pictures = Vec::new();

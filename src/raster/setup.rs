@@ -132,9 +132,7 @@ impl<'a> SetUp<'a> {
         let kernels = entry.kernels(frame.light_count(), is_local);
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
         let lightings = frame.lightings().iter();
-        let mut uniforms: Vec<Uniforms> = lightings
-            .map(|l| Uniforms::new(l, variant.power(), scale))
-            .collect();
+        let mut uniforms: Vec<Uniforms> = lightings.map(|l| variant.uniforms(l, scale)).collect();
         let is_by_polygon = is_local && entry.local == Local::PerPolygon;
         if is_by_polygon {
             let polygons = frame.polygons().iter();

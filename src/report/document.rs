@@ -56,6 +56,8 @@ pub struct Document {
     pub speedups: Option<Speedups>,
     /// Times over the number of triangles and of pixels, and fitted costs.
     pub scaling: Option<Scaling>,
+    /// What pixels cost on processors without a floating-point unit: [`small`]; `None` but in reports.
+    pub small: Option<Value>,
 }
 
 /// The description of a method.
@@ -101,7 +103,7 @@ pub const RATES: [Rate; 7] = [
 pub type Operation = (&'static str, char, fn(&Counts) -> u32);
 
 /// All kinds of operations.
-pub const OPERATIONS: [Operation; 7] = [
+pub const OPERATIONS: [Operation; 8] = [
     ("add", '+', |c| c.additions),
     ("mul", '×', |c| c.multiplications),
     ("compare", '<', |c| c.comparisons),
@@ -109,6 +111,7 @@ pub const OPERATIONS: [Operation; 7] = [
     ("root", '√', |c| c.roots),
     ("trig", '∿', |c| c.trigonometric),
     ("power", '^', |c| c.powers),
+    ("read", '▤', |c| c.lookups),
 ];
 
 /// A figure of the lectures.
@@ -139,6 +142,7 @@ impl Document {
             figures: Vec::new(),
             speedups: None,
             scaling: None,
+            small: None,
         };
         document.describe_methods();
         document
@@ -158,6 +162,12 @@ impl Document {
         text.push('\n');
         text
     }
+}
+
+/// Returns what `examples/small/run` measured on emulated processors without a floating-point unit: they are not this machine.
+pub fn small() -> Value {
+    let text = include_str!("../../docs/small.json");
+    serde_json::from_str(text).expect("a test reads it")
 }
 
 /// Describes variants, each once, in the order of the method table; unknown ones are left out.

@@ -37,7 +37,7 @@ mod tests;
 pub use date::utc_date;
 pub use document::{
     Document, DocumentError, FigureData, MethodData, OPERATIONS, Operation, RATES, Rate, SCHEMA,
-    label, parse,
+    label, parse, small,
 };
 pub use markdown::Markdown;
 pub use page::shell_word;

@@ -25,7 +25,7 @@ const SCRIPT: &str = script!(
     "pareto" "overview"
     "probe" "row" "scene-table" "scenes"
     "formulas" "methods"
-    "corners" "growth" "beside" "speed"
+    "corners" "growth" "small" "beside" "speed"
     "lectures"
     "measured"
     // All views.

@@ -12,7 +12,7 @@ use serde_json::Value;
 /// A cell without a value.
 const NONE: &str = "–";
 
-/// Returns all tables of a document: all scenes, each scene, four corners, growth, operations, findings.
+/// Returns all tables of a document: all scenes, each scene, four corners, growth, processors without a floating-point unit, operations, findings.
 pub(super) fn all(data: &Value) -> Vec<Table> {
     let scenes = list(data, "/comparisons");
     let mut tables = Vec::new();
@@ -25,6 +25,9 @@ pub(super) fn all(data: &Value) -> Vec<Table> {
     }
     if data["scaling"].is_object() {
         tables.push(growth(&data["scaling"]));
+    }
+    if data["small"].is_object() {
+        tables.push(small(&data["small"]));
     }
     if !list(data, "/methods").is_empty() {
         tables.push(operations(data));
@@ -52,6 +55,31 @@ fn summary(data: &Value) -> Table {
         let speed = method.speed.map_or(NONE.into(), |s| format!("{s:.2}"));
         let (worst, at) = (significant(method.worst), method.at.to_string());
         let row = [label(method.name), worst, at, speed];
+        table.rows.push(row.into());
+    }
+    table
+}
+
+/// Lists what pixels cost in integers, and how wrong they are.
+fn small(data: &Value) -> Table {
+    let title = "Without a floating-point unit: a pixel of a span of 32 pixels, 15° between its normals, in integers on emulated processors";
+    let head = [
+        "loop",
+        "Cortex-M0+ cycles, modelled",
+        "Cortex-M0 instructions",
+        "RV32IMC instructions",
+        "worst error at 5, 15, 30, 60°, levels",
+    ];
+    let mut table = Table::new(title.to_string(), &head);
+    for span in list(data, "/spans") {
+        let at = |i: usize| {
+            let pointer = format!("/at_32_pixels_15_degrees/{i}");
+            cell(span, &pointer, |x| format!("{x:.1}"))
+        };
+        let errors = list(span, "/worst_error").iter().filter_map(Value::as_f64);
+        let errors: Vec<String> = errors.map(|error| format!("{error:.1}")).collect();
+        let name = text(span, "/method").to_string();
+        let row = [name, at(1), at(0), at(2), errors.join(", ")];
         table.rows.push(row.into());
     }
     table
@@ -156,7 +184,7 @@ fn growth(scaling: &Value) -> Table {
 
 /// Lists the operations of each method, for one light and for four.
 fn operations(data: &Value) -> Table {
-    let caption = "Operations: + additions, × multiplications, < comparisons, ÷ divisions, √ roots, ∿ sines, ^ powers; \
+    let caption = "Operations: + additions, × multiplications, < comparisons, ÷ divisions, √ roots, ∿ sines, ^ powers, ▤ reads of tables; \
                    counted by running each method on numbers that count, for shininess 32";
     let mut table = Table::new(caption, &["method, lights"]);
     table

@@ -119,10 +119,10 @@ impl Variant {
             let material = &materials[polygon.material as usize];
             let power = self.power().error(f64::from(material.lighting.shininess));
             let highlights = material.specular.into_iter().fold(0.0, f64::max) * power;
-            let by_method = match (self.info().approximation)(frame, polygon) {
-                Approximation::Cosine(error) => material.of(error, 0.0) + material.jump(error),
-                Approximation::Length(error) => material.of(error, 0.0),
-                Approximation::Colour(error) => error,
+            let error = (self.info().approximation)(frame, polygon);
+            let by_method = match error.cosine + error.length {
+                0.0 => error.colour + material.jump(error),
+                cosines => material.of(cosines, 0.0) + material.jump(error) + error.colour,
             };
             f64::min(1.0, by_method + highlights)
         };
@@ -140,13 +140,9 @@ impl Variant {
         polygons.map(move |(number, polygon)| {
             let (cosine, colour) = self.errors(frame, polygon, spread.on(number));
             let material = &materials[polygon.material as usize];
-            let bound = match (self.info().approximation)(frame, polygon) {
-                Approximation::Cosine(error) => {
-                    material.of(cosine + error, colour) + material.jump(error)
-                }
-                Approximation::Length(error) => material.of(cosine + error, colour),
-                Approximation::Colour(error) => material.of(cosine, colour) + error,
-            };
+            let error = (self.info().approximation)(frame, polygon);
+            let cosine = cosine + error.cosine + error.length;
+            let bound = material.of(cosine, colour) + material.jump(error) + error.colour;
             // No channel differs by more.
             if bound <= 1.0 { bound } else { 1.0 }
         })
@@ -299,12 +295,13 @@ impl MaterialBound<'_> {
         lit + stepped * self.most + self.other
     }
 
-    /// Returns the most that a highlight may be where L·N is off by `error` from 0: there it ends with a jump, if it is gated.
+    /// Returns the most that a highlight may be where an error moves L·N from 0: there it ends with a jump, if it is gated.
     ///
     /// With L·N = 0 the cosine R·V is −L·V, and N·H at most √(1 − (L·V)²)/h = √((1 − L·V)/2), as h² = 2 + 2 L·V.
-    fn jump(&self, error: f64) -> f64 {
+    fn jump(&self, error: Approximation) -> f64 {
         let lighting = self.lighting;
-        if error == 0.0 || lighting.gate != SpecularGate::Gated {
+        let is_moved = error.cosine > 0.0 || error.moves_gate;
+        if !is_moved || lighting.gate != SpecularGate::Gated {
             return 0.0;
         }
         let l_v = self.half * self.half / 2.0 - 1.0;

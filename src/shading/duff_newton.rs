@@ -37,7 +37,10 @@ impl<const L: usize> Shader for DuffNewton<L> {
         derivation: "as duff-phong; a step rounds r three times, where a root and a quotient round it twice",
         approximation: |frame, polygon| {
             let lighting = &frame.lightings()[polygon.material as usize];
-            Approximation::Length(largest_error(lighting.shininess).into())
+            Approximation {
+                length: largest_error(lighting.shininess).into(),
+                ..Approximation::NONE
+            }
         },
         fails: "on spans of few pixels over a large angle it takes true roots and divisions; each pixel waits for the one before",
         ..Info::OF_PIXELS

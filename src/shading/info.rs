@@ -179,15 +179,27 @@ impl MethodParameter {
     }
 }
 
-/// The error that a method makes by design, on a polygon: beside its roundings, and against its closed form.
+/// The errors that a method makes by design, on a polygon: beside its roundings, and against its closed form. They add up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Approximation {
+pub struct Approximation {
     /// Of L·N and V·N of unit normals. The light model passes it on as it does roundings, and a highlight may end elsewhere.
-    Cosine(f64),
+    pub cosine: f64,
     /// Of the length that normals are divided by, relative to it: as of cosines, but these keep their signs.
-    Length(f64),
+    pub length: f64,
     /// Of a linear colour channel of 0..=1.
-    Colour(f64),
+    pub colour: f64,
+    /// True if a highlight may end elsewhere, as the colours' errors are those of L·N among others.
+    pub moves_gate: bool,
+}
+
+impl Approximation {
+    /// No error.
+    pub const NONE: Approximation = Approximation {
+        cosine: 0.0,
+        length: 0.0,
+        colour: 0.0,
+        moves_gate: false,
+    };
 }
 
 /// The answer of a method to perspective interpolation.
@@ -277,6 +289,8 @@ pub struct Info {
     pub approximation: fn(&Frame, &Polygon) -> Approximation,
     /// The cases in which its picture is bad, or its arithmetic fails.
     pub fails: &'static str,
+    /// True if the power function of its highlights can be chosen; false if its own tables hold powers.
+    pub has_power: bool,
     /// The parameters after the name.
     pub parameters: &'static [MethodParameter],
 }
@@ -291,7 +305,8 @@ impl Info {
         model: Model::Phong,
         roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
         derivation: "no bound was derived",
-        approximation: |_, _| Approximation::Colour(0.0),
+        approximation: |_, _| Approximation::NONE,
+        has_power: true,
         fails: "",
         parameters: &[],
     };

@@ -225,7 +225,6 @@ impl Kernels {
 impl Kernels {
     /// Makes the kernels of a method from those of `M`, which lights its vertices, and a plain function for its pixels: for methods
     /// whose numbers are no [`Num`], as integers are. They are scalar only, for the reason `why`.
-    #[cfg_attr(not(test), expect(dead_code))]
     pub(super) const fn of_functions<M: Shader>(pixels: PixelKernel, why: &'static str) -> Kernels {
         Kernels {
             pixels,

@@ -19,6 +19,7 @@
 //! A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
 
 use super::planes::PerLight;
+use crate::integer::{Material, Rgb888};
 use crate::number::{Num, Vec3, vec3};
 use crate::scene::{Falloff, Lighting, Place, Power, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
@@ -38,6 +39,8 @@ pub struct Uniforms {
     pub lights: Vec<LightUniforms>,
     /// The table of [`Power::Table`], in steps of the cosine from the faintest highlight to 1; else empty.
     powers: Vec<f32>,
+    /// The tables of a method in integers, one a light; else empty.
+    pub(super) materials: Vec<Material<Rgb888>>,
 }
 
 /// The uniforms of a material that all its lights share. Pixel loops copy them: behind a reference they would be loaded again
@@ -80,7 +83,7 @@ pub struct LightUniforms {
     pub(super) place: Place<Vec3<f32>>,
     falloff: Falloff,
     diffuse: Vec3<f32>,
-    specular: Vec3<f32>,
+    pub(super) specular: Vec3<f32>,
     /// L·V and 1/|L + V| where both are at infinity.
     l_v: f32,
     half: f32,
@@ -166,6 +169,7 @@ impl Uniforms {
             model,
             lights,
             powers,
+            materials: Vec::new(),
         }
     }
 }

@@ -33,6 +33,21 @@ pub const SLERP_CHEBYSHEV: &Entry = named("slerp-chebyshev");
 /// Normals along great circles, as vectors.
 pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
 
+/// Vertex colours, interpolated in integers.
+pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");
+/// Naive Phong shading in integers.
+pub const INTEGER_NAIVE: &Entry = named("integer-naive");
+/// Fast Phong shading in integers: mostly the fastest with Phong's picture on processors without a floating-point unit.
+pub const INTEGER_FAST: &Entry = named("integer-fast");
+/// Parabolas along spans in integers.
+pub const INTEGER_QUADRATIC: &Entry = named("integer-quadratic");
+/// Normals along great circles in integers.
+pub const INTEGER_SLERP: &Entry = named("integer-slerp");
+/// Naive Phong shading in integers, as the lecture prints it.
+pub const INTEGER_NAIVE_PRINTED: &Entry = named("integer-naive-printed");
+/// Fast Phong shading in integers, as the lecture prints it.
+pub const INTEGER_FAST_PRINTED: &Entry = named("integer-fast-printed");
+
 /// Returns the row of the table called `name`; a name without a row does not compile.
 const fn named(name: &str) -> &'static Entry {
     let mut number = 0;

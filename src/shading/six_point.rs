@@ -64,7 +64,7 @@ fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
 /// Bounds the error of six-point products on a polygon: see [`SixPoint`].
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let &[a, b, c] = frame.corners(polygon) else {
-        return Approximation::Cosine(0.0);
+        return Approximation::NONE;
     };
     let corner = |corner: u32| {
         let weight = match frame.interpolation() {
@@ -76,8 +76,11 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let is_whole = [a, b, c].iter().all(|&v| frame.clip_corner(v).is_none());
     let width = width([a, b, c].map(corner));
     match is_whole && width <= WIDEST {
-        true => Approximation::Cosine(0.102 * libm::pow(width.into(), 3.0)),
-        false => Approximation::Cosine(0.0),
+        true => Approximation {
+            cosine: 0.102 * libm::pow(width.into(), 3.0),
+            ..Approximation::NONE
+        },
+        false => Approximation::NONE,
     }
 }
 

@@ -29,6 +29,10 @@ pub struct SpanPlace<T = f32> {
     pub t0: T,
     /// The growth of the parameter from pixel to pixel, `1 / (x_2 − x_1)`.
     pub dt: T,
+    /// The column of the first pixel of the whole span that is in the picture.
+    pub start: u32,
+    /// The number of the pixels of the whole span that are in the picture.
+    pub pixels: u32,
 }
 
 /// The numbers that runs start from, two for each varying and extra: the values at the first pixel and their growth from pixel

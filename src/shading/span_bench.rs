@@ -1,8 +1,10 @@
 //! A single span: the subject on which operations are counted and kernels timed.
 
+use super::increments::GreatCircle;
 use super::lighting::Uniforms;
-use super::{Extras, Local, OperationCounts, Variant};
+use super::{Extras, Local, OperationCounts, Variant, integers, ramp};
 use crate::mesh::Material;
+use crate::number::vec3;
 use crate::scene::{Falloff, Interpolation, Light, Lighting, Place, Power};
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -30,6 +32,26 @@ impl SpanBench {
     pub(super) const EDGE: [f32; 2] = [0.5 / 50.0, 1.0 / 50.0];
     /// t₀ and Δt of the span there, which is 49.5 pixels long.
     pub(super) const SPAN: [f32; 2] = [0.5 * (1.0 / 49.5), 1.0 / 49.5];
+
+    /// Its pixels: their centres are left of 49.5.
+    pub(super) const PIXELS: u32 = 49;
+
+    /// Returns the varyings at both ends of the span, from those of the corners by `vertex`: unit normals go along great circles if
+    /// they are `on_circles`.
+    pub(super) fn ends_of_span(
+        &self,
+        on_circles: bool,
+        vertex: impl Fn([f32; 3]) -> [f32; 3],
+    ) -> [[f32; 3]; 2] {
+        let [a, b, c] = self.normals.map(vertex).map(vec3);
+        let [t0, dt] = SpanBench::EDGE;
+        [a, b].map(|from| match on_circles {
+            true => GreatCircle::new(vec3(SpanBench::FACE), [from, c], t0, dt)
+                .normal()
+                .array(),
+            false => [0, 1, 2].map(|i| ramp(from.array()[i], c.array()[i], t0, dt)[0]),
+        })
+    }
 
     /// Makes a span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1) or four,
     /// and the default material.
@@ -69,8 +91,10 @@ impl SpanBench {
             lighting.view = Place::Local([0.0, 0.0, 8.0]);
         }
         let (sin, cos) = libm::sincosf(degrees.to_radians() / 2.0);
+        let mut uniforms = Uniforms::new(&lighting, Power::default(), 1.0);
+        uniforms.materials = integers::materials(&lighting);
         SpanBench {
-            uniforms: Uniforms::new(&lighting, Power::default(), 1.0),
+            uniforms,
             lighting,
             normals: [[-sin, 0.0, cos], [sin, 0.0, cos], [0.0, sin, cos]],
             points: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -80,7 +104,7 @@ impl SpanBench {
 
     /// Returns the uniforms of a method at `scale`.
     pub(crate) fn uniforms(&self, variant: &Variant, scale: f32) -> Uniforms {
-        let uniforms = Uniforms::new(&self.lighting, variant.power(), scale);
+        let uniforms = variant.uniforms(&self.lighting, scale);
         match variant.entry().local {
             Local::PerPolygon if self.is_local() => uniforms.seen_from([1.0 / 3.0, 1.0 / 3.0, 0.0]),
             _ => uniforms,

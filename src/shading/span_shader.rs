@@ -89,7 +89,7 @@ impl SpanShader {
         let kernels = entry.kernels(lights, is_local);
         let extras = entry.extras(is_local, is_perspective);
         let [own, _, constants] = (kernels.counts)(lights);
-        let uniforms = Uniforms::new(lighting, variant.power(), 1.0);
+        let uniforms = variant.uniforms(lighting, 1.0);
         let is_by_polygon = is_local && entry.local == Local::PerPolygon;
         SpanShader {
             is_weighted: is_perspective
@@ -203,7 +203,16 @@ impl SpanShader {
             pixels: colours.len() as u32,
         });
         if self.kernels.reads_span {
-            self.list.places.push(SpanPlace { y: row, t0, dt });
+            // The first column whose centre is not left of an end; the line that is asked for lies between.
+            let centre = |x: f32| libm::ceilf(x - 0.5).max(0.0) as u32;
+            let (last, start) = (first + colours.len() as u32, centre(x1).min(first));
+            self.list.places.push(SpanPlace {
+                y: row,
+                t0,
+                dt,
+                start,
+                pixels: centre(x2).max(last) - start,
+            });
         }
         let job = Pixels {
             parameters: self.variant.parameters(),

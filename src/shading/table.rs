@@ -16,6 +16,10 @@ use super::slerp_phong::SlerpPhong;
 use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
 use super::{Extras, Info, Kernels, LitAt, Local, Perspective, Shader, Variant};
+use super::{
+    integer_fast, integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed,
+    integer_quadratic, integer_slerp,
+};
 use crate::frame::Frame;
 
 /// All shading methods.
@@ -45,6 +49,13 @@ pub static METHODS: &[Entry] = &[
     Entry::by_lights::<SlerpChebyshev<1>, SlerpChebyshev<4>, SlerpChebyshev<8>, SlerpChebyshev<64>>(
     ),
     Entry::of::<SlerpPhongVector>(),
+    integer_gouraud::ENTRY,
+    integer_naive::ENTRY,
+    integer_fast::ENTRY,
+    integer_quadratic::ENTRY,
+    integer_slerp::ENTRY,
+    integer_naive_printed::ENTRY,
+    integer_fast_printed::ENTRY,
 ];
 
 /// Kernels for 1 light, up to 4, up to 8 and up to 64.
@@ -63,6 +74,8 @@ pub struct Entry {
     pub perspective: Perspective,
     /// Returns the reason why it is not for a frame: [`Shader::refuses`].
     pub(crate) refuses: fn(&Frame) -> Option<&'static str>,
+    /// True if its loops compute in integers, for processors without a floating-point unit.
+    pub is_integer: bool,
     directional: ByLights,
     positional: ByLights,
     /// The functions that count operations: without a light or the eye at a position, and with one.
@@ -76,13 +89,28 @@ impl Entry {
     }
 
     /// Makes the row of a method by kernels of its own; what else engines ask is as `M` answers.
-    #[cfg_attr(not(test), expect(dead_code))]
-    const fn of_kernels<M: Shader>(info: &'static Info, kernels: &'static Kernels) -> Entry {
+    pub(super) const fn of_kernels<M: Shader>(
+        info: &'static Info,
+        kernels: &'static Kernels,
+    ) -> Entry {
         Entry {
             info,
             directional: [kernels; 4],
             positional: [kernels; 4],
             ..Entry::of::<M>()
+        }
+    }
+
+    /// Makes the row of a method in integers: as [`Entry::of_kernels`], with a function that says what its loops take.
+    pub(super) const fn integer<M: Shader>(
+        info: &'static Info,
+        kernels: &'static Kernels,
+        count: fn(&SpanBench, &Variant) -> CountedSpan,
+    ) -> Entry {
+        Entry {
+            is_integer: true,
+            count: [count; 2],
+            ..Entry::of_kernels::<M>(info, kernels)
         }
     }
 
@@ -102,6 +130,7 @@ impl Entry {
             local: A::LOCAL,
             perspective: A::PERSPECTIVE,
             refuses: A::refuses,
+            is_integer: false,
             directional: all,
             positional: all,
             // For up to eight lights as many are stepped, for up to 64 as many as there are: what is counted.

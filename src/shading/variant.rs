@@ -1,10 +1,11 @@
 //! A method as a user names it.
 
-use super::{Entry, Info, METHODS, Value};
+use super::lighting::Uniforms;
+use super::{Entry, Info, METHODS, Value, integers};
 use crate::number::NameError;
 use crate::number::suggest::{one_of, unknown};
 use crate::reference::ClosedForm;
-use crate::scene::Power;
+use crate::scene::{Lighting, Power};
 use alloc::format;
 use alloc::vec::Vec;
 use core::fmt;
@@ -44,6 +45,11 @@ impl Variant {
         for part in parts {
             let (key, value) = part.split_once('=').unwrap_or((part, ""));
             if key == "power" {
+                if !entry.info.has_power {
+                    return Err(NameError(format!(
+                        "method `{name}` has a table of powers of its own"
+                    )));
+                }
                 variant.power = Power::named(value)?;
                 continue;
             }
@@ -80,6 +86,15 @@ impl Variant {
     /// Returns the power function of its highlights.
     pub fn power(&self) -> Power {
         self.power
+    }
+
+    /// Prepares the light on a material, with colours multiplied by `scale`.
+    pub(crate) fn uniforms(&self, lighting: &Lighting, scale: f32) -> Uniforms {
+        let mut uniforms = Uniforms::new(lighting, self.power, scale);
+        if self.entry.is_integer {
+            uniforms.materials = integers::materials(lighting);
+        }
+        uniforms
     }
 
     /// Returns the closed form that its picture is measured against.

@@ -124,7 +124,7 @@ fn unknown_methods_are_answered_with_names() {
     }
     folder
         .run("render teapot -o out.png -m pong")
-        .refused(&["`slerp-phong-vector`, `auto`, `reference`"]);
+        .refused(&["`integer-fast-printed`, `auto`, `reference`"]);
 }
 
 /// The usage of `render` names the flags of which one is needed, so that no line of it is refused.

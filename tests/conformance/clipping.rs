@@ -1,12 +1,13 @@
 //! Clipping of polygons that reach behind the eye, through the near plane, or far outside the
 //! picture.
 
+use crate::support::floats;
 use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
 use fastphong::raster;
 use fastphong::scene::{Camera, Culling, Interpolation, Light, Object, Projection, Scene};
-use fastphong::shading::{METHODS, Variant};
+use fastphong::shading::Variant;
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
@@ -308,7 +309,7 @@ fn extreme_positions_never_panic() {
             let mut scene = scene(mesh, camera);
             scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(scale));
             let frame = scene.frame().expect("a frame");
-            for entry in METHODS {
+            for entry in floats() {
                 let picture = entry.variant().render_linear(&frame);
                 assert!(
                     picture

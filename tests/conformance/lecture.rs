@@ -1,11 +1,12 @@
 //! Compares the lecture's formulas, evaluated in `f64` at the pixel centres of one span, with the
 //! methods' pictures. Also tests its statements about triangles, squares and edges.
 
+use crate::support::floats;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::picture::LinearPicture;
 use fastphong::scene::{Light, Lighting};
-use fastphong::shading::{Entry, METHODS, Variant};
+use fastphong::shading::{Entry, Variant};
 use glam::{DVec3, Vec3};
 
 /// Width of the pictures in this module.
@@ -256,7 +257,7 @@ fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
         };
         largest_difference(&picture(0), &turned_back(&picture(1)))
     };
-    for entry in METHODS {
+    for entry in floats() {
         let (square, triangles) = (
             turned_difference(entry, false),
             turned_difference(entry, true),
@@ -288,7 +289,7 @@ fn the_picture_depends_on_the_diagonal() {
     let [a, b, c, d] = square(0, normals);
     let one = frame_of(&[&[a, b, c], &[a, c, d]]);
     let other = frame_of(&[&[a, b, d], &[b, c, d]]);
-    for entry in METHODS.iter().filter(|entry| entry.info.name != "flat") {
+    for entry in floats().iter().filter(|entry| entry.info.name != "flat") {
         let draw = |frame: &Frame| entry.variant().render_linear(frame);
         assert!(
             largest_difference(&draw(&one), &draw(&other)) > 0.01,

@@ -2,6 +2,7 @@
 //! and how wrong it can be.
 
 use crate::support::Random;
+use crate::support::floats;
 use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::raster::{self, Edges, NOTHING};
@@ -10,7 +11,6 @@ use fastphong::scene::{
     Camera, Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation,
     Projection, Scene,
 };
-use fastphong::shading::METHODS;
 use glam::{DVec3, Vec3};
 
 /// Builds polygons seen by an eye one unit above the origin that looks along −z and slightly
@@ -215,7 +215,7 @@ fn anything_around_the_eye_gives_a_picture() {
                 );
             }
         }
-        for entry in METHODS {
+        for entry in floats() {
             let picture = entry.variant().render_linear(&frame);
             assert!(
                 picture

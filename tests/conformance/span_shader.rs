@@ -1,10 +1,11 @@
 //! Spans that a rasterizer outside of the crate asks for: the colours are those of the span engine.
 
+use crate::support::floats;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::number::vec3;
 use fastphong::scene::{Interpolation, Light, Lighting};
-use fastphong::shading::{Corner, Corners, METHODS, SpanShader, SpanVertex, Variant};
+use fastphong::shading::{Corner, Corners, SpanShader, SpanVertex, Variant};
 use glam::{DVec3, Vec3};
 
 #[allow(dead_code)] // its `main`
@@ -125,7 +126,7 @@ fn spans_are_those_of_the_engine() {
         for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
             let rectangle = Rectangle::new(lights, interpolation);
             let frame = rectangle.frame();
-            for variant in METHODS.iter().map(|entry| entry.variant()) {
+            for variant in floats().iter().map(|entry| entry.variant()) {
                 let picture = variant.render_linear(&frame);
                 let mut colours = [[0.0; 3]; 48];
                 rectangle.shade(&variant, 8, &mut colours);
@@ -158,7 +159,7 @@ fn spans_are_those_of_the_engine() {
             }
         }
     }
-    assert_eq!(compared, 3 * 2 * METHODS.len() * 48);
+    assert_eq!(compared, 3 * 2 * floats().len() * 48);
 }
 
 #[test]

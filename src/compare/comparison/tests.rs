@@ -44,8 +44,10 @@ fn frame_of(mesh: &str) -> Frame {
     scene.frame().unwrap()
 }
 
+/// Returns the methods that compute in floats: those in integers err by design, and are not for every frame.
 fn all() -> Vec<Variant> {
-    METHODS.iter().map(|entry| entry.variant()).collect()
+    let floats = METHODS.iter().filter(|entry| !entry.is_integer);
+    floats.map(|entry| entry.variant()).collect()
 }
 
 fn errors_only(frame: &Frame, variants: &[Variant]) -> Comparison {
@@ -77,7 +79,8 @@ fn named<'a>(rows: &'a [MethodRow], name: &str) -> &'a MethodRow {
 #[test]
 fn every_method_has_its_row_and_the_barycentric_renderer_its_own() {
     let frame = frame_of("sphere?rings=6&segments=12");
-    let comparison = errors_only(&frame, &all());
+    let variants: Vec<_> = METHODS.iter().map(|entry| entry.variant()).collect();
+    let comparison = errors_only(&frame, &variants);
     let names = |rows: &[MethodRow]| rows.iter().map(MethodRow::name).collect::<Vec<_>>();
     assert_eq!(
         names(&comparison.rows),

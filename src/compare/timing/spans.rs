@@ -104,7 +104,13 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
     });
     if kernels.reads_span {
         let t0 = 0.5 * dt;
-        list.places.push(SpanPlace { y: 0, t0, dt });
+        list.places.push(SpanPlace {
+            y: 0,
+            t0,
+            dt,
+            start: 0,
+            pixels: pixels as u32,
+        });
     }
     Started {
         kernels,

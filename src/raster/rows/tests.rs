@@ -278,7 +278,8 @@ fn polygon_numbers_are_those_of_the_polygons_that_each_method_shows() {
     {
         let frame = coplanar(lights);
         let mut found = Vec::new();
-        for entry in METHODS {
+        // Those in integers have no level of their own for each polygon.
+        for entry in METHODS.iter().filter(|entry| !entry.is_integer) {
             let variant = entry.variant();
             if variant.plan(&frame, renderer).renderer() != Some(renderer) {
                 continue;

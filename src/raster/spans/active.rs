@@ -379,7 +379,13 @@ impl<'a> ActiveEdges<'a> {
             pixels: pixels.len() as u32,
         });
         if self.varyings.keeps_ends {
-            to.places.push(SpanPlace { y, t0, dt });
+            to.places.push(SpanPlace {
+                y,
+                t0,
+                dt,
+                start: span.start,
+                pixels: span.end - span.start,
+            });
         }
         self.start(span, [t0, dt], &mut to.starts);
     }

@@ -417,7 +417,13 @@ mod blocks {
             let [to_first, to_second] = list.starts.add();
             to_first.copy_from_slice(first);
             to_second.copy_from_slice(second);
-            list.places.push(SpanPlace { y: 0, t0, dt });
+            list.places.push(SpanPlace {
+                y: 0,
+                t0,
+                dt,
+                start: 0,
+                pixels: 32,
+            });
         }
         let job = Pixels {
             parameters,

@@ -4,9 +4,9 @@ use super::frames::kinds;
 use crate::support::cases::{Case, cases};
 use crate::support::differences::{largest_difference, levels_apart};
 use crate::support::drawings::{Drawing, assert_none, for_each_drawing};
+use crate::support::floats;
 use crate::support::renderers::renderers;
 use fastphong::picture::Encoding;
-use fastphong::shading::METHODS;
 
 /// Compares a drawing with the scalar span engine's. Returns the difference in grey levels, and a message if it is over what
 /// rounding explains.
@@ -42,7 +42,7 @@ fn compare(drawing: &Drawing) -> (u8, Option<String>) {
 fn engines_agree_on_every_kind_of_frame() {
     for (kind, frame) in kinds(117, 83) {
         let case = &Case::new(kind, frame);
-        for entry in METHODS {
+        for entry in floats() {
             let all = renderers().into_iter().map(|renderer| Drawing {
                 case,
                 variant: entry.variant(),

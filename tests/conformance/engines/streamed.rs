@@ -1,11 +1,12 @@
 //! Streaming finished rows while others are still being drawn gives the same picture.
 
 use super::frames::kinds;
+use crate::support::floats;
 use crate::support::renderers::{name, on_threads, renderers};
 use fastphong::frame::Frame;
 use fastphong::picture::{Picture, Picture8};
 use fastphong::raster::Renderer;
-use fastphong::shading::{METHODS, Variant};
+use fastphong::shading::Variant;
 use std::convert::Infallible;
 
 /// A height at which every engine streams in parts, on one thread and on two.
@@ -33,7 +34,7 @@ fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, 
 fn streamed_rows_make_the_picture() {
     let mut in_parts = 0;
     for (kind, frame) in kinds(21, HEIGHT) {
-        for variant in METHODS.iter().map(|entry| entry.variant()) {
+        for variant in floats().iter().map(|entry| entry.variant()) {
             for renderer in renderers() {
                 let whole = variant.render_with(&frame, renderer);
                 for threads in [1, 2] {
@@ -62,7 +63,7 @@ fn a_failed_receiver_stops_the_drawing() {
     for (kind, frame) in kinds(21, HEIGHT) {
         for renderer in renderers() {
             let mut calls = 0;
-            let taken = METHODS[0].variant().render_rows(&frame, renderer, |_| {
+            let taken = floats()[0].variant().render_rows(&frame, renderer, |_| {
                 calls += 1;
                 Err("full")
             });

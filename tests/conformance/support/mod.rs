@@ -13,9 +13,16 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::obj::load_obj;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{HiddenSurfaces, Light, Lighting, Scene};
+use fastphong::shading::{Entry, METHODS};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Returns the methods that compute in floats. They draw every frame; those in integers refuse some, and err by design.
+pub fn floats() -> &'static [Entry] {
+    let all = METHODS.iter().position(|entry| entry.is_integer);
+    &METHODS[..all.unwrap_or(METHODS.len())]
+}
 
 /// A xorshift64* generator (Vigna 2016).
 pub struct Random(u64);

@@ -1,0 +1,69 @@
+//! Fast Phong shading in integers, as the lecture prints it: three divisions a pixel: an exhibit.
+
+use super::integers::{self, Line, Normals, sum};
+use super::{Approximation, Entry, Info, Kernels, Roundings, Stepped, Value};
+use crate::integer::{Highlight, Light, Rgb888, Span};
+use crate::reference::Model;
+
+/// `Span::fast_as_printed` of [`crate::integer`].
+struct FastPrinted;
+
+type Shell = Normals<1>;
+
+const INFO: Info = Info {
+    name: "integer-fast-printed",
+    title: "fast Phong shading in integers, as the lecture prints it: three divisions a pixel",
+    formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  d_next = (d + N.N / d) / 2\n\
+              I = table(J / d) + table(2 J K / (N.N) - L.V)",
+    source: "L21 4.2, 4.3, eq 4.3, 4.4, 4.6",
+    model: Model::PhongConstant,
+    roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
+    derivation: "no bound: one step of Newton's from the pixel before follows |N| where a pixel turns little",
+    approximation: |_, _| Approximation::NONE,
+    fails: "where normals turn by more than some 2 degrees a pixel; it knows one light, at infinity",
+    has_power: false,
+    parameters: &[],
+};
+
+static KERNELS: Kernels =
+    Kernels::of_functions::<Shell>(integers::pixels::<FastPrinted>, integers::WHY);
+
+/// The row of the method table.
+pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench, variant| {
+    integers::counted::<Shell>(bench, variant, integers::pixels::<FastPrinted>, 1, |_| {
+        [
+            sum([
+                (1, integers::RECIPROCAL),
+                (4, integers::DOT),
+                (2, integers::RAMP),
+                (3, integers::ADDITION),
+                (3, integers::UNIT_COSINE),
+                (1, integers::DOT),
+                (1, integers::ROOT),
+                (1, integers::NEWTON),
+                (1, integers::UNIT_COSINE),
+            ]),
+            sum([(5, integers::ADDITION)]),
+            sum([
+                (1, integers::DOT),
+                (3, integers::DIVISION),
+                (2, integers::ADDITION), // Newton's step
+                (1, integers::REFLECTION),
+                (2, integers::CLAMP),
+                (1, integers::colour(1, true)),
+            ]),
+        ]
+    })
+});
+
+impl Line for FastPrinted {
+    fn shade<H: Highlight, const L: usize>(
+        _: &[Value],
+        span: Span,
+        line: &mut [Rgb888],
+        lights: &[Light<'_, Rgb888>; L],
+    ) {
+        debug_assert_eq!(L, 1, "frames of several lights are refused");
+        span.fast_as_printed(line, &lights[0]);
+    }
+}

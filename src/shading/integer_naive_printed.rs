@@ -1,0 +1,62 @@
+//! Naive Phong shading in integers, as the lecture prints it: an exhibit.
+
+use super::integers::{self, Form, Line, Normals, sum};
+use super::{Entry, Info, Kernels, Value};
+use crate::integer::{Highlight, Light, Rgb888, Span};
+use crate::reference::Model;
+
+/// `Span::naive_as_printed` of [`crate::integer`].
+struct NaivePrinted;
+
+type Shell = Normals<1>;
+
+const INFO: Info = Info {
+    name: "integer-naive-printed",
+    title: "naive Phong shading in integers, as the lecture prints it",
+    formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  I = table(L.N_unit) + table(R.V)",
+    source: "L21 4.1, eq 4.1, 4.2",
+    model: Model::PhongConstant,
+    roundings: integers::ROUNDINGS,
+    derivation: integers::DERIVATION,
+    approximation: |frame, polygon| integers::approximation(frame, polygon, Form::Refined),
+    fails: "where normals turn by more than 90 degrees over a polygon; it knows one light, at infinity",
+    has_power: false,
+    parameters: &[],
+};
+
+static KERNELS: Kernels =
+    Kernels::of_functions::<Shell>(integers::pixels::<NaivePrinted>, integers::WHY);
+
+/// The row of the method table.
+pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench, variant| {
+    integers::counted::<Shell>(bench, variant, integers::pixels::<NaivePrinted>, 1, |_| {
+        [
+            sum([
+                (1, integers::RECIPROCAL),
+                (3, integers::ADDITION),
+                (3, integers::UNIT_COSINE),
+            ]),
+            sum([(3, integers::ADDITION)]),
+            sum([
+                (1, integers::ROOT),
+                (1, integers::NEWTON),
+                (3, integers::DOT),
+                (3, integers::UNIT_COSINE), // N / |N|
+                (3, integers::REFLECTION),  // R
+                (1, integers::colour(1, true)),
+            ]),
+        ]
+    })
+});
+
+impl Line for NaivePrinted {
+    fn shade<H: Highlight, const L: usize>(
+        _: &[Value],
+        span: Span,
+        line: &mut [Rgb888],
+        lights: &[Light<'_, Rgb888>; L],
+    ) {
+        debug_assert_eq!(L, 1, "frames of several lights are refused");
+        span.naive_as_printed(line, &lights[0]);
+    }
+}

@@ -1,0 +1,61 @@
+//! Slerp Phong shading in integers.
+
+use super::integers::{self, Circles, Form, Line, sum};
+use super::{Entry, Info, Kernels, Value};
+use crate::integer::{Highlight, Light, Rgb888, Span};
+use crate::reference::Model;
+
+/// J and K along great circles by two additions and a product each: `Span::slerp` of [`crate::integer`].
+struct Waves;
+
+type Shell = Circles;
+
+const INFO: Info = Info {
+    name: "integer-slerp",
+    title: "J = L.N and K = V.N along great circles, in integers",
+    formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 2 (1 - cos d), d the angle of a pixel;  K likewise\n\
+              I = table(J) + table(2 J K - L.V)",
+    source: "L21 4.4, eq 4.7; Barrera, Hast, Bengtsson 2004",
+    model: Model::Slerp,
+    roundings: integers::CIRCLE_ROUNDINGS,
+    derivation: integers::DERIVATION,
+    approximation: |frame, polygon| integers::approximation(frame, polygon, Form::Waves),
+    fails: "where normals turn by more than 90 degrees along a span; it knows one light, at infinity",
+    has_power: false,
+    parameters: &[],
+};
+
+static KERNELS: Kernels = Kernels::of_functions::<Shell>(integers::circles::<Waves>, integers::WHY);
+
+/// The row of the method table.
+pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench, variant| {
+    integers::counted::<Shell>(bench, variant, integers::circles::<Waves>, 1, |_| {
+        [
+            // θ, φ and their sines by series, and the first differences of J and K
+            sum([
+                (1, integers::RECIPROCAL),
+                (1, integers::DOT),
+                (9, integers::ADDITION),
+                (11, integers::UNIT_COSINE),
+                (2, integers::DIVISION),
+                (4, integers::DOT),
+                (4, integers::ADDITION),
+                (8, integers::UNIT_COSINE),
+            ]),
+            sum([(4, integers::ADDITION), (2, integers::UNIT_COSINE)]),
+            sum([(1, integers::REFLECTION), (1, integers::colour(1, true))]),
+        ]
+    })
+});
+
+impl Line for Waves {
+    fn shade<H: Highlight, const L: usize>(
+        _: &[Value],
+        span: Span,
+        line: &mut [Rgb888],
+        lights: &[Light<'_, Rgb888>; L],
+    ) {
+        debug_assert_eq!(L, 1, "frames of several lights are refused");
+        span.slerp::<_, H>(line, &lights[0]);
+    }
+}
