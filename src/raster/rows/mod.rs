@@ -19,6 +19,19 @@
 //! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Only
 //! slerp Phong and fast Phong with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
 //!
+//! Who calls whom, for one frame:
+//!
+//! ```text
+//! draw                 once        sets the method up and bins; its caller chooses where bands go: a picture, or rows that stream
+//!   each_band          once        runs the closure below for every band, on the threads of the pool (../bands.rs)
+//!     fill_tile        a band      with this thread's buffers
+//!       rasterise      a band      compiled for an instruction set (`with_level!`): goes through the band's polygons in order
+//!         triangles    a batch     set-up, coverage and plane equations of up to 32 triangles
+//!         add_polygon  a polygon   runs of all others, in a queue
+//!         draw_runs    a queue     walks along them, and writes them into the tile
+//!     shade            a row       calls the method's kernel, stretch by stretch
+//! ```
+//!
 //! A method is its [`Kernels`](crate::shading::Kernels) here, called for a stretch of a row or a batch of runs. All of this is
 //! compiled once per instruction set.
 
