@@ -52,8 +52,8 @@ impl Starts {
             self.count, N,
             "each run has all numbers that it starts from"
         );
-        self.numbers.extend_from_slice(&first);
-        self.numbers.extend_from_slice(&second);
+        self.numbers
+            .extend_from_slice([first, second].as_flattened());
     }
 
     /// Adds a run of zeros, and returns its numbers: the first ones of all varyings, then the second ones.

@@ -239,7 +239,10 @@ impl<'a> ActiveEdges<'a> {
     #[inline(always)]
     fn start_edge(&mut self, edge: &TableEdge, row: i32) {
         let vertices = self.frame.vertices();
-        let [top, bottom] = [edge.top, edge.bottom].map(|v| &vertices[v as usize]);
+        let (top, bottom) = (
+            &vertices[edge.top as usize],
+            &vertices[edge.bottom as usize],
+        );
         let place = |v: &ScreenVertex| [v.x, v.y];
         // Exact: both differences have at most 24 bits.
         let height = (bottom.y - top.y).to_bits() as f32;
@@ -270,17 +273,17 @@ impl<'a> ActiveEdges<'a> {
     /// Starts the varyings of an edge. Returns the first ones and the slot of the others.
     #[inline(always)]
     fn start_varyings(&mut self, edge: &TableEdge, parameter: [f32; 2]) -> (Group, u32) {
-        let (ends, mut slot) = (self.ends(edge), 0);
+        let ([a, b], mut slot) = (self.ends(edge), 0);
         if self.varyings.great_circles {
             let polygon = &self.frame.polygons()[edge.polygon as usize];
             let face = vec3(self.frame.polygon_normal(polygon));
-            slot = self.more.enter_circle(face, ends, parameter);
+            slot = self.more.enter_circle(face, [a, b], parameter);
             return (Group::default(), slot);
         }
         if self.has_slots {
-            slot = self.more.enter(ends.map(|end| &end[GROUP..]), parameter);
+            slot = self.more.enter([&a[GROUP..], &b[GROUP..]], parameter);
         }
-        (Group::new(ends.map(first_of), parameter), slot)
+        (Group::new([first_of(a), first_of(b)], parameter), slot)
     }
 
     /// Returns the varyings of the upper and the lower end of an edge.
@@ -416,15 +419,16 @@ impl<'a> ActiveEdges<'a> {
             }
             return;
         }
-        let more = [left, right].map(|edge| self.more.groups(edge.slot));
+        let more = [self.more.groups(left.slot), self.more.groups(right.slot)];
         let groups = core::iter::once([left.varyings, right.varyings])
             .chain(more[0].iter().zip(more[1]).map(|(a, b)| [*a, *b]));
         let places = first.chunks_mut(GROUP).zip(second.chunks_mut(GROUP));
         for ((first, second), ends) in places.zip(groups) {
-            // The last group may have more numbers than there are.
+            // The last group may have more numbers than there are. Copied one by one: a call would take longer.
             let group = self.between(ends, [t0, dt]);
-            first.copy_from_slice(&group.at[..first.len()]);
-            second.copy_from_slice(&group.step[..second.len()]);
+            for (i, (first, second)) in first.iter_mut().zip(second).enumerate() {
+                (*first, *second) = (group.at[i], group.step[i]);
+            }
         }
     }
 
