@@ -44,8 +44,10 @@ pub const INTEGER_QUADRATIC: &Entry = named("integer-quadratic");
 /// Normals along great circles in integers.
 pub const INTEGER_SLERP: &Entry = named("integer-slerp");
 /// Naive Phong shading in integers, as the lecture prints it.
+#[doc(hidden)] // an exhibit
 pub const INTEGER_NAIVE_PRINTED: &Entry = named("integer-naive-printed");
 /// Fast Phong shading in integers, as the lecture prints it.
+#[doc(hidden)] // an exhibit
 pub const INTEGER_FAST_PRINTED: &Entry = named("integer-fast-printed");
 
 /// Returns the row of the table called `name`; a name without a row does not compile.
