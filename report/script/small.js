@@ -40,7 +40,8 @@ function costOfLoops(id, column, label) {
 	for (const p of points) {
 		[p.x, p.y] = [x(p.cost), y(p.error)];
 		p.w = textWidth(p.name) + 6;
-		p.priority = +(p.name === shortName(p.m).replace("integer ", ""));
+		// The plain loops, by their whole name, are labelled first.
+		p.priority = +!p.name.includes(" ");
 	}
 	place(points, [l + 2, t, r, b - 1], []);
 	el.innerHTML = svg(W, 330, `Error against ${label}`, [
