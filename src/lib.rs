@@ -94,6 +94,10 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod shading;
+// Its tests need no display: they run with all others.
+#[cfg(any(feature = "view", all(test, feature = "cli")))]
+#[doc(hidden)]
+pub mod view;
 
 /// Shared ownership and atomics, also on processors without compare-and-swap.
 #[cfg(feature = "alloc")]

@@ -246,18 +246,26 @@ pub fn threads(text: &str) -> Result<usize, String> {
 }
 
 impl ThreadFlags {
-    /// Runs `work` on a pool of as many threads as asked for.
+    /// Starts as many threads as asked for.
     ///
     /// # Errors
     /// When the system does not give that many.
-    pub fn install<T: Send>(self, work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
+    pub fn pool(self) -> Result<rayon::ThreadPool, CliError> {
         // 0 stands for as many as there are processors.
         let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
         let pool = builder.stack_size(STACK).build().map_err(|error| {
             let threads = self.threads.map_or_else(String::new, |n| format!("{n} "));
             format!("{threads}threads cannot be started: {error}")
         })?;
-        Ok(pool.install(work))
+        Ok(pool)
+    }
+
+    /// Runs `work` on a pool of as many threads as asked for.
+    ///
+    /// # Errors
+    /// As [`ThreadFlags::pool`].
+    pub fn install<T: Send>(self, work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
+        Ok(self.pool()?.install(work))
     }
 
     /// Runs `work` as [`ThreadFlags::install`] does, for the pictures of `renderer`: the lecture's own form is on one thread

@@ -35,6 +35,8 @@ mod signals;
 mod studio;
 mod text;
 mod values;
+#[cfg(feature = "view")]
+mod view;
 mod watch;
 
 pub use error::{CliError, Outcome};
@@ -74,6 +76,8 @@ fastphong --help lists all commands, fastphong list scenes the scenes.
 #[derive(clap::Subcommand, Debug)]
 enum Command {
     Render(render::RenderArgs),
+    #[cfg(feature = "view")]
+    View(view::ViewArgs),
     Report(report::ReportArgs),
     Figure(figure::FigureArgs),
     Diff(diff::DiffArgs),
@@ -95,6 +99,8 @@ impl Cli {
         let log = Log::new(self.quiet, self.verbose);
         match &self.command {
             Command::Render(command) => command.run(log),
+            #[cfg(feature = "view")]
+            Command::View(command) => command.run(log),
             Command::Report(command) => command.run(log),
             Command::Figure(command) => command.run(log),
             Command::Diff(command) => command.run(log),

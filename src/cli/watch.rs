@@ -1,4 +1,4 @@
-//! `render --watch`: draws again whenever a file of the scene changes.
+//! `--watch`: draws again whenever a file of the scene changes.
 
 use super::files;
 use super::log::{Log, colour, to_stderr};
@@ -7,9 +7,43 @@ use super::{CliError, Outcome};
 use fastphong::scene::input::has_known_ending;
 use std::path::Path;
 
+/// An input whose files are watched. One may go, and come back, and be another one under the same name; it may also be there
+/// only later.
+pub struct Watched<'a>(&'a Path);
+
+impl<'a> Watched<'a> {
+    /// Watches `input`.
+    ///
+    /// # Errors
+    /// When it is not the name of a file.
+    pub fn new(input: &'a str) -> Result<Self, CliError> {
+        let path = Path::new(input);
+        let may_come = !path.exists() && has_known_ending(path);
+        if !path.is_file() && !may_come {
+            let expected = "expected a scene file or a mesh file with `--watch`";
+            return Err(format!("`{input}` is no file, and never changes: {expected}").into());
+        }
+        Ok(Watched(path))
+    }
+
+    /// Forgets the files that were read before: what is read from now on is watched.
+    pub fn begin(&self) {
+        files::forget();
+        // Where it is gone it is not read, and may come back.
+        files::will_read_of_scene(self.0);
+    }
+
+    /// Waits for a change of a file that was read or looked for since it [began](Watched::begin).
+    pub fn wait(&self, log: Log, ends: &str) {
+        files::wait_for_change(|count| {
+            let files = counted(count, "file", "files");
+            log.note(&format!("watching {files}: {ends} ends"));
+        });
+    }
+}
+
 /// Draws, and again after every change of a file that `draw` read or looked for, until the program is ended. Errors are shown,
-/// once each time: a later change may mend them. A file may go, and come back, and be another one under the same name; it may also
-/// be there only later.
+/// once each time: a later change may mend them.
 ///
 /// # Errors
 /// When `input` is not the name of a file, or a file is to be read and written.
@@ -18,24 +52,14 @@ pub fn watch(
     log: Log,
     draw: impl Fn() -> Result<Outcome, CliError>,
 ) -> Result<Outcome, CliError> {
-    let path = Path::new(input);
-    let may_come = !path.exists() && has_known_ending(path);
-    if !path.is_file() && !may_come {
-        let expected = "expected a scene file or a mesh file with `--watch`";
-        return Err(format!("`{input}` is no file, and never changes: {expected}").into());
-    }
+    let watched = Watched::new(input)?;
     loop {
-        files::forget();
-        // Where it is gone it is not read, and may come back.
-        files::will_read_of_scene(path);
+        watched.begin();
         match draw() {
             Err(failure) if failure.is_of_files() => return Err(failure),
             Err(failure) => to_stderr(&failure.render(colour())),
             Ok(_) => {}
         }
-        files::wait_for_change(|count| {
-            let files = counted(count, "file", "files");
-            log.note(&format!("watching {files}: Ctrl-C ends"));
-        });
+        watched.wait(log, "Ctrl-C");
     }
 }

@@ -1,0 +1,325 @@
+//! The camera of a window: the scene's own, turned around its target and brought nearer.
+
+use crate::scene::{Camera, Light, Projection, Scene};
+use glam::{DMat3, DVec3};
+use std::vec::Vec;
+
+/// The highest elevation above the horizon of the scene's up, in radians: at 90 degrees nothing is upward any more.
+const HIGHEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
+
+/// Zooms, from the least to the most.
+const ZOOMS: [f64; 2] = [1.0 / 16.0, 64.0];
+
+/// The camera from which an orbit starts, and what it must keep in view.
+#[derive(Clone, Debug)]
+pub struct Start {
+    camera: Camera,
+    /// Width over height of the picture that the camera was made for.
+    aspect: f64,
+    /// The corners of the objects' boxes, in world space: all that is drawn lies between them.
+    corners: Vec<DVec3>,
+    /// The distances of the near and the far plane that the scene asks for itself, as they then stay.
+    planes: [Option<f64>; 2],
+}
+
+impl Start {
+    /// Returns the start of `scene`; of the near and the far plane those that are `given` stay where they are.
+    pub fn new(scene: &Scene, given: [bool; 2]) -> Start {
+        let mut corners = Vec::new();
+        for object in &scene.objects {
+            let Some((low, high)) = object.mesh.bounds() else {
+                continue;
+            };
+            for corner in 0..8 {
+                let pick = |axis: usize| match corner >> axis & 1 {
+                    0 => low[axis],
+                    _ => high[axis],
+                };
+                let corner = DVec3::new(pick(0), pick(1), pick(2));
+                corners.push(object.transform.transform_point3(corner));
+            }
+        }
+        let camera = scene.camera;
+        Start {
+            camera,
+            aspect: f64::from(scene.width) / f64::from(scene.height),
+            corners,
+            planes: [
+                given[0].then_some(camera.near),
+                given[1].then_some(camera.far),
+            ],
+        }
+    }
+
+    /// Returns up, the horizontal direction toward the eye, the one to its right, and the elevation of the eye.
+    fn horizon(&self) -> ([DVec3; 3], f64) {
+        let pole = self.camera.up.normalize();
+        let toward = self.camera.view();
+        let height = toward.dot(pole);
+        let front = (toward - height * pole).normalize();
+        let elevation = libm::asin(height.clamp(-1.0, 1.0));
+        ([pole, front, pole.cross(front)], elevation)
+    }
+}
+
+/// How far the camera has come from its start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orbit {
+    azimuth: f64,
+    elevation: f64,
+    zoom: f64,
+}
+
+impl Default for Orbit {
+    fn default() -> Self {
+        Orbit {
+            azimuth: 0.0,
+            elevation: 0.0,
+            zoom: 1.0,
+        }
+    }
+}
+
+impl Orbit {
+    /// Turns the eye to its right by `azimuth` and upward by `elevation`, in radians, not beyond the poles.
+    pub fn turn(&mut self, start: &Start, azimuth: f64, elevation: f64) {
+        let (_, at_start) = start.horizon();
+        // A scene may look from beyond; the way back is open.
+        let highest = HIGHEST.max(at_start.abs());
+        let raised = at_start + self.elevation + elevation;
+        self.elevation = raised.clamp(-highest, highest) - at_start;
+        self.azimuth = libm::remainder(self.azimuth + azimuth, std::f64::consts::TAU);
+    }
+
+    /// Shows everything `factor` times as large, within limits.
+    pub fn zoom(&mut self, factor: f64) {
+        self.zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
+    }
+
+    /// Returns the camera for a picture of this width over height. What fits into the start's picture fits into a narrower one.
+    pub fn camera(&self, start: &Start, aspect: f64) -> Camera {
+        let mut camera = start.camera;
+        let wider = start.aspect / aspect;
+        if wider > 1.0 {
+            camera.projection = widened(camera.projection, wider);
+        }
+        // At the start it is the scene's own to the bit, so that the picture is that of `render`.
+        if *self == Orbit::default() {
+            return camera;
+        }
+        let ([pole, front, right], at_start) = start.horizon();
+        let (sin, cos) = libm::sincos(self.azimuth);
+        let level = cos * front + sin * right;
+        let (sin, cos) = libm::sincos(at_start + self.elevation);
+        let toward = cos * level + sin * pole;
+        let mut distance = (camera.eye - camera.target).length();
+        match &mut camera.projection {
+            Projection::Orthographic { half_height } => *half_height /= self.zoom,
+            Projection::Perspective { .. } => distance /= self.zoom,
+        }
+        camera.eye = camera.target + distance * toward;
+        let fitted = camera.depth_range(start.corners.iter().copied());
+        if let Some((near, far)) = fitted {
+            let [given_near, given_far] = start.planes;
+            let (near, far) = (given_near.unwrap_or(near), given_far.unwrap_or(far));
+            if near < far {
+                (camera.near, camera.far) = (near, far);
+            }
+        }
+        camera
+    }
+
+    /// Returns `lights` turned as the eye has turned around its target: seen from there they stay where they were.
+    pub fn carry(&self, start: &Start, lights: &[Light]) -> Vec<Light> {
+        let axes = |camera: &Camera| {
+            let [right, up, forward] = camera.axes();
+            DMat3::from_cols(right, up, forward)
+        };
+        // The inverse of a turn is its transpose.
+        let turned = axes(&self.camera(start, start.aspect)) * axes(&start.camera).transpose();
+        let target = start.camera.target;
+        let carry = |light: &Light| {
+            let place = match light.place.is_local() {
+                true => light.place.map(|at| target + turned * (at - target)),
+                false => light.place.map(|toward| (turned * toward).normalize()),
+            };
+            Light { place, ..*light }
+        };
+        lights.iter().map(carry).collect()
+    }
+}
+
+/// Returns the projection that sees so many times as much in width and height.
+fn widened(projection: Projection, times: f64) -> Projection {
+    match projection {
+        Projection::Orthographic { half_height } => Projection::Orthographic {
+            half_height: half_height * times,
+        },
+        Projection::Perspective { fovy } => {
+            let half = libm::atan(times * libm::tan(fovy.to_radians() / 2.0));
+            Projection::Perspective {
+                fovy: (2.0 * half).to_degrees(),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builtin::builtin;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn scene(fovy: Option<f64>) -> Scene {
+        let mut scene = Scene::of_mesh(builtin("torus").expect("a shape"));
+        scene.camera.eye = DVec3::new(0.0, 3.0, 4.0);
+        scene.camera.target = DVec3::ZERO;
+        scene.camera.up = DVec3::Y;
+        if let Some(fovy) = fovy {
+            scene.camera.projection = Projection::Perspective { fovy };
+        }
+        scene
+    }
+
+    /// Some dozens of roundings of numbers below 10, each of at most 10 · 2^-53.
+    const ROUNDING: f64 = 1e-13;
+
+    #[test]
+    fn nothing_done_is_the_camera_of_the_scene_to_the_bit() {
+        let scene = scene(None);
+        let start = Start::new(&scene, [false; 2]);
+        let mut orbit = Orbit::default();
+        assert_eq!(orbit.camera(&start, 4.0 / 3.0), scene.camera);
+        orbit.turn(&start, 1.0, 0.1);
+        assert_ne!(orbit.camera(&start, 4.0 / 3.0), scene.camera);
+    }
+
+    #[test]
+    fn a_quarter_turn_stands_to_the_right_at_the_same_height_and_distance() {
+        let start = Start::new(&scene(None), [false; 2]);
+        let mut orbit = Orbit::default();
+        orbit.turn(&start, FRAC_PI_2, 0.0);
+        let eye = orbit.camera(&start, 1.0).eye;
+        assert!(
+            (eye - DVec3::new(4.0, 3.0, 0.0)).length() < ROUNDING,
+            "{eye}"
+        );
+        // Three more close the circle.
+        for _ in 0..3 {
+            orbit.turn(&start, FRAC_PI_2, 0.0);
+        }
+        let eye = orbit.camera(&start, 1.0).eye;
+        assert!(
+            (eye - DVec3::new(0.0, 3.0, 4.0)).length() < ROUNDING,
+            "{eye}"
+        );
+    }
+
+    #[test]
+    fn elevation_ends_before_the_pole_and_comes_back_at_once() {
+        let start = Start::new(&scene(None), [false; 2]);
+        let mut orbit = Orbit::default();
+        orbit.turn(&start, 0.0, PI);
+        let high = orbit.camera(&start, 1.0).view().dot(DVec3::Y);
+        assert!((high - libm::sin(HIGHEST)).abs() < ROUNDING, "{high}");
+        orbit.turn(&start, 0.0, -0.5);
+        let lower = orbit.camera(&start, 1.0).view().dot(DVec3::Y);
+        assert!((lower - libm::sin(HIGHEST - 0.5)).abs() < ROUNDING);
+    }
+
+    /// A scene that looks nearly along its up keeps that view, which is beyond the limit.
+    #[test]
+    fn a_start_beyond_the_limit_stays_until_it_is_lowered() {
+        let mut scene = scene(None);
+        scene.camera.eye = DVec3::new(0.0, 5.0, 1e-3);
+        let start = Start::new(&scene, [false; 2]);
+        let mut orbit = Orbit::default();
+        orbit.turn(&start, 1.0, 1.0);
+        let camera = orbit.camera(&start, 1.0);
+        assert!((camera.eye.y - 5.0).abs() < 1e-6, "{camera:?}");
+        assert!(camera.axes().iter().all(|axis| axis.is_finite()));
+    }
+
+    #[test]
+    fn zoom_narrows_a_parallel_view_and_brings_a_perspective_eye_nearer() {
+        let parallel = scene(None);
+        let start = Start::new(&parallel, [false; 2]);
+        let mut orbit = Orbit::default();
+        orbit.zoom(2.0);
+        let half = |camera: &Camera| match camera.projection {
+            Projection::Orthographic { half_height } => half_height,
+            Projection::Perspective { .. } => f64::NAN,
+        };
+        let camera = orbit.camera(&start, 4.0 / 3.0);
+        assert_eq!(half(&camera), half(&parallel.camera) / 2.0);
+        let start = Start::new(&scene(Some(40.0)), [false; 2]);
+        let camera = orbit.camera(&start, 4.0 / 3.0);
+        assert!((camera.eye.length() - 2.5).abs() < ROUNDING);
+        orbit.zoom(1e9);
+        let camera = orbit.camera(&start, 1.0);
+        assert!((camera.eye.length() - 5.0 / ZOOMS[1]).abs() < ROUNDING);
+        assert!(0.0 < camera.near && camera.near < camera.far);
+    }
+
+    #[test]
+    fn planes_hold_the_objects_from_everywhere_unless_they_are_given() {
+        let scene = scene(Some(40.0));
+        let start = Start::new(&scene, [false; 2]);
+        let mut orbit = Orbit::default();
+        for _ in 0..12 {
+            orbit.turn(&start, 0.7, 0.4);
+            let camera = orbit.camera(&start, 1.0);
+            let [_, _, forward] = camera.axes();
+            for corner in &start.corners {
+                let depth = forward.dot(*corner - camera.eye);
+                assert!(camera.near <= depth && depth <= camera.far);
+            }
+        }
+        let start = Start::new(&scene, [true, false]);
+        let camera = orbit.camera(&start, 1.0);
+        assert_eq!(camera.near, scene.camera.near);
+    }
+
+    #[test]
+    fn a_narrow_window_shows_what_the_scene_shows_in_width() {
+        for fovy in [None, Some(50.0)] {
+            let scene = scene(fovy);
+            let start = Start::new(&scene, [false; 2]);
+            let width = |camera: &Camera, aspect: f64| 1.0 / camera.clip_matrix(aspect).row(0).x;
+            let before = width(&scene.camera, 4.0 / 3.0);
+            let narrow = width(&Orbit::default().camera(&start, 0.5), 0.5);
+            // A tangent and its arc, some ten roundings.
+            assert!(
+                (narrow / before - 1.0).abs() < 1e-14,
+                "{fovy:?}: {narrow} {before}"
+            );
+            assert_eq!(Orbit::default().camera(&start, 2.0), scene.camera);
+        }
+    }
+
+    #[test]
+    fn carried_lights_stay_where_they_are_for_the_eye() {
+        let scene = scene(None);
+        let start = Start::new(&scene, [false; 2]);
+        let lights = [
+            Light::directional(DVec3::new(0.6, 0.8, 0.0), [1.0; 3]),
+            Light {
+                place: crate::scene::Place::Local(DVec3::new(1.0, 2.0, 3.0)),
+                ..Light::directional(DVec3::X, [1.0; 3])
+            },
+        ];
+        let mut orbit = Orbit::default();
+        orbit.turn(&start, 2.0, -0.9);
+        let carried = orbit.carry(&start, &lights);
+        let seen = |camera: &Camera, light: &Light| {
+            let mut v = DVec3::ZERO;
+            light.place.map(|at| v = at);
+            DVec3::from_array(camera.axes().map(|axis| axis.dot(v)))
+        };
+        let now = orbit.camera(&start, 1.0);
+        for (light, carried) in lights.iter().zip(&carried) {
+            let difference = seen(&scene.camera, light) - seen(&now, carried);
+            assert!(difference.length() < ROUNDING, "{difference}");
+        }
+    }
+}

@@ -1,0 +1,466 @@
+//! A scene that is looked at: what of it is stale is made anew, and nothing else.
+
+use super::{Action, Orbit, Panes, Side, Start, Times};
+use crate::frame::{Frame, FrameError, PreparedScene};
+use crate::picture::{Alpha, PictureMut};
+use crate::raster::{DrawError, DrawOptions, Renderer};
+use crate::scene::{Light, Scene};
+use crate::shading::Variant;
+use std::format;
+use std::string::String;
+use std::time::Instant;
+use std::vec::Vec;
+
+/// A scene, ready to be drawn from anywhere.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    prepared: PreparedScene,
+    start: Start,
+    lights: Vec<Light>,
+    /// The size that the scene asks for.
+    size: [u32; 2],
+    /// The longest side of a picture, which samples shorten.
+    most: usize,
+}
+
+impl Loaded {
+    /// Prepares `scene`; of the near and the far plane of its camera those that are `given` stay where they are.
+    ///
+    /// # Errors
+    /// As [`Scene::prepare`].
+    pub fn new(scene: &Scene, given: [bool; 2]) -> Result<Loaded, FrameError> {
+        Ok(Loaded {
+            prepared: scene.prepare()?,
+            start: Start::new(scene, given),
+            lights: scene.lights.clone(),
+            size: [scene.width, scene.height],
+            most: (Scene::MAX_SIDE / scene.samples) as usize,
+        })
+    }
+
+    /// Returns the frame of the scene's own camera.
+    ///
+    /// # Errors
+    /// As [`Scene::frame`].
+    pub fn frame(&self) -> Result<Frame, FrameError> {
+        self.prepared.frame()
+    }
+}
+
+/// The picture of one side, kept while it is true.
+#[derive(Debug, Default)]
+struct Kept {
+    pixels: Vec<u32>,
+    /// The number of the frame that the pixels show; `None` if they are not to be shown again.
+    frame: Option<u64>,
+    /// The number of the method that drew, and its times.
+    method: Option<usize>,
+    times: Times,
+    /// Why the method does not draw this scene.
+    refused: Option<DrawError>,
+}
+
+/// A loaded scene with all that a window knows of it.
+#[derive(Debug)]
+pub struct Viewer {
+    loaded: Loaded,
+    name: String,
+    renderer: Renderer,
+    /// The methods that are shown.
+    pub panes: Panes,
+    orbit: Orbit,
+    carries_lights: bool,
+    frame: Frame,
+    /// The number of the frame, from 1; it grows with each that is projected.
+    number: u64,
+    /// True if the frame is not what is to be seen.
+    is_stale: bool,
+    size: [usize; 2],
+    kept: [Kept; 2],
+    projecting: Times,
+}
+
+/// What stands where a method cannot draw: a dark grey.
+const NO_PICTURE: u32 = 0xff30_3030;
+
+impl Viewer {
+    /// Looks at `loaded`, under a name, by `renderer`.
+    ///
+    /// # Errors
+    /// As [`Scene::frame`].
+    pub fn new(
+        loaded: Loaded,
+        name: &str,
+        panes: Panes,
+        renderer: Renderer,
+    ) -> Result<Viewer, FrameError> {
+        let mut frame = loaded.frame()?;
+        // A window has no alpha: edges are blended here, or nowhere.
+        frame.set_alpha(Alpha::Flattened);
+        Ok(Viewer {
+            size: loaded.size.map(|side| side as usize),
+            loaded,
+            name: name.into(),
+            renderer,
+            panes,
+            orbit: Orbit::default(),
+            carries_lights: false,
+            frame,
+            number: 0,
+            is_stale: true,
+            kept: Default::default(),
+            projecting: Times::default(),
+        })
+    }
+
+    /// Returns the width and height that the scene asks for.
+    pub fn wanted_size(&self) -> [u32; 2] {
+        self.loaded.size
+    }
+
+    /// Looks at another scene, or at a changed one, from where this one was looked at.
+    pub fn replace(&mut self, loaded: Loaded) {
+        self.loaded = loaded;
+        self.forget_times();
+        self.is_stale = true;
+    }
+
+    /// Does what a key asks for, with the pointer on `side`; true if that changes what is seen. [`Action::Close`] is the window's.
+    pub fn act(&mut self, action: Action, side: Side) -> bool {
+        match action {
+            Action::Method { number, other } => {
+                let side = if other { side.other() } else { side };
+                self.panes.choose(side, number);
+            }
+            Action::Turn(azimuth, elevation) => self.turn(azimuth, elevation),
+            Action::Zoom(factor) => {
+                self.orbit.zoom(factor);
+                self.is_stale = true;
+            }
+            Action::Divide(part) => self.panes.divide_by(part),
+            Action::Swap => {
+                self.panes.swap();
+                self.kept.swap(0, 1);
+            }
+            Action::ShowNext => self.panes.show_next(),
+            Action::CarryLights => {
+                self.carries_lights ^= true;
+                self.is_stale = true;
+            }
+            Action::Reset => {
+                self.orbit = Orbit::default();
+                self.is_stale = true;
+            }
+            Action::Close => return false,
+        }
+        true
+    }
+
+    /// Turns the camera, as [`Orbit::turn`] does.
+    pub fn turn(&mut self, azimuth: f64, elevation: f64) {
+        self.orbit.turn(&self.loaded.start, azimuth, elevation);
+        self.is_stale = true;
+    }
+
+    /// Draws what is to be seen into `window`, whose rows touch; `scale` is as in [`Panes::compose`]. Only what is stale is made anew:
+    /// the frame when the camera, the size or the scene has changed, a picture when its frame or its method has.
+    ///
+    /// # Errors
+    /// As [`Scene::frame`], for a camera that has come too far.
+    pub fn draw(&mut self, window: &mut [u32], width: usize, scale: f64) -> Result<(), FrameError> {
+        let height = window.len() / width;
+        self.project([width, height])?;
+        match *self.panes.shown() {
+            // Alone it goes straight into the window, and is not kept.
+            [side] => {
+                self.draw_side(side, window, width);
+                self.kept[side as usize].frame = None;
+            }
+            // Two are kept beside the window: the divider moves over them, and nothing is drawn again.
+            _ => {
+                for side in [Side::Left, Side::Right] {
+                    if self.is_to_be_drawn(side) {
+                        let mut pixels = std::mem::take(&mut self.kept[side as usize].pixels);
+                        pixels.resize(width * height, 0);
+                        self.draw_side(side, &mut pixels, width);
+                        self.kept[side as usize].pixels = pixels;
+                    }
+                }
+                let [left, right] = &self.kept;
+                self.panes
+                    .compose(window, [&left.pixels, &right.pixels], width, scale);
+            }
+        }
+        Ok(())
+    }
+
+    /// True if the picture of `side` is not what is to be seen, or its method's time is not known yet.
+    fn is_to_be_drawn(&self, side: Side) -> bool {
+        let kept = &self.kept[side as usize];
+        kept.frame != Some(self.number)
+            || kept.method != Some(self.panes.number(side))
+            || self.wants_time(side)
+    }
+
+    /// Draws the method of `side`, and takes its time.
+    fn draw_side(&mut self, side: Side, pixels: &mut [u32], width: usize) {
+        let (number, method) = (self.panes.number(side), self.panes.method(side));
+        let kept = &mut self.kept[side as usize];
+        if kept.method.replace(number) != Some(number) {
+            kept.times.clear();
+        }
+        let started = Instant::now();
+        let drawn = draw(method, &self.frame, self.renderer, pixels, width);
+        kept.times.add(started.elapsed());
+        if drawn.is_err() {
+            pixels.fill(NO_PICTURE);
+        }
+        kept.refused = drawn.err();
+        kept.frame = Some(self.number);
+    }
+
+    /// Projects the scene, if camera, size or scene have changed, or the time of that is not known yet.
+    fn project(&mut self, size: [usize; 2]) -> Result<(), FrameError> {
+        if self.size != size {
+            self.size = size;
+            self.forget_times();
+            self.is_stale = true;
+        }
+        if self.is_stale {
+            let [width, height] = size.map(|side| side.clamp(1, self.loaded.most) as u32);
+            let Loaded {
+                prepared,
+                start,
+                lights,
+                ..
+            } = &mut self.loaded;
+            let aspect = f64::from(width) / f64::from(height);
+            prepared.set_size(width, height);
+            prepared.set_camera(self.orbit.camera(start, aspect));
+            prepared.set_lights(match self.carries_lights {
+                true => self.orbit.carry(start, lights),
+                false => lights.clone(),
+            });
+            self.number += 1;
+            self.is_stale = false;
+        } else if !self.projecting.are_few() {
+            return Ok(());
+        }
+        let started = Instant::now();
+        self.loaded.prepared.frame_into(&mut self.frame)?;
+        self.projecting.add(started.elapsed());
+        Ok(())
+    }
+
+    /// True if drawing once more would say more about times.
+    pub fn wants_times(&self) -> bool {
+        let mut sides = self.panes.shown().iter();
+        self.projecting.are_few() || sides.any(|side| self.wants_time(*side))
+    }
+
+    fn wants_time(&self, side: Side) -> bool {
+        let kept = &self.kept[side as usize];
+        kept.times.are_few() && kept.refused.is_none()
+    }
+
+    fn forget_times(&mut self) {
+        self.projecting.clear();
+        for kept in &mut self.kept {
+            kept.times.clear();
+        }
+    }
+
+    /// Returns the title of the window: what is on each side, and what it takes.
+    pub fn title(&self) -> String {
+        let time = |times: &Times| match times.milliseconds() {
+            Some(milliseconds) => format!("{milliseconds:.2} ms"),
+            None => "…".into(),
+        };
+        let mut parts = Vec::new();
+        for &side in self.panes.shown() {
+            let (method, kept) = (self.panes.method(side), &self.kept[side as usize]);
+            parts.push(match &kept.refused {
+                Some(error) => format!("{method}: {error}"),
+                None => format!("{method} {}", time(&kept.times)),
+            });
+        }
+        parts.push(format!("projection {}", time(&self.projecting)));
+        let [width, height] = self.size;
+        parts.push(format!("{} {width}x{height}", self.name));
+        parts.join(" | ")
+    }
+}
+
+/// Draws `frame` into `pixels`, whose rows are `width` long. The reason why a method is not for such frames comes back.
+fn draw(
+    method: &Variant,
+    frame: &Frame,
+    renderer: Renderer,
+    pixels: &mut [u32],
+    width: usize,
+) -> Result<(), DrawError> {
+    let (columns, rows) = (frame.picture_width(), frame.picture_height());
+    if columns * rows < pixels.len() {
+        // The window is larger than the largest picture.
+        pixels.fill(NO_PICTURE);
+    }
+    let picture = PictureMut::argb(pixels, columns, rows).stride(width);
+    method.draw(frame, picture, DrawOptions::by(renderer))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builtin::builtin;
+    use std::vec;
+
+    const SIZE: [usize; 2] = [64, 48];
+
+    fn viewer(names: &[&str], samples: u32) -> Viewer {
+        let mut scene = Scene::of_mesh(builtin("torus").expect("a shape"));
+        [scene.width, scene.height] = SIZE.map(|side| side as u32);
+        scene.samples = samples;
+        let loaded = Loaded::new(&scene, [false; 2]).expect("a scene");
+        let methods = names.iter().map(|name| Variant::parse(name));
+        let panes = Panes::new(methods.collect::<Result<_, _>>().expect("methods"));
+        Viewer::new(loaded, "torus", panes, Renderer::Span).expect("a frame")
+    }
+
+    fn shown(viewer: &mut Viewer, [width, height]: [usize; 2]) -> Vec<u32> {
+        let mut window = vec![7; width * height];
+        viewer.draw(&mut window, width, 1.0).expect("a picture");
+        window
+    }
+
+    /// The frames that were projected so far.
+    fn frames(viewer: &Viewer) -> u64 {
+        viewer.number
+    }
+
+    #[test]
+    fn each_side_is_the_picture_of_its_method() {
+        for samples in [1, 2] {
+            let mut viewer = viewer(&["flat", "naive-phong"], samples);
+            let window = shown(&mut viewer, SIZE);
+            let mut frame = viewer.loaded.frame().expect("a frame");
+            frame.set_alpha(Alpha::Flattened);
+            for (method, columns) in [("flat", 0..20), ("naive-phong", 44..64)] {
+                let picture = Variant::parse(method).expect("a method").render(&frame);
+                for y in 0..SIZE[1] {
+                    for x in columns.clone() {
+                        let [r, g, b, _] = picture.pixels()[SIZE[0] * y + x];
+                        let colour = u32::from_be_bytes([0, r, g, b]);
+                        // The knob, in the middle, is narrower than what lies between these columns.
+                        assert_eq!(window[SIZE[0] * y + x] & 0xff_ffff, colour, "{x}, {y}");
+                    }
+                }
+            }
+            // Alone it is the whole picture, with nothing before it.
+            viewer.act(Action::ShowNext, Side::Left);
+            let alone = shown(&mut viewer, SIZE);
+            let picture = Variant::parse("flat").expect("a method").render(&frame);
+            let colours = picture.pixels().iter();
+            let colours = colours.map(|&[r, g, b, _]| u32::from_be_bytes([0, r, g, b]));
+            assert!(alone.iter().map(|pixel| pixel & 0xff_ffff).eq(colours));
+        }
+    }
+
+    #[test]
+    fn only_what_has_changed_is_made_anew() {
+        let mut viewer = viewer(&["flat", "naive-phong", "gouraud"], 1);
+        while viewer.wants_times() {
+            shown(&mut viewer, SIZE);
+        }
+        assert_eq!(frames(&viewer), 1, "measuring changes nothing");
+        let stale =
+            |viewer: &Viewer| [Side::Left, Side::Right].map(|side| viewer.is_to_be_drawn(side));
+        assert_eq!(stale(&viewer), [false, false]);
+        let before = shown(&mut viewer, SIZE);
+        viewer.act(Action::Divide(0.2), Side::Left);
+        assert_eq!(
+            stale(&viewer),
+            [false, false],
+            "the divider moves over both"
+        );
+        assert_ne!(shown(&mut viewer, SIZE), before);
+        viewer.act(
+            Action::Method {
+                number: 2,
+                other: true,
+            },
+            Side::Left,
+        );
+        assert_eq!(stale(&viewer), [false, true]);
+        while viewer.wants_times() {
+            shown(&mut viewer, SIZE);
+        }
+        viewer.act(Action::Swap, Side::Left);
+        assert_eq!(
+            stale(&viewer),
+            [false, false],
+            "pictures are exchanged as they are"
+        );
+        assert_eq!((viewer.is_stale, frames(&viewer)), (false, 1));
+        viewer.act(Action::Turn(0.1, 0.0), Side::Left);
+        shown(&mut viewer, SIZE);
+        assert_eq!(frames(&viewer), 2);
+        viewer.act(Action::Reset, Side::Left);
+        viewer.act(Action::Divide(-0.2), Side::Left);
+        viewer.act(Action::Swap, Side::Left);
+        viewer.act(
+            Action::Method {
+                number: 1,
+                other: false,
+            },
+            Side::Right,
+        );
+        assert_eq!(shown(&mut viewer, SIZE), before, "and back again");
+        shown(&mut viewer, [80, 20]);
+        assert_eq!(frames(&viewer), 4);
+    }
+
+    #[test]
+    fn the_title_says_what_is_shown_and_what_it_takes() {
+        let mut viewer = viewer(&["flat", "gouraud"], 1);
+        shown(&mut viewer, SIZE);
+        assert_eq!(
+            viewer.title(),
+            "flat … | gouraud … | projection … | torus 64x48"
+        );
+        while viewer.wants_times() {
+            shown(&mut viewer, SIZE);
+        }
+        let title = viewer.title();
+        assert!(
+            title.starts_with("flat ") && title.contains(" ms | gouraud "),
+            "{title}"
+        );
+        viewer.act(Action::ShowNext, Side::Left);
+        viewer.act(Action::ShowNext, Side::Left);
+        assert!(viewer.title().starts_with("gouraud "));
+    }
+
+    #[test]
+    fn carried_lights_light_the_other_side_too() {
+        let mut viewer = viewer(&["gouraud"], 1);
+        let bright = |viewer: &mut Viewer| -> u64 {
+            let pixels = shown(viewer, SIZE);
+            pixels.iter().map(|pixel| u64::from(pixel & 0xff)).sum()
+        };
+        viewer.turn(std::f64::consts::PI, 0.0);
+        let behind = bright(&mut viewer);
+        viewer.act(Action::CarryLights, Side::Left);
+        let carried = bright(&mut viewer);
+        assert!(carried > behind, "{carried} {behind}");
+    }
+
+    #[test]
+    fn a_window_beyond_the_largest_picture_shows_a_smaller_one() {
+        let mut viewer = viewer(&["flat"], 8);
+        viewer.loaded.most = 32;
+        let window = shown(&mut viewer, [40, 8]);
+        assert_eq!(window[39], NO_PICTURE);
+        assert_ne!(window[0], 7);
+    }
+}
