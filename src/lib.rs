@@ -58,7 +58,8 @@
 //! `alloc` adds all else that needs no operating system: no files, no clocks, and the same bits on every platform, as all
 //! functions beyond + − × ÷ and the root are from `libm`. `std` takes roots from the hardware. `io` reads and writes
 //! files: scenes (TOML), meshes (OBJ), pictures (PNG, PPM, PFM). `threads` works on several threads, those of rayon's
-//! current pool, and changes no bit. `cli`, the default, is the command-line tool.
+//! current pool, and changes no bit. `cli`, the default, is the command-line tool, and `view` adds its
+//! window.
 #![no_std]
 #[cfg(feature = "alloc")]
 extern crate alloc;

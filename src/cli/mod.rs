@@ -22,6 +22,8 @@ mod measured;
 mod memory;
 mod mesh_facts;
 mod name_template;
+#[cfg(not(feature = "view"))]
+mod no_view;
 mod normals;
 mod output;
 mod polygon_counts;
@@ -78,6 +80,9 @@ enum Command {
     Render(render::RenderArgs),
     #[cfg(feature = "view")]
     View(view::ViewArgs),
+    #[cfg(not(feature = "view"))]
+    #[command(hide = true)]
+    View(no_view::ViewArgs),
     Report(report::ReportArgs),
     Figure(figure::FigureArgs),
     Diff(diff::DiffArgs),
@@ -101,6 +106,8 @@ impl Cli {
             Command::Render(command) => command.run(log),
             #[cfg(feature = "view")]
             Command::View(command) => command.run(log),
+            #[cfg(not(feature = "view"))]
+            Command::View(command) => command.run(),
             Command::Report(command) => command.run(log),
             Command::Figure(command) => command.run(log),
             Command::Diff(command) => command.run(log),

@@ -68,6 +68,11 @@ impl Action {
             _ => return None,
         })
     }
+
+    /// True if a key that is held does it again and again.
+    pub fn repeats(self) -> bool {
+        matches!(self, Action::Turn(..) | Action::Zoom(_) | Action::Divide(_))
+    }
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ mod shell;
 mod signals;
 mod studio;
 mod tables;
+mod view;
 mod watch;
 
 use fastphong::picture::Picture8;

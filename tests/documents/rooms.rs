@@ -30,9 +30,10 @@ const ROOMS: &[(&str, &str)] = &[
         "picture number mesh scene frame reference shading raster compare",
     ),
     ("report", "picture number shading compare lectures"),
+    ("view", "picture mesh scene frame shading raster"),
     (
         "cli",
-        "picture number mesh scene frame reference shading raster compare lectures report",
+        "picture number mesh scene frame reference shading raster compare lectures report view",
     ),
 ];
 

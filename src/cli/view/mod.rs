@@ -48,8 +48,7 @@ const KEYS: &str = "In the window:\n  \
     drag the line  compare; also Shift with arrows. Space shows one side alone, Tab exchanges them\n  \
     L              let the lights turn with the eye, or stay\n  \
     Esc, Q         close\n\
-    The title has the times: of each method's picture, and of the projection that both share. With `auto` samples of the\n\
-    scene, edges are smooth as in `render`.";
+    The title says what is shown, and how long each picture and the projection that both share take.";
 
 /// Reads at most as many methods as there are keys.
 fn at_most_nine(text: &str) -> Result<Methods, String> {

@@ -10,7 +10,7 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
-use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, OwnedDisplayHandle};
 use winit::keyboard::{ModifiersState, PhysicalKey};
 use winit::window::{CursorIcon, Window, WindowId};
@@ -159,6 +159,19 @@ impl Shown {
         Ok(())
     }
 
+    /// Returns what a pressed key asks for. What the desktop has with other modifiers is not ours.
+    fn action(&self, key: KeyEvent) -> Option<Action> {
+        let PhysicalKey::Code(code) = key.physical_key else {
+            return None;
+        };
+        if !(self.modifiers - ModifiersState::SHIFT).is_empty() {
+            return None;
+        }
+        // The library calls keys as UI Events does.
+        let action = Action::of_key(&format!("{code:?}"), self.modifiers.shift_key())?;
+        (!key.repeat || action.repeats()).then_some(action)
+    }
+
     fn act(&mut self, action: Action, events: &ActiveEventLoop) {
         if action == Action::Close {
             return events.exit();
@@ -241,13 +254,12 @@ impl ApplicationHandler<Reloaded> for Shown {
         }
     }
 
-    fn user_event(&mut self, events: &ActiveEventLoop, reloaded: Reloaded) {
+    fn user_event(&mut self, _: &ActiveEventLoop, reloaded: Reloaded) {
         match reloaded {
             Ok(loaded) => self.viewer.replace(loaded),
             // A later change may mend it; what is shown stays.
             Err(failure) => to_stderr(&failure.render(colour())),
         }
-        let _ = events;
         self.redraw();
     }
 
@@ -262,13 +274,15 @@ impl ApplicationHandler<Reloaded> for Shown {
                 }
             }
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
-            WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Pressed => {
-                if let PhysicalKey::Code(code) = event.physical_key {
-                    // The library calls keys as UI Events does.
-                    let action = Action::of_key(&format!("{code:?}"), self.modifiers.shift_key());
-                    if let Some(action) = action {
-                        self.act(action, events);
-                    }
+            WindowEvent::Focused(false) => self.drag = Drag::None,
+            // Keys that were down when the window came to the front were not meant for it.
+            WindowEvent::KeyboardInput {
+                event,
+                is_synthetic: false,
+                ..
+            } if event.state == ElementState::Pressed => {
+                if let Some(action) = self.action(event) {
+                    self.act(action, events);
                 }
             }
             WindowEvent::CursorMoved { position, .. } => self.move_to(position),
