@@ -197,9 +197,7 @@ impl Viewer {
     /// True if the picture of `side` is not what is to be seen, or its method's time is not known yet.
     fn is_to_be_drawn(&self, side: Side) -> bool {
         let kept = &self.kept[side as usize];
-        kept.frame != Some(self.number)
-            || kept.method != Some(self.panes.number(side))
-            || self.wants_time(side)
+        kept.frame != Some(self.number) || self.wants_time(side)
     }
 
     /// Draws the method of `side`, and takes its time.
@@ -260,7 +258,12 @@ impl Viewer {
 
     fn wants_time(&self, side: Side) -> bool {
         let kept = &self.kept[side as usize];
-        kept.times.are_few() && kept.refused.is_none()
+        !self.has_drawn(side) || kept.times.are_few() && kept.refused.is_none()
+    }
+
+    /// True if what is kept of `side` is of the method that is chosen there.
+    fn has_drawn(&self, side: Side) -> bool {
+        self.kept[side as usize].method == Some(self.panes.number(side))
     }
 
     fn forget_times(&mut self) {
@@ -280,6 +283,7 @@ impl Viewer {
         for &side in self.panes.shown() {
             let (method, kept) = (self.panes.method(side), &self.kept[side as usize]);
             parts.push(match &kept.refused {
+                _ if !self.has_drawn(side) => format!("{method} …"),
                 Some(error) => format!("{method}: {error}"),
                 None => format!("{method} {}", time(&kept.times)),
             });
