@@ -126,7 +126,8 @@ pub fn picture() -> Vec<[u8; 4]> {
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
     let all: [&'static Entry; 3] = [methods::GOURAUD, methods::PHONG_RSQRT, methods::DUFF_PHONG];
     for (column, method) in all.into_iter().enumerate() {
-        let mut shader = SpanShader::new(&method.variant(), &lighting, Interpolation::Screen);
+        let mut shader = SpanShader::new(&method.variant(), &lighting, Interpolation::Screen)
+            .expect("a method for any light");
         canvas.ball(&mut shader, [80.0 + 160.0 * column as f32, 80.0, 70.0], 8);
     }
     canvas.pixels

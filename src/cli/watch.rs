@@ -5,32 +5,32 @@ use super::log::{Log, colour, to_stderr};
 use super::text::counted;
 use super::{CliError, Outcome};
 use fastphong::scene::input::has_known_ending;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// An input whose files are watched. One may go, and come back, and be another one under the same name; it may also be there
 /// only later.
-pub struct Watched<'a>(&'a Path);
+pub struct Watched(PathBuf);
 
-impl<'a> Watched<'a> {
+impl Watched {
     /// Watches `input`.
     ///
     /// # Errors
     /// When it is not the name of a file.
-    pub fn new(input: &'a str) -> Result<Self, CliError> {
+    pub fn new(input: &str) -> Result<Self, CliError> {
         let path = Path::new(input);
         let may_come = !path.exists() && has_known_ending(path);
         if !path.is_file() && !may_come {
             let expected = "expected a scene file or a mesh file with `--watch`";
             return Err(format!("`{input}` is no file, and never changes: {expected}").into());
         }
-        Ok(Watched(path))
+        Ok(Watched(path.to_path_buf()))
     }
 
     /// Forgets the files that were read before: what is read from now on is watched.
     pub fn begin(&self) {
         files::forget();
         // Where it is gone it is not read, and may come back.
-        files::will_read_of_scene(self.0);
+        files::will_read_of_scene(&self.0);
     }
 
     /// Waits for a change of a file that was read or looked for since it [began](Watched::begin).

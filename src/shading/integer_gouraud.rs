@@ -7,11 +7,10 @@ use super::{
     Approximation, Constant, Entry, Info, Kernels, Lit, LitAt, Local, Perspective, Pixel, Shader,
     Span,
 };
-use crate::frame::Frame;
 use crate::integer::{self, Halfway, Highlight, NoHighlight, Reflection, Rgb888};
 use crate::number::{Num, Vec3, vec3};
 use crate::reference::Model;
-use crate::scene::SpecularModel;
+use crate::scene::{Interpolation, Lighting, SpecularModel};
 
 /// Gouraud shading in integers: colours by two additions a pixel, red and blue in one ([`crate::integer::gouraud`]). Vertices are lit by the
 /// loop of naive Phong shading.
@@ -71,8 +70,8 @@ impl Shader for Colours {
     type Varying<F: Num> = Vec3<F>; // the colour
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    fn refuses(frame: &Frame) -> Option<&'static str> {
-        integers::refuses(frame, integers::LIGHTS)
+    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
+        integers::refuses(lighting, on, integers::LIGHTS)
     }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {

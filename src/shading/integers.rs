@@ -89,8 +89,8 @@ impl<const LIGHTS: usize> Shader for Normals<LIGHTS> {
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    fn refuses(frame: &Frame) -> Option<&'static str> {
-        refuses(frame, LIGHTS)
+    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
+        refuses(lighting, on, LIGHTS)
     }
     #[inline(always)]
     fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
@@ -121,8 +121,8 @@ impl Shader for Circles {
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    fn refuses(frame: &Frame) -> Option<&'static str> {
-        refuses(frame, 1)
+    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
+        refuses(lighting, on, 1)
     }
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
@@ -146,34 +146,49 @@ impl Shader for Circles {
 pub(super) const WHY: &str = "it computes in integers, one pixel at a time";
 const WHY_SCALAR: Option<&'static str> = Some(WHY);
 
-/// Returns the reason why a frame is not for methods in integers of so many lights.
-pub(super) fn refuses(frame: &Frame, lights: usize) -> Option<&'static str> {
-    let all = frame.lightings();
-    let is_whole = |n: f32| (1.0..=1000.0).contains(&n) && n == libm::floorf(n);
-    if frame.is_local() {
+/// Returns the reason why a material is not for methods in integers of so many lights.
+pub(super) fn refuses(
+    lighting: &Lighting,
+    interpolation: Interpolation,
+    lights: usize,
+) -> Option<&'static str> {
+    let n = lighting.shininess;
+    let is_whole = (1.0..=1000.0).contains(&n) && n == libm::floorf(n);
+    if lighting.is_local() {
         return Some("in integers, lights and eye are at infinity");
     }
-    if frame.interpolation() == Interpolation::Perspective {
+    if interpolation == Interpolation::Perspective {
         return Some("in integers, normals are interpolated on the screen");
     }
-    if frame.light_count() > lights {
+    if lighting.lights.len() > lights {
         return Some(match lights {
             1 => "in integers, it has one light",
             _ => "in integers, it has at most four lights",
         });
     }
-    if all.iter().any(|l| l.gate != SpecularGate::Gated) {
+    if lighting.gate != SpecularGate::Gated {
         return Some("in integers, highlights end where L·N = 0");
     }
-    if all.iter().any(|l| !is_whole(l.shininess)) {
+    if !is_whole {
         return Some("in integers, exponents are whole numbers from 1 to 1000");
     }
     None
 }
 
-/// Returns a vector of length at most 1 in 15 fractional bits, rounded.
+/// Returns a vector in 15 fractional bits, rounded. A longer one than 1, which the formats have no room for, is made as long as 1, and one
+/// that is no number is 0: a frame's builder takes normals as they are.
 pub(super) fn vector(v: Vec3<f32>) -> Vector {
-    v.array().map(I17F15::saturating_from_num)
+    let length = Num::sqrt(v.dot(v));
+    // Unit vectors are longer by their roundings, for which there is room.
+    let v = match length > 1.0 + 1.0 / 16384.0 {
+        true => v * (1.0 / length),
+        false => v,
+    };
+    let is_number = v.array().iter().all(|c| c.is_finite());
+    v.array().map(|c| match is_number {
+        true => I17F15::from_num(c),
+        false => I17F15::ZERO,
+    })
 }
 
 /// Makes the tables of a material for each light: the first one has the ambient light.
@@ -543,5 +558,34 @@ pub(super) fn counted<M: Shader>(
             ..edges
         },
         colour: colours[0],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A frame's builder takes any finite normal, and lines between such may overflow: none overflows the formats.
+    #[test]
+    fn any_vector_fits_the_formats() {
+        for v in [
+            [5.0, -7.0, 3.0],
+            [1e30, 0.0, -1e30],
+            [f32::MAX; 3],
+            [f32::NAN, 0.0, 1.0],
+            [f32::INFINITY, 0.0, 0.0],
+            [0.0; 3],
+        ] {
+            let square: f64 = (vector(vec3(v)).iter())
+                .map(|c| c.to_num::<f64>().powi(2))
+                .sum();
+            assert!(square <= 1.0001, "{v:?}: {square}");
+        }
+        let unit = vector(vec3([0.6, 0.0, -0.8]));
+        assert_eq!(
+            unit.map(I17F15::to_bits),
+            [19661, 0, -26214],
+            "a unit vector is only rounded"
+        );
     }
 }

@@ -82,6 +82,7 @@ pub use variant::Variant;
 
 use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3};
+use crate::scene::{Interpolation, Lighting};
 
 /// A shading method: what is computed once per vertex, along a span, and once per pixel.
 ///
@@ -118,7 +119,12 @@ pub trait Shader: Copy + Default + 'static {
 
     /// Returns the reason why it is not for a frame, if it is not, as a sentence without its full stop: no renderer draws the frame
     /// with it then, and comparisons leave it out. It may ask for lights, positions, exponents, and the sides of polygons.
-    fn refuses(_frame: &Frame) -> Option<&'static str> {
+    fn refuses(frame: &Frame) -> Option<&'static str> {
+        let mut all = frame.lightings().iter();
+        all.find_map(|lighting| Self::refuses_light(lighting, frame.interpolation()))
+    }
+    /// Returns the reason why it is not for a material with its lights, if it is not: then no frame and no span with it is drawn.
+    fn refuses_light(_lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
         None
     }
     /// Makes the method for `parameters`, in the order of [`Info::parameters`], on a material.

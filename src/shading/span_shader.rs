@@ -50,7 +50,7 @@ impl SpanVertex {
 /// let light = Light::directional(DVec3::Z, [1.0; 3]);
 /// let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
 /// let variant = methods::PHONG_RSQRT.variant();
-/// let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen);
+/// let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen)?;
 /// let ends = [[-0.6, 0.0, 0.8], [0.6, 0.0, 0.8]].map(|n| shader.vertex(SpanVertex::of_normal(n)));
 ///
 /// // The line from column 10.25 to column 26.25 covers the centres of pixels 10 to 25.
@@ -59,6 +59,7 @@ impl SpanVertex {
 /// let mut bytes = [[0; 4]; 16];
 /// store_line(&colours, None, &mut bytes);
 /// assert!(bytes[8][0] > bytes[0][0], "the highlight is in the middle");
+/// # Ok::<(), &str>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct SpanShader {
@@ -80,7 +81,17 @@ pub struct SpanShader {
 impl SpanShader {
     /// Prepares a method on a material with its lights, whose varyings you interpolate linearly on the screen, or in perspective: then
     /// varyings are multiplied by the weight of their vertex.
-    pub fn new(variant: &Variant, lighting: &Lighting, interpolation: Interpolation) -> Self {
+    ///
+    /// # Errors
+    /// The reason why the method is not for such a material: those in integers want lights at infinity, and few.
+    pub fn new(
+        variant: &Variant,
+        lighting: &Lighting,
+        interpolation: Interpolation,
+    ) -> Result<Self, &'static str> {
+        if let Some(reason) = (variant.entry().refuses_light)(lighting, interpolation) {
+            return Err(reason);
+        }
         let (entry, lights) = (variant.entry(), lighting.lights.len());
         let (is_local, is_perspective) = (
             lighting.is_local(),
@@ -91,7 +102,7 @@ impl SpanShader {
         let [own, _, constants] = (kernels.counts)(lights);
         let uniforms = variant.uniforms(lighting, 1.0);
         let is_by_polygon = is_local && entry.local == Local::PerPolygon;
-        SpanShader {
+        Ok(SpanShader {
             is_weighted: is_perspective
                 && matches!(entry.perspective, Perspective::Free | Perspective::Divides),
             varyings: own + extras.count(),
@@ -106,7 +117,7 @@ impl SpanShader {
             variant: variant.clone(),
             kernels,
             extras,
-        }
+        })
     }
 
     /// Returns the number of a vertex's varyings.

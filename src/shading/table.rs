@@ -21,6 +21,7 @@ use super::{
     integer_quadratic, integer_slerp,
 };
 use crate::frame::Frame;
+use crate::scene::{Interpolation, Lighting};
 
 /// All shading methods.
 pub static METHODS: &[Entry] = &[
@@ -74,6 +75,8 @@ pub struct Entry {
     pub perspective: Perspective,
     /// Returns the reason why it is not for a frame: [`Shader::refuses`].
     pub(crate) refuses: fn(&Frame) -> Option<&'static str>,
+    /// Returns the reason why it is not for a material: [`Shader::refuses_light`].
+    pub(super) refuses_light: fn(&Lighting, Interpolation) -> Option<&'static str>,
     /// True if its loops compute in integers, for processors without a floating-point unit.
     pub is_integer: bool,
     directional: ByLights,
@@ -130,6 +133,7 @@ impl Entry {
             local: A::LOCAL,
             perspective: A::PERSPECTIVE,
             refuses: A::refuses,
+            refuses_light: A::refuses_light,
             is_integer: false,
             directional: all,
             positional: all,

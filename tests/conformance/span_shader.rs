@@ -69,7 +69,8 @@ impl Rectangle {
 
     /// Shades columns `first` on of row 2 without an engine.
     fn shade(&self, variant: &Variant, first: u32, colours: &mut [[f32; 3]]) {
-        let mut shader = SpanShader::new(variant, &self.lighting, self.interpolation);
+        let mut shader = SpanShader::new(variant, &self.lighting, self.interpolation)
+            .expect("a method for any light");
         let near = self.lighting.is_local();
         let all: [Corner<f32>; 4] = [0, 1, 2, 3].map(|i| Corner {
             normal: vec3(self.vertices[i].normal),
@@ -167,9 +168,20 @@ fn spans_are_those_of_the_engine() {
 fn a_polygon_that_is_wanted_is_asked_for() {
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
     let variant = Variant::parse("slerp-phong").expect("a method");
-    let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen);
+    let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen)
+        .expect("a method for any light");
     let end = shader.vertex(SpanVertex::of_normal(FACE));
     shader.shade([(0.0, &end), (1.0, &end)], [0, 0], &mut [[0.0; 3]]);
+}
+
+/// A method that is not for a material says why, as it does for frames.
+#[test]
+fn a_material_that_a_method_is_not_for_is_refused() {
+    let near = [Light::positional(DVec3::Z, [1.0; 3])];
+    let lighting = Lighting::new(&Material::default(), [1.0; 3], &near, DVec3::Z);
+    let variant = Variant::parse("integer-fast").expect("a method");
+    let refused = SpanShader::new(&variant, &lighting, Interpolation::Screen).err();
+    assert_eq!(refused, Some("in integers, lights and eye are at infinity"));
 }
 
 /// The example draws three balls without holes: every row of a ball is one run of pixels.

@@ -77,10 +77,10 @@ impl ViewArgs {
         let panes = Panes::new(self.methods.clone());
         let name = scene_name(&self.input);
         let viewer = Viewer::new(loaded, name, panes, renderer)?;
-        let reload = watched.is_some().then(|| {
+        let reload = watched.map(|watched| {
             let (args, threads) = (self.clone(), self.threads);
+            // The file may become anything: it was one when the window opened, and is waited for.
             move || {
-                let watched = Watched::new(&args.input)?;
                 watched.wait(log, "Esc in the window");
                 watched.begin();
                 threads.install(|| args.load(log))?
