@@ -24,7 +24,8 @@ pub struct Vertex {
 /// A picture to draw triangles and convex polygons into: rows of pixels, and depth if there is any.
 ///
 /// Corners go clockwise round a polygon, y downward; polygons seen from behind are left out. A
-/// polygon with more than three corners is drawn as the triangles about its first corner.
+/// polygon with more than three corners is drawn as the triangles about its first corner. So it fits if it
+/// is convex and its corners lie within ±1,024 pixels: cut others before.
 ///
 /// Coverage is exact, as everywhere in this crate: a pixel belongs to the triangle with an odd number
 /// of edges left of its centre, or on it. So triangles that share an edge share no pixel and leave no

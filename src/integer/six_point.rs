@@ -11,7 +11,7 @@ use super::ramp::Quadratic;
 use super::reciprocal_root::{refined_root, unit_k};
 use super::scan::{Point, scan};
 use super::sliver::normals;
-use super::triangle::{fan, points};
+use super::triangle::{SetUp, fan};
 use super::vector::{Bits, dot};
 
 impl<P: Pixel> Canvas<'_, P> {
@@ -19,13 +19,17 @@ impl<P: Pixel> Canvas<'_, P> {
     /// and the middles of the sides of each triangle.
     ///
     /// Triangles that no highlight can fall on are shaded without one. Triangles under 4 pixels high
-    /// are lit pixel by pixel.
+    /// are lit pixel by pixel. Returns false, and draws nothing, if it does not [fit](Canvas).
     pub fn quadratic<H: Highlight, const L: usize>(
         &mut self,
         polygon: &[Vertex],
         lights: &[Light<'_, P>; L],
-    ) {
-        fan(polygon, |t| self.quadratic_triangle::<H, L>(&t, lights));
+    ) -> bool {
+        fan(
+            polygon,
+            |v| v,
+            |t| self.quadratic_triangle::<H, L>(&t, lights),
+        )
     }
 
     #[inline(always)]
@@ -34,10 +38,12 @@ impl<P: Pixel> Canvas<'_, P> {
         t: &[Vertex; 3],
         lights: &[Light<'_, P>; L],
     ) {
-        let Some((points, depths)) = points(t) else {
-            return;
-        };
-        let Some(g) = Gradients::new(points) else {
+        let Some(SetUp {
+            points,
+            depths,
+            gradients: g,
+        }) = SetUp::new(t)
+        else {
             return;
         };
         let n = normals(t);

@@ -78,7 +78,7 @@ impl Weights {
 }
 
 /// Returns twice the area between two sides. Sides are below 2²⁰.
-fn cross(a: Point, b: Point) -> i64 {
+pub(super) fn cross(a: Point, b: Point) -> i64 {
     i64::from(a[0]) * i64::from(b[1]) - i64::from(a[1]) * i64::from(b[0])
 }
 

@@ -9,28 +9,83 @@ use super::naive::{light_normal, naive};
 use super::pixel::{Pixel, halves};
 use super::ramp::{Quadratic, Ramp};
 use super::scan::{Point, scan};
-use super::sliver::normals;
+use super::sliver::{cross, normals};
 use super::vector::{Bits, dot};
 
-/// Calls `draw` for the triangles of a convex polygon about its first corner.
+/// Calls `draw` for the triangles of a polygon about its first corner, if that is the polygon: see [`is_fit`].
 #[inline(always)]
-pub(super) fn fan<T: Copy>(polygon: &[T], mut draw: impl FnMut([T; 3])) {
-    if let [first, rest @ ..] = polygon {
+pub(super) fn fan<T: Copy>(
+    polygon: &[T],
+    vertex: impl Fn(&T) -> &Vertex,
+    mut draw: impl FnMut([T; 3]),
+) -> bool {
+    let is_fit = is_fit(polygon, vertex);
+    if let ([first, rest @ ..], true) = (polygon, is_fit) {
         for pair in rest.windows(2) {
             if let [second, third] = pair {
                 draw([*first, *second, *third]);
             }
         }
     }
+    is_fit
 }
 
-/// Returns the corners of a triangle in sub-pixels and their depths, if they lie within ±1,024 pixels.
+/// True if corners lie within ±1,024 pixels, and the polygon is convex: it turns one way, and once around. Triangles do.
 #[inline(always)]
-pub(super) fn points(t: &[Vertex; 3]) -> Option<([Point; 3], [u16; 3])> {
-    let points = t.map(|v| [v.x.to_bits(), v.y.to_bits()]);
-    let is_near = |p: &Point| p[0].unsigned_abs() <= 1 << 18 && p[1].unsigned_abs() <= 1 << 18;
-    let is_fit = is_near(&points[0]) && is_near(&points[1]) && is_near(&points[2]);
-    is_fit.then_some((points, t.map(|v| v.depth)))
+fn is_fit<T>(polygon: &[T], vertex: impl Fn(&T) -> &Vertex) -> bool {
+    let point = |corner: &T| {
+        let Vertex { x, y, .. } = vertex(corner);
+        [x.to_bits(), y.to_bits()]
+    };
+    let is_near = |p: Point| p[0].unsigned_abs() <= 1 << 18 && p[1].unsigned_abs() <= 1 << 18;
+    polygon.iter().all(|corner| is_near(point(corner)))
+        && (polygon.len() <= 3 || is_convex(polygon.iter().map(point)))
+}
+
+/// True if a polygon turns one way, and goes down once and up once: a star turns one way, too.
+#[inline(never)]
+fn is_convex(corners: impl Iterator<Item = Point> + Clone) -> bool {
+    let (mut is_right, mut is_left, mut reversals, mut down) = (false, false, 0, 0);
+    // Around to the second corner again, so that every turn is seen, and every reversal.
+    let around = corners
+        .clone()
+        .cycle()
+        .skip(1)
+        .zip(corners.clone().cycle().skip(2));
+    let rounds = 2 * corners.clone().count();
+    for (at, (next, after)) in corners.cycle().zip(around).take(rounds) {
+        let side = [next[0] - at[0], next[1] - at[1]];
+        let turn = cross(side, [after[0] - next[0], after[1] - next[1]]);
+        is_right |= turn > 0;
+        is_left |= turn < 0;
+        let sign = side[1].signum();
+        if sign != 0 && sign != down {
+            reversals += i32::from(down != 0);
+            down = sign;
+        }
+    }
+    // Two rounds: two reversals each, less the first or the last.
+    !(is_right && is_left) && reversals <= 4
+}
+
+/// A triangle, ready for planes: its corners in sub-pixels and their depths.
+pub(super) struct SetUp {
+    pub(super) points: [Point; 3],
+    pub(super) depths: [u16; 3],
+    pub(super) gradients: Gradients,
+}
+
+impl SetUp {
+    /// Sets up a triangle; `None` if it is seen from behind, or has no area.
+    #[inline(always)]
+    pub(super) fn new(t: &[Vertex; 3]) -> Option<Self> {
+        let points = t.map(|v| [v.x.to_bits(), v.y.to_bits()]);
+        Some(Self {
+            points,
+            depths: t.map(|v| v.depth),
+            gradients: Gradients::new(points)?,
+        })
+    }
 }
 
 /// A linear value at a pixel of a row.
@@ -41,29 +96,37 @@ fn ramp(plane: &Plane, at: Point) -> Ramp {
 
 impl<P: Pixel> Canvas<'_, P> {
     /// Draws a convex polygon by Gouraud shading. Each corner has its colour in fields beside it: see
-    /// [`colour`](super::colour).
-    pub fn gouraud(&mut self, polygon: &[(Vertex, u32)]) {
-        fan(polygon, |t| self.gouraud_triangle(t));
+    /// [`colour`](super::colour). Returns false, and draws nothing, if the polygon does not [fit](Canvas).
+    pub fn gouraud(&mut self, polygon: &[(Vertex, u32)]) -> bool {
+        fan(polygon, |(vertex, _)| vertex, |t| self.gouraud_triangle(t))
     }
 
-    /// Draws a convex polygon by naive Phong shading.
+    /// Draws a convex polygon by naive Phong shading. Returns false, and draws nothing, if it does not
+    /// [fit](Canvas).
     pub fn naive<H: Highlight, const REFINED: bool, const L: usize>(
         &mut self,
         polygon: &[Vertex],
         lights: &[Light<'_, P>; L],
-    ) {
-        fan(polygon, |t| {
-            self.naive_triangle::<H, REFINED, L>(&t, lights)
-        });
+    ) -> bool {
+        fan(
+            polygon,
+            |v| v,
+            |t| self.naive_triangle::<H, REFINED, L>(&t, lights),
+        )
     }
 
-    /// Draws a convex polygon by fast Phong shading: J, K and N are planes over each triangle.
+    /// Draws a convex polygon by fast Phong shading: J, K and N are planes over each triangle. Returns false,
+    /// and draws nothing, if it does not [fit](Canvas).
     pub fn fast<H: Highlight, const REFINED: bool, const L: usize>(
         &mut self,
         polygon: &[Vertex],
         lights: &[Light<'_, P>; L],
-    ) {
-        fan(polygon, |t| self.fast_triangle::<H, REFINED, L>(&t, lights));
+    ) -> bool {
+        fan(
+            polygon,
+            |v| v,
+            |t| self.fast_triangle::<H, REFINED, L>(&t, lights),
+        )
     }
 
     fn gouraud_triangle(&mut self, t: [(Vertex, u32); 3]) {
@@ -72,10 +135,12 @@ impl<P: Pixel> Canvas<'_, P> {
         let blue = [a.0 & 0xFFFF, b.0 & 0xFFFF, c.0 & 0xFFFF];
         let green = [a.1, b.1, c.1];
         let corners = t.map(|(vertex, _)| vertex);
-        let Some((points, depths)) = points(&corners) else {
-            return;
-        };
-        let Some(g) = Gradients::new(points) else {
+        let Some(SetUp {
+            points,
+            depths,
+            gradients: g,
+        }) = SetUp::new(&corners)
+        else {
             return;
         };
         let plane = |values: [u32; 3]| g.plane16(values.map(|x| x as u16));
@@ -112,10 +177,12 @@ impl<P: Pixel> Canvas<'_, P> {
         t: &[Vertex; 3],
         lights: &[Light<'_, P>; L],
     ) {
-        let Some((points, depths)) = points(t) else {
-            return;
-        };
-        let Some(g) = Gradients::new(points) else {
+        let Some(SetUp {
+            points,
+            depths,
+            gradients: g,
+        }) = SetUp::new(t)
+        else {
             return;
         };
         let n = normals(t);
@@ -141,10 +208,12 @@ impl<P: Pixel> Canvas<'_, P> {
         t: &[Vertex; 3],
         lights: &[Light<'_, P>; L],
     ) {
-        let Some((points, depths)) = points(t) else {
-            return;
-        };
-        let Some(g) = Gradients::new(points) else {
+        let Some(SetUp {
+            points,
+            depths,
+            gradients: g,
+        }) = SetUp::new(t)
+        else {
             return;
         };
         let n = normals(t);

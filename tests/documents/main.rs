@@ -7,4 +7,5 @@ mod markdown;
 mod methods;
 mod obj;
 mod rooms;
+mod small;
 mod tidy;

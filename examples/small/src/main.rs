@@ -108,7 +108,7 @@ fn frames(light: &[Light<'_, Rgb565>; 1]) {
     else {
         return;
     };
-    type Draw = fn(&mut Canvas<'_, Rgb565>, &[Vertex; 3], &[Light<'_, Rgb565>; 1]);
+    type Draw = fn(&mut Canvas<'_, Rgb565>, &[Vertex; 3], &[Light<'_, Rgb565>; 1]) -> bool;
     let methods: [(&str, Draw); 5] = [
         ("naive", |canvas, t, l| {
             canvas.naive::<Reflection, false, 1>(t, l)

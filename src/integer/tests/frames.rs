@@ -85,14 +85,14 @@ fn weights(t: &[Corner; 3], x: usize, y: usize) -> Option<V> {
     is_in.then(|| w.map(|w| w / area(t)))
 }
 
-type Draw = fn(&mut Canvas<'_, Uncut>, &[Vertex; 3], &[Light<'_, Uncut>; 1]);
+type Draw = fn(&mut Canvas<'_, Uncut>, &[Vertex; 3], &[Light<'_, Uncut>; 1]) -> bool;
 
 const METHODS: [(&str, Draw); 4] = [
     ("naive", |c, t, l| c.naive::<Reflection, false, 1>(t, l)),
     ("fast", |c, t, l| c.fast::<Reflection, false, 1>(t, l)),
     ("quadratic", |c, t, l| c.quadratic::<Reflection, 1>(t, l)),
     ("gouraud", |c, t, l| {
-        c.gouraud(&t.map(|v| (v, colour::<_, Reflection, 1>(l, v.normal))));
+        c.gouraud(&t.map(|v| (v, colour::<_, Reflection, 1>(l, v.normal))))
     }),
 ];
 
@@ -285,6 +285,45 @@ fn depth_hides_what_is_behind_in_any_order() {
         (covered / 3..covered * 2 / 3).contains(&differing),
         "{differing} of {covered}"
     );
+}
+
+/// Convex polygons are drawn, whichever way they run; what the triangles about the first corner are not is refused whole.
+#[test]
+fn polygons_that_do_not_fit_are_refused() {
+    let light = [Light::new(unit([0, 0, 1]), unit([0, 0, 1]), &UNCUT)];
+    let draw = |places: &[[i32; 2]]| {
+        let corners: Vec<Vertex> = (places.iter())
+            .map(|&[x, y]| Vertex {
+                x: I24F8::from_num(x),
+                y: I24F8::from_num(y),
+                depth: 0,
+                normal: unit([0, 0, 1]),
+            })
+            .collect();
+        let mut pixels = vec![Uncut(0); 64 * 64];
+        let mut canvas = Canvas::new(&mut pixels, None, 64, 64).expect("it fits");
+        let is_drawn = canvas.naive::<NoHighlight, false, 1>(&corners, &light);
+        let covered = pixels.iter().filter(|pixel| **pixel != Uncut(0)).count();
+        (is_drawn, covered)
+    };
+    let mut square = [[8, 8], [40, 8], [40, 40], [8, 40]];
+    for _ in 0..4 {
+        square.rotate_left(1);
+        assert_eq!(draw(&square), (true, 32 * 32));
+    }
+    // A corner within a side, and one that is there twice.
+    let convex = [[8, 8], [20, 8], [40, 8], [40, 40], [40, 40], [8, 40]];
+    assert_eq!(draw(&convex), (true, 32 * 32));
+    square.reverse();
+    assert_eq!(draw(&square), (true, 0), "it is seen from behind");
+    let arrow = [[8, 8], [40, 24], [8, 40], [16, 24]];
+    let bow = [[8, 8], [40, 8], [8, 40], [40, 40]];
+    let star = [[32, 4], [50, 60], [4, 24], [60, 24], [14, 60]];
+    let far = [[8, 8], [2000, 8], [8, 40]];
+    let refused: [&[[i32; 2]]; 4] = [&arrow, &bow, &star, &far];
+    for places in refused {
+        assert_eq!(draw(places), (false, 0), "{places:?}");
+    }
 }
 
 #[test]

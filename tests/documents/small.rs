@@ -1,0 +1,69 @@
+//! The tables of `docs/small.md` are those of `docs/small.json`, which `examples/small/run` writes.
+
+use crate::markdown::read;
+use serde_json::Value;
+
+/// Returns numbers with so many decimals, between commas.
+fn numbers(value: &Value, decimals: usize) -> String {
+    let all = value.as_array().expect("a list").iter();
+    let all = all.map(|x| format!("{:.decimals$}", x.as_f64().expect("a number")));
+    all.collect::<Vec<_>>().join(", ")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[test]
+fn tables_are_the_measured_figures() {
+    let page = read("docs/small.md");
+    let data: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let list = |key: &str| data[key].as_array().expect("a list").clone();
+    let has = |row: String| assert!(page.contains(&row), "docs/small.md has no row {row}");
+    for span in list("spans") {
+        let row = |in_loop: f64| {
+            format!(
+                "| `{}` | {} | {} | {in_loop} | {} | {} |",
+                span["method"].as_str().expect("a name"),
+                numbers(&span["m0p_instructions"], 1),
+                numbers(&span["m0p_cycles"], 1),
+                numbers(&span["rv32_instructions"], 1),
+                numbers(&span["worst_error"], 2),
+            )
+        };
+        // The JSON has one decimal: a half may have been rounded either way from more of them.
+        let in_loop = number(&span["m0p_cycles_in_loop"]);
+        if in_loop.fract() != 0.5 || !page.contains(&row(in_loop.floor())) {
+            has(row(in_loop.round()));
+        }
+    }
+    for frame in list("frames") {
+        let millions = |key: &str| format!("{:.2} M", number(&frame[key]) / 1e6);
+        let error = |key: &str| {
+            frame[key]
+                .as_f64()
+                .map_or(String::new(), |e| format!("{e:.2}"))
+        };
+        has(format!(
+            "| `{}` | {} | {} | {} | {:.0} | {} | {} | {} |",
+            frame["method"].as_str().expect("a name"),
+            frame["triangles"],
+            millions("m0p_instructions"),
+            millions("m0p_cycles"),
+            133e6 / number(&frame["m0p_cycles"]),
+            millions("rv32_instructions"),
+            error("worst_error"),
+            error("rms_error"),
+        ));
+    }
+    // What the first paragraph answers.
+    let fast = list("spans")
+        .into_iter()
+        .find(|span| span["method"] == "fast");
+    let fast = fast.expect("it is measured");
+    let [instructions, cycles] =
+        ["m0p_instructions", "m0p_cycles"].map(|key| number(&fast[key][1]).round());
+    has(format!(
+        "{instructions} instructions and {cycles} cycles a pixel"
+    ));
+}
