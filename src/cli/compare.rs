@@ -1,4 +1,4 @@
-//! `fastphong compare`: error and speed of every method on one scene, as a table.
+//! `fastphong compare`: error and speed of methods on one scene, as a table.
 
 use super::engines::LectureFlags;
 use super::measured::{Measurement, TimingFlags, command_line};

@@ -41,7 +41,7 @@ pub const ENGINES: [EngineInfo; 4] = [
     EngineInfo {
         name: "span",
         title: "one pixel at a time: active edges, a depth buffer of one line, visible runs shaded once: the lecture's way",
-        draws: "every method and every scene",
+        draws: "every method, and every scene that it is for",
         runs: "scalar, one thread",
     },
     EngineInfo {

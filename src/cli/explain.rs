@@ -51,7 +51,11 @@ impl ExplainArgs {
             let s = if lights == 1 { "" } else { "s" };
             let there = " and eye at positions";
             let eye = if at_positions { there } else { "" };
-            let title = format!("operations with {lights} light{s}{eye}, as counted");
+            let how = match self.method.entry().is_integer {
+                true => "spans and pixels as their loops stand",
+                false => "as counted",
+            };
+            let title = format!("operations with {lights} light{s}{eye}, {how}");
             section(&title, &costs(&self.operations(lights, at_positions)));
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));

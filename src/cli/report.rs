@@ -1,4 +1,4 @@
-//! `fastphong report`: every method on every scene, as one page.
+//! `fastphong report`: methods on every scene, as one page.
 
 use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};

@@ -185,7 +185,8 @@ fn growth(scaling: &Value) -> Table {
 /// Lists the operations of each method, for one light and for four.
 fn operations(data: &Value) -> Table {
     let caption = "Operations: + additions, × multiplications, < comparisons, ÷ divisions, √ roots, ∿ sines, ^ powers, ▤ reads of tables; \
-                   counted by running each method on numbers that count, for shininess 32";
+                   counted by running each method on numbers that count, for shininess 32; of methods in integers spans and pixels as their \
+                   loops stand";
     let mut table = Table::new(caption, &["method, lights"]);
     table
         .head

@@ -125,7 +125,7 @@ impl SpanBench {
 
 impl Variant {
     /// Returns the operations of each kind that the method takes with one light (`lights` ≤ 1) or four, counted by running it on
-    /// numbers that count.
+    /// numbers that count. Methods in integers cannot: of their spans and pixels it is what their loops say, one by one.
     pub fn operations(&self, lights: usize) -> OperationCounts {
         self.operations_on(&SpanBench::new(20.0, lights))
     }
