@@ -75,7 +75,7 @@ pub mod compare;
 #[cfg(feature = "alloc")]
 pub mod frame;
 pub mod integer;
-#[cfg(feature = "cli")]
+#[cfg(feature = "lectures")]
 #[doc(hidden)]
 pub mod lectures;
 #[cfg(feature = "alloc")]

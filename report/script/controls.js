@@ -57,5 +57,13 @@ function segments(el, pressed, choose) {
 	return update;
 }
 
+/* A slider with its name and its value as text; `key` says which to whoever listens. */
+const slider = ({ key, label, title, min, max, step = 1, value, text }) =>
+	html`
+		<label class="handle" title="${title ?? label}">
+			<span>${label}<output>${text}</output></span>
+			<input type="range" data-handle="${key}" min="${min}" max="${max}" step="${step}" value="${value}">
+		</label>`;
+
 /* Scrolls a chosen entry into sight. */
 const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });

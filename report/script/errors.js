@@ -5,6 +5,7 @@ const fromSrgb = c => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
 
 /* Error of each pixel: the largest difference of a channel from the reference, in linear levels. */
 const errors = (s, m) =>
+	s.one?.(m).errors ??
 	memo(`errors ${s.id} ${m}`, async () => {
 		const [{ px: here }, { px: there }] = await Promise.all([
 			picture(s, m),
@@ -46,6 +47,7 @@ const HEAT = (() => {
 const heat = (error, top) => (top ? Math.min(1, error / top) : Math.log2(1 + error) / 8);
 
 const errorMap = (s, m, top) =>
+	s.map?.(m, top) ??
 	memo(`map ${s.id} ${m} ${top}`, async () => {
 		const map = await errors(s, m);
 		return canvasOf(s, i => HEAT[Math.round(heat(map[i], top) * 255)]);

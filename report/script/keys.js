@@ -3,7 +3,7 @@
 addEventListener("keydown", e => {
 	const v = view === "overview" ? v1 : view === "scenes" ? v2 : null;
 	const on = e.target;
-	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select") || $("#keys").open) return;
+	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select,input") || $("#keys").open) return;
 	if (e.key === "?") return $("#keys").showModal();
 	if (!v || (e.key === " " && on.closest("button,a,.hit"))) return;
 	const step =

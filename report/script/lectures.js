@@ -79,8 +79,16 @@ function figureLinks(shown) {
 	return html`<nav class="list" aria-label="Figures">${links}</nav>`;
 }
 
+/* Keeps the address in step with the handles of a figure. */
+function rememberFigure(query) {
+	const [path] = location.hash.split("?");
+	const text = String(query);
+	if (view === "lectures" || view === "course")
+		history.replaceState(null, "", path + (text && "?" + text));
+}
+
 /* #lectures, #lectures/wrong, #lectures/all, #lectures/FIGURE */
-function lectures([part = ""]) {
+function lectures([part = ""], query) {
 	const body = $("#lecture-body");
 	const lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS };
 	const list = lists[part];
@@ -107,6 +115,8 @@ function lectures([part = ""]) {
 					<h2>${f.title}</h2>
 					<p class="facts">${f.lecture}</p>
 					${chips(f, true)}
+					<div class="hands"></div>
+					${f.live && CAN_DRAW && html`<h3>As stored</h3>`}
 					${figureBody(f)}
 					<h3>Findings</h3>
 					${findingTable(f.findings)}
@@ -114,6 +124,7 @@ function lectures([part = ""]) {
 			</div>`;
 		reveal($(".list [aria-current]", body));
 		drawPlots(f);
+		handlesInto($(".hands", body), f, query, rememberFigure);
 	} else {
 		const [cards, rest] = folded(FIGURES, innerWidth < 700 ? 16 : 30, "figures");
 		body.innerHTML = html`<div class="gallery">${cards.map(card)}</div>${rest}`;

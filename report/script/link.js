@@ -30,6 +30,7 @@ function fromRoute(query, v) {
 			cy: (pin[1] + 0.5) / s.h,
 		});
 	}
+	state.view = viewOf(given);
 	if (v.row && given.row) state.line = whole("row") ?? 0;
 	return state;
 }
@@ -40,7 +41,7 @@ function remember(v) {
 	delay("remember", 60, () => {
 		const own = v === v1 ? "overview" : "scenes";
 		const { scene: s, pin } = v;
-		if (view !== own) return;
+		if (view !== own || s.own) return;
 		const zoom = pin && v.z > 1 ? v.z.toFixed(1) : null;
 		const state = {
 			scene: v === v1 && s !== SCENES[0] ? s.id : null,
@@ -52,6 +53,7 @@ function remember(v) {
 			y: pin?.[1],
 			zoom,
 			row: v.line,
+			...viewQuery(v.view),
 		};
 		const given = Object.entries(state).filter(([, value]) => value != null);
 		const path = v === v1 ? own : `scenes/${s.id}`;

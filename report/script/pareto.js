@@ -6,12 +6,13 @@ let basis = MANY ? "all" : "scene";
 /* Error against time of every method, and the line of those that nothing beats. */
 function pareto(v) {
 	const el = $("#pareto");
-	const s = v.scene;
-	const all = basis === "all";
+	const s = v.source;
+	const isLive = s !== v.scene;
+	const all = basis === "all" && !v.scene.own;
 	write({
 		"pareto-sub": all
 			? `Worst error in ${SCENES.length} scenes, mean time.`
-			: `${s.title}, ${s.w} × ${s.h}.`,
+			: `${s.title}, ${s.w} × ${s.h}${isLive ? ", as it stands here: one thread of this browser" : ""}.`,
 	});
 	const W = widthOf(el);
 	const H = Math.max(340, el.clientHeight / zoomOf());
@@ -20,13 +21,15 @@ function pareto(v) {
 	const t = 24;
 	const b = H - 48;
 	if (!W) return;
-	const points = IDS.filter(m => (all ? M[m].max != null : s.rows[m])).map(m => {
+	const has = m => (all ? M[m].max != null : s.rows[m] && !(isLive && !s.rows[m].ms));
+	const points = IDS.filter(has).map(m => {
 		const { max, speed } = M[m];
 		const q = s.rows[m];
 		return all
 			? { m, error: max, time: speed && 1 / speed, ratio: speed }
 			: { m, error: q.max, time: q.ms, ratio: q.ratio?.median, low: q.p25, high: q.p75 };
 	});
+	if (!points.length) return;
 	const timed = points.every(p => p.time);
 	if (!timed)
 		points.forEach((p, i) => {

@@ -2,9 +2,7 @@
 
 /* Unpacks three planes. Each byte is stored as what it adds to the one before it, modulo 256. */
 async function unpack(text, { w, h }) {
-	const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
-	const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-	const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+	const bytes = await inflate(text);
 	return [0, 1, 2].map(p => {
 		const plane = bytes.subarray(p * w * h, (p + 1) * w * h);
 		for (let i = 1; i < plane.length; i++) plane[i] += plane[i - 1];
@@ -42,8 +40,9 @@ function canvasOf(s, word) {
 	return { canvas, px: image.data };
 }
 
-/* The picture as it is stored: grey levels, linear or sRGB as the scene says. */
+/* The picture in grey levels, linear or sRGB as the scene says: stored, or drawn here. */
 const picture = (s, m) =>
+	s.one?.(m) ??
 	memo(`picture ${s.id} ${m}`, async () => {
 		const [green, red, blue] = await planes(s, m);
 		return canvasOf(

@@ -5,12 +5,12 @@ let probing = 0;
 
 /* Shows every method at the pixel pointed at, held, or worst. */
 async function probe(v) {
-	const s = v.scene;
+	const s = v.source;
 	const turn = ++probing;
 	const of = v.a === "reference" ? v.b : v.a;
 	const rest = (v.rest = (!v.hover && !v.pin && s.rows[of]?.worst) || null);
 	const pixel = v.hover ?? v.pin ?? rest;
-	if (!s.drawn) return;
+	if ((!s.drawn && !s.own) || v.hand.moves) return;
 	const list = ["reference", ...s.list];
 	const at = pixel && pixel[1] * s.w + pixel[0];
 	const found =

@@ -18,8 +18,8 @@ function showRow(v, y) {
 /* Intensity of a row by each method, and its slope below. */
 async function rowPlot(v) {
 	const el = $("#rowplot-chart");
-	const s = v.scene;
-	if (v.line == null || !s.drawn) return;
+	const s = v.source;
+	if (v.line == null || (!s.drawn && !s.own)) return;
 	const row = (v.line = clamp(v.pin ? v.pin[1] : v.line, 0, s.h - 1));
 	const list = ["reference", ...s.list];
 	const pixels = await Promise.all(list.map(m => picture(s, m)));

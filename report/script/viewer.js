@@ -26,6 +26,7 @@ class Viewer {
 		Object.assign(
 			this,
 			{ root, mode: "slide", split: 0.5, z: 1, cx: 0.5, cy: 0.5, top: 0, side: "a", turn: 0 },
+			{ view: STILL },
 			options,
 		);
 		root.tabIndex = -1;
@@ -38,7 +39,7 @@ class Viewer {
 			() => this.mode,
 			mode => this.set({ mode }),
 		);
-		root.onchange = ({ target }) => this.set({ [target.name]: target.value });
+		root.onchange = ({ target }) => target.name && this.set({ [target.name]: target.value });
 		onChoose($(".vfoot", root), (key, e) =>
 			KEYS[key] ? KEYS[key](this, e) : this.set({ scene: S[key], pin: null }),
 		);
@@ -52,13 +53,24 @@ class Viewer {
 			)}`;
 			setTimeout(() => thumbs($(".choices", root)), 300);
 		}
+		this.hand = new Hand(this);
 		this.listen();
 		new ResizeObserver(() => this.draw()).observe(this.stage);
 	}
 
-	/* Changes scene, pictures or mode. */
+	/* The scene, stored or drawn here, of which pictures and rows are shown. */
+	get source() {
+		return this.hand.source;
+	}
+
+	/* Changes scene, pictures, mode or view. */
 	async set(change) {
-		Object.assign(this, change);
+		const { live, ...others } = change;
+		// A view is of one scene.
+		if (others.scene && others.scene !== this.scene) others.view ??= STILL;
+		const looks = "view" in others;
+		Object.assign(this, others);
+		if (live) this.hand.live = live;
 		const { root, scene: s } = this;
 		const error = this.mode === "error";
 		const known = (m, otherwise) => (m === "reference" || s.list.includes(m) ? m : otherwise);
@@ -81,11 +93,22 @@ class Viewer {
 		root.dataset.mode = this.mode;
 		if (error) this.drawScale();
 		if (!("side" in change) && ("mode" in change || "a" in change)) this.side = "a";
-		this.change?.(this, change);
 		this.A = this.B = null;
-		if (!s.drawn) return;
+		this.hand.controls();
+		this.change?.(this, change);
+		const isLive = !isStill(this.view) || s.own;
+		if (isLive && (await this.hand.ready()) && looks) await this.hand.rest();
+		else await this.present();
+	}
+
+	/* Fetches the pictures of both sides, and draws them. */
+	async present() {
+		const s = this.source;
+		const error = this.mode === "error";
+		if (!s.drawn && !s.own) return;
 		const turn = ++this.turn;
 		const image = m => (error ? errorMap(s, m, this.top) : picture(s, m));
+		const { root } = this;
 		try {
 			const [A, B] = await Promise.all([
 				image(this.a),
@@ -95,7 +118,8 @@ class Viewer {
 			[this.A, this.B] = [A.canvas, B.canvas];
 			this.draw();
 			root.dataset.shown = [s.id, this.a, this.b, this.mode].join("|");
-		} catch {
+		} catch (problem) {
+			if (s !== this.scene) throw problem;
 			$(".missing", root).hidden = false;
 		}
 	}
@@ -109,7 +133,7 @@ class Viewer {
 	}
 
 	/* The part of the picture that a pane shows: scale, corner, size. */
-	view() {
+	part() {
 		const w = this.stage.clientWidth / (this.mode === "side" ? 2 : 1);
 		const h = this.stage.clientHeight;
 		const { w: iw, h: ih } = this.scene;
@@ -122,9 +146,10 @@ class Viewer {
 	draw() {
 		// The stage and the buttons below it fit into the window.
 		const top = scrollY + this.stage.getBoundingClientRect().top;
-		const others = top + $(".vfoot", this.root).offsetHeight + 9;
+		const below = this.hand.panel.offsetHeight + $(".vfoot", this.root).offsetHeight;
+		const others = top + below + 9;
 		this.stage.style.maxHeight = `max(300px,100vh - ${others}px)`;
-		const view = this.view();
+		const view = this.part();
 		const { k, w, h } = view;
 		if (!this.A || !w) return;
 		const ratio = devicePixelRatio || 1;
@@ -178,15 +203,19 @@ class Viewer {
 		this.stage.classList.toggle("zoomed", this.z > 1);
 		const label = (part, m, shown) => {
 			const el = $(part, this.root);
-			const q = this.scene.rows[m];
-			const time = q?.ms ? ` · ${num(q.ms)} ms` : "";
-			const about = q ? `max ${num(q.max)} levels${time}` : "f64, closed form";
+			const s = this.source;
+			const q = s.rows[m];
+			const isLive = s !== this.scene;
+			const time = q?.ms ? ` · ${num(q.ms)} ms${isLive ? " here" : ""}` : "";
+			const from = isLive && s.exact !== "reference" ? ` from ${nameOf(s.exact)}` : "";
+			const about = q ? `max ${num(q.max)} levels${from}${time}` : "f64, closed form";
 			el.innerHTML = html`<b>${nameOf(m)}${error && " · error"}</b>${about}`;
 			el.classList.toggle("faint", !shown);
 		};
 		label(".tag.a", this.single && second ? this.b : this.a, !this.slides || this.split > 0.16);
 		label(".tag.b", this.b, side || (this.slides && this.split < 0.84));
 		const names = nameOf(this.a) + (this.single ? "" : ` left, ${nameOf(this.b)} right`);
+		this.hand.placeSun();
 		canvas.ariaLabel = `${this.scene.title}: ${names}${error ? ", error map" : ""}`;
 	}
 
@@ -201,7 +230,7 @@ class Viewer {
 
 	/* Zooms by a factor, 0 for the whole picture, around a point of the stage. */
 	zoom(factor, x, y) {
-		const view = this.view();
+		const view = this.part();
 		const z = clamp(this.z * factor, 1, 32);
 		const k = (view.k / this.z) * z;
 		if (x == null)
@@ -231,7 +260,7 @@ class Viewer {
 	/* A point of the window on the stage: in its pane, and as a part of its width. */
 	local({ clientX, clientY }) {
 		const box = this.stage.getBoundingClientRect();
-		const view = this.view();
+		const view = this.part();
 		const x = clientX - box.left;
 		return {
 			x: this.mode === "side" ? x % view.w : x,
@@ -280,7 +309,7 @@ class Viewer {
 			const { part } = this.local(e);
 			const near = Math.abs(part - this.split) * stage.clientWidth < 24;
 			gesture = {
-				kind: this.slides && (near || this.z === 1) ? "split" : "pan",
+				kind: this.slides && near ? "split" : this.z > 1 ? "pan" : this.hand.can ? "turn" : this.slides ? "split" : "pan",
 				from: e,
 				cx: this.cx,
 				cy: this.cy,
@@ -306,6 +335,11 @@ class Viewer {
 				];
 				gesture.far = Math.max(gesture.far, Math.hypot(dx, dy));
 				if (kind === "split" && gesture.far > 2) this.move(part);
+				if (kind === "turn" && gesture.far > 2) {
+					const last = gesture.last ?? gesture.from;
+					this.hand.turnBy(e.clientX - last.clientX, e.clientY - last.clientY);
+					gesture.last = e;
+				}
 				if (kind === "pan" && this.z > 1) {
 					[this.cx, this.cy] = [
 						gesture.cx - dx / view.k / view.iw,
@@ -314,12 +348,13 @@ class Viewer {
 					this.draw();
 				}
 			}
-			if (this.probe && (kind !== "split" || gesture.far < 3)) this.look(this.pixelAt(e));
+			const drags = kind === "split" || kind === "turn";
+			if (this.probe && (!drags || gesture.far < 3)) this.look(this.pixelAt(e));
 		};
 		stage.onpointerup = e => {
 			fingers.delete(e.pointerId);
 			if (gesture?.far < 4) this.tap(e);
-			else if (gesture && gesture.kind !== "split") this.moved();
+			else if (gesture && gesture.kind !== "split" && gesture.kind !== "turn") this.moved();
 			gesture = null;
 		};
 		stage.onpointercancel = e => {
@@ -372,7 +407,7 @@ class Viewer {
 
 	worst() {
 		const m = this.a === "reference" ? this.b : this.a;
-		const q = this.scene.rows[m];
+		const q = this.source.rows[m];
 		const { w, h } = this.scene;
 		if (!q?.worst) return toast("No pixel differs");
 		Object.assign(this, {

@@ -165,6 +165,26 @@ pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
     input::resolve_by(file, &mut read_of_scene)
 }
 
+/// Returns the files that `file` was made of, mesh files and material libraries, named as from the folder of the scene; `None` if one
+/// came from standard input, or cannot be read again.
+pub fn of_scene(file: &SceneFile) -> Option<Vec<(String, Vec<u8>)>> {
+    if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {
+        return None;
+    }
+    if !file.meshes().any(input::is_mesh_file) {
+        return Some(Vec::new());
+    }
+    let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    let mut read = Vec::new();
+    let resolved = input::resolve_by(file, &mut |path| {
+        let bytes = read_input(path)?;
+        let name = path.strip_prefix(folder).unwrap_or(path);
+        read.push((name.to_string_lossy().into_owned(), bytes.clone()));
+        Ok(bytes)
+    });
+    resolved.is_ok().then_some(read)
+}
+
 /// Reads a picture, which is `part` of the command.
 ///
 /// # Errors

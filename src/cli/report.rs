@@ -12,7 +12,9 @@ use fastphong::compare::comparison::{self, Comparison, Input};
 use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
 use fastphong::lectures::{FIGURES, Figure};
-use fastphong::report::{Document, Report, ScenePictures, small, utc_date};
+use fastphong::report::{
+    Document, MOST_POLYGONS, Report, ScenePictures, live_scene, small, utc_date,
+};
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
@@ -228,10 +230,11 @@ impl ReportArgs {
         bar: &Progress,
         log: Log,
     ) -> Result<DrawnScene, CliError> {
-        let resolved = self.scene.resolve_to_show(&mut file.clone())?;
+        let mut file = file.clone();
+        let resolved = self.scene.resolve_to_show(&mut file)?;
         // Which material libraries a mesh has is known by now.
         self.check_destinations()?;
-        bar.aside(|| self.scene.warn(file, &resolved, log));
+        bar.aside(|| self.scene.warn(&file, &resolved, log));
         let frame = resolved.scene.frame()?;
         drop(resolved);
         let at_once = rayon::current_num_threads().min(self.scenes());
@@ -246,6 +249,9 @@ impl ReportArgs {
         comparison.description = file.description().unwrap_or_default().to_owned();
         let pictures = ScenePictures::new(&comparison);
         let pictures = pictures.map_err(|error| format!("{name}: {error}"))?;
+        let is_small = frame.polygons().len() <= MOST_POLYGONS;
+        let files = is_small.then(|| files::of_scene(&file)).flatten();
+        let pictures = pictures.with_live(files.and_then(|files| live_scene(&file, &files)));
         comparison.drop_pictures();
         Ok((frame, comparison, pictures))
     }

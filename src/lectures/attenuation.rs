@@ -8,6 +8,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Lights that grow weaker",
     lecture: "CS171 2, Attenuation; L5, Light falloff",
     parts: &[curves, floors],
+    live: None,
 };
 
 /// The falloffs with their names.

@@ -13,6 +13,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Barycentric coordinates: right, as printed, and without signs",
     lecture: "CS171 1; L5, Barycentric Coordinates",
     parts: &[pictures, misprints, other_formulas],
+    live: None,
 };
 
 /// Width and height of the pictures.

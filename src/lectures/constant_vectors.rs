@@ -11,7 +11,45 @@ pub(super) static FIGURE: Figure = Figure {
     title: "L and V constant along a polygon, and the error of that",
     lecture: "L21 1, L21 4.3",
     parts: &[pictures, errors, products],
+    live: Some(&LIVE),
 };
+
+pub(super) static LIVE: Live = Live {
+    claim: "L and V are constant along a polygon, so that J = L·N, K = V·N and L·V cost additions (L21 1; 4.3).",
+    handles: &[
+        Handle::slider(
+            ["distance", "distance of the light, in radii", ""],
+            [0.25, 16.0],
+            0.25,
+            0.25,
+        ),
+        Handle::slider(
+            ["rings", "bands from pole to pole", ""],
+            [6.0, 48.0],
+            2.0,
+            12.0,
+        ),
+    ],
+    make: |content, values| {
+        let (distance, rings) = (values[0], values[1] as u32);
+        let frame = sphere(rings, distance)?.frame()?;
+        compared(content, &frame)?;
+        let fast = draw(&frame, "fast-phong")?;
+        let rms = 255.0 * compare(&truth(&frame), &fast)?.rms;
+        content.contradicts(
+            &format!(
+                "coarse | RMS error of constant vectors, {} polygons, light at {distance}",
+                2 * rings * rings
+            ),
+            (rms, "grey levels", rms > 1.0),
+            SHOWS,
+        );
+        Ok(())
+    },
+};
+
+/// What an error of over one level says.
+const SHOWS: &str = "Every polygon shows: the assumption is for lights at infinity.";
 
 /// Bands from pole to pole of the spheres.
 const RINGS: [u32; 5] = [6, 12, 24, 48, 96];
@@ -36,7 +74,19 @@ fn pictures(content: &mut FigureContent) -> Result {
          exact with light and eye at infinity. Otherwise polygons must be small, or the light far.",
     );
     let near = sphere(RINGS[1], DISTANCES[0])?.frame()?;
-    let [fast, duff, naive] = draw_each(&near, ["fast-phong", "duff-phong", "naive-phong"])?;
+    let duff = compared(content, &near)?;
+    let difference = levels(&draw(&near, "naive-phong")?, &duff);
+    content.adds(
+        "duff-naive | six quadratics against vectors at each pixel, largest difference",
+        (difference, "grey levels", difference < 0.5),
+        "One picture: the products are exact, to rounding.",
+    );
+    Ok(())
+}
+
+/// Shows constant vectors beside those of each pixel; returns the picture of these.
+fn compared(content: &mut FigureContent, frame: &Frame) -> Result<LinearPicture> {
+    let [fast, duff] = draw_each(frame, ["fast-phong", "duff-phong"])?;
     let [fast_8, duff_8] = [&fast, &duff].map(stored);
     let map = difference_map(&duff_8, &fast_8, 64.0)?;
     content.row(
@@ -45,13 +95,7 @@ fn pictures(content: &mut FigureContent) -> Result {
          to 64 levels",
         [fast_8, duff_8, map],
     );
-    let difference = levels(&naive, &duff);
-    content.adds(
-        "duff-naive | six quadratics against vectors at each pixel, largest difference",
-        (difference, "grey levels", difference < 0.5),
-        "One picture: the products are exact, to rounding.",
-    );
-    Ok(())
+    Ok(duff)
 }
 
 /// Measures fast Phong shading over resolutions and distances.
@@ -87,7 +131,7 @@ fn errors(content: &mut FigureContent) -> Result {
     content.contradicts(
         "coarse | RMS error of constant vectors, coarsest sphere and nearest light",
         (coarse.1, "grey levels", coarse.1 > 1.0),
-        "Every polygon shows: the assumption is for lights at infinity.",
+        SHOWS,
     );
     let finer = f64::from(RINGS[RINGS.len() - 1]) / f64::from(RINGS[0]);
     let order = libm::log(coarse.1 / fine.1) / libm::log(finer);

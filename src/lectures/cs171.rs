@@ -13,6 +13,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "CS171's algorithms as printed",
     lecture: "CS171 3, Figures 9 to 11; CS171 4 and 5",
     parts: &[highlights, cube],
+    live: None,
 };
 
 /// Width and height of the pictures.

@@ -9,6 +9,42 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Depth: two ways to compute it, and 16, 24 or 32 bits to keep it",
     lecture: "L5, Z-buffer, Z-value Computation",
     parts: &[fighting, ways, curve],
+    live: Some(&LIVE),
+};
+
+pub(super) static LIVE: Live = Live {
+    claim: "Depth is kept in 16 to 32 bits, z ↦ (f + n)/(f − n) + (1/z) 2fn/(f − n): the nearer the near plane, the fewer levels for what is far (L5).",
+    handles: &[
+        Handle::slider(["bits", "bits of depth", ""], [16.0, 32.0], 8.0, 16.0),
+        Handle::slider(
+            ["near", "near plane, times its distance in the figure", ""],
+            [1.0, 25.0],
+            1.0,
+            1.0,
+        ),
+    ],
+    make: |content, values| {
+        let (count, bits) = BITS[((values[0] - 16.0) / 8.0) as usize];
+        let drawn = |bits| {
+            draw(
+                &far_away(bits, DepthSource::Interpolated, values[1])?,
+                "flat",
+            )
+        };
+        let (picture, full) = (drawn(bits)?, drawn(DepthBits::ThirtyTwo)?);
+        let wrong = differing(&picture, &full);
+        content.pictures(
+            2,
+            "A star above a floor, depth",
+            [
+                (format!("{count} bits"), stored(&picture)),
+                ("32 bits".into(), stored(&full)),
+            ],
+        );
+        content.plot(over_distance(&[1.0, values[1]])?);
+        fights(content, count, wrong);
+        Ok(())
+    },
 };
 
 /// Width and height of the pictures.
@@ -21,9 +57,10 @@ const BITS: [(u32, DepthBits); 3] = [
     (32, DepthBits::ThirtyTwo),
 ];
 
-/// Makes a frame of a star a little above a floor, far from the eye.
-fn far_away(bits: DepthBits, source: DepthSource) -> Result<Frame> {
+/// Makes a frame of a star a little above a floor, far from the eye; the near plane is so many times as far away as in the scene.
+fn far_away(bits: DepthBits, source: DepthSource, near: f64) -> Result<Frame> {
     let mut scene = shipped("z-fighting", SIZE)?;
+    scene.camera.near *= near;
     scene.hidden_surfaces = HiddenSurfaces::ZBuffer(DepthBuffer { bits, source });
     Ok(scene.frame()?)
 }
@@ -36,26 +73,31 @@ fn fighting(content: &mut FigureContent) -> Result {
     );
     let (mut pictures, mut panels) = (Vec::new(), Vec::new());
     for (count, bits) in BITS {
-        let picture = draw(&far_away(bits, DepthSource::Interpolated)?, "flat")?;
+        let picture = draw(&far_away(bits, DepthSource::Interpolated, 1.0)?, "flat")?;
         panels.push((format!("{count} bits"), stored(&picture)));
         pictures.push(picture);
     }
     content.pictures(3, "A star above a floor, depth", panels);
     for ((bits, _), picture) in BITS.iter().zip(&pictures[..2]) {
         let wrong = differing(picture, &pictures[2]);
-        let enough = if wrong > 0 { "too few" } else { "enough" };
-        content.adds(
-            &format!("fighting-{bits} | pixels that {bits} bits show differently than 32"),
-            (wrong as f64, "pixels", true),
-            &format!("{bits} bits are {enough} here."),
-        );
+        fights(content, *bits, wrong);
     }
     Ok(())
 }
 
+/// Concludes from the pixels that so many bits show wrongly.
+fn fights(content: &mut FigureContent, bits: u32, wrong: usize) {
+    let enough = if wrong > 0 { "too few" } else { "enough" };
+    content.adds(
+        &format!("fighting-{bits} | pixels that {bits} bits show differently than 32"),
+        (wrong as f64, "pixels", true),
+        &format!("{bits} bits are {enough} here."),
+    );
+}
+
 /// Compares depth interpolated between corners with depth computed at each sample.
 fn ways(content: &mut FigureContent) -> Result {
-    let by = |source| far_away(DepthBits::ThirtyTwo, source).map(|frame| depth(&frame));
+    let by = |source| far_away(DepthBits::ThirtyTwo, source, 1.0).map(|frame| depth(&frame));
     let (corners, samples) = (by(DepthSource::Interpolated)?, by(DepthSource::PerSample)?);
     let both = corners.pixels().iter().zip(samples.pixels());
     let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
@@ -78,7 +120,8 @@ fn lecture_depth(distance: f64, near: f64, far: f64) -> f64 {
     (far + near) / (far - near) + 2.0 * far * near / (far - near) / z
 }
 
-fn curve(content: &mut FigureContent) -> Result {
+/// Plots depth over distance for near planes so many times as far away as in the scene.
+fn over_distance(times: &[f64]) -> Result<Plot> {
     let Camera { near, far, .. } = shipped("z-fighting", SIZE)?.camera;
     let reach = written(far);
     let curve = |near: f64| {
@@ -87,16 +130,22 @@ fn curve(content: &mut FigureContent) -> Result {
         Series::sampled(format!("near = {}", written(near)), distances, depth)
     };
     let distance = log("distance from the eye");
-    content.plot(Plot::new(
+    Ok(Plot::new(
         "Depth over distance",
         [distance, linear("depth, 0 near to 1 far")],
-        [near, 5.0 * near, 25.0 * near].map(curve),
+        times.iter().map(|times| curve(times * near)),
         format!(
             "L5's formula, mapped to 0..1, for a far plane at {reach}. Only the order of z is \
              \"preserved after projection\": a nearer near plane leaves fewer levels for far \
              surfaces."
         ),
-    ));
+    ))
+}
+
+fn curve(content: &mut FigureContent) -> Result {
+    content.plot(over_distance(&[1.0, 5.0, 25.0])?);
+    let Camera { near, far, .. } = shipped("z-fighting", SIZE)?.camera;
+    let reach = written(far);
     let half = 0.5 + 0.5 * lecture_depth(2.0 * near, near, far);
     let (twice, share) = (written(2.0 * near), 100.0 * half);
     content.adds(

@@ -12,6 +12,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Duff\u{2019}s surprise: where Phong shading bends more than Gouraud shading",
     lecture: "L21 4; Duff 1979",
     parts: &[curves, jumps, sweep],
+    live: None,
 };
 
 /// Pixels a degree: each facet is as wide as its arc.

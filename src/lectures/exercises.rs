@@ -10,6 +10,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "The exercises: a table of sines, and e to the t by one multiplication per pixel",
     lecture: "L21, Exercises 1 and 2",
     parts: &[sine, exponential, fog],
+    live: None,
 };
 
 /// The sines of 24° and 25° in the table of Exercise 1, in five decimals.

@@ -8,6 +8,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "The exponent and the size of the highlight",
     lecture: "L5, Cosine power plots; CS171 2, Figures 7 and 8",
     parts: &[powers, grid, half_vector],
+    live: None,
 };
 
 const EXPONENTS: [f32; 5] = [1.0, 8.0, 32.0, 128.0, 512.0];

@@ -8,6 +8,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Fast Phong against naive Phong: the picture and the price",
     lecture: "L21 4.1–4.4, 5",
     parts: &[meshes, operations],
+    live: None,
 };
 
 /// The meshes, coarse and fine, with and without flat parts.

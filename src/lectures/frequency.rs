@@ -8,6 +8,35 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Shading frequency and mesh resolution",
     lecture: "L5, Shading frequency: triangle, vertex or pixel",
     parts: &[spheres],
+    live: Some(&LIVE),
+};
+
+pub(super) static LIVE: Live = Live {
+    claim: "Shade once a face, once a vertex or once a pixel: on finer meshes the cheaper ones are enough (L5).",
+    handles: &[Handle::slider(
+        ["rings", "bands from pole to pole", ""],
+        [4.0, 64.0],
+        2.0,
+        6.0,
+    )],
+    make: |content, values| {
+        let rings = values[0] as u32;
+        let (frame, truth) = (sphere(rings)?, truth(&sphere(FINEST)?));
+        let (mut panels, mut before) = (Vec::new(), None);
+        for (method, frequency) in FREQUENCIES {
+            let (picture, difference) = drawn(&frame, &truth, method)?;
+            panels.push((format!("once a {frequency}"), stored(&picture)));
+            let rms = 255.0 * difference.rms;
+            let label = format!(
+                "once a {frequency}, {} polygons: RMS error",
+                2 * rings * rings
+            );
+            conclude(content, &format!("{frequency} | {label}"), rms, before);
+            before = Some((frequency, rms));
+        }
+        content.pictures(3, "A sphere, shaded", panels);
+        Ok(())
+    },
 };
 
 /// Bands from pole to pole of the spheres; twice as many cells around.
@@ -48,18 +77,40 @@ fn spheres(content: &mut FigureContent) -> Result {
     for (method, frequency) in FREQUENCIES {
         let mut row = Vec::new();
         for (frame, rings) in frames.iter().zip(RINGS) {
-            let drawn = draw(frame, method)?;
+            let (picture, difference) = drawn(frame, &truth, method)?;
             let caption = format!("{frequency}, {} polygons", 2 * rings * rings);
-            panels.push((caption, stored(&drawn)));
-            row.push(compare_where(&truth, &drawn, |x, y| {
-                truth.get(x, y)[3] > 0.0 && drawn.get(x, y)[3] > 0.0
-            })?);
+            panels.push((caption, stored(&picture)));
+            row.push(difference);
         }
         errors.push(row);
     }
     content.pictures(RINGS.len(), "A sphere, shaded once a", panels);
     numbers(content, &errors);
     Ok(())
+}
+
+/// Draws a sphere; returns its difference from the truth as well, over pixels that both cover.
+fn drawn(
+    frame: &Frame,
+    truth: &LinearPicture,
+    method: &str,
+) -> Result<(LinearPicture, Difference)> {
+    let drawn = draw(frame, method)?;
+    let difference = compare_where(truth, &drawn, |x, y| {
+        truth.get(x, y)[3] > 0.0 && drawn.get(x, y)[3] > 0.0
+    })?;
+    Ok((drawn, difference))
+}
+
+/// Concludes from the error of a frequency, and that of the frequency before, which is lower.
+fn conclude(content: &mut FigureContent, head: &str, rms: f64, before: Option<(&str, f64)>) {
+    match before {
+        None => content.adds(head, (rms, "grey levels", rms > 1.0), "Visible facets."),
+        Some((frequency, more)) => {
+            let says = format!("Less than once a {frequency}.");
+            content.confirms(head, (rms, "grey levels", rms < more), &says);
+        }
+    }
 }
 
 /// Shows the errors, a row a frequency.
@@ -85,14 +136,9 @@ fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
     for (i, (_, frequency)) in FREQUENCIES.iter().enumerate() {
         for (end, k) in [("coarsest", 0), ("finest", LAST)] {
             let label = format!("once a {frequency}, {} polygons: RMS error", polygons[k]);
-            let (head, here) = (format!("{frequency}-{end} | {label}"), rms(i, k));
-            if i == 0 {
-                content.adds(&head, (here, "grey levels", here > 1.0), "Visible facets.");
-            } else {
-                let is_less = here < rms(i - 1, k);
-                let says = format!("Less than once a {}.", FREQUENCIES[i - 1].1);
-                content.confirms(&head, (here, "grey levels", is_less), &says);
-            }
+            let head = format!("{frequency}-{end} | {label}");
+            let before = i.checked_sub(1).map(|j| (FREQUENCIES[j].1, rms(j, k)));
+            conclude(content, &head, rms(i, k), before);
         }
     }
     let (many, few) = (polygons[LAST], polygons[1]);

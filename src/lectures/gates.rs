@@ -7,6 +7,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Light from behind, and clamped colours",
     lecture: "CS171 2, Specular reflection; L5; L21 2.1, L21 3",
     parts: &[gates, clamping],
+    live: None,
 };
 
 /// From behind and above: it lights surfaces that turn away from the eye.

@@ -9,6 +9,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Ambient, diffuse and specular light",
     lecture: "L21 2.1; L5, Phong reflection, Lambert's cosine law; CS171 2",
     parts: &[terms, diffuse_series, cube],
+    live: None,
 };
 
 /// Width and height of the pictures.

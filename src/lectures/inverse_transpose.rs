@@ -12,6 +12,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Normals of a stretched surface",
     lecture: "CS171 2, Surface normals, Figure 4",
     parts: &[ellipse, ellipsoid],
+    live: None,
 };
 
 /// Factor by which the circle and the sphere are stretched across.

@@ -1,21 +1,40 @@
 //! Mach bands: jumps of the intensity and of its slope at the edges of polygons (L21 2–4).
 
 use super::prelude::*;
+use core::ops::Range;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "mach-bands",
     title: "Mach bands: jumps at the edges of polygons",
     lecture: "L21 2, 3, 4: \"this blurring eliminates Mach bands\"",
     parts: &[bands],
+    live: Some(&LIVE),
+};
+
+pub(super) static LIVE: Live = Live {
+    claim: "\u{201c}This blurring eliminates Mach bands\u{201d} (L21 3): each pixel is the one before, plus ΔI (3.6), so that nothing jumps where facets meet.",
+    handles: &[Handle::slider(
+        ["facets", "facets of the cylinder", ""],
+        [2.0, 15.0],
+        1.0,
+        5.0,
+    )],
+    make: |content, values| shown(content, &facets(values[0] as usize)),
 };
 
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [240, 32];
 /// Radius of the cylinder, in pixels.
 const RADIUS: f64 = 118.0;
-/// Angles of the edges of the cylinder's facets from the middle, in degrees.
-const FACETS: [f64; 6] = [-75.0, -45.0, -15.0, 15.0, 45.0, 75.0];
+/// Facets of the cylinder.
+const FACETS: usize = 5;
 const METHODS: [&str; 4] = ["flat", "gouraud", "naive-phong", "slerp-phong"];
+
+/// Returns the angles of the edges of so many facets from the middle, in degrees.
+fn facets(count: usize) -> Vec<f64> {
+    let part = |i| i as f64 / count as f64;
+    (0..=count).map(|i| 150.0 * part(i) - 75.0).collect()
+}
 
 fn column(degrees: f64) -> f64 {
     f64::from(SIZE[0]) / 2.0 + RADIUS * libm::sin(degrees.to_radians())
@@ -39,30 +58,43 @@ fn cylinder(angles: &[f64]) -> Result<Frame> {
 }
 
 fn bands(content: &mut FigureContent) -> Result {
-    let fine: Vec<f64> = (0..=300).map(|i| -75.0 + 0.5 * f64::from(i)).collect();
-    let smooth = truth(&cylinder(&fine)?);
-    let drawn = draw_each(&cylinder(&FACETS)?, METHODS)?;
-    let drawn = METHODS.into_iter().zip(drawn);
-    let pictures: Vec<_> = drawn.chain([("the cylinder", smooth)]).collect();
     content.text(
         "A cylinder of five facets of 30°, and its intensities along a scan line; the reference is \
          drawn on 300 facets. The eye exaggerates jumps of intensity and, less, of its slope: it \
          sees bands there although no intensity jumps (Mach; Phong 1975).",
     );
+    shown(content, &facets(FACETS))
+}
+
+/// Shows a cylinder whose facets meet at these angles, and measures what jumps there.
+fn shown(content: &mut FigureContent, angles: &[f64]) -> Result {
+    let fine: Vec<f64> = (0..=300).map(|i| -75.0 + 0.5 * f64::from(i)).collect();
+    let smooth = truth(&cylinder(&fine)?);
+    let drawn = draw_each(&cylinder(angles)?, METHODS)?;
+    let drawn = METHODS.into_iter().zip(drawn);
+    let pictures: Vec<_> = drawn.chain([("the cylinder", smooth)]).collect();
     let panels = pictures.iter().map(|(name, drawn)| (*name, stored(drawn)));
-    content.pictures(2, "A cylinder of five facets", panels);
+    content.pictures(2, "A cylinder of facets", panels);
     let line = |(name, drawn)| (name, profile(&drawn, SIZE[1] as usize / 2));
     let profiles: Vec<(&str, Vec<f64>)> = pictures.into_iter().map(line).collect();
-    curves(content, &profiles);
-    numbers(content, &profiles);
+    // The background beside the cylinder is no part of it.
+    let seen = libm::ceil(column(-75.0)) as usize..libm::floor(column(75.0)) as usize;
+    let edges: Vec<f64> = angles[1..angles.len() - 1]
+        .iter()
+        .map(|a| column(*a))
+        .collect();
+    curves(content, &profiles, &edges, seen);
+    numbers(content, &profiles, &edges);
     Ok(())
 }
 
-fn curves(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
-    // The background beside the cylinder is no part of it.
-    let seen = libm::ceil(column(FACETS[0])) as usize..libm::floor(column(FACETS[5])) as usize;
+fn curves(
+    content: &mut FigureContent,
+    profiles: &[(&str, Vec<f64>)],
+    edges: &[f64],
+    seen: Range<usize>,
+) {
     let inner = seen.start + 1..seen.end - 1;
-    let marks = [1, 2, 3, 4].map(|i| column(FACETS[i]));
     let line = |(name, profile): &(&str, Vec<f64>)| {
         Series::new(*name, seen.clone().map(|i| (i as f64 + 0.5, profile[i])))
     };
@@ -72,7 +104,7 @@ fn curves(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         profiles.iter().map(line),
         "Flat shading jumps where facets meet; the others only bend.",
     );
-    content.plot(intensity.marked(marks));
+    content.plot(intensity.marked(edges));
     let bend = |(name, profile): &(&str, Vec<f64>)| {
         let second = |i: usize| profile[i - 1] - 2.0 * profile[i] + profile[i + 1];
         Series::new(*name, inner.clone().map(|i| (i as f64 + 0.5, second(i))))
@@ -83,15 +115,15 @@ fn curves(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         profiles[1..].iter().map(bend),
         "The spikes at the edges are jumps of the slope. The cylinder itself has none.",
     );
-    content.plot(bends.marked(marks));
+    content.plot(bends.marked(edges));
 }
 
 /// Measures the largest jumps over the edges between facets.
-fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
+fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)], edges: &[f64]) {
     let jumps = |profile: &[f64]| {
-        let jumps = [1, 2, 3, 4].map(|i| jump(profile, column(FACETS[i])));
-        let value = largest(jumps.map(|jump| jump.value.abs()));
-        (value, largest(jumps.map(|jump| jump.slope.abs())))
+        let jumps = || edges.iter().map(|edge| jump(profile, *edge));
+        let value = largest(jumps().map(|jump| jump.value.abs()));
+        (value, largest(jumps().map(|jump| jump.slope.abs())))
     };
     let [methods @ .., (_, smooth)] = profiles else {
         return;

@@ -34,6 +34,8 @@ mod fast_vs_naive;
 mod fixture;
 mod frequency;
 mod gates;
+mod handle;
+mod highlight;
 mod illumination;
 mod inverse_transpose;
 mod mach_bands;
@@ -51,6 +53,7 @@ mod supersampling;
 pub use content::{Agreement, FigureBlock, FigureContent, Finding, Panel, Plot, Scale, Series};
 pub use error::FigureError;
 use error::Result;
+pub use handle::{Handle, Live};
 
 use crate::number::suggest::unknown;
 use alloc::string::String;
@@ -59,6 +62,7 @@ use alloc::string::String;
 pub static FIGURES: &[&Figure] = &[
     &newell::FIGURE,
     &mach_bands::FIGURE,
+    &highlight::FIGURE,
     &square::FIGURE,
     &duff::FIGURE,
     &newton::FIGURE,
@@ -81,6 +85,21 @@ pub static FIGURES: &[&Figure] = &[
     &perspective::FIGURE,
 ];
 
+/// The figures that follow the reader's hand, by their names. They stand apart, so that a program that makes them alone does not hold
+/// what the others draw.
+pub static LIVE: &[(&str, &Live)] = &[
+    ("newell", &newell::LIVE),
+    ("mach-bands", &mach_bands::LIVE),
+    ("highlight", &highlight::LIVE),
+    ("square", &square::LIVE),
+    ("newton", &newton::LIVE),
+    ("slerp", &slerp::LIVE),
+    ("frequency", &frequency::LIVE),
+    ("constant-vectors", &constant_vectors::LIVE),
+    ("depth", &depth::LIVE),
+    ("supersampling", &supersampling::LIVE),
+];
+
 /// A drawing or statement of a lecture, to be made anew.
 #[derive(Debug, serde::Serialize)]
 pub struct Figure {
@@ -94,6 +113,9 @@ pub struct Figure {
     /// The functions that draw and measure it, each a part of the content.
     #[serde(skip)]
     parts: &'static [fn(&mut FigureContent) -> Result],
+    /// What of it follows the reader's hand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub live: Option<&'static Live>,
 }
 
 impl Figure {

@@ -9,6 +9,24 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Newell\u{2019}s formula, and the normal from two edges",
     lecture: "L21 1.1: (1.1), |N| = 2 Area",
     parts: &[pictures, errors],
+    live: Some(&LIVE),
+};
+
+pub(super) static LIVE: Live = Live {
+    claim: "N = ½ Σ (Pᵢ − Pᵢ₊₁) × (Pᵢ + Pᵢ₊₁) sums over all edges; two edges are enough only where no corner is flat or reflex (L21 1.1).",
+    handles: &[
+        Handle::coordinate(["x1", "corner 1, right"], 'x', [-1.0, 1.0], -0.9375),
+        Handle::coordinate(["y1", "corner 1, up"], 'y', [-1.0, 1.0], -0.8125),
+        Handle::coordinate(["x2", "corner 2, right"], 'x', [-1.0, 1.0], 0.0),
+        Handle::coordinate(["y2", "corner 2, up"], 'y', [-1.0, 1.0], -0.1875),
+        Handle::coordinate(["x3", "corner 3, right"], 'x', [-1.0, 1.0], 0.9375),
+        Handle::coordinate(["y3", "corner 3, up"], 'y', [-1.0, 1.0], -0.8125),
+        Handle::coordinate(["x4", "corner 4, right"], 'x', [-1.0, 1.0], 0.6875),
+        Handle::coordinate(["y4", "corner 4, up"], 'y', [-1.0, 1.0], 0.6875),
+        Handle::coordinate(["x5", "corner 5, right"], 'x', [-1.0, 1.0], -0.6875),
+        Handle::coordinate(["y5", "corner 5, up"], 'y', [-1.0, 1.0], 0.6875),
+    ],
+    make: dragged,
 };
 
 /// The key and the name of a polygon, and its corners in its plane, counter-clockwise.
@@ -87,6 +105,64 @@ fn worst(corners: &[Vec3]) -> DVec3 {
     by_two_edges(corners)[corners.len() - 1]
 }
 
+/// Shows a polygon whose corners are dragged, and measures its normals.
+fn dragged(content: &mut FigureContent, values: &[f64]) -> Result {
+    let plane: Vec<DVec2> = values
+        .chunks_exact(2)
+        .map(|v| DVec2::new(v[0], v[1]))
+        .collect();
+    let example = ("dragged", "this polygon", plane);
+    let twice = twice_the_area(&example.2);
+    let corners = in_space(&example.2);
+    let panel = |caption: &str, normal: fn(&[Vec3]) -> DVec3| {
+        let lit = lit_by(core::slice::from_ref(&example), normal)?;
+        Ok::<_, FigureError>((String::from(caption), stored(&lit)))
+    };
+    let panels = [
+        panel(
+            "lit by the normal from two edges, at its worst corner",
+            worst,
+        )?,
+        panel("lit by the normal of Newell\u{2019}s formula", by_newell)?,
+    ];
+    content.pictures(2, "The polygon", panels);
+    let edges = error(worst(&corners));
+    let sum = by_newell(&corners);
+    failure(content, "dragged", example.1, edges);
+    // Turned over, its normal is to point away.
+    let off = if twice < 0.0 { error(-sum) } else { error(sum) };
+    match twice.abs() > 1e-6 {
+        true => {
+            right(content, off);
+            as_long(content, (sum.length() / twice.abs() - 1.0).abs());
+        }
+        false => content.adds(
+            "newell | |N| by Newell\u{2019}s formula",
+            (sum.length(), "", true),
+            "It encloses no area, or as much on one side as on the other: it has no normal.",
+        ),
+    }
+    Ok(())
+}
+
+/// Concludes from the largest error of Newell's formula, in degrees.
+fn right(content: &mut FigureContent, most: f64) {
+    content.confirms(
+        "newell | Newell's formula: largest error over all polygons",
+        (most, "degrees", most < 1e-4),
+        "Rounding of the corners, and no more.",
+    );
+}
+
+/// Concludes from the largest relative difference of |N| from twice the area.
+fn as_long(content: &mut FigureContent, area: f64) {
+    content.confirms(
+        "area | |N| against 2 Area: largest relative difference",
+        (area, "", area < 1e-6),
+        "|N| = 2 Area, rounding aside.",
+    );
+}
+
 /// Draws all polygons, lit by the one normal and by the other.
 fn pictures(content: &mut FigureContent) -> Result {
     content.text(
@@ -97,7 +173,11 @@ fn pictures(content: &mut FigureContent) -> Result {
     let names = examples().map(|(_, what, _)| what).join(", ");
     let edges = format!("lit by the normal from two edges, at its worst corner: {names}");
     let newell = "lit by the normal of Newell\u{2019}s formula".into();
-    let panels = [(edges, &lit_by(worst)?), (newell, &lit_by(by_newell)?)];
+    let all = examples();
+    let panels = [
+        (edges, &lit_by(&all, worst)?),
+        (newell, &lit_by(&all, by_newell)?),
+    ];
     let panels = panels.map(|(caption, picture)| (caption, stored(picture)));
     content.pictures(1, "Five polygons of one plane", panels);
     Ok(())
@@ -129,16 +209,8 @@ fn errors(content: &mut FigureContent) -> Result {
         "polygon | two edges: best corner | worst corner | Newell | |N| | 2 Area",
         rows,
     );
-    content.confirms(
-        "newell | Newell's formula: largest error over all polygons",
-        (most, "degrees", most < 1e-4),
-        "Rounding of the corners, and no more.",
-    );
-    content.confirms(
-        "area | |N| against 2 Area: largest relative difference",
-        (area, "", area < 1e-6),
-        "|N| = 2 Area, rounding aside.",
-    );
+    right(content, most);
+    as_long(content, area);
     Ok(())
 }
 
@@ -147,7 +219,7 @@ fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
     let fails = error > 1.0;
     let agreement = match key {
         "hexagon" => Agreement::if_holds(!fails),
-        "reflex" => Agreement::Adds,
+        "reflex" | "dragged" => Agreement::Adds,
         _ => Agreement::if_holds(fails),
     };
     content.found(
@@ -167,8 +239,8 @@ fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
     );
 }
 
-/// Draws all polygons side by side, lit by a normal of their corners.
-fn lit_by(normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
+/// Draws polygons side by side, lit by a normal of their corners.
+fn lit_by(examples: &[Example], normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
     let polygon = |(i, (_, _, corners)): (usize, &Example)| {
         let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
         let corner =
@@ -181,11 +253,16 @@ fn lit_by(normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
                 .unwrap_or(DVec3::ZERO),
         }
     };
-    let polygons: Vec<_> = examples().iter().enumerate().map(polygon).collect();
+    let polygons: Vec<_> = examples.iter().enumerate().map(polygon).collect();
     // Far from the normal, so that a few degrees are seen.
     let light = DVec3::new(-0.6, 0.3, 0.7);
     draw(
-        &frame([240, 48], grey(0.08, 0.9, 0.0, 1.0), light, &polygons)?,
+        &frame(
+            [48 * polygons.len() as u32, 48],
+            grey(0.08, 0.9, 0.0, 1.0),
+            light,
+            &polygons,
+        )?,
         "flat",
     )
 }

@@ -9,6 +9,20 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Newton\u{2019}s method from pixel to pixel: steps, angles, and where it breaks",
     lecture: "L21 4.2: \"after only a few iterations\"",
     parts: &[curves, numbers, opposed],
+    live: Some(&LIVE),
+};
+
+pub(super) static LIVE: Live = Live {
+    claim: "\u{201c}After only a few iterations\u{201d} x − (x² − d²) / 2x gives d = √(N · N), from the d of the pixel before (L21 4.2).",
+    handles: &[
+        Handle::slider(["angle", "angle of the span", "°"], [5.0, 175.0], 5.0, 60.0),
+        Handle::slider(["steps", "steps a pixel", ""], [1.0, 3.0], 1.0, 1.0),
+    ],
+    make: |content, values| {
+        content.plot(along_a_span(values[0]));
+        few_iterations(content, values[0], values[1] as u32);
+        Ok(())
+    },
 };
 
 /// Pixels of the span that is walked.
@@ -58,22 +72,36 @@ fn curves(content: &mut FigureContent) -> Result {
         STEPS.map(over_angles),
         "Each step squares the error and halves it, until rounding is left (about 10⁻⁷).",
     ));
-    const DEGREES: f64 = 150.0;
-    let along_a_span = |steps| {
-        let errors = errors(DEGREES, steps).into_iter().enumerate();
+    content.plot(along_a_span(150.0));
+    Ok(())
+}
+
+/// Plots the error at each pixel of a span.
+fn along_a_span(degrees: f64) -> Plot {
+    let curve = |steps| {
+        let errors = errors(degrees, steps).into_iter().enumerate();
         let points = errors.map(|(k, error)| (k as f64, error.abs().max(1e-8)));
         Series::new(plural(steps), points)
     };
-    content.plot(Plot::new(
+    Plot::new(
         "Relative error of d along a span",
         [linear("pixel"), log("relative error of d")],
-        STEPS.map(along_a_span),
+        STEPS.map(curve),
         format!(
-            "A span of {DEGREES}°. The error follows the change of d, which vanishes in the \
+            "A span of {degrees}°. The error follows the change of d, which vanishes in the \
              middle, where d is smallest. Errors below 10⁻⁸ are drawn there."
         ),
-    ));
-    Ok(())
+    )
+}
+
+/// Concludes whether so many steps are enough.
+fn few_iterations(content: &mut FigureContent, degrees: f64, steps: u32) {
+    let (name, error) = (plural(steps), largest_error(degrees, steps));
+    content.confirms(
+        &format!("error-{steps} | span of {degrees}°, {name}: largest relative error of d"),
+        (error, "", error < INVISIBLE),
+        "A few iterations are enough: rounding to grey levels hides the error.",
+    );
 }
 
 fn numbers(content: &mut FigureContent) -> Result {
@@ -84,12 +112,7 @@ fn numbers(content: &mut FigureContent) -> Result {
         "A true root, rounded.",
     );
     for steps in STEPS {
-        let (name, error) = (plural(steps), largest_error(60.0, steps));
-        content.confirms(
-            &format!("error-{steps} | span of 60°, {name}: largest relative error of d"),
-            (error, "", error < INVISIBLE),
-            "A few iterations are enough: rounding to grey levels hides the error.",
-        );
+        few_iterations(content, 60.0, steps);
     }
     // One step from the previous pixel's d, off by e, leaves e² / (2 (1 + e)); here from the walk
     // of one step.

@@ -11,6 +11,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Vertex normals: where they come from, and how long they are in between",
     lecture: "L5, Defining per-vertex and per-pixel normal vectors; L21 3.1",
     parts: &[sources, lengths, darkened],
+    live: None,
 };
 
 /// Returns the number of polygons of a mesh, and the angles between its averaged and its given

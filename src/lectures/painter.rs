@@ -9,6 +9,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "The painter's algorithm: rings, and polygons that cut each other",
     lecture: "L5, Painter's Algorithm, Z-Buffer",
     parts: &[ring, cutting, order],
+    live: None,
 };
 
 /// Width and height of the pictures.

@@ -11,6 +11,7 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Perspective: the checkerboard, wrong and right",
     lecture: "L5, Perspective Projection and Interpolation",
     parts: &[boards, weight, depth],
+    live: None,
 };
 
 const WIDTH: usize = 128;

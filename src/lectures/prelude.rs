@@ -4,6 +4,7 @@ pub(super) use super::Figure;
 pub(super) use super::content::{Agreement, FigureContent, Plot, Series, linear, log, written};
 pub(super) use super::error::{FigureError, Result};
 pub(super) use super::fixture::*;
+pub(super) use super::handle::{Handle, Live};
 pub(super) use super::measure::*;
 pub(super) use crate::compare::metrics::{compare, difference_map};
 pub(super) use crate::frame::Frame;

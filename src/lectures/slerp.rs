@@ -11,19 +11,38 @@ pub(super) static FIGURE: Figure = Figure {
     title: "Slerp: uniform speed, the drift of its recurrences, and angles near 0° and 180°",
     lecture: "L21 4.4: (4.7)–(4.12)",
     parts: &[speed, operations, drift, ends_of_range],
+    live: Some(&LIVE),
+};
+
+pub(super) static LIVE: Live = Live {
+    claim: "sin((1 − t)φ) / sin φ and sin(tφ) / sin φ turn the normal at uniform speed from one end to the other (L21 4.7).",
+    handles: &[
+        Handle::slider(
+            ["angle", "angle of the span", "°"],
+            [1.0, 178.0],
+            1.0,
+            120.0,
+        ),
+        Handle::slider(
+            ["pixels", "pixels of the span", ""],
+            [8.0, 128.0],
+            8.0,
+            64.0,
+        ),
+    ],
+    make: |content, values| speeds(content, values[0], values[1] as u32),
 };
 
 /// Pixels of the span whose normals are compared.
-const SPAN: usize = 64;
+const SPAN: u32 = 64;
 /// Pixels of the long span.
 const LONG: usize = 1024;
 
-/// Makes a strip of [`SPAN`] pixels between normals so many degrees apart, lit from the upper
-/// right.
-fn strip(degrees: f64) -> Result<Frame> {
-    let strip = ScreenPolygon::strip([0.0, SPAN as f64], 4.0, ends(degrees));
+/// Makes a strip of some pixels between normals so many degrees apart, lit from the upper right.
+fn strip(degrees: f64, pixels: u32) -> Result<Frame> {
+    let strip = ScreenPolygon::strip([0.0, pixels.into()], 4.0, ends(degrees));
     let light = DVec3::new(0.3, 0.4, 0.8);
-    frame([SPAN as u32, 4], grey(0.1, 0.5, 0.4, 20.0), light, &[strip])
+    frame([pixels, 4], grey(0.1, 0.5, 0.4, 20.0), light, &[strip])
 }
 
 /// Returns the angles from each vector to the next, in degrees.
@@ -35,18 +54,21 @@ fn turns(vectors: Vec<DVec3>) -> Vec<f64> {
 
 /// Measures degrees per pixel of the two ways to interpolate.
 fn speed(content: &mut FigureContent) -> Result {
-    const DEGREES: f64 = 120.0;
-    let picture = normals(&strip(DEGREES)?);
+    speeds(content, 120.0, SPAN)
+}
+
+fn speeds(content: &mut FigureContent, degrees: f64, pixels: u32) -> Result {
+    let picture = normals(&strip(degrees, pixels)?);
     let linear_normals = picture.row(2).iter().map(|pixel| {
         let [x, y, z, _] = pixel.map(|c| 2.0 * f64::from(c) - 1.0);
         DVec3::new(x, y, z)
     });
-    let dt = 1.0 / SPAN as f32;
+    let dt = 1.0 / pixels as f32;
     let face = vec3([0.0, 0.0, 1.0]);
-    let normals = ends(DEGREES).map(|n| vec3(n.as_vec3().to_array()));
+    let normals = ends(degrees).map(|n| vec3(n.as_vec3().to_array()));
     let mut circle = GreatCircle::new(face, normals, 0.5 * dt, dt);
     let [from, to] = [circle.from, circle.to].map(|n| DVec3::from_array(n.array().map(f64::from)));
-    let great_circle = (0..SPAN).map(|_| {
+    let great_circle = (0..pixels).map(|_| {
         let (s_from, s_to) = circle.sines.next();
         f64::from(s_from) * from + f64::from(s_to) * to
     });
@@ -55,7 +77,7 @@ fn speed(content: &mut FigureContent) -> Result {
         Series::new(name, (1..).map(f64::from).zip(turns.iter().copied()))
     };
     content.text(format!(
-        "The turn a pixel of the unit normal, {SPAN} pixels between normals {DEGREES}° apart.",
+        "The turn a pixel of the unit normal, {pixels} pixels between normals {degrees}° apart.",
     ));
     let curves = [("linear, then normalised", &lerp), ("great circle", &slerp)];
     content.plot(Plot::new(
@@ -75,7 +97,7 @@ fn speed(content: &mut FigureContent) -> Result {
         (slerp, "", slerp < 1.001),
         "Uniform speed, as the lecture says.",
     );
-    let whole = written(1.0 / libm::pow(libm::cos(DEGREES.to_radians() / 2.0), 2.0));
+    let whole = written(1.0 / libm::pow(libm::cos(degrees.to_radians() / 2.0), 2.0));
     content.adds(
         "speed-linear | linear, then normalised: fastest turn by slowest turn",
         (lerp, "", true),
@@ -179,7 +201,7 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     let (mut worst, mut printed_worst): (f64, f64) = (0.0, 0.0);
     for degrees in [0.0, 1e-3, 0.02, 0.1, 1.0, 90.0, 178.0, 178.9, 179.1, 180.0] {
-        let frame = strip(degrees)?;
+        let frame = strip(degrees, SPAN)?;
         let drawn = draw(&frame, "slerp-phong")?;
         let exact = reference::render(&frame, Model::Slerp).picture;
         let pairs = drawn.pixels().iter().zip(exact.pixels());

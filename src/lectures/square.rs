@@ -8,6 +8,21 @@ pub(super) static FIGURE: Figure = Figure {
     title: "The square that changes when it is turned",
     lecture: "L21 3, Figure 5; L21 4.1",
     parts: &[turns, numbers, directions, diagonals, great_circles],
+    live: Some(&LIVE),
+};
+
+pub(super) static LIVE: Live = Live {
+    claim: "The shading of a polygon changes when it is turned: edges and scan lines interpolate other pairs of corners (L21 3, Figure 5; 4.1).",
+    handles: &[
+        Handle::slider(["turn", "turn of the square", "°"], [0.0, 90.0], 1.0, 30.0),
+        Handle::slider(
+            ["corners", "corners of its polygons", ""],
+            [3.0, 4.0],
+            1.0,
+            4.0,
+        ),
+    ],
+    make: turned,
 };
 
 /// Width and height of the pictures.
@@ -162,6 +177,44 @@ fn turns(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
+/// Shows the square turned, whole or as two triangles, and what that changes.
+fn turned(content: &mut FigureContent, values: &[f64]) -> Result {
+    let degrees = values[0];
+    let polygons = if values[1] < 4.0 { THROUGH_DARK } else { WHOLE };
+    let mut panels = Vec::new();
+    for (method, name) in [("gouraud", "Gouraud"), ("naive-phong", "naive Phong")] {
+        let picture = draw(&square(degrees, polygons, DARK_BELOW)?, method)?;
+        panels.push((format!("{name}, {degrees}°"), stored(&picture)));
+        let pictures =
+            turned_both_ways(degrees, polygons, DARK_BELOW, |frame| draw(frame, method))?;
+        let change = levels(&pictures[0], &pictures[1]);
+        match polygons.len() {
+            1 if degrees > 0.0 => depends(content, method, degrees, change),
+            1 => content.adds(
+                &format!("square-{method} | {method}, square as it was: largest difference"),
+                (change, "grey levels", change == 0.0),
+                "Turn it.",
+            ),
+            _ => content.adds(
+                &format!("triangles-{method} | {method}, triangles turned by {degrees}°: largest difference"),
+                (change, "grey levels", true),
+                "Triangles keep their shading, but for pixels that lie between others at the fold.",
+            ),
+        }
+    }
+    content.pictures(2, "The square", panels);
+    Ok(())
+}
+
+/// Concludes from the change of a square that was turned.
+fn depends(content: &mut FigureContent, method: &str, degrees: f64, change: f64) {
+    content.confirms(
+        &format!("square-{method} | {method}, square turned by {degrees}°: largest difference"),
+        (change, "grey levels", change > 1.0),
+        "The shading depends on the orientation.",
+    );
+}
+
 /// Compares, by every method, the square and its triangles turned by 45° and by 90°, and both ways
 /// to cut.
 fn numbers(content: &mut FigureContent) -> Result {
@@ -180,11 +233,7 @@ fn numbers(content: &mut FigureContent) -> Result {
         let diagonal = levels(&through, &past);
         let cells = [square_45, square_90, triangles_45, triangles_90, diagonal].map(written);
         rows.push(format!("{method} | {}", cells.join(" | ")));
-        content.confirms(
-            &format!("square-{method} | {method}, square turned by 90°: largest difference"),
-            (square_90, "grey levels", square_90 > 1.0),
-            "The shading depends on the orientation.",
-        );
+        depends(content, method, 90.0, square_90);
         // Half a grey level is the least that can be seen in a stored picture.
         let agrees = triangles_90 < 0.5;
         content.found(

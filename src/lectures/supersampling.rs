@@ -4,14 +4,44 @@
 use super::prelude::*;
 use crate::frame::FrameBuilder;
 use crate::picture::encoding::{srgb_encode, store};
-use crate::picture::{Alpha, Encoding};
+use crate::picture::{Alpha, Encoding, Picture8};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "supersampling",
     title: "Supersampling with a depth buffer: the filtered edge",
     lecture: "L5, Z-buffer and Supersampling",
     parts: &[edge, filtering, cutting],
+    live: Some(&LIVE),
 };
+
+pub(super) static LIVE: Live = Live {
+    claim: "Visibility and light at n × n samples of a pixel, then their mean: the edge becomes the area that it covers (L5).",
+    handles: &[Handle::slider(
+        ["doublings", "doublings of the samples along a side", ""],
+        [0.0, 3.0],
+        1.0,
+        2.0,
+    )],
+    make: |content, values| {
+        let n = 1 << values[0] as u32;
+        let (one, one_error) = green(1)?;
+        let (many, error) = green(n)?;
+        let caption = |n, error| format!("{n} × {n} samples: {}", written(error));
+        content.pictures(
+            2,
+            "The edge of a green triangle",
+            [(caption(1, one_error), one), (caption(n, error), many)],
+        );
+        content.confirms(
+            &format!("share | error with one sample over error with {n} × {n}"),
+            (one_error / error, "", n == 1 || error < one_error),
+            MORE,
+        );
+        Ok(())
+    },
+};
+
+const MORE: &str = "More samples, better edges: the depth test works for each sample.";
 
 /// Samples a pixel along each side.
 const SAMPLES: [u32; 4] = [1, 2, 4, 8];
@@ -47,6 +77,15 @@ fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Fram
     Ok(frame)
 }
 
+/// Draws the green triangle; returns the RMS error of its shares of pixels as well.
+fn green(samples: u32) -> Result<(Picture8, f64)> {
+    let plane = ([1.0, 1.0, 0.0], 0.8, &PLANE[..]);
+    let triangle = ([0.0, 1.0, 0.0], 0.2, &TRIANGLE[..]);
+    let picture = draw(&frame(SIZE, samples, &[plane, triangle])?, "flat")?;
+    let error = share_error(&picture);
+    Ok((store(&picture, Encoding::Srgb), error))
+}
+
 fn edge(content: &mut FigureContent) -> Result {
     content.text(
         "A green triangle before a yellow plane, with n × n samples per pixel. Visibility and light \
@@ -54,20 +93,17 @@ fn edge(content: &mut FigureContent) -> Result {
     );
     let (mut panels, mut points) = (Vec::new(), Vec::new());
     for samples in SAMPLES {
-        let plane = ([1.0, 1.0, 0.0], 0.8, &PLANE[..]);
-        let triangle = ([0.0, 1.0, 0.0], 0.2, &TRIANGLE[..]);
-        let picture = draw(&frame(SIZE, samples, &[plane, triangle])?, "flat")?;
-        let error = share_error(&picture);
+        let (picture, error) = green(samples)?;
         points.push((f64::from(samples), error));
         let caption = format!("{samples} × {samples} samples: {}", written(error));
-        panels.push((caption, store(&picture, Encoding::Srgb)));
+        panels.push((caption, picture));
     }
     content.pictures(SAMPLES.len(), "The edge of a green triangle", panels);
     let falls = points.is_sorted_by(|a, b| a.1 > b.1);
     content.confirms(
         "share | error with one sample over error with 8 × 8",
         (points[0].1 / points[3].1, "", falls),
-        "More samples, better edges: the depth test works for each sample.",
+        MORE,
     );
     content.plot(Plot::new(
         "RMS error of the triangle's share of a pixel",

@@ -27,6 +27,7 @@
 mod answer;
 mod date;
 mod document;
+mod live;
 mod markdown;
 mod page;
 mod pictures;
@@ -39,6 +40,7 @@ pub use document::{
     Document, DocumentError, FigureData, MethodData, OPERATIONS, Operation, RATES, Rate, SCHEMA,
     label, parse, small,
 };
+pub use live::{MOST_POLYGONS, live_scene};
 pub use markdown::Markdown;
 pub use page::shell_word;
 
@@ -76,6 +78,8 @@ pub struct ScenePictures {
     name: String,
     /// The packed pictures that the page unpacks, as JSON.
     packed: String,
+    /// The scene itself, if the page can draw it: [`live_scene`].
+    live: Option<String>,
     /// PNG files at half the size: the reference, and those of [`PROJECT`].
     small: Vec<(String, Vec<u8>)>,
 }
@@ -96,8 +100,14 @@ impl ScenePictures {
         Ok(ScenePictures {
             name: comparison.name.clone(),
             packed: Pictures::new(comparison).json(),
+            live: None,
             small,
         })
+    }
+
+    /// Adds the scene itself, so that the page can draw it from elsewhere: what [`live_scene`] returned.
+    pub fn with_live(self, live: Option<String>) -> ScenePictures {
+        ScenePictures { live, ..self }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::document::{list, number, text};
 use super::pictures::data_uri;
-use super::{Report, answer, tables};
+use super::{Report, answer, live, tables};
 use crate::compare::table::{Table, html_text};
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -20,13 +20,13 @@ macro_rules! script {
 }
 
 const SCRIPT: &str = script!(
-    "markup" "controls" "numbers" "data" "marks" "pictures" "errors" "viewer" "charts" "plot" "findings"
+    "markup" "controls" "numbers" "data" "marks" "studio" "pictures" "errors" "live" "turn" "viewer" "charts" "plot" "findings"
     // Views, and what belongs to one alone.
     "pareto" "overview"
     "probe" "row" "scene-table" "scenes"
     "formulas" "methods"
     "corners" "growth" "small" "beside" "speed"
-    "lectures"
+    "figure" "lectures"
     "measured"
     // All views.
     "views" "link" "keys" "page"
@@ -118,6 +118,19 @@ fn pictures(report: &Report) -> String {
     let scenes = report.pictures.iter().enumerate();
     let scenes = scenes.map(|(i, scene)| element(format!("pictures-{i}"), &scene.packed));
     let text: String = scenes.collect();
+    let live = report.pictures.iter().enumerate();
+    let live = live.filter_map(|(i, scene)| Some((i, scene.live.as_ref()?)));
+    let live: String = live
+        .map(|(i, scene)| element(format!("live-{i}"), scene))
+        .collect();
+    let has_handles = list(&report.data, "/figures")
+        .iter()
+        .any(|figure| figure.get("live").is_some());
+    // The module travels where something can be moved with it.
+    let module = match has_handles || !live.is_empty() {
+        true => element("live-module".into(), &live::module()),
+        false => String::new(),
+    };
     let uris = |figure: &Vec<Vec<u8>>| figure.iter().map(|png| data_uri(png)).collect();
     let files: Value = report
         .figures
@@ -125,7 +138,7 @@ fn pictures(report: &Report) -> String {
         .map(uris)
         .collect::<Vec<Value>>()
         .into();
-    text + &element("figure-pictures".into(), &files.to_string())
+    text + &live + &module + &element("figure-pictures".into(), &files.to_string())
 }
 
 /// Returns pictures and tables for readers without JavaScript.

@@ -4,6 +4,7 @@
 //! Planes are green, red − green and blue − green, each byte less the one before it, all deflated: a browser inflates by itself.
 //! `docs/performance.md` compares this with lossless WebP and with the filters of PNG.
 
+use super::live::packed;
 use crate::compare::comparison::Comparison;
 use crate::number::parallel::collect;
 use crate::picture::Picture8;
@@ -15,10 +16,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
 use serde::Serialize;
-use std::io::Write;
 
 /// The pictures of one scene, as the page reads them.
 #[derive(Clone, Debug, Serialize)]
@@ -104,17 +102,12 @@ fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
 
 /// Deflates what each byte of a plane adds, modulo 256, to the one before it, and writes that in base 64.
 fn pack(planes: &[Vec<u8>]) -> String {
-    let mut deflate = ZlibEncoder::new(Vec::new(), Compression::new(9));
-    for plane in planes {
+    let steps = planes.iter().flat_map(|plane| {
         let before = core::iter::once(&0).chain(plane);
         let steps = plane.iter().zip(before);
-        let steps: Vec<u8> = steps.map(|(v, before)| v.wrapping_sub(*before)).collect();
-        deflate
-            .write_all(&steps)
-            .expect("memory takes all that is written");
-    }
-    let bytes = deflate.finish().expect("memory takes all that is written");
-    STANDARD.encode(bytes)
+        steps.map(|(v, before)| v.wrapping_sub(*before))
+    });
+    packed(&steps.collect::<Vec<u8>>())
 }
 
 /// Encodes a picture as an opaque PNG file.

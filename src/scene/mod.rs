@@ -8,6 +8,8 @@ pub mod file;
 pub mod input;
 mod lighting;
 mod of_mesh;
+#[doc(hidden)]
+pub mod orbit;
 mod power;
 mod settings;
 

@@ -1,9 +1,10 @@
 //! A scene that is looked at: what of it is stale is made anew, and nothing else.
 
-use super::{Action, Orbit, Panes, Side, Start, Times};
+use super::{Action, Panes, Side, Times};
 use crate::frame::{Frame, FrameError, PreparedScene};
 use crate::picture::{Alpha, PictureMut};
 use crate::raster::{DrawError, DrawOptions, Renderer};
+use crate::scene::orbit::{Orbit, Start};
 use crate::scene::{Light, Scene};
 use crate::shading::Variant;
 use std::format;

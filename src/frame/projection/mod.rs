@@ -139,6 +139,11 @@ impl PreparedScene {
         self.settings.lights = lights;
     }
 
+    /// The materials of all objects, which may be changed.
+    pub fn materials_mut(&mut self) -> &mut [Material] {
+        &mut self.materials
+    }
+
     /// Returns a new frame: the scene as its camera sees it.
     ///
     /// # Errors

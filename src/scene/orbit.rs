@@ -1,11 +1,11 @@
-//! The camera of a window: the scene's own, turned around its target and brought nearer.
+//! The camera of a scene that is turned by hand: its own, turned around its target and brought nearer.
 
-use crate::scene::{Camera, Light, Projection, Scene};
-use glam::{DMat3, DVec3};
-use std::vec::Vec;
+use super::{Camera, Light, Projection, Scene};
+use alloc::vec::Vec;
+use glam::{DMat3, DQuat, DVec3};
 
 /// The highest elevation above the horizon of the scene's up, in radians: at 90 degrees nothing is upward any more.
-const HIGHEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
+const HIGHEST: f64 = 89.0 * core::f64::consts::PI / 180.0;
 
 /// Zooms, from the least to the most.
 const ZOOMS: [f64; 2] = [1.0 / 16.0, 64.0];
@@ -51,6 +51,14 @@ impl Start {
         }
     }
 
+    /// Returns the direction to the first of `lights`, from the target if it has a position: to the right, upward, and toward the
+    /// eye; `None` if there is no light, or it stands at the target.
+    pub fn toward_light(&self, lights: &[Light]) -> Option<[f64; 3]> {
+        let toward = toward_first(lights, self.camera.target)?;
+        let [right, up, forward] = self.camera.axes();
+        Some([right, up, -forward].map(|axis| axis.dot(toward)))
+    }
+
     /// Returns up, the horizontal direction toward the eye, the one to its right, and the elevation of the eye.
     fn horizon(&self) -> ([DVec3; 3], f64) {
         let pole = self.camera.up.normalize();
@@ -88,7 +96,7 @@ impl Orbit {
         let highest = HIGHEST.max(at_start.abs());
         let raised = at_start + self.elevation + elevation;
         self.elevation = raised.clamp(-highest, highest) - at_start;
-        self.azimuth = libm::remainder(self.azimuth + azimuth, std::f64::consts::TAU);
+        self.azimuth = libm::remainder(self.azimuth + azimuth, core::f64::consts::TAU);
     }
 
     /// Shows everything `factor` times as large, within limits.
@@ -137,16 +145,51 @@ impl Orbit {
         };
         // The inverse of a turn is its transpose.
         let turned = axes(&self.camera(start, start.aspect)) * axes(&start.camera).transpose();
-        let target = start.camera.target;
-        let carry = |light: &Light| {
-            let place = match light.place.is_local() {
-                true => light.place.map(|at| target + turned * (at - target)),
-                false => light.place.map(|toward| (turned * toward).normalize()),
-            };
-            Light { place, ..*light }
-        };
-        lights.iter().map(carry).collect()
+        turned_about(start.camera.target, turned, lights)
     }
+
+    /// Returns `lights` as [`Orbit::carry`] does, and then all of them turned so that the first one stands `toward`, as
+    /// [`Start::toward_light`] counts.
+    pub fn carry_toward(&self, start: &Start, lights: &[Light], toward: [f64; 3]) -> Vec<Light> {
+        let carried = self.carry(start, lights);
+        let target = start.camera.target;
+        let Some(from) = toward_first(&carried, target) else {
+            return carried;
+        };
+        let [right, up, forward] = self.camera(start, start.aspect).axes();
+        let to = toward[0] * right + toward[1] * up - toward[2] * forward;
+        let Some(to) = to.try_normalize() else {
+            return carried;
+        };
+        turned_about(
+            target,
+            DMat3::from_quat(DQuat::from_rotation_arc(from, to)),
+            &carried,
+        )
+    }
+}
+
+/// Returns the direction from `target` to the first light.
+fn toward_first(lights: &[Light], target: DVec3) -> Option<DVec3> {
+    let place = lights.first()?.place;
+    let mut toward = DVec3::ZERO;
+    place.map(|at| {
+        toward = if place.is_local() { at - target } else { at };
+        at
+    });
+    toward.try_normalize()
+}
+
+/// Turns lights about `target`.
+fn turned_about(target: DVec3, turn: DMat3, lights: &[Light]) -> Vec<Light> {
+    let turned = |light: &Light| {
+        let place = match light.place.is_local() {
+            true => light.place.map(|at| target + turn * (at - target)),
+            false => light.place.map(|toward| (turn * toward).normalize()),
+        };
+        Light { place, ..*light }
+    };
+    lights.iter().map(turned).collect()
 }
 
 /// Returns the projection that sees so many times as much in width and height.
@@ -168,7 +211,7 @@ fn widened(projection: Projection, times: f64) -> Projection {
 mod tests {
     use super::*;
     use crate::mesh::builtin::builtin;
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use core::f64::consts::{FRAC_PI_2, PI};
 
     fn scene(fovy: Option<f64>) -> Scene {
         let mut scene = Scene::of_mesh(builtin("torus").expect("a shape"));
@@ -298,13 +341,45 @@ mod tests {
     }
 
     #[test]
+    fn lights_turn_together_to_where_the_first_one_is_put() {
+        let scene = scene(None);
+        let start = Start::new(&scene, [false; 2]);
+        let directions = [DVec3::new(0.6, 0.8, 0.0), DVec3::Z];
+        let lights = directions.map(|toward| Light::directional(toward, [1.0; 3]));
+        let at_start = start.toward_light(&lights).expect("a light");
+        let mut orbit = Orbit::default();
+        orbit.turn(&start, 1.0, -0.4);
+        let near = |a: [f64; 3], b: [f64; 3]| {
+            (DVec3::from_array(a) - DVec3::from_array(b)).length() < ROUNDING
+        };
+        let seen = |lights: &[Light]| {
+            let turned = Start {
+                camera: orbit.camera(&start, start.aspect),
+                ..start.clone()
+            };
+            turned.toward_light(lights).expect("a light")
+        };
+        let same = orbit.carry_toward(&start, &lights, at_start);
+        assert!(near(seen(&same), at_start), "{same:?}");
+        let put = [0.48, -0.6, 0.64];
+        let moved = orbit.carry_toward(&start, &lights, put);
+        assert!(near(seen(&moved), put), "{moved:?}");
+        // The angle between both lights stays.
+        let angle = |lights: &[Light]| {
+            let toward = |i: usize| toward_first(&lights[i..], DVec3::ZERO).expect("a direction");
+            toward(0).dot(toward(1))
+        };
+        assert!((angle(&moved) - angle(&lights)).abs() < ROUNDING);
+    }
+
+    #[test]
     fn carried_lights_stay_where_they_are_for_the_eye() {
         let scene = scene(None);
         let start = Start::new(&scene, [false; 2]);
         let lights = [
             Light::directional(DVec3::new(0.6, 0.8, 0.0), [1.0; 3]),
             Light {
-                place: crate::scene::Place::Local(DVec3::new(1.0, 2.0, 3.0)),
+                place: super::super::Place::Local(DVec3::new(1.0, 2.0, 3.0)),
                 ..Light::directional(DVec3::X, [1.0; 3])
             },
         ];

@@ -1,0 +1,205 @@
+//! A scene, a frame of it, and two pictures of the frame: that of a method, and the exact one.
+
+use fastphong::frame::{Frame, PreparedScene};
+use fastphong::picture::encoding::store;
+use fastphong::picture::{LinearPicture, Picture8};
+use fastphong::raster::{Plan, Renderer};
+use fastphong::reference::{self, Model};
+use fastphong::scene::file::SceneFile;
+use fastphong::scene::input::resolve_by;
+use fastphong::scene::orbit::{Orbit, Start};
+use fastphong::scene::{Light, Scene};
+use fastphong::shading::Variant;
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::PathBuf;
+
+/// What the page asks to see.
+pub struct View {
+    pub size: [u32; 2],
+    pub azimuth: f64,
+    pub elevation: f64,
+    pub zoom: f64,
+    pub light: [f64; 3],
+    pub shininess: f32,
+}
+
+/// A scene that can be looked at from anywhere.
+struct Loaded {
+    prepared: PreparedScene,
+    start: Start,
+    lights: Vec<Light>,
+    exponents: Vec<f32>,
+}
+
+/// All that one instance of the module remembers.
+pub struct Studio {
+    /// What the page wrote, or what it is told.
+    pub text: Vec<u8>,
+    files: BTreeMap<PathBuf, Vec<u8>>,
+    loaded: Option<Loaded>,
+    frame: Option<Frame>,
+    picture: LinearPicture,
+    exact: LinearPicture,
+    bytes: Picture8,
+    /// Grey levels, a pixel each; 0 where nothing is compared.
+    pub errors: Vec<f32>,
+    numbers: Vec<f64>,
+    /// The pictures of the figure, and what the page reads of the last one that it asked for.
+    pub panels: Vec<Picture8>,
+    pub panel: [u32; 3],
+}
+
+impl Default for Studio {
+    fn default() -> Self {
+        Studio {
+            text: Vec::new(),
+            files: BTreeMap::new(),
+            loaded: None,
+            frame: None,
+            picture: LinearPicture::new(0, 0, [0.0; 4]),
+            exact: LinearPicture::new(0, 0, [0.0; 4]),
+            bytes: Picture8::new(0, 0, [0; 4]),
+            errors: Vec::new(),
+            numbers: Vec::new(),
+            panels: Vec::new(),
+            panel: [0; 3],
+        }
+    }
+}
+
+impl Studio {
+    /// Makes `message` the text, and returns its length.
+    pub fn say(&mut self, message: String) -> usize {
+        self.text = message.into_bytes();
+        self.text.len()
+    }
+
+    /// Takes the text.
+    pub fn told(&mut self) -> String {
+        String::from_utf8_lossy(&std::mem::take(&mut self.text)).into_owned()
+    }
+
+    /// Returns what `ask` returns, or minus the length of the message that the text then is.
+    pub fn answer(&mut self, ask: impl FnOnce(&mut Studio) -> Result<usize, String>) -> isize {
+        match ask(self) {
+            Ok(number) => number as isize,
+            Err(message) => -(self.say(message) as isize),
+        }
+    }
+
+    pub fn file(&mut self) {
+        let text = std::mem::take(&mut self.text);
+        let end = text.iter().position(|byte| *byte == b'\n').unwrap_or(text.len());
+        let name = PathBuf::from(&*String::from_utf8_lossy(&text[..end]));
+        self.files.insert(name, text.get(end + 1..).unwrap_or_default().to_vec());
+    }
+
+    pub fn load(&mut self) -> Result<usize, String> {
+        let text = self.told();
+        let is_mesh = !text.contains('\n');
+        let file = match is_mesh {
+            true => SceneFile::for_mesh(text),
+            false => SceneFile::parse(&text, "scene.toml").map_err(|error| error.to_string())?,
+        };
+        let files = &self.files;
+        let mut read = |path: &std::path::Path| {
+            // Material libraries are asked for beside their mesh, whose folder the page does not have.
+            let known = files.get(path).or_else(|| files.get(&PathBuf::from(path.file_name()?)));
+            known.cloned().ok_or_else(|| ErrorKind::NotFound.into())
+        };
+        let resolved = resolve_by(&file, &mut read).map_err(|error| error.to_string())?;
+        let scene = resolved.scene;
+        let polygons = scene.objects.iter().map(|object| object.mesh.polygon_count()).sum();
+        let camera = file.table().table("camera");
+        let given = ["near", "far"].map(|key| camera.is_some_and(|camera| camera.get(key).is_some()));
+        self.loaded = Some(Loaded::new(&scene, given)?);
+        self.frame = None;
+        Ok(polygons)
+    }
+
+    pub fn light(&mut self) -> *const f64 {
+        let toward = self.loaded.as_ref().and_then(|loaded| loaded.start.toward_light(&loaded.lights));
+        self.numbers = toward.unwrap_or_default().to_vec();
+        self.numbers.as_ptr()
+    }
+
+    pub fn look(&mut self, view: &View) -> Result<usize, String> {
+        let Some(loaded) = &mut self.loaded else { return Err("no scene".into()) };
+        let [width, height] = view.size;
+        if !(1..=Scene::MAX_SIDE).contains(&width) || !(1..=Scene::MAX_SIDE).contains(&height) {
+            return Err(format!("no picture has {width} x {height} pixels"));
+        }
+        let mut orbit = Orbit::default();
+        orbit.turn(&loaded.start, view.azimuth, view.elevation);
+        orbit.zoom(view.zoom);
+        let scene = &mut loaded.prepared;
+        scene.set_size(width, height);
+        scene.set_camera(orbit.camera(&loaded.start, f64::from(width) / f64::from(height)));
+        let is_lit_anew = view.light != [0.0; 3];
+        scene.set_lights(match (is_lit_anew, orbit == Orbit::default()) {
+            // The scene's own, to the bit.
+            (false, true) => loaded.lights.clone(),
+            (false, false) => orbit.carry(&loaded.start, &loaded.lights),
+            (true, _) => orbit.carry_toward(&loaded.start, &loaded.lights, view.light),
+        });
+        for (material, own) in scene.materials_mut().iter_mut().zip(&loaded.exponents) {
+            material.shininess = if view.shininess > 0.0 { view.shininess } else { *own };
+        }
+        match &mut self.frame {
+            Some(frame) => scene.frame_into(frame).map_err(|error| error.to_string())?,
+            None => self.frame = Some(scene.frame().map_err(|error| error.to_string())?),
+        }
+        Ok(self.frame.as_ref().map_or(0, |frame| frame.polygons().len()))
+    }
+
+    pub fn draw(&mut self, is_exact: bool) -> Result<usize, String> {
+        let name = self.told();
+        let Some(frame) = &self.frame else { return Err("no frame".into()) };
+        let drawn = if name == "reference" {
+            reference::render(frame, Model::Phong).to_linear()
+        } else {
+            let variant = Variant::parse(&name).map_err(|error| error.to_string())?;
+            if let Plan::Refused(why) = variant.plan(frame, Renderer::Span) {
+                return Err(why.into());
+            }
+            variant.render_linear(frame)
+        };
+        *if is_exact { &mut self.exact } else { &mut self.picture } = drawn;
+        Ok(0)
+    }
+
+    pub fn stored(&mut self) -> *const u8 {
+        let encoding = self.frame.as_ref().map(Frame::encoding).unwrap_or_default();
+        self.bytes = store(&self.picture, encoding);
+        self.bytes.pixels().as_ptr().cast()
+    }
+
+    pub fn compare(&mut self) -> *const f64 {
+        let (mut most, mut place, mut squares) = (0.0f32, 0, 0.0f64);
+        let pairs = self.picture.pixels().iter().zip(self.exact.pixels());
+        self.errors.clear();
+        for (i, (p, q)) in pairs.enumerate() {
+            let apart = [0, 1, 2].map(|c| 255.0 * (p[c] - q[c]).abs());
+            let error = apart[0].max(apart[1]).max(apart[2]);
+            self.errors.push(error);
+            squares += f64::from(apart.iter().map(|e| e * e).sum::<f32>());
+            if error > most {
+                (most, place) = (error, i);
+            }
+        }
+        let (count, width) = (self.errors.len().max(1), self.picture.width().max(1));
+        let root = (squares / (3 * count) as f64).sqrt();
+        let [column, row] = [place % width, place / width].map(|v| v as f64);
+        self.numbers = vec![f64::from(most), column, row, root, count as f64];
+        self.numbers.as_ptr()
+    }
+}
+
+impl Loaded {
+    fn new(scene: &Scene, given: [bool; 2]) -> Result<Loaded, String> {
+        let mut prepared = scene.prepare().map_err(|error| error.to_string())?;
+        let exponents = prepared.materials_mut().iter().map(|material| material.shininess).collect();
+        Ok(Loaded { prepared, start: Start::new(scene, given), lights: scene.lights.clone(), exponents })
+    }
+}

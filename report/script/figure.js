@@ -1,0 +1,191 @@
+/* Figures with handles: claim, handles, and what follows them, made by the code of the stored figures. */
+
+let figureStudio;
+
+/* The values of a figure's handles that an address gives. */
+const valuesOf = ({ handles }, query) =>
+	handles.map(({ name, range: [low, high], step, start }) => {
+		const given = query?.get(name);
+		const value = given && isFinite(given) ? +given : start;
+		return clamp(Math.round(value / step) * step, low, high);
+	});
+
+const shownValue = (v, { unit }) => `${+v.toFixed(4)}${unit}`;
+
+/* A finding in a line: what was measured, and what follows. */
+const verdictLine = x => html`
+	<p class="verdict">
+		${chip(x.agreement, x.agreement)}
+		<span>${sentence(x.label)}: <b>${findingValue(x)}</b>. ${x.verdict}</span>
+	</p>`;
+
+/* Puts a figure that follows the hand into an element; `remember` is told the values at rest. False if it cannot be drawn here. */
+function handlesInto(el, f, query, remember) {
+	if (!CAN_DRAW || !f.live) return false;
+	const { claim, handles } = f.live;
+	const values = valuesOf(f.live, query);
+	const points = handles.flatMap((h, i) => (h.axis === "x" ? [i] : []));
+	const sliders = handles.map(
+		(h, i) =>
+			!h.axis &&
+			slider({
+				key: i,
+				label: h.label,
+				min: h.range[0],
+				max: h.range[1],
+				step: h.step,
+				value: values[i],
+				text: shownValue(values[i], h),
+			}),
+	);
+	el.classList.add("live-figure");
+	el.innerHTML = html`
+		<p class="claim">${claim}</p>
+		<div class="handles" role="group" aria-label="What can be moved">
+			${sliders}
+			<button class="still">As stored</button>
+		</div>
+		<div class="live-body">
+			${points.length > 0 && html`<svg class="pad" viewBox="-1.15 -1.15 2.3 2.3"></svg>`}
+			<div class="fig"></div>
+		</div>
+		<div class="verdicts" aria-live="polite"></div>`;
+	const [pad, body, said] = [$(".pad", el), $(".fig", el), $(".verdicts", el)];
+	let waits = false;
+	const draw = async () => {
+		waits = false;
+		try {
+			const studio = await (figureStudio ??= Studio.make());
+			if (!el.isConnected) return;
+			showContent(body, studio.figure(f.name, values));
+			fill(said, html`${body.content.findings.map(verdictLine)}`);
+			el.dataset.shown = values.join(" ");
+		} catch (error) {
+			said.textContent = `Not drawn here: ${error.message}`;
+		}
+	};
+	const moved = () => {
+		if (pad) drawPad(pad, values, points, handles);
+		const query = handles.flatMap((h, i) =>
+			values[i] === h.start ? [] : [[h.name, +values[i].toFixed(4)]],
+		);
+		delay("figure", 200, () => remember?.(new URLSearchParams(query)));
+		if (!waits) requestAnimationFrame(draw);
+		waits = true;
+	};
+	const place = (i, v) => {
+		const { range, step } = handles[i];
+		values[i] = clamp(Math.round(v / step) * step, ...range);
+	};
+	$(".handles", el).oninput = ({ target }) => {
+		const i = target.dataset.handle;
+		place(i, +target.value);
+		$("output", target.parentElement).textContent = shownValue(values[i], handles[i]);
+		moved();
+	};
+	$(".still", el).onclick = () => {
+		handles.forEach((h, i) => {
+			values[i] = h.start;
+			const input = $(`[data-handle="${i}"]`, el);
+			if (!input) return;
+			input.value = h.start;
+			$("output", input.parentElement).textContent = shownValue(h.start, h);
+		});
+		moved();
+	};
+	if (pad)
+		dragPoints(pad, (i, x, y) => {
+			place(i, x);
+			place(i + 1, y);
+			moved();
+		}, i => [values[i], values[i + 1]]);
+	moved();
+	return true;
+}
+
+/* Shows pictures and plots of a content. */
+function showContent(body, { content, pictures }) {
+	body.content = content;
+	const columns = content.blocks.find(b => b.pictures)?.pictures.columns ?? 1;
+	const shown = content.blocks.flatMap(b => b.pictures?.shown ?? []);
+	const plots = content.blocks.flatMap(b => b.plot ?? []);
+	// Elements stay while there are as many: a picture that is drawn again does not flicker.
+	const key = `${shown.length} ${plots.length}`;
+	if (body.dataset.key !== key) {
+		body.dataset.key = key;
+		body.innerHTML = html`
+			${shown.length > 0 &&
+			html`<div class="shown" style="--columns:${clamp(columns, 1, 6)}">${shown.map(
+				() => html`<figure><canvas role="img"></canvas><figcaption></figcaption></figure>`,
+			)}</div>`}
+			${plots.map(() => html`<figure class="plot"></figure>`)}`;
+	}
+	$$(".shown figure", body).forEach((figure, i) => {
+		const canvas = $("canvas", figure);
+		const image = pictures[i];
+		[canvas.width, canvas.height] = [image.width, image.height];
+		canvas.getContext("2d").putImageData(image, 0, 0);
+		canvas.ariaLabel = shown[i].alt;
+		$("figcaption", figure).textContent = shown[i].caption;
+	});
+	$$(".plot", body).forEach((box, i) => {
+		const p = plots[i];
+		box.innerHTML = html`
+			<b>${p.title}</b>
+			<div class="chartbox">${plot(p, widthOf(box) || 460, 260)}</div>
+			${legend(p.series)}`;
+	});
+}
+
+/* Draws the polygon of points that are dragged. */
+function drawPad(pad, values, points, handles) {
+	const at = points.map(i => [values[i], -values[i + 1]]);
+	const focus = pad.contains(document.activeElement) && document.activeElement.dataset.point;
+	pad.innerHTML = html`
+		<title>The polygon, whose corners are dragged</title>
+		<polygon points="${at.map(p => p.join()).join(" ")}"/>
+		${at.map(
+			([x, y], n) => html`
+				<circle cx="${x}" cy="${y}" r=".075" data-point="${points[n]}" tabindex="0" role="slider"
+					aria-label="${handles[points[n]].label.split(",")[0]}" aria-valuenow="${x.toFixed(2)}"
+					aria-valuetext="${x.toFixed(2)} to the right, ${(-y).toFixed(2)} up"/>
+				<text x="${x}" y="${y + 0.032}">${n + 1}</text>`,
+		)}`;
+	if (focus) $(`[data-point="${focus}"]`, pad)?.focus({ preventScroll: true });
+}
+
+/* Has points of a pad dragged, or moved by arrow keys. */
+function dragPoints(pad, to, of) {
+	let held = null;
+	const local = e => {
+		const box = pad.getBoundingClientRect();
+		return [
+			((e.clientX - box.left) / box.width) * 2.3 - 1.15,
+			1.15 - ((e.clientY - box.top) / box.height) * 2.3,
+		];
+	};
+	pad.onpointerdown = e => {
+		const [x, y] = local(e);
+		const points = $$("[data-point]", pad).map(c => +c.dataset.point);
+		const far = i => Math.hypot(of(i)[0] - x, of(i)[1] - y);
+		held = points.sort(by(far))[0];
+		if (far(held) > 0.25) held = null;
+		else pad.setPointerCapture(e.pointerId);
+	};
+	pad.onpointermove = e => {
+		if (held != null) to(held, ...local(e));
+	};
+	pad.onpointerup = pad.onpointercancel = () => {
+		held = null;
+	};
+	pad.onkeydown = e => {
+		const [dx, dy] =
+			{ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key] ?? [];
+		if (dx == null) return;
+		e.preventDefault();
+		e.stopPropagation();
+		const i = +e.target.dataset.point;
+		const [x, y] = of(i);
+		to(i, x + dx / 16, y + dy / 16);
+	};
+}

@@ -1,0 +1,91 @@
+/* Scenes that are drawn in the page, from wherever one looks: a second source of pictures. */
+
+/* How a scene is looked at when nothing was moved. */
+const STILL = { azimuth: 0, elevation: 0, size: 1, light: null, exponent: 0, given: {} };
+
+/* True if a view is that of the stored pictures. */
+const isStill = view =>
+	!view.azimuth &&
+	!view.elevation &&
+	view.size === 1 &&
+	!view.light &&
+	!view.exponent &&
+	!Object.keys(view.given).length;
+
+/* True if the page has what the scene is made of, and can draw it. */
+const canTurn = s => CAN_DRAW && (!!s.own || !!$(`#live-${s.number}`));
+
+/* The drawings of a method that its time is taken from, and of those the first, which are slower. */
+const SAMPLES = 24;
+const WARM_UP = 2;
+
+/* Stands for a scene where `picture` and `errors` are asked for one: what it says of the scene is the scene's own, its
+   pictures and rows are of the view. */
+class LiveScene {
+	static async make(s) {
+		const live = Object.assign(new LiveScene(), s, { scene: s, times: {} });
+		live.studio = await Studio.make();
+		const { scene, files } = s.own ?? jsonOf(`live-${s.number}`);
+		for (const [name, bytes] of files)
+			live.studio.file(name, typeof bytes === "string" ? await inflate(bytes) : bytes);
+		live.polygons = live.studio.load(scene);
+		live.firstLight = live.studio.light();
+		live.look(STILL, false);
+		return live;
+	}
+
+	/* Looks from elsewhere. Against naive Phong while something moves: the reference takes longer. */
+	look(view, moves) {
+		this.view = view;
+		this.exact = moves && this.list.includes(BASE) ? BASE : "reference";
+		this.studio.frame(this.w, this.h, view);
+		this.studio.draw(this.exact, 1);
+		this.rows = {};
+		this.drawn = {};
+	}
+
+	/* The name of a method with the parameters that were chosen. */
+	variant(m) {
+		return [m, ...Object.entries(this.view.given[m] ?? {}).map(([k, v]) => `${k}=${v}`)].join(":");
+	}
+
+	/* Draws by a method, unless it has been, and says how that went. */
+	one(m) {
+		if (this.drawn[m]) return this.drawn[m];
+		const { studio, w, h } = this;
+		const ms = studio.draw(m === "reference" ? m : this.variant(m));
+		const image = new ImageData(studio.bytes(w, h).slice(), w, h);
+		const { errors, ...q } = studio.compare();
+		const canvas = create("canvas");
+		[canvas.width, canvas.height] = [w, h];
+		canvas.getContext("2d").putImageData(image, 0, 0);
+		if (m !== "reference") this.rows[m] = { ...q, ms: this.time(m, ms) };
+		return (this.drawn[m] = { canvas, px: image.data, errors });
+	}
+
+	/* The mean of the faster half of the latest drawings. */
+	time(m, ms) {
+		const all = (this.times[this.variant(m)] ??= []);
+		all.push(ms);
+		if (all.length > SAMPLES + WARM_UP) all.splice(WARM_UP, 1);
+		const fast = all.slice(WARM_UP).sort((a, b) => a - b);
+		const half = fast.slice(0, Math.ceil(fast.length / 2));
+		return half.length > 1 ? sum(half) / half.length : null;
+	}
+
+	/* The colours of errors, as of stored pictures. */
+	map(m, top) {
+		const { errors } = this.one(m);
+		return canvasOf(this, i => HEAT[Math.round(heat(errors[i], top) * 255)]);
+	}
+}
+
+/* A mesh file of the reader's as a scene. */
+async function ownScene(file, s) {
+	if (!/\.obj$/i.test(file.name)) throw Error(`${file.name}: expected a mesh file that ends in .obj`);
+	if (file.size > 5e7) throw Error(`${file.name}: over 50 MB`);
+	const bytes = new Uint8Array(await file.arrayBuffer());
+	const own = { scene: file.name, files: [[file.name, bytes]] };
+	const list = IDS.filter(m => S[SCENES[0].id].list.includes(m));
+	return { id: "own", title: file.name, w: s.w, h: s.h, encoding: "linear", list, rows: {}, own };
+}

@@ -1,0 +1,360 @@
+/* The hands of a viewer: they turn the model, move the light, and choose parameters. */
+
+const DEGREES = 180 / Math.PI;
+
+/* The angle from the line of sight at which the light's handle stands on a circle of this part of the stage's short side. */
+const SUN_RING = 0.36;
+const SUN_ANGLE = 90 / DEGREES;
+const SUN_MOST = 175 / DEGREES;
+
+/* A view as a link has it, in degrees and with few digits, and back. */
+const viewQuery = ({ azimuth, elevation, size, light, exponent, given }) => {
+	const fixed = (...list) => list.map(v => +v.toFixed(1)).join(",");
+	const [angle, toward] = light ? sunOf(light) : [];
+	const chosen = Object.entries(given).map(([m, all]) =>
+		[m, ...Object.entries(all).map(([k, v]) => `${k}=${v}`)].join(":"),
+	);
+	return {
+		turn: azimuth || elevation ? fixed(azimuth * DEGREES, elevation * DEGREES) : null,
+		size: size === 1 ? null : +size.toFixed(2),
+		sun: light && fixed(angle * DEGREES, toward * DEGREES),
+		exponent: exponent || null,
+		with: chosen.join(";") || null,
+	};
+};
+
+function viewOf({ turn, size, sun, exponent, with: chosen }) {
+	const numbers = text => (text ?? "").split(",").map(v => (isFinite(v) ? +v : 0));
+	const [azimuth, elevation = 0] = numbers(turn).map(v => v / DEGREES);
+	const [angle, toward = 0] = numbers(sun).map(v => v / DEGREES);
+	const given = {};
+	for (const variant of (chosen ?? "").split(";").filter(Boolean)) {
+		const [m, ...all] = variant.split(":");
+		if (M[m]) given[m] = Object.fromEntries(all.map(p => p.split("=")));
+	}
+	return {
+		azimuth,
+		elevation,
+		size: clamp(+size || 1, 0.1, 20),
+		light: sun ? lightAt(clamp(angle, 0, SUN_MOST), toward) : null,
+		exponent: clamp(Math.round(+exponent) || 0, 0, 1000),
+		given,
+	};
+}
+
+/* A direction by its angle from the line of sight, and the one around it; and back. */
+const lightAt = (angle, toward) => [
+	Math.sin(angle) * Math.cos(toward),
+	Math.sin(angle) * Math.sin(toward),
+	Math.cos(angle),
+];
+const sunOf = ([x, y, z]) => [Math.atan2(Math.hypot(x, y), z), Math.atan2(y, x)];
+
+/* A slider of so many positions over a logarithmic range. */
+const logarithmic = (low, high, steps) => ({
+	min: 0,
+	max: steps,
+	to: t => low * (high / low) ** (t / steps),
+	from: v => Math.round((steps * Math.log(v / low)) / Math.log(high / low)),
+});
+const SIZES = logarithmic(0.25, 8, 120);
+const EXPONENTS = logarithmic(1, 1000, 150);
+
+class Hand {
+	constructor(v) {
+		Object.assign(this, { v, live: null, moves: false, waits: false, rounds: 0 });
+		[this.sun, this.panel] = [$(".sun", v.root), $(".handles", v.root)];
+		this.panel.oninput = e => this.handle(e.target);
+		this.panel.onclick = e => e.target.closest(".still") && this.still();
+		this.listenToSun();
+		v.stage.onkeydown = e => e.target === v.stage && this.key(e);
+		v.stage.ondragover = e => CAN_DRAW && e.preventDefault();
+		v.stage.ondrop = e => this.drop(e);
+		// Whoever comes near gets the light and the handles.
+		const comes = () => {
+			this.near = true;
+			this.controls();
+		};
+		for (const event of ["pointerenter", "focusin"])
+			v.root.addEventListener(event, comes, { once: true });
+	}
+
+	get can() {
+		return canTurn(this.v.scene) && this.failed !== this.v.scene;
+	}
+
+	/* What pictures are asked of: the stored scene, or the one that is drawn here. */
+	get source() {
+		const { scene, view } = this.v;
+		const isLive = this.live?.scene === scene && (scene.own || !isStill(view));
+		return isLive ? this.live : scene;
+	}
+
+	/* Loads the scene; false if it cannot be drawn here. */
+	async ready() {
+		const s = this.v.scene;
+		if (this.live?.scene === s) return true;
+		if (!this.can) return false;
+		try {
+			this.loading ??= LiveScene.make(s);
+			const live = await this.loading;
+			if (this.v.scene !== s) return false;
+			this.live = live;
+			this.controls();
+			return true;
+		} catch (error) {
+			this.fail(error);
+			return false;
+		} finally {
+			this.loading = null;
+		}
+	}
+
+	/* What cannot be drawn here stays as it is stored. */
+	fail(error) {
+		toast(`Not drawn here: ${error.message.split("\n")[0]}`);
+		this.failed = this.v.scene;
+		this.live = null;
+		this.v.view = STILL;
+		this.controls();
+	}
+
+	/* Looks from elsewhere, at the next frame of the screen; exactly, when nothing has moved for a while. */
+	move(change) {
+		this.v.view = { ...this.v.view, ...change };
+		this.rounds = 0;
+		if (this.waits) return;
+		this.waits = true;
+		requestAnimationFrame(async () => {
+			this.waits = false;
+			if (!(await this.ready())) return;
+			await this.look(true);
+			delay("rest", 200, () => this.rest());
+		});
+	}
+
+	async look(moves) {
+		this.moves = moves;
+		try {
+			if (this.source !== this.v.scene) this.live.look(this.v.view, moves);
+			await this.v.present();
+		} catch (error) {
+			this.fail(error);
+			await this.v.present();
+		}
+	}
+
+	/* Shows the view exactly: that of its link, so that this restores it to the byte. */
+	async rest() {
+		const { v } = this;
+		v.view = viewOf(viewQuery(v.view));
+		await this.look(false);
+		this.controls();
+		v.change?.(v, { view: true });
+		v.probe?.(v);
+		if (v.line != null) rowPlot(v);
+		delay("rounds", 60, () => this.round());
+	}
+
+	/* Draws by all methods, some times, so that chart and times are of this view; then nothing works any more. */
+	round() {
+		const { live, v } = this;
+		if (this.moves || this.source !== live || this.rounds >= 6 || v.root.offsetParent === null) return;
+		const next = live.list.find(m => (live.count?.[m] ?? 0) <= this.rounds && m in M);
+		if (next) {
+			live.count = { ...live.count, [next]: this.rounds + 1 };
+			const kept = live.drawn[next];
+			delete live.drawn[next];
+			live.one(next);
+			if (kept) live.drawn[next] = kept;
+		} else {
+			this.rounds++;
+			v.change?.(v, { round: true });
+			v.draw();
+		}
+		delay("rounds", 8, () => this.round());
+	}
+
+	still() {
+		this.v.set({ view: STILL });
+	}
+
+	/* Handles of what can be moved, and of the parameters of both methods. */
+	controls() {
+		const { v, live } = this;
+		const shown = this.can && live?.scene === v.scene;
+		if (this.near && this.can && !shown) this.ready();
+		this.panel.hidden = !shown;
+		$(".turns", v.root).hidden = !this.can || !isStill(v.view);
+		this.sun.hidden = !shown || !live.firstLight.some(Boolean);
+		if (!shown) return;
+		const { size, exponent } = v.view;
+		const methods = [...new Set([v.a, v.b])].filter(m => m !== "reference" && !m.includes(":"));
+		const parts = [
+			slider({ key: "size", label: "Size", ...SIZES, value: SIZES.from(size), text: `${num(size, 2)}${TIMES}` }),
+			slider({
+				key: "exponent",
+				label: "Exponent",
+				...EXPONENTS,
+				value: EXPONENTS.from(exponent || 32),
+				text: exponent || "the scene’s",
+			}),
+			...methods.map(m => this.parametersOf(m).map(p => this.parameter(m, p))),
+		];
+		fill(
+			this.panel,
+			html`${parts}<button class="still" ${isStill(v.view) && !v.scene.own && "disabled"}>As stored</button>`,
+		);
+		this.placeSun();
+	}
+
+	parametersOf(m) {
+		return memo(`parameters ${m}`, () => this.live.studio.parameters(m));
+	}
+
+	/* The handle of a parameter. */
+	parameter(m, { name, meaning, value, auto, values: { words, range, whole } }) {
+		const now = this.v.view.given[m]?.[name] ?? value;
+		const key = `${m}:${name}`;
+		const label = `${nameOf(m)}: ${name}`;
+		if (words)
+			return html`
+				<label class="handle" title="${meaning}"><span>${label}</span>
+				<select data-handle="${key}">${words.map(
+					w => html`<option ${w === now && "selected"}>${w}</option>`,
+				)}</select></label>`;
+		const [low, high] = range;
+		const step = whole ? 1 : null;
+		const least = auto ? low - (step ?? 0.01 * (high - low)) : low;
+		return slider({
+			key,
+			label,
+			title: meaning,
+			min: least,
+			max: Math.min(high, whole ? low + 15 : high),
+			step: step ?? (high - low) / 200,
+			value: now === "auto" ? least : now,
+			text: now,
+		});
+	}
+
+	handle(target) {
+		const key = target.dataset.handle;
+		const value = target.value;
+		const { given } = this.v.view;
+		if (key === "size") this.move({ size: SIZES.to(value) });
+		else if (key === "exponent") this.move({ exponent: Math.round(EXPONENTS.to(value)) });
+		else {
+			const [m, name] = key.split(":");
+			const p = this.parametersOf(m).find(q => q.name === name);
+			const isAuto = p.auto && target.type === "range" && +value < p.values.range[0];
+			const text = isAuto ? "auto" : String(value);
+			const { [name]: _, ...others } = given[m] ?? {};
+			const all = text === p.value ? others : { ...others, [name]: text };
+			const { [m]: before, ...rest } = given;
+			this.move({ given: Object.keys(all).length ? { ...rest, [m]: all } : rest });
+		}
+		const out = $("output", target.parentElement);
+		const { size, exponent, given: now } = this.v.view;
+		if (out)
+			out.textContent =
+				key === "size"
+					? num(size, 2) + TIMES
+					: key === "exponent"
+						? exponent
+						: (now[key.split(":")[0]]?.[key.split(":")[1]] ?? value);
+	}
+
+	/* Turns by a drag of so many pixels, or by arrow keys. */
+	turnBy(dx, dy) {
+		const { azimuth, elevation } = this.v.view;
+		const k = 2.4 / Math.max(200, this.v.stage.clientHeight);
+		this.move({ azimuth: azimuth - k * dx, elevation: clamp(elevation + k * dy, -Math.PI, Math.PI) });
+	}
+
+	key(e) {
+		const [dx, dy] =
+			{ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key] ?? [];
+		if (dx == null || !this.can || e.ctrlKey || e.metaKey || e.altKey) return;
+		e.preventDefault();
+		e.stopPropagation();
+		const pixels = e.shiftKey ? 40 : 10;
+		this.turnBy(dx * pixels, dy * pixels);
+	}
+
+	get light() {
+		return this.v.view.light ?? this.live?.firstLight ?? [0, 0, 1];
+	}
+
+	/* Puts the light's handle where the light is; behind the model it is hollow. */
+	placeSun() {
+		const { sun, v } = this;
+		if (sun.hidden) return;
+		const { w, h } = v.part();
+		const [angle, toward] = sunOf(this.light);
+		const r = ((angle / SUN_ANGLE) * SUN_RING) * Math.min(w, h);
+		sun.style.left = `${w / 2 + r * Math.cos(toward)}px`;
+		sun.style.top = `${h / 2 - r * Math.sin(toward)}px`;
+		sun.classList.toggle("behind", angle > SUN_ANGLE);
+		sun.ariaValueNow = Math.round(angle * DEGREES);
+		sun.ariaValueText = `${Math.round(angle * DEGREES)}° from the line of sight, toward ${Math.round(toward * DEGREES)}°`;
+	}
+
+	lightTo(x, y) {
+		const { w, h } = this.v.part();
+		const [dx, dy] = [x - w / 2, h / 2 - y];
+		const angle = ((Math.hypot(dx, dy) / Math.min(w, h)) / SUN_RING) * SUN_ANGLE;
+		this.move({ light: lightAt(clamp(angle, 0, SUN_MOST), Math.atan2(dy, dx)) });
+		this.placeSun();
+	}
+
+	listenToSun() {
+		const { sun, v } = this;
+		let held = false;
+		sun.onpointerdown = e => {
+			e.stopPropagation();
+			held = true;
+			sun.setPointerCapture(e.pointerId);
+		};
+		sun.onpointermove = e => {
+			e.stopPropagation();
+			if (!held) return;
+			const { x, y } = v.local(e);
+			this.lightTo(x, y);
+		};
+		sun.onpointerup = sun.onpointercancel = e => {
+			e.stopPropagation();
+			held = false;
+		};
+		sun.ondblclick = e => {
+			e.stopPropagation();
+			this.move({ light: null });
+			this.placeSun();
+		};
+		sun.onkeydown = e => {
+			const [dx, dy] =
+				{ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key] ?? [];
+			if (dx == null) return;
+			e.preventDefault();
+			e.stopPropagation();
+			const step = e.shiftKey ? 24 : 6;
+			this.lightTo(parseFloat(sun.style.left) + dx * step, parseFloat(sun.style.top) + dy * step);
+		};
+	}
+
+	/* A mesh file that is dropped on the stage. */
+	async drop(e) {
+		e.preventDefault();
+		const file = e.dataTransfer?.files[0];
+		if (!file || !CAN_DRAW) return;
+		const before = this.v.scene;
+		try {
+			const s = await ownScene(file, before.own ? SCENES[0] : before);
+			const live = await LiveScene.make(s);
+			await this.v.set({ scene: s, view: STILL, pin: null, live });
+			toast(`${file.name}: ${plural(live.polygons, "polygon")}`);
+		} catch (error) {
+			toast(error.message.split("\n")[0]);
+		}
+	}
+}

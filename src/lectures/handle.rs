@@ -1,0 +1,155 @@
+//! Handles: numbers of a figure that its reader moves.
+
+use super::Result;
+use super::content::FigureContent;
+use alloc::vec::Vec;
+
+/// The part of a figure that follows the reader's hand: it is made anew for each value of its handles.
+#[derive(Debug, serde::Serialize)]
+pub struct Live {
+    /// What the lecture says, with its equation.
+    pub claim: &'static str,
+    /// The handles.
+    pub handles: &'static [Handle],
+    /// The function that makes it, with a value of each handle: the findings are made by the code of the stored ones.
+    #[serde(skip)]
+    pub(super) make: fn(&mut FigureContent, &[f64]) -> Result,
+}
+
+impl Live {
+    /// Draws and measures it for a value of each handle. Values out of range become the nearest ones, missing ones those to start
+    /// with.
+    ///
+    /// # Errors
+    /// As [`super::Figure::make`].
+    pub fn make(&self, given: &[f64]) -> Result<FigureContent> {
+        let handles = self.handles.iter().enumerate();
+        let values = handles.map(|(i, handle)| handle.allowed(given.get(i).copied()));
+        let mut content = FigureContent::default();
+        (self.make)(&mut content, &values.collect::<Vec<_>>())?;
+        Ok(content)
+    }
+}
+
+/// A number that a reader moves.
+#[derive(Debug, serde::Serialize)]
+pub struct Handle {
+    /// The name in links: lower case.
+    pub name: &'static str,
+    /// The name for people.
+    pub label: &'static str,
+    /// The unit; empty for a pure number.
+    pub unit: &'static str,
+    /// The least and the greatest value.
+    pub range: [f64; 2],
+    /// Values are multiples of this.
+    pub step: f64,
+    /// The value to start with.
+    pub start: f64,
+    /// The axis that a reader drags it along: handles `x` and `y` that follow one another are a corner of a polygon.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<char>,
+}
+
+impl Handle {
+    /// Makes a handle that is a slider.
+    pub(super) const fn slider(
+        [name, label, unit]: [&'static str; 3],
+        range: [f64; 2],
+        step: f64,
+        start: f64,
+    ) -> Handle {
+        Handle {
+            name,
+            label,
+            unit,
+            range,
+            step,
+            start,
+            axis: None,
+        }
+    }
+
+    /// Makes a handle that is a coordinate of a corner.
+    pub(super) const fn coordinate(
+        [name, label]: [&'static str; 2],
+        axis: char,
+        range: [f64; 2],
+        start: f64,
+    ) -> Handle {
+        Handle {
+            name,
+            label,
+            unit: "",
+            range,
+            step: 1.0 / 16.0,
+            start,
+            axis: Some(axis),
+        }
+    }
+
+    /// Returns the allowed value nearest to `value`, or the one to start with if that is no number.
+    pub(super) fn allowed(&self, value: Option<f64>) -> f64 {
+        let [least, most] = self.range;
+        let value = value.filter(|value| value.is_finite());
+        let steps = libm::round(value.unwrap_or(self.start) / self.step);
+        (steps * self.step).clamp(least, most)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lectures::{FIGURES, Figure, LIVE};
+
+    #[test]
+    fn values_are_brought_into_range() {
+        let handle = Handle::slider(["angle", "angle", "°"], [5.0, 175.0], 5.0, 60.0);
+        assert_eq!(handle.allowed(None), 60.0);
+        assert_eq!(handle.allowed(Some(f64::NAN)), 60.0);
+        assert_eq!(handle.allowed(Some(-1e300)), 5.0);
+        assert_eq!(handle.allowed(Some(1e300)), 175.0);
+        assert_eq!(handle.allowed(Some(61.0)), 60.0);
+    }
+
+    /// Every handle moves something, at both ends nothing fails, and each live part has a verdict.
+    #[test]
+    fn handles_change_what_is_shown_from_end_to_end() {
+        for (name, live) in LIVE {
+            let figure = Figure::named(name).expect("a figure has this name");
+            assert!(figure.live.is_some_and(|l| core::ptr::eq(l, *live)));
+            let start: Vec<f64> = live.handles.iter().map(|h| h.start).collect();
+            let at_start = live.make(&start).expect("a figure");
+            assert!(!at_start.findings.is_empty(), "{name}");
+            assert_eq!(at_start, live.make(&[]).expect("the same"));
+            for (i, handle) in live.handles.iter().enumerate() {
+                assert_eq!(
+                    handle.allowed(None),
+                    handle.start,
+                    "{name}: {}",
+                    handle.name
+                );
+                let mut has_changed = false;
+                for end in handle.range {
+                    let mut values = start.clone();
+                    values[i] = end;
+                    let there = live.make(&values);
+                    let there =
+                        there.unwrap_or_else(|e| panic!("{name}: {} {end}: {e}", handle.name));
+                    has_changed |= there != at_start;
+                    for finding in &there.findings {
+                        let key = &finding.key;
+                        assert!(
+                            finding.value.is_finite(),
+                            "{name}: {} {end}: {key}",
+                            handle.name
+                        );
+                    }
+                }
+                assert!(has_changed, "{name}: {}", handle.name);
+            }
+        }
+        let live = FIGURES.iter().filter(|figure| figure.live.is_some());
+        assert_eq!(live.count(), LIVE.len());
+    }
+}

@@ -1,0 +1,46 @@
+//! What the page needs to draw a scene itself: the module, and the scene with its files.
+
+use crate::scene::file::SceneFile;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use serde_json::json;
+use std::io::Write;
+
+/// The crate itself, compiled to WebAssembly by `live/build`.
+static MODULE: &[u8] = include_bytes!("../../report/live.wasm");
+
+/// The most polygons of a scene that follows the hand: some 20 frames a second in a browser.
+pub const MOST_POLYGONS: usize = 150_000;
+
+/// The most bytes of a scene's files in the page, packed.
+const MOST_PACKED: usize = 300_000;
+
+/// A scene that the page can draw, as JSON: `scene`, its text, and `files`, names and packed contents. `None` if its files are too
+/// large to travel in the page. `files` are named as the scene asks for them.
+pub fn live_scene(scene: &SceneFile, files: &[(String, Vec<u8>)]) -> Option<String> {
+    // Text that packs to a tenth at best is not packed in vain.
+    let bytes: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
+    if bytes > 10 * MOST_PACKED {
+        return None;
+    }
+    let packed = files.iter().map(|(name, bytes)| (name, packed(bytes)));
+    let packed: Vec<(&String, String)> = packed.collect();
+    let size: usize = packed.iter().map(|(_, text)| text.len()).sum();
+    (size <= MOST_PACKED).then(|| json!({ "scene": scene.to_toml(), "files": packed }).to_string())
+}
+
+/// Returns the module as the page unpacks it, as JSON.
+pub(super) fn module() -> String {
+    json!(packed(MODULE)).to_string()
+}
+
+/// Deflates bytes and writes them in base 64.
+pub(super) fn packed(bytes: &[u8]) -> String {
+    let mut deflate = ZlibEncoder::new(Vec::new(), Compression::new(9));
+    let written = deflate.write_all(bytes).and_then(|()| deflate.finish());
+    STANDARD.encode(written.expect("memory takes all that is written"))
+}
