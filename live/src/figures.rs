@@ -9,13 +9,17 @@ impl Studio {
         let (name, values) = text.split_once('\n').unwrap_or((&text, ""));
         let live = LIVE.iter().find(|(known, _)| *known == name);
         let (_, live) = live.ok_or_else(|| format!("no live figure is called {name}"))?;
-        let values = values.split_whitespace().map(|word| word.parse::<f64>().map_err(|error| format!("{word}: {error}")));
+        let values = values.split_whitespace().map(|word| {
+            word.parse::<f64>()
+                .map_err(|error| format!("{word}: {error}"))
+        });
         let values = values.collect::<Result<Vec<_>, _>>()?;
         let content = live.make(&values).map_err(|error| error.to_string())?;
         self.panels.clear();
         for block in &content.blocks {
             if let FigureBlock::Pictures { shown, .. } = block {
-                self.panels.extend(shown.iter().map(|panel| panel.picture.clone()));
+                self.panels
+                    .extend(shown.iter().map(|panel| panel.picture.clone()));
             }
         }
         let json = serde_json::to_string(&content).map_err(|error| error.to_string())?;

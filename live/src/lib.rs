@@ -7,6 +7,7 @@
 
 mod figures;
 mod parameters;
+mod scene_file;
 mod studio;
 
 use std::cell::RefCell;
@@ -57,11 +58,31 @@ pub extern "C" fn light() -> *const f64 {
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub extern "C" fn frame(
-    width: u32, height: u32, azimuth: f64, elevation: f64, zoom: f64,
-    lx: f64, ly: f64, lz: f64, shininess: f32,
+    width: u32,
+    height: u32,
+    azimuth: f64,
+    elevation: f64,
+    zoom: f64,
+    lx: f64,
+    ly: f64,
+    lz: f64,
+    shininess: f32,
 ) -> isize {
-    let view = studio::View { size: [width, height], azimuth, elevation, zoom, light: [lx, ly, lz], shininess };
+    let view = studio::View {
+        size: [width, height],
+        azimuth,
+        elevation,
+        zoom,
+        light: [lx, ly, lz],
+        shininess,
+    };
     with(|studio| studio.answer(|studio| studio.look(&view)))
+}
+
+/// Writes the scene as it is looked at, as TOML: the text then, whose length is returned.
+#[unsafe(no_mangle)]
+pub extern "C" fn scene() -> isize {
+    with(|studio| studio.answer(Studio::scene))
 }
 
 /// Draws the frame by the method that the text names, or `reference`, as the picture, or as the exact one if `is_exact`. Returns 0.

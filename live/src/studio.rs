@@ -8,7 +8,7 @@ use fastphong::reference::{self, Model};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::resolve_by;
 use fastphong::scene::orbit::{Orbit, Start};
-use fastphong::scene::{Light, Scene};
+use fastphong::scene::{Camera, Light, Scene};
 use fastphong::shading::Variant;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -25,11 +25,17 @@ pub struct View {
 }
 
 /// A scene that can be looked at from anywhere.
-struct Loaded {
+pub struct Loaded {
+    pub file: SceneFile,
     prepared: PreparedScene,
     start: Start,
     lights: Vec<Light>,
+    /// As they were turned for the frame.
+    pub shown_lights: Vec<Light>,
     exponents: Vec<f32>,
+    /// The size and the exponent that were asked for last; 0 for the materials' own.
+    pub size: [u32; 2],
+    pub exponent: f32,
 }
 
 /// All that one instance of the module remembers.
@@ -37,7 +43,7 @@ pub struct Studio {
     /// What the page wrote, or what it is told.
     pub text: Vec<u8>,
     files: BTreeMap<PathBuf, Vec<u8>>,
-    loaded: Option<Loaded>,
+    pub loaded: Option<Loaded>,
     frame: Option<Frame>,
     picture: LinearPicture,
     exact: LinearPicture,
@@ -90,9 +96,13 @@ impl Studio {
 
     pub fn file(&mut self) {
         let text = std::mem::take(&mut self.text);
-        let end = text.iter().position(|byte| *byte == b'\n').unwrap_or(text.len());
+        let end = text
+            .iter()
+            .position(|byte| *byte == b'\n')
+            .unwrap_or(text.len());
         let name = PathBuf::from(&*String::from_utf8_lossy(&text[..end]));
-        self.files.insert(name, text.get(end + 1..).unwrap_or_default().to_vec());
+        self.files
+            .insert(name, text.get(end + 1..).unwrap_or_default().to_vec());
     }
 
     pub fn load(&mut self) -> Result<usize, String> {
@@ -105,27 +115,39 @@ impl Studio {
         let files = &self.files;
         let mut read = |path: &std::path::Path| {
             // Material libraries are asked for beside their mesh, whose folder the page does not have.
-            let known = files.get(path).or_else(|| files.get(&PathBuf::from(path.file_name()?)));
+            let known = files
+                .get(path)
+                .or_else(|| files.get(&PathBuf::from(path.file_name()?)));
             known.cloned().ok_or_else(|| ErrorKind::NotFound.into())
         };
         let resolved = resolve_by(&file, &mut read).map_err(|error| error.to_string())?;
         let scene = resolved.scene;
-        let polygons = scene.objects.iter().map(|object| object.mesh.polygon_count()).sum();
+        let polygons = scene
+            .objects
+            .iter()
+            .map(|object| object.mesh.polygon_count())
+            .sum();
         let camera = file.table().table("camera");
-        let given = ["near", "far"].map(|key| camera.is_some_and(|camera| camera.get(key).is_some()));
-        self.loaded = Some(Loaded::new(&scene, given)?);
+        let given =
+            ["near", "far"].map(|key| camera.is_some_and(|camera| camera.get(key).is_some()));
+        self.loaded = Some(Loaded::new(file, &scene, given)?);
         self.frame = None;
         Ok(polygons)
     }
 
     pub fn light(&mut self) -> *const f64 {
-        let toward = self.loaded.as_ref().and_then(|loaded| loaded.start.toward_light(&loaded.lights));
+        let toward = self
+            .loaded
+            .as_ref()
+            .and_then(|loaded| loaded.start.toward_light(&loaded.lights));
         self.numbers = toward.unwrap_or_default().to_vec();
         self.numbers.as_ptr()
     }
 
     pub fn look(&mut self, view: &View) -> Result<usize, String> {
-        let Some(loaded) = &mut self.loaded else { return Err("no scene".into()) };
+        let Some(loaded) = &mut self.loaded else {
+            return Err("no scene".into());
+        };
         let [width, height] = view.size;
         if !(1..=Scene::MAX_SIDE).contains(&width) || !(1..=Scene::MAX_SIDE).contains(&height) {
             return Err(format!("no picture has {width} x {height} pixels"));
@@ -137,25 +159,37 @@ impl Studio {
         scene.set_size(width, height);
         scene.set_camera(orbit.camera(&loaded.start, f64::from(width) / f64::from(height)));
         let is_lit_anew = view.light != [0.0; 3];
-        scene.set_lights(match (is_lit_anew, orbit == Orbit::default()) {
+        loaded.shown_lights = match (is_lit_anew, orbit == Orbit::default()) {
             // The scene's own, to the bit.
             (false, true) => loaded.lights.clone(),
             (false, false) => orbit.carry(&loaded.start, &loaded.lights),
             (true, _) => orbit.carry_toward(&loaded.start, &loaded.lights, view.light),
-        });
+        };
+        scene.set_lights(loaded.shown_lights.clone());
+        loaded.size = view.size;
+        loaded.exponent = view.shininess;
         for (material, own) in scene.materials_mut().iter_mut().zip(&loaded.exponents) {
-            material.shininess = if view.shininess > 0.0 { view.shininess } else { *own };
+            material.shininess = if view.shininess > 0.0 {
+                view.shininess
+            } else {
+                *own
+            };
         }
         match &mut self.frame {
             Some(frame) => scene.frame_into(frame).map_err(|error| error.to_string())?,
             None => self.frame = Some(scene.frame().map_err(|error| error.to_string())?),
         }
-        Ok(self.frame.as_ref().map_or(0, |frame| frame.polygons().len()))
+        Ok(self
+            .frame
+            .as_ref()
+            .map_or(0, |frame| frame.polygons().len()))
     }
 
     pub fn draw(&mut self, is_exact: bool) -> Result<usize, String> {
         let name = self.told();
-        let Some(frame) = &self.frame else { return Err("no frame".into()) };
+        let Some(frame) = &self.frame else {
+            return Err("no frame".into());
+        };
         let drawn = if name == "reference" {
             reference::render(frame, Model::Phong).to_linear()
         } else {
@@ -165,7 +199,11 @@ impl Studio {
             }
             variant.render_linear(frame)
         };
-        *if is_exact { &mut self.exact } else { &mut self.picture } = drawn;
+        *if is_exact {
+            &mut self.exact
+        } else {
+            &mut self.picture
+        } = drawn;
         Ok(0)
     }
 
@@ -197,9 +235,28 @@ impl Studio {
 }
 
 impl Loaded {
-    fn new(scene: &Scene, given: [bool; 2]) -> Result<Loaded, String> {
+    fn new(file: SceneFile, scene: &Scene, given: [bool; 2]) -> Result<Loaded, String> {
         let mut prepared = scene.prepare().map_err(|error| error.to_string())?;
-        let exponents = prepared.materials_mut().iter().map(|material| material.shininess).collect();
-        Ok(Loaded { prepared, start: Start::new(scene, given), lights: scene.lights.clone(), exponents })
+        let exponents = prepared
+            .materials_mut()
+            .iter()
+            .map(|material| material.shininess)
+            .collect();
+        let lights = scene.lights.clone();
+        Ok(Loaded {
+            file,
+            prepared,
+            start: Start::new(scene, given),
+            shown_lights: lights.clone(),
+            lights,
+            exponents,
+            size: [scene.width, scene.height],
+            exponent: 0.0,
+        })
+    }
+
+    /// The camera of the frame.
+    pub fn camera(&self) -> Camera {
+        *self.prepared.camera()
     }
 }

@@ -29,6 +29,7 @@ class LiveScene {
 		for (const [name, bytes] of files)
 			live.studio.file(name, typeof bytes === "string" ? await inflate(bytes) : bytes);
 		live.polygons = live.studio.load(scene);
+		live.list = s.list.filter(m => live.studio.knows(m));
 		live.firstLight = live.studio.light();
 		live.look(STILL, false);
 		return live;
@@ -53,6 +54,7 @@ class LiveScene {
 	one(m) {
 		if (this.drawn[m]) return this.drawn[m];
 		const { studio, w, h } = this;
+		if (m !== "reference" && !this.list.includes(m)) throw Error(`${nameOf(m)} is not known here`);
 		const ms = studio.draw(m === "reference" ? m : this.variant(m));
 		const image = new ImageData(studio.bytes(w, h).slice(), w, h);
 		const { errors, ...q } = studio.compare();

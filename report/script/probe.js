@@ -35,7 +35,7 @@ async function probe(v) {
 	const value = m => {
 		const { colour, error } = here[m] ?? {};
 		if (!pixel || m === "reference") return pixel && [...colour].join(" ");
-		return error ? error.toFixed(error % 1 ? 1 : 0) : "·";
+		return error ? (error % 1 ? num(error, 2) : error) : "·";
 	};
 	const why = rest ? ` · worst of ${nameOf(of)}` : v.pin && !v.hover ? " · held" : "";
 	write({ "probe-where": pixel ? pixel.join(", ") + why : "point at the picture" });

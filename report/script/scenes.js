@@ -22,7 +22,7 @@ function startScenes(s) {
 	thumbs(rail);
 	onChoose(rail, id => openScene(S[id]));
 	const change = (v, changed) => {
-		if (!changed.view) {
+		if (!changed.view && !changed.round) {
 			probe(v);
 			sceneTable();
 			if (!("pin" in changed)) rowPlot(v);

@@ -75,6 +75,11 @@ class Studio {
 		this.ask(this.exports.frame(w, h, azimuth, elevation, size, x, y, z, exponent));
 	}
 
+	/* The scene as it is looked at, as a file. */
+	scene() {
+		return this.said(this.ask(this.exports.scene()));
+	}
+
 	/* Draws by a method, or as the exact picture; returns the milliseconds that it took. */
 	draw(method, exact = 0) {
 		this.put(method);
@@ -93,6 +98,12 @@ class Studio {
 		const [max, x, y, rms, count] = this.at(Float64Array, this.exports.compare(), 5);
 		const errors = this.at(Float32Array, this.exports.errors(), count).slice();
 		return { max, rms, worst: max > 0 ? [x, y] : null, errors };
+	}
+
+	/* True if there is such a method. */
+	knows(method) {
+		this.put(method);
+		return this.exports.parameters() >= 0;
 	}
 
 	/* The parameters of a method. */

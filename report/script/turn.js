@@ -65,7 +65,10 @@ class Hand {
 		Object.assign(this, { v, live: null, moves: false, waits: false, rounds: 0 });
 		[this.sun, this.panel] = [$(".sun", v.root), $(".handles", v.root)];
 		this.panel.oninput = e => this.handle(e.target);
-		this.panel.onclick = e => e.target.closest(".still") && this.still();
+		this.panel.onclick = e => {
+			if (e.target.closest(".still")) v.set({ view: STILL });
+			if (e.target.closest(".file")) this.saveScene();
+		};
 		this.listenToSun();
 		v.stage.onkeydown = e => e.target === v.stage && this.key(e);
 		v.stage.ondragover = e => CAN_DRAW && e.preventDefault();
@@ -101,6 +104,7 @@ class Hand {
 			if (this.v.scene !== s) return false;
 			this.live = live;
 			this.controls();
+			this.v.draw();
 			return true;
 		} catch (error) {
 			this.fail(error);
@@ -175,8 +179,14 @@ class Hand {
 		delay("rounds", 8, () => this.round());
 	}
 
-	still() {
-		this.v.set({ view: STILL });
+	/* Has the browser save the scene as it is looked at. */
+	saveScene() {
+		try {
+			this.live.studio.frame(this.live.w, this.live.h, this.v.view);
+			save(`${this.v.scene.id}.toml`, this.live.studio.scene(), "text/plain");
+		} catch (error) {
+			toast(error.message);
+		}
 	}
 
 	/* Handles of what can be moved, and of the parameters of both methods. */
@@ -203,7 +213,10 @@ class Hand {
 		];
 		fill(
 			this.panel,
-			html`${parts}<button class="still" ${isStill(v.view) && !v.scene.own && "disabled"}>As stored</button>`,
+			html`
+				${parts}
+				<button class="still" ${isStill(v.view) && "disabled"}>As stored</button>
+				<button class="file" title="What is seen here, for fastphong render">Scene file</button>`,
 		);
 		this.placeSun();
 	}

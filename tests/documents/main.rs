@@ -3,6 +3,7 @@
 #[cfg(feature = "cli")]
 mod flags;
 mod lectures;
+mod live;
 mod markdown;
 mod methods;
 mod obj;

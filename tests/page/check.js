@@ -57,6 +57,123 @@
   };
   const opacity = el => el ? +getComputedStyle(el).opacity * opacity(el.parentElement) : 1;
   const seen = el => el.checkVisibility({ visibilityProperty: true }) && el.getClientRects().length;
+  /* Drags from one point of an element to another, in parts of its size. */
+  const drag = async (el, from, to) => {
+    const box = el.getBoundingClientRect();
+    const fire = (type, [u, v]) => el.dispatchEvent(new PointerEvent(type, { pointerId: 1, clientX: box.left + u * box.width, clientY: box.top + v * box.height, bubbles: true, cancelable: true }));
+    el.setPointerCapture = () => {};
+    fire("pointerdown", from);
+    for (const k of [.25, .5, .75, 1]) { fire("pointermove", from.map((c, i) => c + (to[i] - c) * k)); await wait(30); }
+    fire("pointerup", to);
+  };
+  const slide = (input, value) => {
+    input.value = value;
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  };
+  /* The bytes that a viewer shows on its left. */
+  const bytes = async v => (await picture(v.source, v.a)).px.join();
+  const rested = v => () => v.hand.live && !v.hand.moves && !v.hand.waits && v.source === v.hand.live && v.hand.live.exact === "reference";
+  /* The scenes that are drawn in the page: every handle moves the picture, and links bring it back to the byte. */
+  const live = async () => {
+    if (!CAN_DRAW) return;
+    const turned = SCENES.filter(s => s.drawn && canTurn(s));
+    check("live: scenes that can be turned", turned.length > 0);
+    for (const s of innerWidth < 800 ? turned.slice(0, 1) : turned.slice(0, 6)) {
+      await visit(`scenes/${s.id}?left=${s.list[1]}&right=${s.list[2]}`);
+      await until(`${s.id}: shown`, () => shown(v2).startsWith(s.id + "|"));
+      v2.root.dispatchEvent(new Event("pointerenter"));
+      await v2.hand.ready();
+      check(`${s.id}: handles`, !v2.hand.panel.hidden && v2.hand.panel.querySelectorAll("input").length >= 2);
+      const stored = await bytes(v2);
+      await drag(v2.stage, [.15, .3], [.3, .4]);
+      await until(`${s.id}: a drag turns`, rested(v2));
+      check(`${s.id}: by an angle`, v2.view.azimuth && v2.view.elevation);
+      const there = await bytes(v2), hash = location.hash;
+      check(`${s.id}: the picture turns`, there !== stored);
+      const q = v2.source.rows[v2.a];
+      check(`${s.id}: errors are said against the reference`, document.querySelector("#v2 .tag.a").textContent.includes(`max ${num(q.max)} levels`) && !document.querySelector("#v2 .tag.a").textContent.includes("from"));
+      accessible(`${s.id}, turned`);
+      await link(`${s.id}: a turned view is restored`, hash.slice(1), () => rested(v2)());
+      check(`${s.id}: to the byte`, await bytes(v2) === there);
+      if (!v2.hand.sun.hidden) {
+        v2.hand.sun.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowDown", shiftKey: true, bubbles: true }));
+        await wait(40);
+        await until(`${s.id}: the light moves`, () => rested(v2)() && v2.view.light);
+        check(`${s.id}: and changes the picture`, await bytes(v2) !== there);
+      }
+      for (const input of v2.hand.panel.querySelectorAll("input[type=range]")) {
+        const { handle } = input.dataset, before = await bytes(v2);
+        slide(v2.hand.panel.querySelector(`[data-handle="${handle}"]`), handle === "exponent" ? 60 : input.max);
+        await wait(40);
+        await until(`${s.id}: ${handle} is moved`, rested(v2));
+        if (handle === "size") check(`${s.id}: ${handle} changes the picture`, await bytes(v2) !== before);
+      }
+      v2.stage.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
+      await wait(40);
+      await until(`${s.id}: by keys`, rested(v2));
+      for (const mode of ["side", "error", "flip", "slide"]) { await v2.set({ mode }); await until(`${s.id}: ${mode}`, () => shown(v2).endsWith("|" + mode)); }
+      const text = v2.hand.live.studio.scene();
+      check(`${s.id}: a scene file`, text.includes("[camera]") && text.includes("eye"));
+      v2.hand.panel.querySelector(".still").click();
+      await until(`${s.id}: as stored`, () => isStill(v2.view) && v2.source === v2.scene);
+      check(`${s.id}: the stored picture`, await bytes(v2) === stored);
+      labels(`${s.id}, live`);
+    }
+    // A mesh file that is dropped, and what is none.
+    const drop = async (name, text) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([text], name));
+      v2.stage.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+      await wait(600);
+    };
+    const before = v2.scene;
+    await drop("bad.obj", "v 0 0\nf 1 2 3\n");
+    check(`live: a bad file is refused: ${document.getElementById("toast").textContent}`, v2.scene === before && document.getElementById("toast").textContent.includes("bad.obj"));
+    await drop("picture.png", "x");
+    check("live: what is no mesh is refused", v2.scene === before);
+    await drop("own.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n");
+    await until("live: a dropped mesh is drawn", () => v2.scene.title === "own.obj" && shown(v2).startsWith("own|"));
+    check("live: with its pixels", new Set(await bytes(v2).then(text => text.split(","))).size > 2);
+    await v2.set({ scene: SCENES[0] });
+  };
+  /* The figures that follow the hand. */
+  const handles = async () => {
+    if (!CAN_DRAW) return;
+    const moving = FIGURES.filter(f => f.live);
+    for (const f of innerWidth < 800 ? moving.slice(0, 2) : moving) {
+      await visit("lectures/" + f.name);
+      const el = document.querySelector(".hands");
+      await until(`${f.name}: drawn`, () => el.dataset.shown);
+      const body = () => [...el.querySelectorAll(".live-body canvas")].map(c => c.toDataURL()).join() + el.querySelector(".live-body").textContent + el.querySelector(".verdicts").textContent + [...el.querySelectorAll("path")].map(p => p.getAttribute("d"));
+      check(`${f.name}: a verdict`, el.querySelectorAll(".verdict .chip").length > 0);
+      for (const input of el.querySelectorAll("input")) {
+        const before = body(), values = el.dataset.shown, to = +input.value === +input.max ? input.min : input.max;
+        slide(input, to);
+        await until(`${f.name}: ${input.dataset.handle} is moved`, () => el.dataset.shown !== values);
+        check(`${f.name}: ${input.dataset.handle} changes what is seen`, body() !== before);
+      }
+      const point = el.querySelector("[data-point]");
+      if (point) {
+        const values = el.dataset.shown;
+        point.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", bubbles: true }));
+        await until(`${f.name}: a corner is moved`, () => el.dataset.shown !== values);
+        const again = el.dataset.shown;
+        await drag(el.querySelector(".pad"), [.5, .58], [.5, .3]);
+        await until(`${f.name}: a corner is dragged`, () => el.dataset.shown !== again);
+      }
+      await wait(300);
+      const there = body(), hash = location.hash.slice(1);
+      check(`${f.name}: values stand in the link`, hash.includes("?"));
+      await visit("lectures");
+      await visit(hash);
+      await until(`${f.name}: restored`, () => document.querySelector(".hands")?.dataset.shown);
+      const { textContent } = document.querySelector(".hands .verdicts");
+      check(`${f.name}: to what it said`, there.includes(textContent));
+      document.querySelector(".hands .still").click();
+      labels(`${f.name}, live`);
+      accessible(`${f.name}, live`);
+    }
+  };
   const contrasts = where => {
     const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     while (walker.nextNode()) {
@@ -191,6 +308,7 @@
         showRow(v2, null);
       }
       if (scenes > 1) { const before = v2.scene; key("]"); await until("the next scene", () => v2.scene !== before); key("["); await until("the scene before", () => v2.scene === before); }
+      await live();
       await visit("methods");
       const most = innerWidth < 1200 ? 6 : 12, articles = IDS.length < 1.2 * most ? IDS.length : most;
       check("methods: an article a method", document.querySelectorAll(".method").length === articles);
@@ -212,6 +330,7 @@
       labels("speed, all");
       accessible("speed");
     }
+    if (FIGURES.length) await handles();
     if (FIGURES.length) {
       for (const h of ["lectures", "lectures/wrong", "lectures/all"]) { await visit(h); check(h, document.querySelector("#lecture-body").textContent.length > 200); labels(h); accessible(h); }
       const tabs = document.querySelector("#lecture-tabs").getBoundingClientRect();

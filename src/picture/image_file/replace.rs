@@ -79,6 +79,7 @@ impl Drop for ListedDraft {
 
 /// Makes an empty file in `folder`, with the permissions of `old`, and lists it. No draft is on the disk that is not listed.
 fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(ListedDraft, NamedTempFile)> {
+    #[cfg_attr(not(unix), allow(unused_mut))] // permissions are Unix's
     let mut new = Builder::new();
     #[cfg(unix)]
     {
