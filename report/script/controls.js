@@ -61,7 +61,7 @@ function segments(el, pressed, choose) {
 const slider = ({ key, label, title, min, max, step = 1, value, text }) =>
 	html`
 		<label class="handle" title="${title ?? label}">
-			<span>${label}<output>${text}</output></span>
+			<span>${label}<b>${text}</b></span>
 			<input type="range" data-handle="${key}" min="${min}" max="${max}" step="${step}" value="${value}">
 		</label>`;
 

@@ -70,7 +70,7 @@ function handlesInto(el, f, query, remember) {
 			values[i] === h.start ? [] : [[h.name, +values[i].toFixed(4)]],
 		);
 		delay("figure", 200, () => remember?.(new URLSearchParams(query)));
-		if (!waits) requestAnimationFrame(draw);
+		if (!waits) atNextFrame(draw);
 		waits = true;
 	};
 	const place = (i, v) => {
@@ -80,7 +80,7 @@ function handlesInto(el, f, query, remember) {
 	$(".handles", el).oninput = ({ target }) => {
 		const i = target.dataset.handle;
 		place(i, +target.value);
-		$("output", target.parentElement).textContent = shownValue(values[i], handles[i]);
+		$("b", target.parentElement).textContent = shownValue(values[i], handles[i]);
 		moved();
 	};
 	$(".still", el).onclick = () => {
@@ -89,7 +89,7 @@ function handlesInto(el, f, query, remember) {
 			const input = $(`[data-handle="${i}"]`, el);
 			if (!input) return;
 			input.value = h.start;
-			$("output", input.parentElement).textContent = shownValue(h.start, h);
+			$("b", input.parentElement).textContent = shownValue(h.start, h);
 		});
 		moved();
 	};

@@ -1,7 +1,7 @@
 /* Keys, and the buttons of the bar on top. */
 
 addEventListener("keydown", e => {
-	const v = view === "overview" ? v1 : view === "scenes" ? v2 : null;
+	const v = seenViewer();
 	const on = e.target;
 	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select,input") || $("#keys").open) return;
 	if (e.key === "?") return $("#keys").showModal();

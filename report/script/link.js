@@ -86,4 +86,9 @@ function route(e) {
 }
 
 addEventListener("hashchange", route);
-addEventListener("resize", () => delay("resize", 120, route));
+/* The viewer that is seen. */
+const seenViewer = () => (view === "overview" ? v1 : view === "scenes" ? v2 : null);
+
+// A mesh of the reader's own stands in no address: it stays.
+const resized = () => (seenViewer()?.scene.own ? seenViewer().draw() : route());
+addEventListener("resize", () => delay("resize", 120, resized));

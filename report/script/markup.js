@@ -77,6 +77,17 @@ function delay(what, ms, action) {
 	timers[what] = setTimeout(action, ms);
 }
 
+/* Does something at the next frame of the screen; where none comes, as in a window that nobody sees, soon. */
+function atNextFrame(action) {
+	let isDone = false;
+	const once = () => {
+		if (!isDone) action();
+		isDone = true;
+	};
+	requestAnimationFrame(once);
+	setTimeout(once, 100);
+}
+
 /* Shows a message for a moment. */
 function toast(text) {
 	write({ toast: text });

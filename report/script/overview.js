@@ -77,7 +77,7 @@ let v1;
 /* Makes the viewer, and has the chart choose what it shows. */
 function startOverview() {
 	const change = (v, changed) => {
-		if (!changed.view) pareto(v);
+		if (!changed.moved) pareto(v);
 		remember(v);
 	};
 	v1 = new Viewer($("#v1"), {

@@ -22,7 +22,7 @@ function startScenes(s) {
 	thumbs(rail);
 	onChoose(rail, id => openScene(S[id]));
 	const change = (v, changed) => {
-		if (!changed.view && !changed.round) {
+		if (!changed.moved && !changed.round) {
 			probe(v);
 			sceneTable();
 			if (!("pin" in changed)) rowPlot(v);
@@ -77,6 +77,7 @@ function scenes([id], query) {
 
 /* What is known of a scene, in some words each. */
 function sceneFacts(s) {
+	if (s.own) return ["drawn here", `${s.w} × ${s.h}`];
 	const cut = s.triangulation;
 	const reasons = {
 		culled: "facing away",

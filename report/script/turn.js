@@ -129,7 +129,7 @@ class Hand {
 		this.rounds = 0;
 		if (this.waits) return;
 		this.waits = true;
-		requestAnimationFrame(async () => {
+		atNextFrame(async () => {
 			this.waits = false;
 			if (!(await this.ready())) return;
 			await this.look(true);
@@ -154,7 +154,7 @@ class Hand {
 		v.view = viewOf(viewQuery(v.view));
 		await this.look(false);
 		this.controls();
-		v.change?.(v, { view: true });
+		v.change?.(v, { moved: true });
 		v.probe?.(v);
 		if (v.line != null) rowPlot(v);
 		delay("rounds", 60, () => this.round());
@@ -199,7 +199,7 @@ class Hand {
 		this.sun.hidden = !shown || !live.firstLight.some(Boolean);
 		if (!shown) return;
 		const { size, exponent } = v.view;
-		const methods = [...new Set([v.a, v.b])].filter(m => m !== "reference" && !m.includes(":"));
+		const methods = [...new Set([v.a, v.b])].filter(m => live.list.includes(m) && !m.includes(":"));
 		const parts = [
 			slider({ key: "size", label: "Size", ...SIZES, value: SIZES.from(size), text: `${num(size, 2)}${TIMES}` }),
 			slider({
@@ -267,7 +267,7 @@ class Hand {
 			const { [m]: before, ...rest } = given;
 			this.move({ given: Object.keys(all).length ? { ...rest, [m]: all } : rest });
 		}
-		const out = $("output", target.parentElement);
+		const out = $("b", target.parentElement);
 		const { size, exponent, given: now } = this.v.view;
 		if (out)
 			out.textContent =

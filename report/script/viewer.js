@@ -245,7 +245,7 @@ class Viewer {
 
 	moved() {
 		this.draw();
-		this.change?.(this, { view: true });
+		this.change?.(this, { moved: true });
 	}
 
 	move(split) {

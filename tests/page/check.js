@@ -88,7 +88,10 @@
       await drag(v2.stage, [.15, .3], [.3, .4]);
       await until(`${s.id}: a drag turns`, rested(v2));
       check(`${s.id}: by an angle`, v2.view.azimuth && v2.view.elevation);
+      await until(`${s.id}: the view stands in the link`, () => location.hash.includes("turn="));
       const there = await bytes(v2), hash = location.hash;
+      const text = v2.hand.live.studio.scene();
+      check(`${s.id}: a scene file`, text.includes("[camera]") && text.includes("eye"));
       check(`${s.id}: the picture turns`, there !== stored);
       const q = v2.source.rows[v2.a];
       check(`${s.id}: errors are said against the reference`, document.querySelector("#v2 .tag.a").textContent.includes(`max ${num(q.max)} levels`) && !document.querySelector("#v2 .tag.a").textContent.includes("from"));
@@ -112,8 +115,6 @@
       await wait(40);
       await until(`${s.id}: by keys`, rested(v2));
       for (const mode of ["side", "error", "flip", "slide"]) { await v2.set({ mode }); await until(`${s.id}: ${mode}`, () => shown(v2).endsWith("|" + mode)); }
-      const text = v2.hand.live.studio.scene();
-      check(`${s.id}: a scene file`, text.includes("[camera]") && text.includes("eye"));
       v2.hand.panel.querySelector(".still").click();
       await until(`${s.id}: as stored`, () => isStill(v2.view) && v2.source === v2.scene);
       check(`${s.id}: the stored picture`, await bytes(v2) === stored);
@@ -215,9 +216,9 @@
     check(`${where}: one first heading`, headings[0] === 1 && headings.filter(h => h === 1).length === 1);
     check(`${where}: no heading skips a level: ${headings}`, headings.every((h, i) => !i || h <= headings[i - 1] + 1));
     const named = el => (el.getAttribute("aria-label") ?? document.getElementById(el.getAttribute("aria-labelledby"))?.textContent ?? el.getAttribute("title") ?? el.getAttribute("alt") ?? (el.labels?.[0] ?? el).textContent ?? "").trim();
-    for (const el of document.querySelectorAll("button, a, select, img, [role]")) if (seen(el) && !el.closest("[aria-hidden=true]")) check(`${where}: no name for ${el.outerHTML.slice(0, 80)}`, /[\p{L}\d]/u.test(named(el)) || el.getAttribute("alt") === "");
+    for (const el of document.querySelectorAll("button, a, select, input, img, [role]")) if (seen(el) && !el.closest("[aria-hidden=true]")) check(`${where}: no name for ${el.outerHTML.slice(0, 80)}`, /[\p{L}\d]/u.test(named(el)) || el.getAttribute("alt") === "");
     for (const el of document.querySelectorAll("canvas, svg")) if (seen(el)) check(`${where}: neither named nor hidden: ${el.outerHTML.slice(0, 80)}`, el.closest("[aria-hidden=true]") || named(el));
-    const controls = [...document.querySelectorAll("button, a[href], select, summary, [tabindex], .hit")].filter(el => seen(el) && el.tabIndex >= 0);
+    const controls = [...document.querySelectorAll("button, a[href], select, input, summary, [tabindex], .hit")].filter(el => seen(el) && el.tabIndex >= 0 && !el.disabled);
     for (const el of controls) {
       el.focus({ preventScroll: true });
       const shown = [el, el.parentElement, ...el.children].some(e => getComputedStyle(e).outlineStyle !== "none" && getComputedStyle(e).outlineWidth !== "0px");
