@@ -19,7 +19,7 @@ function put(v) {
 }
 
 /* A text with a capital, as a sentence begins; names with capitals or signs stay. */
-const sentence = text => text.replace(/^[a-z]/, letter => letter.toUpperCase());
+const sentence = text => text.replace(/^[a-z](?![a-z]*-)/, letter => letter.toUpperCase());
 
 /* Drops line breaks with their indentation. One before a word, as an attribute, is a space. */
 const joinLines = text => text.replace(/\n\s*(\w?)/g, (_, letter) => letter && " " + letter);

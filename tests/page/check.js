@@ -121,11 +121,9 @@
       labels(`${s.id}, live`);
     }
     // A mesh file that is dropped, and what is none.
-    const drop = async (name, text) => {
-      const dataTransfer = new DataTransfer();
-      dataTransfer.items.add(new File([text], name));
-      v2.stage.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
-      await wait(600);
+    const drop = (name, text) => {
+      const bytes = new TextEncoder().encode(text);
+      return v2.hand.drop({ preventDefault() {}, dataTransfer: { files: [{ name, size: bytes.length, arrayBuffer: async () => bytes.buffer }] } });
     };
     const before = v2.scene;
     await drop("bad.obj", "v 0 0\nf 1 2 3\n");
@@ -134,6 +132,7 @@
     check("live: what is no mesh is refused", v2.scene === before);
     await drop("own.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n");
     await until("live: a dropped mesh is drawn", () => v2.scene.title === "own.obj" && shown(v2).startsWith("own|"));
+    if (v2.scene.title !== "own.obj") failed.push(`${v2.scene.title} ${shown(v2)} ${document.getElementById("toast").textContent} ${location.hash}`);
     check("live: with its pixels", new Set(await bytes(v2).then(text => text.split(","))).size > 2);
     await v2.set({ scene: SCENES[0] });
   };

@@ -67,6 +67,17 @@
     await drag(at(.5, .9), at(.5, .2));
     await wait(300);
     check("a swipe over the picture scrolls the page", await run("scrollY") > swipe + 50);
+    if (await run("CAN_DRAW && canTurn(v2.scene)")) {
+      await run("v2.set({ mode: 'slide', pin: null }); v2.split = .9; v2.hand.ready()");
+      await run("v2.stage.scrollIntoView({ block: 'center' })");
+      await wait(200);
+      Object.assign(box, await run("(() => { const b = v2.stage.getBoundingClientRect(); return { x: b.x, y: b.y, w: b.width, h: b.height }; })()"));
+      await drag(at(.2, .5), at(.45, .52));
+      await until("one finger turns the model", "v2.view.azimuth !== 0 && !v2.hand.moves");
+      const [x, y] = await run("(() => { const b = v2.hand.sun.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()");
+      await drag([x, y], [x - 40, y - 40]);
+      await until("one finger moves the light", "!!v2.view.light && !v2.hand.moves");
+    }
     // The accessibility tree, as a screen reader gets it.
     for (const view of ["overview", "scenes", "methods", "speed", "lectures", "measured"]) {
       await run(`location.hash = "${view}"`);
