@@ -54,7 +54,8 @@ pub extern "C" fn light() -> *const f64 {
 }
 
 /// Makes the frame: its size, the camera turned by an azimuth and an elevation in radians, the zoom, the direction to the first light
-/// (0, 0, 0: where the eye has it in the scene), and the exponent of all materials (0: their own). Returns the polygons in view.
+/// (0, 0, 0: where the eye has it in the scene), the exponent of all materials (0: their own), and the samples per pixel along each
+/// side (0: the scene's). Returns the polygons in view.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub extern "C" fn frame(
@@ -67,6 +68,7 @@ pub extern "C" fn frame(
     ly: f64,
     lz: f64,
     shininess: f32,
+    samples: u32,
 ) -> isize {
     let view = studio::View {
         size: [width, height],
@@ -75,6 +77,7 @@ pub extern "C" fn frame(
         zoom,
         light: [lx, ly, lz],
         shininess,
+        samples,
     };
     with(|studio| studio.answer(|studio| studio.look(&view)))
 }

@@ -22,6 +22,7 @@ pub struct View {
     pub zoom: f64,
     pub light: [f64; 3],
     pub shininess: f32,
+    pub samples: u32,
 }
 
 /// A scene that can be looked at from anywhere.
@@ -33,6 +34,7 @@ pub struct Loaded {
     /// As they were turned for the frame.
     pub shown_lights: Vec<Light>,
     exponents: Vec<f32>,
+    samples: u32,
     /// The size and the exponent that were asked for last; 0 for the materials' own.
     pub size: [u32; 2],
     pub exponent: f32,
@@ -157,6 +159,11 @@ impl Studio {
         orbit.zoom(view.zoom);
         let scene = &mut loaded.prepared;
         scene.set_size(width, height);
+        scene.set_samples(if view.samples > 0 {
+            view.samples
+        } else {
+            loaded.samples
+        });
         scene.set_camera(orbit.camera(&loaded.start, f64::from(width) / f64::from(height)));
         let is_lit_anew = view.light != [0.0; 3];
         loaded.shown_lights = match (is_lit_anew, orbit == Orbit::default()) {
@@ -250,6 +257,7 @@ impl Loaded {
             shown_lights: lights.clone(),
             lights,
             exponents,
+            samples: scene.samples,
             size: [scene.width, scene.height],
             exponent: 0.0,
         })

@@ -35,11 +35,12 @@ class LiveScene {
 		return live;
 	}
 
-	/* Looks from elsewhere. Against naive Phong while something moves: the reference takes longer. */
+	/* Looks from elsewhere. While something moves, pixels have one sample, and errors are from naive Phong: the reference
+	   takes longer. */
 	look(view, moves) {
 		this.view = view;
 		this.exact = moves && this.list.includes(BASE) ? BASE : "reference";
-		this.studio.frame(this.w, this.h, view);
+		this.studio.frame(this.w, this.h, view, moves ? 1 : 0);
 		this.studio.draw(this.exact, 1);
 		this.rows = {};
 		this.drawn = {};
@@ -82,12 +83,14 @@ class LiveScene {
 	}
 }
 
-/* A mesh file of the reader's as a scene. */
-async function ownScene(file, s) {
-	if (!/\.obj$/i.test(file.name)) throw Error(`${file.name}: expected a mesh file that ends in .obj`);
-	if (file.size > 5e7) throw Error(`${file.name}: over 50 MB`);
-	const bytes = new Uint8Array(await file.arrayBuffer());
-	const own = { scene: file.name, files: [[file.name, bytes]] };
-	const list = IDS.filter(m => S[SCENES[0].id].list.includes(m));
-	return { id: "own", title: file.name, w: s.w, h: s.h, encoding: "linear", list, rows: {}, own };
+/* A mesh file of the reader's as a scene, with the material libraries that come with it. */
+async function ownScene(list, s) {
+	const file = list.find(f => /\.obj$/i.test(f.name));
+	if (!file) throw Error(`${list[0].name}: expected a mesh file that ends in .obj`);
+	if (sum(list.map(f => f.size)) > 5e7) throw Error(`${file.name}: over 50 MB`);
+	const read = async f => [f.name, new Uint8Array(await f.arrayBuffer())];
+	const own = { scene: file.name, files: await Promise.all(list.map(read)) };
+	const { w, h } = s;
+	const methods = IDS.filter(m => SCENES[0].list.includes(m));
+	return { id: "own", title: file.name, w, h, encoding: "linear", list: methods, rows: {}, own };
 }

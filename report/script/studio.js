@@ -69,10 +69,12 @@ class Studio {
 		return [...this.at(Float64Array, this.exports.light(), 3)];
 	}
 
-	/* Makes the frame of a view. */
-	frame(w, h, { azimuth, elevation, size, light, exponent }) {
+	/* Makes the frame of a view, with the samples of the scene if none are given. */
+	frame(w, h, { azimuth, elevation, size, light, exponent }, samples = 0) {
 		const [x, y, z] = light ?? [0, 0, 0];
-		this.ask(this.exports.frame(w, h, azimuth, elevation, size, x, y, z, exponent));
+		this.ask(
+			this.exports.frame(w, h, azimuth, elevation, size, x, y, z, exponent, samples),
+		);
 	}
 
 	/* The scene as it is looked at, as a file. */

@@ -358,14 +358,14 @@ class Hand {
 	/* A mesh file that is dropped on the stage. */
 	async drop(e) {
 		e.preventDefault();
-		const file = e.dataTransfer?.files[0];
-		if (!file || !CAN_DRAW) return;
+		const files = [...(e.dataTransfer?.files ?? [])];
+		if (!files.length || !CAN_DRAW) return;
 		const before = this.v.scene;
 		try {
-			const s = await ownScene(file, before.own ? SCENES[0] : before);
+			const s = await ownScene(files, before.own ? SCENES[0] : before);
 			const live = await LiveScene.make(s);
 			await this.v.set({ scene: s, view: STILL, pin: null, live });
-			toast(`${file.name}: ${plural(live.polygons, "polygon")}`);
+			toast(`${s.title}: ${plural(live.polygons, "polygon")}`);
 		} catch (error) {
 			toast(error.message.split("\n")[0]);
 		}

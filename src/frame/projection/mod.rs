@@ -134,6 +134,11 @@ impl PreparedScene {
         (self.settings.width, self.settings.height) = (width, height);
     }
 
+    /// Sets the samples per pixel along each side, as [`Scene::samples`].
+    pub fn set_samples(&mut self, samples: u32) {
+        self.settings.samples = samples;
+    }
+
     /// Sets the lights.
     pub fn set_lights(&mut self, lights: Vec<Light>) {
         self.settings.lights = lights;
