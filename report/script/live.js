@@ -68,7 +68,8 @@ class LiveScene {
 
 	/* The mean of the faster half of the latest drawings. */
 	time(m, ms) {
-		const all = (this.times[this.variant(m)] ??= []);
+		// Moving and at rest pixels have other samples.
+		const all = (this.times[`${this.variant(m)} ${this.exact}`] ??= []);
 		all.push(ms);
 		if (all.length > SAMPLES + WARM_UP) all.splice(WARM_UP, 1);
 		const fast = all.slice(WARM_UP).sort((a, b) => a - b);

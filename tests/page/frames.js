@@ -15,7 +15,7 @@
       if (n >= 20) times.push(now - before);
       before = now;
     }
-    const drawn = Object.entries(v1.hand.live.times).map(([m, all]) => [m, all.slice(2).sort((a, b) => a - b)[all.length - 2 >> 1]]);
+    const drawn = Object.entries(v1.hand.live.times).filter(([m]) => m.includes(" naive")).map(([m, all]) => [m, all.slice(2).sort((a, b) => a - b)[all.length - 2 >> 1]]);
     times.sort((a, b) => a - b);
     console.log(`FRAMES ${s.id}, ${v1.hand.live.polygons} polygons, ${s.w} x ${s.h}, ${mode}: median ${(1000 / times[times.length >> 1]).toFixed(0)} frames a second, 95 % within ${times[Math.floor(.95 * times.length)].toFixed(1)} ms; ${drawn.map(([m, ms]) => `${m} ${ms?.toFixed(2)} ms`).join(", ")}`);
     await wait(600);
