@@ -49,6 +49,29 @@ function drawPlots(f) {
 	}
 }
 
+/* Puts into an element what a figure shows first, its first pictures and its first plot, and a link to the whole. */
+function figureInto(el, f) {
+	const files = figurePictures(f);
+	const { pictures } = f.blocks.find(b => b.pictures) ?? {};
+	const { plot: p } = f.blocks.find(b => b.plot) ?? {};
+	const picture = ({ alt, caption }, i) => html`
+		<figure><img src="${files[i]}" alt="${alt}"><figcaption>${caption}</figcaption></figure>`;
+	const shown = pictures && html`
+		<div class="shown" style="--columns:${clamp(pictures.columns, 1, 6)}">
+			${pictures.shown.map(picture)}
+		</div>`;
+	const curves = p && html`
+		<figure class="plot">
+			<p><b>${p.title}</b></p>
+			<div class="chartbox">${plot(p, widthOf(el) || 460, 300)}</div>
+			${legend(p.series)}
+			<figcaption>${p.caption}</figcaption>
+		</figure>`;
+	el.innerHTML = html`
+		${shown}${curves}
+		<a class="more" href="#lectures/${f.name}">The whole figure: ${f.title}</a>`;
+}
+
 /* A figure's first pictures, or its first plot. */
 function preview(f) {
 	const first = f.blocks.find(b => b.plot)?.plot;

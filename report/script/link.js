@@ -78,7 +78,7 @@ function route(e) {
 	VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
 	const target = e && document.getElementById("m-" + parts[0]);
 	if (target) target.scrollIntoView();
-	else if (changed || (e && name === "lectures")) scrollTo(0, 0);
+	else if (changed || (e && ["lectures", "course"].includes(name))) scrollTo(0, 0);
 	restoring = false;
 	fadeEnds();
 	const title = name === "overview" ? "" : link.textContent + " · ";

@@ -2,13 +2,14 @@
    section and a link of the template, and a name in both lists here. */
 
 /* Functions that draw a view, given the parts of its address, in the order of the navigation. */
-const VIEWS = { overview, scenes, methods, speed, lectures, measured };
+const VIEWS = { overview, scenes, methods, speed, lectures, course, measured };
 
 /* Parts of the page that have something to show. */
 const FILLED = {
 	scenes: SCENES.length,
 	methods: IDS.length,
 	lectures: FIGURES.length,
+	course: CHAPTERS.length,
 	findings: FINDINGS.length,
 	overview: SCENES.length || FIGURES.length > 1,
 	speed: STUDY || D.scaling || D.small || DOCS.length > 1,

@@ -25,6 +25,7 @@
 //! ```
 
 mod answer;
+mod course;
 mod date;
 mod document;
 mod live;

@@ -2,7 +2,7 @@
 
 use super::document::{list, number, text};
 use super::pictures::data_uri;
-use super::{Report, answer, live, tables};
+use super::{Report, answer, course, live, tables};
 use crate::compare::table::{Table, html_text};
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -27,6 +27,7 @@ const SCRIPT: &str = script!(
     "formulas" "methods"
     "corners" "growth" "small" "beside" "speed"
     "figure" "lectures"
+    "course"
     "measured"
     // All views.
     "views" "link" "keys" "page"
@@ -49,6 +50,7 @@ pub(super) fn page(report: &Report) -> String {
             answer::html(&answer::remarks(data)) + &html_text(&report.limits()),
         ),
         ("static", readable(report)),
+        ("course", course::html(data)),
         ("made", html_text(&made(data))),
         ("data", script_text(&json(report))),
         ("pictures", pictures(report)),

@@ -1,0 +1,38 @@
+/* View: course. Chapters that Rust made of docs/course, with figures and findings put in. */
+
+const CHAPTERS = $$("#course article");
+
+/* A finding: what follows from it, and the value. */
+function findingInto(el, { agreement, verdict, label, ...measured }) {
+	el.classList.add(agreement);
+	el.innerHTML = html`
+		<p>${chip(agreement, agreement)} ${verdict}</p>
+		<p class="sub">${label}: <b>${findingValue(measured)}</b></p>`;
+}
+
+/* Fills the places of a chapter, again when its width has changed. */
+function fillChapter(chapter) {
+	const width = String(widthOf(chapter));
+	if (chapter.dataset.width === width) return;
+	chapter.dataset.width = width;
+	for (const el of $$("[data-figure]", chapter)) {
+		const f = FIGURES.find(q => q.name === el.dataset.figure);
+		const finding = f.findings.find(x => x.key === el.dataset.finding);
+		if (finding) findingInto(el, finding);
+		else figureInto(el, f);
+	}
+}
+
+/* #course, #course/4.1 */
+function course([part]) {
+	const shown = CHAPTERS.find(c => c.dataset.part === part) ?? CHAPTERS[0];
+	CHAPTERS.forEach(c => c.classList.toggle("on", c === shown));
+	$$("#course .list a").forEach(a => {
+		a.ariaCurrent = a.hash === `#course/${shown.dataset.part}` ? "true" : null;
+	});
+	fillChapter(shown);
+	reveal($("#course [aria-current]"));
+}
+
+/* On paper are all chapters. */
+addEventListener("beforeprint", () => CHAPTERS.forEach(fillChapter));
