@@ -82,9 +82,9 @@ fn named(line: &str) -> Option<[&str; 2]> {
 fn place([figure, finding]: [&str; 2]) -> String {
     match finding {
         "" => format!("<div class=\"live\" data-figure=\"{figure}\"></div>\n"),
-        key => format!(
-            "<div class=\"found\" data-figure=\"{figure}\" data-finding=\"{key}\"></div>\n"
-        ),
+        key => {
+            format!("<div class=\"found\" data-figure=\"{figure}\" data-finding=\"{key}\"></div>\n")
+        }
     }
 }
 
@@ -190,11 +190,15 @@ mod tests {
             assert_eq!(places("live"), 1, "{}", chapter.file);
             assert_eq!(places("found"), comments.len() - 1, "{}", chapter.file);
             // Neither comments nor pictures nor paragraphs of values are left, and links stay in the page.
-            for gone in ["<!--", "<img", "href=\"1", "href=\"2", "href=\"3", "href=\"4", "href=\"5"] {
+            for gone in [
+                "<!--", "<img", "href=\"1", "href=\"2", "href=\"3", "href=\"4", "href=\"5",
+            ] {
                 assert!(!html.contains(gone), "{}: {gone}", chapter.file);
             }
         }
-        let links = CHAPTERS.iter().map(|c| format!("href=\"#course/{}\"", c.section));
+        let links = CHAPTERS
+            .iter()
+            .map(|c| format!("href=\"#course/{}\"", c.section));
         for link in links {
             // In the list, and in the chapter before or after.
             assert!(page.matches(&link).count() >= 2, "{link}");

@@ -1,5 +1,6 @@
 //! Compares the documents with the code.
 
+mod course;
 #[cfg(feature = "cli")]
 mod flags;
 mod lectures;
