@@ -2,12 +2,13 @@
 
 const CHAPTERS = $$("#course article");
 
-/* A finding: what follows from it, and the value. */
+/* A finding: the value, and what follows from it. */
 function findingInto(el, { agreement, verdict, label, ...measured }) {
+	const what = label.replace(/^[a-z]/, letter => letter.toUpperCase());
 	el.classList.add(agreement);
 	el.innerHTML = html`
-		<p>${chip(agreement, agreement)} ${verdict}</p>
-		<p class="sub">${label}: <b>${findingValue(measured)}</b></p>`;
+		<p>${what}: <b>${findingValue(measured)}</b></p>
+		<p class="sub">${chip(agreement, agreement)} ${verdict}</p>`;
 }
 
 /* Fills the places of a chapter, again when its width has changed. */

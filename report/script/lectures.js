@@ -49,27 +49,34 @@ function drawPlots(f) {
 	}
 }
 
-/* Puts into an element what a figure shows first, its first pictures and its first plot, and a link to the whole. */
+/* Puts into an element the pictures and plots that a figure shows first, and a link to all of it. */
 function figureInto(el, f) {
-	const files = figurePictures(f);
-	const { pictures } = f.blocks.find(b => b.pictures) ?? {};
-	const { plot: p } = f.blocks.find(b => b.plot) ?? {};
-	const picture = ({ alt, caption }, i) => html`
-		<figure><img src="${files[i]}" alt="${alt}"><figcaption>${caption}</figcaption></figure>`;
-	const shown = pictures && html`
-		<div class="shown" style="--columns:${clamp(pictures.columns, 1, 6)}">
-			${pictures.shown.map(picture)}
-		</div>`;
-	const curves = p && html`
-		<figure class="plot">
-			<p><b>${p.title}</b></p>
-			<div class="chartbox">${plot(p, widthOf(el) || 460, 300)}</div>
-			${legend(p.series)}
+	const isSeen = b => b.pictures ?? b.plot;
+	const from = f.blocks.findIndex(isSeen);
+	const end = f.blocks.findIndex((b, i) => i > from && b.text);
+	const blocks = f.blocks.slice(from, end < 0 ? undefined : end).filter(isSeen);
+	const files = [...figurePictures(f)];
+	const picture = p => html`
+		<figure>
+			<img src="${files.shift()}" alt="${p.alt}">
 			<figcaption>${p.caption}</figcaption>
 		</figure>`;
+	const row = ({ columns, shown }) => html`
+		<div class="shown" style="--columns:${clamp(columns, 1, 6)}">${shown.map(picture)}</div>`;
 	el.innerHTML = html`
-		${shown}${curves}
+		<div class="fig">
+			${blocks.map(b => (b.pictures ? row(b.pictures) : html`<figure class="plot"></figure>`))}
+		</div>
 		<a class="more" href="#lectures/${f.name}">The whole figure: ${f.title}</a>`;
+	const plots = blocks.flatMap(b => b.plot ?? []);
+	$$(".plot", el).forEach((box, i) => {
+		const p = plots[i];
+		box.innerHTML = html`
+			<b>${p.title}</b>
+			<div class="chartbox">${plot(p, widthOf(box) || 460, 300)}</div>
+			${legend(p.series)}
+			<figcaption>${p.caption}</figcaption>`;
+	});
 }
 
 /* A figure's first pictures, or its first plot. */

@@ -349,6 +349,38 @@
       }
       for (const f of FIGURES) { await visit("lectures/" + f.name); check(`figure ${f.name}`, document.querySelector(".fig h2")?.textContent === f.title && document.querySelectorAll(".findings tbody tr").length === f.findings.length); labels(f.name); if (f === FIGURES[0] || f.name === "slerp") accessible(f.name); }
     }
+    if (CHAPTERS.length) {
+      check("course: eight chapters, in the list too", CHAPTERS.length === 8 && document.querySelectorAll("#course .list a").length === 8);
+      for (const c of CHAPTERS) {
+        const { part } = c.dataset, where = `course ${part}`;
+        await visit("course/" + part);
+        check(`${where}: it is shown alone`, [...document.querySelectorAll("#course article")].filter(seen).join() === [c].join() && seen(c));
+        check(`${where}: it is marked in the list`, document.querySelector("#course .list [aria-current]")?.getAttribute("href") === "#course/" + part);
+        check(`${where}: its figure`, seen(c.querySelector(".live :is(img, svg, canvas)")) && c.querySelector(".live a")?.getAttribute("href") === "#lectures/" + c.querySelector(".live").dataset.figure);
+        for (const el of c.querySelectorAll(".found")) {
+          const { figure, finding } = el.dataset, x = FIGURES.find(f => f.name === figure)?.findings.find(q => q.key === finding);
+          check(`${where}: ${figure} ${finding}`, el.querySelector(".chip." + x?.agreement) && el.textContent.includes(x.verdict) && el.querySelector("b").innerHTML === String(findingValue(x)));
+        }
+        const answer = c.querySelector("details"), inside = answer.querySelector(":scope > :not(summary)");
+        check(`${where}: the answer is folded`, !seen(inside));
+        answer.querySelector("summary").click();
+        check(`${where}: the answer unfolds`, seen(inside));
+        labels(where);
+        if (part === "1" || part === "4.3") accessible(where);
+        const text = [...c.querySelectorAll(":scope > p")].map(p => p.getBoundingClientRect().width / parseFloat(getComputedStyle(p).fontSize));
+        check(`${where}: lines of ${Math.max(...text)} em`, Math.max(...text) < 40);
+        answer.open = false;
+      }
+      await visit("course");
+      check("course: it starts with the first chapter", seen(CHAPTERS[0]));
+      for (const [i, c] of CHAPTERS.entries()) {
+        if (i) await until(`course: a link leads to chapter ${c.dataset.part}`, () => location.hash === "#course/" + c.dataset.part && seen(c) && scrollY === 0);
+        const links = [...c.querySelectorAll(":scope > :last-child a")];
+        check(`course ${c.dataset.part}: its links`, links.length === (i > 0) + (i < 7));
+        scrollTo(0, 400);
+        links.at(-1).click();
+      }
+    }
     await visit("measured");
     check("measured: the processor is named", document.querySelector("#machine").textContent.includes(D.machine.cpu));
     labels("measured");
@@ -359,6 +391,7 @@
     document.getElementById("keys").close();
     dispatchEvent(new Event("beforeprint"));
     check("print: the views that show something", [...document.querySelectorAll(".view")].every(s => s.classList.contains("on") === !!FILLED[s.id]));
+    check("print: all chapters have their figures", [...document.querySelectorAll("#course :is(.live, .found)")].every(el => el.children.length));
     dispatchEvent(new Event("afterprint"));
   } catch (e) { failed.push("stopped: " + e.stack); }
   await wait(300);
