@@ -356,7 +356,7 @@
         await visit("course/" + part);
         check(`${where}: it is shown alone`, [...document.querySelectorAll("#course article")].filter(seen).join() === [c].join() && seen(c));
         check(`${where}: it is marked in the list`, document.querySelector("#course .list [aria-current]")?.getAttribute("href") === "#course/" + part);
-        check(`${where}: its figure`, seen(c.querySelector(".live :is(img, svg, canvas)")) && c.querySelector(".live a")?.getAttribute("href") === "#lectures/" + c.querySelector(".live").dataset.figure);
+        check(`${where}: its figure`, [...c.querySelectorAll(".live :is(img, svg, canvas)")].some(seen) && c.querySelector(".live a")?.getAttribute("href") === "#lectures/" + c.querySelector(".live").dataset.figure);
         for (const el of c.querySelectorAll(".found")) {
           const { figure, finding } = el.dataset, x = FIGURES.find(f => f.name === figure)?.findings.find(q => q.key === finding);
           check(`${where}: ${figure} ${finding}`, el.querySelector(".chip." + x?.agreement) && el.textContent.includes(x.verdict) && el.querySelector("b").innerHTML === String(findingValue(x)));
