@@ -11,29 +11,36 @@ function findingInto(el, { agreement, verdict, label, ...measured }) {
 		<p class="sub">${chip(agreement, agreement)} ${verdict}</p>`;
 }
 
-/* Fills the places of a chapter, again when its width has changed. */
-function fillChapter(chapter) {
-	const width = String(widthOf(chapter));
-	if (chapter.dataset.width === width) return;
-	chapter.dataset.width = width;
+/* Fills the places of a chapter, unless they are as its width and the address ask for. On paper figures have no handles. */
+function fillChapter(chapter, query) {
+	const asked = () => `${widthOf(chapter)} ${location.hash}`;
+	const filled = () => {
+		chapter.dataset.filled = asked();
+	};
+	if (chapter.dataset.filled === asked()) return;
 	for (const el of $$("[data-figure]", chapter)) {
 		const f = FIGURES.find(q => q.name === el.dataset.figure);
 		const finding = f.findings.find(x => x.key === el.dataset.finding);
 		if (finding) findingInto(el, finding);
-		else figureInto(el, f);
+		else
+			figureInto(el, f, query, moved => {
+				rememberFigure(moved);
+				filled();
+			});
 	}
+	filled();
 }
 
-/* #course, #course/4.1 */
-function course([part]) {
+/* #course, #course/4.1, #course/4.2?angle=95 */
+function course([part], query) {
 	const shown = CHAPTERS.find(c => c.dataset.part === part) ?? CHAPTERS[0];
 	CHAPTERS.forEach(c => c.classList.toggle("on", c === shown));
 	$$("#course .list a").forEach(a => {
 		a.ariaCurrent = a.hash === `#course/${shown.dataset.part}` ? "true" : null;
 	});
-	fillChapter(shown);
+	fillChapter(shown, query);
 	reveal($("#course [aria-current]"));
 }
 
 /* On paper are all chapters. */
-addEventListener("beforeprint", () => CHAPTERS.forEach(fillChapter));
+addEventListener("beforeprint", () => CHAPTERS.forEach(c => fillChapter(c)));

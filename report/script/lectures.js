@@ -49,8 +49,9 @@ function drawPlots(f) {
 	}
 }
 
-/* Puts into an element the pictures and plots that a figure shows first, and a link to all of it. */
-function figureInto(el, f) {
+/* Puts a figure into an element: with handles if an address is given and it can be drawn here, else the pictures and plots
+   that it shows first. A link leads to all of it. */
+function figureInto(el, f, query, remember) {
 	const isSeen = b => b.pictures ?? b.plot;
 	const from = f.blocks.findIndex(isSeen);
 	const end = f.blocks.findIndex((b, i) => i > from && b.text);
@@ -64,12 +65,15 @@ function figureInto(el, f) {
 	const row = ({ columns, shown }) => html`
 		<div class="shown" style="--columns:${clamp(columns, 1, 6)}">${shown.map(picture)}</div>`;
 	el.innerHTML = html`
-		<div class="fig">
-			${blocks.map(b => (b.pictures ? row(b.pictures) : html`<figure class="plot"></figure>`))}
-		</div>
+		<div></div>
 		<a class="more" href="#lectures/${f.name}">The whole figure: ${f.title}</a>`;
+	const [body] = el.children;
+	if (query && handlesInto(body, f, query, remember)) return;
+	body.className = "fig";
+	body.innerHTML = html`
+		${blocks.map(b => (b.pictures ? row(b.pictures) : html`<figure class="plot"></figure>`))}`;
 	const plots = blocks.flatMap(b => b.plot ?? []);
-	$$(".plot", el).forEach((box, i) => {
+	$$(".plot", body).forEach((box, i) => {
 		const p = plots[i];
 		box.innerHTML = html`
 			<b>${p.title}</b>
