@@ -356,7 +356,8 @@
         await visit("course/" + part);
         check(`${where}: it is shown alone`, [...document.querySelectorAll("#course article")].filter(seen).join() === [c].join() && seen(c));
         check(`${where}: it is marked in the list`, document.querySelector("#course .list [aria-current]")?.getAttribute("href") === "#course/" + part);
-        check(`${where}: its figure`, [...c.querySelectorAll(".live :is(img, svg, canvas)")].some(seen) && c.querySelector(".live a")?.getAttribute("href") === "#lectures/" + c.querySelector(".live").dataset.figure);
+        await until(`${where}: its figure is drawn`, () => [...c.querySelectorAll(".live :is(img, .chartbox svg, canvas)")].some(seen));
+        check(`${where}: a link to its figure`, c.querySelector(".live a")?.getAttribute("href") === "#lectures/" + c.querySelector(".live").dataset.figure);
         for (const el of c.querySelectorAll(".found")) {
           const { figure, finding } = el.dataset, x = FIGURES.find(f => f.name === figure)?.findings.find(q => q.key === finding);
           check(`${where}: ${figure} ${finding}`, el.querySelector(".chip." + x?.agreement) && el.textContent.includes(x.verdict) && el.querySelector("b").innerHTML === String(findingValue(x)));
@@ -370,6 +371,20 @@
         const text = [...c.querySelectorAll(":scope > p")].map(p => p.getBoundingClientRect().width / parseFloat(getComputedStyle(p).fontSize));
         check(`${where}: lines of ${Math.max(...text)} em`, Math.max(...text) < 40);
         answer.open = false;
+      }
+      const newton = document.querySelector('#course [data-part="4.2"]'), said = kind => newton.querySelector(".verdicts .chip")?.matches("." + kind);
+      await visit("course/4.2?angle=95");
+      if (newton.querySelector(".handles")) {
+        await until("course 4.2: one step is not enough at 95°", () => said("contradicts"));
+        const angle = newton.querySelector("[data-handle]");
+        angle.value = 90;
+        angle.dispatchEvent(new Event("input", { bubbles: true }));
+        await until("course 4.2: it is at 90°, and the address says so", () => said("confirms") && location.hash === "#course/4.2?angle=90");
+        dispatchEvent(new Event("resize"));
+        await wait(200);
+        check("course 4.2: what was moved stays", newton.querySelector("[data-handle]") === angle);
+        location.hash = "course/4.2";
+        await until("course 4.2: its link restores it", () => newton.querySelector("[data-handle]").value === "60");
       }
       await visit("course");
       check("course: it starts with the first chapter", seen(CHAPTERS[0]));
