@@ -4,10 +4,9 @@ const CHAPTERS = $$("#course article");
 
 /* A finding: the value, and what follows from it. */
 function findingInto(el, { agreement, verdict, label, ...measured }) {
-	const what = label.replace(/^[a-z]/, letter => letter.toUpperCase());
 	el.classList.add(agreement);
 	el.innerHTML = html`
-		<p>${what}: <b>${findingValue(measured)}</b></p>
+		<p>${sentence(label)}: <b>${findingValue(measured)}</b></p>
 		<p class="sub">${chip(agreement, agreement)} ${verdict}</p>`;
 }
 
