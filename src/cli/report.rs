@@ -251,7 +251,8 @@ impl ReportArgs {
         let pictures = pictures.map_err(|error| format!("{name}: {error}"))?;
         let is_small = frame.polygons().len() <= MOST_POLYGONS;
         let files = is_small.then(|| files::of_scene(&file)).flatten();
-        let pictures = pictures.with_live(files.and_then(|files| live_scene(&file, &files)));
+        let pictures =
+            pictures.with_live(files.and_then(|files| live_scene(&file.to_toml(), &files)));
         comparison.drop_pictures();
         Ok((frame, comparison, pictures))
     }

@@ -1,6 +1,5 @@
 //! What the page needs to draw a scene itself: the module, and the scene with its files.
 
-use crate::scene::file::SceneFile;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use base64::Engine;
@@ -19,9 +18,9 @@ pub const MOST_POLYGONS: usize = 150_000;
 /// The most bytes of a scene's files in the page, packed.
 const MOST_PACKED: usize = 300_000;
 
-/// A scene that the page can draw, as JSON: `scene`, its text, and `files`, names and packed contents. `None` if its files are too
+/// A scene that the page can draw, as JSON: `scene`, its text as TOML, and `files`, names and packed contents. `None` if its files are too
 /// large to travel in the page. `files` are named as the scene asks for them.
-pub fn live_scene(scene: &SceneFile, files: &[(String, Vec<u8>)]) -> Option<String> {
+pub fn live_scene(scene: &str, files: &[(String, Vec<u8>)]) -> Option<String> {
     // Text that packs to a tenth at best is not packed in vain.
     let bytes: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
     if bytes > 10 * MOST_PACKED {
@@ -30,7 +29,7 @@ pub fn live_scene(scene: &SceneFile, files: &[(String, Vec<u8>)]) -> Option<Stri
     let packed = files.iter().map(|(name, bytes)| (name, packed(bytes)));
     let packed: Vec<(&String, String)> = packed.collect();
     let size: usize = packed.iter().map(|(_, text)| text.len()).sum();
-    (size <= MOST_PACKED).then(|| json!({ "scene": scene.to_toml(), "files": packed }).to_string())
+    (size <= MOST_PACKED).then(|| json!({ "scene": scene, "files": packed }).to_string())
 }
 
 /// Returns the module as the page unpacks it, as JSON.
