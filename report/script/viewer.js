@@ -97,7 +97,10 @@ class Viewer {
 		this.hand.controls();
 		this.change?.(this, change);
 		const isLive = !isStill(this.view) || s.own;
-		if (isLive && (await this.hand.ready()) && looks) await this.hand.rest();
+		const isReady = isLive && (await this.hand.ready());
+		// What cannot be drawn here is shown as it is stored.
+		if (!isReady) this.view = STILL;
+		if (isReady && looks) await this.hand.rest();
 		else await this.present();
 	}
 

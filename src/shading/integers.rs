@@ -357,11 +357,11 @@ pub(super) fn shade_run<T: Copy>(
         };
         let end = at(first + inner);
         let (inner, last) = line.split_at_mut(inner);
-        if !inner.is_empty() {
-            draw(inner, at(first), end);
-        }
-        if !last.is_empty() {
-            draw(last, end, end);
+        // In a loop, so that what it calls is compiled once.
+        for (pixels, from) in [(inner, at(first)), (last, end)] {
+            if !pixels.is_empty() {
+                draw(pixels, from, end);
+            }
         }
         let shown = &line[pixel - first..];
         for (to, Rgb888(levels)) in out[done..].iter_mut().zip(shown) {
