@@ -49,7 +49,7 @@ function rowOf(
 }
 
 /* The scenes by their part of an address, and in the order of the document. */
-const S = {};
+const S = Object.create(null);
 
 const SCENES = (D.comparisons ?? []).map((c, number) => {
 	const plain = c.name.replace(/[^A-Za-z0-9]+/g, "-").replace(/^-|-$/g, "");

@@ -4,10 +4,20 @@
 let view = "";
 let restoring = true;
 
-/* Goes to an address. */
+/* Goes to an address, also to the one that is there: a mesh of the reader's own may be shown instead. */
 function go(hash) {
 	clearTimeout(timers.remember);
-	location.hash = hash;
+	if (location.hash === "#" + hash) route();
+	else location.hash = hash;
+}
+
+/* A part of an address, as it is if it cannot be decoded. */
+function decoded(part) {
+	try {
+		return decodeURIComponent(part);
+	} catch {
+		return part;
+	}
 }
 
 /* Reads a viewer's state from an address. */
@@ -35,38 +45,41 @@ function fromRoute(query, v) {
 	return state;
 }
 
+/* Has the address name what a viewer shows. */
+function keepAddress(v) {
+	const own = v === v1 ? "overview" : "scenes";
+	const { scene: s, pin } = v;
+	if (view !== own || s.own) return;
+	const zoom = pin && v.z > 1 ? v.z.toFixed(1) : null;
+	const state = {
+		scene: v === v1 && s !== SCENES[0] ? s.id : null,
+		left: v.a,
+		right: v.b,
+		mode: v.mode === "slide" ? null : v.mode,
+		scale: v.top || null,
+		x: pin?.[0],
+		y: pin?.[1],
+		zoom,
+		row: v.line,
+		...viewQuery(v.view),
+	};
+	const given = Object.entries(state).filter(([, value]) => value != null);
+	const path = v === v1 ? own : `scenes/${s.id}`;
+	history.replaceState(null, "", `#${path}?${new URLSearchParams(given)}`);
+}
+
 /* Keeps the address in step with a viewer. */
 function remember(v) {
-	if (restoring) return;
-	delay("remember", 60, () => {
-		const own = v === v1 ? "overview" : "scenes";
-		const { scene: s, pin } = v;
-		if (view !== own || s.own) return;
-		const zoom = pin && v.z > 1 ? v.z.toFixed(1) : null;
-		const state = {
-			scene: v === v1 && s !== SCENES[0] ? s.id : null,
-			left: v.a,
-			right: v.b,
-			mode: v.mode === "slide" ? null : v.mode,
-			scale: v.top || null,
-			x: pin?.[0],
-			y: pin?.[1],
-			zoom,
-			row: v.line,
-			...viewQuery(v.view),
-		};
-		const given = Object.entries(state).filter(([, value]) => value != null);
-		const path = v === v1 ? own : `scenes/${s.id}`;
-		history.replaceState(null, "", `#${path}?${new URLSearchParams(given)}`);
-	});
+	if (!restoring) delay("remember", 60, () => keepAddress(v));
 }
 
 /* Shows the view that the address names, or the first that has something to show. */
 function route(e) {
 	clearTimeout(timers.remember);
 	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?");
-	const [asked, ...parts] = path.split("/").map(decodeURIComponent);
-	const name = VIEWS[asked] && FILLED[asked] ? asked : FILLED.overview ? "overview" : "lectures";
+	const [asked, ...parts] = path.split("/").map(decoded);
+	const isView = Object.hasOwn(VIEWS, asked) && FILLED[asked];
+	const name = isView ? asked : FILLED.overview ? "overview" : "lectures";
 	const changed = name !== view;
 	view = name;
 	restoring = true;
@@ -89,6 +102,13 @@ addEventListener("hashchange", route);
 /* The viewer that is seen. */
 const seenViewer = () => (view === "overview" ? v1 : view === "scenes" ? v2 : null);
 
-// A mesh of the reader's own stands in no address: it stays.
-const resized = () => (seenViewer()?.scene.own ? seenViewer().draw() : route());
+/* Shows all as wide as the window is now. The address has neither a mesh of the reader's own nor what still moves. */
+function resized() {
+	const v = seenViewer();
+	if (v?.hand.moves) return delay("resize", 120, resized);
+	if (v?.scene.own) return v.draw();
+	if (v?.hand.live) keepAddress(v);
+	route();
+}
+
 addEventListener("resize", () => delay("resize", 120, resized));

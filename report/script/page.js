@@ -13,6 +13,8 @@ $$("[data-if]").forEach(el => {
 });
 
 addEventListener("beforeprint", () => {
+	// Until the address is read again, it stays as it is.
+	restoring = true;
 	$$(".view").forEach(s => s.classList.toggle("on", !!FILLED[s.id]));
 	for (const name in VIEWS) if (FILLED[name]) VIEWS[name]([], new URLSearchParams());
 });
