@@ -7,7 +7,10 @@ let v2;
 const openScene = s =>
 	go(`scenes/${s.id}?left=${v2.a}&right=${v2.b}${v2.mode === "slide" ? "" : `&mode=${v2.mode}`}`);
 
-const stepScene = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % SCENES.length]);
+const stepScene = d => {
+	const { number = 0 } = v2.scene;
+	openScene(SCENES[(number + d + SCENES.length) % SCENES.length]);
+};
 
 /* Makes the viewer and the controls. */
 function startScenes(s) {
@@ -23,6 +26,7 @@ function startScenes(s) {
 	onChoose(rail, id => openScene(S[id]));
 	const change = (v, changed) => {
 		if (!changed.moved && !changed.round) {
+			sceneHead(v.scene);
 			probe(v);
 			sceneTable();
 			if (!("pin" in changed)) rowPlot(v);
@@ -49,17 +53,22 @@ function startScenes(s) {
 	onChoose($("#table"), chooseInTable);
 }
 
+/* Says what the scene is. */
+function sceneHead(s) {
+	write({
+		"t-scenes": s.title,
+		"scene-about": (s.description || "").replace(/\s+/g, " "),
+		"scene-facts": sceneFacts(s).filter(Boolean).join(" · "),
+	});
+	$(".tablebox").hidden = !!s.own;
+}
+
 /* #scenes/SCENE */
 function scenes([id], query) {
 	const s = S[id] ?? v2?.scene ?? SCENES[0];
 	const rail = $("#rail");
 	if (!v2) startScenes(s);
 	if (v2.scene !== s) Object.assign(v2, { pin: null, hover: null, z: 1, cx: 0.5, cy: 0.5 });
-	write({
-		"t-scenes": s.title,
-		"scene-about": (s.description || "").replace(/\s+/g, " "),
-		"scene-facts": sceneFacts(s).filter(Boolean).join(" · "),
-	});
 	const held = rail.contains(document.activeElement);
 	for (const b of $$("button", rail)) {
 		const on = b.dataset.key === s.id;
