@@ -65,5 +65,8 @@ const slider = ({ key, label, title, min, max, step = 1, value, text }) =>
 			<input type="range" data-handle="${key}" min="${min}" max="${max}" step="${step}" value="${value}">
 		</label>`;
 
+/* Which way arrow keys lead: to the right, downward. */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
 /* Scrolls a chosen entry into sight. */
 const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });

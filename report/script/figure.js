@@ -19,7 +19,8 @@ const verdictLine = x => html`
 		<span>${sentence(x.label)}: <b>${findingValue(x)}</b>. ${x.verdict}</span>
 	</p>`;
 
-/* Puts a figure that follows the hand into an element; `remember` is told the values at rest. False if it cannot be drawn here. */
+/* Puts a figure that follows the hand into an element; `remember` is told the values at rest. False if it cannot be drawn
+   here. */
 function handlesInto(el, f, query, remember) {
 	if (!CAN_DRAW || !f.live) return false;
 	const { claim, handles } = f.live;
@@ -179,13 +180,12 @@ function dragPoints(pad, to, of) {
 		held = null;
 	};
 	pad.onkeydown = e => {
-		const [dx, dy] =
-			{ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key] ?? [];
+		const [dx, dy] = ARROWS[e.key] ?? [];
 		if (dx == null) return;
 		e.preventDefault();
 		e.stopPropagation();
 		const i = +e.target.dataset.point;
 		const [x, y] = of(i);
-		to(i, x + dx / 16, y + dy / 16);
+		to(i, x + dx / 16, y - dy / 16);
 	};
 }

@@ -13,14 +13,20 @@ function chips(f, named) {
 /* The title of a figure, in short. */
 const topic = f => f.title.split(":")[0];
 
-/* The blocks of a figure. */
-function figureBody(f) {
+/* A function that writes pictures of a figure, each time the next one, in rows as its blocks have them. */
+function pictureRows(f) {
 	const files = [...figurePictures(f)];
 	const picture = p => html`
 		<figure>
 			<img src="${files.shift()}" alt="${p.alt}">
 			<figcaption>${p.caption}</figcaption>
 		</figure>`;
+	return ({ columns, shown }) => html`
+		<div class="shown" style="--columns:${clamp(columns, 1, 6)}">${shown.map(picture)}</div>`;
+}
+
+/* The blocks of a figure. */
+function figureBody(f) {
 	const show = {
 		text: b => html`<p>${b}</p>`,
 		table: b => scrolling(f.title, table(b.head, b.rows, "plain")),
@@ -30,10 +36,7 @@ function figureBody(f) {
 				<div class="chartbox" data-plot="${at}"></div>
 				<figcaption>${b.caption}</figcaption>
 			</figure>`,
-		pictures: b => html`
-			<div class="shown" style="--columns:${clamp(b.columns, 1, 6)}">
-				${b.shown.map(picture)}
-			</div>`,
+		pictures: pictureRows(f),
 	};
 	return f.blocks.map((block, at) => {
 		const [[kind, content]] = Object.entries(block);
@@ -56,14 +59,7 @@ function figureInto(el, f, query, remember) {
 	const from = f.blocks.findIndex(isSeen);
 	const end = f.blocks.findIndex((b, i) => i > from && b.text);
 	const blocks = f.blocks.slice(from, end < 0 ? undefined : end).filter(isSeen);
-	const files = [...figurePictures(f)];
-	const picture = p => html`
-		<figure>
-			<img src="${files.shift()}" alt="${p.alt}">
-			<figcaption>${p.caption}</figcaption>
-		</figure>`;
-	const row = ({ columns, shown }) => html`
-		<div class="shown" style="--columns:${clamp(columns, 1, 6)}">${shown.map(picture)}</div>`;
+	const row = pictureRows(f);
 	el.innerHTML = html`
 		<div></div>
 		<a class="more" href="#lectures/${f.name}">The whole figure: ${f.title}</a>`;
@@ -124,7 +120,7 @@ function rememberFigure(query) {
 /* #lectures, #lectures/wrong, #lectures/all, #lectures/FIGURE */
 function lectures([part = ""], query) {
 	const body = $("#lecture-body");
-	const lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS };
+	const lists = { __proto__: null, wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS };
 	const list = lists[part];
 	const [shown, more] = folded(list ?? [], 40, "findings");
 	segments(

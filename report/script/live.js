@@ -44,6 +44,7 @@ class LiveScene {
 		this.studio.draw(this.exact, 1);
 		this.rows = {};
 		this.drawn = {};
+		this.count = {};
 	}
 
 	/* The name of a method with the parameters that were chosen. */

@@ -32,9 +32,11 @@ function html(texts, ...values) {
 
 /* Puts markup into an element, and gives the focus back to the control that had it. */
 function fill(el, markup) {
-	const key = el.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+	const { key, handle } = el.contains(document.activeElement) ? document.activeElement.dataset : {};
 	el.innerHTML = markup;
-	if (key != null) $(`[data-key="${CSS.escape(key)}"]`, el)?.focus({ preventScroll: true });
+	const name = key != null ? "key" : "handle";
+	const value = CSS.escape(key ?? handle ?? "");
+	if (value) $(`[data-${name}="${value}"]`, el)?.focus({ preventScroll: true });
 	delay("fade", 30, fadeEnds);
 }
 

@@ -30,7 +30,8 @@ function viewOf({ turn, size, sun, exponent, with: chosen }) {
 	const given = {};
 	for (const variant of (chosen ?? "").split(";").filter(Boolean)) {
 		const [m, ...all] = variant.split(":");
-		if (M[m]) given[m] = Object.fromEntries(all.map(p => p.split("=")));
+		const pairs = all.map(p => p.split("=")).filter(p => p.length === 2);
+		if (IDS.includes(m) && pairs.length) given[m] = Object.fromEntries(pairs);
 	}
 	return {
 		azimuth,
@@ -65,13 +66,24 @@ class Hand {
 		Object.assign(this, { v, live: null, moves: false, waits: false, rounds: 0 });
 		[this.sun, this.panel] = [$(".sun", v.root), $(".handles", v.root)];
 		this.panel.oninput = e => this.handle(e.target);
+		this.panel.onchange = () => this.controls();
+		this.panel.onpointerdown = () => {
+			this.holds = true;
+		};
+		for (const event of ["pointerup", "pointercancel"])
+			addEventListener(event, () => {
+				this.holds = false;
+			});
 		this.panel.onclick = e => {
 			if (e.target.closest(".still")) v.set({ view: STILL });
 			if (e.target.closest(".file")) this.saveScene();
 		};
 		this.listenToSun();
-		v.stage.onkeydown = e => e.target === v.stage && this.key(e);
-		v.stage.ondragover = e => CAN_DRAW && e.preventDefault();
+		// No handler returns false: the browser would then do nothing else, as with Tab.
+		v.stage.onkeydown = e => {
+			if (e.target === v.stage) this.key(e);
+		};
+		v.stage.ondragover = e => e.preventDefault();
 		v.stage.ondrop = e => this.drop(e);
 		// Whoever comes near gets the light and the handles.
 		const comes = () => {
@@ -99,18 +111,19 @@ class Hand {
 		if (this.live?.scene === s) return true;
 		if (!this.can) return false;
 		try {
-			this.loading ??= LiveScene.make(s);
-			const live = await this.loading;
+			// Another scene may still be loading.
+			if (this.loading?.scene !== s) this.loading = { scene: s, made: LiveScene.make(s) };
+			const live = await this.loading.made;
 			if (this.v.scene !== s) return false;
 			this.live = live;
 			this.controls();
 			this.v.draw();
 			return true;
 		} catch (error) {
-			this.fail(error);
+			if (this.v.scene === s) this.fail(error);
 			return false;
 		} finally {
-			this.loading = null;
+			if (this.loading?.scene === s) this.loading = null;
 		}
 	}
 
@@ -126,7 +139,6 @@ class Hand {
 	/* Looks from elsewhere, at the next frame of the screen; exactly, when nothing has moved for a while. */
 	move(change) {
 		this.v.view = { ...this.v.view, ...change };
-		this.rounds = 0;
 		if (this.waits) return;
 		this.waits = true;
 		atNextFrame(async () => {
@@ -139,6 +151,7 @@ class Hand {
 
 	async look(moves) {
 		this.moves = moves;
+		this.rounds = 0;
 		try {
 			if (this.source !== this.v.scene) this.live.look(this.v.view, moves);
 			await this.v.present();
@@ -151,7 +164,7 @@ class Hand {
 	/* Shows the view exactly: that of its link, so that this restores it to the byte. */
 	async rest() {
 		const { v } = this;
-		v.view = viewOf(viewQuery(v.view));
+		v.view = this.known(viewOf(viewQuery(v.view)));
 		await this.look(false);
 		this.controls();
 		v.change?.(v, { moved: true });
@@ -160,13 +173,20 @@ class Hand {
 		delay("rounds", 60, () => this.round());
 	}
 
+	/* The view without parameters that no method has: a link may ask for any. */
+	known(view) {
+		const isKnown = ([m, all]) =>
+			Object.entries(all).every(([k, v]) => this.live?.studio.knows(`${m}:${k}=${v}`));
+		return { ...view, given: Object.fromEntries(Object.entries(view.given).filter(isKnown)) };
+	}
+
 	/* Draws by all methods, some times, so that chart and times are of this view; then nothing works any more. */
 	round() {
 		const { live, v } = this;
 		if (this.moves || this.source !== live || this.rounds >= 6 || v.root.offsetParent === null) return;
-		const next = live.list.find(m => (live.count?.[m] ?? 0) <= this.rounds && m in M);
+		const next = live.list.find(m => (live.count[m] ?? 0) <= this.rounds && m in M);
 		if (next) {
-			live.count = { ...live.count, [next]: this.rounds + 1 };
+			live.count[next] = this.rounds + 1;
 			const kept = live.drawn[next];
 			delete live.drawn[next];
 			live.one(next);
@@ -196,8 +216,11 @@ class Hand {
 		if (this.near && this.can && !shown) this.ready();
 		this.panel.hidden = !shown;
 		$(".turns", v.root).hidden = !this.can || !isStill(v.view);
+		v.stage.classList.toggle("turnable", this.can);
+		v.stage.ariaLabel = `The pictures${this.can ? ": arrow keys turn the model" : ""}`;
 		this.sun.hidden = !shown || !live.firstLight.some(Boolean);
-		if (!shown) return;
+		// A handle that is held stays the same element.
+		if (!shown || this.holds) return;
 		const { size, exponent } = v.view;
 		const methods = [...new Set([v.a, v.b])].filter(m => live.list.includes(m) && !m.includes(":"));
 		const parts = [
@@ -286,8 +309,7 @@ class Hand {
 	}
 
 	key(e) {
-		const [dx, dy] =
-			{ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key] ?? [];
+		const [dx, dy] = ARROWS[e.key] ?? [];
 		if (dx == null || !this.can || e.ctrlKey || e.metaKey || e.altKey) return;
 		e.preventDefault();
 		e.stopPropagation();
@@ -299,15 +321,22 @@ class Hand {
 		return this.v.view.light ?? this.live?.firstLight ?? [0, 0, 1];
 	}
 
-	/* Puts the light's handle where the light is; behind the model it is hollow. */
-	placeSun() {
-		const { sun, v } = this;
-		if (sun.hidden) return;
-		const { w, h } = v.part();
+	/* Where the light stands on the stage, or beside it. */
+	sunAt() {
+		const { w, h } = this.v.part();
 		const [angle, toward] = sunOf(this.light);
 		const r = ((angle / SUN_ANGLE) * SUN_RING) * Math.min(w, h);
-		sun.style.left = `${w / 2 + r * Math.cos(toward)}px`;
-		sun.style.top = `${h / 2 - r * Math.sin(toward)}px`;
+		return { x: w / 2 + r * Math.cos(toward), y: h / 2 - r * Math.sin(toward), w, h };
+	}
+
+	/* Puts the light's handle where the light is, or at the edge of the stage; behind the model it is hollow. */
+	placeSun() {
+		const { sun } = this;
+		if (sun.hidden) return;
+		const [angle, toward] = sunOf(this.light);
+		const { x, y, w, h } = this.sunAt();
+		sun.style.left = `${clamp(x, 12, w - 12)}px`;
+		sun.style.top = `${clamp(y, 12, h - 12)}px`;
 		sun.classList.toggle("behind", angle > SUN_ANGLE);
 		sun.ariaValueNow = Math.round(angle * DEGREES);
 		sun.ariaValueText = `${Math.round(angle * DEGREES)}° from the line of sight, toward ${Math.round(toward * DEGREES)}°`;
@@ -326,7 +355,7 @@ class Hand {
 		let held = false;
 		sun.onpointerdown = e => {
 			e.stopPropagation();
-			held = true;
+			held = !e.button;
 			sun.setPointerCapture(e.pointerId);
 		};
 		sun.onpointermove = e => {
@@ -345,13 +374,13 @@ class Hand {
 			this.placeSun();
 		};
 		sun.onkeydown = e => {
-			const [dx, dy] =
-				{ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key] ?? [];
+			const [dx, dy] = ARROWS[e.key] ?? [];
 			if (dx == null) return;
 			e.preventDefault();
 			e.stopPropagation();
 			const step = e.shiftKey ? 24 : 6;
-			this.lightTo(parseFloat(sun.style.left) + dx * step, parseFloat(sun.style.top) + dy * step);
+			const { x, y } = this.sunAt();
+			this.lightTo(x + dx * step, y + dy * step);
 		};
 	}
 

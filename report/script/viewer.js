@@ -98,8 +98,9 @@ class Viewer {
 		this.change?.(this, change);
 		const isLive = !isStill(this.view) || s.own;
 		const isReady = isLive && (await this.hand.ready());
-		// What cannot be drawn here is shown as it is stored.
-		if (!isReady) this.view = STILL;
+		// What cannot be drawn here is shown as it is stored, unless another scene was chosen meanwhile.
+		if (this.scene !== s) return;
+		if (isLive && !isReady) this.view = STILL;
 		if (isReady && looks) await this.hand.rest();
 		else await this.present();
 	}
@@ -119,6 +120,7 @@ class Viewer {
 			]);
 			if (turn !== this.turn) return;
 			[this.A, this.B] = [A.canvas, B.canvas];
+			$(".missing", root).hidden = true;
 			this.draw();
 			root.dataset.shown = [s.id, this.a, this.b, this.mode].join("|");
 		} catch (problem) {
@@ -292,7 +294,7 @@ class Viewer {
 		this.change?.(this, { pin: true });
 	}
 
-	/* One finger or the mouse moves the divider, or a zoomed picture; two fingers zoom. */
+	/* One finger or the mouse turns the model, moves the divider, or a zoomed picture; two fingers zoom. */
 	listen() {
 		const stage = this.stage;
 		const fingers = new Map();
@@ -338,7 +340,10 @@ class Viewer {
 				];
 				gesture.far = Math.max(gesture.far, Math.hypot(dx, dy));
 				if (kind === "split" && gesture.far > 2) this.move(part);
-				if (kind === "turn" && gesture.far > 2) {
+				// A finger that begins upward or downward scrolls the page.
+				const scrolls =
+					e.pointerType === "touch" && !gesture.last && Math.abs(dy) >= Math.abs(dx);
+				if (kind === "turn" && gesture.far > 2 && !scrolls) {
 					const last = gesture.last ?? gesture.from;
 					this.hand.turnBy(e.clientX - last.clientX, e.clientY - last.clientY);
 					gesture.last = e;

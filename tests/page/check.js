@@ -104,16 +104,32 @@
         await until(`${s.id}: the light moves`, () => rested(v2)() && v2.view.light);
         check(`${s.id}: and changes the picture`, await bytes(v2) !== there);
       }
+      const tab = new KeyboardEvent("keydown", { key: "Tab", bubbles: true, cancelable: true });
+      check(`${s.id}: Tab leaves the divider`, v2.divider.dispatchEvent(tab));
       for (const input of v2.hand.panel.querySelectorAll("input[type=range]")) {
         const { handle } = input.dataset, before = await bytes(v2);
         slide(v2.hand.panel.querySelector(`[data-handle="${handle}"]`), handle === "exponent" ? 60 : input.max);
         await wait(40);
         await until(`${s.id}: ${handle} is moved`, rested(v2));
         if (handle === "size") check(`${s.id}: ${handle} changes the picture`, await bytes(v2) !== before);
+        v2.hand.panel.querySelector(`[data-handle="${handle}"]`).focus();
+        v2.hand.controls();
+        check(`${s.id}: ${handle} keeps the focus`, document.activeElement.dataset.handle === handle);
+        const held = document.activeElement;
+        held.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
+        v2.hand.controls();
+        check(`${s.id}: ${handle} stays while it is held`, held.isConnected);
+        held.dispatchEvent(new PointerEvent("pointerup", { bubbles: true }));
       }
       v2.stage.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
       await wait(40);
       await until(`${s.id}: by keys`, rested(v2));
+      v2.hand.turnBy(50, 0);
+      const { azimuth } = v2.view;
+      dispatchEvent(new Event("resize"));
+      await wait(700);
+      check(`${s.id}: a new size of the window lets the model where it is`, Math.abs(v2.view.azimuth - azimuth) < 1e-3);
+      await until(`${s.id}: all methods are drawn of each view`, () => v2.hand.live.list.every(m => m in v2.source.rows));
       for (const mode of ["side", "error", "flip", "slide"]) { await v2.set({ mode }); await until(`${s.id}: ${mode}`, () => shown(v2).endsWith("|" + mode)); }
       v2.hand.panel.querySelector(".still").click();
       await until(`${s.id}: as stored`, () => isStill(v2.view) && v2.source === v2.scene);
@@ -132,8 +148,28 @@
     check("live: what is no mesh is refused", v2.scene === before);
     await drop("own.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n");
     await until("live: a dropped mesh is drawn", () => v2.scene.title === "own.obj" && shown(v2).startsWith("own|"));
-    if (v2.scene.title !== "own.obj") failed.push(`${v2.scene.title} ${shown(v2)} ${document.getElementById("toast").textContent} ${location.hash}`);
     check("live: with its pixels", new Set(await bytes(v2).then(text => text.split(","))).size > 2);
+    check("live: and its name", document.getElementById("t-scenes").textContent === "own.obj");
+    go(location.hash.slice(1));
+    await until("live: the address leads back", () => v2.scene === before && v2.source === before);
+    // What a link asks for, and no method has.
+    await visit(`scenes/${before.id}?turn=1e999,x&size=-5&sun=9e9,90&with=${BASE}:nosuch=1;${BASE};nosuch:x=1;constructor:x=1`);
+    await until("live: a link that asks for too much", () => rested(v2)() && v2.view.size === 0.1 && !Object.keys(v2.view.given).length);
+    const sun = v2.hand.sun.getBoundingClientRect(), stage = v2.stage.getBoundingClientRect();
+    check("live: the light can be taken, wherever it is", v2.hand.sun.hidden || sun.top >= stage.top && sun.bottom <= stage.bottom);
+    for (const odd of ["%", "constructor", "scenes/constructor", "lectures/constructor"]) {
+      await visit(odd);
+      check(`live: #${odd} shows a view`, document.querySelectorAll(".view.on").length === 1);
+    }
+    // A scene that is chosen while another one is loaded.
+    const [first, second] = turned;
+    if (second) {
+      await visit("scenes/" + second.id);
+      v2.hand.live = null;
+      v2.set({ scene: first, view: { ...STILL, azimuth: 1 } });
+      v2.set({ scene: second, view: { ...STILL, azimuth: 0.5 } });
+      await until("live: the scene that was chosen last", () => rested(v2)() && v2.hand.live.scene === second && v2.view.azimuth);
+    }
     await v2.set({ scene: SCENES[0] });
   };
   /* The figures that follow the hand. */

@@ -67,6 +67,7 @@
     await drag(at(.5, .9), at(.5, .2));
     await wait(300);
     check("a swipe over the picture scrolls the page", await run("scrollY") > swipe + 50);
+    check("and does not turn the model", await run("isStill(v2.view)"));
     if (await run("CAN_DRAW && canTurn(v2.scene)")) {
       await run("v2.set({ mode: 'slide', pin: null }); v2.split = .9; v2.hand.ready()");
       await run("v2.stage.scrollIntoView({ block: 'center' })");
