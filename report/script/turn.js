@@ -67,8 +67,9 @@ class Hand {
 		[this.sun, this.panel] = [$(".sun", v.root), $(".handles", v.root)];
 		this.panel.oninput = e => this.handle(e.target);
 		this.panel.onchange = () => this.controls();
-		this.panel.onpointerdown = () => {
-			this.holds = true;
+		// A slider is held until it is let go, anywhere; a list opens, and may take that event.
+		this.panel.onpointerdown = e => {
+			this.holds = e.target.matches("input");
 		};
 		for (const event of ["pointerup", "pointercancel"])
 			addEventListener(event, () => {
