@@ -218,14 +218,17 @@ impl Frame {
 
     /// Returns the mean of a polygon's corners as they were before it was clipped or cut into triangles.
     pub fn mean(&self, polygon: &Polygon) -> Mean {
+        let stated = self.stated_mean(polygon);
+        stated.unwrap_or_else(|| self.mean_of(self.corners(polygon)))
+    }
+
+    /// Returns the mean that was stated for a polygon, as for pieces of others; `None` if it is that of its own corners.
+    pub(crate) fn stated_mean(&self, polygon: &Polygon) -> Option<Mean> {
         // Corner lists do not overlap, so the first corner tells polygons apart.
         let place = self
             .means
             .binary_search_by_key(&polygon.first, |&(first, _)| first);
-        match place {
-            Ok(place) => self.means[place].1,
-            Err(_) => self.mean_of(self.corners(polygon)),
-        }
+        Some(self.means[place.ok()?].1)
     }
 
     pub(crate) fn mean_of(&self, corners: &[u32]) -> Mean {

@@ -16,6 +16,7 @@ use crate::picture::encoding::Encoder;
 use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture, Picture8, PictureMut};
 use crate::shading::Variant;
+use alloc::vec;
 use alloc::vec::Vec;
 
 impl Variant {
@@ -119,13 +120,10 @@ impl Variant {
         if names.is_empty() {
             return Vec::new();
         }
-        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
+        let of_polygons = self.kinds_of_polygons(frame);
         let count = |kind: usize| {
-            setup
-                .kinds()
-                .iter()
-                .filter(|k| usize::from(**k) == kind)
-                .count()
+            let same = of_polygons.iter().filter(|k| usize::from(**k) == kind);
+            same.count()
         };
         let kinds = names.iter().enumerate();
         kinds
@@ -134,6 +132,17 @@ impl Variant {
                 polygons: count(kind),
             })
             .collect()
+    }
+
+    /// Returns the kind by which the method draws each polygon, as an index into [`crate::shading::Shader::KINDS`].
+    #[doc(hidden)]
+    pub fn kinds_of_polygons(&self, frame: &Frame) -> Vec<u8> {
+        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
+        match setup.kinds() {
+            // The method has no kinds; or another one stands in, which the first kind is as exact as.
+            [] => vec![0; frame.polygons().len()],
+            kinds => kinds.to_vec(),
+        }
     }
 
     /// Draws rows of the picture of a frame.

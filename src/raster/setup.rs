@@ -128,7 +128,7 @@ impl<'a> SetUp<'a> {
         scale: f32,
         memory: Vec<f32>,
     ) -> Self {
-        let (entry, is_local) = (variant.entry(), frame.is_local());
+        let (entry, is_local) = (variant.entry().on(frame), frame.is_local());
         let kernels = entry.kernels(frame.light_count(), is_local);
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
         let lightings = frame.lightings().iter();
@@ -199,6 +199,7 @@ impl<'a> SetUp<'a> {
                 }
             },
         );
+        constants.numbers.reserve_exact(polygons.len() * count);
         for record in records.chunks_exact(stride) {
             if has_kinds {
                 constants.kinds.push(record[0] as u8);
@@ -238,7 +239,14 @@ impl<'a> SetUp<'a> {
                 .corners(polygon)
                 .iter()
                 .all(|&v| frame.clip_corner(v).is_none()),
-            mean: vec3(frame.mean(polygon).normal),
+            // That of a polygon's own corners is simple enough for the loop over all polygons.
+            mean: match frame.stated_mean(polygon) {
+                Some(mean) => vec3(mean.normal),
+                None => {
+                    let sum = corners.iter().fold(vec3([0.0; 3]), |sum, c| sum + c.normal);
+                    sum * (1.0 / corners.len() as f32)
+                }
+            },
             all: corners,
             whole,
         }

@@ -3,7 +3,7 @@
 use super::extent::{Extent, wide};
 use super::lighting::highlight_error;
 use super::spread::{PolygonSpread, SeenLights, Spread};
-use super::{Approximation, LitAt, Local, Perspective, Value, Variant};
+use super::{Approximation, Entry, LitAt, Local, Perspective, Value, Variant};
 use crate::frame::{Frame, Polygon};
 use crate::scene::{Interpolation, LightTerm, Lighting, Power, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
@@ -115,11 +115,12 @@ impl Variant {
         let materials: Vec<MaterialBound<'_>> = materials
             .map(|(lighting, seen)| self.material_bound(lighting, seen))
             .collect();
+        let info = self.entry().on(frame).info;
         let of_polygon = |polygon: &Polygon| {
             let material = &materials[polygon.material as usize];
             let power = self.power().error(f64::from(material.lighting.shininess));
             let highlights = material.specular.into_iter().fold(0.0, f64::max) * power;
-            let error = (self.info().approximation)(frame, polygon);
+            let error = (info.approximation)(frame, polygon, self.parameters());
             let by_method = match error.cosine + error.length {
                 0.0 => error.colour + material.jump(error),
                 cosines => material.of(cosines, 0.0) + material.jump(error) + error.colour,
@@ -137,81 +138,16 @@ impl Variant {
             .map(|(lighting, seen)| self.material_bound(lighting, seen))
             .collect();
         let polygons = frame.polygons().iter().enumerate();
+        let entry = self.entry().on(frame);
         polygons.map(move |(number, polygon)| {
-            let (cosine, colour) = self.errors(frame, polygon, spread.on(number));
+            let (cosine, colour) = errors(entry, frame, polygon, spread.on(number));
             let material = &materials[polygon.material as usize];
-            let error = (self.info().approximation)(frame, polygon);
+            let error = (entry.info.approximation)(frame, polygon, self.parameters());
             let cosine = cosine + error.cosine + error.length;
             let bound = material.of(cosine, colour) + material.jump(error) + error.colour;
             // No channel differs by more.
             if bound <= 1.0 { bound } else { 1.0 }
         })
-    }
-
-    /// Returns the error of the cosines that the light model sees on a polygon, and that of colours of at most 1 which are stepped
-    /// over it.
-    fn errors(&self, frame: &Frame, polygon: &Polygon, spread: PolygonSpread) -> (f64, f64) {
-        let info = self.info();
-        let Roundings { start, step, of } = info.roundings;
-        let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
-        // A rounding where the weight of perspective is largest counts for more where it is smallest.
-        let weights = match (self.entry().perspective, frame.interpolation()) {
-            (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => {
-                extent.weights
-            }
-            _ => 1.0,
-        };
-        // True if vectors to places are stepped beside normals.
-        let is_followed = frame.is_local() && self.entry().local == Local::PerPixel;
-        // Colours may differ by all that they are, weights by 1 − 1/σ of the largest.
-        let apart = match of {
-            Stepped::Colours | Stepped::Sums => 1.0,
-            _ => {
-                let vectors = if is_followed { spread.apart } else { 0.0 };
-                f64::min(2.0, extent.apart() + vectors + 1.0 - 1.0 / weights)
-            }
-        };
-        let stepped = |step: f64| match step > 0.0 {
-            true => {
-                let spans = step * extent.steps + 8.0 * apart;
-                let triangles = extent.triangle_roundings(step, apart);
-                spans.max(triangles).max(BARYCENTRIC)
-            }
-            false => 0.0,
-        };
-        let rounding = ROUNDING * weights;
-        // The least length that a normal has before it is normalised.
-        let length = match self.entry().lit_at {
-            LitAt::Polygon | LitAt::Vertex => 1.0,
-            LitAt::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
-            LitAt::Pixel => extent.cosine,
-        };
-        let over_length = match length > 0.0 {
-            true => 1.0 / length,
-            false => f64::INFINITY,
-        };
-        let cosine = match of {
-            Stepped::Colours | Stepped::Sums => rounding * start * vectors * over_length,
-            Stepped::Cosines => rounding * (start + stepped(step)) * vectors * over_length,
-            Stepped::GreatCircles => {
-                rounding * (start + stepped(step)) * vectors * over_length * over_length
-            }
-            // Squares of weighted vectors have the squares of the weights.
-            Stepped::Products => {
-                // With positions three products are stepped, where there was one product and one cosine.
-                let (step, vectors) = match is_followed {
-                    true => (3.0 * step, vectors * vectors),
-                    false => (step, vectors),
-                };
-                let rounding = rounding * weights * over_length * over_length;
-                rounding * (start + stepped(step)) * vectors
-            }
-        };
-        let colours = match of {
-            Stepped::Colours | Stepped::Sums => rounding * stepped(step),
-            _ => 0.0,
-        };
-        (cosine, colours)
     }
 
     /// Returns what the light model makes of errors on a material.
@@ -260,6 +196,70 @@ impl Variant {
             .map(|auto| f64::from((auto.length_error)(lighting)))
             .fold(0.0, f64::max)
     }
+}
+
+/// Returns the error of the cosines that the light model sees on a polygon, and that of colours of at most 1 which are stepped
+/// over it.
+fn errors(entry: &Entry, frame: &Frame, polygon: &Polygon, spread: PolygonSpread) -> (f64, f64) {
+    let info = entry.info;
+    let Roundings { start, step, of } = info.roundings;
+    let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
+    // A rounding where the weight of perspective is largest counts for more where it is smallest.
+    let weights = match (entry.perspective, frame.interpolation()) {
+        (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => extent.weights,
+        _ => 1.0,
+    };
+    // True if vectors to places are stepped beside normals.
+    let is_followed = frame.is_local() && entry.local == Local::PerPixel;
+    // Colours may differ by all that they are, weights by 1 − 1/σ of the largest.
+    let apart = match of {
+        Stepped::Colours | Stepped::Sums => 1.0,
+        _ => {
+            let vectors = if is_followed { spread.apart } else { 0.0 };
+            f64::min(2.0, extent.apart() + vectors + 1.0 - 1.0 / weights)
+        }
+    };
+    let stepped = |step: f64| match step > 0.0 {
+        true => {
+            let spans = step * extent.steps + 8.0 * apart;
+            let triangles = extent.triangle_roundings(step, apart);
+            spans.max(triangles).max(BARYCENTRIC)
+        }
+        false => 0.0,
+    };
+    let rounding = ROUNDING * weights;
+    // The least length that a normal has before it is normalised.
+    let length = match entry.lit_at {
+        LitAt::Polygon | LitAt::Vertex => 1.0,
+        LitAt::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
+        LitAt::Pixel => extent.cosine,
+    };
+    let over_length = match length > 0.0 {
+        true => 1.0 / length,
+        false => f64::INFINITY,
+    };
+    let cosine = match of {
+        Stepped::Colours | Stepped::Sums => rounding * start * vectors * over_length,
+        Stepped::Cosines => rounding * (start + stepped(step)) * vectors * over_length,
+        Stepped::GreatCircles => {
+            rounding * (start + stepped(step)) * vectors * over_length * over_length
+        }
+        // Squares of weighted vectors have the squares of the weights.
+        Stepped::Products => {
+            // With positions three products are stepped, where there was one product and one cosine.
+            let (step, vectors) = match is_followed {
+                true => (3.0 * step, vectors * vectors),
+                false => (step, vectors),
+            };
+            let rounding = rounding * weights * over_length * over_length;
+            rounding * (start + stepped(step)) * vectors
+        }
+    };
+    let colours = match of {
+        Stepped::Colours | Stepped::Sums => rounding * stepped(step),
+        _ => 0.0,
+    };
+    (cosine, colours)
 }
 
 /// The light model on a material, as it passes errors on.

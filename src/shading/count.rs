@@ -99,7 +99,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     counter.take();
     let (kind, constants) = method.polygon(&lit, &polygon);
     let planned = counter.take();
-    if M::READS_SPAN {
+    if M::READS_SPAN || !M::KINDS.is_empty() {
         counts.polygon = planned;
     }
     method = method.of_kind(kind);
@@ -154,6 +154,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     let start = RunStart {
         numbers: [&first, &second],
         x: 0,
+        pixels: SpanBench::PIXELS,
         place: M::READS_SPAN.then_some(SpanPlace {
             y: 0,
             t0,
@@ -236,7 +237,7 @@ mod tests {
                 if (entry.refuses)(&frame).is_some() {
                     continue;
                 }
-                let counted = (entry.count[usize::from(bench.is_local())])(bench, &variant);
+                let counted = entry.count(bench, &variant);
                 let picture = variant.render_linear_with(&frame, Renderer::LECTURE);
                 let [drawn @ .., _] = picture.get(0, 0);
                 let counted = counted.colour.map(|channel| channel.clamp(0.0, 1.0));

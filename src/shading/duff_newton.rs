@@ -35,7 +35,7 @@ impl<const L: usize> Shader for DuffNewton<L> {
         model: Model::PhongConstant,
         roundings: Roundings::new(9.0, 2.0, Stepped::Products),
         derivation: "as duff-phong; a step rounds r three times, where a root and a quotient round it twice",
-        approximation: |frame, polygon| {
+        approximation: |frame, polygon, _| {
             let lighting = &frame.lightings()[polygon.material as usize];
             Approximation {
                 length: largest_error(lighting.shininess).into(),

@@ -285,8 +285,8 @@ pub struct Info {
     pub roundings: Roundings,
     /// The reason for so many roundings and no more.
     pub derivation: &'static str,
-    /// The error that it makes by design on a polygon of a frame, 0 for most.
-    pub approximation: fn(&Frame, &Polygon) -> Approximation,
+    /// The error that it makes by design on a polygon of a frame, with values for its parameters; 0 for most.
+    pub approximation: fn(&Frame, &Polygon, &[Value]) -> Approximation,
     /// The cases in which its picture is bad, or its arithmetic fails.
     pub fails: &'static str,
     /// True if the power function of its highlights can be chosen; false if its own tables hold powers.
@@ -305,7 +305,7 @@ impl Info {
         model: Model::Phong,
         roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
         derivation: "no bound was derived",
-        approximation: |_, _| Approximation::NONE,
+        approximation: |_, _, _| Approximation::NONE,
         has_power: true,
         fails: "",
         parameters: &[],

@@ -19,7 +19,7 @@ const INFO: Info = Info {
     model: Model::PhongConstant,
     roundings: integers::ROUNDINGS,
     derivation: integers::DERIVATION,
-    approximation: |frame, polygon| integers::approximation(frame, polygon, Form::Table),
+    approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Table),
     fails: integers::FAILS,
     has_power: false,
     parameters: integers::PARAMETERS,

@@ -19,7 +19,7 @@ const INFO: Info = Info {
     model: Model::PhongConstant,
     roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
     derivation: "no bound: one step of Newton's from the pixel before follows |N| where a pixel turns little",
-    approximation: |_, _| Approximation::NONE,
+    approximation: |_, _, _| Approximation::NONE,
     fails: "where normals turn by more than some 2 degrees a pixel; it knows one light, at infinity",
     has_power: false,
     parameters: &[],

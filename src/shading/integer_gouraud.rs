@@ -25,7 +25,7 @@ const INFO: Info = Info {
     model: Model::Gouraud,
     roundings: super::Roundings::new(4.0, 0.9, super::Stepped::Colours),
     derivation: integers::DERIVATION,
-    approximation: |frame, polygon| {
+    approximation: |frame, polygon, _| {
         let lighting = &frame.lightings()[polygon.material as usize];
         let vertex = integers::error(lighting, 0.0, integers::Form::Refined);
         // Steps are cut by up to 2⁻¹⁶, which is 1/256 over a piece of a span; its ends are rounded to fields of 9 bits.

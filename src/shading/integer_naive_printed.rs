@@ -18,7 +18,7 @@ const INFO: Info = Info {
     model: Model::PhongConstant,
     roundings: integers::ROUNDINGS,
     derivation: integers::DERIVATION,
-    approximation: |frame, polygon| integers::approximation(frame, polygon, Form::Refined),
+    approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Refined),
     fails: "where normals turn by more than 90 degrees over a polygon; it knows one light, at infinity",
     has_power: false,
     parameters: &[],

@@ -19,7 +19,7 @@ const INFO: Info = Info {
     model: Model::Slerp,
     roundings: integers::CIRCLE_ROUNDINGS,
     derivation: integers::DERIVATION,
-    approximation: |frame, polygon| integers::approximation(frame, polygon, Form::Waves),
+    approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Waves),
     fails: "where normals turn by more than 90 degrees along a span; it knows one light, at infinity",
     has_power: false,
     parameters: &[],

@@ -137,6 +137,7 @@ impl<'a> Pixels<'a> {
         let start = RunStart {
             numbers: self.list.starts.of(number),
             x: run.x,
+            pixels: run.pixels,
             place: M::READS_SPAN.then(|| self.list.places[number]),
             constants,
         };
@@ -202,7 +203,7 @@ impl Kernels {
                     M::KINDS.is_empty() || M::SCALAR_ONLY.is_some(),
                     "the G-buffer does not keep kinds, so methods of kinds are scalar only"
                 );
-                assert!(M::KINDS.len() <= 4, "at most four kinds");
+                assert!(M::KINDS.len() <= 5, "at most five kinds");
                 M::KINDS
             },
             reads_span: M::READS_SPAN,
@@ -278,6 +279,7 @@ fn by_kind<M: Shader>(method: M, kind: u8, mut run: impl FnMut(M)) {
         1 if M::KINDS.len() > 1 => run(method.of_kind(1)),
         2 if M::KINDS.len() > 2 => run(method.of_kind(2)),
         3 if M::KINDS.len() > 3 => run(method.of_kind(3)),
+        4 if M::KINDS.len() > 4 => run(method.of_kind(4)),
         _ => run(method.of_kind(0)),
     }
 }

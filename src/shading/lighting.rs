@@ -54,10 +54,10 @@ pub struct LightModel {
     pub(super) eye: Place<Vec3<f32>>,
     /// The cosine that is raised to the exponent.
     pub specular: SpecularModel,
-    gate: SpecularGate,
+    pub(super) gate: SpecularGate,
     /// The exponent n, as a number and as it is computed.
     pub shininess: f32,
-    exponent: Exponent,
+    pub(super) exponent: Exponent,
     /// Cosines up to this have no highlight: `k_s cos^n ≤ 2⁻²⁴` for the strongest light.
     faint: f32,
     /// True if anything is asked for beside directional lights, R·V, and highlights that end where L·N = 0.
@@ -82,11 +82,11 @@ pub struct LightUniforms {
     /// The unit vector toward it, or its position.
     pub(super) place: Place<Vec3<f32>>,
     falloff: Falloff,
-    diffuse: Vec3<f32>,
+    pub(super) diffuse: Vec3<f32>,
     pub(super) specular: Vec3<f32>,
     /// L·V and 1/|L + V| where both are at infinity.
-    l_v: f32,
-    half: f32,
+    pub(super) l_v: f32,
+    pub(super) half: f32,
 }
 
 impl Uniforms {
@@ -181,7 +181,7 @@ pub(super) fn at_most<F: Num>(value: F, most: f32) -> F {
 }
 
 /// Returns the largest magnitude of a channel.
-fn magnitude(v: Vec3<f32>) -> f32 {
+pub(super) fn magnitude(v: Vec3<f32>) -> f32 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
@@ -422,7 +422,7 @@ impl<'a, F: Num> Lit<'a, F> {
     }
 
     #[inline(always)]
-    fn seen(&self, index: usize) -> Seen<'a, F> {
+    pub(super) fn seen(&self, index: usize) -> Seen<'a, F> {
         let (light, one) = (&self.stored[index], self.zero.broadcast(1.0));
         let is_positional = light.place.is_local();
         debug_assert!(
@@ -530,7 +530,25 @@ impl<'a, F: Num> Lit<'a, F> {
     #[inline(always)]
     pub fn add(&self, colour: Vec3<F>, light: &Seen<'a, F>, l_n: F, cosine: F) -> Vec3<F> {
         let diffuse = l_n.max(0.0);
-        let colour = colour.plus(light.times_strength(diffuse), light.light.diffuse); // 2.1
+        let colour = self.add_diffuse(colour, light, diffuse);
+        self.add_highlight(colour, light, diffuse, cosine)
+    }
+
+    /// Returns `colour` and the diffuse term of a light, from L·N, 0 or more.
+    #[inline(always)]
+    pub fn add_diffuse(&self, colour: Vec3<F>, light: &Seen<'a, F>, diffuse: F) -> Vec3<F> {
+        colour.plus(light.times_strength(diffuse), light.light.diffuse) // 2.1
+    }
+
+    /// Returns `colour` and the highlight of a light, from L·N, 0 or more, and from the cosine of the highlight.
+    #[inline(always)]
+    pub fn add_highlight(
+        &self,
+        colour: Vec3<F>,
+        light: &Seen<'a, F>,
+        diffuse: F,
+        cosine: F,
+    ) -> Vec3<F> {
         match self.power(light, diffuse, cosine) {
             Some(specular) => colour.plus(specular, light.light.specular), // 2.1
             None => colour,
@@ -623,6 +641,11 @@ impl<'a, F: Num> Lit<'a, F> {
 }
 
 impl<F: Num> Seen<'_, F> {
+    /// Returns `I_p k_d`.
+    pub(super) fn diffuse(&self) -> Vec3<f32> {
+        self.light.diffuse
+    }
+
     #[inline(always)]
     fn times_strength(&self, x: F) -> F {
         match self.strength {
@@ -692,6 +715,16 @@ impl Exponent {
         let entry = |i: u32| from + (1.0 - from) * f64::from(i) / f64::from(size);
         let power = |i| libm::pow(entry(i), n) as f32;
         (0..=size).map(power).collect()
+    }
+
+    /// True if it is tⁿ with n over 0.
+    pub(super) fn is_power(self) -> bool {
+        match self {
+            Exponent::Whole(n) => n > 0,
+            Exponent::Squarings(_) => true,
+            Exponent::Fractional(n) => n > 0.0,
+            _ => false,
+        }
     }
 
     /// True if the function is not 0 at 0 as all others are.

@@ -35,6 +35,8 @@ pub mod increments;
 pub mod lighting;
 pub mod methods;
 
+mod adaptive_phong;
+mod adaptive_plan;
 mod duff_newton;
 mod duff_phong;
 mod fast_phong;
@@ -105,10 +107,11 @@ pub trait Shader: Copy + Default + 'static {
     const GREAT_CIRCLES: bool = false;
     /// The reason why it is not compiled for SIMD, if it is not.
     const SCALAR_ONLY: Option<&'static str> = None;
-    /// The kinds of polygons that it tells apart, by name: up to 4, or none. Those of [`Shader::SCALAR_ONLY`] methods only, as the
+    /// The kinds of polygons that it tells apart, by name: up to 5, or none. Those of [`Shader::SCALAR_ONLY`] methods only, as the
     /// G-buffer does not keep them: see [`Shader::of_kind`].
     const KINDS: &'static [&'static str] = &[];
-    /// True if `walk` asks a span for its ends, its place or the polygon's constants: engines then keep these, and walk along runs.
+    /// True if `walk` asks a span for its ends or its place: engines then keep these, and walk along runs. The polygon's constants are
+    /// there for methods of kinds, too.
     const READS_SPAN: bool = false;
     /// What is set up once per polygon: numbers, vectors and tuples of them; `()` if nothing is.
     type Constants<F: Num>: Planes<F>;
@@ -125,6 +128,11 @@ pub trait Shader: Copy + Default + 'static {
     }
     /// Returns the reason why it is not for a material with its lights, if it is not: then no frame and no span with it is drawn.
     fn refuses_light(_lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
+        None
+    }
+    /// Returns the name of the method whose kernels draw a frame in its place, if it gains nothing there. That method has no parameters,
+    /// and the same closed form.
+    fn stands_in(_frame: &Frame) -> Option<&'static str> {
         None
     }
     /// Makes the method for `parameters`, in the order of [`Info::parameters`], on a material.

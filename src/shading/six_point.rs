@@ -98,7 +98,7 @@ impl<const L: usize> Shader for SixPoint<L> {
         roundings: Roundings::new(24.0, 3.0, Stepped::Products),
         derivation: "as duff-phong, whose roots other polygons take; the coefficients of a quadratic take 6 roundings of sums of up to \
                      8 products of at most 1, and x^2 and y^2 as many, of coordinates of at most 1",
-        approximation,
+        approximation: |frame, polygon, _| approximation(frame, polygon),
         ..Info::OF_PIXELS
     };
     const LOCAL: Local = Local::PerPolygon;

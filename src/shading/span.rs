@@ -140,6 +140,8 @@ pub(super) struct RunStart<'a, T> {
     pub numbers: [&'a [T]; 2],
     /// The column of the first pixel.
     pub x: u32,
+    /// The number of its pixels.
+    pub pixels: u32,
     /// Its place, if the method asks for it.
     pub place: Option<SpanPlace<T>>,
     /// The numbers that [`Shader::polygon`] returned for the polygon.
@@ -235,6 +237,12 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
                 .of_each(|k| self.zero.one((x + k as u32) as f32 + 0.5)),
             self.zero.broadcast(y as f32 + 0.5),
         ]
+    }
+
+    /// Returns the number of the run's pixels.
+    #[inline(always)]
+    pub(super) fn pixels(&self) -> u32 {
+        self.run().pixels
     }
 
     /// Returns what [`Shader::polygon`] made of the polygon.

@@ -132,6 +132,6 @@ impl Variant {
 
     /// Returns the operations of each kind that the method takes on a span.
     pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
-        (self.entry().count[usize::from(bench.is_local())])(bench, self).operations
+        self.entry().count(bench, self).operations
     }
 }

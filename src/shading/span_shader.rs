@@ -40,6 +40,8 @@ impl SpanVertex {
 /// normal for fast Phong shading. Carry them along edges as you carry depth, linearly; [`SpanShader::shade`] takes them at both ends of a
 /// line of pixels. `examples/own_rasterizer.rs` is a whole rasterizer.
 ///
+/// A method is always drawn as it is, also where another one draws whole frames in its place: `adaptive-phong` plans each polygon, however small.
+///
 /// ```
 /// use fastphong::glam::DVec3;
 /// use fastphong::mesh::Material;
@@ -125,8 +127,8 @@ impl SpanShader {
         self.varyings
     }
 
-    /// True if [`SpanShader::polygon`] must be called for each polygon, before its vertices: slerp methods and `six-point` ask for it, and
-    /// where a light or the eye is at a position, methods that see it from a polygon's mean.
+    /// True if [`SpanShader::polygon`] must be called for each polygon, before its vertices: slerp methods, `six-point` and `adaptive-phong`
+    /// ask for it, and where a light or the eye is at a position, methods that see it from a polygon's mean.
     pub fn wants_polygons(&self) -> bool {
         self.is_by_polygon || !self.constants.numbers.is_empty() || !self.kernels.kinds.is_empty()
     }

@@ -1,5 +1,6 @@
 //! The method table: add a line here for a new file beside this one.
 
+use super::adaptive_phong::AdaptivePhong;
 use super::count::{CountedSpan, count};
 use super::duff_newton::DuffNewton;
 use super::duff_phong::{DuffPhong, DuffPhongLocal};
@@ -46,6 +47,9 @@ pub static METHODS: &[Entry] = &[
         .positional::<DuffPhongLocal<4>, DuffPhongLocal<64>>(),
     Entry::by_lights::<DuffNewton<1>, DuffNewton<4>, DuffNewton<8>, DuffNewton<64>>(),
     Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>(),
+    Entry::of::<AdaptivePhong<true>>()
+        .one_light::<AdaptivePhong<false>>()
+        .positional::<PhongRsqrt, PhongRsqrt>(),
     Entry::by_lights::<SlerpPhong<1>, SlerpPhong<4>, SlerpPhong<8>, SlerpPhong<64>>(),
     Entry::by_lights::<SlerpChebyshev<1>, SlerpChebyshev<4>, SlerpChebyshev<8>, SlerpChebyshev<64>>(
     ),
@@ -62,6 +66,9 @@ pub static METHODS: &[Entry] = &[
 /// Kernels for 1 light, up to 4, up to 8 and up to 64.
 type ByLights = [&'static Kernels; 4];
 
+/// Counts the operations of a method on a span.
+type CountSpan = fn(&SpanBench, &Variant) -> CountedSpan;
+
 /// A row of the method table: the description of a method, and its kernels.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
@@ -77,12 +84,14 @@ pub struct Entry {
     pub(crate) refuses: fn(&Frame) -> Option<&'static str>,
     /// Returns the reason why it is not for a material: [`Shader::refuses_light`].
     pub(super) refuses_light: fn(&Lighting, Interpolation) -> Option<&'static str>,
+    /// Returns the name of the method that draws a frame in its place, if one does: [`Shader::stands_in`].
+    stands_in: fn(&Frame) -> Option<&'static str>,
     /// True if its loops compute in integers, for processors without a floating-point unit.
     pub is_integer: bool,
     directional: ByLights,
     positional: ByLights,
-    /// The functions that count operations: without a light or the eye at a position, and with one.
-    pub(super) count: [fn(&SpanBench, &Variant) -> CountedSpan; 2],
+    /// The functions that count operations, for one light and for more: without a light or the eye at a position, and with one.
+    count: [[CountSpan; 2]; 2],
 }
 
 impl Entry {
@@ -108,11 +117,11 @@ impl Entry {
     pub(super) const fn integer<M: Shader>(
         info: &'static Info,
         kernels: &'static Kernels,
-        count: fn(&SpanBench, &Variant) -> CountedSpan,
+        count: CountSpan,
     ) -> Entry {
         Entry {
             is_integer: true,
-            count: [count; 2],
+            count: [[count; 2]; 2],
             ..Entry::of_kernels::<M>(info, kernels)
         }
     }
@@ -134,11 +143,28 @@ impl Entry {
             perspective: A::PERSPECTIVE,
             refuses: A::refuses,
             refuses_light: A::refuses_light,
+            stands_in: A::stands_in,
             is_integer: false,
             directional: all,
             positional: all,
             // For up to eight lights as many are stepped, for up to 64 as many as there are: what is counted.
-            count: [count::<D>; 2],
+            count: [[count::<D>; 2]; 2],
+        }
+    }
+
+    /// Takes other kernels for one light.
+    pub(super) const fn one_light<A: Shader>(self) -> Entry {
+        let one = const { &Kernels::of::<A>() };
+        let [[_, up_to_4, up_to_8, up_to_64], all] = [self.directional, self.positional];
+        let [[_, counts_many], counts_positional] = self.count;
+        Entry {
+            directional: [one, up_to_4, up_to_8, up_to_64],
+            positional: [one, all[1], all[2], all[3]],
+            count: [
+                [count::<A>, counts_many],
+                [count::<A>, counts_positional[1]],
+            ],
+            ..self
         }
     }
 
@@ -147,7 +173,7 @@ impl Entry {
         let [few, many] = const { [&Kernels::of::<A>(), &Kernels::of::<B>()] };
         Entry {
             positional: [few, few, many, many],
-            count: [self.count[0], count::<B>],
+            count: [self.count[0], [count::<B>; 2]],
             ..self
         }
     }
@@ -155,6 +181,13 @@ impl Entry {
     /// Returns the row called `name`.
     pub fn named(name: &str) -> Option<&'static Entry> {
         METHODS.iter().find(|entry| entry.info.name == name)
+    }
+
+    /// Returns the row whose kernels draw a frame: its own, or the one that stands in for it there.
+    pub(crate) fn on(&'static self, frame: &Frame) -> &'static Entry {
+        (self.stands_in)(frame).map_or(self, |name| {
+            Entry::named(name).expect("a method stands in by its name")
+        })
     }
 
     /// Returns the reason why it is drawn by scalar code only, if it is.
@@ -181,6 +214,12 @@ impl Entry {
             point,
             weight: perspective && (divides || point),
         }
+    }
+
+    /// Counts the operations of a variant of the method on a span.
+    pub(super) fn count(&self, bench: &SpanBench, variant: &Variant) -> CountedSpan {
+        let by_lights = self.count[usize::from(bench.is_local())];
+        by_lights[usize::from(bench.lighting.lights.len() > 1)](bench, variant)
     }
 
     /// Returns the kernels for so many lights, some at positions (`is_local`) or none.
@@ -210,7 +249,13 @@ mod tests {
     fn compiled(entries: &[Entry]) -> usize {
         let mut kernels = BTreeSet::new();
         for entry in entries {
-            kernels.extend(entry.count.map(|count| count as usize));
+            kernels.extend(
+                entry
+                    .count
+                    .as_flattened()
+                    .iter()
+                    .map(|count| *count as usize),
+            );
             for table in [entry.directional, entry.positional].as_flattened() {
                 kernels.extend([table.vertices as usize, table.pixels as usize]);
                 for simd in Level::ALL.into_iter().filter_map(table.simd) {

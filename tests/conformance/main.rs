@@ -2,6 +2,7 @@
 //! pictures.
 
 mod accuracy;
+mod adaptive;
 mod agreement;
 mod attributes;
 mod auto;

@@ -1,0 +1,379 @@
+//! Phong shading at the least price within a stated error: each polygon takes the cheapest pixel loop that keeps to it.
+
+use super::adaptive_plan::{self as plan, Followed};
+use super::increments::{Quadratic, Walk};
+use super::phong_rsqrt::PhongRsqrt;
+use super::{
+    Approximation, Corners, Info, LightModel, Linear, Lit, MethodParameter, Pixel, Planes,
+    Roundings, Shader, Span, Stepped, Value,
+};
+use crate::frame::Frame;
+use crate::number::{Num, Real, Vec3, vec3};
+use crate::reference::Model;
+
+/// Adaptive Phong shading: of five kinds of pixel loops a polygon takes the cheapest whose error is derived
+/// to be within `levels`. [`super::adaptive_plan`] has the derivation.
+///
+/// ```text
+/// linear    I = a + r C                        C = (Σ k_d Lᵀ) N   of all lights in front, r a constant, or C = 0 and a the one colour
+/// dull      I = a + C r                        r = k_0 + k_1 D by differences
+/// curved    I = a + C r + Σ (J r, K r as in 4.5)     r = k_0 + D (k_1 + D k_2)
+/// root      as curved,                         r = 1/√D
+/// exact     as phong-rsqrt
+/// ```
+///
+/// J = L·N is followed for those lights only whose highlight may be seen on the polygon, or whose J changes its sign there: two at most.
+/// Without `MANY` there is one light at most, which is followed on all curved polygons: C is then no help.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AdaptivePhong<const MANY: bool> {
+    kind: u8,
+    levels: f32,
+}
+
+/// Polygons whose mean run is shorter than this gain nothing: set-up and the span engine take most of their time.
+const LEAST_RUN: f64 = 4.0;
+/// The polygons by which a frame is judged.
+const SAMPLES: usize = 256;
+
+/// True if plans pay on a frame: lights and eye are at infinity, and runs are not too short, judged by some polygons spread over all.
+fn is_worth_planning(frame: &Frame) -> bool {
+    if frame.is_local() {
+        return false;
+    }
+    let (width, height) = (frame.width() as f64, frame.height() as f64);
+    let (mut area, mut rows) = (0.0, 0.0);
+    let polygons = frame.polygons();
+    for polygon in polygons.iter().step_by(polygons.len() / SAMPLES + 1) {
+        let corners = frame.corners(polygon);
+        let at = |k: usize| {
+            let v = &frame.vertices()[corners[k % corners.len()] as usize];
+            [v.x, v.y].map(|x| f64::from(x.to_bits()) / 256.0)
+        };
+        let doubled: f64 = (0..corners.len())
+            .map(|k| (at(k), at(k + 1)))
+            .map(|(a, b)| a[0] * b[1] - a[1] * b[0])
+            .sum();
+        let ys = (0..corners.len()).map(|k| at(k)[1].clamp(0.0, height));
+        let (low, high) = super::extent::range(ys);
+        area += f64::min(0.5 * doubled.abs(), width * (high - low));
+        rows += high - low;
+    }
+    area > LEAST_RUN * rows
+}
+
+/// Returns a vector, the same for all pixels of a number like `zero`.
+#[inline(always)]
+fn all<F: Num>(zero: F, v: Vec3<F::One>) -> Vec3<F> {
+    vec3([
+        zero.of_each(|_| v.x),
+        zero.of_each(|_| v.y),
+        zero.of_each(|_| v.z),
+    ])
+}
+
+/// True if D falls below a share of its greatest value along a run: of D = q + 2 a k + g k², which is `end` at the last pixel. D is convex: it is
+/// greatest at an end, and least at one or at k = −a/g, where it is q − a²/g.
+#[inline(always)]
+fn is_uneven<F: Num>([q, a, g]: [F; 3], end: F, share: F, last: f32) -> bool {
+    let is_over = |a: F, b: F| (a - b).any_over(0.0);
+    let (of_start, of_end) = (share * q, share * end);
+    let turns = (-a).any_over(0.0) && (a + g * last).any_over(0.0);
+    let bottom = q * g - a * a; // times g
+    is_over(of_start, end)
+        || is_over(of_end, q)
+        || turns && (is_over(of_start * g, bottom) || is_over(of_end * g, bottom))
+}
+
+/// Returns the product of a matrix, given by its rows, with a vector.
+#[inline(always)]
+fn times<F: Num>(rows: [Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
+    vec3([rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)])
+}
+
+/// Returns the most lights that are followed on a polygon.
+const fn most(many: bool) -> usize {
+    if many { plan::MOST } else { 1 }
+}
+
+impl<const MANY: bool> Shader for AdaptivePhong<MANY> {
+    const INFO: Info = Info {
+        name: "adaptive-phong",
+        title: "for each polygon the cheapest of five pixel loops whose error is derived to be within a number of grey levels",
+        formula: "D = N.N >= 1 - s;  s = max |Ni - m|^2;  1/sqrt(D) ~ r, k0 + k1 D, k0 + k1 D + k2 D^2 or itself\n\
+                  I = Ia ka + (sum Ip kd L^T) N r + Ip ks (2 (J r)(K r) - L.V)^n of lights whose highlight may be seen",
+        source: "ours; differences as Duff 1979, polynomials for the root as Bishop, Weimer 1986",
+        model: Model::Phong,
+        parameters: &[MethodParameter::decimal(
+            "levels",
+            "largest error by design in grey levels of 255",
+            0.5,
+            [0.05, 16.0],
+        )],
+        roundings: Roundings::new(10.0, 2.0, Stepped::Products),
+        derivation: "as the coarser of phong-rsqrt and duff-phong in each term; the error by design, levels/255 of a colour, is derived in \
+                     the code, from corners alone",
+        approximation: |_, _, parameters| Approximation {
+            colour: parameters[0].number().unwrap_or_default() / 255.0,
+            ..Approximation::NONE
+        },
+        fails: "on polygons of few pixels planning takes longer than it saves: there phong-rsqrt draws the frame, and where lights or \
+                eye are at positions",
+        ..Info::OF_PIXELS
+    };
+    const PASSES_NORMAL: bool = true;
+    const KINDS: &'static [&'static str] = &["exact", "linear", "dull", "curved", "root"];
+    const SCALAR_ONLY: Option<&'static str> = Some(
+        "adaptive-phong takes another loop for each polygon, and a block of pixels has one for all",
+    );
+    // C by rows; a; the factors; followed lights, each as its number and what is followed of it
+    type Constants<F: Num> = (([Vec3<F>; 3], Vec3<F>), Vec3<F>, [(F, (F, F)); plan::MOST]);
+    type Varying<F: Num> = Vec3<F>; // N
+    type Walk<F: Num> = AdaptiveWalk<F, MANY>;
+
+    fn stands_in(frame: &Frame) -> Option<&'static str> {
+        (!is_worth_planning(frame)).then_some(PhongRsqrt::INFO.name)
+    }
+    #[inline(always)]
+    fn new(parameters: &[Value], _: &LightModel) -> Self {
+        AdaptivePhong {
+            kind: plan::EXACT,
+            levels: parameters[0].number().unwrap_or_default() as f32,
+        }
+    }
+    #[inline(always)]
+    fn of_kind(self, kind: u8) -> Self {
+        AdaptivePhong { kind, ..self }
+    }
+    #[inline(always)]
+    fn polygon<R: Real>(
+        self,
+        lit: &Lit<'_, R>,
+        polygon: &Corners<'_, R>,
+    ) -> (u8, Self::Constants<R>) {
+        let plan = plan::plan(self.levels, !MANY, lit, polygon);
+        let zero = lit.zero();
+        let mut rows = [vec3([zero; 3]); 3];
+        let mut base = lit.ambient();
+        if plan.is_one_colour {
+            let sum = |sum: Vec3<R>, n: &Vec3<R>| sum + *n;
+            let first = polygon.whole[0];
+            base = lit.shade(polygon.whole[1..].iter().fold(first, sum).unit());
+        } else if plan.kind != plan::EXACT {
+            for light in lit.lights().filter(|l| plan.in_front >> l.index & 1 == 1) {
+                let colour = light.diffuse().broadcast(zero);
+                for (row, channel) in rows.iter_mut().zip(colour.array()) {
+                    *row = *row + light.to * channel;
+                }
+            }
+            if plan.kind == plan::LINEAR {
+                rows = rows.map(|row| row * zero.broadcast(plan.factors[0]));
+            }
+        }
+        let factors = vec3(plan.factors).broadcast(zero);
+        let number = |number: f32| zero.broadcast(number);
+        let followed = plan.followed.map(|one| {
+            let parts = [one.diffuse, one.highlight].map(|part| number(f32::from(u8::from(part))));
+            (number(one.light.into()), (parts[0], parts[1]))
+        });
+        (plan.kind, ((rows, base), factors, followed))
+    }
+    #[inline(always)]
+    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let normal = span.linear();
+        let zero = lit.zero();
+        let mut walk = AdaptiveWalk {
+            kind: self.kind,
+            vector: normal,
+            products: Linear {
+                at: ([zero; plan::MOST], zero),
+                step: ([zero; plan::MOST], zero),
+            },
+            square: Quadratic::zero(zero),
+            normal,
+            first: ([zero; plan::MOST], zero),
+            factors: vec3([zero; 3]),
+            followed: [Followed::default(); plan::MOST],
+            passed: 0,
+            left: plan::STEPS,
+            every: plan::STEPS,
+        };
+        if self.kind == plan::EXACT {
+            return walk;
+        }
+        let ((rows, base), factors, followed) = span.constants();
+        let Linear { at: n, step: dn } = normal;
+        let base = all(zero, base);
+        let rows = [all(zero, rows[0]), all(zero, rows[1]), all(zero, rows[2])];
+        let factors = all(zero, factors);
+        if self.kind == plan::LINEAR {
+            walk.vector = Linear {
+                at: base + times(rows, n),
+                step: times(rows, dn),
+            };
+            return walk;
+        }
+        if MANY || self.kind == plan::DULL {
+            walk.vector = Linear {
+                at: times(rows, n),
+                step: times(rows, dn),
+            };
+        }
+        let (square, along, growth) = (n.dot(n), n.dot(dn), dn.dot(dn));
+        if self.kind == plan::DULL {
+            let k = factors.y;
+            walk.square = Quadratic::new(factors.x + k * square, k * (along + along), k * growth);
+            return walk;
+        }
+        let view = lit.view();
+        (walk.products.at.1, walk.products.step.1) = (n.dot(view), dn.dot(view));
+        for (i, one) in followed.into_iter().enumerate().take(most(MANY)) {
+            let (light, (diffuse, highlight)) = one;
+            let is_followed = diffuse.value() > 0.0 || highlight.value() > 0.0;
+            if is_followed {
+                walk.followed[i] = Followed {
+                    light: light.value() as u16,
+                    diffuse: diffuse.value() > 0.0,
+                    highlight: highlight.value() > 0.0,
+                };
+                let to = lit.seen(light.value() as usize).to;
+                (walk.products.at.0[i], walk.products.step.0[i]) = (n.dot(to), dn.dot(to));
+            }
+        }
+        walk.first = walk.products.at;
+        walk.factors = factors;
+        walk.square = Quadratic::new(square, along + along, growth);
+        if self.kind == plan::ROOT {
+            let last = (span.pixels() - 1) as f32;
+            let end = square + (along + along + growth * last) * last;
+            if is_uneven([square, along, growth], end, factors.x, last) {
+                (walk.left, walk.every) = (1, 1);
+            }
+        }
+        walk
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+        let ((products, vector), d, (factors, followed)) = pixel;
+        let r = match self.kind {
+            plan::EXACT => return PhongRsqrt.shade(lit, vector),
+            plan::LINEAR => return vector,
+            plan::DULL => d,
+            plan::CURVED => factors.x + d * (factors.y + d * factors.z),
+            _ => d.broadcast(1.0) / d.sqrt(),
+        };
+        let mut colour = lit.ambient();
+        if MANY || self.kind == plan::DULL {
+            colour = colour + vector * r;
+        }
+        if self.kind == plan::DULL {
+            return colour;
+        }
+        let (j, k) = products;
+        let v_n = k * r;
+        for (followed, j) in followed.0.into_iter().zip(j).take(most(MANY)) {
+            if MANY && !(followed.diffuse || followed.highlight) {
+                continue;
+            }
+            let light = lit.seen(if MANY { followed.light.into() } else { 0 });
+            let l_n = j * r;
+            let diffuse = l_n.max(0.0);
+            if !MANY || followed.diffuse {
+                colour = lit.add_diffuse(colour, &light, diffuse);
+            }
+            if followed.highlight {
+                let cosine = lit.highlight(&light, l_n, v_n);
+                colour = lit.add_highlight(colour, &light, diffuse, cosine);
+            }
+        }
+        colour
+    }
+}
+
+/// What a run follows, at each of its pixels: no number that is stepped, so that it has no plane.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FollowedLights([Followed; plan::MOST]);
+
+impl<F: Num> Planes<F> for FollowedLights {
+    #[inline(always)]
+    fn filled(_: usize, _: F) -> Self {
+        FollowedLights::default()
+    }
+    #[inline(always)]
+    fn each(&mut self, _: &mut usize, _: &mut impl FnMut(usize, &mut F)) {}
+    #[inline(always)]
+    fn zip(&mut self, _: Self, _: impl Fn(F, F) -> F + Copy) {}
+}
+
+type Products<F> = ([F; plan::MOST], F); // J of each followed light, K
+
+/// What the kinds step along a run.
+#[derive(Clone, Copy, Debug)]
+pub struct AdaptiveWalk<F, const MANY: bool> {
+    kind: u8,
+    /// The normal; or the colour of lights in front, of N or finished.
+    vector: Linear<Vec3<F>>,
+    products: Linear<Products<F>>,
+    /// D, or the line for 1/√D.
+    square: Quadratic<F>,
+    /// N along the run, and the products where it starts.
+    normal: Linear<Vec3<F>>,
+    first: Products<F>,
+    factors: Vec3<F>,
+    followed: [Followed; plan::MOST],
+    /// The pixels up to the last start, those left to the next one, and between two.
+    passed: u32,
+    left: u32,
+    every: u32,
+}
+
+impl<F: Num, const MANY: bool> AdaptiveWalk<F, MANY> {
+    /// Starts differences and products anew, without the roundings of the steps before.
+    #[inline(always)]
+    fn start_anew(&mut self) {
+        self.passed += self.every;
+        self.left = self.every;
+        let k = self.passed as f32;
+        let Linear { at, step } = self.normal;
+        self.square = Quadratic::square(at + step * k, step);
+        let step = super::planes::scaled(self.products.step, self.factors.x.broadcast(k));
+        self.products.at = self.first;
+        super::Planes::zip(&mut self.products.at, step, |first, step| first + step);
+    }
+}
+
+impl<F: Num, const MANY: bool> Walk<F> for AdaptiveWalk<F, MANY> {
+    type Pixel = ((Products<F>, Vec3<F>), F, (Vec3<F>, FollowedLights));
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Pixel {
+        let is_curved = self.kind == plan::CURVED || self.kind == plan::ROOT;
+        let (mut products, mut d, mut vector) = (self.first, self.factors.x, self.vector.at);
+        if is_curved {
+            if self.left == 0 {
+                self.start_anew();
+            }
+            self.left -= 1;
+            products.1 = self.products.at.1;
+            self.products.at.1 = self.products.at.1 + self.products.step.1;
+            for i in 0..most(MANY) {
+                products.0[i] = self.products.at.0[i];
+                self.products.at.0[i] = self.products.at.0[i] + self.products.step.0[i];
+            }
+        }
+        if MANY || !is_curved {
+            vector = self.vector.next();
+        }
+        if is_curved || self.kind == plan::DULL {
+            d = self.square.next();
+        }
+        (
+            (products, vector),
+            d,
+            (self.factors, FollowedLights(self.followed)),
+        )
+    }
+}

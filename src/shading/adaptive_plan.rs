@@ -1,0 +1,411 @@
+//! The plan of a polygon for adaptive shading: the cheapest kind of pixel loop whose error stays within a number of grey levels.
+//!
+//! N_i are the unit normals of the corners, m their mean, N = Σ b_i N_i with weights b_i ≥ 0 of sum 1, and s = max |N_i − m|². All bounds
+//! hold for polygons of any number of corners, in whatever way they are interpolated.
+//!
+//! (a) **Length.** The variance about the mean is the least about any point:
+//!
+//! ```text
+//! D = N·N = 1 − Σ_{i<j} b_i b_j |N_i − N_j|² = 1 − Σ b_i |N_i − N|² ≥ 1 − Σ b_i |N_i − m|² ≥ 1 − s
+//! ```
+//! Under perspective the interpolated vector is w N with w in [w_lo, w_hi], and its square D' in [w_lo² (1 − s), w_hi²].
+//!
+//! (b) **Lights in front.** J = L·N is linear in N: it is over 0 on the whole polygon if it is at all corners, and below 0 likewise. A
+//! light behind all corners is left out, one in front of all needs no clamp.
+//!
+//! (c) **Reach of highlights.** With the symmetric matrix M = (L Vᵀ + V Lᵀ)/2 the product of J = L·N and K = V·N is a quadratic form,
+//! whose least eigenvalue is (L·V − 1)/2, so that
+//!
+//! ```text
+//! J K = Σ b_i J_i K_i − Σ_{i<j} b_i b_j (N_i − N_j)ᵀ M (N_i − N_j) ≤ max J_i K_i + s (1 − L·V)/2
+//! R·V = 2 J K / D − L·V,      N·H = H·N / √D ≤ max H·N_i / √(1 − s)  where it is over 0
+//! ```
+//! A highlight that is nowhere brighter than a quarter of the levels, shared by the lights, is left out.
+//!
+//! (d) **1/√D** on [D_lo, D_hi] with middle μ, x = (D_hi − D_lo)/(D_hi + D_lo) ≤ 1/2 and y = D/μ − 1 as a polynomial of D; relative errors e:
+//!
+//! ```text
+//! constant   2 / (√D_lo + √D_hi)                                         (√D_hi − √D_lo)/(√D_hi + √D_lo)
+//! line       (1 + 3x²/16 − (1/2 + 15x²/64) y) / √μ                       (3/16) x² (1 + x + 2x²)
+//! parabola   (1 − 35x⁴/1024 − (1/2 + 15x²/64) y + (3/8 + 35x²/128) y²) / √μ     (5/64) x³ (1 + x + 4x²)
+//! ```
+//! The constant is the best one. Line and parabola are the Taylor series 1/√(1 + y) = Σ c_k (−y)^k = 1 − y/2 + 3y²/8 − 5y³/16 + 35y⁴/128 − 63y⁵/256 …
+//! up to y³ and y⁴, in which the two highest powers are replaced by those of Chebyshev's polynomials T_k(t), t = y/x. Their absolute errors are
+//!
+//! ```text
+//! line       −(3/16) x² T_2 + (5/64) x³ T_3 − Σ_{k≥4} c_k (−y)^k
+//! parabola    (5/64) x³ T_3 − (35/1024) x⁴ T_4 − Σ_{k≥5} c_k (−y)^k
+//! ```
+//! and the relative ones these times √(1 + y). |T_k| ≤ 1, and c_k falls with k: of the first term c_m y^m of the sum, the sum is no more than itself
+//! for y ≥ 0, where signs alternate, and itself over 1 + y for y < 0. For y ≥ 0 the root is at most 1 + x/2 − x²/8 + x³/16; for y < 0 it is at most 1 in the
+//! first two terms, and makes the last one c_m x^m/√(1 − x). In units of the first term, then,
+//!
+//! ```text
+//! line       y ≥ 0: (1 + x/2) (1 + 5x/12 + 35x²/24)                       y < 0: 1 + 5x/12 + (35x²/24)/√(1 − x)
+//! parabola   y ≥ 0: (1 + x/2 − x²/8 + x³/16) (1 + 7x/16 + 63x²/20)         y < 0: 1 + 7x/16 + (63x²/20)/√(1 − x)
+//! ```
+//! which are at most 1 + x + 2x² and 1 + x + 4x²: multiplied out, as x² ≤ x/2 and x³ ≤ x²/2.
+//!
+//! (e) **Colour.** A relative error e of 1/√D changes the diffuse terms by `Σ k_d min(1, max J_i/√D_lo) e`. R·V + L·V = 2 J K / D has twice
+//! the relative error and lies between L·V and 1 + L·V where the highlight is; N·H has e itself. The power multiplies by n, and as
+//! (1 + y/n)ⁿ − 1 ≤ e^y − 1 ≤ t for y ≤ t/(1 + t), the gain (1 + t) n holds for all errors of a highlight up to its share t:
+//!
+//! ```text
+//! gain = k_s n (1 + t) · 2.1 max(1 + L·V, −L·V)   for R·V,      k_s n (1 + t)   for N·H
+//! ```
+//! (f) Three quarters of the levels are for (e) and (g), a quarter for highlights left out. The clamp of the sum makes errors smaller.
+//!
+//! (g) **Roundings.** Of D, J and K each step is rounded, which after k steps moves cosines by up to k 2⁻²³ as in `duff-phong`, where D is at its
+//! greatest, and by D_max/D times that elsewhere; walks start anew after [`STEPS`] pixels, from sums that are off by as much as [`SETUP`] steps. With a true root
+//! a run whose D falls too low for that starts anew at each pixel: then D, J and K are those of the exact kind, and so are their roundings.
+//!
+//! (h) **One colour** where no light crosses J = 0 (there the highlight jumps). Normals are within asin(√s/√(1 − s)) ≤ 1.1 √s of the mean
+//! for s ≤ 0.1, a diffuse term changes by its angle at most, cosⁿ by at most √(n/e) < √n a radian, and R turns twice as fast as N.
+
+use super::lighting::{LightUniforms, magnitude};
+use super::{Corners, Lit};
+use crate::number::{Num, Real, Vec3, vec3};
+use crate::scene::{Place, SpecularGate, SpecularModel};
+
+/// The kinds of polygons, as [`Shader::KINDS`](super::Shader::KINDS) of adaptive shading names them.
+pub(super) const EXACT: u8 = 0;
+/// The colour is linear in the normal.
+pub(super) const LINEAR: u8 = 1;
+/// No highlight, and all lights in front or behind: one colour times 1/√D, which is a line of D.
+pub(super) const DULL: u8 = 2;
+/// Cosines of the lights times 1/√D, which is a line or a parabola of D.
+pub(super) const CURVED: u8 = 3;
+/// Cosines of the lights times a true 1/√D.
+pub(super) const ROOT: u8 = 4;
+
+/// What a walk follows of a light beside the sum of all lights in front.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Followed {
+    /// The number of the light.
+    pub light: u16,
+    /// True if its diffuse term is followed, as L·N changes its sign on the polygon.
+    pub diffuse: bool,
+    /// True if its highlight may be seen.
+    pub highlight: bool,
+}
+
+/// The most lights that are followed on a polygon. More are rarely near one another, and need more registers than there are.
+pub(super) const MOST: usize = 2;
+
+/// The pixels after which a walk starts anew.
+pub(super) const STEPS: u32 = 32;
+/// The steps whose roundings a new start has: its sums are of three terms, and increments are rounded twice.
+const SETUP: f32 = 8.0;
+/// The roundings of a cosine in one step: 2⁻²³ (see the derivation of `duff-phong`).
+const ROUNDING: f32 = 1.0 / (1u32 << 23) as f32;
+/// The largest x of (d) for which lines and parabolas are taken.
+pub(super) const WIDEST: f32 = 0.5;
+/// Polygons whose box has fewer pixels are not planned: it takes longer than it saves.
+const LEAST_BOX: f32 = 16.0;
+/// The largest s for (h).
+const FLATTEST: f32 = 0.1;
+
+/// The way to shade a polygon.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    pub kind: u8,
+    /// True if the polygon has one colour: that of its mean normal.
+    pub is_one_colour: bool,
+    /// The lights in front of the whole polygon, a bit each: their diffuse terms are linear in the normal, and summed once.
+    pub in_front: u64,
+    /// The lights that are followed one by one.
+    pub followed: [Followed; MOST],
+    /// Of kind [`LINEAR`] the constant for 1/√D; of the polynomial kinds its coefficients; of [`ROOT`] the least share of its
+    /// greatest value that D may fall to along a run whose walk starts anew only after [`STEPS`] pixels.
+    pub factors: [f32; 3],
+}
+
+impl Plan {
+    /// The plan that promises nothing.
+    pub const EXACT: Plan = Plan {
+        kind: EXACT,
+        is_one_colour: false,
+        in_front: 0,
+        followed: [Followed {
+            light: 0,
+            diffuse: false,
+            highlight: false,
+        }; MOST],
+        factors: [0.0; 3],
+    };
+}
+
+/// Returns a vector of plain numbers: plans decide, and what they decide by is nothing that the method computes.
+fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
+    vec3([v.x.value(), v.y.value(), v.z.value()])
+}
+
+/// Returns the coefficients of a line for 1/√D on [`low`, `high`], and its relative error: see (d).
+pub(super) fn line([low, high]: [f32; 2]) -> ([f32; 3], f32) {
+    let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
+    let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
+    let (at, slope) = (1.0 + 0.1875 * xx, -0.5 - 0.234_375 * xx);
+    let factors = [scale * (at - slope), scale * slope / middle, 0.0];
+    (factors, 0.1875 * xx * (1.0 + x + 2.0 * xx))
+}
+
+/// Returns the coefficients of a parabola for 1/√D on [`low`, `high`], and its relative error: see (d).
+pub(super) fn parabola([low, high]: [f32; 2]) -> ([f32; 3], f32) {
+    let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
+    let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
+    let at = 1.0 - 0.034_179_7 * xx * xx;
+    let (slope, curve) = (-0.5 - 0.234_375 * xx, 0.375 + 0.273_437_5 * xx);
+    let factors = [
+        scale * (at - slope + curve),
+        scale * (slope - 2.0 * curve) / middle,
+        scale * curve / (middle * middle),
+    ];
+    (factors, 0.078_125 * xx * x * (1.0 + x + 4.0 * xx))
+}
+
+/// The corners of a polygon as a light sees them.
+struct Seen {
+    /// The least and the greatest L·N.
+    low: f32,
+    high: f32,
+    /// The greatest product (L·N)(V·N), and the greatest sum of both.
+    product: f32,
+    sum: f32,
+}
+
+fn seen<R: Real>(corners: &[Vec3<R>], to: Vec3<f32>, view: Vec3<f32>) -> Seen {
+    let most = f32::NEG_INFINITY;
+    let mut seen = Seen {
+        low: f32::INFINITY,
+        high: most,
+        product: most,
+        sum: most,
+    };
+    for n in corners {
+        let n = plain(*n);
+        let (j, k) = (n.dot(to), n.dot(view));
+        seen.low = f32::min(seen.low, j);
+        seen.high = f32::max(seen.high, j);
+        seen.product = f32::max(seen.product, j * k);
+        seen.sum = f32::max(seen.sum, j + k);
+    }
+    seen
+}
+
+/// Plans a polygon for an error of so many grey levels of 255. If there `is_one` light at most, walks follow its diffuse term, too.
+pub(super) fn plan<R: Real>(
+    levels: f32,
+    is_one: bool,
+    lit: &Lit<'_, R>,
+    polygon: &Corners<'_, R>,
+) -> Plan {
+    let (model, lights) = (lit.model, lit.stored);
+    let exact = Plan::EXACT;
+    let Some(view) = direction(model.eye) else {
+        return exact;
+    };
+    if model.gate != SpecularGate::Gated || !model.exponent.is_power() {
+        return exact;
+    }
+    let (mut light_weight, mut heavy_weight) = (f32::INFINITY, 0.0f32);
+    let [mut left, mut top] = [f32::INFINITY; 2];
+    let [mut right, mut bottom] = [f32::NEG_INFINITY; 2];
+    for corner in polygon.all {
+        let (weight, [x, y]) = (corner.weight.value(), corner.place.map(|at| at.value()));
+        light_weight = f32::min(light_weight, weight);
+        heavy_weight = f32::max(heavy_weight, weight);
+        (left, right) = (f32::min(left, x), f32::max(right, x));
+        (top, bottom) = (f32::min(top, y), f32::max(bottom, y));
+    }
+    let wide = right - left;
+    if wide * (bottom - top) < LEAST_BOX {
+        return exact;
+    }
+    let corners = polygon.whole;
+    let share = 1.0 / corners.len() as f32;
+    let mean = corners
+        .iter()
+        .fold(vec3([0.0; 3]), |sum, n| sum + plain(*n))
+        * share;
+    let square = |v: Vec3<f32>| v.dot(v);
+    let apart = corners.iter().map(|n| square(plain(*n) - mean));
+    let s = apart.fold(0.0, f32::max);
+    let turn = 1.1 * Num::sqrt(s); // see (h)
+    // With the roundings of all this. NaN, where a corner has no normal, is exact.
+    let s = 1.000_01 * s + 2e-6;
+    if !(s < 5.0 && light_weight > 0.0) {
+        return exact;
+    }
+    let low = f32::max(1.0 - s, 0.0);
+    let to_levels = 255.0 / model.scale;
+    let over_low = 1.0 / Num::sqrt(low); // infinite where normals may cancel
+    let room = 0.75 * levels;
+    let n = model.shininess;
+    let is_halfway = model.specular == SpecularModel::Blinn;
+    let mut plan = exact;
+    // What a relative error of 1/√D is multiplied by; what a turn of the normal is.
+    let (mut diffuse, mut gain, mut steep) = (0.0, 0.0, 0.0);
+    let (mut is_crossed, mut followed) = (false, 0);
+    for (i, light) in lights.iter().enumerate() {
+        let Some(to) = direction(light.place) else {
+            return exact;
+        };
+        let seen = seen(corners, to, view);
+        if seen.high <= 0.0 {
+            continue;
+        }
+        let is_crossing = seen.low < 0.0;
+        is_crossed |= is_crossing || seen.low == 0.0;
+        let k_d = magnitude(light.diffuse) * to_levels;
+        let k_s = magnitude(light.specular) * to_levels;
+        diffuse += k_d * f32::min(1.0, seen.high * over_low);
+        let turns = if is_halfway { 1.0 } else { 2.0 };
+        steep += k_d + k_s * turns * Num::sqrt(n);
+        let shines = k_s > 0.0 && {
+            let reach = reach(light, &seen, s, is_halfway).clamp(0.0, 1.0);
+            k_s * model.exponent.of(reach) * lights.len() as f32 > 0.25 * levels
+        };
+        if shines {
+            let l_v = light.l_v;
+            let of_cosine = match is_halfway {
+                true => 1.0,
+                false => 2.1 * f32::max(1.0 + l_v, -l_v),
+            };
+            gain += match n >= 1.0 {
+                true => k_s * n * (1.0 + room / k_s) * of_cosine,
+                false => f32::INFINITY, // infinitely steep at 0
+            };
+        }
+        plan.in_front |= u64::from(!is_crossing) << i;
+        if is_crossing || shines {
+            if followed < MOST {
+                plan.followed[followed] = Followed {
+                    light: i as u16,
+                    diffuse: is_crossing,
+                    highlight: shines,
+                };
+            }
+            followed += 1;
+        }
+    }
+    if !is_crossed && s <= FLATTEST && (turn == 0.0 || n >= 1.0 && turn * steep <= levels) {
+        plan.is_one_colour = true;
+        plan.kind = LINEAR;
+        return plan;
+    }
+    let range = [
+        low * light_weight * light_weight,
+        heavy_weight * heavy_weight * 1.000_001,
+    ];
+    let wide = right - left;
+    let is_dull = followed == 0;
+    if is_dull {
+        let [low, high] = range.map(Num::sqrt);
+        let error = (high - low) / (high + low) + ROUNDING * wide;
+        if diffuse * error <= room {
+            plan.kind = LINEAR;
+            plan.factors = [2.0 / (low + high), 0.0, 0.0];
+            return plan;
+        }
+    }
+    let [low, high] = range;
+    let is_narrow = high - low <= WIDEST * (high + low);
+    if is_dull && is_narrow {
+        let (factors, error) = line(range);
+        // Of the line itself the steps are rounded, which is at most 1/√low.
+        if diffuse * (error + 2.0 * ROUNDING * wide * high / low) <= room {
+            (plan.kind, plan.factors) = (DULL, factors);
+            return plan;
+        }
+    }
+    if followed > MOST {
+        return exact;
+    }
+    if is_one {
+        plan.followed[0].diffuse = !lights.is_empty();
+        plan.in_front = 0;
+    }
+    let gain = diffuse + gain;
+    let steps = f32::min(wide, STEPS as f32) + SETUP;
+    let rounding = ROUNDING * steps * high;
+    if is_narrow {
+        for (factors, error) in [line(range), parabola(range)] {
+            if gain * (error + rounding / low) <= room {
+                (plan.kind, plan.factors) = (CURVED, factors);
+                return plan;
+            }
+        }
+    }
+    // NaN, where a corner has no normal, is exact.
+    let share = ROUNDING * steps * gain / room;
+    if share.is_nan() || share >= 0.5 {
+        return exact;
+    }
+    (plan.kind, plan.factors) = (ROOT, [share, 0.0, 0.0]);
+    plan
+}
+
+/// Returns the greatest cosine of a light's highlight on a polygon, or a number over 1 where it is unknown: see (c).
+fn reach(light: &LightUniforms, seen: &Seen, s: f32, is_halfway: bool) -> f32 {
+    const ROUNDINGS: f32 = 2e-6;
+    let low = f32::max(1.0 - s, f32::MIN_POSITIVE);
+    if is_halfway {
+        return ROUNDINGS + seen.sum * light.half / Num::sqrt(low);
+    }
+    let most = 2.0 * seen.product + (1.0 - light.l_v) * s;
+    let over = if most > 0.0 { most / low } else { most };
+    ROUNDINGS + over - light.l_v
+}
+
+/// Returns a direction; `None` for a position.
+fn direction(place: Place<Vec3<f32>>) -> Option<Vec3<f32>> {
+    match place {
+        Place::Infinite(v) => Some(v),
+        Place::Local(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the largest relative error of a polynomial for 1/√D on a range: at its ends, or where the derivative of p √D is 0, which is where
+    /// k_0 + 3 k_1 D + 5 k_2 D² is.
+    fn largest_error(factors: [f32; 3], range: [f32; 2]) -> f64 {
+        let [k_0, k_1, k_2] = factors.map(f64::from);
+        let [low, high] = range.map(f64::from);
+        let extremes = match k_2 {
+            0.0 => [-k_0 / (3.0 * k_1); 2],
+            _ => {
+                let root = (9.0 * k_1 * k_1 - 20.0 * k_0 * k_2).sqrt();
+                [-1.0, 1.0].map(|sign| (sign * root - 3.0 * k_1) / (10.0 * k_2))
+            }
+        };
+        let inside = extremes.into_iter().filter(|d| (low..high).contains(d));
+        let error = |d: f64| ((k_0 + d * (k_1 + d * k_2)) * d.sqrt() - 1.0).abs();
+        inside.chain([low, high]).map(error).fold(0.0, f64::max)
+    }
+
+    /// Lines and parabolas for 1/√D are as near as stated on every range that they are taken for, and nearly as far somewhere.
+    #[test]
+    fn polynomials_are_within_their_errors() {
+        for number in 1..=1000 {
+            let x = f64::from(WIDEST) * f64::from(number) / 1000.0;
+            let range = [1.0 - x, 1.0 + x].map(|d| 0.7 * d as f32);
+            for (name, (factors, stated)) in [("line", line(range)), ("parabola", parabola(range))]
+            {
+                let (most, stated) = (largest_error(factors, range), f64::from(stated));
+                // Coefficients of at most 4 are rounded to 2⁻²³ each.
+                let roundings = 1e-6;
+                assert!(
+                    most <= stated + roundings,
+                    "{name}, x = {x}: {most} over {stated}"
+                );
+                assert!(
+                    most >= 0.6 * stated - roundings,
+                    "{name}, x = {x}: {most} of {stated}"
+                );
+            }
+        }
+    }
+}
