@@ -100,6 +100,10 @@ function sceneFacts(s) {
 	const left = Object.keys(reasons)
 		.filter(k => s.stats[k])
 		.map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
+	const share = k => `${((k.polygons / s.polygons) * 100).toFixed(0)} % ${k.name}`;
+	const byKind = Object.values(s.rows)
+		.filter(q => q.kinds && s.polygons)
+		.map(q => `polygons by ${nameOf(q.variant)}: ${q.kinds.map(share).join(", ")}`);
 	return [
 		`${plural(s.polygons, "polygon")} in view`,
 		plural(s.lights, "light"),
@@ -113,5 +117,6 @@ function sceneFacts(s) {
 				`${num(cut.difference.max * 255)} levels`,
 		s.not_simple &&
 			`${plural(s.not_simple, "polygon")} crossing themselves: not drawn by barycentric`,
+		...byKind,
 	];
 }

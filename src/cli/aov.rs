@@ -1,9 +1,10 @@
-//! Pictures of quantities other than colour: depth, normals, polygon numbers, vertex colours, a checkerboard.
+//! Pictures of quantities other than colour: depth, normals, numbers and kinds of polygons, vertex colours, a checkerboard.
 
 use fastphong::frame::Frame;
 use fastphong::picture::encoding::{quantise, store};
-use fastphong::picture::{Encoding, LinearPicture, Picture8};
+use fastphong::picture::{Encoding, LinearPicture, Picture, Picture8};
 use fastphong::raster;
+use fastphong::shading::Variant;
 
 /// A quantity that a picture shows instead of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -14,11 +15,31 @@ pub enum Aov {
     Normal,
     /// Visible polygon, each in a colour of its own; in .pfm its number in the scene, -1 where there is none
     Polygon,
+    /// Kind by which `--method` draws the visible polygon, for methods that tell kinds apart; in .pfm its number, -1 where there is none [default method: adaptive-phong]
+    Kind,
     /// Vertex colours, interpolated; white where the mesh has none
     Colours,
     /// Checkerboard on the world's x and z, with squares of `--square` world units
     Checkerboard,
 }
+
+/// What the quantities are of.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The side of a square of the checkerboard, in world units.
+    pub square: f64,
+    /// The method whose kinds of polygons are shown.
+    pub variant: Variant,
+}
+
+/// The colours of kinds of polygons, in their order: after Okabe and Ito, whose colours all eyes tell apart.
+pub const KINDS: [(&str, [u8; 4]); 5] = [
+    ("grey", [153, 153, 153, 255]),
+    ("blue", [86, 180, 233, 255]),
+    ("green", [0, 158, 115, 255]),
+    ("orange", [230, 159, 0, 255]),
+    ("red", [213, 94, 0, 255]),
+];
 
 /// The colours of the checkerboard: linear.
 const BOARD: [[f32; 3]; 2] = [[0.9; 3], [0.1, 0.15, 0.35]];
@@ -29,12 +50,12 @@ impl Aov {
         format!("{self:?}").to_lowercase()
     }
 
-    /// Returns the quantity as floats. Depth is infinite where nothing is seen. `square` is the side of a square, in world units.
-    pub fn linear(self, frame: &Frame, square: f64) -> LinearPicture {
+    /// Returns the quantity as floats. Depth is infinite where nothing is seen.
+    pub fn linear(self, frame: &Frame, subject: &Subject) -> LinearPicture {
         let grey = |value: f32, seen: bool| [value, value, value, f32::from(u8::from(seen))];
         match self {
             Aov::Colours => raster::vertex_colours(frame, None),
-            Aov::Checkerboard => raster::checkerboard(frame, None, square, BOARD),
+            Aov::Checkerboard => raster::checkerboard(frame, None, subject.square, BOARD),
             Aov::Normal => raster::normals(frame),
             Aov::Depth => raster::depth(frame).map(|depth| grey(depth, depth.is_finite())),
             Aov::Polygon => raster::polygon_numbers(frame).map(|number| {
@@ -44,6 +65,10 @@ impl Aov {
                     None => grey(-1.0, false),
                 }
             }),
+            Aov::Kind => kinds(frame, &subject.variant).map(|kind| match kind {
+                Some(kind) => grey(f32::from(kind), true),
+                None => grey(-1.0, false),
+            }),
         }
     }
 
@@ -52,15 +77,15 @@ impl Aov {
         match self {
             Aov::Colours | Aov::Checkerboard => frame.encoding(),
             Aov::Depth | Aov::Normal => Encoding::Linear,
-            Aov::Polygon => Encoding::Srgb,
+            Aov::Polygon | Aov::Kind => Encoding::Srgb,
         }
     }
 
     /// Returns the quantity in 8 bits, for eyes.
-    pub fn stored(self, frame: &Frame, square: f64) -> Picture8 {
+    pub fn stored(self, frame: &Frame, subject: &Subject) -> Picture8 {
         match self {
             Aov::Colours | Aov::Checkerboard => {
-                store(&self.linear(frame, square), frame.encoding())
+                store(&self.linear(frame, subject), frame.encoding())
             }
             Aov::Normal => raster::normals(frame).map(|pixel| pixel.map(quantise)),
             Aov::Depth => {
@@ -82,8 +107,16 @@ impl Aov {
                 let polygon = frame.polygons().get(number as usize);
                 polygon.map_or([0; 4], |polygon| colour_of_number(polygon.source))
             }),
+            Aov::Kind => kinds(frame, &subject.variant)
+                .map(|kind| kind.map_or([0; 4], |kind| KINDS[usize::from(kind)].1)),
         }
     }
+}
+
+/// Returns the kind by which a method draws the polygon that is seen at each pixel.
+fn kinds(frame: &Frame, variant: &Variant) -> Picture<Option<u8>> {
+    let kinds = variant.kinds_of_polygons(frame);
+    raster::polygon_numbers(frame).map(|number| kinds.get(number as usize).copied())
 }
 
 /// Returns the colour of a polygon: unlike those of the numbers around it, and the same in every view.

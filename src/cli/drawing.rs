@@ -1,8 +1,9 @@
 //! Render jobs: from a frame to a picture, by a method and an engine.
 
+use super::aov::{Aov, Subject};
 use super::engines::{ENGINES, EngineFlag, EngineInfo, Simd, cs171_shading};
 use super::text::{counted, grouped};
-use super::{CliError, Log, aov::Aov};
+use super::{CliError, Log};
 use fastphong::compare::comparison::DrawnBy;
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
@@ -79,8 +80,8 @@ enum PictureContent {
     Cs171(Shading, Reading),
     /// Colours of the closed form.
     Reference(Model),
-    /// Another quantity; the side of a square of the checkerboard, in world units.
-    Aov(Aov, f64),
+    /// Another quantity.
+    Aov(Aov, Subject),
 }
 
 /// A frame to draw, and the quantity that its picture shows.
@@ -103,10 +104,9 @@ impl RenderJob {
         }
     }
 
-    /// Makes a job that shows another quantity than colours; `square` is the side of a square of the checkerboard, in world
-    /// units.
-    pub fn aov(frame: Frame, aov: Aov, square: f64) -> RenderJob {
-        RenderJob::new(frame, PictureContent::Aov(aov, square), aov.name())
+    /// Makes a job that shows another quantity than colours.
+    pub fn aov(frame: Frame, aov: Aov, subject: Subject) -> RenderJob {
+        RenderJob::new(frame, PictureContent::Aov(aov, subject), aov.name())
     }
 
     /// Makes a job that shows colours, by scanlines with `renderer`. The barycentric renderer and CS171's algorithms take
@@ -314,10 +314,10 @@ impl RenderJob {
                 let picture = reference::render(frame, *model).picture;
                 from_f64(&picture, frame.encoding(), linear)
             }
-            PictureContent::Aov(aov, square) if linear => {
-                FilePicture::linear(aov.linear(frame, *square))
+            PictureContent::Aov(aov, subject) if linear => {
+                FilePicture::linear(aov.linear(frame, subject))
             }
-            PictureContent::Aov(aov, square) => FilePicture::stored(aov.stored(frame, *square)),
+            PictureContent::Aov(aov, subject) => FilePicture::stored(aov.stored(frame, subject)),
         }
     }
 }

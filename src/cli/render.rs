@@ -1,6 +1,6 @@
 //! `fastphong render`: from an input to a picture.
 
-use super::aov::Aov;
+use super::aov::{Aov, KINDS, Subject};
 use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
 use super::name_template::{named, scene_name};
@@ -18,7 +18,7 @@ use fastphong::raster::Renderer;
 use fastphong::raster::painter::{Conflicts, conflicts};
 use fastphong::scene::file::STANDARD_INPUT;
 use fastphong::scene::{HiddenSurfaces, input};
-use fastphong::shading::Variant;
+use fastphong::shading::{METHODS, Variant, methods};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -56,7 +56,7 @@ pub struct RenderArgs {
     #[command(flatten)]
     threads: ThreadFlags,
     /// Show a quantity other than colour
-    #[arg(long, value_enum, conflicts_with_all = ["method", "engine", "simd"])]
+    #[arg(long, value_enum, conflicts_with_all = ["engine", "simd"])]
     aov: Option<Aov>,
     /// Side of a square of `--aov checkerboard`, in world units
     #[arg(long, value_name = "UNITS", default_value = "1", value_parser = values::length, allow_hyphen_values = true, requires = "aov")]
@@ -212,10 +212,39 @@ impl RenderArgs {
         Ok(())
     }
 
+    /// Returns the method whose kinds of polygons are shown.
+    ///
+    /// # Errors
+    /// When another quantity is shown, which no method changes, or when the method tells no kinds apart.
+    fn method_of(&self, aov: Aov) -> Result<Variant, CliError> {
+        match &self.method {
+            None => Ok(methods::ADAPTIVE_PHONG.variant()),
+            Some(_) if aov != Aov::Kind => {
+                Err(format!("--aov {} cannot be used with --method", aov.name()).into())
+            }
+            Some(Method::Variant(variant)) if !variant.entry().kinds().is_empty() => {
+                Ok(variant.clone())
+            }
+            Some(method) => {
+                let all = METHODS.iter().filter(|entry| !entry.kinds().is_empty());
+                let names: Vec<&str> = all.map(|entry| entry.info.name).collect();
+                let names = names.join(", ");
+                Err(format!("--aov kind: {method} has one kind of polygons; take {names}").into())
+            }
+        }
+    }
+
     /// Prepares the drawing of `frame`; logs which method `auto` takes.
     fn job(&self, frame: Frame, renderer: Renderer, log: Log) -> Result<RenderJob, CliError> {
         if let Some(aov) = self.aov {
-            return Ok(RenderJob::aov(frame, aov, self.square));
+            let subject = Subject {
+                square: self.square,
+                variant: self.method_of(aov)?,
+            };
+            if aov == Aov::Kind {
+                log.note(&kinds_text(&subject.variant, &frame));
+            }
+            return Ok(RenderJob::aov(frame, aov, subject));
         }
         let method = self.method.clone().unwrap_or_else(|| {
             let (variant, why) = match self.engine {
@@ -230,6 +259,17 @@ impl RenderArgs {
         });
         RenderJob::shaded(frame, &method, self.engine, self.simd, renderer, log)
     }
+}
+
+/// Says how many polygons a method draws by each kind, and in which colour `--aov kind` shows them.
+fn kinds_text(variant: &Variant, frame: &Frame) -> String {
+    let kinds = variant.polygon_kinds(frame);
+    let kinds: Vec<String> = kinds
+        .iter()
+        .zip(KINDS)
+        .map(|(kind, (colour, _))| format!("{} {} ({colour})", kind.polygons, kind.name))
+        .collect();
+    format!("{variant}: polygons by kind: {}", kinds.join(", "))
 }
 
 /// Writes the picture, and logs it.

@@ -66,6 +66,35 @@ fn aovs_show_depth_normals_and_polygons() {
         .refused(&["cannot be used with"]);
 }
 
+/// `--aov kind` shows which polygon took which kind, of the method that is asked for.
+#[test]
+fn aovs_show_kinds_of_polygons() {
+    let folder = Folder::new();
+    let ball = "render builtin:sphere?rings=6&segments=12 --size 400x300 --aov kind";
+    folder
+        .run(&format!("{ball} -o kind.pfm"))
+        .done()
+        .says("adaptive-phong: polygons by kind: 0 exact (grey), ");
+    let kinds = match read_picture(&folder.path("kind.pfm")).unwrap().pixels {
+        FilePixels::Linear(floats) => floats,
+        _ => panic!("floats"),
+    };
+    let seen: std::collections::BTreeSet<i32> =
+        kinds.pixels().iter().map(|pixel| pixel[0] as i32).collect();
+    assert!(seen.contains(&-1) && seen.len() >= 3, "{seen:?}");
+    folder
+        .run(&format!("{ball} -m six-point -o six.png"))
+        .done()
+        .says("six-point: polygons by kind: 9 quadratic (grey), 27 roots (blue)");
+    let six = picture(&folder.path("six.png"));
+    let colours: std::collections::BTreeSet<[u8; 4]> = six.pixels().iter().copied().collect();
+    let expected = [[0; 4], [86, 180, 233, 255], [153, 153, 153, 255]];
+    assert_eq!(Vec::from_iter(colours), expected);
+    folder
+        .run(&format!("{ball} -m flat -o out.png"))
+        .refused(&["flat has one kind of polygons; take six-point, adaptive-phong"]);
+}
+
 /// AOVs show vertex colours of a triangle with a red, a green and a blue corner, and a checkerboard
 /// on a floor of 4 × 4 world units.
 #[test]
