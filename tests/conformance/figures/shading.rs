@@ -35,6 +35,27 @@ fn exercises() {
 }
 
 #[test]
+fn highlight() {
+    let content = made("highlight");
+    // The corners of a cell 2a wide, whose middle faces the eye, lean by θ with cos θ = cos² a; light from the eye is reflected
+    // at 2θ. Gouraud has the mean of the four in the middle: k_s cosⁿ 2θ + k_d (cos θ − 1) of naive Phong's k_s.
+    for (key, cells, n) in [
+        ("coarse", 16.0, 64.0),
+        ("fine", 96.0, 64.0),
+        ("dull", 48.0, 4.0),
+    ] {
+        let cosine = (std::f64::consts::PI / cells).cos().powi(2);
+        let twice = 2.0 * cosine * cosine - 1.0;
+        let kept = (twice.powf(n) + 0.3 / 0.6 * (cosine - 1.0)).max(0.0);
+        // The pixel's centre lies half a pixel of 76 from the middle: 2 · 0.53° off, cos⁶⁴ of that is 0.989.
+        let found = value(&content, key);
+        assert!((found - 100.0 * kept).abs() < 1.5, "{key}: {found} {kept}");
+    }
+    assert_eq!(agreement(&content, "coarse"), Agreement::Confirms);
+    assert_eq!(agreement(&content, "dull"), Agreement::Adds);
+}
+
+#[test]
 fn square() {
     let content = made("square");
     for method in ["gouraud", "naive-phong", "fast-phong", "slerp-phong"] {
