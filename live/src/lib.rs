@@ -82,6 +82,18 @@ pub extern "C" fn frame(
     with(|studio| studio.answer(|studio| studio.look(&view)))
 }
 
+/// Returns where the angles are that the frame was turned by, two `f64`, azimuth and elevation: no camera turns beyond the poles.
+#[unsafe(no_mangle)]
+pub extern "C" fn turned() -> *const f64 {
+    with(|studio| studio.turned.as_ptr())
+}
+
+/// Makes what was odd about the scene the text, a line each, and returns its length.
+#[unsafe(no_mangle)]
+pub extern "C" fn warnings() -> usize {
+    with(|studio| studio.say(studio.warnings.join("\n")))
+}
+
 /// Writes the scene as it is looked at, as TOML: the text then, whose length is returned.
 #[unsafe(no_mangle)]
 pub extern "C" fn scene() -> isize {
@@ -100,7 +112,7 @@ pub extern "C" fn picture() -> *const u8 {
     with(Studio::stored)
 }
 
-/// Compares the picture with the exact one. Returns where `f64` numbers are: the largest error in grey levels, its column and row,
+/// Compares the picture with the exact one, but for pixels where the reference shows another polygon. Returns where `f64` numbers are: the largest error in grey levels, its column and row,
 /// the root of the mean square, the pixels compared.
 #[unsafe(no_mangle)]
 pub extern "C" fn compare() -> *const f64 {

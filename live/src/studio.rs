@@ -2,8 +2,8 @@
 
 use fastphong::frame::{Frame, PreparedScene};
 use fastphong::picture::encoding::store;
-use fastphong::picture::{LinearPicture, Picture8};
-use fastphong::raster::{Plan, Renderer};
+use fastphong::picture::{LinearPicture, Picture, Picture8};
+use fastphong::raster::{Plan, Renderer, polygon_numbers};
 use fastphong::reference::{self, Model};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::resolve_by;
@@ -50,8 +50,12 @@ pub struct Studio {
     picture: LinearPicture,
     exact: LinearPicture,
     bytes: Picture8,
+    /// True at pixels where the reference shows another polygon than the engine: they differ in depth, not in shading.
+    others: Vec<bool>,
     /// Grey levels, a pixel each; 0 where nothing is compared.
     pub errors: Vec<f32>,
+    pub turned: [f64; 2],
+    pub warnings: Vec<String>,
     numbers: Vec<f64>,
     /// The pictures of the figure, and what the page reads of the last one that it asked for.
     pub panels: Vec<Picture8>,
@@ -68,7 +72,10 @@ impl Default for Studio {
             picture: LinearPicture::new(0, 0, [0.0; 4]),
             exact: LinearPicture::new(0, 0, [0.0; 4]),
             bytes: Picture8::new(0, 0, [0; 4]),
+            others: Vec::new(),
             errors: Vec::new(),
+            turned: [0.0; 2],
+            warnings: Vec::new(),
             numbers: Vec::new(),
             panels: Vec::new(),
             panel: [0; 3],
@@ -123,6 +130,7 @@ impl Studio {
             known.cloned().ok_or_else(|| ErrorKind::NotFound.into())
         };
         let resolved = resolve_by(&file, &mut read).map_err(|error| error.to_string())?;
+        self.warnings = resolved.warnings;
         let scene = resolved.scene;
         let polygons = scene
             .objects
@@ -157,6 +165,7 @@ impl Studio {
         let mut orbit = Orbit::default();
         orbit.turn(&loaded.start, view.azimuth, view.elevation);
         orbit.zoom(view.zoom);
+        self.turned = orbit.angles();
         let scene = &mut loaded.prepared;
         scene.set_size(width, height);
         scene.set_samples(if view.samples > 0 {
@@ -197,8 +206,15 @@ impl Studio {
         let Some(frame) = &self.frame else {
             return Err("no frame".into());
         };
+        if is_exact {
+            self.others.clear();
+        }
         let drawn = if name == "reference" {
-            reference::render(frame, Model::Phong).to_linear()
+            let exact = reference::render(frame, Model::Phong);
+            if is_exact {
+                self.others = other_polygons(frame, &exact.polygons);
+            }
+            exact.to_linear()
         } else {
             let variant = Variant::parse(&name).map_err(|error| error.to_string())?;
             if let Plan::Refused(why) = variant.plan(frame, Renderer::Span) {
@@ -226,6 +242,8 @@ impl Studio {
         self.errors.clear();
         for (i, (p, q)) in pairs.enumerate() {
             let apart = [0, 1, 2].map(|c| 255.0 * (p[c] - q[c]).abs());
+            let is_other = self.others.get(i).is_some_and(|is_other| *is_other);
+            let apart = if is_other { [0.0; 3] } else { apart };
             let error = apart[0].max(apart[1]).max(apart[2]);
             self.errors.push(error);
             squares += f64::from(apart.iter().map(|e| e * e).sum::<f32>());
@@ -239,6 +257,18 @@ impl Studio {
         self.numbers = vec![f64::from(most), column, row, root, count as f64];
         self.numbers.as_ptr()
     }
+}
+
+/// Returns the pixels where the engine shows other polygons than `seen`, which has a number a sample.
+fn other_polygons(frame: &Frame, seen: &Picture<u32>) -> Vec<bool> {
+    let (drawn, samples) = (polygon_numbers(frame), frame.samples());
+    let mut others = vec![false; frame.picture_width() * frame.picture_height()];
+    for y in 0..frame.height() {
+        for (x, (a, b)) in drawn.row(y).iter().zip(seen.row(y)).enumerate() {
+            others[y / samples * frame.picture_width() + x / samples] |= a != b;
+        }
+    }
+    others
 }
 
 impl Loaded {

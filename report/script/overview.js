@@ -76,7 +76,14 @@ let v1;
 
 /* Makes the viewer, and has the chart choose what it shows. */
 function startOverview() {
+	let hasTurned = false;
 	const change = (v, changed) => {
+		// Whoever turns a scene for the first time sees what it changes.
+		if (changed.round && !hasTurned) {
+			hasTurned = true;
+			basis = "scene";
+			markBasis();
+		}
 		if (!changed.moved) pareto(v);
 		remember(v);
 	};
@@ -87,7 +94,7 @@ function startOverview() {
 		choices: MANY && SCENES.filter(s => s.drawn).slice(0, 8),
 		change,
 	});
-	segments(
+	const markBasis = segments(
 		$("#pareto-basis"),
 		() => basis,
 		key => {

@@ -64,6 +64,16 @@ class Studio {
 		return this.ask(this.exports.load());
 	}
 
+	/* What was odd about the scene. */
+	warnings() {
+		return this.said(this.exports.warnings());
+	}
+
+	/* Azimuth and elevation of the frame: no camera turns beyond the poles. */
+	turned() {
+		return [...this.at(Float64Array, this.exports.turned(), 2)];
+	}
+
 	/* The direction to the first light: to the right, upward, toward the eye. */
 	light() {
 		return [...this.at(Float64Array, this.exports.light(), 3)];

@@ -154,7 +154,12 @@ class Hand {
 		this.moves = moves;
 		this.rounds = 0;
 		try {
-			if (this.source !== this.v.scene) this.live.look(this.v.view, moves);
+			if (this.source !== this.v.scene) {
+				this.live.look(this.v.view, moves);
+				const [, elevation] = this.live.studio.turned();
+				const isBeyond = Math.abs(elevation - this.v.view.elevation) > 1e-9;
+				if (isBeyond) this.v.view = { ...this.v.view, elevation };
+			}
 			await this.v.present();
 		} catch (error) {
 			this.fail(error);

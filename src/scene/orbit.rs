@@ -99,6 +99,11 @@ impl Orbit {
         self.azimuth = libm::remainder(self.azimuth + azimuth, core::f64::consts::TAU);
     }
 
+    /// Returns azimuth and elevation from the start, in radians: not beyond the poles.
+    pub fn angles(&self) -> [f64; 2] {
+        [self.azimuth, self.elevation]
+    }
+
     /// Shows everything `factor` times as large, within limits.
     pub fn zoom(&mut self, factor: f64) {
         self.zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
