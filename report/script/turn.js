@@ -400,7 +400,9 @@ class Hand {
 			const s = await ownScene(files, before.own ? SCENES[0] : before);
 			const live = await LiveScene.make(s);
 			await this.v.set({ scene: s, view: STILL, pin: null, live });
-			toast(`${s.title}: ${plural(live.polygons, "polygon")}`);
+			const [odd, ...more] = live.studio.warnings().split("\n").filter(Boolean);
+			const others = more.length ? ` (and ${plural(more.length, "thing")} more)` : "";
+			toast(odd ? odd + others : `${s.title}: ${plural(live.polygons, "polygon")}`);
 		} catch (error) {
 			toast(error.message.split("\n")[0]);
 		}
