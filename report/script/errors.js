@@ -46,6 +46,16 @@ const HEAT = (() => {
 /* The place of an error on the scale, in 0..=1. */
 const heat = (error, top) => (top ? Math.min(1, error / top) : Math.log2(1 + error) / 8);
 
+/* The colours of errors in equal steps up to the end of the scale: quicker than a logarithm a pixel. */
+const HEAT_STEPS = 16384;
+const heatTable = top =>
+	memo(`heat ${top}`, () =>
+		Uint32Array.from({ length: HEAT_STEPS + 1 }, (_, i) => {
+			const error = (i / HEAT_STEPS) * (top || 255);
+			return HEAT[Math.round(heat(error, top) * 255)];
+		}),
+	);
+
 const errorMap = (s, m, top) =>
 	s.map?.(m, top) ??
 	memo(`map ${s.id} ${m} ${top}`, async () => {

@@ -35,15 +35,21 @@ class LiveScene {
 		return live;
 	}
 
-	/* Looks from elsewhere. While something moves, pixels have one sample, and errors are from naive Phong: the reference
-	   takes longer. */
-	look(view, moves) {
+	/* Looks from elsewhere. While something moves, pixels have one sample, and errors are from naive Phong, as the reference
+	   takes longer: in every third frame, unless `maps` are shown, since numbers need not change as fast as pictures. */
+	look(view, moves, maps) {
 		this.view = view;
+		this.moves = moves;
+		this.frames = moves ? (this.frames ?? -1) + 1 : -1;
+		this.judges = !moves || maps || this.frames % 3 === 0;
 		this.exact = moves && this.list.includes(BASE) ? BASE : "reference";
 		this.studio.frame(this.w, this.h, view, moves ? 1 : 0);
-		this.studio.draw(this.exact, 1);
-		this.rows = {};
+		if (this.judges) {
+			this.studio.draw(this.exact, 1);
+			this.rows = {};
+		}
 		this.drawn = {};
+		this.errors = {};
 		this.count = {};
 	}
 
@@ -52,19 +58,30 @@ class LiveScene {
 		return [m, ...Object.entries(this.view.given[m] ?? {}).map(([k, v]) => `${k}=${v}`)].join(":");
 	}
 
-	/* Draws by a method, unless it has been, and says how that went. */
+	/* Draws by a method, and notes how that went. */
+	draw(m) {
+		if (m !== "reference" && !this.list.includes(m)) throw Error(`${nameOf(m)} is not known here`);
+		const ms = this.time(m, this.studio.draw(m === "reference" ? m : this.variant(m)));
+		if (this.judges) {
+			const { errors, ...q } = this.studio.compare();
+			this.errors[m] = errors;
+			if (m !== "reference") this.rows[m] = q;
+		}
+		if (this.rows[m]) this.rows[m].ms = ms;
+	}
+
+	/* The picture by a method, drawn unless it has been. */
 	one(m) {
 		if (this.drawn[m]) return this.drawn[m];
 		const { studio, w, h } = this;
-		if (m !== "reference" && !this.list.includes(m)) throw Error(`${nameOf(m)} is not known here`);
-		const ms = studio.draw(m === "reference" ? m : this.variant(m));
-		const image = new ImageData(studio.bytes(w, h).slice(), w, h);
-		const { errors, ...q } = studio.compare();
+		this.draw(m);
+		const bytes = studio.bytes(w, h);
+		// What is kept must not lie in the module's memory.
+		const image = new ImageData(this.moves ? bytes : bytes.slice(), w, h);
 		const canvas = create("canvas");
 		[canvas.width, canvas.height] = [w, h];
 		canvas.getContext("2d").putImageData(image, 0, 0);
-		if (m !== "reference") this.rows[m] = { ...q, ms: this.time(m, ms) };
-		return (this.drawn[m] = { canvas, px: image.data, errors });
+		return (this.drawn[m] = { canvas, px: image.data, errors: this.errors[m] });
 	}
 
 	/* The mean of the faster half of the latest drawings. */
@@ -80,8 +97,10 @@ class LiveScene {
 
 	/* The colours of errors, as of stored pictures. */
 	map(m, top) {
-		const { errors } = this.one(m);
-		return canvasOf(this, i => HEAT[Math.round(heat(errors[i], top) * 255)]);
+		if (!this.errors[m]) this.draw(m);
+		const [errors, colours] = [this.errors[m], heatTable(top)];
+		const scale = HEAT_STEPS / (top || 255);
+		return canvasOf(this, i => colours[Math.min(HEAT_STEPS, errors[i] * scale) | 0]);
 	}
 }
 

@@ -155,7 +155,7 @@ class Hand {
 		this.rounds = 0;
 		try {
 			if (this.source !== this.v.scene) {
-				this.live.look(this.v.view, moves);
+				this.live.look(this.v.view, moves, this.v.mode === "error");
 				const [, elevation] = this.live.studio.turned();
 				const isBeyond = Math.abs(elevation - this.v.view.elevation) > 1e-9;
 				if (isBeyond) this.v.view = { ...this.v.view, elevation };
@@ -193,10 +193,7 @@ class Hand {
 		const next = live.list.find(m => (live.count[m] ?? 0) <= this.rounds && m in M);
 		if (next) {
 			live.count[next] = this.rounds + 1;
-			const kept = live.drawn[next];
-			delete live.drawn[next];
-			live.one(next);
-			if (kept) live.drawn[next] = kept;
+			live.draw(next);
 		} else {
 			this.rounds++;
 			v.change?.(v, { round: true });
