@@ -18,7 +18,7 @@ use fastphong::raster::Renderer;
 use fastphong::raster::painter::{Conflicts, conflicts};
 use fastphong::scene::file::STANDARD_INPUT;
 use fastphong::scene::{HiddenSurfaces, input};
-use fastphong::shading::{METHODS, Variant, methods};
+use fastphong::shading::{METHODS, Variant};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -218,7 +218,8 @@ impl RenderArgs {
     /// When another quantity is shown, which no method changes, or when the method tells no kinds apart.
     fn method_of(&self, aov: Aov) -> Result<Variant, CliError> {
         match &self.method {
-            None => Ok(methods::ADAPTIVE_PHONG.variant()),
+            // By its name: a constant of a method would compile all of them again here.
+            None => Ok(Variant::parse("adaptive-phong")?),
             Some(_) if aov != Aov::Kind => {
                 Err(format!("--aov {} cannot be used with --method", aov.name()).into())
             }
