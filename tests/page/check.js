@@ -90,7 +90,7 @@
       await drag(v2.stage, [.15, .3], [.3, .4]);
       await until(`${s.id}: a drag turns`, rested(v2));
       check(`${s.id}: by an angle`, v2.view.azimuth && v2.view.elevation);
-      await until(`${s.id}: the view stands in the link`, () => location.hash.includes("turn="));
+      await until(`${s.id}: the view stands in the link`, () => new URLSearchParams(location.hash.split("?")[1]).get("turn") === viewQuery(v2.view).turn);
       const there = await bytes(v2), hash = location.hash;
       const text = v2.hand.live.studio.scene();
       check(`${s.id}: a scene file`, text.includes("[camera]") && text.includes("eye"));
