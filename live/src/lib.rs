@@ -57,7 +57,7 @@ pub extern "C" fn light() -> *const f64 {
 /// (0, 0, 0: where the eye has it in the scene), the exponent of all materials (0: their own), and the samples per pixel along each
 /// side (0: the scene's). Returns the polygons in view.
 #[unsafe(no_mangle)]
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments)] // the boundary takes numbers, and each call makes a whole frame
 pub extern "C" fn frame(
     width: u32,
     height: u32,

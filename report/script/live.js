@@ -15,6 +15,10 @@ const isStill = view =>
 /* True if the page has what the scene is made of, and can draw it. */
 const canTurn = s => CAN_DRAW && (!!s.own || !!$(`#live-${s.number}`));
 
+/* The name of a method with the parameters that were chosen. */
+const variantOf = (m, given = {}) =>
+	[m, ...Object.entries(given).map(([k, v]) => `${k}=${v}`)].join(":");
+
 /* The drawings of a method that its time is taken from, and of those the first, which are slower. */
 const SAMPLES = 24;
 const WARM_UP = 2;
@@ -53,9 +57,8 @@ class LiveScene {
 		this.count = {};
 	}
 
-	/* The name of a method with the parameters that were chosen. */
 	variant(m) {
-		return [m, ...Object.entries(this.view.given[m] ?? {}).map(([k, v]) => `${k}=${v}`)].join(":");
+		return variantOf(m, this.view.given[m]);
 	}
 
 	/* Draws by a method, and notes how that went. */

@@ -11,9 +11,7 @@ const SUN_MOST = 175 / DEGREES;
 const viewQuery = ({ azimuth, elevation, size, light, exponent, given }) => {
 	const fixed = (...list) => list.map(v => +v.toFixed(1)).join(",");
 	const [angle, toward] = light ? sunOf(light) : [];
-	const chosen = Object.entries(given).map(([m, all]) =>
-		[m, ...Object.entries(all).map(([k, v]) => `${k}=${v}`)].join(":"),
-	);
+	const chosen = Object.entries(given).map(([m, all]) => variantOf(m, all));
 	return {
 		turn: azimuth || elevation ? fixed(azimuth * DEGREES, elevation * DEGREES) : null,
 		size: size === 1 ? null : +size.toFixed(2),

@@ -165,16 +165,27 @@ pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
     input::resolve_by(file, &mut read_of_scene)
 }
 
-/// Returns the files that `file` was made of, mesh files and material libraries, named as from the folder of the scene; `None` if one
-/// came from standard input, or cannot be read again.
-pub fn of_scene(file: &SceneFile) -> Option<Vec<(String, Vec<u8>)>> {
+/// Returns the files that `file` was made of, mesh files and material libraries, named as from the folder of the scene; `None` if a
+/// mesh has more than `most` bytes, came from standard input or a pipe, or cannot be read again.
+pub fn of_scene(file: &SceneFile, most: u64) -> Option<Vec<(String, Vec<u8>)>> {
     if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {
         return None;
     }
-    if !file.meshes().any(input::is_mesh_file) {
+    let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    let mut meshes = file
+        .meshes()
+        .filter(|mesh| input::is_mesh_file(mesh))
+        .peekable();
+    if meshes.peek().is_none() {
         return Some(Vec::new());
     }
-    let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    // Judged before they are read: a pipe has nothing more to say.
+    let is_small = |mesh: &str| {
+        fs::metadata(folder.join(mesh)).is_ok_and(|file| file.is_file() && file.len() <= most)
+    };
+    if !meshes.all(is_small) {
+        return None;
+    }
     let mut read = Vec::new();
     let resolved = input::resolve_by(file, &mut |path| {
         let bytes = read_input(path)?;

@@ -13,7 +13,7 @@ use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
 use fastphong::lectures::{FIGURES, Figure};
 use fastphong::report::{
-    Document, MOST_POLYGONS, Report, ScenePictures, live_scene, small, utc_date,
+    Document, MOST_BYTES, MOST_POLYGONS, Report, ScenePictures, live_scene, small, utc_date,
 };
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
@@ -250,7 +250,9 @@ impl ReportArgs {
         let pictures = ScenePictures::new(&comparison);
         let pictures = pictures.map_err(|error| format!("{name}: {error}"))?;
         let is_small = frame.polygons().len() <= MOST_POLYGONS;
-        let files = is_small.then(|| files::of_scene(&file)).flatten();
+        let files = is_small
+            .then(|| files::of_scene(&file, MOST_BYTES))
+            .flatten();
         let pictures =
             pictures.with_live(files.and_then(|files| live_scene(&file.to_toml(), &files)));
         comparison.drop_pictures();

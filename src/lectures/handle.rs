@@ -101,6 +101,7 @@ impl Handle {
 mod tests {
     use super::*;
     use crate::lectures::{FIGURES, Figure, LIVE};
+    use crate::number::test_random::Random;
 
     #[test]
     fn values_are_brought_into_range() {
@@ -151,5 +152,24 @@ mod tests {
         }
         let live = FIGURES.iter().filter(|figure| figure.live.is_some());
         assert_eq!(live.count(), LIVE.len());
+    }
+
+    /// A reader moves handles anywhere: a verdict has a sentence for each case, and none is a stored one marked as false.
+    #[test]
+    fn every_verdict_is_true_wherever_handles_are() {
+        let mut random = Random::new(32);
+        for (name, live) in LIVE {
+            for _ in 0..60 {
+                let mut anywhere = |handle: &Handle| {
+                    let [least, most] = handle.range;
+                    least + (most - least) * f64::from(0.5 + 0.5 * random.signed())
+                };
+                let values: Vec<f64> = live.handles.iter().map(&mut anywhere).collect();
+                for finding in live.make(&values).expect("a figure").findings {
+                    let is_marked = finding.verdict.starts_with("This does not hold");
+                    assert!(!is_marked, "{name} {values:?}: {}", finding.key);
+                }
+            }
+        }
     }
 }

@@ -97,10 +97,15 @@ fn along_a_span(degrees: f64) -> Plot {
 /// Concludes whether so many steps are enough.
 fn few_iterations(content: &mut FigureContent, degrees: f64, steps: u32) {
     let (name, error) = (plural(steps), largest_error(degrees, steps));
-    content.confirms(
+    let is_enough = error < INVISIBLE;
+    content.found(
         &format!("error-{steps} | span of {degrees}°, {name}: largest relative error of d"),
-        (error, "", error < INVISIBLE),
-        "A few iterations are enough: rounding to grey levels hides the error.",
+        (error, "", true),
+        Agreement::if_holds(is_enough),
+        match is_enough {
+            true => "A few iterations are enough: rounding to grey levels hides the error.",
+            false => "Not enough for normals so far apart: the error is half a grey level or more.",
+        },
     );
 }
 

@@ -189,21 +189,36 @@ fn turned(content: &mut FigureContent, values: &[f64]) -> Result {
             turned_both_ways(degrees, polygons, DARK_BELOW, |frame| draw(frame, method))?;
         let change = levels(&pictures[0], &pictures[1]);
         match polygons.len() {
-            1 if degrees > 0.0 => depends(content, method, degrees, change),
+            1 if change > 1.0 => depends(content, method, degrees, change),
             1 => content.adds(
-                &format!("square-{method} | {method}, square as it was: largest difference"),
-                (change, "grey levels", change == 0.0),
-                "Turn it.",
-            ),
-            _ => content.adds(
-                &format!("triangles-{method} | {method}, triangles turned by {degrees}°: largest difference"),
+                &format!(
+                    "square-{method} | {method}, square turned by {degrees}°: largest difference"
+                ),
                 (change, "grey levels", true),
-                "Triangles keep their shading, but for pixels that lie between others at the fold.",
+                "Not even a grey level: turn it further.",
             ),
+            _ => depends_not(content, method, degrees, change),
         }
     }
     content.pictures(2, "The square", panels);
     Ok(())
+}
+
+/// Concludes from the change of triangles that were turned.
+fn depends_not(content: &mut FigureContent, method: &str, degrees: f64, change: f64) {
+    // Half a grey level is the least that can be seen in a stored picture.
+    let agrees = change < 0.5;
+    content.found(
+        &format!(
+            "triangles-{method} | {method}, triangles turned by {degrees}°: largest difference"
+        ),
+        (change, "grey levels", true),
+        Agreement::if_holds(agrees),
+        match agrees {
+            true => "Triangles do not depend on the orientation: only rounding is left.",
+            false => "Triangles depend on the orientation too: great circles are not barycentric.",
+        },
+    );
 }
 
 /// Concludes from the change of a square that was turned.
@@ -234,19 +249,7 @@ fn numbers(content: &mut FigureContent) -> Result {
         let cells = [square_45, square_90, triangles_45, triangles_90, diagonal].map(written);
         rows.push(format!("{method} | {}", cells.join(" | ")));
         depends(content, method, 90.0, square_90);
-        // Half a grey level is the least that can be seen in a stored picture.
-        let agrees = triangles_90 < 0.5;
-        content.found(
-            &format!("triangles-{method} | {method}, triangles turned by 90°: largest difference"),
-            (triangles_90, "grey levels", true),
-            Agreement::if_holds(agrees),
-            match agrees {
-                true => "Triangles do not depend on the orientation: only rounding is left.",
-                false => {
-                    "Triangles depend on the orientation too: great circles are not barycentric."
-                }
-            },
-        );
+        depends_not(content, method, 90.0, triangles_90);
         content.confirms(
             &format!(
                 "diagonals-{method} | {method}, one diagonal or the other: largest difference"

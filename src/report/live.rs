@@ -18,14 +18,12 @@ pub const MOST_POLYGONS: usize = 150_000;
 /// The most bytes of a scene's files in the page, packed.
 const MOST_PACKED: usize = 300_000;
 
+/// The most bytes of a mesh file that may travel in the page: text packs to a tenth at best.
+pub const MOST_BYTES: u64 = 10 * MOST_PACKED as u64;
+
 /// A scene that the page can draw, as JSON: `scene`, its text as TOML, and `files`, names and packed contents. `None` if its files are too
 /// large to travel in the page. `files` are named as the scene asks for them.
 pub fn live_scene(scene: &str, files: &[(String, Vec<u8>)]) -> Option<String> {
-    // Text that packs to a tenth at best is not packed in vain.
-    let bytes: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
-    if bytes > 10 * MOST_PACKED {
-        return None;
-    }
     let packed = files.iter().map(|(name, bytes)| (name, packed(bytes)));
     let packed: Vec<(&String, String)> = packed.collect();
     let size: usize = packed.iter().map(|(_, text)| text.len()).sum();

@@ -41,7 +41,7 @@ pub use document::{
     Document, DocumentError, FigureData, MethodData, OPERATIONS, Operation, RATES, Rate, SCHEMA,
     label, parse, small,
 };
-pub use live::{MOST_POLYGONS, live_scene};
+pub use live::{MOST_BYTES, MOST_POLYGONS, live_scene};
 pub use markdown::Markdown;
 pub use page::shell_word;
 
