@@ -12,7 +12,7 @@ use std::io::Write;
 /// The crate itself, compiled to WebAssembly by `live/build`.
 static MODULE: &[u8] = include_bytes!("../../report/live.wasm");
 
-/// The most polygons of a scene that follows the hand: some 20 frames a second in a browser.
+/// The most polygons in view of a scene that follows the hand: a third as many turn at 24 frames a second (docs/performance.md).
 pub const MOST_POLYGONS: usize = 150_000;
 
 /// The most bytes of a scene's files in the page, packed.
