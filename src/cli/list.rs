@@ -10,7 +10,7 @@ use fastphong::lectures::{FIGURES, Figure};
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::{SCENES, ShippedScene};
-use fastphong::shading::{Entry, Info, METHODS, Range, Roundings, Stepped};
+use fastphong::shading::{Entry, Info, METHODS, Range, Roundings, Standing, Stepped};
 use serde_json::{Value, json};
 
 /// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
@@ -19,6 +19,9 @@ pub struct ListArgs {
     /// Things to list
     #[arg(value_enum)]
     subject: Subject,
+    /// List all methods, not only the default ones
+    #[arg(long)]
+    all: bool,
     /// Print the list as JSON
     #[arg(long)]
     json: bool,
@@ -46,16 +49,23 @@ impl ListArgs {
     /// Prints the list.
     pub fn run(&self) -> Result<Outcome, CliError> {
         done(&match self.json {
-            true => format!("{:#}\n", json(self.subject)?),
-            false => text(self.subject)?,
+            true => format!("{:#}\n", json(self.subject, self.all)?),
+            false => text(self.subject, self.all)?,
         })
     }
 }
 
 /// Returns the list as text.
-fn text(subject: Subject) -> Result<String, CliError> {
+fn text(subject: Subject, all: bool) -> Result<String, CliError> {
     Ok(match subject {
-        Subject::Methods => METHODS.iter().map(method_text).collect(),
+        Subject::Methods => {
+            let listed: String = listed(all).map(method_text).collect();
+            let others = METHODS.len() - self::listed(all).count();
+            match others {
+                0 => listed,
+                others => format!("{listed}{others} more: fastphong list methods --all\n"),
+            }
+        }
         Subject::Meshes => BUILTINS.iter().map(mesh_text).collect(),
         Subject::Scenes => scenes(|name, title, about| entry(name, &[title, about]))?,
         Subject::Metrics => {
@@ -85,10 +95,15 @@ fn text(subject: Subject) -> Result<String, CliError> {
     })
 }
 
+/// Returns the default methods, or all.
+fn listed(all: bool) -> impl Iterator<Item = &'static Entry> {
+    (METHODS.iter()).filter(move |entry| all || entry.info.standing == Standing::Default)
+}
+
 /// Returns the list as data.
-fn json(subject: Subject) -> Result<Value, CliError> {
+fn json(subject: Subject, all: bool) -> Result<Value, CliError> {
     Ok(match subject {
-        Subject::Methods => METHODS.iter().map(method_json).collect(),
+        Subject::Methods => listed(all).map(method_json).collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_json).collect(),
         Subject::Scenes => scenes(
             |name, title, about| json!({ "name": name, "title": title, "description": about }),
@@ -114,6 +129,7 @@ fn method_text(method: &Entry) -> String {
     let info = method.info;
     let mut about = vec![
         info.title.to_owned(),
+        family(info),
         format!("perspective: {}", method.perspective.sentence()),
         format!("positions: {}", method.local.sentence()),
         exactness(info),
@@ -125,6 +141,25 @@ fn method_text(method: &Entry) -> String {
         about.extend(p.auto.map(|auto| format!("{name}=auto: {}", auto.meaning)));
     }
     entry(info.name, &[&about.join("\n")])
+}
+
+/// Returns family, standing and numbers in the catalogue of a method, as `quadratics, default, M10`.
+pub fn family(info: &Info) -> String {
+    let words = [info.family.name(), standing(info.standing)];
+    words
+        .iter()
+        .chain(info.ids)
+        .copied()
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+fn standing(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Default => "default",
+        Standing::Asked => "where asked for",
+        Standing::Exhibit => "an exhibit",
+    }
 }
 
 /// Says how near a method is to its closed form, in a sentence.
@@ -170,6 +205,10 @@ pub fn method_json(method: &Entry) -> Value {
     json!({
         "name": info.name,
         "title": info.title,
+        "ids": info.ids,
+        "family": info.family.name(),
+        "standing": standing(info.standing),
+        "integer": method.is_integer,
         "source": info.source,
         "model": info.model.name(),
         "roundings": { "start": start, "step": step, "of": stepped(of) },

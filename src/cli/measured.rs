@@ -13,27 +13,33 @@ use fastphong::number::NameError;
 use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
 use fastphong::scene::input::SCENES;
-use fastphong::shading::{Entry, METHODS, Variant};
+use fastphong::shading::{Entry, Family, METHODS, Standing, Variant};
 use std::collections::HashSet;
 use std::time::Duration;
 
 /// The methods to compare.
 pub type Methods = Vec<Variant>;
 
-/// Reads methods between commas, each once, and families of them: those in floats, in integers, and all.
+/// Reads methods between commas, each once, and families of them: the default ones, all, those in floats or in integers, exhibits, and
+/// what [`Family`] names.
 pub fn methods(text: &str) -> Result<Methods, NameError> {
-    let family = |is_in: fn(&Entry) -> bool| -> Methods {
-        let entries = METHODS.iter().filter(|entry| is_in(entry));
+    let those = |is_meant: &dyn Fn(&Entry) -> bool| -> Methods {
+        let entries = METHODS.iter().filter(|entry| is_meant(entry));
         entries.map(Entry::variant).collect()
     };
     let mut methods = Methods::new();
     for name in text.split(',') {
-        match name.trim() {
-            "all" => methods.extend(family(|_| true)),
-            "floats" => methods.extend(family(|entry| !entry.is_integer)),
-            "integers" => methods.extend(family(|entry| entry.is_integer)),
-            name => methods.push(Variant::parse(name)?),
-        }
+        let name = name.trim();
+        let family = Family::ALL.into_iter().find(|family| family.name() == name);
+        methods.extend(match (name, family) {
+            (_, Some(family)) => those(&|entry| entry.info.family == family && !entry.is_integer),
+            ("default", _) => those(&|entry| entry.info.standing == Standing::Default),
+            ("all", _) => those(&|_| true),
+            ("floats", _) => those(&|entry| !entry.is_integer),
+            ("integers", _) => those(&|entry| entry.is_integer),
+            ("exhibits", _) => those(&|entry| entry.info.standing == Standing::Exhibit),
+            _ => vec![Variant::parse(name)?],
+        });
     }
     let mut names = HashSet::new();
     methods.retain(|method| names.insert(method.to_string()));
@@ -85,9 +91,10 @@ impl Measurement<'_> {
 /// The flags that name the methods to time, and the time to spend.
 #[derive(clap::Args, Debug)]
 pub struct TimingFlags {
-    /// Methods between commas, with parameters as in `fast-phong:steps=1`, or families of them: `floats`, `integers` (for processors
-    /// without a floating-point unit), `all`; naive-phong is always included
-    #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "floats", value_parser = methods)]
+    /// Methods between commas, with parameters as in `fast-phong:steps=1`, or families of them: `default`, `colours`, `roots`, `series`,
+    /// `quadratics`, `angles`, `highlights`, `hybrids`, `exhibits`, `floats`, `integers` (for processors without a floating-point
+    /// unit), `all`; naive-phong is always included
+    #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "default", value_parser = methods)]
     pub methods: Methods,
     /// Seconds of timing per scene; all methods take at least five rounds
     #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, allow_hyphen_values = true)]

@@ -4,8 +4,8 @@ use super::adaptive_plan::{self as plan, Followed};
 use super::increments::{Quadratic, Walk};
 use super::phong_rsqrt::PhongRsqrt;
 use super::{
-    Approximation, Corners, Info, LightModel, Linear, Lit, MethodParameter, Pixel, Planes,
-    Roundings, Shader, Span, Stepped, Value,
+    Approximation, Corners, Family, Info, LightModel, Linear, Lit, MethodParameter, Pixel, Planes,
+    Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3, vec3};
@@ -98,6 +98,9 @@ const fn most(many: bool) -> usize {
 impl<const MANY: bool> Shader for AdaptivePhong<MANY> {
     const INFO: Info = Info {
         name: "adaptive-phong",
+        ids: &["M29"],
+        family: Family::Hybrids,
+        standing: Standing::Default,
         title: "for each polygon the cheapest of five pixel loops whose error is derived to be within a number of grey levels",
         formula: "D = N.N >= 1 - s;  s = max |Ni - m|^2;  1/sqrt(D) ~ r, k0 + k1 D, k0 + k1 D + k2 D^2 or itself\n\
                   I = Ia ka + (sum Ip kd L^T) N r + Ip ks (2 (J r)(K r) - L.V)^n of lights whose highlight may be seen",

@@ -28,6 +28,7 @@ fn largest_error(shininess: f32) -> f32 {
 impl<const L: usize> Shader for DuffNewton<L> {
     const INFO: Info = Info {
         name: "duff-newton",
+        ids: &["M06"],
         title: "scalar products by forward differences, the reciprocal root by Newton's method from the pixel before",
         formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r_next = r (1.5 - D/2 r^2)\n\
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",

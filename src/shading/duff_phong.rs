@@ -4,12 +4,16 @@ use super::fast_phong_rsqrt::FAST_PHONG_RSQRT;
 use super::increments::Quadratic;
 use super::lighting::toward;
 use super::planes::scaled;
-use super::{Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span, Stepped};
+use super::{
+    Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped,
+};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
 const DUFF_PHONG: Info = Info {
     name: "duff-phong",
+    ids: &["M05"],
+    standing: Standing::Default,
     title: "scalar products by forward differences: no vector on a span",
     formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\
               I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",

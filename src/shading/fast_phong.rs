@@ -3,7 +3,7 @@
 use super::increments::{Newton, NewtonSteps};
 use super::{
     Auto, Info, LightModel, Linear, Lit, Local, MethodParameter, PerLight, Pixel, Range, Roundings,
-    Shader, Span, Stepped, Value,
+    Shader, Span, Standing, Stepped, Value,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -24,6 +24,8 @@ pub struct FastPhong<const L: usize> {
 impl<const L: usize> Shader for FastPhong<L> {
     const INFO: Info = Info {
         name: "fast-phong",
+        ids: &["M04"],
+        standing: Standing::Default,
         title: "J = L.N, K = V.N and N by additions, the root by Newton's method",
         formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  D = N.N;  d = sqrt(D) by Newton from the \
                   previous pixel\nI = Ia ka + Ip kd J/d + Ip ks (2 J K / D - L.V)^n",

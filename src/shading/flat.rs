@@ -1,7 +1,8 @@
 //! Flat shading: one colour per polygon (L21 2).
 
 use super::{
-    Constant, Info, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Constant, Family, Info, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span,
+    Standing, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -15,6 +16,9 @@ pub struct Flat;
 impl Shader for Flat {
     const INFO: Info = Info {
         name: "flat",
+        ids: &["M01"],
+        family: Family::Colours,
+        standing: Standing::Default,
         title: "one colour per polygon, from its own normal",
         formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
         source: "L21 2, eq 2.1 (Bouknight 1970)",

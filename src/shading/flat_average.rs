@@ -1,7 +1,7 @@
 //! Flat shading in the other definition: one colour per polygon, from the mean of its vertices (CS171 3, Algorithm 6).
 
 use super::flat::Flat;
-use super::{Info, Roundings, Shader, Stepped};
+use super::{Info, Roundings, Shader, Standing, Stepped};
 use crate::reference::Model;
 
 /// Flat shading as CS171 defines it: the mean of the vertex normals, at the mean of the vertex positions, lit once by the
@@ -10,6 +10,8 @@ use crate::reference::Model;
 /// The mean is normalised, which Algorithm 6 leaves out: the lighting model is for unit normals.
 pub const FLAT_AVERAGE: Info = Info {
     name: "flat-average",
+    ids: &[],
+    standing: Standing::Asked,
     title: "one colour per polygon, from the mean of its vertex normals",
     formula: "N = (N1 + ... + Nn) / |N1 + ... + Nn|;  P = (P1 + ... + Pn) / n;  I = eq 2.1 of N at P",
     source: "CS171 3, Algorithm 6",

@@ -1,7 +1,8 @@
 //! Gouraud shading: vertex colours, interpolated linearly (L21 3).
 
 use super::{
-    Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Family, Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Standing,
+    Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -15,6 +16,9 @@ pub struct Gouraud;
 impl Shader for Gouraud {
     const INFO: Info = Info {
         name: "gouraud",
+        ids: &["M02"],
+        family: Family::Colours,
+        standing: Standing::Default,
         title: "vertex colours, interpolated along edges and spans",
         formula: "dI = (I2 - I1) / (y2 - y1) along edges, (I2 - I1) / (x2 - x1) along spans; I_next = I + dI",
         source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",

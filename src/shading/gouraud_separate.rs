@@ -2,7 +2,7 @@
 
 use super::gouraud::Gouraud;
 use super::{
-    Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Family, Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -19,6 +19,7 @@ pub struct GouraudSeparate;
 impl Shader for GouraudSeparate {
     const INFO: Info = Info {
         name: "gouraud-separate",
+        family: Family::Colours,
         title: "unclamped vertex colours; diffuse and specular light interpolated separately",
         formula: "D_next = D + dD;  S_next = S + dS;  I = min(1, D + S), D = Ia ka + Ip kd (L.N), S = Ip ks (R.V)^n at vertices",
         source: "L21 3, eq 3.5, 3.6; OpenGL 1.2, 2.13.1 (separate specular colour)",

@@ -268,11 +268,73 @@ pub enum LitAt {
     Pixel,
 }
 
+/// What a method makes cheap: the families that `--methods` takes by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Colours, constant or interpolated: no normal at a pixel.
+    Colours,
+    /// Normals or products of normals, and a root or a quotient at each pixel.
+    Roots,
+    /// Polynomials in place of the root.
+    Series,
+    /// Quadratics over a polygon or a span in place of unit vectors.
+    Quadratics,
+    /// Interpolation of angles, or by another chart of the sphere.
+    Angles,
+    /// Another formula for highlights.
+    Highlights,
+    /// For each polygon another of these.
+    Hybrids,
+}
+
+impl Family {
+    /// All families.
+    pub const ALL: [Family; 7] = [
+        Family::Colours,
+        Family::Roots,
+        Family::Series,
+        Family::Quadratics,
+        Family::Angles,
+        Family::Highlights,
+        Family::Hybrids,
+    ];
+
+    /// Returns its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Family::Colours => "colours",
+            Family::Roots => "roots",
+            Family::Series => "series",
+            Family::Quadratics => "quadratics",
+            Family::Angles => "angles",
+            Family::Highlights => "highlights",
+            Family::Hybrids => "hybrids",
+        }
+    }
+}
+
+/// Where a method is shown without being asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// In comparisons: it is of the lecture, or none of this picture is faster somewhere.
+    Default,
+    /// Where it is named, or its family is.
+    Asked,
+    /// As `Asked`: it shows what goes wrong, and is not for use.
+    Exhibit,
+}
+
 /// The description of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Info {
     /// The name on the command line.
     pub name: &'static str,
+    /// Its numbers in the catalogue of published methods (`docs/methods.md`), M01 to M30; none if it stands for no other.
+    pub ids: &'static [&'static str],
+    /// The family.
+    pub family: Family,
+    /// Where it is shown.
+    pub standing: Standing,
     /// The method in one sentence.
     pub title: &'static str,
     /// The formulas, as lines of text.
@@ -299,6 +361,9 @@ impl Info {
     /// A method that interpolates normals and lights pixels, with nothing said about it: to begin from.
     pub const OF_PIXELS: Info = Info {
         name: "",
+        ids: &[],
+        family: Family::Roots,
+        standing: Standing::Asked,
         title: "",
         formula: "",
         source: "",

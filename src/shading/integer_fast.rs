@@ -1,7 +1,7 @@
 //! Fast Phong shading in integers.
 
 use super::integers::{self, Form, Line, Normals, sum};
-use super::{Entry, Info, Kernels, Value};
+use super::{Entry, Family, Info, Kernels, Standing, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::reference::Model;
 
@@ -12,6 +12,9 @@ type Shell = Normals<{ integers::LIGHTS }>;
 
 const INFO: Info = Info {
     name: "integer-fast",
+    ids: &[],
+    family: Family::Roots,
+    standing: Standing::Asked,
     title: "fast Phong shading in integers, 1/|N| from a table",
     formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = table(D)\n\
               I = table(J r) + table(2 (J r) (K r) - L.V)",

@@ -1,7 +1,7 @@
 //! Fast Phong shading in integers, as the lecture prints it: three divisions a pixel: an exhibit.
 
 use super::integers::{self, Line, Normals, sum};
-use super::{Approximation, Entry, Info, Kernels, Roundings, Stepped, Value};
+use super::{Approximation, Entry, Family, Info, Kernels, Roundings, Standing, Stepped, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::reference::Model;
 
@@ -12,6 +12,9 @@ type Shell = Normals<1>;
 
 const INFO: Info = Info {
     name: "integer-fast-printed",
+    ids: &[],
+    family: Family::Roots,
+    standing: Standing::Exhibit,
     title: "fast Phong shading in integers, as the lecture prints it: three divisions a pixel",
     formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  d_next = (d + N.N / d) / 2\n\
               I = table(J / d) + table(2 J K / (N.N) - L.V)",

@@ -4,8 +4,8 @@ use super::integers::{self, sum};
 use super::kernels::{Pixels, Vertices};
 use super::lighting::Uniforms;
 use super::{
-    Approximation, Constant, Entry, Info, Kernels, Lit, LitAt, Local, Perspective, Pixel, Shader,
-    Span,
+    Approximation, Constant, Entry, Family, Info, Kernels, Lit, LitAt, Local, Perspective, Pixel,
+    Shader, Span, Standing,
 };
 use crate::integer::{self, Halfway, Highlight, NoHighlight, Reflection, Rgb888};
 use crate::number::{Num, Vec3, vec3};
@@ -19,6 +19,9 @@ struct Colours;
 
 const INFO: Info = Info {
     name: "integer-gouraud",
+    ids: &[],
+    family: Family::Colours,
+    standing: Standing::Asked,
     title: "vertex colours, interpolated in integers",
     formula: "I = table(L.N) + table(R.V) at vertices;  I_next = I + dI, red and blue in one sum",
     source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",

@@ -1,7 +1,7 @@
 //! Naive Phong shading in integers.
 
 use super::integers::{self, Form, Line, Normals, sum};
-use super::{Entry, Info, Kernels, Value};
+use super::{Entry, Family, Info, Kernels, Standing, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::reference::Model;
 
@@ -12,6 +12,9 @@ type Shell = Normals<{ integers::LIGHTS }>;
 
 const INFO: Info = Info {
     name: "integer-naive",
+    ids: &[],
+    family: Family::Roots,
+    standing: Standing::Asked,
     title: "naive Phong shading in integers, 1/|N| from a table",
     formula: "N_next = N + dN;  J = L.N;  K = V.N;  D = N.N;  r = table(D)\n\
               I = table(J r) + table(2 (J r) (K r) - L.V)",

@@ -1,7 +1,7 @@
 //! Naive Phong shading in integers, as the lecture prints it: an exhibit.
 
 use super::integers::{self, Form, Line, Normals, sum};
-use super::{Entry, Info, Kernels, Value};
+use super::{Entry, Family, Info, Kernels, Standing, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::reference::Model;
 
@@ -12,6 +12,9 @@ type Shell = Normals<1>;
 
 const INFO: Info = Info {
     name: "integer-naive-printed",
+    ids: &[],
+    family: Family::Roots,
+    standing: Standing::Exhibit,
     title: "naive Phong shading in integers, as the lecture prints it",
     formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  I = table(L.N_unit) + table(R.V)",
     source: "L21 4.1, eq 4.1, 4.2",

@@ -1,7 +1,7 @@
 //! Phong shading by parabolas, in integers.
 
 use super::integers::{self, Form, Line, Normals, sum};
-use super::{Entry, Info, Kernels, Value};
+use super::{Entry, Family, Info, Kernels, Standing, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::reference::Model;
 
@@ -12,6 +12,9 @@ type Shell = Normals<{ integers::LIGHTS }>;
 
 const INFO: Info = Info {
     name: "integer-quadratic",
+    ids: &[],
+    family: Family::Quadratics,
+    standing: Standing::Asked,
     title: "L.N and R.V as parabolas along spans, in integers",
     formula: "F_next = F + dF;  dF_next = dF + ddF, for F = L.N and F = R.V through both ends and the middle of a span\n\
               I = table(L.N) + table(R.V)",

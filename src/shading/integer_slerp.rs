@@ -1,7 +1,7 @@
 //! Slerp Phong shading in integers.
 
 use super::integers::{self, Circles, Form, Line, sum};
-use super::{Entry, Info, Kernels, Value};
+use super::{Entry, Family, Info, Kernels, Standing, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::reference::Model;
 
@@ -12,6 +12,9 @@ type Shell = Circles;
 
 const INFO: Info = Info {
     name: "integer-slerp",
+    ids: &[],
+    family: Family::Angles,
+    standing: Standing::Asked,
     title: "J = L.N and K = V.N along great circles, in integers",
     formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 2 (1 - cos d), d the angle of a pixel;  K likewise\n\
               I = table(J) + table(2 J K - L.V)",

@@ -67,7 +67,8 @@ pub(crate) use cell::CellLayout;
 pub use count::OperationCounts;
 pub use increments::{Constant, Linear, Walk};
 pub use info::{
-    Approximation, Auto, Info, LitAt, Local, MethodParameter, Perspective, Range, Value,
+    Approximation, Auto, Family, Info, LitAt, Local, MethodParameter, Perspective, Range, Standing,
+    Value,
 };
 pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices};
 pub use kernels::{Kernels, UniformsIndex};

@@ -1,6 +1,6 @@
 //! Naive Phong shading: normals, interpolated and renormalised at every pixel (L21 4.1).
 
-use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
+use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Standing, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -17,6 +17,8 @@ pub struct NaivePhong;
 impl Shader for NaivePhong {
     const INFO: Info = Info {
         name: "naive-phong",
+        ids: &["M03"],
+        standing: Standing::Default,
         title: "normals, interpolated and renormalised at every pixel",
         formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  eq 2.1 at every pixel",
         source: "L21 4.1, eq 4.1, 4.2 (Phong 1975)",

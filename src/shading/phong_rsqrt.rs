@@ -1,6 +1,6 @@
 //! Phong shading from normals with scalars, for processors that shade a block of pixels at a time, row by row.
 
-use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
+use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Standing, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -15,6 +15,8 @@ pub struct PhongRsqrt;
 impl Shader for PhongRsqrt {
     const INFO: Info = Info {
         name: "phong-rsqrt",
+        ids: &["M03b"],
+        standing: Standing::Default,
         title: "normals interpolated; J = L.N, K = V.N, D = N.N and the hardware's reciprocal root at every pixel",
         formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = rsqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.1-4.3, eq 4.5, with the root that processors have had since 1999 (SSE rsqrtps)",

@@ -3,8 +3,8 @@
 use super::increments::{Quadratic, Walk};
 use super::planes::{each, scaled};
 use super::{
-    Approximation, Corners, Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span,
-    Stepped,
+    Approximation, Corners, Family, Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader,
+    Span, Standing, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -89,6 +89,9 @@ type Products<F, const L: usize> = (PerLight<F, L>, F); // J of each light, K
 impl<const L: usize> Shader for SixPoint<L> {
     const INFO: Info = Info {
         name: "six-point",
+        ids: &["M10"],
+        family: Family::Quadratics,
+        standing: Standing::Default,
         title: "J = L.N and K = V.N as quadratics over each triangle",
         formula: "F(b) = sum Fi bi (2 bi - 1) + 4 (F12 b1 b2 + F23 b2 b3 + F31 b3 b1) of unit normals;  F_next = F + dF;  \
                   dF_next = dF + ddF\nI = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",

@@ -3,7 +3,9 @@
 use super::Stepped;
 use super::increments::{Chebyshev, GreatCircle};
 use super::slerp_phong::SlerpPhong;
-use super::{Corners, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span};
+use super::{
+    Corners, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span, Standing,
+};
 use crate::number::{Num, Real, Vec3};
 
 /// Slerp Phong shading whose span needs no sines: of normals along a great circle all products are `P cos kδ + Q sin kδ`, which
@@ -14,6 +16,8 @@ pub struct SlerpChebyshev<const L: usize>;
 impl<const L: usize> Shader for SlerpChebyshev<L> {
     const INFO: Info = Info {
         name: "slerp-chebyshev",
+        ids: &["M12"],
+        standing: Standing::Asked,
         title: "J = L.N and K = V.N along great circles, by Chebyshev's recurrence",
         formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 4 sin^2(d/2), d the angle of a pixel; K likewise\n\
                   I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",

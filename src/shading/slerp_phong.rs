@@ -2,7 +2,8 @@
 
 use super::increments::GreatCircle;
 use super::{
-    Corners, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Corners, Family, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span,
+    Standing, Stepped,
 };
 use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
@@ -15,6 +16,9 @@ pub struct SlerpPhong<const L: usize>;
 impl<const L: usize> Shader for SlerpPhong<L> {
     const INFO: Info = Info {
         name: "slerp-phong",
+        ids: &["M11"],
+        family: Family::Angles,
+        standing: Standing::Default,
         title: "J = L.N and K = V.N along great circles, by incremental sines and cosines",
         formula: "J(t) = sin((1-t)phi)/sin(phi) L.N1 + sin(t phi)/sin(phi) L.N2, K likewise; sines by eq 4.9-4.12\n\
                   I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",

@@ -2,7 +2,7 @@
 
 use super::increments::GreatCircle;
 use super::slerp_phong::SlerpPhong;
-use super::{Corners, Info, Lit, Local, Perspective, Pixel, Shader, Span};
+use super::{Corners, Info, Lit, Local, Perspective, Pixel, Shader, Span, Standing};
 use crate::number::{Num, Real, Vec3};
 
 /// Slerp Phong shading, vector form: unit normals walk great circles along edges *and* along spans, then eq 2.1 at every pixel,
@@ -13,6 +13,8 @@ pub struct SlerpPhongVector;
 impl Shader for SlerpPhongVector {
     const INFO: Info = Info {
         name: "slerp-phong-vector",
+        ids: &["M11v"],
+        standing: Standing::Asked,
         title: "unit normals along great circles, by incremental sines and cosines",
         formula: "N(t) = sin((1-t)phi)/sin(phi) N1 + sin(t phi)/sin(phi) N2; sines by eq 4.9-4.12; eq 2.1",
         source: "L21 4.4, eq 4.7-4.12, steps i-iv",

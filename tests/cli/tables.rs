@@ -7,7 +7,7 @@ use fastphong::mesh::builtin::BUILTINS;
 use fastphong::number::Level;
 use fastphong::raster::Engine;
 use fastphong::scene::input::SCENES;
-use fastphong::shading::{Entry, METHODS};
+use fastphong::shading::{Entry, Family, METHODS, Standing};
 
 #[test]
 fn lists_have_an_entry_for_everything_in_their_table() {
@@ -37,8 +37,11 @@ fn lists_have_an_entry_for_everything_in_their_table() {
     for subject in [
         "methods", "meshes", "scenes", "metrics", "figures", "engines", "simd",
     ] {
-        let text = folder.run(&format!("list {subject}")).done().out;
-        let json = folder.run(&format!("list {subject} --json")).done().json();
+        let text = folder.run(&format!("list {subject} --all")).done().out;
+        let json = folder
+            .run(&format!("list {subject} --all --json"))
+            .done()
+            .json();
         let entries = json.as_array().expect("a list");
         assert_eq!(
             entries
@@ -146,6 +149,37 @@ fn engines_and_instruction_sets_are_listed_with_their_abilities() {
             (!here, auto),
             "{line}"
         );
+    }
+}
+
+/// Without a word about it, some ten methods are listed, with the number of the others.
+#[test]
+fn default_methods_are_listed_first() {
+    let folder = Folder::new();
+    let few = METHODS
+        .iter()
+        .filter(|method| method.info.standing == Standing::Default);
+    let names: Vec<_> = few.map(|method| method.info.name).collect();
+    assert!((8..=12).contains(&names.len()), "{names:?}");
+    let listed = folder.run("list methods --json").done().json();
+    let listed = listed.as_array().unwrap().iter();
+    assert!(listed.map(|entry| &entry["name"]).eq(&names));
+    let others = METHODS.len() - names.len();
+    folder
+        .run("list methods")
+        .done()
+        .prints(&format!("\n{others} more: fastphong list methods --all"));
+}
+
+/// A family has members, and no method its name.
+#[test]
+fn families_are_no_methods() {
+    for family in Family::ALL {
+        assert!(METHODS.iter().any(|m| m.info.family == family));
+    }
+    let words = ["default", "all", "floats", "integers", "exhibits"];
+    for word in words.into_iter().chain(Family::ALL.map(Family::name)) {
+        assert!(Entry::named(word).is_none(), "{word}");
     }
 }
 
