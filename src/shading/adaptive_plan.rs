@@ -140,6 +140,27 @@ fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
     vec3([v.x.value(), v.y.value(), v.z.value()])
 }
 
+/// Returns s of some unit normals: see (a). NaN where one has no direction.
+pub(super) fn spread(normals: impl ExactSizeIterator<Item = Vec3<f32>> + Clone) -> f32 {
+    let share = 1.0 / normals.len() as f32;
+    let mean = normals.clone().fold(vec3([0.0; 3]), |sum, n| sum + n) * share;
+    let apart = normals.map(|n| (n - mean).dot(n - mean));
+    apart.fold(0.0, f32::max)
+}
+
+/// Returns s with the roundings of [`spread`] and of the normals.
+pub(super) fn rounded_up(s: f32) -> f32 {
+    1.000_01 * s + 2e-6
+}
+
+/// Returns the least and the greatest square of the interpolated vector, from s and the least and the greatest weight: see (a).
+pub(super) fn squares(s: f32, [light, heavy]: [f32; 2]) -> [f32; 2] {
+    [
+        f32::max(1.0 - s, 0.0) * light * light,
+        heavy * heavy * 1.000_001,
+    ]
+}
+
 /// Returns the coefficients of a line for 1/√D on [`low`, `high`], and its relative error: see (d).
 pub(super) fn line([low, high]: [f32; 2]) -> ([f32; 3], f32) {
     let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
@@ -222,17 +243,9 @@ pub(super) fn plan<R: Real>(
         return exact;
     }
     let corners = polygon.whole;
-    let share = 1.0 / corners.len() as f32;
-    let mean = corners
-        .iter()
-        .fold(vec3([0.0; 3]), |sum, n| sum + plain(*n))
-        * share;
-    let square = |v: Vec3<f32>| v.dot(v);
-    let apart = corners.iter().map(|n| square(plain(*n) - mean));
-    let s = apart.fold(0.0, f32::max);
+    let s = spread(corners.iter().map(|n| plain(*n)));
     let turn = 1.1 * Num::sqrt(s); // see (h)
-    // With the roundings of all this. NaN, where a corner has no normal, is exact.
-    let s = 1.000_01 * s + 2e-6;
+    let s = rounded_up(s);
     if !(s < 5.0 && light_weight > 0.0) {
         return exact;
     }
@@ -293,10 +306,7 @@ pub(super) fn plan<R: Real>(
         plan.kind = LINEAR;
         return plan;
     }
-    let range = [
-        low * light_weight * light_weight,
-        heavy_weight * heavy_weight * 1.000_001,
-    ];
+    let range = squares(s, [light_weight, heavy_weight]);
     let wide = right - left;
     let is_dull = followed == 0;
     if is_dull {

@@ -24,8 +24,20 @@ pub const PHONG_RSQRT: &Entry = named("phong-rsqrt");
 pub const DUFF_PHONG: &Entry = named("duff-phong");
 /// Duff's forward differences with Newton's root.
 pub const DUFF_NEWTON: &Entry = named("duff-newton");
+/// Duff's forward differences, with a polynomial in place of the root.
+pub const SERIES_PHONG: &Entry = named("series-phong");
+/// Products of unit normals as cubics along spans.
+pub const CUBIC_PHONG: &Entry = named("cubic-phong");
+/// Highlights by the difference of N and H.
+pub const DIFFERENCE_VECTOR: &Entry = named("difference-vector");
+/// Taylor's quadratics over triangles.
+pub const BISHOP_WEIMER: &Entry = named("bishop-weimer");
 /// Quadratics through six points of a triangle.
 pub const SIX_POINT: &Entry = named("six-point");
+/// Normals as quadratics along spans.
+pub const QUADRATIC_NORMALS: &Entry = named("quadratic-normals");
+/// Gouraud's diffuse light with Phong's highlights.
+pub const H_TEST: &Entry = named("h-test");
 /// For each polygon the cheapest of five ways within a stated error: mostly the fastest of scalar code with Phong's picture.
 pub const ADAPTIVE_PHONG: &Entry = named("adaptive-phong");
 /// Normals along great circles, as products.

@@ -1,10 +1,12 @@
 //! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
 
-use super::increments::{Quadratic, Walk};
 use super::planes::{each, scaled};
+use super::quadratic_products::{
+    Growth, OverPolygon, Products, QuadraticProducts, WIDEST, plain, width,
+};
 use super::{
-    Approximation, Corners, Family, Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader,
-    Span, Standing, Stepped,
+    Approximation, Corner, Corners, Family, Info, LightModel, Lit, Local, MethodParameter, Pixel,
+    Planes, Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -34,35 +36,39 @@ use crate::scene::Interpolation;
 /// 0. `|v − v(p_i)|` is at most D times half of the sum of the differences of the coordinates, with which the sum is below 0.204
 /// everywhere on a triangle: the error is below 0.102 (D/ℓ)³. As for ℓ, v is at least as long as its part along the mean direction m of
 /// the corners: min w_i · min N_i·m.
+///
+/// **Midpoints after Barrera.** With `midpoints=barrera` normals half-way along edges take no root (Barrera, Hast, Bengtsson 2006):
+///
+/// ```text
+/// (N_1 + N_2)/|N_1 + N_2| ~ (N_1 + N_2) (5 − N_1·N_2)/8,    of length √(1 − u/2) (1 + u/4) ≤ 1,    u = 1 − N_1·N_2
+/// ```
+/// Their weights in F, 4 b_i b_j, sum to 4/3 at most: the error is larger by 4/3 of the shortest one's lack. Under perspective, where weights
+/// of corners differ, they are exact.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SixPoint<const L: usize> {
     kind: u8,
+    is_near: bool,
 }
 
 /// The kind of polygons without a quadratic.
 const ROOTS: u8 = 1;
-/// The largest D/ℓ: that of three normals 60° apart.
-const WIDEST: f32 = 1.25;
-/// The most by which barycentric coordinates grow from one side of a triangle's box to the other: more loses too many digits.
-const STEEPEST: f32 = 64.0;
+/// The place of `barrera` among the words of the only parameter.
+const BARRERA: Value = Value::Word(1);
 
-/// Returns D/ℓ of three unit normals and their weights: see [`SixPoint`]. More than any number where ℓ may be 0.
-fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
-    let [a, b, c] = corners.map(|(normal, weight)| normal * weight);
-    let square = |d: Vec3<f32>| d.dot(d);
-    let longest = square(a - b).max(square(b - c)).max(square(c - a));
-    let mean = (corners[0].0 + corners[1].0 + corners[2].0).unit();
-    let least = |of: [f32; 3]| of[0].min(of[1]).min(of[2]);
-    let cosine = least(corners.map(|(normal, _)| normal.dot(mean)));
-    let length = cosine * least(corners.map(|(_, weight)| weight));
-    match length > 0.0 {
-        true => Num::sqrt(longest) / length,
-        false => f32::INFINITY,
-    }
+/// True if corners have the same weight.
+fn is_alike<R: Real>(corners: [Corner<R>; 3]) -> bool {
+    let [a, b, c] = corners.map(|corner| corner.weight.value());
+    a == b && b == c
+}
+
+/// Returns how much shorter than 1 the near midpoint of two unit normals is.
+fn lack([a, b]: [Vec3<f32>; 2]) -> f64 {
+    let u = f64::from(1.0 - a.dot(b)).clamp(0.0, 2.0);
+    1.0 - libm::sqrt(1.0 - u / 2.0) * (1.0 + u / 4.0)
 }
 
 /// Bounds the error of six-point products on a polygon: see [`SixPoint`].
-fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
+fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Approximation {
     let &[a, b, c] = frame.corners(polygon) else {
         return Approximation::NONE;
     };
@@ -74,17 +80,23 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
         (vec3(frame.normal(corner)), weight)
     };
     let is_whole = [a, b, c].iter().all(|&v| frame.clip_corner(v).is_none());
-    let width = width([a, b, c].map(corner));
+    let corners = [a, b, c].map(corner);
+    let width = width(corners);
+    let is_near = parameters[0] == BARRERA && frame.interpolation() == Interpolation::Screen;
+    let [a, b, c] = corners.map(|(normal, _)| normal);
+    let lacks = [[a, b], [b, c], [c, a]].map(lack);
+    let short = match is_near {
+        true => 4.0 / 3.0 * lacks.into_iter().fold(0.0, f64::max),
+        false => 0.0,
+    };
     match is_whole && width <= WIDEST {
         true => Approximation {
-            cosine: 0.102 * libm::pow(width.into(), 3.0),
+            cosine: 0.102 * libm::pow(width.into(), 3.0) + short,
             ..Approximation::NONE
         },
         false => Approximation::NONE,
     }
 }
-
-type Products<F, const L: usize> = (PerLight<F, L>, F); // J of each light, K
 
 impl<const L: usize> Shader for SixPoint<L> {
     const INFO: Info = Info {
@@ -95,13 +107,18 @@ impl<const L: usize> Shader for SixPoint<L> {
         title: "J = L.N and K = V.N as quadratics over each triangle",
         formula: "F(b) = sum Fi bi (2 bi - 1) + 4 (F12 b1 b2 + F23 b2 b3 + F31 b3 b1) of unit normals;  F_next = F + dF;  \
                   dF_next = dF + ddF\nI = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
-        source: "Seiler 1998; Kirk, Voorhies 1990",
+        source: "Seiler 1998; Kirk, Voorhies 1990; midpoints=barrera: Barrera, Hast, Bengtsson 2006",
         model: Model::PhongConstant,
         fails: "where normals turn by more than 30 degrees over a triangle: a highlight may end, or peak, elsewhere",
         roundings: Roundings::new(24.0, 3.0, Stepped::Products),
         derivation: "as duff-phong, whose roots other polygons take; the coefficients of a quadratic take 6 roundings of sums of up to \
                      8 products of at most 1, and x^2 and y^2 as many, of coordinates of at most 1",
-        approximation: |frame, polygon, _| approximation(frame, polygon),
+        approximation,
+        parameters: &[MethodParameter::word(
+            "midpoints",
+            "unit normals half-way along edges: by roots, or by Barrera's polynomial",
+            &["exact", "barrera"],
+        )],
         ..Info::OF_PIXELS
     };
     const LOCAL: Local = Local::PerPolygon;
@@ -110,13 +127,20 @@ impl<const L: usize> Shader for SixPoint<L> {
     const READS_SPAN: bool = true;
     const SCALAR_ONLY: Option<&'static str> =
         Some("six-point steps quadratics of a polygon's own, and the row engine has no spans");
-    type Constants<F: Num> = ([Products<F, L>; 6], [F; 2]); // of 1, x, y, x², xy, y²; the first corner
+    type Constants<F: Num> = OverPolygon<F, L>; // from the first corner
     type Varying<F: Num> = Vec3<F>; // N
-    type Walk<F: Num> = SixPointWalk<F, L>;
+    type Walk<F: Num> = QuadraticProducts<F, L>;
 
     #[inline(always)]
+    fn new(parameters: &[Value], _: &LightModel) -> Self {
+        SixPoint {
+            kind: ROOTS,
+            is_near: parameters[0] == BARRERA,
+        }
+    }
+    #[inline(always)]
     fn of_kind(self, kind: u8) -> Self {
-        SixPoint { kind }
+        SixPoint { kind, ..self }
     }
     #[inline(always)]
     fn polygon<R: Real>(
@@ -125,29 +149,29 @@ impl<const L: usize> Shader for SixPoint<L> {
         polygon: &Corners<'_, R>,
     ) -> (u8, Self::Constants<R>) {
         let zero = polygon.face.x.broadcast(0.0);
-        let none = ([(PerLight::new(lit.count(), zero), zero); 6], [zero; 2]);
+        let none = Self::Constants::<R>::filled(lit.count(), zero);
         let &[a, b, c] = polygon.all else {
             return (ROOTS, none);
         };
-        let from_a = |at: [R; 2]| [at[0] - a.place[0], at[1] - a.place[1]];
-        let ([bx, by], [cx, cy]) = (from_a(b.place), from_a(c.place));
-        let area = bx * cy - by * cx;
-        let over_area = zero.broadcast(1.0) / area;
-        // b = p x + q y, c = r x + s y
-        let [p, q, r, s] = [cy, -cx, -by, bx].map(|side| side * over_area);
-        let extent = [bx, by, cx, cy].map(|side| side.value().abs());
-        let growth = [p, q, r, s].map(|growth| growth.value().abs());
-        let is_steep = growth.iter().sum::<f32>() * extent.iter().sum::<f32>() > STEEPEST;
-        // Decided by plain values: which kind a polygon has is nothing that a method computes.
-        let plain = |v: Vec3<R>| vec3([v.x.value(), v.y.value(), v.z.value()]);
+        let Some(Growth { p, q, r, s }) = Growth::of([&a, &b, &c]) else {
+            return (ROOTS, none);
+        };
         let width = width([a, b, c].map(|v| (plain(v.normal), v.weight.value())));
-        if !polygon.is_whole || area.value() == 0.0 || is_steep || width > WIDEST {
+        if !polygon.is_whole || width > WIDEST {
             return (ROOTS, none);
         }
         let products = |n| lit.products::<L>(n);
         let [fa, fb, fc] = [a, b, c].map(|corner| products(corner.normal));
-        let [na, nb, nc] = [a, b, c].map(|corner| corner.normal * corner.weight);
-        let [ab, bc, ca] = [(na, nb), (nb, nc), (nc, na)].map(|(a, b)| products((a + b).unit()));
+        let [ab, bc, ca] = match self.is_near && is_alike([a, b, c]) {
+            true => [(a, b), (b, c), (c, a)].map(|(a, b)| {
+                let factor = (-a.normal.dot(b.normal) + 5.0) * 0.125;
+                products((a.normal + b.normal) * factor)
+            }),
+            false => {
+                let [a, b, c] = [a, b, c].map(|corner| corner.normal * corner.weight);
+                [(a, b), (b, c), (c, a)].map(|(a, b)| products((a + b).unit()))
+            }
+        };
         // The coefficients of b, c, b², bc, c².
         let to_b = mixed([(ab, 4.0), (fa, -3.0), (fb, -1.0)]);
         let to_c = mixed([(ca, 4.0), (fa, -3.0), (fc, -1.0)]);
@@ -172,29 +196,9 @@ impl<const L: usize> Shader for SixPoint<L> {
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        let none = Quadratic::zero(lit.zero());
-        let mut products = (PerLight::new(lit.count(), none), none);
-        if self.kind == ROOTS {
-            let Linear { at, step } = span.linear();
-            let (j, k) = lit.products::<L>(at);
-            let (dj, dk) = lit.products::<L>(step);
-            products.1 = Quadratic::new(k, dk, lit.zero());
-            for i in 0..lit.count() {
-                products.0.values[i] = Quadratic::new(j.values[i], dj.values[i], lit.zero());
-            }
-            let square = Some(Quadratic::square(at, step));
-            return SixPointWalk { products, square };
-        }
-        let (of, first) = span.constants();
-        let [x, y] = span.place();
-        let from_first = [x - x.of_each(|_| first[0]), y - y.of_each(|_| first[1])];
-        products.1 = along(each_of(|i| of[i].1), from_first);
-        for i in 0..lit.count() {
-            products.0.values[i] = along(each_of(|k| of[k].0.values[i]), from_first);
-        }
-        SixPointWalk {
-            products,
-            square: None,
+        match self.kind {
+            ROOTS => QuadraticProducts::of_normals(lit, span.linear()),
+            _ => QuadraticProducts::over_polygon(lit, span.constants(), span.place()),
         }
     }
     #[inline(always)]
@@ -203,35 +207,12 @@ impl<const L: usize> Shader for SixPoint<L> {
     }
 }
 
-/// Products of unit normals as quadratics; or of other normals, linear, with their squared length.
-#[derive(Clone, Copy, Debug)]
-pub struct SixPointWalk<F, const L: usize> {
-    products: (PerLight<Quadratic<F>, L>, Quadratic<F>),
-    square: Option<Quadratic<F>>,
-}
-
-impl<F: Num, const L: usize> Walk<F> for SixPointWalk<F, L> {
-    type Pixel = Products<F, L>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Self::Pixel {
-        let products = self.products.next();
-        match &mut self.square {
-            None => products,
-            Some(square) => {
-                let square = square.next();
-                scaled(products, square.broadcast(1.0) / square.sqrt())
-            }
-        }
-    }
-}
-
 /// Returns the sum of some products.
 #[inline(always)]
 fn sum<F: Num, const L: usize, const N: usize>(all: [Products<F, L>; N]) -> Products<F, L> {
     let mut sum = all[0];
     for other in &all[1..] {
-        super::Planes::zip(&mut sum, *other, |a, b| a + b);
+        Planes::zip(&mut sum, *other, |a, b| a + b);
     }
     sum
 }
@@ -242,21 +223,6 @@ fn mixed<F: Num, const L: usize, const N: usize>(
     all: [(Products<F, L>, f32); N],
 ) -> Products<F, L> {
     sum(all.map(|(products, factor)| each(products, |_, x| *x = *x * factor)))
-}
-
-/// Returns a quadratic in x and y along a row.
-#[inline(always)]
-fn along<F: Num>([c, cx, cy, cxx, cxy, cyy]: [F::One; 6], [x, y]: [F; 2]) -> Quadratic<F> {
-    let all = |number: F::One| x.of_each(|_| number);
-    let (curve, slope) = (all(cxx), all(cx) + all(cxy) * y);
-    let at = all(c) + (all(cy) + all(cyy) * y) * y + (slope + curve * x) * x;
-    Quadratic::new(at, slope + curve * x * 2.0, curve)
-}
-
-/// Returns the six numbers that `of` gives.
-#[inline(always)]
-fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
-    [of(0), of(1), of(2), of(3), of(4), of(5)]
 }
 
 #[cfg(test)]

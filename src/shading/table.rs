@@ -1,7 +1,10 @@
 //! The method table: add a line here for a new file beside this one.
 
 use super::adaptive_phong::AdaptivePhong;
+use super::bishop_weimer::BishopWeimer;
 use super::count::{CountedSpan, count};
+use super::cubic_phong::CubicPhong;
+use super::difference_vector::DifferenceVector;
 use super::duff_newton::DuffNewton;
 use super::duff_phong::{DuffPhong, DuffPhongLocal};
 use super::fast_phong::FastPhong;
@@ -9,8 +12,11 @@ use super::flat::Flat;
 use super::flat_average::FLAT_AVERAGE;
 use super::gouraud::Gouraud;
 use super::gouraud_separate::GouraudSeparate;
+use super::h_test::HTest;
 use super::naive_phong::NaivePhong;
 use super::phong_rsqrt::PhongRsqrt;
+use super::quadratic_normals::QuadraticNormals;
+use super::series_phong::SeriesPhong;
 use super::six_point::SixPoint;
 use super::slerp_chebyshev::SlerpChebyshev;
 use super::slerp_phong::SlerpPhong;
@@ -46,7 +52,18 @@ pub static METHODS: &[Entry] = &[
     Entry::by_lights::<DuffPhong<1>, DuffPhong<4>, DuffPhong<8>, DuffPhong<64>>()
         .positional::<DuffPhongLocal<4>, DuffPhongLocal<64>>(),
     Entry::by_lights::<DuffNewton<1>, DuffNewton<4>, DuffNewton<8>, DuffNewton<64>>(),
+    Entry::by_lights::<SeriesPhong<1>, SeriesPhong<4>, SeriesPhong<8>, SeriesPhong<64>>(),
+    Entry::by_lights::<CubicPhong<1>, CubicPhong<4>, CubicPhong<8>, CubicPhong<64>>(),
+    Entry::by_lights::<
+        DifferenceVector<1>,
+        DifferenceVector<4>,
+        DifferenceVector<8>,
+        DifferenceVector<64>,
+    >(),
+    Entry::by_lights::<BishopWeimer<1>, BishopWeimer<4>, BishopWeimer<8>, BishopWeimer<64>>(),
     Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>(),
+    Entry::of::<QuadraticNormals>(),
+    Entry::of::<HTest>(),
     Entry::of::<AdaptivePhong<true>>()
         .one_light::<AdaptivePhong<false>>()
         .positional::<PhongRsqrt, PhongRsqrt>(),

@@ -10,16 +10,16 @@ use fastphong::shading::{Entry, Variant};
 use glam::{DVec3, Vec3};
 
 /// Width of the pictures in this module.
-const WIDTH: u32 = 64;
+pub const WIDTH: u32 = 64;
 
 /// Exponent n of the specular term.
-const SHININESS: i32 = 20;
+pub const SHININESS: i32 = 20;
 
-const LIGHT: DVec3 = DVec3::new(0.36, 0.48, 0.8);
-const VIEW: DVec3 = DVec3::Z;
-const AMBIENT: f64 = 0.1;
-const DIFFUSE: f64 = 0.4;
-const SPECULAR: f64 = 0.5;
+pub const LIGHT: DVec3 = DVec3::new(0.36, 0.48, 0.8);
+pub const VIEW: DVec3 = DVec3::Z;
+pub const AMBIENT: f64 = 0.1;
+pub const DIFFUSE: f64 = 0.4;
+pub const SPECULAR: f64 = 0.5;
 
 /// Largest difference between a method in `f32` and its formula on a span of [`WIDTH`] pixels and a
 /// few rows.
@@ -28,9 +28,9 @@ const SPECULAR: f64 = 0.5;
 /// coordinate of N are off by e = 68 · 2⁻²⁴ = 4.1e-6. In 2JK/D, with D over ½ here, J and K
 /// contribute 2 · 2e each and D contributes 2 · 2 · √3 e, together less than 15 e. The power
 /// multiplies this by n k_s = 10, and the diffuse term adds less than e: 151 e.
-const TOLERANCE: f64 = 151.0 * 68.0 / (1 << 24) as f64;
+pub const TOLERANCE: f64 = 151.0 * 68.0 / (1 << 24) as f64;
 
-fn lighting() -> Lighting {
+pub fn lighting() -> Lighting {
     let material = Material {
         ambient: [AMBIENT as f32; 3],
         diffuse: [DIFFUSE as f32; 3],
@@ -45,9 +45,13 @@ fn lighting() -> Lighting {
     )
 }
 
-fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
+pub fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
+    frame_lit(lighting(), polygons)
+}
+
+pub fn frame_lit(lighting: Lighting, polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
     let mut builder = FrameBuilder::new(WIDTH, WIDTH);
-    let material = builder.lighting(lighting());
+    let material = builder.lighting(lighting);
     for (number, corners) in polygons.iter().enumerate() {
         let vertex = |&((x, y), normal): &((f64, f64), DVec3)| Vertex {
             x: SubPixel::from_num(x),
@@ -67,25 +71,30 @@ fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
 }
 
 /// Returns the unit normal that leans `right` degrees to the right and `up` degrees upward.
-fn leaning(right: f64, up: f64) -> DVec3 {
+pub fn leaning(right: f64, up: f64) -> DVec3 {
     let (x, y) = (right.to_radians().tan(), up.to_radians().tan());
     DVec3::new(x, y, 1.0).normalize()
 }
 
 /// Builds four rows as wide as the picture, with one normal at the left and one at the right:
 /// t = (column + ½) / WIDTH.
-fn strip(left: DVec3, right: DVec3) -> Frame {
+pub fn strip(left: DVec3, right: DVec3) -> Frame {
+    strip_lit(lighting(), left, right)
+}
+
+pub fn strip_lit(lighting: Lighting, left: DVec3, right: DVec3) -> Frame {
     let w = f64::from(WIDTH);
-    frame_of(&[&[
+    let corners = [
         ((0.0, 0.0), left),
         ((w, 0.0), right),
         ((w, 4.0), right),
         ((0.0, 4.0), left),
-    ]])
+    ];
+    frame_lit(lighting, &[&corners])
 }
 
 /// Evaluates (2.1) with the clamps, from L·N and R·V.
-fn intensity(l_n: f64, r_v: f64) -> f64 {
+pub fn intensity(l_n: f64, r_v: f64) -> f64 {
     let specular = if l_n > 0.0 {
         SPECULAR * r_v.max(0.0).powi(SHININESS)
     } else {
@@ -106,13 +115,18 @@ fn slerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
     ((1.0 - t) * phi).sin() / phi.sin() * n1 + (t * phi).sin() / phi.sin() * n2
 }
 
-#[track_caller]
-fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
-    for (n1, n2) in [
+/// Pairs of normals for strips, up to 65 degrees apart.
+pub fn pairs() -> [(DVec3, DVec3); 3] {
+    [
         (leaning(-20.0, 10.0), leaning(35.0, -5.0)),
         (leaning(0.0, 0.0), leaning(3.0, 40.0)),
         (leaning(-60.0, 10.0), leaning(5.0, 20.0)),
-    ] {
+    ]
+}
+
+#[track_caller]
+fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
+    for (n1, n2) in pairs() {
         let picture = Variant::parse(variant)
             .unwrap()
             .render_linear(&strip(n1, n2));

@@ -18,6 +18,7 @@ mod lecture;
 mod lights;
 mod ndc_cube;
 mod pins;
+mod published;
 mod regression;
 mod span_shader;
 mod supersampling;

@@ -4,6 +4,7 @@
 //! the values of each of its pixels, with steps a block long.
 
 mod chebyshev;
+mod cubic;
 mod linear;
 mod newton;
 mod quadratic;
@@ -11,6 +12,7 @@ mod rsqrt;
 mod sines;
 
 pub use chebyshev::Chebyshev;
+pub use cubic::Cubic;
 pub use linear::{Constant, Linear};
 pub use newton::{Newton, NewtonSteps};
 pub use quadratic::Quadratic;

@@ -139,6 +139,39 @@ fn quadratic_drifts_by_three_roundings_per_step() {
     }
 }
 
+/// [`Cubic`] is as far from the cubic as documented, beside the roundings of its coefficients, and not much nearer.
+#[test]
+fn cubic_drifts_as_its_differences_do() {
+    let mut random = Random::new(12);
+    let mut tightest = 0.0f64;
+    for pixels in [16u32, 64, 256, 1024] {
+        for _ in 0..50 {
+            let n = pixels as f32;
+            let [a, b, c, d] = [1.0, n, n * n, n * n * n].map(|power| random.signed() / power);
+            let found = values(Cubic::new([a, b, c, d]), pixels as usize);
+            let [a, b, c, d] = [a, b, c, d].map(f64::from);
+            let n = f64::from(pixels);
+            // Largest values over the span, and of the differences.
+            let (value, slope, curve) = (
+                a.abs() + (b * n).abs() + (c * n * n).abs() + (d * n * n * n).abs(),
+                (b * n).abs() + 2.0 * (c * n * n).abs() + 3.0 * (d * n * n * n).abs(),
+                2.0 * (c * n * n).abs() + 6.0 * (d * n * n * n).abs(),
+            );
+            for (k, found) in found.into_iter().enumerate() {
+                let k = k as f64;
+                let truth = a + k * (b + k * (c + k * d));
+                // A difference is made by three roundings.
+                let starts = 3.0 * (slope + curve);
+                let bound = HALF_ULP * ((k + 1.0) * (value + slope / 2.0 + curve / 6.0) + starts);
+                let error = (found - truth).abs();
+                assert!(error <= bound, "{pixels} at {k}: {found}, {truth}");
+                tightest = tightest.max(error / bound);
+            }
+        }
+    }
+    assert!(tightest > 0.05, "{tightest}");
+}
+
 /// A square is the product of a vector with itself. It touches zero and returns if the vector
 /// vanishes inside a span.
 #[test]

@@ -1,0 +1,146 @@
+//! Products of unit normals as quadratics over a triangle: what methods share that make one per polygon.
+
+use super::increments::{Linear, Quadratic, Walk};
+use super::planes::scaled;
+use super::{Corner, Lit, PerLight};
+use crate::number::{Num, Real, Vec3, vec3};
+
+/// J of each light, and K.
+pub(super) type Products<F, const L: usize> = (PerLight<F, L>, F);
+
+/// The coefficients of 1, x, y, x², xy, y², and the point of the picture from which x and y are counted.
+pub(super) type OverPolygon<F, const L: usize> = ([Products<F, L>; 6], [F; 2]);
+
+/// The largest D/ℓ for which there are quadratics, that of three normals 60° apart: D is the longest distance between two of the
+/// weighted normals, ℓ the least length between them.
+pub(super) const WIDEST: f32 = 1.25;
+/// The most by which barycentric coordinates grow from one side of a triangle's box to the other: more loses too many digits.
+const STEEPEST: f32 = 64.0;
+
+/// Returns the vector of plain numbers: which kind a polygon has is nothing that a method computes.
+#[inline(always)]
+pub(super) fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
+    vec3([v.x.value(), v.y.value(), v.z.value()])
+}
+
+/// Returns a number that ℓ is not below: of v = Σ b_i N_i w_i the part along the mean direction m of the corners is at least
+/// min w_i · min N_i·m.
+pub(super) fn least_length(corners: [(Vec3<f32>, f32); 3]) -> f32 {
+    let mean = (corners[0].0 + corners[1].0 + corners[2].0).unit();
+    let least = |of: [f32; 3]| of[0].min(of[1]).min(of[2]);
+    least(corners.map(|(normal, _)| normal.dot(mean))) * least(corners.map(|(_, weight)| weight))
+}
+
+/// Returns D/ℓ of three unit normals and their weights; more than any number where ℓ may be 0.
+pub(super) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
+    let [a, b, c] = corners.map(|(normal, weight)| normal * weight);
+    let square = |d: Vec3<f32>| d.dot(d);
+    let longest = square(a - b).max(square(b - c)).max(square(c - a));
+    let length = least_length(corners);
+    match length > 0.0 {
+        true => Num::sqrt(longest) / length,
+        false => f32::INFINITY,
+    }
+}
+
+/// The growth of the barycentric coordinates b and c of a triangle: `b = p x + q y`, `c = r x + s y`, from its first corner.
+#[derive(Clone, Copy)]
+pub(super) struct Growth<R> {
+    pub p: R,
+    pub q: R,
+    pub r: R,
+    pub s: R,
+}
+
+impl<R: Real> Growth<R> {
+    /// Returns the growth over a triangle; `None` if it has no area, or is so thin that too many digits are lost.
+    #[inline(always)]
+    pub fn of([a, b, c]: [&Corner<R>; 3]) -> Option<Growth<R>> {
+        let from_a = |at: [R; 2]| [at[0] - a.place[0], at[1] - a.place[1]];
+        let ([bx, by], [cx, cy]) = (from_a(b.place), from_a(c.place));
+        let area = bx * cy - by * cx;
+        let over_area = area.broadcast(1.0) / area;
+        let [p, q, r, s] = [cy, -cx, -by, bx].map(|side| side * over_area);
+        let extent = [bx, by, cx, cy].map(|side| side.value().abs());
+        let growth = [p, q, r, s].map(|growth| growth.value().abs());
+        let is_steep = growth.iter().sum::<f32>() * extent.iter().sum::<f32>() > STEEPEST;
+        (area.value() != 0.0 && !is_steep).then_some(Growth { p, q, r, s })
+    }
+}
+
+/// Products as quadratics; or those of other normals, linear, with the squared length.
+#[derive(Clone, Copy, Debug)]
+pub struct QuadraticProducts<F, const L: usize> {
+    products: (PerLight<Quadratic<F>, L>, Quadratic<F>),
+    square: Option<Quadratic<F>>,
+}
+
+impl<F: Num, const L: usize> QuadraticProducts<F, L> {
+    /// Starts a run at `place`, where products are quadratics over the polygon.
+    #[inline(always)]
+    pub(super) fn over_polygon(
+        lit: &Lit<'_, F>,
+        (of, from): OverPolygon<F::One, L>,
+        [x, y]: [F; 2],
+    ) -> Self {
+        let none = Quadratic::zero(lit.zero());
+        let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
+        let mut products = (PerLight::new(lit.count(), none), none);
+        products.1 = along(each_of(|i| of[i].1), from);
+        for i in 0..lit.count() {
+            products.0.values[i] = along(each_of(|k| of[k].0.values[i]), from);
+        }
+        QuadraticProducts {
+            products,
+            square: None,
+        }
+    }
+
+    /// Starts a run of normals that are divided by their length.
+    #[inline(always)]
+    pub(super) fn of_normals(lit: &Lit<'_, F>, Linear { at, step }: Linear<Vec3<F>>) -> Self {
+        let none = Quadratic::zero(lit.zero());
+        let mut products = (PerLight::new(lit.count(), none), none);
+        let (j, k) = lit.products::<L>(at);
+        let (dj, dk) = lit.products::<L>(step);
+        products.1 = Quadratic::new(k, dk, lit.zero());
+        for i in 0..lit.count() {
+            products.0.values[i] = Quadratic::new(j.values[i], dj.values[i], lit.zero());
+        }
+        QuadraticProducts {
+            products,
+            square: Some(Quadratic::square(at, step)),
+        }
+    }
+}
+
+impl<F: Num, const L: usize> Walk<F> for QuadraticProducts<F, L> {
+    type Pixel = Products<F, L>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Pixel {
+        let products = self.products.next();
+        match &mut self.square {
+            None => products,
+            Some(square) => {
+                let square = square.next();
+                scaled(products, square.broadcast(1.0) / square.sqrt())
+            }
+        }
+    }
+}
+
+/// Returns a quadratic in x and y along a row.
+#[inline(always)]
+fn along<F: Num>([c, cx, cy, cxx, cxy, cyy]: [F::One; 6], [x, y]: [F; 2]) -> Quadratic<F> {
+    let all = |number: F::One| x.of_each(|_| number);
+    let (curve, slope) = (all(cxx), all(cx) + all(cxy) * y);
+    let at = all(c) + (all(cy) + all(cyy) * y) * y + (slope + curve * x) * x;
+    Quadratic::new(at, slope + curve * x * 2.0, curve)
+}
+
+/// Returns the six numbers that `of` gives.
+#[inline(always)]
+fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
+    [of(0), of(1), of(2), of(3), of(4), of(5)]
+}

@@ -1,0 +1,196 @@
+//! Phong shading without a root or a division at a pixel: 1/√(N·N) by a polynomial of N·N (Digital, US patent 5,369,737, 1990).
+
+use super::adaptive_plan::{WIDEST, line, parabola, rounded_up, spread, squares};
+use super::increments::{Quadratic, Walk};
+use super::planes::scaled;
+use super::{
+    Approximation, Corners, Family, Info, LightModel, Linear, Lit, Local, MethodParameter,
+    PerLight, Pixel, Roundings, Shader, Span, Stepped, Value,
+};
+use crate::frame::{Frame, Polygon};
+use crate::number::{Num, Real, Vec3, vec3};
+use crate::reference::Model;
+use crate::scene::Interpolation;
+
+/// Series Phong shading for up to `L` lights: `J = L·N` and `K = V·N` by one addition each and `D = N·N` by two, as Duff's method has
+/// them, and
+///
+/// ```text
+/// 1/√D ~ k_0 + k_1 D        or        k_0 + D (k_1 + k_2 D)
+/// ```
+///
+/// about the middle of the values that D has on the polygon: [`line`] and [`parabola`], whose coefficients and errors are (a) and (d) of
+/// [`super::adaptive_plan`]. The patent's series is Taylor's about 1, where D is under parallel projection; under perspective N
+/// is weighted by 1/w, and D is anywhere. Polygons whose D varies by more than a factor of 3, and pieces that clipping cut, take roots.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SeriesPhong<const L: usize> {
+    kind: u8,
+    order: u32,
+}
+
+const LINE: u8 = 0;
+const PARABOLA: u8 = 1;
+const ROOTS: u8 = 2;
+
+/// Returns the polynomial of `order` for polygons of these unit normals and weights, and its relative error; `None` if they take roots.
+pub(super) fn polynomial(
+    order: u32,
+    normals: impl ExactSizeIterator<Item = Vec3<f32>> + Clone,
+    weights: impl Iterator<Item = f32> + Clone,
+) -> Option<([f32; 3], f32)> {
+    let least = weights.clone().fold(f32::INFINITY, f32::min);
+    let range = squares(
+        rounded_up(spread(normals)),
+        [least, weights.fold(0.0, f32::max)],
+    );
+    let is_narrow = range[0] > 0.0 && range[1] - range[0] <= WIDEST * (range[1] + range[0]);
+    is_narrow.then(|| match order {
+        1 => line(range),
+        _ => parabola(range),
+    })
+}
+
+/// Returns the same for a polygon as a method sets it up. It is decided by plain values, which are nothing that the method computes.
+pub(super) fn of_corners<R: Real>(order: u32, polygon: &Corners<'_, R>) -> Option<[f32; 3]> {
+    let plain = |v: Vec3<R>| vec3([v.x.value(), v.y.value(), v.z.value()]);
+    let normals = polygon.all.iter().map(|corner| plain(corner.normal));
+    let weights = polygon.all.iter().map(|corner| corner.weight.value());
+    let polynomial = polynomial(order, normals, weights)?;
+    polygon.is_whole.then_some(polynomial.0)
+}
+
+/// Bounds the relative error of 1/√D on a polygon of a frame.
+pub(super) fn approximation(frame: &Frame, polygon: &Polygon, order: u32) -> Approximation {
+    let corners = frame.corners(polygon);
+    if corners.iter().any(|&v| frame.clip_corner(v).is_some()) {
+        return Approximation::NONE;
+    }
+    let weight = |corner: &u32| match frame.interpolation() {
+        Interpolation::Screen => 1.0,
+        Interpolation::Perspective => frame.vertices()[*corner as usize].inv_w,
+    };
+    let normals = corners.iter().map(|&v| vec3(frame.normal(v)));
+    let polynomial = polynomial(order, normals, corners.iter().map(weight));
+    Approximation {
+        length: polynomial.map_or(0.0, |(_, error)| error.into()),
+        ..Approximation::NONE
+    }
+}
+
+/// Returns the order that the first parameter asks for.
+fn order(parameters: &[Value]) -> u32 {
+    parameters[0].whole().unwrap_or_default()
+}
+
+type Products<F, const L: usize> = (PerLight<F, L>, F); // J of each light, K
+
+impl<const L: usize> Shader for SeriesPhong<L> {
+    const INFO: Info = Info {
+        name: "series-phong",
+        ids: &["M07", "M07b"],
+        family: Family::Series,
+        title: "J = L.N, K = V.N and D = N.N by differences; 1/sqrt(D) by a polynomial of D",
+        formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = k0 + k1 D or k0 + D (k1 + k2 D)\n\
+                  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
+        source: "Digital Equipment, US patent 5,369,737, filed 1990; differences as Duff 1979; about the middle of D: ours",
+        model: Model::PhongConstant,
+        parameters: &[MethodParameter::whole(
+            "order",
+            "order of the polynomial",
+            2,
+            [1, 2],
+        )],
+        roundings: Roundings::new(14.0, 2.0, Stepped::Products),
+        derivation: "as duff-phong, with the set-up of a run's products from normals, 4, and of a polynomial of coefficients of up to 4 \
+                     in place of the root, 4 more",
+        approximation: |frame, polygon, parameters| {
+            approximation(frame, polygon, order(parameters))
+        },
+        fails: "order 1 where normals turn by more than about 15 degrees over a polygon: a highlight's peak is off by n times the error",
+        ..Info::OF_PIXELS
+    };
+    const LOCAL: Local = Local::PerPolygon;
+    const PASSES_NORMAL: bool = true;
+    const KINDS: &'static [&'static str] = &["line", "parabola", "roots"];
+    const SCALAR_ONLY: Option<&'static str> =
+        Some("series-phong has a polynomial for each polygon, and a block of pixels one for all");
+    type Constants<F: Num> = [F; 3]; // the polynomial
+    type Varying<F: Num> = Vec3<F>; // N
+    type Walk<F: Num> = SeriesWalk<F, L>;
+
+    #[inline(always)]
+    fn new(parameters: &[Value], _: &LightModel) -> Self {
+        SeriesPhong {
+            kind: ROOTS,
+            order: order(parameters),
+        }
+    }
+    #[inline(always)]
+    fn of_kind(self, kind: u8) -> Self {
+        SeriesPhong { kind, ..self }
+    }
+    #[inline(always)]
+    fn polygon<R: Real>(
+        self,
+        lit: &Lit<'_, R>,
+        polygon: &Corners<'_, R>,
+    ) -> (u8, Self::Constants<R>) {
+        let zero = lit.zero();
+        let kind = if self.order == 1 { LINE } else { PARABOLA };
+        match of_corners(self.order, polygon) {
+            Some(factors) => (kind, factors.map(|k| zero.broadcast(k))),
+            None => (ROOTS, [zero; 3]),
+        }
+    }
+    #[inline(always)]
+    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let Linear { at, step } = span.linear();
+        let [k0, k1, k2] = span.constants();
+        SeriesWalk {
+            products: Linear {
+                at: lit.products(at),
+                step: lit.products(step),
+            },
+            square: Quadratic::square(at, step),
+            factors: [
+                at.x.of_each(|_| k0),
+                at.x.of_each(|_| k1),
+                at.x.of_each(|_| k2),
+            ],
+            kind: self.kind,
+        }
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
+        lit.shade_products(products)
+    }
+}
+
+/// Products of normals, linear; their squared length; and the polynomial of it that stands for 1 over the length.
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesWalk<F, const L: usize> {
+    products: Linear<Products<F, L>>,
+    square: Quadratic<F>,
+    factors: [F; 3],
+    kind: u8,
+}
+
+impl<F: Num, const L: usize> Walk<F> for SeriesWalk<F, L> {
+    type Pixel = Products<F, L>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Pixel {
+        let (products, d) = (self.products.next(), self.square.next());
+        let [k0, k1, k2] = self.factors;
+        let r = match self.kind {
+            LINE => k0 + k1 * d,
+            PARABOLA => k0 + d * (k1 + k2 * d),
+            _ => d.broadcast(1.0) / d.sqrt(),
+        };
+        scaled(products, r)
+    }
+}

@@ -1,0 +1,204 @@
+//! Checks each published method beside the lecture's against its own formula, evaluated in `f64` one pixel at a time.
+
+use super::lecture::{
+    AMBIENT, DIFFUSE, LIGHT, SHININESS, SPECULAR, TOLERANCE, VIEW, WIDTH, frame_of, intensity,
+    leaning, lighting, pairs, strip_lit,
+};
+use fastphong::picture::LinearPicture;
+use fastphong::scene::{Lighting, SpecularModel};
+use fastphong::shading::Variant;
+use glam::DVec3;
+
+/// Draws strips by a method and compares their pixels with a formula of both normals and t.
+#[track_caller]
+fn check(variant: &str, lighting: &Lighting, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
+    for (n1, n2) in pairs() {
+        let frame = strip_lit(lighting.clone(), n1, n2);
+        let picture = Variant::parse(variant).unwrap().render_linear(&frame);
+        compare(variant, &picture, |x, _| {
+            Some(formula(n1, n2, x / f64::from(WIDTH)))
+        });
+    }
+}
+
+/// Compares the pixels of the first four rows, or all that are covered, with a formula of the place.
+#[track_caller]
+fn compare(variant: &str, picture: &LinearPicture, formula: impl Fn(f64, f64) -> Option<f64>) {
+    let mut compared = 0;
+    for y in 0..picture.height() {
+        for (x, pixel) in picture.row(y).iter().enumerate() {
+            let Some(expected) = formula(x as f64 + 0.5, y as f64 + 0.5) else {
+                continue;
+            };
+            if pixel[3] == 0.0 {
+                continue;
+            }
+            compared += 1;
+            let (found, expected) = (f64::from(pixel[0]), expected.clamp(0.0, 1.0));
+            assert!(
+                (found - expected).abs() < TOLERANCE,
+                "{variant} at {x}, {y}: {found} instead of {expected}"
+            );
+        }
+    }
+    assert!(compared >= 4 * WIDTH, "{compared} pixels");
+}
+
+fn lerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
+    (1.0 - t) * a + t * b
+}
+
+/// The colour by equation 4.5 of J and K.
+fn products(j: f64, k: f64) -> f64 {
+    intensity(j, 2.0 * j * k - LIGHT.dot(VIEW))
+}
+
+/// 1/√D by the polynomial of `order` for a strip of these normals: see `src/shading/adaptive_plan.rs` (d).
+fn polynomial(order: u32, n1: DVec3, n2: DVec3, d: f64) -> f64 {
+    let low = 1.0 - (n1 - n2).length_squared() / 4.0;
+    let (middle, x) = ((1.0 + low) / 2.0, (1.0 - low) / (1.0 + low));
+    let y = d / middle - 1.0;
+    let value = match order {
+        1 => 1.0 + 3.0 / 16.0 * x * x - (0.5 + 15.0 / 64.0 * x * x) * y,
+        _ => {
+            let [a, b, c] = [
+                1.0 - 35.0 / 1024.0 * x.powi(4),
+                0.5 + 15.0 / 64.0 * x * x,
+                0.375 + 35.0 / 128.0 * x * x,
+            ];
+            a - b * y + c * y * y
+        }
+    };
+    value / middle.sqrt()
+}
+
+/// US patent 5,369,737: J and K linear, 1/√D a polynomial of D.
+#[test]
+fn series_phong_is_its_polynomial() {
+    for order in [1, 2] {
+        check(
+            &format!("series-phong:order={order}"),
+            &lighting(),
+            |n1, n2, t| {
+                let n = lerp(n1, n2, t);
+                let r = polynomial(order, n1, n2, n.length_squared());
+                products(LIGHT.dot(n) * r, VIEW.dot(n) * r)
+            },
+        );
+    }
+}
+
+/// The same line for 1/√D, multiplied out.
+#[test]
+fn cubic_phong_is_the_line_times_j_and_k() {
+    check("cubic-phong", &lighting(), |n1, n2, t| {
+        let n = lerp(n1, n2, t);
+        let r = polynomial(1, n1, n2, n.length_squared());
+        products(LIGHT.dot(n) * r, VIEW.dot(n) * r)
+    });
+}
+
+/// Hast 2002: the quadratic through the unit normals of both ends and the middle, lit as it is.
+#[test]
+fn quadratic_normals_are_the_quadratic_through_three() {
+    check("quadratic-normals", &lighting(), |n1, n2, t| {
+        let m = (n1 + n2).normalize();
+        let n = n1 + (4.0 * m - 3.0 * n1 - n2) * t + 2.0 * (n1 + n2 - 2.0 * m) * t * t;
+        products(LIGHT.dot(n), VIEW.dot(n))
+    });
+}
+
+/// Lyon 1993: highlights from |N − H|² of normals that are not normalised, by his power function.
+#[test]
+fn difference_vector_is_the_squared_difference() {
+    let halfway = Lighting {
+        specular: SpecularModel::Blinn,
+        ..lighting()
+    };
+    let h = (LIGHT + VIEW).normalize();
+    check("difference-vector:power=lyon:k=3", &halfway, |n1, n2, t| {
+        let n = lerp(n1, n2, t);
+        let e = (n - h).length_squared();
+        let highlight = (1.0 - f64::from(SHININESS) * e / 16.0).max(0.0).powi(8);
+        AMBIENT + DIFFUSE * LIGHT.dot(n) + SPECULAR * highlight
+    });
+}
+
+/// The H-test: diffuse light of vertices, highlights of unit normals. Here all strips have some.
+#[test]
+fn h_test_is_gouraud_with_phongs_highlights() {
+    check("h-test", &lighting(), |n1, n2, t| {
+        let (j1, j2) = (LIGHT.dot(n1).max(0.0), LIGHT.dot(n2).max(0.0));
+        let n = lerp(n1, n2, t).normalize();
+        let (j, k) = (LIGHT.dot(n), VIEW.dot(n));
+        let highlight = intensity(j, 2.0 * j * k - LIGHT.dot(VIEW)) - intensity(j, 0.0);
+        AMBIENT + DIFFUSE * ((1.0 - t) * j1 + t * j2) + highlight
+    });
+}
+
+/// The normals of a triangle whose legs are the picture's left and upper edge, within 40 degrees.
+const TURNS: [[(f64, f64); 3]; 2] = [
+    [(-15.0, 10.0), (15.0, 12.0), (0.0, -20.0)],
+    [(5.0, 0.0), (9.0, 0.0), (5.0, 6.0)],
+];
+
+/// Draws triangles by a method and compares them with products F of their corners' normals and barycentric coordinates of the second and
+/// third corner: of L for J, of V for K.
+#[track_caller]
+fn check_triangle(variant: &str, product: impl Fn(DVec3, [DVec3; 3], [f64; 2]) -> f64) {
+    let w = f64::from(WIDTH);
+    for turns in TURNS {
+        let normals = turns.map(|(right, up)| leaning(right, up));
+        let [a, b, c] = normals;
+        let frame = frame_of(&[&[((0.0, 0.0), a), ((w, 0.0), b), ((0.0, w), c)]]);
+        let picture = Variant::parse(variant).unwrap().render_linear(&frame);
+        compare(variant, &picture, |x, y| {
+            let of = |to| product(to, normals, [x / w, y / w]);
+            Some(products(of(LIGHT), of(VIEW)))
+        });
+    }
+}
+
+/// Seiler 1998: Lagrange's quadratic through the products of unit normals at corners and half-way along edges.
+fn six_points(
+    to: DVec3,
+    [a, b, c]: [DVec3; 3],
+    [p, q]: [f64; 2],
+    midway: fn(DVec3, DVec3) -> DVec3,
+) -> f64 {
+    let weights = [1.0 - p - q, p, q];
+    let corners = [a, b, c].into_iter().zip(weights);
+    let corners = corners.map(|(n, b)| to.dot(n) * b * (2.0 * b - 1.0));
+    let edges = [(a, b, 0, 1), (b, c, 1, 2), (c, a, 2, 0)];
+    let edges = edges.map(|(m, n, i, j)| 4.0 * weights[i] * weights[j] * to.dot(midway(m, n)));
+    corners.sum::<f64>() + edges.iter().sum::<f64>()
+}
+
+#[test]
+fn six_point_is_lagranges_quadratic() {
+    check_triangle("six-point", |to, normals, place| {
+        six_points(to, normals, place, |m, n| (m + n).normalize())
+    });
+    check_triangle("six-point:midpoints=barrera", |to, normals, place| {
+        six_points(to, normals, place, |m, n| (m + n) * (5.0 - m.dot(n)) / 8.0)
+    });
+}
+
+/// Bishop, Weimer 1986: Taylor's quadratic of J/|N| about the middle, here by second differences of the function itself.
+#[test]
+fn bishop_weimer_is_taylors_quadratic() {
+    check_triangle("bishop-weimer", |to, [a, b, c], [p, q]| {
+        let f = |x: f64, y: f64| {
+            let (p, q) = (1.0 / 3.0 + x, 1.0 / 3.0 + y);
+            to.dot((a * (1.0 - p - q) + b * p + c * q).normalize())
+        };
+        let h = 1e-3; // off by h²/6 of the third derivative, and by 2⁻⁵³/h² for rounding
+        let (x, y) = (p - 1.0 / 3.0, q - 1.0 / 3.0);
+        let fx = (f(h, 0.0) - f(-h, 0.0)) / (2.0 * h);
+        let fy = (f(0.0, h) - f(0.0, -h)) / (2.0 * h);
+        let fxx = (f(h, 0.0) - 2.0 * f(0.0, 0.0) + f(-h, 0.0)) / (h * h);
+        let fyy = (f(0.0, h) - 2.0 * f(0.0, 0.0) + f(0.0, -h)) / (h * h);
+        let fxy = (f(h, h) - f(h, -h) - f(-h, h) + f(-h, -h)) / (4.0 * h * h);
+        f(0.0, 0.0) + fx * x + fy * y + (fxx * x * x + fyy * y * y) / 2.0 + fxy * x * y
+    });
+}
