@@ -32,6 +32,7 @@ mod reference_check;
 mod render;
 mod report;
 mod scene_flags;
+mod search;
 mod shell;
 mod signals;
 mod studio;
@@ -91,6 +92,7 @@ enum Command {
     Info(info::InfoArgs),
     Compare(compare::CompareArgs),
     Bench(bench::BenchArgs),
+    Search(search::SearchArgs),
     Completions(shell::CompletionsArgs),
     Man(shell::ManArgs),
 }
@@ -116,6 +118,7 @@ impl Cli {
             Command::Info(command) => command.run(log),
             Command::Compare(command) => command.run(log),
             Command::Bench(command) => command.run(log),
+            Command::Search(command) => command.run(log),
             Command::Completions(command) => command.run(),
             Command::Man(command) => command.run(),
         }

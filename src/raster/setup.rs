@@ -217,6 +217,7 @@ impl<'a> SetUp<'a> {
         whole: &'c mut Vec<Vec3<f32>>,
     ) -> Corners<'c, f32> {
         let frame = self.frame;
+        let has_positions = frame.is_local() || self.kernels.reads_positions;
         corners.clear();
         whole.clear();
         for &corner in frame.corners(polygon) {
@@ -229,7 +230,7 @@ impl<'a> SetUp<'a> {
                     Interpolation::Screen => 1.0,
                     Interpolation::Perspective => vertex.inv_w,
                 },
-                position: frame.is_local().then(|| vec3(frame.position(corner))),
+                position: has_positions.then(|| vec3(frame.position(corner))),
             });
             self.collect_whole(corner, whole);
         }

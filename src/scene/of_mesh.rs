@@ -82,8 +82,10 @@ pub(super) fn unit(vector: DVec3) -> DVec3 {
 mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
+    use crate::raster::{Plan, Renderer};
+    use crate::shading::{Entry, METHODS};
     #[cfg(feature = "io")]
-    use crate::{mesh::builtin::builtin, scene::file::SceneFile, shading::METHODS};
+    use crate::{mesh::builtin::builtin, scene::file::SceneFile};
     use alloc::vec::Vec;
 
     #[cfg(feature = "io")]
@@ -131,7 +133,11 @@ mod tests {
             Scene::of_mesh(mesh).frame().unwrap(),
             from_file.scene.frame().unwrap(),
         );
-        for method in METHODS {
+        let is_for = |method: &&'static Entry| {
+            let plan = method.variant().plan(&a, Renderer::LECTURE);
+            !matches!(plan, Plan::Refused(_))
+        };
+        for method in METHODS.iter().filter(is_for) {
             assert_eq!(
                 method.variant().render(&a),
                 method.variant().render(&b),

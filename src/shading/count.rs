@@ -86,7 +86,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         normal: three(bench.normals[i]),
         place: SpanBench::CORNERS[i].map(number),
         weight: number(1.0),
-        position: bench.is_local().then(|| three(bench.points[i])),
+        position: (bench.is_local() || M::READS_POSITIONS).then(|| three(bench.points[i])),
     });
     let whole = bench.normals.map(three);
     let polygon = Corners {

@@ -10,7 +10,7 @@ use super::{
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::reference::Model;
-use crate::scene::{Interpolation, Lighting, Place, SpecularModel};
+use crate::scene::{Interpolation, Lighting, Place, SpecularGate, SpecularModel};
 use glam::DVec3;
 
 /// The H-test. Ambient and diffuse light is that of vertices, interpolated as by Gouraud, so that there are no seams; normals are followed
@@ -22,7 +22,7 @@ use glam::DVec3;
 /// ```text
 /// N·H ≥ T      or      R·V = 2 (L·N)(V·N) − L·V ≥ T,  so that  (N·H)² ≥ (T + L·V)/(1 + L·V)   as  (L·N)(V·N) ≤ (N·H |L + V|/2)²
 /// ```
-/// A polygon is dull if the angle between m and H is over w + acos of that bound, or if the light is behind all of its corners.
+/// A polygon is dull if the angle between m and H is over w + acos of that bound, or, unless highlights are ungated, if the light is behind all of its corners.
 ///
 /// **Its error.** Of a light whose J is p at most and −q at least at the corners the interpolated diffuse term is too dark by J (1/|N| − 1)
 /// ≤ p (1/ℓ − 1) where it is in front, ℓ the least length; and the chord of max(0, J) is p q/(p + q) over it at most.
@@ -52,7 +52,8 @@ fn may_shine<F: Num>(lit: &Lit<'_, F>, normals: impl Iterator<Item = Vec3<f32>> 
             return true;
         };
         let k_s = magnitude(light.specular) * (255.0 / lit.model.scale);
-        if k_s <= FAINT || normals.clone().all(|n| n.dot(to) <= 0.0) {
+        let is_gated = lit.model.gate != SpecularGate::Ungated;
+        if k_s <= FAINT || is_gated && normals.clone().all(|n| n.dot(to) <= 0.0) {
             return false;
         }
         let n = lit.model.shininess;

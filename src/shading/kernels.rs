@@ -159,6 +159,8 @@ pub struct Kernels {
     pub(crate) kinds: &'static [&'static str],
     /// True if walks need more of a run than its varyings: [`Shader::READS_SPAN`].
     pub(crate) reads_span: bool,
+    /// True if polygons are set up from positions everywhere: [`Shader::READS_POSITIONS`].
+    pub(crate) reads_positions: bool,
     /// True if pixels are the varyings themselves.
     pub(crate) linear: bool,
     pub(crate) passes_normal: bool,
@@ -207,6 +209,7 @@ impl Kernels {
                 M::KINDS
             },
             reads_span: M::READS_SPAN,
+            reads_positions: M::READS_POSITIONS,
             linear: <M::Walk<f32> as Walk<f32>>::LINEAR,
             passes_normal: M::PASSES_NORMAL,
             reads_attributes: M::READS_ATTRIBUTES,

@@ -36,6 +36,8 @@ pub const BISHOP_WEIMER: &Entry = named("bishop-weimer");
 pub const SIX_POINT: &Entry = named("six-point");
 /// Normals as quadratics along spans.
 pub const QUADRATIC_NORMALS: &Entry = named("quadratic-normals");
+/// Normals as quadratics over triangles that follow inflections of the surface.
+pub const BIQUADRATIC_NORMALS: &Entry = named("biquadratic-normals");
 /// Gouraud's diffuse light with Phong's highlights.
 pub const H_TEST: &Entry = named("h-test");
 /// For each polygon the cheapest of five ways within a stated error: mostly the fastest of scalar code with Phong's picture.

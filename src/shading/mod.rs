@@ -37,6 +37,7 @@ pub mod methods;
 
 mod adaptive_phong;
 mod adaptive_plan;
+mod biquadratic_normals;
 mod bishop_weimer;
 mod cubic_phong;
 mod difference_vector;
@@ -121,6 +122,8 @@ pub trait Shader: Copy + Default + 'static {
     /// True if `walk` asks a span for its ends or its place: engines then keep these, and walk along runs. The polygon's constants are
     /// there for methods of kinds, too.
     const READS_SPAN: bool = false;
+    /// True if `polygon` reads the positions of corners where lights and eye are at infinity, too.
+    const READS_POSITIONS: bool = false;
     /// What is set up once per polygon: numbers, vectors and tuples of them; `()` if nothing is.
     type Constants<F: Num>: Planes<F>;
     /// The varyings of a vertex, which edges and spans interpolate: numbers, vectors and tuples of them.

@@ -1,11 +1,12 @@
 //! Phong shading by a quadratic of unit normals along each span: nothing is normalised at a pixel (Hast, Barrera, Bengtsson 2002).
 
 use super::extent::Extent;
-use super::increments::{Quadratic, Walk};
+use super::increments::Quadratic;
 use super::{Approximation, Family, Info, Lit, Local, Pixel, Roundings, Shader, Span, Stepped};
 use crate::frame::{Frame, Polygon};
-use crate::number::{Num, Vec3, vec3};
+use crate::number::{Num, Vec3};
 use crate::reference::Model;
+use crate::scene::Interpolation;
 
 /// Quadratic vectors: of the normals at both ends of a span and in its middle unit vectors are made, and the quadratic through them is
 /// stepped by six additions a pixel. It is so nearly of length 1 that it is lit as it is.
@@ -30,8 +31,8 @@ pub struct QuadraticNormals;
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let extent = Extent::of(frame, polygon);
     let weights = match frame.interpolation() {
-        crate::scene::Interpolation::Screen => 1.0,
-        crate::scene::Interpolation::Perspective => extent.weights,
+        Interpolation::Screen => 1.0,
+        Interpolation::Perspective => extent.weights,
     };
     let apart = weights * extent.apart() + weights - 1.0;
     let cosine = match extent.cosine > 0.0 {
@@ -69,7 +70,7 @@ impl Shader for QuadraticNormals {
     );
     type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // N
-    type Walk<F: Num> = QuadraticVector<F>;
+    type Walk<F: Num> = [Quadratic<F>; 3];
 
     #[inline(always)]
     fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
@@ -89,11 +90,11 @@ impl Shader for QuadraticNormals {
             let [at, step, second] = [at, step, curve * dt * dt].map(|x| zero.of_each(|_| x));
             Quadratic::new(at, step, second)
         };
-        QuadraticVector([
+        [
             component(n1.x, slope.x, curve.x),
             component(n1.y, slope.y, curve.y),
             component(n1.z, slope.z, curve.z),
-        ])
+        ]
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
@@ -104,19 +105,5 @@ impl Shader for QuadraticNormals {
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
         }
         colour
-    }
-}
-
-/// A vector whose components are quadratics.
-#[derive(Clone, Copy, Debug)]
-pub struct QuadraticVector<F>([Quadratic<F>; 3]);
-
-impl<F: Num> Walk<F> for QuadraticVector<F> {
-    type Pixel = Vec3<F>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Vec3<F> {
-        let [x, y, z] = &mut self.0;
-        vec3([x.next(), y.next(), z.next()])
     }
 }

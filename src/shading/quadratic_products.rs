@@ -1,8 +1,8 @@
 //! Products of unit normals as quadratics over a triangle: what methods share that make one per polygon.
 
 use super::increments::{Linear, Quadratic, Walk};
-use super::planes::scaled;
-use super::{Corner, Lit, PerLight};
+use super::planes::{each, scaled};
+use super::{Corner, Lit, PerLight, Planes};
 use crate::number::{Num, Real, Vec3, vec3};
 
 /// J of each light, and K.
@@ -66,6 +66,51 @@ impl<R: Real> Growth<R> {
         let is_steep = growth.iter().sum::<f32>() * extent.iter().sum::<f32>() > STEEPEST;
         (area.value() != 0.0 && !is_steep).then_some(Growth { p, q, r, s })
     }
+}
+
+/// Returns the coefficients of 1, x, y, x², xy, y², from the first corner, of the quadratic through values at three corners A, B, C and
+/// half-way along the edges AB, BC, CA. In the barycentric coordinates b, c of the second and third corner it is
+///
+/// ```text
+/// F = A + b (4 AB − 3 A − B) + c (4 CA − 3 A − C) + b² 2 (A + B − 2 AB) + c² 2 (A + C − 2 CA) + bc 4 (A + BC − AB − CA)
+/// ```
+#[inline(always)]
+pub(super) fn lagrange<R: Real, P: Planes<R>>(
+    [a, b, c]: [P; 3],
+    [ab, bc, ca]: [P; 3],
+    Growth { p, q, r, s }: Growth<R>,
+) -> [P; 6] {
+    let to_b = mixed([(ab, 4.0), (a, -3.0), (b, -1.0)]);
+    let to_c = mixed([(ca, 4.0), (a, -3.0), (c, -1.0)]);
+    let to_bb = mixed([(a, 2.0), (b, 2.0), (ab, -4.0)]);
+    let to_cc = mixed([(a, 2.0), (c, 2.0), (ca, -4.0)]);
+    let to_bc = mixed([(a, 4.0), (bc, 4.0), (ab, -4.0), (ca, -4.0)]);
+    let linear = |b, c| sum([scaled(to_b, b), scaled(to_c, c)]);
+    let square = |bb, bc, cc| sum([scaled(to_bb, bb), scaled(to_bc, bc), scaled(to_cc, cc)]);
+    [
+        a,
+        linear(p, r),
+        linear(q, s),
+        square(p * p, p * r, r * r),
+        square(p * q * 2.0, p * s + q * r, r * s * 2.0),
+        square(q * q, q * s, s * s),
+    ]
+}
+
+/// Returns the sum of some values.
+#[inline(always)]
+fn sum<F: Num, P: Planes<F>, const N: usize>(all: [P; N]) -> P {
+    let mut sum = all[0];
+    for other in &all[1..] {
+        sum.zip(*other, |a, b| a + b);
+    }
+    sum
+}
+
+/// Returns the sum of some values, each times a factor.
+#[inline(always)]
+fn mixed<F: Num, P: Planes<F>, const N: usize>(all: [(P, f32); N]) -> P {
+    sum(all.map(|(value, factor)| each(value, |_, x| *x = *x * factor)))
 }
 
 /// Products as quadratics; or those of other normals, linear, with the squared length.
@@ -132,7 +177,10 @@ impl<F: Num, const L: usize> Walk<F> for QuadraticProducts<F, L> {
 
 /// Returns a quadratic in x and y along a row.
 #[inline(always)]
-fn along<F: Num>([c, cx, cy, cxx, cxy, cyy]: [F::One; 6], [x, y]: [F; 2]) -> Quadratic<F> {
+pub(super) fn along<F: Num>(
+    [c, cx, cy, cxx, cxy, cyy]: [F::One; 6],
+    [x, y]: [F; 2],
+) -> Quadratic<F> {
     let all = |number: F::One| x.of_each(|_| number);
     let (curve, slope) = (all(cxx), all(cx) + all(cxy) * y);
     let at = all(c) + (all(cy) + all(cyy) * y) * y + (slope + curve * x) * x;
@@ -141,6 +189,6 @@ fn along<F: Num>([c, cx, cy, cxx, cxy, cyy]: [F::One; 6], [x, y]: [F; 2]) -> Qua
 
 /// Returns the six numbers that `of` gives.
 #[inline(always)]
-fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
+pub(super) fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
     [of(0), of(1), of(2), of(3), of(4), of(5)]
 }

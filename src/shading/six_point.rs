@@ -1,8 +1,7 @@
 //! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
 
-use super::planes::{each, scaled};
 use super::quadratic_products::{
-    Growth, OverPolygon, Products, QuadraticProducts, WIDEST, plain, width,
+    Growth, OverPolygon, QuadraticProducts, WIDEST, lagrange, plain, width,
 };
 use super::{
     Approximation, Corner, Corners, Family, Info, LightModel, Lit, Local, MethodParameter, Pixel,
@@ -153,7 +152,7 @@ impl<const L: usize> Shader for SixPoint<L> {
         let &[a, b, c] = polygon.all else {
             return (ROOTS, none);
         };
-        let Some(Growth { p, q, r, s }) = Growth::of([&a, &b, &c]) else {
+        let Some(growth) = Growth::of([&a, &b, &c]) else {
             return (ROOTS, none);
         };
         let width = width([a, b, c].map(|v| (plain(v.normal), v.weight.value())));
@@ -172,22 +171,7 @@ impl<const L: usize> Shader for SixPoint<L> {
                 [(a, b), (b, c), (c, a)].map(|(a, b)| products((a + b).unit()))
             }
         };
-        // The coefficients of b, c, b², bc, c².
-        let to_b = mixed([(ab, 4.0), (fa, -3.0), (fb, -1.0)]);
-        let to_c = mixed([(ca, 4.0), (fa, -3.0), (fc, -1.0)]);
-        let to_bb = mixed([(fa, 2.0), (fb, 2.0), (ab, -4.0)]);
-        let to_cc = mixed([(fa, 2.0), (fc, 2.0), (ca, -4.0)]);
-        let to_bc = mixed([(fa, 4.0), (bc, 4.0), (ab, -4.0), (ca, -4.0)]);
-        let linear = |b, c| sum([scaled(to_b, b), scaled(to_c, c)]);
-        let square = |bb, bc, cc| sum([scaled(to_bb, bb), scaled(to_bc, bc), scaled(to_cc, cc)]);
-        let in_screen = [
-            fa,
-            linear(p, r),
-            linear(q, s),
-            square(p * p, p * r, r * r),
-            square(p * q * 2.0, p * s + q * r, r * s * 2.0),
-            square(q * q, q * s, s * s),
-        ];
+        let in_screen = lagrange([fa, fb, fc], [ab, bc, ca], growth);
         (0, (in_screen, a.place))
     }
     #[inline(always)]
@@ -205,24 +189,6 @@ impl<const L: usize> Shader for SixPoint<L> {
     fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
         lit.shade_products(products)
     }
-}
-
-/// Returns the sum of some products.
-#[inline(always)]
-fn sum<F: Num, const L: usize, const N: usize>(all: [Products<F, L>; N]) -> Products<F, L> {
-    let mut sum = all[0];
-    for other in &all[1..] {
-        Planes::zip(&mut sum, *other, |a, b| a + b);
-    }
-    sum
-}
-
-/// Returns the sum of some products, each times a factor.
-#[inline(always)]
-fn mixed<F: Num, const L: usize, const N: usize>(
-    all: [(Products<F, L>, f32); N],
-) -> Products<F, L> {
-    sum(all.map(|(products, factor)| each(products, |_, x| *x = *x * factor)))
 }
 
 #[cfg(test)]

@@ -297,7 +297,7 @@ pub struct Corner<F> {
     pub place: [F; 2],
     /// near/w, the weight of perspective; 1 without.
     pub weight: F,
-    /// The position in the world, if the frame has positions: lights or the eye are at some.
+    /// The position in the world, where lights or the eye are at positions, or the method reads it ([`Shader::READS_POSITIONS`]).
     pub position: Option<Vec3<F>>,
 }
 

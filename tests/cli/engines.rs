@@ -1,10 +1,10 @@
 //! `fastphong render`: engines, instruction sets and threads.
 
-use super::{Folder, SPHERE, rendered, sphere};
+use super::{Folder, SPHERE, methods_on_sphere, rendered, sphere};
 use fastphong::compare::metrics::compare;
 use fastphong::number::Level;
 use fastphong::scene::input;
-use fastphong::shading::{METHODS, Variant};
+use fastphong::shading::Variant;
 
 #[test]
 fn engines_agree_and_report_their_work() {
@@ -103,7 +103,7 @@ fn the_scalar_span_engine_can_be_requested() {
     let mut scene = input::resolve(&file).unwrap().scene;
     (scene.width, scene.height) = (64, 48);
     let frame = scene.frame().unwrap();
-    for method in METHODS {
+    for method in methods_on_sphere() {
         let method = method.info.name;
         let expected = Variant::parse(method).unwrap().render(&frame);
         let flags = format!("-m {method} --engine span --simd scalar");
@@ -114,7 +114,7 @@ fn the_scalar_span_engine_can_be_requested() {
 /// The row engine draws the span engine's picture within rounding, on every instruction set.
 #[test]
 fn instruction_sets_draw_the_span_engines_picture() {
-    for method in METHODS {
+    for method in methods_on_sphere() {
         let method = method.info.name;
         let lecture = sphere(&format!("-m {method} --engine span --simd scalar"));
         assert!(sphere(&format!("-m {method} --engine span")) == lecture);

@@ -24,6 +24,8 @@ mod view;
 mod watch;
 
 use fastphong::picture::Picture8;
+use fastphong::raster::Renderer;
+use fastphong::shading::{Entry, METHODS};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
@@ -204,6 +206,19 @@ fn rendered(flags: &str) -> Picture8 {
 /// Renders [`SPHERE`] with `flags`.
 fn sphere(flags: &str) -> Picture8 {
     rendered(&format!("{SPHERE} {flags}"))
+}
+
+/// Returns the methods that are for the sphere.
+fn methods_on_sphere() -> impl Iterator<Item = &'static Entry> {
+    let file = fastphong::scene::input::load(SPHERE).expect("a scene file");
+    let scene = fastphong::scene::input::resolve(&file)
+        .expect("a scene")
+        .scene;
+    let frame = scene.frame().expect("a frame");
+    METHODS.iter().filter(move |method| {
+        let plan = method.variant().plan(&frame, Renderer::LECTURE);
+        plan.renderer().is_some()
+    })
 }
 
 fn covered(picture: &Picture8) -> usize {

@@ -1,6 +1,6 @@
 //! `fastphong render`: pictures and messages.
 
-use super::{Folder, SPHERE, covered, picture, sphere};
+use super::{Folder, SPHERE, covered, methods_on_sphere, picture, sphere};
 use fastphong::picture::Picture8;
 use fastphong::picture::image_file::{FilePixels, read_picture};
 
@@ -37,7 +37,7 @@ fn every_kind_of_input_gives_a_picture_of_the_size_asked_for() {
 #[test]
 fn every_method_and_the_reference_draw_and_are_near_each_other() {
     let phong = sphere("-m reference");
-    for method in fastphong::shading::METHODS {
+    for method in methods_on_sphere() {
         let drawn = sphere(&format!("-m {}", method.info.name));
         assert_eq!(covered(&drawn), covered(&phong), "{method:?}");
     }

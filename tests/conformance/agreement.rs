@@ -2,8 +2,8 @@
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
-use crate::support::floats;
 use crate::support::{self, Random};
+use crate::support::{floats, floats_on};
 use fastphong::compare::metrics::compare;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
@@ -73,7 +73,7 @@ fn equal_normals_make_all_methods_equal() {
         }
         let frame = builder.finish().expect("a frame");
         let first = floats()[0].variant().render_linear(&frame);
-        for entry in floats() {
+        for entry in floats_on(&frame) {
             let difference =
                 compare(&first, &entry.variant().render_linear(&frame)).expect("equal sizes");
             let bound = floats()[0].variant().bound(&frame) + entry.variant().bound(&frame);
@@ -95,7 +95,7 @@ fn any_number_of_lights() {
     for count in [0, 1, 2, 3, 4, 5, 8, 9, 20, Scene::MAX_LIGHTS] {
         let case = Case::new("", sphere(|scene| scene.lights = lights(count)));
         assert_eq!(case.frame.light_count(), count);
-        for entry in floats() {
+        for entry in floats_on(&case.frame) {
             let ours = entry.variant().render_linear(&case.frame);
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
             let bound = entry.variant().bound(&case.frame);
@@ -123,7 +123,7 @@ fn a_light_behind_makes_no_highlight() {
     let frame = scene.frame().expect("a frame");
     let normals = fastphong::raster::normals(&frame);
     let mut compared = 0;
-    for entry in floats() {
+    for entry in floats_on(&frame) {
         let picture = entry.variant().render_linear(&frame);
         for (pixel, normal) in picture.pixels().iter().zip(normals.pixels()) {
             let n =
@@ -148,7 +148,7 @@ fn a_light_behind_makes_no_highlight() {
 #[test]
 fn no_lights_means_ambient_only() {
     let frame = sphere(|scene| scene.lights.clear());
-    for entry in floats() {
+    for entry in floats_on(&frame) {
         for pixel in entry
             .variant()
             .render_linear(&frame)
@@ -170,7 +170,7 @@ fn no_lights_means_ambient_only() {
 #[test]
 fn stored_and_linear_pictures_agree() {
     let frame = sphere(|_| ());
-    for entry in floats() {
+    for entry in floats_on(&frame) {
         let stored = entry.variant().render(&frame);
         let linear = entry.variant().render_linear(&frame);
         let rounded = linear.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
@@ -204,7 +204,7 @@ fn perspective_interpolation_agrees_with_the_reference() {
     };
     let case = Case::new("", near(Interpolation::Perspective));
     let (space, screen) = (&case.frame, &near(Interpolation::Screen));
-    for entry in floats() {
+    for entry in floats_on(space) {
         let ours = entry.variant().render_linear(space);
         let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
         let bound = entry.variant().bound(space);
@@ -235,7 +235,7 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
     (scene.width, scene.height) = (96, 72);
     let frame = scene.frame().expect("a frame");
     let mut compared = Vec::new();
-    for entry in floats() {
+    for entry in floats_on(&frame) {
         let Some(theirs) = entry
             .variant()
             .render_barycentric_linear(&frame, Edges::TopLeft)

@@ -1,7 +1,7 @@
 //! Clipping of polygons that reach behind the eye, through the near plane, or far outside the
 //! picture.
 
-use crate::support::floats;
+use crate::support::floats_on;
 use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
@@ -309,7 +309,7 @@ fn extreme_positions_never_panic() {
             let mut scene = scene(mesh, camera);
             scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(scale));
             let frame = scene.frame().expect("a frame");
-            for entry in floats() {
+            for entry in floats_on(&frame) {
                 let picture = entry.variant().render_linear(&frame);
                 assert!(
                     picture

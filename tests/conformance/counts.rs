@@ -340,6 +340,33 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("phong-rsqrt", lights)
             }
         }
+        // van Overveld, Wyvill 1997: three corners times their squared weights, three unit normals half-way, reflected and weighted; the
+        // quadratics of three components. A pixel takes six additions, 1/|N|, K and J of each light times it, and 2JK − L·V.
+        "biquadratic-normals" => {
+            let area = 4 * ADD + 2 * MULTIPLY + ADD + DIVIDE + 4 * MULTIPLY;
+            let corner = 4 * MULTIPLY;
+            let unit = DOT + ROOT + DIVIDE + 3 * MULTIPLY;
+            let reflected = 3 * 3 * ADD + 2 * DOT + MULTIPLY + DIVIDE + 3 * MULTIPLY + unit;
+            let weighted = 4 * MULTIPLY + (6 * MULTIPLY + 3 * ADD) + ADD + 4 * MULTIPLY + 3 * ADD;
+            let of_corners = 4 * (3 * MULTIPLY + 2 * ADD) + (4 * MULTIPLY + 3 * ADD);
+            let of_screen = 2 * (2 * MULTIPLY + ADD) + 3 * (3 * MULTIPLY + 2 * ADD);
+            let squares = 12 * MULTIPLY + ADD;
+            let start = 8 * ADD + 7 * MULTIPLY;
+            ByHand {
+                polygon: area
+                    + 3 * (corner + reflected + weighted)
+                    + 3 * (of_corners + of_screen)
+                    + squares,
+                span: 2 * ADD + 3 * start,
+                walk: 2 * 3 * ADD,
+                shade: DOT
+                    + ROOT
+                    + DIVIDE
+                    + (lights + 1) * (DOT + MULTIPLY)
+                    + lights * (highlight() + light()),
+                ..by_hand("phong-rsqrt", lights)
+            }
+        }
         // Harrison, Mitchell, Watt 1988: six numbers a vertex. The span that counts has a highlight: a pixel takes all but the diffuse
         // term of naive Phong with eq 4.5.
         "h-test" => {

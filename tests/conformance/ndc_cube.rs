@@ -2,7 +2,7 @@
 //! and how wrong it can be.
 
 use crate::support::Random;
-use crate::support::floats;
+use crate::support::floats_on;
 use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::raster::{self, Edges, NOTHING};
@@ -215,7 +215,7 @@ fn anything_around_the_eye_gives_a_picture() {
                 );
             }
         }
-        for entry in floats() {
+        for entry in floats_on(&frame) {
             let picture = entry.variant().render_linear(&frame);
             assert!(
                 picture

@@ -11,7 +11,7 @@
 
 use crate::support::cases::{Case, cases};
 use crate::support::drawings::for_each_drawing;
-use crate::support::floats;
+use crate::support::floats_on;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
 use fastphong::number::simd::rsqrt_checksum;
@@ -82,7 +82,7 @@ fn drawn_alike(case: &Case) -> Pins {
         assert_eq!(pins.insert(name, sum), None, "{method} by {by} twice");
     };
     let triangles = triangulated(frame).frame;
-    for variant in floats().iter().map(|entry| entry.variant()) {
+    for variant in floats_on(frame).map(|entry| entry.variant()) {
         let method = variant.info().name;
         if let Some(picture) = variant.render_barycentric_linear(&triangles, Edges::TopLeft) {
             pin(method, "barycentric", of_linear(&picture));

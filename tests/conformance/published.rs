@@ -4,8 +4,9 @@ use super::lecture::{
     AMBIENT, DIFFUSE, LIGHT, SHININESS, SPECULAR, TOLERANCE, VIEW, WIDTH, frame_of, intensity,
     leaning, lighting, pairs, strip_lit,
 };
+use fastphong::frame::{FrameBuilder, SubPixel, Vertex};
 use fastphong::picture::LinearPicture;
-use fastphong::scene::{Lighting, SpecularModel};
+use fastphong::scene::{Interpolation, Lighting, SpecularModel};
 use fastphong::shading::Variant;
 use glam::DVec3;
 
@@ -201,4 +202,62 @@ fn bishop_weimer_is_taylors_quadratic() {
         let fxy = (f(h, h) - f(h, -h) - f(-h, h) + f(-h, -h)) / (4.0 * h * h);
         f(0.0, 0.0) + fx * x + fy * y + (fxx * x * x + fyy * y * y) / 2.0 + fxy * x * y
     });
+}
+
+/// van Overveld, Wyvill 1997: the quadratic through unit normals at corners and, reflected, half-way along edges; normalised. In space, also
+/// where corners have weights of perspective.
+#[test]
+fn biquadratic_normals_are_reflected_half_way() {
+    let w = f64::from(WIDTH);
+    let normals = [
+        leaning(-15.0, 10.0),
+        leaning(15.0, 12.0),
+        leaning(0.0, -20.0),
+    ];
+    let points = [
+        DVec3::new(-1.0, 1.0, 0.3),
+        DVec3::new(1.0, 1.0, -0.2),
+        DVec3::new(-1.0, -1.0, 0.0),
+    ];
+    for weights in [[1.0f32; 3], [0.5, 1.0, 0.75]] {
+        let mut builder = FrameBuilder::new(WIDTH, WIDTH);
+        let material = builder.lighting(lighting());
+        builder.interpolation(Interpolation::Perspective);
+        let places = [(0.0, 0.0), (w, 0.0), (0.0, w)];
+        let corners = [0, 1, 2].map(|i| {
+            let [x, y] = [places[i].0, places[i].1].map(SubPixel::from_num);
+            let corner = builder.vertex(Vertex {
+                x,
+                y,
+                depth: 0.5,
+                inv_w: weights[i],
+                normal: normals[i].as_vec3().to_array(),
+                material,
+            });
+            builder.position(corner, points[i].as_vec3().to_array());
+            corner
+        });
+        builder.polygon(&corners, DVec3::Z.as_vec3().to_array(), 0);
+        let frame = builder.finish().expect("a frame");
+        let variant = Variant::parse("biquadratic-normals").unwrap();
+        let midway = |i: usize, j: usize| {
+            let (sum, edge) = (normals[i] + normals[j], points[j] - points[i]);
+            (sum - 2.0 * edge.dot(sum) / edge.length_squared() * edge).normalize()
+        };
+        compare(
+            "biquadratic-normals",
+            &variant.render_linear(&frame),
+            |x, y| {
+                let screen = [1.0 - (x + y) / w, x / w, y / w];
+                let weighted = [0, 1, 2].map(|i| screen[i] * f64::from(weights[i]));
+                let b = weighted.map(|part| part / weighted.iter().sum::<f64>());
+                let mut n = DVec3::ZERO;
+                for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                    n += normals[i] * b[i] * (2.0 * b[i] - 1.0) + 4.0 * midway(i, j) * b[i] * b[j];
+                }
+                let n = n.normalize();
+                Some(products(LIGHT.dot(n), VIEW.dot(n)))
+            },
+        );
+    }
 }

@@ -1,7 +1,7 @@
 //! Supersampling: each sample is depth-tested and shaded on its own, then filtered in linear light.
 
 use crate::support;
-use crate::support::floats;
+use crate::support::floats_on;
 use crate::support::{Corner, add, plain_lighting};
 use fastphong::compare::metrics::compare_where;
 use fastphong::frame::triangulate::triangulated;
@@ -200,7 +200,7 @@ fn every_sample_is_shaded() {
         let frame = flattened(&supersampled("coarse-sphere", (48, 36), n as u32));
         let (w, h) = (48 * n as i64, 36 * n as i64);
         let large = supersampled("coarse-sphere", (w, h), 1);
-        for entry in floats() {
+        for entry in floats_on(&frame) {
             let (small, large) = (
                 entry.variant().render_linear(&frame),
                 entry.variant().render_linear(&large),
@@ -333,7 +333,7 @@ fn supersampled_methods_are_within_their_bounds() {
                 .map(sample)
                 .all(|(i, j)| seen.get(i, j) == visible.polygons.get(i, j))
         };
-        for entry in floats() {
+        for entry in floats_on(&frame) {
             let truth = reference::shade(&frame, &visible, entry.info.model).to_linear();
             let ours = entry.variant().render_linear(&frame);
             let difference = compare_where(&truth, &ours, same).expect("equal sizes");

@@ -5,17 +5,21 @@
 //! - [`Scaling`]: the growth of a frame's time with triangles and with pixels, and the costs of a vertex, a triangle, a
 //!   span and a pixel.
 //!
-//! Both time on the threads of rayon's current pool: one, where times are to be compared with others.
+//! - [`climb`]: the triangle and lights on which a method errs most.
+//!
+//! The first two time on the threads of rayon's current pool: one, where times are to be compared with others.
 
 mod fit;
 mod scaling;
 mod speedups;
 #[cfg(test)]
 mod tests;
+mod worst;
 
 pub use fit::{Observation, fit};
 pub use scaling::{Costs, Curve, Scaling, ScalingOptions, ScalingPoint};
 pub use speedups::{MethodSpeedups, SpeedCorner, Speedup, SpeedupOptions, Speedups, Work};
+pub use worst::{SearchSetting, WorstCase, climb};
 
 use super::comparison::with_baseline;
 use super::timing::Candidate;

@@ -68,7 +68,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
             normal: vec3(bench.normals[i]),
             place: [bench.points[i][0], bench.points[i][1]].map(|at| at * pixels as f32),
             weight: 1.0,
-            position: bench.is_local().then(|| vec3(bench.points[i])),
+            position: (bench.is_local() || kernels.reads_positions).then(|| vec3(bench.points[i])),
         });
         let whole = bench.normals.map(vec3);
         let polygon = Corners {

@@ -19,7 +19,7 @@ pub use quadratic::Quadratic;
 pub use rsqrt::{WarmRsqrt, WarmSteps};
 pub use sines::{GreatCircle, Sines};
 
-use crate::number::Num;
+use crate::number::{Num, Vec3, vec3};
 use crate::shading::planes::{PerLight, Planes};
 
 /// Running state along a span: all memory of the previous pixel.
@@ -43,6 +43,17 @@ impl<F: Num, A: Walk<F>, B: Walk<F>> Walk<F> for (A, B) {
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
         (self.0.next(), self.1.next())
+    }
+}
+
+impl<F: Num, W: Walk<F, Pixel = F>> Walk<F> for [W; 3] {
+    type Pixel = Vec3<F>;
+    const REMEMBERS: bool = W::REMEMBERS;
+
+    #[inline(always)]
+    fn next(&mut self) -> Vec3<F> {
+        let [x, y, z] = self;
+        vec3([x.next(), y.next(), z.next()])
     }
 }
 

@@ -4,7 +4,7 @@ use super::frames::kinds;
 use crate::support::cases::{Case, cases};
 use crate::support::differences::{largest_difference, levels_apart};
 use crate::support::drawings::{Drawing, assert_none, for_each_drawing};
-use crate::support::floats;
+use crate::support::floats_on;
 use crate::support::renderers::renderers;
 use fastphong::picture::Encoding;
 
@@ -42,7 +42,7 @@ fn compare(drawing: &Drawing) -> (u8, Option<String>) {
 fn engines_agree_on_every_kind_of_frame() {
     for (kind, frame) in kinds(117, 83) {
         let case = &Case::new(kind, frame);
-        for entry in floats() {
+        for entry in floats_on(&case.frame) {
             let all = renderers().into_iter().map(|renderer| Drawing {
                 case,
                 variant: entry.variant(),

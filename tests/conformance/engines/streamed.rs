@@ -1,8 +1,8 @@
 //! Streaming finished rows while others are still being drawn gives the same picture.
 
 use super::frames::kinds;
-use crate::support::floats;
 use crate::support::renderers::{name, on_threads, renderers};
+use crate::support::{floats, floats_on};
 use fastphong::frame::Frame;
 use fastphong::picture::{Picture, Picture8};
 use fastphong::raster::Renderer;
@@ -34,7 +34,7 @@ fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, 
 fn streamed_rows_make_the_picture() {
     let mut in_parts = 0;
     for (kind, frame) in kinds(21, HEIGHT) {
-        for variant in floats().iter().map(|entry| entry.variant()) {
+        for variant in floats_on(&frame).map(|entry| entry.variant()) {
             for renderer in renderers() {
                 let whole = variant.render_with(&frame, renderer);
                 for threads in [1, 2] {

@@ -2,7 +2,7 @@
 
 use super::frames::kinds;
 use crate::support::differences::covered;
-use crate::support::floats;
+use crate::support::floats_on;
 use crate::support::renderers::{name, on_threads, renderers};
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
@@ -36,7 +36,7 @@ fn threads_change_no_byte() {
         })
         .into();
     for (kind, frame) in kinds(45, 70) {
-        for variant in floats().iter().map(|entry| entry.variant()) {
+        for variant in floats_on(&frame).map(|entry| entry.variant()) {
             for renderer in renderers() {
                 let one = on_threads(1, || bytes(&variant, &frame, renderer));
                 for pool in &pools {
@@ -62,7 +62,7 @@ fn bands_leave_no_seams() {
             Scene::of_mesh(builtin("sphere?rings=9&segments=14").expect("a built-in mesh"));
         (scene.width, scene.height) = (37, height);
         let frame = scene.frame().expect("a frame");
-        for variant in floats().iter().map(|entry| entry.variant()) {
+        for variant in floats_on(&frame).map(|entry| entry.variant()) {
             let drawn = covered(&variant.render_linear(&frame));
             assert!(drawn.pixels().contains(&true));
             for renderer in renderers() {

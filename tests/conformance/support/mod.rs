@@ -11,6 +11,7 @@ use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::obj::load_obj;
+use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{HiddenSurfaces, Light, Lighting, Scene};
 use fastphong::shading::{Entry, METHODS};
@@ -18,10 +19,24 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Returns the methods that compute in floats. They draw every frame; those in integers refuse some, and err by design.
+/// Returns the methods that compute in floats; those in integers err by design.
 pub fn floats() -> &'static [Entry] {
     let all = METHODS.iter().position(|entry| entry.is_integer);
     &METHODS[..all.unwrap_or(METHODS.len())]
+}
+
+/// Returns those of them that are for a frame.
+pub fn floats_on(frame: &Frame) -> impl Iterator<Item = &'static Entry> + use<'_> {
+    let is_for = move |entry: &&'static Entry| {
+        let plan = entry.variant().plan(frame, Renderer::LECTURE);
+        !matches!(plan, Plan::Refused(_))
+    };
+    floats().iter().filter(is_for)
+}
+
+/// Returns those of them whose errors by design on a frame are below a grey level, so that their bounds hide no fault.
+pub fn exact_on(frame: &Frame) -> impl Iterator<Item = &'static Entry> + use<'_> {
+    floats_on(frame).filter(|entry| entry.variant().approximation(frame) < 1.0 / 255.0)
 }
 
 /// A xorshift64* generator (Vigna 2016).

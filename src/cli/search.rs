@@ -1,0 +1,328 @@
+//! `fastphong search`: the worst cases of methods, found on as many machines as one has.
+
+use super::files::{self, Destination};
+use super::measured::{Methods, command_line, methods};
+use super::progress::Progress;
+use super::values::number;
+use super::{CliError, Log, Outcome, done};
+use fastphong::compare::experiments::{SearchSetting, WorstCase, climb};
+use fastphong::compare::table::Table;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The schema of the data: see `docs/bench-json.md`.
+const SCHEMA: &str = "fastphong.search/1";
+
+/// Search for the worst case of each method: a triangle and lights with the largest error against Phong's picture
+#[derive(clap::Args, Debug)]
+pub struct SearchArgs {
+    /// Methods between commas, or families of them, as for `compare`
+    #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "floats", value_parser = methods)]
+    methods: Methods,
+    /// Most degrees between the normals of two corners, between commas, 1 to 90 each
+    #[arg(long, value_name = "DEGREES,…", default_value = "5,15,30,60", value_parser = list::<f64>)]
+    degrees: List<f64>,
+    /// Numbers of lights, between commas, 1 to 8 each
+    #[arg(long, value_name = "N,…", default_value = "1,4", value_parser = list::<usize>)]
+    lights: List<usize>,
+    /// Restarts of each search, 1 to 100000
+    #[arg(long, value_name = "N", default_value = "20", value_parser = |text: &str| number(text, "a number of restarts from 1 to 100000", |n: &u32| (1..=100_000).contains(n)))]
+    restarts: u32,
+    /// Do the part K of N of the restarts; `--from` joins the files of all parts
+    #[arg(long, value_name = "K/N", default_value = "1/1", value_parser = Shard::parse)]
+    shard: Shard,
+    /// Join the `--json` files of all parts of one search, without searching
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["methods", "degrees", "lights", "restarts", "shard"])]
+    from: Vec<PathBuf>,
+    /// Also write the cases to this file, as described in docs/bench-json.md; `-` prints them in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+type List<T> = Vec<T>;
+
+/// Reads numbers between commas, each in the range of its flag, in rising order and each once.
+fn list<T: Listed>(text: &str) -> Result<Vec<T>, String> {
+    let one = |text: &str| number(text.trim(), T::EXPECTED, T::is_in_range);
+    let mut all = text.split(',').map(one).collect::<Result<Vec<T>, _>>()?;
+    all.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    all.dedup();
+    Ok(all)
+}
+
+trait Listed: std::str::FromStr + PartialOrd {
+    const EXPECTED: &'static str;
+    fn is_in_range(&self) -> bool;
+}
+
+impl Listed for f64 {
+    const EXPECTED: &'static str = "degrees from 1 to 90 between commas";
+    fn is_in_range(&self) -> bool {
+        (1.0..=90.0).contains(self)
+    }
+}
+
+impl Listed for usize {
+    const EXPECTED: &'static str = "numbers of lights from 1 to 8 between commas";
+    fn is_in_range(&self) -> bool {
+        (1..=8).contains(self)
+    }
+}
+
+/// A part of a search: restarts `number − 1`, `number − 1 + of`, …
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct Shard {
+    number: u32,
+    of: u32,
+}
+
+impl Shard {
+    fn parse(text: &str) -> Result<Shard, String> {
+        let numbers = text.split_once('/').and_then(|(number, of)| {
+            Some(Shard {
+                number: number.parse().ok()?,
+                of: of.parse().ok()?,
+            })
+        });
+        let is_part = |shard: &Shard| (1..=shard.of).contains(&shard.number) && shard.of <= 100_000;
+        numbers
+            .filter(is_part)
+            .ok_or_else(|| "expected a part of a whole, as in 3/16".into())
+    }
+}
+
+/// The worst case that was found for a method in a setting.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Found {
+    method: String,
+    #[serde(flatten)]
+    setting: SearchSetting,
+    /// The restart that found it.
+    restart: u32,
+    #[serde(flatten)]
+    case: WorstCase,
+}
+
+/// What a run found, or all runs of one search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Document {
+    schema: String,
+    version: String,
+    /// The same for all parts of one search: what was asked for.
+    run: String,
+    shard: Shard,
+    restarts: u32,
+    command_line: Vec<String>,
+    cases: Vec<Found>,
+}
+
+impl SearchArgs {
+    /// Searches, or joins what was found, and prints a table.
+    pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        let read = self.from.iter().map(|path| Document::read(path));
+        let read = read.collect::<Result<Vec<_>, _>>()?;
+        let file = self.json.as_deref().filter(|path| path.as_os_str() != "-");
+        let file = file.map(|path| Destination {
+            name: "--json",
+            path,
+        });
+        files::check(&file.into_iter().collect::<Vec<_>>())?;
+        let document = match read.is_empty() {
+            true => self.search(log),
+            false => Document::joined(read, &self.from)?,
+        };
+        let mut json = serde_json::to_string_pretty(&document)?;
+        json.push('\n');
+        match file {
+            Some(file) => files::write(file, |out| out.write_all(json.as_bytes()))?,
+            None if self.json.is_some() => return done(&json),
+            None => {}
+        }
+        done(&document.table())
+    }
+
+    fn search(&self, log: Log) -> Document {
+        let mut jobs = Vec::new();
+        for variant in &self.methods {
+            for &lights in &self.lights {
+                for &degrees in &self.degrees {
+                    let setting = SearchSetting { degrees, lights };
+                    let part =
+                        (self.shard.number - 1..self.restarts).step_by(self.shard.of as usize);
+                    jobs.extend(part.map(|restart| (variant, setting, restart)));
+                }
+            }
+        }
+        let progress = Progress::watched(log);
+        let (count, ended) = (jobs.len(), AtomicUsize::new(0));
+        let climbed = jobs
+            .into_par_iter()
+            .filter_map(|(variant, setting, restart)| {
+                let case = climb(variant, setting, restart);
+                let ended = ended.fetch_add(1, Ordering::Relaxed);
+                progress.at(ended as f32 / count as f32, &format!("{variant}"));
+                Some(Found {
+                    method: variant.to_string(),
+                    setting,
+                    restart,
+                    case: case?,
+                })
+            });
+        let names = self.methods.iter().map(ToString::to_string);
+        let run = format!(
+            "{} {:?} {:?} {}",
+            names.collect::<Vec<_>>().join(","),
+            self.degrees,
+            self.lights,
+            self.restarts
+        );
+        Document {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            run,
+            shard: self.shard,
+            restarts: self.restarts,
+            command_line: command_line(),
+            cases: worst(climbed.collect()),
+        }
+    }
+}
+
+/// Returns of each method and setting the worst case; of two as bad, that of the earlier restart. They keep their order.
+fn worst(all: Vec<Found>) -> Vec<Found> {
+    let mut worst: Vec<Found> = Vec::new();
+    for found in all {
+        let is_same =
+            |other: &&mut Found| other.method == found.method && other.setting == found.setting;
+        match worst.iter_mut().find(is_same) {
+            None => worst.push(found),
+            Some(other) => {
+                let is_worse = found.case.levels > other.case.levels
+                    || found.case.levels == other.case.levels && found.restart < other.restart;
+                if is_worse {
+                    *other = found;
+                }
+            }
+        }
+    }
+    worst
+}
+
+/// The largest document that is read, in bytes.
+const LARGEST: u64 = 1 << 26;
+
+impl Document {
+    /// Reads the file of a part.
+    fn read(path: &Path) -> Result<Document, CliError> {
+        let shown = path.display();
+        let mut text = String::new();
+        let file =
+            files::document(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+        let read = file.take(LARGEST).read_to_string(&mut text);
+        read.map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+        let expected = "expected a file of `search --json`";
+        let document: Document =
+            serde_json::from_str(&text).map_err(|error| format!("{shown}: {error}: {expected}"))?;
+        if document.schema != SCHEMA {
+            let schema = &document.schema;
+            return Err(
+                format!("{shown}: its schema is `{schema}`: {expected}, `{SCHEMA}`").into(),
+            );
+        }
+        let Shard { number, of } = document.shard;
+        if !(1..=of).contains(&number) {
+            return Err(format!("{shown}: it says it is part {number} of {of}: {expected}").into());
+        }
+        Ok(document)
+    }
+
+    /// Joins all parts of one search: they have one run id, and none is missing or there twice.
+    fn joined(parts: Vec<Document>, paths: &[PathBuf]) -> Result<Document, CliError> {
+        let first = parts[0].clone();
+        let mut seen = BTreeSet::new();
+        for (part, path) in parts.iter().zip(paths) {
+            let shown = path.display();
+            if (&part.run, &part.version, part.shard.of)
+                != (&first.run, &first.version, first.shard.of)
+            {
+                let of = paths[0].display();
+                return Err(format!(
+                    "{shown}: part of another search than {of}: expected parts of one, of as many parts"
+                )
+                .into());
+            }
+            if !seen.insert(part.shard.number) {
+                let Shard { number, of } = part.shard;
+                return Err(format!("{shown}: part {number} of {of} is there twice").into());
+            }
+        }
+        let missing: Vec<_> = (1..=first.shard.of)
+            .filter(|number| !seen.contains(number))
+            .map(|number| number.to_string())
+            .collect();
+        if !missing.is_empty() {
+            let (missing, of) = (missing.join(", "), first.shard.of);
+            return Err(format!("of {of} parts are missing: {missing}").into());
+        }
+        // As one run finds them: in the order of the first part that has a case of each.
+        let mut cases = worst(parts.into_iter().flat_map(|part| part.cases).collect());
+        let order = first.order();
+        cases.sort_by_key(|found| order.iter().position(|key| *key == found.key()));
+        Ok(Document {
+            shard: Shard { number: 1, of: 1 },
+            command_line: command_line(),
+            cases,
+            ..first
+        })
+    }
+
+    /// Returns methods and settings of its cases, in order.
+    fn order(&self) -> Vec<(String, u64, usize)> {
+        self.cases.iter().map(Found::key).collect()
+    }
+
+    /// Returns a row a method, with the largest error of each setting in grey levels.
+    fn table(&self) -> String {
+        let mut settings: Vec<SearchSetting> = Vec::new();
+        let mut names: Vec<&str> = Vec::new();
+        for found in &self.cases {
+            if !settings.contains(&found.setting) {
+                settings.push(found.setting);
+            }
+            if !names.contains(&found.method.as_str()) {
+                names.push(&found.method);
+            }
+        }
+        let head = settings.iter().map(|setting| match setting.lights {
+            1 => format!("{}°, 1 light", setting.degrees),
+            lights => format!("{}°, {lights} lights", setting.degrees),
+        });
+        let mut table = Table::new("", &["largest error, levels"]);
+        table.head.extend(head);
+        table.rows = (names.iter())
+            .map(|name| {
+                let cells = settings.iter().map(|setting| {
+                    let mut cases = self.cases.iter();
+                    let found = cases.find(|f| f.method == *name && f.setting == *setting);
+                    found.map_or(String::new(), |found| format!("{:.3}", found.case.levels))
+                });
+                std::iter::once((*name).to_owned()).chain(cells).collect()
+            })
+            .collect();
+        table.text()
+    }
+}
+
+impl Found {
+    fn key(&self) -> (String, u64, usize) {
+        (
+            self.method.clone(),
+            self.setting.degrees.to_bits(),
+            self.setting.lights,
+        )
+    }
+}

@@ -1,0 +1,251 @@
+//! The worst case of a method: a triangle and lights on which its picture is farthest from Phong's, found by search.
+//!
+//! A search climbs: from a random triangle whose normals are at most so many degrees apart it takes what makes the largest error larger,
+//! a corner's normal or a light moved by less and less. It is restarted, as hills are many. Every restart has its own random numbers, so that
+//! it finds the same on every machine, in whatever order restarts run.
+
+use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::mesh::Material;
+use crate::raster::{Plan, Renderer};
+use crate::reference::{self, Model};
+use crate::scene::{Light, Lighting, SpecularModel};
+use crate::shading::Variant;
+use alloc::vec::Vec;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// What a search varies and what it keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchSetting {
+    /// The most degrees between the normals of two corners.
+    pub degrees: f64,
+    /// The number of lights, which share the light of one.
+    pub lights: usize,
+}
+
+/// A triangle and lights, with the error of a method's picture on it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorstCase {
+    /// The largest error, in grey levels of 255.
+    pub levels: f64,
+    /// True if highlights are those of N·H: the method is not for R·V.
+    pub halfway: bool,
+    /// Unit normals of the corners, which stand at the upper left of the picture, at its upper right and at its lower left.
+    pub normals: [[f64; 3]; 3],
+    /// Unit vectors toward the lights.
+    pub lights: Vec<[f64; 3]>,
+}
+
+/// Pixels along the legs of the triangle.
+const SIDE: u32 = 24;
+/// Steps of a climb.
+const STEPS: u32 = 160;
+/// Closer to the terminator a rounding decides whether there is a highlight: no error of the method.
+const NEAR_TERMINATOR: f64 = 1e-4;
+/// The material of all cases: what is diffuse and what is specular, and the exponent.
+const MATERIAL: Material = Material {
+    ambient: [0.0; 3],
+    diffuse: [0.6; 3],
+    specular: [0.4; 3],
+    shininess: 32.0,
+};
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+struct Random(u64);
+
+impl Random {
+    /// Returns a number in −1..1.
+    fn signed(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^= x >> 31;
+        (x >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// Returns a vector in a cube of −1..1.
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.signed(), self.signed(), self.signed())
+    }
+}
+
+impl WorstCase {
+    /// Returns the frame of the case.
+    pub fn frame(&self) -> Frame {
+        let share = 1.0 / self.lights.len().max(1) as f32;
+        let lights = self.lights.iter();
+        let lights: Vec<Light> = lights
+            .map(|&to| Light::directional(DVec3::from(to), [share; 3]))
+            .collect();
+        let mut builder = FrameBuilder::new(SIDE, SIDE);
+        let material = builder.lighting(Lighting {
+            specular: match self.halfway {
+                true => SpecularModel::Blinn,
+                false => SpecularModel::Phong,
+            },
+            ..Lighting::new(&MATERIAL, [0.0; 3], &lights, DVec3::Z)
+        });
+        let places = [[0, 0], [SIDE, 0], [0, SIDE]];
+        let corners = [0, 1, 2].map(|i| {
+            let [x, y] = places[i].map(SubPixel::from_num);
+            builder.vertex(Vertex {
+                x,
+                y,
+                depth: 0.5,
+                inv_w: 1.0,
+                normal: self.normals[i].map(|x| x as f32),
+                material,
+            })
+        });
+        builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
+        builder.finish().expect("a triangle on the picture")
+    }
+
+    /// Returns the largest error of a method on the case, in grey levels; `None` if the method is not for it.
+    pub fn error(&self, variant: &Variant) -> Option<f64> {
+        let frame = self.frame();
+        if let Plan::Refused(_) = variant.plan(&frame, Renderer::LECTURE) {
+            return None;
+        }
+        let ours = variant.render_linear_with(&frame, Renderer::LECTURE);
+        let truth = reference::render(&frame, Model::Phong).picture;
+        let mut most = 0.0f64;
+        for y in 0..SIDE as usize {
+            for x in 0..SIDE as usize - y {
+                let (ours, truth) = (ours.get(x, y), truth.get(x, y));
+                if truth[3] == 0.0 || self.is_near_terminator(x, y) {
+                    continue;
+                }
+                most = most.max((f64::from(ours[0]) - truth[0]).abs());
+            }
+        }
+        Some(255.0 * most)
+    }
+
+    fn is_near_terminator(&self, x: usize, y: usize) -> bool {
+        let [b, c] = [x, y].map(|at| (at as f64 + 0.5) / f64::from(SIDE));
+        let [n1, n2, n3] = self.normals.map(DVec3::from);
+        let n = n1 * (1.0 - b - c) + n2 * b + n3 * c;
+        let mut all = self.lights.iter();
+        all.any(|to| DVec3::from(*to).dot(n).abs() < NEAR_TERMINATOR)
+    }
+
+    /// True if normals are as near one another as the setting says, and in front.
+    fn is_within(&self, setting: SearchSetting) -> bool {
+        let [a, b, c] = self.normals.map(DVec3::from);
+        let most = setting.degrees.to_radians();
+        [[a, b], [b, c], [c, a]]
+            .iter()
+            .all(|[a, b]| a.angle_between(*b) <= most)
+            && [a, b, c].iter().all(|n| n.z > 0.05)
+    }
+
+    /// Returns a random case.
+    fn random(random: &mut Random, setting: SearchSetting, halfway: bool) -> WorstCase {
+        // The distance of the corners of a triangle from its middle.
+        let reach = 0.95 * setting.degrees.to_radians() / libm::sqrt(3.0);
+        loop {
+            let middle = (DVec3::Z + 0.8 * random.vector()).normalize();
+            let across = middle.any_orthonormal_vector();
+            let turn = 3.2 * random.signed();
+            let normals = [0.0, 1.0, 2.0].map(|k| {
+                let angle = turn + k * core::f64::consts::TAU / 3.0;
+                let to = across * libm::cos(angle) + middle.cross(across) * libm::sin(angle);
+                (middle + to * libm::tan(reach)).normalize().to_array()
+            });
+            let lights = (0..setting.lights).map(|_| {
+                let to = middle + 1.2 * random.vector();
+                to.try_normalize().unwrap_or(middle).to_array()
+            });
+            let case = WorstCase {
+                levels: 0.0,
+                halfway,
+                normals,
+                lights: lights.collect(),
+            };
+            if case.is_within(setting) {
+                return case;
+            }
+        }
+    }
+
+    /// Returns the case with one normal or one light moved by about `by`.
+    fn moved(&self, random: &mut Random, by: f64) -> WorstCase {
+        let mut case = self.clone();
+        let places = 3 + case.lights.len();
+        let place = ((random.signed() + 1.0) / 2.0 * places as f64) as usize;
+        let moved = match place {
+            0..3 => &mut case.normals[place],
+            _ => &mut case.lights[(place - 3).min(self.lights.len() - 1)],
+        };
+        let from = DVec3::from(*moved);
+        let to = (from + by * random.vector()).try_normalize();
+        *moved = to.unwrap_or(from).to_array();
+        case
+    }
+}
+
+/// Climbs once, with the random numbers of restart number `restart`; `None` if the method is for no such case.
+pub fn climb(variant: &Variant, setting: SearchSetting, restart: u32) -> Option<WorstCase> {
+    let seed =
+        u64::from(restart) << 32 | (setting.degrees * 64.0) as u64 ^ (setting.lights as u64) << 24;
+    let mut random = Random(seed);
+    let mut best = [false, true].into_iter().find_map(|halfway| {
+        let mut random = Random(seed);
+        let case = WorstCase::random(&mut random, setting, halfway);
+        let levels = case.error(variant)?;
+        Some(WorstCase { levels, ..case })
+    })?;
+    for step in 0..STEPS {
+        let left = 1.0 - f64::from(step) / f64::from(STEPS);
+        let case = best.moved(&mut random, 0.01 + 0.4 * left * left);
+        if !case.is_within(setting) {
+            continue;
+        }
+        let Some(levels) = case.error(variant) else {
+            continue;
+        };
+        if levels > best.levels {
+            best = WorstCase { levels, ..case };
+        }
+    }
+    Some(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SETTING: SearchSetting = SearchSetting {
+        degrees: 15.0,
+        lights: 1,
+    };
+
+    #[test]
+    fn a_restart_finds_the_same_again_and_stays_within_its_setting() {
+        for name in ["gouraud", "bishop-weimer", "difference-vector"] {
+            let variant = Variant::parse(name).unwrap();
+            let [one, two] = [(); 2].map(|()| climb(&variant, SETTING, 3).unwrap());
+            assert_eq!(one, two, "{name}");
+            assert!(one.is_within(SETTING));
+            assert_eq!(one.error(&variant), Some(one.levels));
+            assert_ne!(one, climb(&variant, SETTING, 4).unwrap(), "{name}");
+        }
+    }
+
+    /// What it finds is worse than what it starts from, and methods that round alone have nothing to find.
+    #[test]
+    fn a_climb_goes_up() {
+        let variant = Variant::parse("gouraud").unwrap();
+        for restart in 0..4 {
+            let seed = u64::from(restart) << 32;
+            let start = WorstCase::random(&mut Random(seed), SETTING, false);
+            let found = climb(&variant, SETTING, restart).unwrap();
+            assert!(found.levels > start.error(&variant).unwrap());
+            assert!(found.levels > 20.0, "{}", found.levels);
+        }
+        let exact = Variant::parse("naive-phong").unwrap();
+        assert!(climb(&exact, SETTING, 0).unwrap().levels < 0.1);
+    }
+}
