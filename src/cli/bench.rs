@@ -5,6 +5,7 @@ use super::files::{self, Destination};
 use super::frame_times::{FrameCount, frame_times};
 use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
+use super::span_times::span_times;
 use super::{CliError, Log, Outcome, done};
 use fastphong::compare::comparison::{TableKind, table};
 use fastphong::compare::timing::Machine;
@@ -25,6 +26,9 @@ pub struct BenchArgs {
     /// `ms_median` and `ms_min`
     #[arg(long, conflicts_with = "time_budget")]
     frame_times: bool,
+    /// Time single spans of 1 to 1024 pixels, shaded by the methods' scalar loops alone, with one light and with four
+    #[arg(long, conflicts_with_all = ["inputs", "frame_times", "time_budget", "engine", "simd"])]
+    spans: bool,
     #[command(flatten)]
     count: FrameCount,
     /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
@@ -61,7 +65,9 @@ impl BenchArgs {
             log,
             destinations: &destinations,
         };
-        let (text, json) = if self.frame_times {
+        let (text, json) = if self.spans {
+            span_times(&self.timing.methods, log)?
+        } else if self.frame_times {
             frame_times(&measurement, &self.timing.methods, self.count)?
         } else {
             let comparisons = self.timing.compare(&measurement, false)?;

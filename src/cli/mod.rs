@@ -35,6 +35,7 @@ mod scene_flags;
 mod search;
 mod shell;
 mod signals;
+mod span_times;
 mod studio;
 mod text;
 mod values;

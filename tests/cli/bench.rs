@@ -442,3 +442,30 @@ fn what_a_comparison_needs_is_said_and_checked() {
             ]);
     }
 }
+
+/// `--spans` times every method at every length, with one light and with four.
+#[test]
+fn spans_are_timed_at_every_length() {
+    let folder = Folder::new();
+    let ended = folder.run("bench --spans -m gouraud,naive-phong --json spans.json");
+    let text = ended.done().out;
+    let json: Value = serde_json::from_slice(&folder.read("spans.json")).unwrap();
+    assert_eq!(json["schema"], "fastphong.spans/1");
+    let (lengths, spans) = (json["lengths"].as_array(), json["spans"].as_array());
+    let (lengths, spans) = (lengths.unwrap(), spans.unwrap());
+    assert_eq!((lengths.len(), spans.len()), (11, 4));
+    for span in spans {
+        let ns = span["ns"].as_array().unwrap();
+        let ns: Vec<f64> = ns.iter().map(|ns| ns.as_f64().unwrap()).collect();
+        assert_eq!(ns.len(), lengths.len());
+        assert!(ns[10] > ns[0] && ns[0] > 0.0, "{ns:?}");
+    }
+    assert_eq!(text.lines().count(), 1 + spans.len());
+    let described = include_str!("../../docs/bench-json.md");
+    for key in json.as_object().unwrap().keys() {
+        assert!(described.contains(&format!("`{key}`")), "{key}");
+    }
+    folder
+        .run("bench teapot --spans")
+        .refused(&["cannot be used with"]);
+}

@@ -16,6 +16,7 @@ mod output;
 mod reference;
 mod render;
 mod report;
+mod search;
 mod shell;
 mod signals;
 mod studio;

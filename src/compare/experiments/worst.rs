@@ -33,7 +33,7 @@ pub struct WorstCase {
     /// Unit normals of the corners, which stand at the upper left of the picture, at its upper right and at its lower left.
     pub normals: [[f64; 3]; 3],
     /// Unit vectors toward the lights.
-    pub lights: Vec<[f64; 3]>,
+    pub to_lights: Vec<[f64; 3]>,
 }
 
 /// Pixels along the legs of the triangle.
@@ -73,8 +73,8 @@ impl Random {
 impl WorstCase {
     /// Returns the frame of the case.
     pub fn frame(&self) -> Frame {
-        let share = 1.0 / self.lights.len().max(1) as f32;
-        let lights = self.lights.iter();
+        let share = 1.0 / self.to_lights.len().max(1) as f32;
+        let lights = self.to_lights.iter();
         let lights: Vec<Light> = lights
             .map(|&to| Light::directional(DVec3::from(to), [share; 3]))
             .collect();
@@ -127,7 +127,7 @@ impl WorstCase {
         let [b, c] = [x, y].map(|at| (at as f64 + 0.5) / f64::from(SIDE));
         let [n1, n2, n3] = self.normals.map(DVec3::from);
         let n = n1 * (1.0 - b - c) + n2 * b + n3 * c;
-        let mut all = self.lights.iter();
+        let mut all = self.to_lights.iter();
         all.any(|to| DVec3::from(*to).dot(n).abs() < NEAR_TERMINATOR)
     }
 
@@ -162,7 +162,7 @@ impl WorstCase {
                 levels: 0.0,
                 halfway,
                 normals,
-                lights: lights.collect(),
+                to_lights: lights.collect(),
             };
             if case.is_within(setting) {
                 return case;
@@ -173,11 +173,11 @@ impl WorstCase {
     /// Returns the case with one normal or one light moved by about `by`.
     fn moved(&self, random: &mut Random, by: f64) -> WorstCase {
         let mut case = self.clone();
-        let places = 3 + case.lights.len();
+        let places = 3 + case.to_lights.len();
         let place = ((random.signed() + 1.0) / 2.0 * places as f64) as usize;
         let moved = match place {
             0..3 => &mut case.normals[place],
-            _ => &mut case.lights[(place - 3).min(self.lights.len() - 1)],
+            _ => &mut case.to_lights[(place - 3).min(self.to_lights.len() - 1)],
         };
         let from = DVec3::from(*moved);
         let to = (from + by * random.vector()).try_normalize();
