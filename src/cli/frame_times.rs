@@ -1,13 +1,13 @@
 //! `fastphong bench --frame-times`: whole frames, from the prepared scene to the stored picture, as a program that shows one
 //! after the other draws them.
 
-use super::CliError;
 use super::measured::{Measurement, command_line};
 use super::values::number;
+use super::{CliError, Log};
 use fastphong::compare::timing::{Machine, Timing};
 use fastphong::frame::PreparedScene;
 use fastphong::picture::Picture8;
-use fastphong::raster::{DrawOptions, Renderer};
+use fastphong::raster::{DrawOptions, Plan, Renderer};
 use fastphong::shading::Variant;
 use serde::Serialize;
 use serde_json::json;
@@ -77,8 +77,10 @@ pub fn frame_times(
             for variant in methods {
                 let done = times.len() as f32 / turns as f32;
                 progress.at(done, &format!("{name}: {variant}"));
-                let draw = || FrameTime::take(name, &prepared, variant, *renderer, count);
-                let time = of.threads.install_for(*renderer, draw)??;
+                let draw = || FrameTime::take(name, &prepared, variant, *renderer, (count, of.log));
+                let Some(time) = of.threads.install_for(*renderer, draw)?? else {
+                    continue;
+                };
                 if let Some(reason) = time.reason {
                     let drawn_by = format!("the {} engine, {}", time.engine, time.level);
                     let text = format!("{name}: {variant} is drawn by {drawn_by}: {reason}");
@@ -93,16 +95,21 @@ pub fn frame_times(
 }
 
 impl FrameTime {
-    /// Draws frame after frame into one picture; only the work of a frame is between two readings of the clock.
+    /// Draws frame after frame into one picture; only the work of a frame is between two readings of the clock. `None` if the method is not
+    /// for the frame, which is said.
     fn take(
         input: &str,
         scene: &PreparedScene,
         variant: &Variant,
         renderer: Renderer,
-        count: FrameCount,
-    ) -> Result<FrameTime, CliError> {
+        (count, log): (FrameCount, Log),
+    ) -> Result<Option<FrameTime>, CliError> {
         let mut frame = scene.frame()?;
         let plan = variant.plan(&frame, renderer);
+        if let Plan::Refused(reason) = plan {
+            log.warning(&format!("{input}: {variant} is left out: {reason}"));
+            return Ok(None);
+        }
         let drawn_by = plan.renderer().unwrap_or(renderer);
         let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         let mut samples = Vec::with_capacity(count.frames);
@@ -118,7 +125,7 @@ impl FrameTime {
             }
         }
         let timing = Timing::of(samples, 1).expect("one frame or more, each of a finite time");
-        Ok(FrameTime {
+        Ok(Some(FrameTime {
             input: input.to_owned(),
             width: picture.width(),
             height: picture.height(),
@@ -130,7 +137,7 @@ impl FrameTime {
             count,
             ms_median: timing.median_ns / 1e6,
             ms_min: timing.min_ns / 1e6,
-        })
+        }))
     }
 
     /// Writes the line of a method.

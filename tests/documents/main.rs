@@ -1,6 +1,7 @@
 //! Compares the documents with the code.
 
 mod course;
+mod findings;
 #[cfg(feature = "cli")]
 mod flags;
 mod lectures;

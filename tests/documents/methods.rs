@@ -137,3 +137,32 @@ fn methods_are_described_as_the_code_does() {
         );
     }
 }
+
+/// The numbers of the published methods.
+const CATALOGUE: [&str; 35] = [
+    "M01", "M02", "M03", "M03b", "M04", "M05", "M05h", "M06", "M07", "M07b", "M08", "M09", "M10",
+    "M11", "M11v", "M12", "M12h", "M13", "M14", "M15", "M16", "M17", "M18", "M19", "M20", "M21",
+    "M22", "M23", "M24", "M25", "M26", "M27", "M28", "M29", "M30",
+];
+
+/// Every published method is drawn by one of the table, or left out with a reason.
+#[test]
+fn every_published_method_is_drawn_or_left_out_with_the_reason() {
+    let text = read(FILE);
+    let (_, left_out) = text
+        .split_once("\n# Left out, with the reason\n")
+        .expect("a section");
+    let left_out = left_out.split("\n# ").next().expect("a section").lines();
+    let left_out = left_out.filter_map(|line| {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let is_row = cells.get(1).is_some_and(|cell| cell.starts_with('M'));
+        is_row.then(|| {
+            assert!(cells[3].len() > 20, "{line}: no reason");
+            cells[1]
+        })
+    });
+    let drawn = METHODS.iter().flat_map(|entry| entry.info.ids).copied();
+    let mut all: Vec<&str> = drawn.chain(left_out).collect();
+    all.sort_unstable();
+    assert_eq!(all, CATALOGUE);
+}

@@ -1,0 +1,684 @@
+//! Writes the figures of `docs/findings.md` from what `docs/findings/run` measured, or checks that they stand there; and checks the worst
+//! cases by drawing them.
+//!
+//! `FASTPHONG_BLESS=1 cargo test --test documents findings` writes: the blocks between `<!-- made: NAME -->` and `<!-- end -->`, and the charts
+//! and the picture in `docs/images/findings/`.
+
+use crate::markdown::{read, root};
+use fastphong::compare::experiments::WorstCase;
+use fastphong::picture::Picture8;
+use fastphong::picture::image_file::encode_png;
+use fastphong::raster::Renderer;
+use fastphong::reference::{self, Model};
+use fastphong::shading::{Entry, METHODS, Standing, Variant};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const FILE: &str = "docs/findings.md";
+const IMAGES: &str = "docs/images/findings";
+/// Degrees between neighbouring normals of the meshes.
+const DEGREES: [u32; 4] = [5, 15, 30, 60];
+/// The largest error, in levels, of a picture that passes for Phong's.
+const SAME: f64 = 0.5;
+
+fn data(name: &str) -> Value {
+    serde_json::from_str(&read(format!("docs/findings/{name}.json"))).expect("JSON")
+}
+
+fn list<'a>(of: &'a Value, key: &str) -> &'a [Value] {
+    of[key].as_array().expect("a list")
+}
+
+fn number(of: &Value) -> f64 {
+    of.as_f64().expect("a number")
+}
+
+fn text(of: &Value) -> &str {
+    of.as_str().expect("a text")
+}
+
+/// The numbers of methods, one for each mesh.
+type ByMethod = BTreeMap<String, [f64; 4]>;
+
+/// Returns milliseconds of frames, from a file of frame times.
+fn times(name: &str) -> ByMethod {
+    let document = data(name);
+    let mut meshes: Vec<&str> = Vec::new();
+    let mut all = ByMethod::new();
+    for time in list(&document, "frame_times") {
+        let mesh = text(&time["input"]);
+        if !meshes.contains(&mesh) {
+            meshes.push(mesh);
+        }
+        let place = meshes.len() - 1;
+        let row = all.entry(text(&time["method"]).into()).or_insert([0.0; 4]);
+        row[place] = number(&time["ms_min"]);
+    }
+    assert_eq!(meshes.len(), DEGREES.len());
+    all
+}
+
+/// Returns the largest errors that were found with so many lights, in levels.
+fn errors(lights: u64) -> ByMethod {
+    let document = data("search");
+    let mut all = ByMethod::new();
+    for case in list(&document, "cases") {
+        let place = DEGREES
+            .iter()
+            .position(|d| f64::from(*d) == number(&case["degrees"]));
+        if let (Some(place), true) = (place, case["lights"] == lights) {
+            all.entry(text(&case["method"]).into()).or_insert([0.0; 4])[place] =
+                number(&case["levels"]);
+        }
+    }
+    all
+}
+
+fn mean(ratios: impl Iterator<Item = f64>) -> f64 {
+    let logarithms: Vec<f64> = ratios.map(f64::ln).collect();
+    (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
+}
+
+/// Returns the geometric mean of a method's speed over the four meshes, as a multiple of another's.
+fn speed(times: &ByMethod, method: &str, over: &str) -> f64 {
+    let pairs = times[over].iter().zip(times[method]);
+    mean(pairs.map(|(base, own)| base / own))
+}
+
+/// True for methods that are for use.
+fn is_for_use(name: &str) -> bool {
+    Entry::named(name).is_some_and(|entry| entry.info.standing != Standing::Exhibit)
+}
+
+/// Returns the methods for use that no other beats in both time and error on a mesh, the fastest first.
+fn front(times: &ByMethod, errors: &ByMethod, mesh: usize) -> Vec<String> {
+    let points = times
+        .keys()
+        .filter(|m| is_for_use(m))
+        .filter_map(|m| Some((m.clone(), times[m][mesh], errors.get(m)?[mesh])));
+    let mut points: Vec<_> = points.collect();
+    points.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut least = f64::INFINITY;
+    points.retain(|(_, _, error)| {
+        // A hundredth of a level is no difference.
+        let is_better = *error < 0.9 * least && least > 0.01;
+        if is_better {
+            least = *error;
+        }
+        is_better
+    });
+    points.into_iter().map(|(name, ..)| name).collect()
+}
+
+/// Writes three figures of a number.
+fn short(x: f64) -> String {
+    match x {
+        x if x < 0.01 => "< 0.01".into(),
+        x if x < 10.0 => format!("{x:.2}"),
+        x => format!("{x:.0}"),
+    }
+}
+
+/// Returns the best method by time among those whose errors are below a half level up to 30 degrees.
+fn best(times: &ByMethod, errors: &ByMethod) -> String {
+    let names = times.keys().filter(|m| is_for_use(m));
+    let same = names.filter(|m| {
+        errors
+            .get(*m)
+            .is_some_and(|e| e[..3].iter().all(|e| *e < SAME))
+    });
+    let fastest = same.max_by(|a, b| {
+        let [a, b] = [a, b].map(|m| speed(times, m, "naive-phong"));
+        a.total_cmp(&b)
+    });
+    fastest.expect("some method").clone()
+}
+
+/// The three sentences.
+fn answer() -> String {
+    let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
+    let (one, four) = (errors(1), errors(4));
+    let small: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let cycles = |name: &str| {
+        let mut spans = list(&small, "spans").iter();
+        let span = spans.find(|span| span["method"] == name).expect("a method");
+        number(&span["m0p_cycles"][1])
+    };
+    let (fast, naive, soft) = (cycles("fast"), cycles("naive"), cycles("soft-naive"));
+    let of_simd = best(&simd, &one);
+    let (of_one, of_four) = (best(&scalar, &one), best(&scalar4, &four));
+    let most = speed(&simd, "flat", &of_simd);
+    let four_lights = match of_one == of_four {
+        true => "and".to_string(),
+        false => format!("and `{of_four}`"),
+    };
+    format!(
+        "- **A CPU renderer with SIMD: `{of_simd}`**, {:.2} times as fast as naive Phong with one light and {:.2} with four. Nothing is left to \
+         gain: a frame in flat colours, without any shading at a pixel, is {most:.2} times as fast.\n\
+         - **Scalar code with a floating-point unit: `{of_one}`**, {:.2} times as fast as naive Phong with one light, {four_lights} {:.2} times with \
+         four. The lecture's `fast-phong` reaches {:.2} and {:.2}, its `slerp-phong` {:.2} and {:.2}.\n\
+         - **No floating-point unit: `integer::Span::fast`**, the lecture's method with tables: {fast:.0} cycles a pixel on a Cortex-M0+, \
+         {:.1} times as fast as naive Phong in the same integers and {:.0} times as fast as in emulated floats.\n",
+        speed(&simd, &of_simd, "naive-phong"),
+        speed(&simd4, &of_simd, "naive-phong"),
+        speed(&scalar, &of_one, "naive-phong"),
+        speed(&scalar4, &of_four, "naive-phong"),
+        speed(&scalar, "fast-phong", "naive-phong"),
+        speed(&scalar4, "fast-phong", "naive-phong"),
+        speed(&scalar, "slerp-phong", "naive-phong"),
+        speed(&scalar4, "slerp-phong", "naive-phong"),
+        naive / fast,
+        soft / fast,
+    )
+}
+
+/// A row a method: its worst errors, and its speeds with one light and with four.
+fn table(machine: &str) -> String {
+    let (one, four) = (
+        times(&format!("{machine}-1")),
+        times(&format!("{machine}-4")),
+    );
+    let errors = errors(1);
+    let on_front: Vec<String> = (0..DEGREES.len())
+        .flat_map(|mesh| front(&one, &errors, mesh))
+        .collect();
+    let mut rows: Vec<_> = one.keys().filter(|m| errors.contains_key(*m)).collect();
+    rows.sort_by(|a, b| {
+        let [a, b] = [a, b].map(|m| speed(&one, m, "naive-phong"));
+        b.total_cmp(&a)
+    });
+    let mut text = String::from(
+        "| method | front | 5° | 15° | 30° | 60° | × naive, 1 light | 4 lights |\n|---|:---:|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for name in rows {
+        let mark = if on_front.contains(name) { "●" } else { "" };
+        let cells = errors[name].map(short).join(" | ");
+        let speeds = [&one, &four].map(|times| format!("{:.2}", speed(times, name, "naive-phong")));
+        writeln!(
+            text,
+            "| `{name}` | {mark} | {cells} | {} |",
+            speeds.join(" | ")
+        )
+        .expect("a text");
+    }
+    text
+}
+
+/// The length from which each method of the scalar front is faster than each other.
+fn break_even() -> String {
+    let (times, errors) = (times("scalar-1"), errors(1));
+    let document = data("spans");
+    let lengths: Vec<f64> = list(&document, "lengths").iter().map(number).collect();
+    let mut names = front(&times, &errors, 1);
+    for name in [
+        "naive-phong",
+        "phong-rsqrt",
+        "fast-phong",
+        "duff-phong",
+        "slerp-phong",
+    ] {
+        if !names.iter().any(|n| n == name) {
+            names.push(name.into());
+        }
+    }
+    let ns = |name: &str| -> Vec<f64> {
+        let mut spans = list(&document, "spans").iter();
+        let span = spans.find(|s| s["method"] == name && s["lights"] == 1);
+        list(span.expect("a method"), "ns")
+            .iter()
+            .map(number)
+            .collect()
+    };
+    let mut text = format!("| faster than | `{}` |\n|---|", names.join("` | `"));
+    text += &"---:|".repeat(names.len());
+    for row in &names {
+        let cells = names.iter().map(|column| {
+            let pairs: Vec<(f64, f64)> = ns(row).into_iter().zip(ns(column)).collect();
+            // From the last length at which it is slower on.
+            match pairs.iter().rposition(|(own, other)| own >= other) {
+                _ if row == column => String::new(),
+                None => "always".into(),
+                Some(last) if last + 1 == lengths.len() => "never".into(),
+                Some(last) => {
+                    // Linear between the two lengths.
+                    let [(a0, b0), (a1, b1)] = [pairs[last], pairs[last + 1]];
+                    let [before, after] = [a0 - b0, b1 - a1];
+                    let t = before / (before + after);
+                    format!(
+                        "{:.0}",
+                        lengths[last] + t * (lengths[last + 1] - lengths[last])
+                    )
+                }
+            }
+        });
+        write!(
+            text,
+            "\n| `{row}` | {} |",
+            cells.collect::<Vec<_>>().join(" | ")
+        )
+        .expect("a text");
+    }
+    text + "\n"
+}
+
+/// What a frame costs without shading, and what a method can gain at most.
+fn floor() -> String {
+    let mut text = String::from(
+        "| machine | mesh | flat, ms | naive Phong, ms | `phong-rsqrt`, ms | most over naive Phong | most over `phong-rsqrt` |\n|---|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for (machine, file) in [("SIMD", "simd-1"), ("scalar", "scalar-1")] {
+        let times = times(file);
+        for (mesh, degrees) in DEGREES.iter().enumerate() {
+            let [flat, naive, rsqrt] =
+                ["flat", "naive-phong", "phong-rsqrt"].map(|m| times[m][mesh]);
+            writeln!(
+                text,
+                "| {machine} | {degrees}° | {flat:.2} | {naive:.2} | {rsqrt:.2} | {:.2} | {:.2} |",
+                naive / flat,
+                rsqrt / flat
+            )
+            .expect("a text");
+        }
+    }
+    text
+}
+
+/// What was claimed, and what was measured.
+fn claims() -> String {
+    let scalar = times("scalar-1");
+    let over = |method: &str, other: &str| speed(&scalar, method, other);
+    let errors = errors(1);
+    let verdict = |holds: bool| if holds { "holds" } else { "does not hold" };
+    let times_of = |x: f64| format!("{x:.2} times");
+    let mut rows: Vec<[String; 4]> = Vec::new();
+    let mut row = |claim: &str, source: &str, measured: String, holds: bool| {
+        rows.push([claim.into(), source.into(), measured, verdict(holds).into()]);
+    };
+    let gain = over("fast-phong", "naive-phong");
+    row(
+        "fast Phong is faster than naive Phong",
+        "L21 4.2, 4.3",
+        format!("{} as fast, scalar", times_of(gain)),
+        gain > 1.0,
+    );
+    let slerp = over("slerp-phong", "fast-phong");
+    row(
+        "slerp Phong is faster still",
+        "L21 4.4",
+        format!("{} as fast as fast Phong, scalar", times_of(slerp)),
+        slerp > 1.0,
+    );
+    let phong = 1.0 / over("naive-phong", "gouraud");
+    row(
+        "Phong shading is considerably slower than Gouraud",
+        "L21 4.1",
+        format!("Gouraud {} as fast, scalar", times_of(phong)),
+        phong > 1.5,
+    );
+    let worst = errors["duff-phong"][2];
+    row(
+        "forward differences give naive Phong's picture",
+        "Duff 1979",
+        format!("{} levels off at 30°", short(worst)),
+        worst < 0.1,
+    );
+    let bishop = over("bishop-weimer", "gouraud");
+    row(
+        "Taylor's quadratics: five additions a pixel, about half of Gouraud's speed",
+        "Bishop, Weimer 1986; Hearn, Baker",
+        format!("{} as fast as Gouraud, scalar", times_of(bishop)),
+        (0.4..=0.6).contains(&bishop),
+    );
+    let seams = errors["bishop-weimer"][1];
+    row(
+        "their error is not seen",
+        "Bishop, Weimer 1986",
+        format!("{} levels at 15°", short(seams)),
+        seams < 1.0,
+    );
+    let (bw, six) = (errors["bishop-weimer"][1], errors["six-point"][1]);
+    row(
+        "quadratics through six points are nearer than Taylor's",
+        "Seiler 1998",
+        format!("{} levels against {} at 15°", short(six), short(bw)),
+        six < bw,
+    );
+    let polygon = |name: &str| {
+        let counts = Variant::parse(name)
+            .expect("a method")
+            .operations(1)
+            .polygon;
+        counts.roots
+    };
+    row(
+        "midpoints without roots make their set-up cheap",
+        "Barrera, Hast, Bengtsson 2006",
+        format!(
+            "{} roots a triangle in place of {}",
+            polygon("six-point:midpoints=barrera"),
+            polygon("six-point")
+        ),
+        polygon("six-point:midpoints=barrera") < polygon("six-point"),
+    );
+    let chebyshev = over("slerp-chebyshev", "gouraud");
+    row(
+        "equal angles by Chebyshev's recurrence come close to Gouraud",
+        "Barrera, Hast, Bengtsson 2004",
+        format!("{} of Gouraud's speed, scalar", short(chebyshev)),
+        chebyshev > 0.8,
+    );
+    let series = errors["series-phong"][2];
+    row(
+        "a series of N·N stands for its root",
+        "US patent 5,369,737",
+        format!("second order: {} levels at 30°", short(series)),
+        series < 1.0,
+    );
+    let lyon = errors["difference-vector"][0];
+    row(
+        "highlights by difference vectors need no unit normals",
+        "Lyon 1993",
+        format!(
+            "{} levels at 5°, {} at 30°",
+            short(lyon),
+            short(errors["difference-vector"][2])
+        ),
+        lyon < 1.0,
+    );
+    let h_test = over("h-test", "naive-phong");
+    row(
+        "Phong's highlights only where there are some are cheaper",
+        "Harrison, Mitchell, Watt 1988",
+        format!("{} as fast as naive Phong, scalar", times_of(h_test)),
+        h_test > 1.0,
+    );
+    let mut text = String::from("| claim | source | measured | verdict |\n|---|---|---|---|\n");
+    for row in rows {
+        writeln!(text, "| {} |", row.join(" | ")).expect("a text");
+    }
+    text
+}
+
+/// Places of a chart's labels that are not above one another, from those wanted, in rising order.
+fn apart(mut places: Vec<(f64, usize)>, least: f64) -> BTreeMap<usize, f64> {
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for i in 1..places.len() {
+        places[i].0 = places[i].0.max(places[i - 1].0 + least);
+    }
+    places
+        .into_iter()
+        .map(|(place, index)| (index, place))
+        .collect()
+}
+
+/// Draws error against time on the four meshes, with the front.
+fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
+    const PANEL: [f64; 2] = [330.0, 320.0];
+    const INNER: [f64; 4] = [44.0, 36.0, 318.0, 284.0]; // left, top, right, bottom
+    let named = [
+        "flat",
+        "gouraud",
+        "naive-phong",
+        "fast-phong",
+        "slerp-phong",
+        "phong-rsqrt",
+        "duff-phong",
+    ];
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"10\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"8\" y=\"14\" font-size=\"12\" font-weight=\"bold\">{title}</text>\n",
+        4.0 * PANEL[0],
+        PANEL[1]
+    );
+    let level = |error: f64| error.clamp(0.005, 255.0).log10();
+    let (low, high) = (0.005f64.log10(), 255f64.log10());
+    for (mesh, degrees) in DEGREES.iter().enumerate() {
+        let left = mesh as f64 * PANEL[0];
+        let naive = times["naive-phong"][mesh];
+        let all: Vec<(&String, f64, f64)> = times
+            .iter()
+            .filter(|(m, _)| is_for_use(m))
+            .filter_map(|(m, t)| Some((m, t[mesh] / naive, errors.get(m)?[mesh])))
+            .collect();
+        let most = all.iter().map(|(_, t, _)| *t).fold(1.0, f64::max).min(1.6);
+        let x = |t: f64| left + INNER[0] + (INNER[2] - INNER[0]) * (t / most).min(1.0);
+        let y = |e: f64| INNER[3] - (INNER[3] - INNER[1]) * (level(e) - low) / (high - low);
+        writeln!(
+            svg,
+            "<text x=\"{}\" y=\"30\">{degrees}° between normals</text>",
+            left + INNER[0]
+        )
+        .expect("a text");
+        for error in [0.01, 0.1, 0.5, 1.0, 10.0, 100.0] {
+            let (at, dash) = (y(error), if error == SAME { "4 3" } else { "0" });
+            let colour = if error == SAME { "#b00" } else { "#ddd" };
+            writeln!(
+                svg,
+                "<path d=\"M{} {at:.1}H{}\" stroke=\"{colour}\" stroke-dasharray=\"{dash}\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#555\">{error}</text>",
+                left + INNER[0],
+                left + INNER[2],
+                left + INNER[0] - 4.0,
+                at + 3.0
+            )
+            .expect("a text");
+        }
+        for part in [0.0, 0.5, 1.0, 1.5] {
+            if part <= most {
+                writeln!(
+                    svg,
+                    "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\" fill=\"#555\">{part}</text>",
+                    x(part),
+                    INNER[3] + 14.0
+                )
+                .expect("a text");
+            }
+        }
+        let front = front(times, errors, mesh);
+        let on_front = |m: &str| front.iter().any(|f| f == m);
+        let line: Vec<String> = front
+            .iter()
+            .map(|m| format!("{:.1} {:.1}", x(times[m][mesh] / naive), y(errors[m][mesh])))
+            .collect();
+        writeln!(
+            svg,
+            "<path d=\"M{}\" fill=\"none\" stroke=\"#06c\" stroke-width=\"1.5\"/>",
+            line.join("L")
+        )
+        .expect("a text");
+        let labelled: Vec<usize> = (0..all.len())
+            .filter(|&i| on_front(all[i].0) || named.contains(&all[i].0.as_str()))
+            .collect();
+        let places = apart(labelled.iter().map(|&i| (y(all[i].2), i)).collect(), 10.0);
+        for (i, (name, time, error)) in all.iter().enumerate() {
+            let (fill, radius) = if on_front(name) {
+                ("#06c", 4.0)
+            } else {
+                ("#999", 3.0)
+            };
+            let (cx, cy) = (x(*time), y(*error));
+            writeln!(svg, "<circle cx=\"{cx:.1}\" cy=\"{cy:.1}\" r=\"{radius}\" fill=\"{fill}\"><title>{name}: {} of naive Phong, {} levels</title></circle>", short(*time), short(*error)).expect("a text");
+            if let Some(at) = places.get(&i) {
+                let (anchor, dx) = if cx > left + 230.0 {
+                    ("end", -6.0)
+                } else {
+                    ("start", 6.0)
+                };
+                writeln!(svg, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" fill=\"{fill}\">{name}</text>", cx + dx, at + 3.0).expect("a text");
+            }
+        }
+    }
+    writeln!(svg, "<text x=\"{}\" y=\"314\" fill=\"#555\">time of a frame, × naive Phong; upward: largest error found, grey levels (dashed: half a level)</text>\n</svg>", INNER[0]).expect("a text");
+    svg
+}
+
+/// Reads the case of a method.
+fn case(method: &str, degrees: u32) -> Option<WorstCase> {
+    let document = data("search");
+    let mut cases = list(&document, "cases").iter();
+    let found = cases.find(|case| {
+        case["method"] == method
+            && number(&case["degrees"]) == f64::from(degrees)
+            && case["lights"] == 1
+    });
+    Some(serde_json::from_value(found?.clone()).expect("a case"))
+}
+
+/// The methods whose worst cases are shown.
+fn shown() -> Vec<&'static str> {
+    let names = METHODS.iter().filter(|entry| !entry.is_integer);
+    let names = names.map(|entry| entry.info.name);
+    names
+        .filter(|name| case(name, 30).is_some_and(|case| case.levels > SAME))
+        .collect()
+}
+
+/// Draws the worst cases at 30 degrees: the reference above, the method below, six to a row.
+fn pictures() -> Vec<u8> {
+    const SCALE: usize = 5;
+    const CELL: usize = 24 * SCALE + 8;
+    let names = shown();
+    let rows = names.len().div_ceil(6);
+    let mut sheet = Picture8::new(6 * CELL, rows * 2 * CELL, [255; 4]);
+    for (number, name) in names.iter().enumerate() {
+        let case = case(name, 30).expect("it is shown");
+        let frame = case.frame();
+        let truth = reference::render(&frame, Model::Phong).to_picture8();
+        let ours = Variant::parse(name)
+            .expect("a method")
+            .render_with(&frame, Renderer::LECTURE);
+        for (row, picture) in [truth, ours].iter().enumerate() {
+            let (left, top) = (number % 6 * CELL, (number / 6 * 2 + row) * CELL);
+            for y in 0..24 * SCALE {
+                for x in 0..24 * SCALE {
+                    let pixel = picture.get(x / SCALE, y / SCALE);
+                    if pixel[3] > 0 {
+                        sheet.row_mut(top + y)[left + x] = pixel;
+                    }
+                }
+            }
+        }
+    }
+    encode_png(&sheet).expect("a picture")
+}
+
+/// A row a method: its worst errors with one light and with four.
+fn worst() -> String {
+    let (one, four) = (errors(1), errors(4));
+    let mut text = String::from(
+        "| method | 5° | 15° | 30° | 60° | 5°, 4 lights | 15° | 30° | 60° |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for entry in METHODS {
+        let name = entry.info.name;
+        if let (Some(one), Some(four)) = (one.get(name), four.get(name)) {
+            let cells = [one.map(short), four.map(short)].concat().join(" | ");
+            writeln!(text, "| `{name}` | {cells} |").expect("a text");
+        }
+    }
+    text + &format!(
+        "\nBelow, 30°, one light; in each pair the reference is above: `{}`.\n",
+        shown().join("`, `")
+    )
+}
+
+fn machine() -> String {
+    let document = data("scalar-1");
+    let machine = &document["machine"];
+    let simd = data("simd-1");
+    let level = list(&simd, "frame_times")[0]["level"].clone();
+    format!(
+        "Measured by `docs/findings/run` on {} ({} in SIMD), {}; frames of spheres at 640 × 480 on one thread, with projection; errors by `fastphong \
+         search`, {} restarts.\n",
+        text(&machine["cpu"]),
+        text(&level),
+        text(&machine["rustc"]),
+        data("search")["restarts"]
+    )
+}
+
+#[test]
+fn findings_are_the_measured_figures() {
+    let old = read(FILE);
+    let mut new = old.clone();
+    let blocks: [(&str, &dyn Fn() -> String); 8] = [
+        ("answer", &answer),
+        ("machine", &machine),
+        ("simd", &|| table("simd")),
+        ("scalar", &|| table("scalar")),
+        ("break-even", &break_even),
+        ("floor", &floor),
+        ("worst", &worst),
+        ("claims", &claims),
+    ];
+    for (name, make) in blocks {
+        let mark = format!("<!-- made: {name} -->\n");
+        let from = new
+            .find(&mark)
+            .unwrap_or_else(|| panic!("{FILE} has no {mark}"))
+            + mark.len();
+        let length = new[from..].find("<!-- end -->").expect("an end");
+        new.replace_range(from..from + length, &format!("\n{}\n", make()));
+    }
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+    for (machine, lights, title) in [
+        ("simd", 1, "SIMD, one light"),
+        ("simd", 4, "SIMD, four lights"),
+        ("scalar", 1, "scalar, one light"),
+        ("scalar", 4, "scalar, four lights"),
+    ] {
+        let chart = chart(
+            title,
+            &times(&format!("{machine}-{lights}")),
+            &errors(lights),
+        );
+        files.push((format!("{machine}-{lights}.svg"), chart.into_bytes()));
+    }
+    files.push(("worst.png".into(), pictures()));
+    let readme = read("README.md");
+    for sentence in answer().lines() {
+        assert!(
+            std::env::var_os("FASTPHONG_BLESS").is_some() || readme.contains(sentence),
+            "README.md does not begin with the findings: {sentence}"
+        );
+    }
+    if std::env::var_os("FASTPHONG_BLESS").is_some() {
+        std::fs::write(root().join(FILE), &new).expect("a file to write");
+        std::fs::create_dir_all(root().join(IMAGES)).expect("a folder");
+        for (name, bytes) in files {
+            std::fs::write(root().join(IMAGES).join(name), bytes).expect("a file to write");
+        }
+        return;
+    }
+    let how = "write it by FASTPHONG_BLESS=1 cargo test --test documents findings";
+    assert!(old == new, "{FILE} differs from what was measured: {how}");
+    for (name, bytes) in files.iter().filter(|(name, _)| name.ends_with(".svg")) {
+        let stored = std::fs::read(root().join(IMAGES).join(name)).expect("a chart");
+        assert!(
+            stored == *bytes,
+            "{name} differs from what was measured: {how}"
+        );
+    }
+}
+
+/// Each worst case that was found is as bad as it says, on the methods as they are today.
+#[test]
+fn worst_cases_are_as_bad_as_stated() {
+    let document = data("search");
+    let mut compared = 0;
+    for found in list(&document, "cases") {
+        let case: WorstCase = serde_json::from_value(found.clone()).expect("a case");
+        let variant = Variant::parse(text(&found["method"])).expect("a method");
+        let levels = case.error(&variant).expect("a case for the method");
+        assert!(
+            (levels - case.levels).abs() < 1e-3,
+            "{variant}, {found}: {levels} levels today"
+        );
+        compared += 1;
+    }
+    let floats = METHODS.iter().filter(|entry| !entry.is_integer).count();
+    assert_eq!(
+        compared,
+        floats * 2 * DEGREES.len(),
+        "a case a method and setting"
+    );
+}
