@@ -36,6 +36,7 @@
 //! compiled once per instruction set.
 
 mod packed;
+mod quads;
 mod runs;
 mod shade;
 mod small;
@@ -63,10 +64,11 @@ use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
+use quads::QuadBatch;
 use runs::RunQueue;
 use shade::RowBuffers;
 use small::{RowStarts, SmallTriangle};
-use tile::{MOST, Tile};
+use tile::{MOST, NumberCount, Tile};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, bits};
 
@@ -100,6 +102,7 @@ use with_level;
 struct Buffers {
     tile: Tile,
     batch: Batch,
+    quads: QuadBatch,
     fragments: Fragments,
     starts: RowStarts,
     queue: RunQueue,
@@ -324,10 +327,24 @@ impl<'a> RowEngine<'a> {
                     _ => self.triangles::<S, 0>(simd, rest, rows, buffers),
                 };
             } else {
-                let new = || ActiveEdges::new(self.setup.frame, varyings);
-                let active = active.get_or_insert_with(new);
-                let queue = &mut buffers.queue;
-                queue.add_polygon(&self.setup, active, next.number, rows);
+                let mut is_drawn = false;
+                if self.is_planar {
+                    (taken, is_drawn) = match self.cell.count() {
+                        2 => self.quads::<S, 2>(simd, rest, rows, buffers),
+                        5 => self.quads::<S, 5>(simd, rest, rows, buffers),
+                        6 => self.quads::<S, 6>(simd, rest, rows, buffers),
+                        4 => self.quads::<S, 4>(simd, rest, rows, buffers),
+                        _ => self.quads::<S, 0>(simd, rest, rows, buffers),
+                    };
+                }
+                if !is_drawn {
+                    let new = || ActiveEdges::new(self.setup.frame, varyings);
+                    let active = active.get_or_insert_with(new);
+                    for next in &rest[..taken] {
+                        let queue = &mut buffers.queue;
+                        queue.add_polygon(&self.setup, active, next.number, rows);
+                    }
+                }
             }
             rest = &rest[taken..];
             if buffers.queue.is_full() {
@@ -368,6 +385,55 @@ impl<'a> RowEngine<'a> {
             },
         );
         taken
+    }
+
+    /// Draws quadrangles from the front of `polygons`, if the first one is one that [`QuadBatch`] takes. Returns the number of those
+    /// that were drawn, and true; or the number of polygons that the run path must draw, at least one, and false.
+    #[inline(never)]
+    fn quads<S: Token, const N: usize>(
+        &self,
+        simd: S,
+        polygons: &[Listed],
+        rows: &Range<usize>,
+        buffers: &mut Buffers,
+    ) -> (usize, bool) {
+        let (frame, queue) = (self.setup.frame, &buffers.queue);
+        let (taken, waits) = (buffers.quads.gather(frame, polygons), !queue.is_empty());
+        if taken == 0 {
+            return (1, false);
+        }
+        vectorize(
+            simd,
+            #[inline(always)]
+            || {
+                let (m, width) = (Lanes(simd), frame.width());
+                let bounded = buffers.quads.bound(m, width, rows);
+                let others = bounded.others;
+                if others & 1 == 1 {
+                    return (taken.min(others.trailing_ones() as usize), false);
+                }
+                if waits {
+                    // Those before them come first.
+                    self.draw_runs(simd, buffers);
+                }
+                let taken = taken.min(others.trailing_zeros() as usize);
+                let drawn = bounded.drawn & ((1 << taken) - 1);
+                let Buffers { quads, tile, .. } = buffers;
+                quads.read::<N>(&self.setup, self.cell, drawn);
+                quads.find_runs(
+                    m,
+                    &bounded,
+                    (width, rows),
+                    NumberCount::<N>(self.cell.count()),
+                );
+                tile.extend(bounded.blocks());
+                let writer = &mut tile.writer::<S, N>(m, self.test);
+                for k in bits(drawn) {
+                    quads.draw(m, k, rows.start, writer);
+                }
+                (taken, true)
+            },
+        )
     }
 
     /// Draws the runs that were found.
