@@ -4,7 +4,8 @@
 //! bin ───────► set up ────────► rasterise ──────────────► G-buffer ─► shade ─► picture
 //! ../bins.rs   triangles.rs     tiny.rs   pixel by pixel  tile.rs     shade.rs
 //!              8 triangles in   small.rs  block by block  16 rows     one call per row,
-//!              the lanes        runs.rs   run by run      of blocks   as long as the material stays
+//!              the lanes        quads.rs  row by row      of blocks   as long as the material stays
+//!                               runs.rs   run by run
 //! ```
 //!
 //! Polygons are binned into bands of 16 scanlines. Those of a band are set up in batches and rasterised, in drawing order, with a
@@ -16,8 +17,9 @@
 //!
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
 //! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles and slivers by the crossings
-//! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Only
-//! slerp Phong and fast Phong with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
+//! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Runs of
+//! small convex quadrangles are found for eight quadrangles at a time, and are the same to the bit. Only slerp Phong and fast Phong
+//! with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
 //!
 //! Who calls whom, for one frame:
 //!
@@ -27,6 +29,7 @@
 //!     fill_tile        a band      with this thread's buffers
 //!       rasterise      a band      compiled for an instruction set (`with_level!`): goes through the band's polygons in order
 //!         triangles    a batch     set-up, coverage and plane equations of up to 32 triangles
+//!         quads        a batch     set-up and runs of up to 8 convex quadrangles
 //!         add_polygon  a polygon   runs of all others, in a queue
 //!         draw_runs    a queue     walks along them, and writes them into the tile
 //!     shade            a row       calls the method's kernel, stretch by stretch
@@ -328,7 +331,7 @@ impl<'a> RowEngine<'a> {
                 };
             } else {
                 let mut is_drawn = false;
-                if self.is_planar {
+                if next.is_quadrangle() && self.is_planar {
                     (taken, is_drawn) = match self.cell.count() {
                         2 => self.quads::<S, 2>(simd, rest, rows, buffers),
                         5 => self.quads::<S, 5>(simd, rest, rows, buffers),
@@ -340,9 +343,9 @@ impl<'a> RowEngine<'a> {
                 if !is_drawn {
                     let new = || ActiveEdges::new(self.setup.frame, varyings);
                     let active = active.get_or_insert_with(new);
-                    for next in &rest[..taken] {
+                    for listed in &rest[..taken] {
                         let queue = &mut buffers.queue;
-                        queue.add_polygon(&self.setup, active, next.number, rows);
+                        queue.add_polygon(&self.setup, active, listed.number, rows);
                     }
                 }
             }
@@ -387,8 +390,8 @@ impl<'a> RowEngine<'a> {
         taken
     }
 
-    /// Draws quadrangles from the front of `polygons`, if the first one is one that [`QuadBatch`] takes. Returns the number of those
-    /// that were drawn, and true; or the number of polygons that the run path must draw, at least one, and false.
+    /// Draws quadrangles from the front of `polygons`, and returns their number and true; or, if the first one is not of those that
+    /// [`QuadBatch`] draws, the number of the polygons that runs must draw, and false.
     #[inline(never)]
     fn quads<S: Token, const N: usize>(
         &self,
@@ -397,11 +400,8 @@ impl<'a> RowEngine<'a> {
         rows: &Range<usize>,
         buffers: &mut Buffers,
     ) -> (usize, bool) {
-        let (frame, queue) = (self.setup.frame, &buffers.queue);
-        let (taken, waits) = (buffers.quads.gather(frame, polygons), !queue.is_empty());
-        if taken == 0 {
-            return (1, false);
-        }
+        let (frame, count) = (self.setup.frame, NumberCount::<N>(self.cell.count()));
+        let taken = buffers.quads.gather(frame, polygons);
         vectorize(
             simd,
             #[inline(always)]
@@ -410,22 +410,15 @@ impl<'a> RowEngine<'a> {
                 let bounded = buffers.quads.bound(m, width, rows);
                 let others = bounded.others;
                 if others & 1 == 1 {
-                    return (taken.min(others.trailing_ones() as usize), false);
+                    return (others.trailing_ones() as usize, false);
                 }
-                if waits {
-                    // Those before them come first.
-                    self.draw_runs(simd, buffers);
-                }
+                // Quadrangles are drawn at once: runs from before them come first.
+                self.draw_runs(simd, buffers);
                 let taken = taken.min(others.trailing_zeros() as usize);
                 let drawn = bounded.drawn & ((1 << taken) - 1);
                 let Buffers { quads, tile, .. } = buffers;
                 quads.read::<N>(&self.setup, self.cell, drawn);
-                quads.find_runs(
-                    m,
-                    &bounded,
-                    (width, rows),
-                    NumberCount::<N>(self.cell.count()),
-                );
+                quads.find_runs(m, &bounded, (width, rows), count);
                 tile.extend(bounded.blocks());
                 let writer = &mut tile.writer::<S, N>(m, self.test);
                 for k in bits(drawn) {

@@ -241,8 +241,9 @@ impl QuadBatch {
         let vertices = frame.vertices();
         let mut k = 0;
         for listed in polygons.iter().take(BLOCK) {
-            let corners = frame.corners(&frame.polygons()[listed.number as usize]);
-            let Some(corners) = corners.as_array::<CORNERS>() else {
+            let corners = || frame.corners(&frame.polygons()[listed.number as usize]);
+            let quadrangle = listed.is_quadrangle().then(corners);
+            let Some(corners) = quadrangle.and_then(<[u32]>::as_array::<CORNERS>) else {
                 break;
             };
             (self.polygons[k], self.vertices[k]) = (listed.number, *corners);
@@ -421,9 +422,10 @@ impl QuadBatch {
             if start >= end {
                 continue;
             }
+            let depth = CellLayout::DEPTH;
             let place = RunPlace {
                 row,
-                depth: [run.at[CellLayout::DEPTH][k], run.step[CellLayout::DEPTH][k]],
+                depth: [run.at[depth][k], run.step[depth][k]],
             };
             draw_run(
                 m,
