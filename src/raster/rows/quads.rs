@@ -72,7 +72,7 @@ struct Runs {
 }
 
 /// Eight crossings as [`EdgeCrossing`](crate::raster::spans::edge::EdgeCrossing) has them, in 32 bits: `pixel − rest / denominator`.
-/// Denominators are 256 times less than [`REACH`], and so below 2²³.
+/// Denominators are 256 times a height below [`REACH`], and so below 2²³.
 #[derive(Clone, Copy)]
 struct Crossings<S: Simd> {
     pixel: i32x8<S>,
@@ -91,7 +91,7 @@ impl<S: Simd> Crossings<S> {
     fn new(m: Lanes<S>, past: i32x8<S>, [x, dx, dy]: [i32x8<S>; 3], over: f32x8<S>) -> Self {
         let half = m.splat(0.5);
         let denominator = dy << 8;
-        // Over −½, and below REACH / 256 + 1.
+        // The quotient is −½ or more, and below REACH / 256 + 1.
         let numerator = (x - m.int(128)) * dy + past * dx;
         let quotient = m.float(numerator) * (over * m.splat(1.0 / 65536.0));
         let pixel = m.truncated(quotient + half);
@@ -312,8 +312,8 @@ impl QuadBatch {
             let number = self.polygons[k];
             for (corner, (&vertex, to)) in (0..).zip(self.vertices[k].iter().zip(&mut self.numbers))
             {
-                let (depth, mut line): (f32, Numbers) =
-                    (vertices[vertex as usize].depth, Default::default());
+                let depth = vertices[vertex as usize].depth;
+                let mut line: Numbers = Default::default();
                 if is_known {
                     let varying = varyings.of_corner_with(all, number, [corner, vertex]);
                     cell.write(&mut line, depth, varying, || unreachable!("it has none"));
@@ -383,7 +383,7 @@ impl QuadBatch {
         let crosses = first.less(centre(m, bottom).min(m.int(rows.end as i32)));
         let past = (first << 8) + m.int(128) - top;
         let height = m.float(bottom - top);
-        // No edge of those that are drawn has a height of 0.
+        // Over 0 for every edge that crosses a row; what becomes of the others does not matter.
         let over = m.splat(256.0) / height;
         let size = [x - bounded.origin[1], x_below - x, bottom - top];
         let mut crossing = Crossings::new(m, past, size, over);
