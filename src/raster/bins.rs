@@ -20,18 +20,26 @@ type Point = [i32; 2];
 pub(crate) struct Listed {
     /// The number of the polygon.
     pub number: u32,
-    /// The corners of a triangle; [`Listed::OTHER`] for any other polygon.
+    /// The corners of a triangle; [`Listed::QUADRANGLE`] or [`Listed::OTHER`] for any other polygon.
     pub corners: [u32; 3],
 }
 
 impl Listed {
-    /// Stands for the corners of a polygon that is no triangle.
+    /// Stands for the corners of a quadrangle.
+    pub const QUADRANGLE: [u32; 3] = [u32::MAX, 4, 4];
+    /// Stands for the corners of a polygon that is neither.
     pub const OTHER: [u32; 3] = [u32::MAX; 3];
 
     /// True if it is a triangle.
     #[inline(always)]
     pub fn is_triangle(&self) -> bool {
         self.corners[0] != Listed::OTHER[0]
+    }
+
+    /// True if it is a quadrangle.
+    #[inline(always)]
+    pub fn is_quadrangle(&self) -> bool {
+        self.corners == Listed::QUADRANGLE
     }
 }
 
@@ -126,17 +134,26 @@ impl BinChunk {
 #[inline(always)]
 fn read(frame: &Frame, polygon: &Polygon) -> ([u32; 3], [Point; 3]) {
     let (vertices, shared) = (frame.vertices(), &frame.geometry.corners[..]);
+    let point = |v: u32| position(&vertices[v as usize]);
     let first = polygon.first as usize;
     // Without looking for the owner of the corners first, as `Frame::corners` does: those of pieces stand elsewhere.
     if polygon.count == 3
         && let Some(&[a, b, c]) = shared.get(first..first + 3)
     {
-        let point = |v: u32| position(&vertices[v as usize]);
         return ([a, b, c], [point(a), point(b), point(c)]);
     }
-    let corners = *frame.corners(polygon).as_array().unwrap_or(&Listed::OTHER);
-    let [least, most] = bounds(frame, polygon);
-    (corners, [least, most, most])
+    let corners = frame.corners(polygon);
+    match *corners {
+        [a, b, c] => ([a, b, c], [point(a), point(b), point(c)]),
+        [a, b, c, d] => {
+            let [ab, cd] = [box_of(point(a), point(b)), box_of(point(c), point(d))];
+            (Listed::QUADRANGLE, [box_of(ab[0], cd[0])[0], ab[1], cd[1]])
+        }
+        _ => {
+            let [least, most] = bounds(frame, corners);
+            (Listed::OTHER, [least, most, most])
+        }
+    }
 }
 
 /// Stores the bands of `height` scanlines whose pixel centres the bounding box of each polygon of a group holds, from place
@@ -177,11 +194,20 @@ fn position(vertex: &ScreenVertex) -> Point {
     [vertex.x.to_bits(), vertex.y.to_bits()]
 }
 
+/// Returns the left upper and the right lower corner of the bounding box of two points.
+#[inline(always)]
+fn box_of(a: Point, b: Point) -> [Point; 2] {
+    [
+        [a[0].min(b[0]), a[1].min(b[1])],
+        [a[0].max(b[0]), a[1].max(b[1])],
+    ]
+}
+
 /// Returns the left upper and the right lower corner of the bounding box of a polygon of any shape.
 #[inline(never)]
-fn bounds(frame: &Frame, polygon: &Polygon) -> [Point; 2] {
+fn bounds(frame: &Frame, corners: &[u32]) -> [Point; 2] {
     let (mut least, mut most) = ([i32::MAX; 2], [i32::MIN; 2]);
-    for &corner in frame.corners(polygon) {
+    for &corner in corners {
         let [x, y] = position(&frame.vertices()[corner as usize]);
         least = [least[0].min(x), least[1].min(y)];
         most = [most[0].max(x), most[1].max(y)];

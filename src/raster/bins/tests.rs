@@ -117,21 +117,32 @@ fn triangles_are_distinguished_from_other_polygons() {
 }
 
 #[test]
-fn triangles_are_listed_with_their_corners() {
+fn triangles_are_listed_with_their_corners_and_quadrangles_as_such() {
     let whole = frame(&mut Random::new(33), 400, 50, 40);
     let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
-    let mut triangles = 0;
+    let (mut triangles, mut quadrangles) = (0, 0);
     for frame in [&whole, &pieces] {
         let bins = Bins::new(frame, 8);
         for band in 0..5 {
             for entry in bins.band(band).flatten() {
                 let corners = frame.corners(&frame.polygons()[entry.number as usize]);
                 triangles += usize::from(corners.len() == 3);
-                assert_eq!(entry.corners, *corners.as_array().unwrap_or(&Listed::OTHER));
+                quadrangles += usize::from(corners.len() == 4);
+                let expected = match *corners {
+                    [a, b, c] => [a, b, c],
+                    [_, _, _, _] => Listed::QUADRANGLE,
+                    _ => Listed::OTHER,
+                };
+                assert_eq!(entry.corners, expected);
+                assert_eq!(entry.is_triangle(), corners.len() == 3);
+                assert_eq!(entry.is_quadrangle(), corners.len() == 4);
             }
         }
     }
-    assert!(triangles > 50, "{triangles}");
+    assert!(
+        triangles > 50 && quadrangles > 50,
+        "{triangles}, {quadrangles}"
+    );
 }
 
 /// A polygon is listed in the bands of its bounding box, also over several chunks and in frames of

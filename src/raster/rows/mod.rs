@@ -4,7 +4,8 @@
 //! bin ───────► set up ────────► rasterise ──────────────► G-buffer ─► shade ─► picture
 //! ../bins.rs   triangles.rs     tiny.rs   pixel by pixel  tile.rs     shade.rs
 //!              8 triangles in   small.rs  block by block  16 rows     one call per row,
-//!              the lanes        runs.rs   run by run      of blocks   as long as the material stays
+//!              the lanes        quads.rs  row by row      of blocks   as long as the material stays
+//!                               runs.rs   run by run
 //! ```
 //!
 //! Polygons are binned into bands of 16 scanlines. Those of a band are set up in batches and rasterised, in drawing order, with a
@@ -16,8 +17,9 @@
 //!
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
 //! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles and slivers by the crossings
-//! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Only
-//! slerp Phong and fast Phong with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
+//! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Runs of
+//! small convex quadrangles are found for eight quadrangles at a time, and are the same to the bit. Only slerp Phong and fast Phong
+//! with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
 //!
 //! Who calls whom, for one frame:
 //!
@@ -27,6 +29,7 @@
 //!     fill_tile        a band      with this thread's buffers
 //!       rasterise      a band      compiled for an instruction set (`with_level!`): goes through the band's polygons in order
 //!         triangles    a batch     set-up, coverage and plane equations of up to 32 triangles
+//!         quads        a batch     set-up and runs of up to 8 convex quadrangles
 //!         add_polygon  a polygon   runs of all others, in a queue
 //!         draw_runs    a queue     walks along them, and writes them into the tile
 //!     shade            a row       calls the method's kernel, stretch by stretch
@@ -36,6 +39,7 @@
 //! compiled once per instruction set.
 
 mod packed;
+mod quads;
 mod runs;
 mod shade;
 mod small;
@@ -63,10 +67,11 @@ use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
+use quads::QuadBatch;
 use runs::RunQueue;
 use shade::RowBuffers;
 use small::{RowStarts, SmallTriangle};
-use tile::{MOST, Tile};
+use tile::{MOST, NumberCount, Tile};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, bits};
 
@@ -100,6 +105,7 @@ use with_level;
 struct Buffers {
     tile: Tile,
     batch: Batch,
+    quads: QuadBatch,
     fragments: Fragments,
     starts: RowStarts,
     queue: RunQueue,
@@ -324,10 +330,24 @@ impl<'a> RowEngine<'a> {
                     _ => self.triangles::<S, 0>(simd, rest, rows, buffers),
                 };
             } else {
-                let new = || ActiveEdges::new(self.setup.frame, varyings);
-                let active = active.get_or_insert_with(new);
-                let queue = &mut buffers.queue;
-                queue.add_polygon(&self.setup, active, next.number, rows);
+                let mut is_drawn = false;
+                if next.is_quadrangle() && self.is_planar {
+                    (taken, is_drawn) = match self.cell.count() {
+                        2 => self.quads::<S, 2>(simd, rest, rows, buffers),
+                        5 => self.quads::<S, 5>(simd, rest, rows, buffers),
+                        6 => self.quads::<S, 6>(simd, rest, rows, buffers),
+                        4 => self.quads::<S, 4>(simd, rest, rows, buffers),
+                        _ => self.quads::<S, 0>(simd, rest, rows, buffers),
+                    };
+                }
+                if !is_drawn {
+                    let new = || ActiveEdges::new(self.setup.frame, varyings);
+                    let active = active.get_or_insert_with(new);
+                    for listed in &rest[..taken] {
+                        let queue = &mut buffers.queue;
+                        queue.add_polygon(&self.setup, active, listed.number, rows);
+                    }
+                }
             }
             rest = &rest[taken..];
             if buffers.queue.is_full() {
@@ -368,6 +388,45 @@ impl<'a> RowEngine<'a> {
             },
         );
         taken
+    }
+
+    /// Draws quadrangles from the front of `polygons`, and returns their number and true; or, if the first one is not of those that
+    /// [`QuadBatch`] draws, the number of the polygons that runs must draw, and false.
+    #[inline(never)]
+    fn quads<S: Token, const N: usize>(
+        &self,
+        simd: S,
+        polygons: &[Listed],
+        rows: &Range<usize>,
+        buffers: &mut Buffers,
+    ) -> (usize, bool) {
+        let (frame, count) = (self.setup.frame, NumberCount::<N>(self.cell.count()));
+        let taken = buffers.quads.gather(frame, polygons);
+        vectorize(
+            simd,
+            #[inline(always)]
+            || {
+                let (m, width) = (Lanes(simd), frame.width());
+                let bounded = buffers.quads.bound(m, width, rows);
+                let others = bounded.others;
+                if others & 1 == 1 {
+                    return (others.trailing_ones() as usize, false);
+                }
+                // Quadrangles are drawn at once: runs from before them come first.
+                self.draw_runs(simd, buffers);
+                let taken = taken.min(others.trailing_zeros() as usize);
+                let drawn = bounded.drawn & ((1 << taken) - 1);
+                let Buffers { quads, tile, .. } = buffers;
+                quads.read::<N>(&self.setup, self.cell, drawn);
+                quads.find_runs(m, &bounded, (width, rows), count);
+                tile.extend(bounded.blocks());
+                let writer = &mut tile.writer::<S, N>(m, self.test);
+                for k in bits(drawn) {
+                    quads.draw(m, k, rows.start, writer);
+                }
+                (taken, true)
+            },
+        )
     }
 
     /// Draws the runs that were found.

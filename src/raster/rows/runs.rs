@@ -16,9 +16,9 @@ use fearless_simd::{Simd, f32x8, i32x8};
 
 /// The place of a run: its row in the tile, depth at its first pixel and its growth.
 #[derive(Clone, Copy, Debug)]
-struct RunPlace {
-    row: usize,
-    depth: [f32; 2],
+pub(super) struct RunPlace {
+    pub row: usize,
+    pub depth: [f32; 2],
 }
 
 /// Runs that wait to be walked along, all of them by one call.
@@ -176,7 +176,7 @@ fn pixels_of(run: &Run) -> Range<usize> {
 
 /// Draws a run. `number` returns each number but depth, at the block that begins `x` pixels after the run's first one.
 #[inline(always)]
-fn draw_run<S: Simd, const N: usize>(
+pub(super) fn draw_run<S: Simd, const N: usize>(
     m: Lanes<S>,
     (RunPlace { row, depth }, pixels): (RunPlace, Range<usize>),
     writer: &mut Writer<'_, S, N>,

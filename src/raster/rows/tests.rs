@@ -456,3 +456,139 @@ fn stretches_have_the_uniforms_of_their_pixels() {
         assert!(most > 20, "{most} stretches");
     }
 }
+
+/// Quadrangles of all sizes and shapes, in and out of the picture, half of them on a grid of half-pixels: most of them
+/// parallelograms that are bent a little, others of four corners anywhere. Some have a corner twice.
+fn quadrangles(random: &mut Random, [width, height]: [usize; 2], lights: usize) -> Frame {
+    let mut builder = FrameBuilder::new(width as u32, height as u32);
+    let lights = vec![Light::directional(DVec3::new(0.3, 0.5, 0.8), [0.7; 3]); lights];
+    let materials = [0.25, 0.5].map(|red| {
+        let ambient = [red, 0.1, 0.2];
+        let colour = Material {
+            ambient,
+            ..Material::default()
+        };
+        builder.lighting(Lighting::new(&colour, [1.0; 3], &lights, DVec3::Z))
+    });
+    let reaches = [3, 8, 20, 60, 127, 140, 20_000];
+    for number in 0..200 {
+        let grid = [1, 128][random.below(2) as usize];
+        let reach = reaches[random.below(reaches.len() as u64) as usize] * 256 / grid;
+        let mut within = |reach: i32| (random.below(reach as u64 + 1) as i32 - reach / 2) * grid;
+        let [u, v] = [(); 2].map(|()| [within(reach) / 2, within(reach) / 2]);
+        let bent = [(); 4].map(|()| [within(reach / 8), within(reach / 8)]);
+        let mut corners = [0, 1, 2, 3].map(|i: usize| {
+            let [p, q] = [[-1, -1], [1, -1], [1, 1], [-1, 1]][i];
+            [0, 1].map(|axis| p * u[axis] + q * v[axis] + bent[i][axis])
+        });
+        if random.below(3) == 0 {
+            let mut within = || (random.below(reach as u64 + 1) as i32 - reach / 2) * grid;
+            corners = [(); 4].map(|()| [within(), within()]);
+        }
+        if random.below(8) == 0 {
+            corners[random.below(4) as usize] = corners[random.below(4) as usize];
+        }
+        let middle =
+            [width, height].map(|side| random.below(side as u64 * 256) as i32 / grid * grid);
+        let material = materials[random.below(2) as usize];
+        let corners = corners.map(|place| {
+            let [x, y] = [0, 1].map(|axis| SubPixel::from_bits(middle[axis] + place[axis]));
+            let mut number = || random.below(1 << 20) as f64 / (1 << 20) as f64;
+            let (depth, normal) = (number() as f32, [number(), number(), number() + 0.1]);
+            let normal = DVec3::from_array(normal).normalize().as_vec3().to_array();
+            builder.vertex(Vertex {
+                x,
+                y,
+                depth,
+                inv_w: 1.0,
+                normal,
+                material,
+            })
+        });
+        builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+    }
+    builder.finish().expect("corners inside the guard band")
+}
+
+/// Draws `frame` band by band, once as the engine does it and once run by run, and compares all numbers of the tiles.
+fn assert_runs(variant: &Variant, engine: &RowEngine<'_>, bins: &Bins) {
+    let (frame, mut eight, mut runs) = (engine.setup.frame, Buffers::default(), Buffers::default());
+    for (number, first) in (0..frame.height()).step_by(HEIGHT).enumerate() {
+        let band = first..(first + HEIGHT).min(frame.height());
+        engine.fill_tile(bins, (number, &band), &mut eight);
+        runs.tile.prepare(HEIGHT, frame.width(), engine.cell);
+        runs.queue.prepare(engine.setup.varyings.count);
+        let active = &mut ActiveEdges::new(frame, &engine.setup.varyings);
+        for listed in bins.band(number).flatten() {
+            let queue = &mut runs.queue;
+            queue.add_polygon(&engine.setup, active, listed.number, &band);
+            with_level!(engine.level, S => engine.draw_runs(S::get(), &mut runs));
+        }
+        let (seen, all) = (eight.tile.drawn(), runs.tile.drawn());
+        let is_whole = seen.start <= all.start && seen.end >= all.end;
+        assert!(is_whole || all.is_empty(), "{seen:?}: {all:?} are drawn");
+        for row in 0..band.len() {
+            let bits = |buffers: &Buffers| -> Vec<u32> {
+                let blocks = 0..frame.width().div_ceil(BLOCK);
+                let numbers = buffers.tile.row(row, blocks).iter();
+                numbers.map(|number| number.to_bits()).collect()
+            };
+            let row = first + row;
+            assert!(
+                bits(&eight) == bits(&runs),
+                "{variant}, {:?}, row {row}",
+                engine.level
+            );
+        }
+        for row in 0..band.len() {
+            eight.tile.clear_row(row);
+            runs.tile.clear_row(row);
+        }
+    }
+}
+
+/// Quadrangles that are drawn eight at a time leave the bits in a tile that they leave run by run.
+#[test]
+fn quadrangles_are_those_of_runs() {
+    let mut random = Random::new(37);
+    let (mut drawn, mut others, mut counts) = (0, 0, Vec::new());
+    for (round, level) in (0..10).flat_map(|round| levels().map(move |level| (round, level))) {
+        let size = [150, 90].map(|most| 1 + random.below(most) as usize);
+        let frame = quadrangles(&mut random, size, [1, 8][round % 2]);
+        let bins = Bins::new(&frame, HEIGHT);
+        for entry in METHODS {
+            let variant = entry.variant();
+            if variant.plan(&frame, Renderer::Row(level)).renderer() != Some(Renderer::Row(level)) {
+                continue;
+            }
+            let mut engine = RowEngine::new(&variant, &frame, level, 1.0, vec![]).expect("loops");
+            if engine.is_planar {
+                counts.push(engine.cell.count());
+                assert_runs(&variant, &engine, &bins);
+            }
+            engine.pack(vec![]);
+            if engine.is_packed {
+                counts.push(engine.cell.count());
+                assert_runs(&variant, &engine, &bins);
+            }
+        }
+        for number in 0..frame.height().div_ceil(HEIGHT) {
+            let rows = number * HEIGHT..frame.height().min((number + 1) * HEIGHT);
+            let polygons: Vec<Listed> = bins.band(number).flatten().copied().collect();
+            for eight in polygons.chunks(BLOCK) {
+                let mut quads = QuadBatch::default();
+                assert_eq!(quads.gather(&frame, eight), eight.len());
+                let (here, left) = with_level!(level, S => {
+                    let bounded = quads.bound(Lanes(S::get()), frame.width(), &rows);
+                    (bounded.drawn, bounded.others)
+                });
+                assert_eq!(here & left, 0, "each is drawn once");
+                drawn += here.count_ones();
+                others += left.count_ones();
+            }
+        }
+    }
+    assert!(drawn > 2000 && others > 1000, "{drawn} and {others}");
+    let has = |count: &usize| counts.contains(count);
+    assert!([2, 4, 5, 7, 14].iter().all(has), "{counts:?}");
+}
