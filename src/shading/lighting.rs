@@ -485,6 +485,48 @@ impl<'a, F: Num> Lit<'a, F> {
         (j, n.dot(self.view())) // K = V · N
     }
 
+    /// Returns the unit vectors L toward a light and H half-way to the eye, of a light and an eye at infinity.
+    #[inline(always)]
+    pub(super) fn light_and_half(&self, index: usize) -> [Vec3<f32>; 2] {
+        let light = &self.stored[index];
+        let to = vector(light.place);
+        [to, (to + vector(self.model.eye)) * light.half] // h = (e + l) / |e + l|
+    }
+
+    /// Returns the products of `n` with L and with H of each light, of lights and an eye at infinity.
+    ///
+    /// ```text
+    /// J = L·N,   M = H·N
+    /// ```
+    #[inline(always)]
+    pub(super) fn half_products<const L: usize>(
+        &self,
+        n: Vec3<F>,
+    ) -> (PerLight<F, L>, PerLight<F, L>) {
+        let none = PerLight::new(self.stored.len(), n.x);
+        let (mut j, mut m) = (none, none);
+        for index in 0..self.stored.len() {
+            let [to, half] = self.light_and_half(index);
+            j.values[index] = n.dot(to.broadcast(n.x)); // J = L · N
+            m.values[index] = n.dot(half.broadcast(n.x)); // M = H · N
+        }
+        (j, m)
+    }
+
+    /// Returns the colour of a surface from the products J and M of its unit normal.
+    #[inline(always)]
+    pub(super) fn shade_half_products<const L: usize>(
+        &self,
+        (j, m): (PerLight<F, L>, PerLight<F, L>),
+    ) -> Vec3<F> {
+        let mut colour = self.ambient();
+        for light in self.lights() {
+            let (l_n, n_h) = (j.values[light.index], m.values[light.index]);
+            colour = self.add(colour, &light, l_n, n_h);
+        }
+        colour
+    }
+
     /// Returns `I_a k_a`.
     #[inline(always)]
     pub fn ambient(&self) -> Vec3<F> {

@@ -48,6 +48,8 @@ pub const SLERP_PHONG: &Entry = named("slerp-phong");
 pub const SLERP_CHEBYSHEV: &Entry = named("slerp-chebyshev");
 /// Normals along great circles, as vectors.
 pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
+/// Duff's forward differences with N·H.
+pub const DUFF_HALF: &Entry = named("duff-half");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

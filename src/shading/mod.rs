@@ -41,6 +41,7 @@ mod biquadratic_normals;
 mod bishop_weimer;
 mod cubic_phong;
 mod difference_vector;
+mod duff_half;
 mod duff_newton;
 mod duff_phong;
 mod fast_phong;

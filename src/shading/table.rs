@@ -6,6 +6,7 @@ use super::bishop_weimer::BishopWeimer;
 use super::count::{CountedSpan, count};
 use super::cubic_phong::CubicPhong;
 use super::difference_vector::DifferenceVector;
+use super::duff_half::DuffHalf;
 use super::duff_newton::DuffNewton;
 use super::duff_phong::{DuffPhong, DuffPhongLocal};
 use super::fast_phong::FastPhong;
@@ -73,6 +74,7 @@ pub static METHODS: &[Entry] = &[
     Entry::by_lights::<SlerpChebyshev<1>, SlerpChebyshev<4>, SlerpChebyshev<8>, SlerpChebyshev<64>>(
     ),
     Entry::of::<SlerpPhongVector>(),
+    Entry::by_lights::<DuffHalf<1>, DuffHalf<4>, DuffHalf<8>, DuffHalf<64>>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

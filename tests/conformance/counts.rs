@@ -432,6 +432,19 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: rotation() + weighted_normal(),
             shade: lit,
         },
+        // As Duff's method, with M = N·H of each light in place of K: no product of J and K, which a highlight takes.
+        "duff-half" => {
+            let numbers = 2 * lights + 3;
+            ByHand {
+                vertex: 2 * lights * DOT,
+                polygon: NONE,
+                edge: numbers * ramp(),
+                edge_step: numbers * ADD,
+                span: numbers * ramp() + 3 * DOT + ADD + 2 * ADD,
+                walk: 2 * lights * ADD + 2 * ADD,
+                shade: ROOT + DIVIDE + lights * (2 * MULTIPLY + light()),
+            }
+        }
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }

@@ -1,0 +1,52 @@
+//! Checks the methods that interpolate angles, or by another chart of the sphere, against their own formulas, evaluated in `f64` one pixel
+//! at a time; and those beside them that light Phong's normals in another way.
+
+use super::lecture::{LIGHT, TOLERANCE, VIEW, WIDTH, intensity, lighting, pairs, strip_lit};
+use fastphong::scene::{Lighting, SpecularModel};
+use fastphong::shading::Variant;
+use glam::DVec3;
+
+/// Draws strips by a method under one kind of highlights and compares their pixels with a formula of both normals and t.
+#[track_caller]
+fn check(
+    specular: SpecularModel,
+    variant: &str,
+    tolerance: f64,
+    formula: impl Fn(DVec3, DVec3, f64) -> f64,
+) {
+    let variant = Variant::parse(variant).expect("a method");
+    for (n1, n2) in pairs() {
+        let lighting = Lighting {
+            specular,
+            ..lighting()
+        };
+        let picture = variant.render_linear(&strip_lit(lighting, n1, n2));
+        for row in 0..4 {
+            for (column, pixel) in picture.row(row).iter().enumerate() {
+                let t = (column as f64 + 0.5) / f64::from(WIDTH);
+                let (found, expected) = (f64::from(pixel[0]), formula(n1, n2, t).min(1.0));
+                assert!(
+                    (found - expected).abs() < tolerance,
+                    "{variant} at {column}, {row}: {found} instead of {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// Evaluates (2.1) with N·H, from a unit normal.
+fn lit_half(n: DVec3) -> f64 {
+    intensity(LIGHT.dot(n), n.dot((LIGHT + VIEW).normalize()))
+}
+
+/// Returns Phong's normal.
+fn lerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
+    n1.lerp(n2, t).normalize()
+}
+
+/// Forward differences of N·H are N·H.
+#[test]
+fn duff_with_half_vectors_is_phong_with_half_vectors() {
+    let formula = |n1, n2, t| lit_half(lerp(n1, n2, t));
+    check(SpecularModel::Blinn, "duff-half", TOLERANCE, formula);
+}
