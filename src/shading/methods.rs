@@ -50,6 +50,8 @@ pub const SLERP_CHEBYSHEV: &Entry = named("slerp-chebyshev");
 pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
 /// Duff's forward differences with N·H.
 pub const DUFF_HALF: &Entry = named("duff-half");
+/// Phong shading in the frame of eye and first light.
+pub const EYE_FRAME_PHONG: &Entry = named("eye-frame-phong");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

@@ -44,6 +44,7 @@ mod difference_vector;
 mod duff_half;
 mod duff_newton;
 mod duff_phong;
+mod eye_frame_phong;
 mod fast_phong;
 mod fast_phong_rsqrt;
 mod flat;

@@ -9,6 +9,7 @@ use super::difference_vector::DifferenceVector;
 use super::duff_half::DuffHalf;
 use super::duff_newton::DuffNewton;
 use super::duff_phong::{DuffPhong, DuffPhongLocal};
+use super::eye_frame_phong::EyeFramePhong;
 use super::fast_phong::FastPhong;
 use super::flat::Flat;
 use super::flat_average::FLAT_AVERAGE;
@@ -75,6 +76,7 @@ pub static METHODS: &[Entry] = &[
     ),
     Entry::of::<SlerpPhongVector>(),
     Entry::by_lights::<DuffHalf<1>, DuffHalf<4>, DuffHalf<8>, DuffHalf<64>>(),
+    Entry::of::<EyeFramePhong>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

@@ -34,6 +34,12 @@ fn check(
     }
 }
 
+/// Evaluates (2.1) as printed, from a normal.
+fn lit(n: DVec3) -> f64 {
+    let r = 2.0 * LIGHT.dot(n) * n - LIGHT;
+    intensity(LIGHT.dot(n), r.dot(VIEW))
+}
+
 /// Evaluates (2.1) with N·H, from a unit normal.
 fn lit_half(n: DVec3) -> f64 {
     intensity(LIGHT.dot(n), n.dot((LIGHT + VIEW).normalize()))
@@ -42,6 +48,17 @@ fn lit_half(n: DVec3) -> f64 {
 /// Returns Phong's normal.
 fn lerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
     n1.lerp(n2, t).normalize()
+}
+
+/// In any frame the picture is Phong's.
+#[test]
+fn phong_in_the_frame_of_the_eye_is_phong() {
+    check(
+        SpecularModel::Phong,
+        "eye-frame-phong",
+        TOLERANCE,
+        |n1, n2, t| lit(lerp(n1, n2, t)),
+    );
 }
 
 /// Forward differences of N·H are N·H.

@@ -131,6 +131,14 @@ struct ByHand {
     shade: Ops,
 }
 
+impl ByHand {
+    /// Takes operations from those of a pixel's shading.
+    fn less(mut self, ops: Ops) -> ByHand {
+        self.shade = Ops(std::array::from_fn(|i| self.shade.0[i] - ops.0[i]));
+        self
+    }
+}
+
 /// Returns the hand count of a method with default parameters.
 fn by_hand(method: &str, lights: u32) -> ByHand {
     let lit = lights * lit_from_normal();
@@ -444,6 +452,18 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 walk: 2 * lights * ADD + 2 * ADD,
                 shade: ROOT + DIVIDE + lights * (2 * MULTIPLY + light()),
             }
+        }
+        // A vertex turns its normal into the frame of eye and first light. There K is a component, and J of the first light has two
+        // products.
+        "eye-frame-phong" => {
+            let phong = by_hand("phong-rsqrt", lights);
+            let products = lights * DOT + (lights + 1) * MULTIPLY;
+            ByHand {
+                vertex: 3 * DOT,
+                shade: DOT + ROOT + DIVIDE + products + lights * (highlight() + light()),
+                ..phong
+            }
+            .less(MULTIPLY + ADD)
         }
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
