@@ -52,6 +52,9 @@ pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
 pub const DUFF_HALF: &Entry = named("duff-half");
 /// Phong shading in the frame of eye and first light.
 pub const EYE_FRAME_PHONG: &Entry = named("eye-frame-phong");
+/// Normals, interpolated and not normalised.
+#[doc(hidden)] // an exhibit
+pub const PHONG_UNNORMALISED: &Entry = named("phong-unnormalised");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

@@ -62,6 +62,7 @@ mod integer_slerp;
 mod integers;
 mod naive_phong;
 mod phong_rsqrt;
+mod phong_unnormalised;
 mod planes;
 mod quadratic_normals;
 mod quadratic_products;

@@ -18,6 +18,7 @@ use super::gouraud_separate::GouraudSeparate;
 use super::h_test::HTest;
 use super::naive_phong::NaivePhong;
 use super::phong_rsqrt::PhongRsqrt;
+use super::phong_unnormalised::PhongUnnormalised;
 use super::quadratic_normals::QuadraticNormals;
 use super::series_phong::SeriesPhong;
 use super::six_point::SixPoint;
@@ -77,6 +78,7 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<SlerpPhongVector>(),
     Entry::by_lights::<DuffHalf<1>, DuffHalf<4>, DuffHalf<8>, DuffHalf<64>>(),
     Entry::of::<EyeFramePhong>(),
+    Entry::of::<PhongUnnormalised>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

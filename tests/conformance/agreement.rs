@@ -263,7 +263,8 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
             "gouraud-separate",
             "naive-phong",
             "phong-rsqrt",
-            "eye-frame-phong"
+            "eye-frame-phong",
+            "phong-unnormalised"
         ]
     );
 }

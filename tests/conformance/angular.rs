@@ -67,3 +67,14 @@ fn duff_with_half_vectors_is_phong_with_half_vectors() {
     let formula = |n1, n2, t| lit_half(lerp(n1, n2, t));
     check(SpecularModel::Blinn, "duff-half", TOLERANCE, formula);
 }
+
+/// CS171, Algorithm 7, as printed: the interpolated normal is lit as it is.
+#[test]
+fn unnormalised_phong_lights_short_normals() {
+    check(
+        SpecularModel::Phong,
+        "phong-unnormalised",
+        TOLERANCE,
+        |n1, n2, t| lit(n1.lerp(n2, t)),
+    );
+}

@@ -465,6 +465,11 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             }
             .less(MULTIPLY + ADD)
         }
+        // As naive Phong with J and K, without a root.
+        "phong-unnormalised" => ByHand {
+            shade: (lights + 1) * DOT + lights * (highlight() + light()),
+            ..by_hand("phong-rsqrt", lights)
+        },
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }
