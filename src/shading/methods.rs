@@ -55,6 +55,8 @@ pub const EYE_FRAME_PHONG: &Entry = named("eye-frame-phong");
 /// Normals, interpolated and not normalised.
 #[doc(hidden)] // an exhibit
 pub const PHONG_UNNORMALISED: &Entry = named("phong-unnormalised");
+/// Normals along great circles with N·H, by Chebyshev's recurrence.
+pub const SLERP_HALF: &Entry = named("slerp-half");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

@@ -69,6 +69,7 @@ mod quadratic_products;
 mod series_phong;
 mod six_point;
 mod slerp_chebyshev;
+mod slerp_half;
 mod slerp_phong;
 mod slerp_phong_vector;
 

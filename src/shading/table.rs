@@ -23,6 +23,7 @@ use super::quadratic_normals::QuadraticNormals;
 use super::series_phong::SeriesPhong;
 use super::six_point::SixPoint;
 use super::slerp_chebyshev::SlerpChebyshev;
+use super::slerp_half::SlerpHalf;
 use super::slerp_phong::SlerpPhong;
 use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
@@ -79,6 +80,7 @@ pub static METHODS: &[Entry] = &[
     Entry::by_lights::<DuffHalf<1>, DuffHalf<4>, DuffHalf<8>, DuffHalf<64>>(),
     Entry::of::<EyeFramePhong>(),
     Entry::of::<PhongUnnormalised>(),
+    Entry::by_lights::<SlerpHalf<1>, SlerpHalf<4>, SlerpHalf<8>, SlerpHalf<64>>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

@@ -108,7 +108,7 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
     });
     let mut failures = Vec::new();
     for case in &by_half_vectors {
-        for name in ["duff-half"] {
+        for name in ["duff-half", "slerp-half"] {
             let drawing = Drawing {
                 case,
                 variant: Variant::parse(name).expect("a method"),

@@ -40,6 +40,12 @@ fn lit(n: DVec3) -> f64 {
     intensity(LIGHT.dot(n), r.dot(VIEW))
 }
 
+/// Evaluates (4.7).
+fn slerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
+    let phi = n1.angle_between(n2);
+    (((1.0 - t) * phi).sin() * n1 + (t * phi).sin() * n2) / phi.sin()
+}
+
 /// Evaluates (2.1) with N·H, from a unit normal.
 fn lit_half(n: DVec3) -> f64 {
     intensity(LIGHT.dot(n), n.dot((LIGHT + VIEW).normalize()))
@@ -66,6 +72,13 @@ fn phong_in_the_frame_of_the_eye_is_phong() {
 fn duff_with_half_vectors_is_phong_with_half_vectors() {
     let formula = |n1, n2, t| lit_half(lerp(n1, n2, t));
     check(SpecularModel::Blinn, "duff-half", TOLERANCE, formula);
+}
+
+/// N·H along the great circle (4.7).
+#[test]
+fn slerp_with_half_vectors_follows_the_great_circle() {
+    let formula = |n1, n2, t| lit_half(slerp(n1, n2, t));
+    check(SpecularModel::Blinn, "slerp-half", TOLERANCE, formula);
 }
 
 /// CS171, Algorithm 7, as printed: the interpolated normal is lit as it is.

@@ -470,6 +470,16 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             shade: (lights + 1) * DOT + lights * (highlight() + light()),
             ..by_hand("phong-rsqrt", lights)
         },
+        // As slerp-chebyshev, with M = N·H of each light in place of K. The first ΔN and N are followed in 2 products a light.
+        "slerp-half" => {
+            let slerp = by_hand("slerp-chebyshev", lights);
+            ByHand {
+                span: slerp.span + 2 * (lights - 1) * DOT,
+                walk: 2 * lights * (MULTIPLY + 2 * ADD),
+                shade: lights * light(),
+                ..slerp
+            }
+        }
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }
