@@ -57,6 +57,8 @@ pub const EYE_FRAME_PHONG: &Entry = named("eye-frame-phong");
 pub const PHONG_UNNORMALISED: &Entry = named("phong-unnormalised");
 /// Normals along great circles with N·H, by Chebyshev's recurrence.
 pub const SLERP_HALF: &Entry = named("slerp-half");
+/// Normals through a stereographic chart around the eye.
+pub const STEREOGRAPHIC_PHONG: &Entry = named("stereographic-phong");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

@@ -44,6 +44,7 @@ mod difference_vector;
 mod duff_half;
 mod duff_newton;
 mod duff_phong;
+mod eye_chart;
 mod eye_frame_phong;
 mod fast_phong;
 mod fast_phong_rsqrt;
@@ -72,6 +73,7 @@ mod slerp_chebyshev;
 mod slerp_half;
 mod slerp_phong;
 mod slerp_phong_vector;
+mod stereographic_phong;
 
 pub use bound::{Roundings, Stepped};
 #[cfg(feature = "simd")]

@@ -27,6 +27,7 @@ use super::slerp_half::SlerpHalf;
 use super::slerp_phong::SlerpPhong;
 use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
+use super::stereographic_phong::StereographicPhong;
 use super::{Extras, Info, Kernels, LitAt, Local, Perspective, Shader, Variant};
 use super::{
     integer_fast, integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed,
@@ -81,6 +82,7 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<EyeFramePhong>(),
     Entry::of::<PhongUnnormalised>(),
     Entry::by_lights::<SlerpHalf<1>, SlerpHalf<4>, SlerpHalf<8>, SlerpHalf<64>>(),
+    Entry::of::<StereographicPhong>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

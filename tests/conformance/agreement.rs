@@ -264,7 +264,8 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
             "naive-phong",
             "phong-rsqrt",
             "eye-frame-phong",
-            "phong-unnormalised"
+            "phong-unnormalised",
+            "stereographic-phong"
         ]
     );
 }

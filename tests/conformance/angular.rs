@@ -91,3 +91,20 @@ fn unnormalised_phong_lights_short_normals() {
         |n1, n2, t| lit(n1.lerp(n2, t)),
     );
 }
+
+/// The point of the stereographic chart is interpolated. Its walk steps two numbers, and N moves twice as far as they.
+#[test]
+fn stereographic_phong_interpolates_points_of_the_chart() {
+    let formula = |n1: DVec3, n2: DVec3, t: f64| {
+        let point = |n: DVec3| n.truncate() / (1.0 + n.z);
+        let u = point(n1).lerp(point(n2), t);
+        let square = u.length_squared();
+        lit((2.0 * u).extend(1.0 - square) / (1.0 + square))
+    };
+    check(
+        SpecularModel::Phong,
+        "stereographic-phong",
+        2.0 * TOLERANCE,
+        formula,
+    );
+}

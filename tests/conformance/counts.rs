@@ -480,6 +480,21 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..slerp
             }
         }
+        // A vertex turns its normal and divides by 1 + z. A pixel takes u² + v² + 1 and a quotient once, K by a difference, and J of each
+        // light by two products and sums, and one more.
+        "stereographic-phong" => ByHand {
+            vertex: 3 * DOT + ADD + DIVIDE + 2 * MULTIPLY,
+            polygon: NONE,
+            edge: 2 * ramp(),
+            edge_step: 2 * ADD,
+            span: 2 * ramp(),
+            walk: 2 * ADD,
+            shade: 2 * MULTIPLY
+                + 2 * ADD
+                + DIVIDE
+                + ADD
+                + lights * (3 * (MULTIPLY + ADD) + highlight() + light()),
+        },
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }
