@@ -59,6 +59,8 @@ pub const PHONG_UNNORMALISED: &Entry = named("phong-unnormalised");
 pub const SLERP_HALF: &Entry = named("slerp-half");
 /// Normals through a stereographic chart around the eye.
 pub const STEREOGRAPHIC_PHONG: &Entry = named("stereographic-phong");
+/// Quaternions that turn the eye's direction into the normal.
+pub const QUATERNION_PHONG: &Entry = named("quaternion-phong");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

@@ -67,6 +67,7 @@ mod phong_unnormalised;
 mod planes;
 mod quadratic_normals;
 mod quadratic_products;
+mod quaternion_phong;
 mod series_phong;
 mod six_point;
 mod slerp_chebyshev;

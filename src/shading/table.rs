@@ -20,6 +20,7 @@ use super::naive_phong::NaivePhong;
 use super::phong_rsqrt::PhongRsqrt;
 use super::phong_unnormalised::PhongUnnormalised;
 use super::quadratic_normals::QuadraticNormals;
+use super::quaternion_phong::QuaternionPhong;
 use super::series_phong::SeriesPhong;
 use super::six_point::SixPoint;
 use super::slerp_chebyshev::SlerpChebyshev;
@@ -83,6 +84,7 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<PhongUnnormalised>(),
     Entry::by_lights::<SlerpHalf<1>, SlerpHalf<4>, SlerpHalf<8>, SlerpHalf<64>>(),
     Entry::of::<StereographicPhong>(),
+    Entry::of::<QuaternionPhong>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

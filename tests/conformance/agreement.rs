@@ -265,7 +265,8 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
             "phong-rsqrt",
             "eye-frame-phong",
             "phong-unnormalised",
-            "stereographic-phong"
+            "stereographic-phong",
+            "quaternion-phong"
         ]
     );
 }

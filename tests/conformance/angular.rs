@@ -4,7 +4,7 @@
 use super::lecture::{LIGHT, TOLERANCE, VIEW, WIDTH, intensity, lighting, pairs, strip_lit};
 use fastphong::scene::{Lighting, SpecularModel};
 use fastphong::shading::Variant;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// Draws strips by a method under one kind of highlights and compares their pixels with a formula of both normals and t.
 #[track_caller]
@@ -104,6 +104,23 @@ fn stereographic_phong_interpolates_points_of_the_chart() {
     check(
         SpecularModel::Phong,
         "stereographic-phong",
+        2.0 * TOLERANCE,
+        formula,
+    );
+}
+
+/// Quaternions of the least turns from the eye's direction are interpolated as such, and turn it into the normal. N turns by twice
+/// as much as they.
+#[test]
+fn quaternion_phong_interpolates_turns() {
+    let formula = |n1: DVec3, n2: DVec3, t: f64| {
+        let turn = |n| DQuat::from_rotation_arc(DVec3::Z, n);
+        let (q1, q2) = (turn(n1), turn(n2));
+        lit((q1 * (1.0 - t) + q2 * t).normalize() * DVec3::Z)
+    };
+    check(
+        SpecularModel::Phong,
+        "quaternion-phong",
         2.0 * TOLERANCE,
         formula,
     );

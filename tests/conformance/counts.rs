@@ -495,6 +495,19 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 + ADD
                 + lights * (3 * (MULTIPLY + ADD) + highlight() + light()),
         },
+        // A vertex turns its normal, adds 1 to z and normalises. A pixel takes m·m, 2 m_z over it, and K by a product and a difference;
+        // J of each light by a product with m (the first light has no y), and one more.
+        "quaternion-phong" => ByHand {
+            vertex: 3 * DOT + ADD + DOT + ROOT + DIVIDE + 3 * MULTIPLY,
+            shade: DOT
+                + ADD
+                + DIVIDE
+                + MULTIPLY
+                + ADD
+                + lights * (DOT + MULTIPLY + ADD + highlight() + light()),
+            ..by_hand("phong-rsqrt", lights)
+        }
+        .less(MULTIPLY + ADD),
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }
