@@ -61,6 +61,8 @@ pub const SLERP_HALF: &Entry = named("slerp-half");
 pub const STEREOGRAPHIC_PHONG: &Entry = named("stereographic-phong");
 /// Quaternions that turn the eye's direction into the normal.
 pub const QUATERNION_PHONG: &Entry = named("quaternion-phong");
+/// The first normal of a span, reflected in a vector half-way.
+pub const HALF_REFLECTION: &Entry = named("half-reflection");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

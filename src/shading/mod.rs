@@ -53,6 +53,7 @@ mod flat_average;
 mod gouraud;
 mod gouraud_separate;
 mod h_test;
+mod half_reflection;
 mod integer_fast;
 mod integer_fast_printed;
 mod integer_gouraud;

@@ -16,6 +16,7 @@ use super::flat_average::FLAT_AVERAGE;
 use super::gouraud::Gouraud;
 use super::gouraud_separate::GouraudSeparate;
 use super::h_test::HTest;
+use super::half_reflection::HalfReflection;
 use super::naive_phong::NaivePhong;
 use super::phong_rsqrt::PhongRsqrt;
 use super::phong_unnormalised::PhongUnnormalised;
@@ -85,6 +86,8 @@ pub static METHODS: &[Entry] = &[
     Entry::by_lights::<SlerpHalf<1>, SlerpHalf<4>, SlerpHalf<8>, SlerpHalf<64>>(),
     Entry::of::<StereographicPhong>(),
     Entry::of::<QuaternionPhong>(),
+    Entry::by_lights::<HalfReflection<1>, HalfReflection<4>, HalfReflection<8>, HalfReflection<64>>(
+    ),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

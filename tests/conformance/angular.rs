@@ -125,3 +125,19 @@ fn quaternion_phong_interpolates_turns() {
         formula,
     );
 }
+
+/// Half-reflection turns by twice the angle of a line to the bisector, and doubles errors as often.
+#[test]
+fn half_reflection_reflects_the_first_normal() {
+    let formula = |n1: DVec3, n2: DVec3, t: f64| {
+        let half = n1.dot(n2).acos() / 2.0;
+        let angle = 2.0 * (t * half.sin()).atan2(1.0 - t + t * half.cos());
+        lit(slerp(n1, n2, angle / (2.0 * half)))
+    };
+    check(
+        SpecularModel::Phong,
+        "half-reflection",
+        2.0 * TOLERANCE,
+        formula,
+    );
+}

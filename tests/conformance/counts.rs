@@ -508,6 +508,25 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             ..by_hand("phong-rsqrt", lights)
         }
         .less(MULTIPLY + ADD),
+        // A span normalises its ends, and the sum of these, times the length of the last. M and its growth follow, with their products, and
+        // those of the first normal. A pixel takes q by a sum and a quotient, and J of each light and K by a product and a difference.
+        "half-reflection" => {
+            let unit = DOT + ROOT + DIVIDE + 3 * MULTIPLY;
+            let turned = 2 * unit + 3 * ADD + unit + DOT + 3 * MULTIPLY;
+            let along = 3 * ADD + 3 * (MULTIPLY + ADD) + 3 * MULTIPLY;
+            let square = 3 * DOT + ADD + 2 * ADD;
+            ByHand {
+                span: turned + along + 2 * DOT + square + 3 * (lights + 1) * DOT,
+                walk: ADD
+                    + 2 * ADD
+                    + (lights + 1) * ADD
+                    + ADD
+                    + DIVIDE
+                    + (lights + 1) * (MULTIPLY + ADD),
+                shade: lights * (highlight() + light()),
+                ..by_hand("naive-phong", lights)
+            }
+        }
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }
