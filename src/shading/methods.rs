@@ -63,6 +63,9 @@ pub const STEREOGRAPHIC_PHONG: &Entry = named("stereographic-phong");
 pub const QUATERNION_PHONG: &Entry = named("quaternion-phong");
 /// The first normal of a span, reflected in a vector half-way.
 pub const HALF_REFLECTION: &Entry = named("half-reflection");
+/// A picture of a lit ball, read at the x and y of the normal.
+#[doc(hidden)] // an exhibit
+pub const PHONG_MAP: &Entry = named("phong-map");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

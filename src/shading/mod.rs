@@ -63,6 +63,7 @@ mod integer_quadratic;
 mod integer_slerp;
 mod integers;
 mod naive_phong;
+mod phong_map;
 mod phong_rsqrt;
 mod phong_unnormalised;
 mod planes;

@@ -18,6 +18,7 @@ use super::gouraud_separate::GouraudSeparate;
 use super::h_test::HTest;
 use super::half_reflection::HalfReflection;
 use super::naive_phong::NaivePhong;
+use super::phong_map::PhongMap;
 use super::phong_rsqrt::PhongRsqrt;
 use super::phong_unnormalised::PhongUnnormalised;
 use super::quadratic_normals::QuadraticNormals;
@@ -88,6 +89,7 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<QuaternionPhong>(),
     Entry::by_lights::<HalfReflection<1>, HalfReflection<4>, HalfReflection<8>, HalfReflection<64>>(
     ),
+    Entry::of::<PhongMap>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

@@ -266,7 +266,8 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
             "eye-frame-phong",
             "phong-unnormalised",
             "stereographic-phong",
-            "quaternion-phong"
+            "quaternion-phong",
+            "phong-map"
         ]
     );
 }

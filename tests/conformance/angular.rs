@@ -141,3 +141,15 @@ fn half_reflection_reflects_the_first_normal() {
         formula,
     );
 }
+
+/// A Phong map interpolates x and y. Its z is 0.34 at least here, by which errors of x and y are divided.
+#[test]
+fn phong_maps_interpolate_x_and_y() {
+    let formula = |n1: DVec3, n2: DVec3, t: f64| {
+        let n = n1.lerp(n2, t);
+        lit(n
+            .truncate()
+            .extend((1.0 - n.truncate().length_squared()).sqrt()))
+    };
+    check(SpecularModel::Phong, "phong-map", 3.0 * TOLERANCE, formula);
+}

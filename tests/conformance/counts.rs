@@ -527,6 +527,14 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("naive-phong", lights)
             }
         }
+        // A vertex turns its normal. A pixel takes 1 − x² − y², not below 0, and its root; J of each light has three products, that of the
+        // first light two.
+        "phong-map" => ByHand {
+            vertex: 3 * DOT,
+            shade: 2 * MULTIPLY + 2 * ADD + COMPARE + ROOT + lights * (DOT + highlight() + light()),
+            ..by_hand("stereographic-phong", lights)
+        }
+        .less(MULTIPLY + ADD),
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }
