@@ -66,6 +66,8 @@ pub const HALF_REFLECTION: &Entry = named("half-reflection");
 /// A picture of a lit ball, read at the x and y of the normal.
 #[doc(hidden)] // an exhibit
 pub const PHONG_MAP: &Entry = named("phong-map");
+/// Angles along great circles, and powers of cosines by parabolas.
+pub const KUIJK_BLAKE: &Entry = named("kuijk-blake");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

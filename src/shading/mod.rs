@@ -62,6 +62,7 @@ mod integer_naive_printed;
 mod integer_quadratic;
 mod integer_slerp;
 mod integers;
+mod kuijk_blake;
 mod naive_phong;
 mod phong_map;
 mod phong_rsqrt;

@@ -17,6 +17,7 @@ use super::gouraud::Gouraud;
 use super::gouraud_separate::GouraudSeparate;
 use super::h_test::HTest;
 use super::half_reflection::HalfReflection;
+use super::kuijk_blake::KuijkBlake;
 use super::naive_phong::NaivePhong;
 use super::phong_map::PhongMap;
 use super::phong_rsqrt::PhongRsqrt;
@@ -90,6 +91,7 @@ pub static METHODS: &[Entry] = &[
     Entry::by_lights::<HalfReflection<1>, HalfReflection<4>, HalfReflection<8>, HalfReflection<64>>(
     ),
     Entry::of::<PhongMap>(),
+    Entry::by_lights::<KuijkBlake<1>, KuijkBlake<4>, KuijkBlake<8>, KuijkBlake<64>>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

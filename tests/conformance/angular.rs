@@ -1,7 +1,10 @@
 //! Checks the methods that interpolate angles, or by another chart of the sphere, against their own formulas, evaluated in `f64` one pixel
 //! at a time; and those beside them that light Phong's normals in another way.
 
-use super::lecture::{LIGHT, TOLERANCE, VIEW, WIDTH, intensity, lighting, pairs, strip_lit};
+use super::lecture::{
+    AMBIENT, DIFFUSE, LIGHT, SHININESS, SPECULAR, TOLERANCE, VIEW, WIDTH, intensity, lighting,
+    pairs, strip_lit,
+};
 use fastphong::scene::{Lighting, SpecularModel};
 use fastphong::shading::Variant;
 use glam::{DQuat, DVec3};
@@ -152,4 +155,45 @@ fn phong_maps_interpolate_x_and_y() {
             .extend((1.0 - n.truncate().length_squared()).sqrt()))
     };
     check(SpecularModel::Phong, "phong-map", 3.0 * TOLERANCE, formula);
+}
+
+/// Kuijk and Blake's angles are those of the great circle; their parabolas are the power of the cosine but for the 0.015 of the exponent 20.
+#[test]
+fn kuijk_and_blake_follow_angles() {
+    let formula = |n1: DVec3, n2: DVec3, t: f64| {
+        let n = SHININESS as f64;
+        let (a, b) = (
+            (n + 5.6) / (n * (0.09 * n + 5.2)),
+            (n + 65.0) / (5.0 * n + 31.7),
+        );
+        let here = slerp(n1, n2, t);
+        // H as its part in the plane of the great circle.
+        let across = n1.cross(n2).normalize();
+        let h = (LIGHT + VIEW).normalize();
+        let h = h - h.dot(across) * across;
+        let angle = h.angle_between(here);
+        let power = if angle < a {
+            1.0 - angle * angle / (a * b)
+        } else if angle < b {
+            (angle - b) * (angle - b) / (b * (b - a))
+        } else {
+            0.0
+        };
+        let l_n = LIGHT.dot(here);
+        let specular = if l_n > 0.0 {
+            SPECULAR * h.length().powi(SHININESS) * power
+        } else {
+            0.0
+        };
+        AMBIENT + DIFFUSE * l_n.max(0.0) + specular
+    };
+    check(SpecularModel::Blinn, "kuijk-blake", TOLERANCE, formula);
+    // Not by the method's own constants: the picture of the power itself.
+    let powers = |n1, n2, t| lit_half(slerp(n1, n2, t));
+    check(
+        SpecularModel::Blinn,
+        "kuijk-blake",
+        0.015 * SPECULAR,
+        powers,
+    );
 }

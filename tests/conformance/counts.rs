@@ -535,6 +535,28 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             ..by_hand("stereographic-phong", lights)
         }
         .less(MULTIPLY + ADD),
+        // Kuijk, Blake 1989: a span takes its angle, the normal in its middle and a unit vector across, and of L and H of each light
+        // products with both, an inverse tangent, a root and a difference; five squarings for the size of a highlight. A pixel takes
+        // two additions a light, of each cosine a square, its place in the table and a product, and of each highlight two parabolas.
+        "kuijk-blake" => {
+            let chords = 3 * ADD + 3 * ADD + DOT + ROOT + DOT + ROOT;
+            let frame = TRIGONOMETRIC + 2 * DIVIDE + COMPARE + 2 * 3 * MULTIPLY;
+            let angles = MULTIPLY + ADD + MULTIPLY + 2 * MULTIPLY;
+            let wave = 2 * DOT + 2 * MULTIPLY + ADD + ROOT + TRIGONOMETRIC + ADD;
+            let parabolas = (2 * COMPARE + ADD) + 2 * (ADD + COMPARE) + 4 * MULTIPLY + ADD;
+            let gated = COMPARE;
+            let colours = 6 * (MULTIPLY + ADD);
+            ByHand {
+                span: 2 * weighted_normal()
+                    + chords
+                    + frame
+                    + angles
+                    + lights * (2 * wave + 5 * MULTIPLY),
+                walk: 2 * lights * ADD,
+                shade: lights * (3 * MULTIPLY + COMPARE + parabolas + MULTIPLY + gated + colours),
+                ..by_hand("slerp-phong", lights)
+            }
+        }
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }
