@@ -23,6 +23,7 @@ use crate::integer::{Material, Rgb888};
 use crate::number::{Num, Vec3, vec3};
 use crate::scene::{Falloff, Lighting, Place, Power, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
+use glam::DVec3;
 
 /// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.
 const LEAST_SQUARE: f32 = 1e-30;
@@ -52,6 +53,8 @@ pub struct LightModel {
     ambient: Vec3<f32>,
     /// The unit vector toward the eye, or its position.
     pub(super) eye: Place<Vec3<f32>>,
+    /// The frame of eye and first light: see [`Lit::framed`].
+    frame: [Vec3<f32>; 3],
     /// The cosine that is raised to the exponent.
     pub specular: SpecularModel,
     pub(super) gate: SpecularGate,
@@ -87,6 +90,8 @@ pub struct LightUniforms {
     /// L·V and 1/|L + V| where both are at infinity.
     pub(super) l_v: f32,
     pub(super) half: f32,
+    /// L in the frame of eye and first light.
+    framed: Vec3<f32>,
 }
 
 impl Uniforms {
@@ -99,12 +104,14 @@ impl Uniforms {
             specular: vec3(light.specular) * scale,
             l_v: 0.0,
             half: 0.0,
+            framed: Vec3::default(),
         });
         let lights: Vec<LightUniforms> = lights.collect();
         let model = LightModel {
             scale,
             ambient: vec3(lighting.ambient) * scale,
             eye: lighting.view.map(vec3),
+            frame: [Vec3::default(); 3],
             specular: lighting.specular,
             gate: lighting.gate,
             shininess: lighting.shininess,
@@ -153,9 +160,12 @@ impl Uniforms {
         powers: Vec<f32>,
     ) -> Uniforms {
         let mut most = magnitude(model.ambient);
+        let first = lights.first().map(|light| vector(light.place));
+        model.frame = frame_of(vector(model.eye), first);
         for light in &mut lights {
             light.l_v = vector(light.place).dot(vector(model.eye));
             light.half = over_sum(light.l_v);
+            light.framed = in_frame(model.frame, vector(light.place));
             most += magnitude(light.diffuse) + magnitude(light.specular);
         }
         model.is_general = model.eye.is_local()
@@ -172,6 +182,33 @@ impl Uniforms {
             materials: Vec::new(),
         }
     }
+}
+
+/// Returns three unit vectors at right angles, the last of them `view` and the second at right angles to `light` too; any such if
+/// light and eye are in one line, or there is no light.
+fn frame_of(view: Vec3<f32>, light: Option<Vec3<f32>>) -> [Vec3<f32>; 3] {
+    // In `f64`: a light that is nearly in line with the eye would lose its digits.
+    let wide = |v: Vec3<f32>| DVec3::from_array(v.array().map(f64::from));
+    let z = wide(view).normalize_or(DVec3::Z);
+    let across = |v: DVec3| v - v.dot(z) * z;
+    let toward = light.map_or(DVec3::ZERO, |light| across(wide(light)));
+    let x = if toward.length() > 1e-9 {
+        toward.normalize()
+    } else {
+        z.any_orthonormal_vector()
+    };
+    [x, z.cross(x), z].map(|v| vec3(v.to_array().map(|c| c as f32)))
+}
+
+/// Returns the coordinates of a vector in a frame.
+#[inline(always)]
+fn in_frame<F: Num>(frame: [Vec3<f32>; 3], v: Vec3<F>) -> Vec3<F> {
+    let [x, y, z] = frame;
+    vec3([
+        v.dot(x.broadcast(v.x)),
+        v.dot(y.broadcast(v.x)),
+        v.dot(z.broadcast(v.x)),
+    ])
 }
 
 /// Returns a number clamped to 0..=`most`; NaN becomes 0.
@@ -485,6 +522,55 @@ impl<'a, F: Num> Lit<'a, F> {
         (j, n.dot(self.view())) // K = V · N
     }
 
+    /// Returns a vector in the frame of the eye and the first light: z is toward the eye, and the light in the plane of x and z. For
+    /// methods that see lights and eye at infinity.
+    #[inline(always)]
+    pub(super) fn framed(&self, v: Vec3<F>) -> Vec3<F> {
+        in_frame(self.model.frame, v)
+    }
+
+    /// Returns the unit vectors L toward a light and H half-way to the eye, of a light and an eye at infinity.
+    #[inline(always)]
+    pub(super) fn light_and_half(&self, index: usize) -> [Vec3<f32>; 2] {
+        let light = &self.stored[index];
+        let to = vector(light.place);
+        [to, (to + vector(self.model.eye)) * light.half] // h = (e + l) / |e + l|
+    }
+
+    /// Returns the products of `n` with L and with H of each light, of lights and an eye at infinity.
+    ///
+    /// ```text
+    /// J = L·N,   M = H·N
+    /// ```
+    #[inline(always)]
+    pub(super) fn half_products<const L: usize>(
+        &self,
+        n: Vec3<F>,
+    ) -> (PerLight<F, L>, PerLight<F, L>) {
+        let none = PerLight::new(self.stored.len(), n.x);
+        let (mut j, mut m) = (none, none);
+        for index in 0..self.stored.len() {
+            let [to, half] = self.light_and_half(index);
+            j.values[index] = n.dot(to.broadcast(n.x)); // J = L · N
+            m.values[index] = n.dot(half.broadcast(n.x)); // M = H · N
+        }
+        (j, m)
+    }
+
+    /// Returns the colour of a surface from the products J and M of its unit normal.
+    #[inline(always)]
+    pub(super) fn shade_half_products<const L: usize>(
+        &self,
+        (j, m): (PerLight<F, L>, PerLight<F, L>),
+    ) -> Vec3<F> {
+        let mut colour = self.ambient();
+        for light in self.lights() {
+            let (l_n, n_h) = (j.values[light.index], m.values[light.index]);
+            colour = self.add(colour, &light, l_n, n_h);
+        }
+        colour
+    }
+
     /// Returns `I_a k_a`.
     #[inline(always)]
     pub fn ambient(&self) -> Vec3<F> {
@@ -644,6 +730,24 @@ impl<F: Num> Seen<'_, F> {
     /// Returns `I_p k_d`.
     pub(super) fn diffuse(&self) -> Vec3<f32> {
         self.light.diffuse
+    }
+
+    /// Returns the light's vector L in the frame of [`Lit::framed`].
+    #[inline(always)]
+    pub(super) fn in_frame(&self, like: F) -> Vec3<F> {
+        self.light.framed.broadcast(like)
+    }
+
+    /// Returns L·v of a vector in the frame of [`Lit::framed`], in which the first light has no y.
+    #[inline(always)]
+    pub(super) fn product_in_frame(&self, v: Vec3<F>) -> F {
+        let to = self.in_frame(v.x);
+        let product = v.z.mul_add(to.z, v.x * to.x);
+        if self.index == 0 {
+            product
+        } else {
+            v.y.mul_add(to.y, product)
+        }
     }
 
     #[inline(always)]

@@ -48,6 +48,26 @@ pub const SLERP_PHONG: &Entry = named("slerp-phong");
 pub const SLERP_CHEBYSHEV: &Entry = named("slerp-chebyshev");
 /// Normals along great circles, as vectors.
 pub const SLERP_PHONG_VECTOR: &Entry = named("slerp-phong-vector");
+/// Duff's forward differences with N·H.
+pub const DUFF_HALF: &Entry = named("duff-half");
+/// Phong shading in the frame of eye and first light.
+pub const EYE_FRAME_PHONG: &Entry = named("eye-frame-phong");
+/// Normals, interpolated and not normalised.
+#[doc(hidden)] // an exhibit
+pub const PHONG_UNNORMALISED: &Entry = named("phong-unnormalised");
+/// Normals along great circles with N·H, by Chebyshev's recurrence.
+pub const SLERP_HALF: &Entry = named("slerp-half");
+/// Normals through a stereographic chart around the eye.
+pub const STEREOGRAPHIC_PHONG: &Entry = named("stereographic-phong");
+/// Quaternions that turn the eye's direction into the normal.
+pub const QUATERNION_PHONG: &Entry = named("quaternion-phong");
+/// The first normal of a span, reflected in a vector half-way.
+pub const HALF_REFLECTION: &Entry = named("half-reflection");
+/// A picture of a lit ball, read at the x and y of the normal.
+#[doc(hidden)] // an exhibit
+pub const PHONG_MAP: &Entry = named("phong-map");
+/// Angles along great circles, and powers of cosines by parabolas.
+pub const KUIJK_BLAKE: &Entry = named("kuijk-blake");
 
 /// Vertex colours, interpolated in integers.
 pub const INTEGER_GOURAUD: &Entry = named("integer-gouraud");

@@ -6,23 +6,32 @@ use super::bishop_weimer::BishopWeimer;
 use super::count::{CountedSpan, count};
 use super::cubic_phong::CubicPhong;
 use super::difference_vector::DifferenceVector;
+use super::duff_half::DuffHalf;
 use super::duff_newton::DuffNewton;
 use super::duff_phong::{DuffPhong, DuffPhongLocal};
+use super::eye_frame_phong::EyeFramePhong;
 use super::fast_phong::FastPhong;
 use super::flat::Flat;
 use super::flat_average::FLAT_AVERAGE;
 use super::gouraud::Gouraud;
 use super::gouraud_separate::GouraudSeparate;
 use super::h_test::HTest;
+use super::half_reflection::HalfReflection;
+use super::kuijk_blake::KuijkBlake;
 use super::naive_phong::NaivePhong;
+use super::phong_map::PhongMap;
 use super::phong_rsqrt::PhongRsqrt;
+use super::phong_unnormalised::PhongUnnormalised;
 use super::quadratic_normals::QuadraticNormals;
+use super::quaternion_phong::QuaternionPhong;
 use super::series_phong::SeriesPhong;
 use super::six_point::SixPoint;
 use super::slerp_chebyshev::SlerpChebyshev;
+use super::slerp_half::SlerpHalf;
 use super::slerp_phong::SlerpPhong;
 use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
+use super::stereographic_phong::StereographicPhong;
 use super::{Extras, Info, Kernels, LitAt, Local, Perspective, Shader, Variant};
 use super::{
     integer_fast, integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed,
@@ -73,6 +82,16 @@ pub static METHODS: &[Entry] = &[
     Entry::by_lights::<SlerpChebyshev<1>, SlerpChebyshev<4>, SlerpChebyshev<8>, SlerpChebyshev<64>>(
     ),
     Entry::of::<SlerpPhongVector>(),
+    Entry::by_lights::<DuffHalf<1>, DuffHalf<4>, DuffHalf<8>, DuffHalf<64>>(),
+    Entry::of::<EyeFramePhong>(),
+    Entry::of::<PhongUnnormalised>(),
+    Entry::by_lights::<SlerpHalf<1>, SlerpHalf<4>, SlerpHalf<8>, SlerpHalf<64>>(),
+    Entry::of::<StereographicPhong>(),
+    Entry::of::<QuaternionPhong>(),
+    Entry::by_lights::<HalfReflection<1>, HalfReflection<4>, HalfReflection<8>, HalfReflection<64>>(
+    ),
+    Entry::of::<PhongMap>(),
+    Entry::by_lights::<KuijkBlake<1>, KuijkBlake<4>, KuijkBlake<8>, KuijkBlake<64>>(),
     integer_gouraud::ENTRY,
     integer_naive::ENTRY,
     integer_fast::ENTRY,

@@ -262,7 +262,12 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
             "gouraud",
             "gouraud-separate",
             "naive-phong",
-            "phong-rsqrt"
+            "phong-rsqrt",
+            "eye-frame-phong",
+            "phong-unnormalised",
+            "stereographic-phong",
+            "quaternion-phong",
+            "phong-map"
         ]
     );
 }

@@ -131,6 +131,14 @@ struct ByHand {
     shade: Ops,
 }
 
+impl ByHand {
+    /// Takes operations from those of a pixel's shading.
+    fn less(mut self, ops: Ops) -> ByHand {
+        self.shade = Ops(std::array::from_fn(|i| self.shade.0[i] - ops.0[i]));
+        self
+    }
+}
+
 /// Returns the hand count of a method with default parameters.
 fn by_hand(method: &str, lights: u32) -> ByHand {
     let lit = lights * lit_from_normal();
@@ -432,6 +440,123 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: rotation() + weighted_normal(),
             shade: lit,
         },
+        // As Duff's method, with M = N·H of each light in place of K: no product of J and K, which a highlight takes.
+        "duff-half" => {
+            let numbers = 2 * lights + 3;
+            ByHand {
+                vertex: 2 * lights * DOT,
+                polygon: NONE,
+                edge: numbers * ramp(),
+                edge_step: numbers * ADD,
+                span: numbers * ramp() + 3 * DOT + ADD + 2 * ADD,
+                walk: 2 * lights * ADD + 2 * ADD,
+                shade: ROOT + DIVIDE + lights * (2 * MULTIPLY + light()),
+            }
+        }
+        // A vertex turns its normal into the frame of eye and first light. There K is a component, and J of the first light has two
+        // products.
+        "eye-frame-phong" => {
+            let phong = by_hand("phong-rsqrt", lights);
+            let products = lights * DOT + (lights + 1) * MULTIPLY;
+            ByHand {
+                vertex: 3 * DOT,
+                shade: DOT + ROOT + DIVIDE + products + lights * (highlight() + light()),
+                ..phong
+            }
+            .less(MULTIPLY + ADD)
+        }
+        // As naive Phong with J and K, without a root.
+        "phong-unnormalised" => ByHand {
+            shade: (lights + 1) * DOT + lights * (highlight() + light()),
+            ..by_hand("phong-rsqrt", lights)
+        },
+        // As slerp-chebyshev, with M = N·H of each light in place of K. The first ΔN and N are followed in 2 products a light.
+        "slerp-half" => {
+            let slerp = by_hand("slerp-chebyshev", lights);
+            ByHand {
+                span: slerp.span + 2 * (lights - 1) * DOT,
+                walk: 2 * lights * (MULTIPLY + 2 * ADD),
+                shade: lights * light(),
+                ..slerp
+            }
+        }
+        // A vertex turns its normal and divides by 1 + z. A pixel takes u² + v² + 1 and a quotient once, K by a difference, and J of each
+        // light by two products and sums, and one more.
+        "stereographic-phong" => ByHand {
+            vertex: 3 * DOT + ADD + DIVIDE + 2 * MULTIPLY,
+            polygon: NONE,
+            edge: 2 * ramp(),
+            edge_step: 2 * ADD,
+            span: 2 * ramp(),
+            walk: 2 * ADD,
+            shade: 2 * MULTIPLY
+                + 2 * ADD
+                + DIVIDE
+                + ADD
+                + lights * (3 * (MULTIPLY + ADD) + highlight() + light()),
+        },
+        // A vertex turns its normal, adds 1 to z and normalises. A pixel takes m·m, 2 m_z over it, and K by a product and a difference;
+        // J of each light by a product with m (the first light has no y), and one more.
+        "quaternion-phong" => ByHand {
+            vertex: 3 * DOT + ADD + DOT + ROOT + DIVIDE + 3 * MULTIPLY,
+            shade: DOT
+                + ADD
+                + DIVIDE
+                + MULTIPLY
+                + ADD
+                + lights * (DOT + MULTIPLY + ADD + highlight() + light()),
+            ..by_hand("phong-rsqrt", lights)
+        }
+        .less(MULTIPLY + ADD),
+        // A span normalises its ends, and the sum of these, times the length of the last. M and its growth follow, with their products, and
+        // those of the first normal. A pixel takes q by a sum and a quotient, and J of each light and K by a product and a difference.
+        "half-reflection" => {
+            let unit = DOT + ROOT + DIVIDE + 3 * MULTIPLY;
+            let turned = 2 * unit + 3 * ADD + unit + DOT + 3 * MULTIPLY;
+            let along = 3 * ADD + 3 * (MULTIPLY + ADD) + 3 * MULTIPLY;
+            let square = 3 * DOT + ADD + 2 * ADD;
+            ByHand {
+                span: turned + along + 2 * DOT + square + 3 * (lights + 1) * DOT,
+                walk: ADD
+                    + 2 * ADD
+                    + (lights + 1) * ADD
+                    + ADD
+                    + DIVIDE
+                    + (lights + 1) * (MULTIPLY + ADD),
+                shade: lights * (highlight() + light()),
+                ..by_hand("naive-phong", lights)
+            }
+        }
+        // A vertex turns its normal. A pixel takes 1 − x² − y², not below 0, and its root; J of each light has three products, that of the
+        // first light two.
+        "phong-map" => ByHand {
+            vertex: 3 * DOT,
+            shade: 2 * MULTIPLY + 2 * ADD + COMPARE + ROOT + lights * (DOT + highlight() + light()),
+            ..by_hand("stereographic-phong", lights)
+        }
+        .less(MULTIPLY + ADD),
+        // Kuijk, Blake 1989: a span takes its angle, the normal in its middle and a unit vector across, and of L and H of each light
+        // products with both, an inverse tangent, a root and a difference; five squarings for the size of a highlight. A pixel takes
+        // two additions a light, of each cosine a square, its place in the table and a product, and of each highlight two parabolas.
+        "kuijk-blake" => {
+            let chords = 3 * ADD + 3 * ADD + DOT + ROOT + DOT + ROOT;
+            let frame = TRIGONOMETRIC + 2 * DIVIDE + COMPARE + 2 * 3 * MULTIPLY;
+            let angles = MULTIPLY + ADD + MULTIPLY + 2 * MULTIPLY;
+            let wave = 2 * DOT + 2 * MULTIPLY + ADD + ROOT + TRIGONOMETRIC + ADD;
+            let parabolas = (2 * COMPARE + ADD) + 2 * (ADD + COMPARE) + 4 * MULTIPLY + ADD;
+            let gated = COMPARE;
+            let colours = 6 * (MULTIPLY + ADD);
+            ByHand {
+                span: 2 * weighted_normal()
+                    + chords
+                    + frame
+                    + angles
+                    + lights * (2 * wave + 5 * MULTIPLY),
+                walk: 2 * lights * ADD,
+                shade: lights * (3 * MULTIPLY + COMPARE + parabolas + MULTIPLY + gated + colours),
+                ..by_hand("slerp-phong", lights)
+            }
+        }
         _ => panic!("`{method}` is in METHODS and has no count by hand here"),
     }
 }

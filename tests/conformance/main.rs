@@ -4,6 +4,7 @@
 mod accuracy;
 mod adaptive;
 mod agreement;
+mod angular;
 mod attributes;
 mod auto;
 mod clipping;

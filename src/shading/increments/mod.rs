@@ -17,6 +17,7 @@ pub use linear::{Constant, Linear};
 pub use newton::{Newton, NewtonSteps};
 pub use quadratic::Quadratic;
 pub use rsqrt::{WarmRsqrt, WarmSteps};
+pub(super) use sines::LARGEST_ANGLE;
 pub use sines::{GreatCircle, Sines};
 
 use crate::number::{Num, Vec3, vec3};
