@@ -1,4 +1,4 @@
-//! Phong shading on a scanline rasterizer: 22 methods to run, time, look at and check against an f64 reference.
+//! Phong shading on a scanline rasterizer: 38 methods to run, time, look at and check against an f64 reference.
 //!
 //! *Lecture 21: Shading* (L21) shades polygons on a scan-line rasterizer: flat, with vertex colours (Gouraud), with interpolated normals
 //! (Phong), and then draws Phong's picture for a few additions per pixel. Each of these is a *method* here: one file and one

@@ -46,7 +46,7 @@ mod watch;
 pub use error::{CliError, Outcome};
 use log::{Log, done};
 
-/// Phong shading on a scanline rasterizer: 22 methods to run, time, look at and check against an f64 reference.
+/// Phong shading on a scanline rasterizer: 38 methods to run, time, look at and check against an f64 reference.
 #[derive(clap::Parser, Debug)]
 #[command(name = "fastphong", version, arg_required_else_help = true, after_help = EXIT_CODES)]
 pub struct Cli {
@@ -66,7 +66,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 a comparison failed, 2 wrong usa
 
 /// Five commands to try, and where help is: what the program says when it is given nothing to do.
 pub const FIRST_STEPS: &str = "\
-Draw, time and check 22 ways to shade polygons, from flat to Phong. Five things to try:
+Draw, time and check 38 ways to shade polygons, from flat to Phong. Five things to try:
 
   fastphong render builtin:teapot -o teapot.png          a picture; or use your own bunny.obj
   fastphong render two-lights -m fast-phong -o fast.png  lights nearby: fast Phong shows facets

@@ -19,6 +19,7 @@ pub struct GouraudSeparate;
 impl Shader for GouraudSeparate {
     const INFO: Info = Info {
         name: "gouraud-separate",
+        ids: &[],
         family: Family::Colours,
         title: "unclamped vertex colours; diffuse and specular light interpolated separately",
         formula: "D_next = D + dD;  S_next = S + dS;  I = min(1, D + S), D = Ia ka + Ip kd (L.N), S = Ip ks (R.V)^n at vertices",

@@ -1,7 +1,7 @@
 //! Angular interpolation: along a great circle all cosines are those of angles that grow evenly (Kuijk, Blake 1989).
 
 use super::increments::{Constant, LARGEST_ANGLE, Linear};
-use super::lighting::LightModel;
+use super::lighting::{LightModel, power_by_call};
 use super::slerp_phong::SlerpPhong;
 use super::{
     Approximation, Corners, Family, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings,
@@ -186,7 +186,7 @@ impl<const L: usize> Shader for KuijkBlake<L> {
                     (here - p_sin.atan2(p_cos), size) // α − ψ, p
                 },
             );
-            let power = lit.model.exponent.of(size_of_highlight); // pⁿ
+            let power = power_by_call(lit.model.exponent, size_of_highlight, &[]); // pⁿ
             at.0.values[index] = zero.of_each(|_| light);
             at.1.values[index] = zero.of_each(|_| highlight);
             sizes.0.values[index] = zero.of_each(|_| size);

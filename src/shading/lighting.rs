@@ -704,11 +704,9 @@ impl<'a, F: Num> Lit<'a, F> {
         }
         let mut power = match exponent {
             Exponent::Squarings(times) => squared_up_to_7(cosine, times),
-            Exponent::Table { from, scale } => {
-                ((cosine - from).max(0.0) * scale).lookup(self.powers)
-            }
             _ if !self.general && F::WIDTH > 1 => return None, // the fast path has no other
-            _ => exponent.of(cosine),
+            _ if F::WIDTH == 1 => power_by_call(exponent, cosine, self.powers),
+            _ => exponent.of_or_read(cosine, self.powers),
         };
         if self.general {
             if exponent.is_lit_at_zero() {
@@ -840,6 +838,15 @@ impl Exponent {
         }
     }
 
+    /// Returns `base` to this power, from the entries `powers` if it is a table.
+    #[inline(always)]
+    fn of_or_read<F: Num>(self, base: F, powers: &[f32]) -> F {
+        match self {
+            Exponent::Table { from, scale } => ((base - from).max(0.0) * scale).lookup(powers),
+            other => other.of(base),
+        }
+    }
+
     /// Returns `base`, 0 or more, to this power; anything to the power 0 is 1. The one power function of all methods, so that
     /// none is faster by a cheaper one; `Lit::power` calls its squarings directly.
     #[inline(always)]
@@ -872,6 +879,13 @@ impl Exponent {
         }
         power
     }
+}
+
+/// [`Exponent::of_or_read`] as a call. Inlined in a scalar loop, compilers compute all functions at each pixel and then choose: what the
+/// others give is often subnormal, which takes a hundred times as long.
+#[inline(never)]
+pub(super) fn power_by_call<F: Num>(exponent: Exponent, base: F, powers: &[f32]) -> F {
+    exponent.of_or_read(base, powers)
 }
 
 /// Returns `x` squared `times` times, of 7 at most. Without a loop: those of 16, 32 and 64 are most of what a highlight costs.
