@@ -39,7 +39,7 @@ pub struct WorstCase {
 /// Pixels along the legs of the triangle.
 const SIDE: u32 = 24;
 /// Steps of a climb.
-const STEPS: u32 = 160;
+const STEPS: u32 = 300;
 /// Closer to the terminator a rounding decides whether there is a highlight: no error of the method.
 const NEAR_TERMINATOR: f64 = 1e-4;
 /// The material of all cases: what is diffuse and what is specular, and the exponent.
@@ -98,7 +98,9 @@ impl WorstCase {
                 material,
             })
         });
-        builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
+        let sum: DVec3 = self.normals.map(DVec3::from).iter().sum();
+        let face = sum.normalize_or(DVec3::Z).as_vec3().to_array();
+        builder.polygon(&corners, face, 0);
         builder.finish().expect("a triangle on the picture")
     }
 
@@ -143,9 +145,10 @@ impl WorstCase {
 
     /// Returns a random case.
     fn random(random: &mut Random, setting: SearchSetting, halfway: bool) -> WorstCase {
-        // The distance of the corners of a triangle from its middle.
-        let reach = 0.95 * setting.degrees.to_radians() / libm::sqrt(3.0);
+        // The distance of the corners of a triangle from its middle, if it is as wide as may be. Some begin narrower.
+        let widest = 0.95 * setting.degrees.to_radians() / libm::sqrt(3.0);
         loop {
+            let reach = widest * (1.0 - 0.8 * random.signed().max(0.0));
             let middle = (DVec3::Z + 0.8 * random.vector()).normalize();
             let across = middle.any_orthonormal_vector();
             let turn = 3.2 * random.signed();
