@@ -537,7 +537,7 @@ fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
                 ("#999", 3.0)
             };
             let (cx, cy) = (x(*time), y(*error));
-            writeln!(svg, "<circle cx=\"{cx:.1}\" cy=\"{cy:.1}\" r=\"{radius}\" fill=\"{fill}\"><title>{name}: {} of naive Phong, {} levels</title></circle>", short(*time), short(*error)).expect("a text");
+            writeln!(svg, "<circle cx=\"{cx:.1}\" cy=\"{cy:.1}\" r=\"{radius}\" fill=\"{fill}\"><title>{name}: {} of naive Phong, {} levels</title></circle>", short(*time), short(*error).replace('<', "&lt;")).expect("a text");
             if let Some(at) = places.get(&i) {
                 let (anchor, dx) = if cx > left + 230.0 {
                     ("end", -6.0)

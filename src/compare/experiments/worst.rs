@@ -40,8 +40,9 @@ pub struct WorstCase {
 const SIDE: u32 = 24;
 /// Steps of a climb.
 const STEPS: u32 = 300;
-/// Closer to the terminator a rounding decides whether there is a highlight: no error of the method.
-const NEAR_TERMINATOR: f64 = 1e-4;
+/// The least cosine L·N of pixels that count. Where it is 0 a gated highlight ends with a jump, which the smallest error moves by a pixel:
+/// all searches would end there.
+const NEAR_TERMINATOR: f64 = 0.1;
 /// The material of all cases: what is diffuse and what is specular, and the exponent.
 const MATERIAL: Material = Material {
     ambient: [0.0; 3],
@@ -130,7 +131,7 @@ impl WorstCase {
         let [n1, n2, n3] = self.normals.map(DVec3::from);
         let n = n1 * (1.0 - b - c) + n2 * b + n3 * c;
         let mut all = self.to_lights.iter();
-        all.any(|to| DVec3::from(*to).dot(n).abs() < NEAR_TERMINATOR)
+        all.any(|to| DVec3::from(*to).dot(n).abs() < NEAR_TERMINATOR * n.length())
     }
 
     /// True if normals are as near one another as the setting says, and in front.
