@@ -440,11 +440,17 @@ fn claims() -> String {
     text
 }
 
-/// Places of a chart's labels that are not above one another, from those wanted, in rising order.
-fn apart(mut places: Vec<(f64, usize)>, least: f64) -> BTreeMap<usize, f64> {
+/// Returns the places of labels, in the order of their height: none above another, and none below `bottom`.
+fn apart(mut places: Vec<(f64, usize)>, bottom: f64) -> BTreeMap<usize, f64> {
+    const LEAST: f64 = 10.0;
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     for i in 1..places.len() {
-        places[i].0 = places[i].0.max(places[i - 1].0 + least);
+        places[i].0 = places[i].0.max(places[i - 1].0 + LEAST);
+    }
+    let mut limit = bottom;
+    for (place, _) in places.iter_mut().rev() {
+        *place = place.min(limit);
+        limit = *place - LEAST;
     }
     places
         .into_iter()
@@ -529,7 +535,10 @@ fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
         let labelled: Vec<usize> = (0..all.len())
             .filter(|&i| on_front(all[i].0) || named.contains(&all[i].0.as_str()))
             .collect();
-        let places = apart(labelled.iter().map(|&i| (y(all[i].2), i)).collect(), 10.0);
+        let places = apart(
+            labelled.iter().map(|&i| (y(all[i].2), i)).collect(),
+            INNER[3] - 3.0,
+        );
         for (i, (name, time, error)) in all.iter().enumerate() {
             let (fill, radius) = if on_front(name) {
                 ("#06c", 4.0)
@@ -548,7 +557,7 @@ fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
             }
         }
     }
-    writeln!(svg, "<text x=\"{}\" y=\"314\" fill=\"#555\">time of a frame, × naive Phong; upward: largest error found, grey levels (dashed: half a level)</text>\n</svg>", INNER[0]).expect("a text");
+    writeln!(svg, "<text x=\"{}\" y=\"315\" fill=\"#555\">time of a frame, × naive Phong; upward: largest error found, grey levels (dashed: half a level)</text>\n</svg>", INNER[0]).expect("a text");
     svg
 }
 
