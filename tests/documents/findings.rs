@@ -174,6 +174,43 @@ fn best(times: &ByMethod, errors: &ByMethod) -> String {
     fastest.expect("some method").clone()
 }
 
+/// Returns cycles a pixel of spans of 32 pixels on a Cortex-M0+, over those of naive Phong in the same integers, and the worst errors.
+fn small() -> [ByMethod; 2] {
+    let document: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let spans = list(&document, "spans");
+    let cycles = |span: &Value| number(&span["m0p_cycles"][1]);
+    let naive = spans
+        .iter()
+        .find(|span| span["method"] == "naive")
+        .map(cycles);
+    let naive = naive.expect("it is measured");
+    let [mut times, mut errors] = [ByMethod::new(), ByMethod::new()];
+    for span in spans {
+        let name = format!("integer-{}", text(&span["method"])).replace("-as-printed", "-printed");
+        let worst: Vec<f64> = list(span, "worst_error").iter().map(number).collect();
+        if let (Some(_), Ok(worst)) = (Entry::named(&name), worst.try_into()) {
+            times.insert(name.clone(), [cycles(span) / naive; 4]);
+            errors.insert(name, worst);
+        }
+    }
+    [times, errors]
+}
+
+/// A row a method in integers.
+fn small_table() -> String {
+    let [times, errors] = small();
+    let mut rows: Vec<_> = times.iter().collect();
+    rows.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+    let mut text = String::from(
+        "| method | 5° | 15° | 30° | 60° | × naive in integers |\n|---|---:|---:|---:|---:|---:|\n",
+    );
+    for (name, times) in rows {
+        let cells = errors[name].map(short).join(" | ");
+        writeln!(text, "| `{name}` | {cells} | {:.2} |", 1.0 / times[0]).expect("a text");
+    }
+    text
+}
+
 /// The three sentences.
 fn answer() -> String {
     let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
@@ -459,7 +496,7 @@ fn apart(mut places: Vec<(f64, usize)>, bottom: f64) -> BTreeMap<usize, f64> {
 }
 
 /// Draws error against time on the four meshes, with the front.
-fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
+fn chart(title: &str, baseline: &str, times: &ByMethod, errors: &ByMethod) -> String {
     const PANEL: [f64; 2] = [330.0, 320.0];
     const INNER: [f64; 4] = [44.0, 36.0, 318.0, 284.0]; // left, top, right, bottom
     let named = [
@@ -481,7 +518,7 @@ fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
     let (low, high) = (0.005f64.log10(), 255f64.log10());
     for (mesh, degrees) in DEGREES.iter().enumerate() {
         let left = mesh as f64 * PANEL[0];
-        let naive = times["naive-phong"][mesh];
+        let naive = times[baseline][mesh];
         let all: Vec<(&String, f64, f64)> = times
             .iter()
             .filter(|(m, _)| is_for_use(m))
@@ -533,7 +570,11 @@ fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
         )
         .expect("a text");
         let labelled: Vec<usize> = (0..all.len())
-            .filter(|&i| on_front(all[i].0) || named.contains(&all[i].0.as_str()))
+            .filter(|&i| {
+                on_front(all[i].0)
+                    || named.contains(&all[i].0.as_str())
+                    || all[i].0.starts_with("integer")
+            })
             .collect();
         let places = apart(
             labelled.iter().map(|&i| (y(all[i].2), i)).collect(),
@@ -557,7 +598,7 @@ fn chart(title: &str, times: &ByMethod, errors: &ByMethod) -> String {
             }
         }
     }
-    writeln!(svg, "<text x=\"{}\" y=\"315\" fill=\"#555\">time of a frame, × naive Phong; upward: largest error found, grey levels (dashed: half a level)</text>\n</svg>", INNER[0]).expect("a text");
+    writeln!(svg, "<text x=\"{}\" y=\"315\" fill=\"#555\">time, × naive Phong; upward: largest error found, grey levels (dashed: half a level)</text>\n</svg>", INNER[0]).expect("a text");
     svg
 }
 
@@ -654,12 +695,13 @@ fn findings_are_the_measured_figures() {
     }
     let old = read(FILE);
     let mut new = old.clone();
-    let blocks: [(&str, &dyn Fn() -> String); 8] = [
+    let blocks: [(&str, &dyn Fn() -> String); 9] = [
         ("answer", &answer),
         ("machine", &machine),
         ("simd", &|| table("simd")),
         ("scalar", &|| table("scalar")),
         ("break-even", &break_even),
+        ("small", &small_table),
         ("floor", &floor),
         ("worst", &worst),
         ("claims", &claims),
@@ -682,11 +724,16 @@ fn findings_are_the_measured_figures() {
     ] {
         let chart = chart(
             title,
+            "naive-phong",
             &times(&format!("{machine}-{lights}")),
             &errors(lights),
         );
         files.push((format!("{machine}-{lights}.svg"), chart.into_bytes()));
     }
+    let [small_times, small_errors] = small();
+    let title = "Cortex-M0+, integers, one light";
+    let chart = chart(title, "integer-naive", &small_times, &small_errors);
+    files.push(("small.svg".into(), chart.into_bytes()));
     files.push(("worst.png".into(), pictures()));
     let readme = read("README.md");
     for sentence in answer().lines() {
