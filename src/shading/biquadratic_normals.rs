@@ -57,7 +57,7 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let apart = |i: usize, j: usize| {
         let (n, p) = ([normals[i], normals[j]], [positions[i], positions[j]]);
         let from = midway(n, p) - (n[0] + n[1]) * 0.5;
-        f64::from(from.dot(from)).sqrt()
+        libm::sqrt(from.dot(from).into())
     };
     let most = [apart(0, 1), apart(1, 2), apart(2, 0)];
     let most = most.into_iter().fold(0.0, f64::max);

@@ -48,6 +48,9 @@ const LARGEST_SQUARE: f64 = core::f64::consts::FRAC_PI_2 * core::f64::consts::FR
 /// cos √x. Between two entries a line is off by at most a quarter of 2⁻²²: the second derivative is 1/12 at most.
 static COSINES: [f32; STEPS + 1] = cosines();
 
+/// Ends of a span nearer than this have one normal: it is a few roundings of theirs.
+const LEAST_ANGLE: f32 = 1e-6;
+
 /// Computes the table, by the series of the cosine: its 12 terms leave less than 10⁻¹⁸.
 const fn cosines() -> [f32; STEPS + 1] {
     let mut table = [0.0; STEPS + 1]; // of 90° too
@@ -166,10 +169,16 @@ impl<const L: usize> Shader for KuijkBlake<L> {
         let (cos, sin) = (sum.dot(sum).sqrt(), difference.dot(difference).sqrt());
         let half = sin.atan2(cos); // φ/2
         let one = cos.broadcast(1.0);
-        let (middle, across) = match half.value() * 2.0 > LARGEST_ANGLE {
-            true => (span.constants(), difference * 0.0),
-            // Where both ends are the same normal nothing is across.
-            false => (sum * (one / cos), difference * (one / sin.max(1e-20))),
+        let (middle, across, half) = match half.value() * 2.0 > LARGEST_ANGLE {
+            true => (span.constants(), difference * 0.0, half * 0.0),
+            false => {
+                let middle = sum * (one / cos);
+                // Of ends that are nearly the same normal the difference is all rounding, and in any direction, that of the middle too.
+                let across = difference - middle * difference.dot(middle);
+                let length = across.dot(across).sqrt();
+                let over = (one / length.max(LEAST_ANGLE)).gate(length, LEAST_ANGLE);
+                (middle, across * over, half)
+            }
         };
         let here = (t0 * 2.0 - 1.0) * half; // α
         let zero = lit.zero();
@@ -186,7 +195,10 @@ impl<const L: usize> Shader for KuijkBlake<L> {
                     (here - p_sin.atan2(p_cos), size) // α − ψ, p
                 },
             );
-            let power = power_by_call(lit.model.exponent, size_of_highlight, &[]); // pⁿ
+            // No power of a cosine up to the faintest that is seen is subnormal; less is none.
+            let faint = lit.model.faint;
+            let least = size_of_highlight.max(faint);
+            let power = power_by_call(lit.model.exponent, least, &[]).gate(least, faint); // pⁿ
             at.0.values[index] = zero.of_each(|_| light);
             at.1.values[index] = zero.of_each(|_| highlight);
             sizes.0.values[index] = zero.of_each(|_| size);

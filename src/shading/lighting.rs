@@ -62,7 +62,7 @@ pub struct LightModel {
     pub shininess: f32,
     pub(super) exponent: Exponent,
     /// Cosines up to this have no highlight: `k_s cos^n ≤ 2⁻²⁴` for the strongest light.
-    faint: f32,
+    pub(super) faint: f32,
     /// True if anything is asked for beside directional lights, R·V, and highlights that end where L·N = 0.
     pub is_general: bool,
     /// True if blocks may take the fast path: not general, an exponent of a few squarings, no colour of 2³⁰ or more.

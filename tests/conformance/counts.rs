@@ -539,7 +539,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
         // products with both, an inverse tangent, a root and a difference; five squarings for the size of a highlight. A pixel takes
         // two additions a light, of each cosine a square, its place in the table and a product, and of each highlight two parabolas.
         "kuijk-blake" => {
-            let chords = 3 * ADD + 3 * ADD + DOT + ROOT + DOT + ROOT;
+            let across = DOT + 3 * (MULTIPLY + ADD) + DOT + ROOT + COMPARE;
+            let chords = 3 * ADD + 3 * ADD + DOT + ROOT + across + DOT + ROOT;
             let frame = TRIGONOMETRIC + 2 * DIVIDE + COMPARE + 2 * 3 * MULTIPLY;
             let angles = MULTIPLY + ADD + MULTIPLY + 2 * MULTIPLY;
             let wave = 2 * DOT + 2 * MULTIPLY + ADD + ROOT + TRIGONOMETRIC + ADD;
@@ -551,7 +552,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                     + chords
                     + frame
                     + angles
-                    + lights * (2 * wave + 5 * MULTIPLY),
+                    + lights * (2 * wave + 5 * MULTIPLY + 2 * COMPARE),
                 walk: 2 * lights * ADD,
                 shade: lights * (3 * MULTIPLY + COMPARE + parabolas + MULTIPLY + gated + colours),
                 ..by_hand("slerp-phong", lights)
