@@ -5,7 +5,7 @@ use super::increments::{Quadratic, Walk};
 use super::planes::scaled;
 use super::{
     Approximation, Corners, Family, Info, LightModel, Linear, Lit, Local, MethodParameter,
-    PerLight, Pixel, Roundings, Shader, Span, Stepped, Value,
+    PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -89,6 +89,7 @@ impl<const L: usize> Shader for SeriesPhong<L> {
         name: "series-phong",
         ids: &["M07", "M07b"],
         family: Family::Series,
+        standing: Standing::Default,
         title: "J = L.N, K = V.N and D = N.N by differences; 1/sqrt(D) by a polynomial of D",
         formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = k0 + k1 D or k0 + D (k1 + k2 D)\n\
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
