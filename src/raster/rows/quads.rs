@@ -184,9 +184,11 @@ impl<S: Simd> Side<S> {
         here.step_pixels = begins.select(new.step_pixels, here.step_pixels);
         here.step_rest = begins.select(new.step_rest, here.step_rest);
         here.denominator = begins.select(new.denominator, here.denominator);
+        // Of the others all bits: see `Lanes::select`.
+        let others = (!begins).to_vector();
         for i in 0..count {
-            self.at[i] = begins.select(m.load(&edges.at[i]), self.at[i]);
-            self.step[i] = begins.select(m.load(&edges.step[i]), self.step[i]);
+            self.at[i] = m.select(others, self.at[i], m.load(&edges.at[i]));
+            self.step[i] = m.select(others, self.step[i], m.load(&edges.step[i]));
         }
     }
 
