@@ -92,7 +92,7 @@ fn aovs_show_kinds_of_polygons() {
     assert_eq!(Vec::from_iter(colours), expected);
     folder
         .run(&format!("{ball} -m flat -o out.png"))
-        .refused(&["flat has one kind of polygons; take six-point, adaptive-phong"]);
+        .refused(&["flat has one kind of polygons; take series-phong, cubic-phong"]);
 }
 
 /// AOVs show vertex colours of a triangle with a red, a green and a blue corner, and a checkerboard

@@ -378,7 +378,9 @@ fn info_reports_the_choice_of_auto() {
         let mut all = folder.run(&format!("info {input} --json")).done().json()["auto"].clone();
         let is_float = |choice: &serde_json::Value| {
             let name = choice["methods"][0].as_str().unwrap();
-            !Entry::named(name).unwrap().is_integer && !choice["engine"].is_null()
+            // h-test is not for lights at positions.
+            let is_float = name != "h-test" && !Entry::named(name).unwrap().is_integer;
+            is_float && !choice["engine"].is_null()
         };
         all.as_array_mut().unwrap().retain(is_float);
         all
