@@ -435,7 +435,7 @@ fn info_reports_the_choice_of_auto() {
     folder
         .run("info teapot --depth per-sample")
         .done()
-        .prints("slerp-phong-vector (the row engine interpolates depth");
+        .prints("phong-map (the row engine interpolates depth");
 }
 
 #[test]
