@@ -32,6 +32,9 @@ const LINE: u8 = 0;
 const PARABOLA: u8 = 1;
 const ROOTS: u8 = 2;
 
+/// The least square that there is a polynomial for: the coefficients of smaller ones are no numbers of 32 bits.
+const LEAST_SQUARE: f32 = 1e-12;
+
 /// Returns the polynomial of `order` for polygons of these unit normals and weights, and its relative error; `None` if they take roots.
 pub(super) fn polynomial(
     order: u32,
@@ -43,7 +46,8 @@ pub(super) fn polynomial(
         rounded_up(spread(normals)),
         [least, weights.fold(0.0, f32::max)],
     );
-    let is_narrow = range[0] > 0.0 && range[1] - range[0] <= WIDEST * (range[1] + range[0]);
+    let is_narrow =
+        range[0] > LEAST_SQUARE && range[1] - range[0] <= WIDEST * (range[1] + range[0]);
     is_narrow.then(|| match order {
         1 => line(range),
         _ => parabola(range),
