@@ -16,7 +16,7 @@ use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
 use fastphong::scene::input::{self, InputFormat, read_input};
 use std::fmt;
 use std::fs::{self, Metadata};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
@@ -205,13 +205,27 @@ pub fn picture(path: &Path, part: &'static str) -> Result<FilePicture, ImageFile
     read_picture(path)
 }
 
-/// Opens a document, to be read.
+/// The largest document that is read, in bytes: those of all shipped scenes have about 1 MB.
+const LARGEST: u64 = 1 << 28;
+
+/// Reads a document of at most [`LARGEST`] bytes, from a device that never ends as well.
 ///
 /// # Errors
-/// When it cannot be opened.
-pub fn document(path: &Path) -> io::Result<fs::File> {
+/// When it cannot be read, has more bytes, or is no text.
+pub fn document(path: &Path) -> io::Result<String> {
     will_read(path, "the document");
-    fs::File::open(path)
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path)?;
+    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        let problem = format!("it has more than {LARGEST} bytes: expected a file of `--json`");
+        return Err(io::Error::other(problem));
+    }
+    // UTF-16 of plain letters is UTF-8, too, with zeros.
+    let text = String::from_utf8(bytes)
+        .ok()
+        .filter(|text| !text.contains('\0'));
+    text.ok_or_else(|| io::Error::other("it is no text in UTF-8: expected a file of `--json`"))
 }
 
 /// Refuses to write to a file that is read, and to write twice to one file.

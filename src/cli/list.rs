@@ -145,21 +145,13 @@ fn method_text(method: &Entry) -> String {
 
 /// Returns family, standing and numbers in the catalogue of a method, as `quadratics, default, M10`.
 pub fn family(info: &Info) -> String {
-    let words = [info.family.name(), standing(info.standing)];
+    let words = [info.family.name(), info.standing.name()];
     words
         .iter()
         .chain(info.ids)
         .copied()
         .collect::<Vec<_>>()
         .join(", ")
-}
-
-fn standing(standing: Standing) -> &'static str {
-    match standing {
-        Standing::Default => "default",
-        Standing::Asked => "where asked for",
-        Standing::Exhibit => "an exhibit",
-    }
 }
 
 /// Says how near a method is to its closed form, in a sentence.
@@ -207,7 +199,7 @@ pub fn method_json(method: &Entry) -> Value {
         "title": info.title,
         "ids": info.ids,
         "family": info.family.name(),
-        "standing": standing(info.standing),
+        "standing": info.standing.name(),
         "integer": method.is_integer,
         "source": info.source,
         "model": info.model.name(),

@@ -20,7 +20,6 @@ use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
 use rayon::prelude::*;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Instant, SystemTime};
@@ -310,32 +309,14 @@ impl ReportArgs {
     }
 }
 
-/// The largest document that is read, in bytes: those of all shipped scenes have about 1 MB.
-const LARGEST: u64 = 1 << 28;
-
 /// Reads a document of `--json`; notes what of it cannot be compared with those of today.
 fn read(path: &Path, log: Log) -> Result<Report, CliError> {
     let shown = path.display();
-    let text = read_text(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+    let text =
+        files::document(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
     let report = Report::read(text).map_err(|error| format!("{shown}: {error}"))?;
     if let Some(limits) = report.not_comparable() {
         log.note(&format!("{shown}: {limits}"));
     }
     Ok(report)
-}
-
-/// Reads a text of at most [`LARGEST`] bytes, from a device that never ends as well.
-fn read_text(path: &Path) -> io::Result<String> {
-    let mut bytes = Vec::new();
-    let file = files::document(path)?;
-    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LARGEST {
-        let problem = format!("it has more than {LARGEST} bytes: expected a file of `--json`");
-        return Err(io::Error::other(problem));
-    }
-    // UTF-16 of plain letters is UTF-8, too, with zeros.
-    let text = String::from_utf8(bytes)
-        .ok()
-        .filter(|text| !text.contains('\0'));
-    text.ok_or_else(|| io::Error::other("it is no text in UTF-8: expected a file of `--json`"))
 }

@@ -10,7 +10,6 @@ use fastphong::compare::table::Table;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -88,10 +87,13 @@ impl Shard {
                 of: of.parse().ok()?,
             })
         });
-        let is_part = |shard: &Shard| (1..=shard.of).contains(&shard.number) && shard.of <= 100_000;
         numbers
-            .filter(is_part)
-            .ok_or_else(|| "expected a part of a whole, as in 3/16".into())
+            .filter(Shard::is_part)
+            .ok_or_else(|| "expected a part of a whole of 100000 at most, as in 3/16".into())
+    }
+
+    fn is_part(&self) -> bool {
+        (1..=self.of).contains(&self.number) && self.of <= 100_000
     }
 }
 
@@ -146,32 +148,46 @@ impl SearchArgs {
     }
 
     fn search(&self, log: Log) -> Document {
-        let mut jobs = Vec::new();
+        let mut all = Vec::new();
         for variant in &self.methods {
             for &lights in &self.lights {
-                for &degrees in &self.degrees {
-                    let setting = SearchSetting { degrees, lights };
-                    let part =
-                        (self.shard.number - 1..self.restarts).step_by(self.shard.of as usize);
-                    jobs.extend(part.map(|restart| (variant, setting, restart)));
-                }
+                let settings = self.degrees.iter();
+                all.extend(settings.map(|&degrees| (variant, SearchSetting { degrees, lights })));
             }
         }
+        // The restarts of this part: one of each `of`.
+        let Shard { number, of } = self.shard;
+        let part = (self.restarts + of - number) / of;
         let progress = Progress::watched(log);
-        let (count, ended) = (jobs.len(), AtomicUsize::new(0));
-        let climbed = jobs
+        let (count, ended) = (all.len() * part as usize, AtomicUsize::new(0));
+        let cases = (0..count)
             .into_par_iter()
-            .filter_map(|(variant, setting, restart)| {
+            .filter_map(|job| {
+                let (variant, setting) = all[job / part as usize];
+                let restart = number - 1 + of * (job % part as usize) as u32;
                 let case = climb(variant, setting, restart);
                 let ended = ended.fetch_add(1, Ordering::Relaxed);
-                progress.at(ended as f32 / count as f32, &format!("{variant}"));
+                progress.at(ended as f32 / count as f32, &variant.to_string());
                 Some(Found {
                     method: variant.to_string(),
                     setting,
                     restart,
                     case: case?,
                 })
-            });
+            })
+            .fold(Worst::default, Worst::with)
+            .reduce(Worst::default, |a, b| b.0.into_iter().fold(a, Worst::with));
+        let keys = all
+            .iter()
+            .map(|(variant, setting)| (variant.to_string(), *setting));
+        let cases = cases.in_order(&keys.collect::<Vec<_>>());
+        for variant in self.methods.iter().map(ToString::to_string) {
+            if part > 0 && !cases.iter().any(|found| found.method == variant) {
+                log.warning(&format!(
+                    "{variant} is left out: it is for no such triangle"
+                ));
+            }
+        }
         let names = self.methods.iter().map(ToString::to_string);
         let run = format!(
             "{} {:?} {:?} {}",
@@ -187,43 +203,48 @@ impl SearchArgs {
             shard: self.shard,
             restarts: self.restarts,
             command_line: command_line(),
-            cases: worst(climbed.collect()),
+            cases,
         }
     }
 }
 
-/// Returns of each method and setting the worst case; of two as bad, that of the earlier restart. They keep their order.
-fn worst(all: Vec<Found>) -> Vec<Found> {
-    let mut worst: Vec<Found> = Vec::new();
-    for found in all {
-        let is_same =
-            |other: &&mut Found| other.method == found.method && other.setting == found.setting;
-        match worst.iter_mut().find(is_same) {
-            None => worst.push(found),
+/// The worst cases found so far, one a method and setting: of two as bad, that of the earlier restart.
+#[derive(Default)]
+struct Worst(Vec<Found>);
+
+impl Worst {
+    fn with(mut self, found: Found) -> Worst {
+        match self.0.iter_mut().find(|other| other.key() == found.key()) {
+            None => self.0.push(found),
             Some(other) => {
-                let is_worse = found.case.levels > other.case.levels
-                    || found.case.levels == other.case.levels && found.restart < other.restart;
-                if is_worse {
+                let [new, old] = [&found, &*other].map(|f| (f.case.levels, u32::MAX - f.restart));
+                if new > old {
                     *other = found;
                 }
             }
         }
+        self
     }
-    worst
-}
 
-/// The largest document that is read, in bytes.
-const LARGEST: u64 = 1 << 26;
+    /// Returns them in the order of `keys`, in whatever order they were found.
+    fn in_order(self, keys: &[(String, SearchSetting)]) -> Vec<Found> {
+        let mut cases = self.0;
+        let place = |found: &Found| {
+            let is_key =
+                |(method, setting): &(String, SearchSetting)| (&**method, *setting) == found.key();
+            keys.iter().position(is_key)
+        };
+        cases.sort_by_key(place);
+        cases
+    }
+}
 
 impl Document {
     /// Reads the file of a part.
     fn read(path: &Path) -> Result<Document, CliError> {
         let shown = path.display();
-        let mut text = String::new();
-        let file =
-            files::document(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
-        let read = file.take(LARGEST).read_to_string(&mut text);
-        read.map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+        let text = files::document(path);
+        let text = text.map_err(|error| format!("{shown}: cannot be read: {error}"))?;
         let expected = "expected a file of `search --json`";
         let document: Document =
             serde_json::from_str(&text).map_err(|error| format!("{shown}: {error}: {expected}"))?;
@@ -234,7 +255,7 @@ impl Document {
             );
         }
         let Shard { number, of } = document.shard;
-        if !(1..=of).contains(&number) {
+        if !document.shard.is_part() {
             return Err(format!("{shown}: it says it is part {number} of {of}: {expected}").into());
         }
         Ok(document)
@@ -265,24 +286,28 @@ impl Document {
             .map(|number| number.to_string())
             .collect();
         if !missing.is_empty() {
-            let (missing, of) = (missing.join(", "), first.shard.of);
-            return Err(format!("of {of} parts are missing: {missing}").into());
+            const SHOWN: usize = 10;
+            let more = match missing.len().saturating_sub(SHOWN) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let shown = missing[..missing.len().min(SHOWN)].join(", ");
+            let of = first.shard.of;
+            return Err(format!("of {of} parts are missing: {shown}{more}").into());
         }
-        // As one run finds them: in the order of the first part that has a case of each.
-        let mut cases = worst(parts.into_iter().flat_map(|part| part.cases).collect());
-        let order = first.order();
-        cases.sort_by_key(|found| order.iter().position(|key| *key == found.key()));
+        // The first part has the first restart of each method and setting, in the order asked for.
+        let whole = parts.iter().find(|part| part.shard.number == 1);
+        let keys = whole.into_iter().flat_map(|part| &part.cases);
+        let keys = keys.map(|found| (found.method.clone(), found.setting));
+        let keys: Vec<_> = keys.collect();
+        let cases = parts.into_iter().flat_map(|part| part.cases);
+        let cases = cases.fold(Worst::default(), Worst::with).in_order(&keys);
         Ok(Document {
             shard: Shard { number: 1, of: 1 },
             command_line: command_line(),
             cases,
             ..first
         })
-    }
-
-    /// Returns methods and settings of its cases, in order.
-    fn order(&self) -> Vec<(String, u64, usize)> {
-        self.cases.iter().map(Found::key).collect()
     }
 
     /// Returns a row a method, with the largest error of each setting in grey levels.
@@ -318,11 +343,7 @@ impl Document {
 }
 
 impl Found {
-    fn key(&self) -> (String, u64, usize) {
-        (
-            self.method.clone(),
-            self.setting.degrees.to_bits(),
-            self.setting.lights,
-        )
+    fn key(&self) -> (&str, SearchSetting) {
+        (&self.method, self.setting)
     }
 }

@@ -38,6 +38,13 @@ pub fn span_times(methods: &[Variant], log: Log) -> Result<(String, String), Cli
     let progress = Progress::silent_between_moves(log);
     let benches = [1, 4].map(|lights| (lights, SpanBench::new(DEGREES, lights)));
     let mut all = Vec::new();
+    for variant in methods {
+        if let Some(reason) = benches[0].1.refuses(variant) {
+            log.warning(&format!("{variant} is left out: {reason}"));
+        }
+    }
+    let is_for = |variant: &&Variant| benches[0].1.refuses(variant).is_none();
+    let methods: Vec<&Variant> = methods.iter().filter(is_for).collect();
     for (lights, _) in &benches {
         all.extend(methods.iter().map(|variant| SpanTimes {
             method: variant.to_string(),

@@ -193,6 +193,14 @@ impl Frame {
         }
     }
 
+    /// Returns the weight by which what a vertex carries is interpolated: near/w under perspective interpolation, else 1.
+    pub(crate) fn weight(&self, vertex: u32) -> f32 {
+        match self.interpolation {
+            Interpolation::Screen => 1.0,
+            Interpolation::Perspective => self.vertices[vertex as usize].inv_w,
+        }
+    }
+
     /// Returns the position of a vertex relative to [`Frame::origin`], in world units along the axes of the world: points near
     /// the eye, where precision matters, have small coordinates. 0 if the frame was given no positions. At a clip corner it
     /// means nothing, like the normal.

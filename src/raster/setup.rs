@@ -226,10 +226,7 @@ impl<'a> SetUp<'a> {
                 normal: vec3(frame.normal(corner)),
                 // Exact: coordinates have at most 24 bits.
                 place: [vertex.x, vertex.y].map(|at| at.to_bits() as f32 * (1.0 / 256.0)),
-                weight: match frame.interpolation() {
-                    Interpolation::Screen => 1.0,
-                    Interpolation::Perspective => vertex.inv_w,
-                },
+                weight: frame.weight(corner),
                 position: has_positions.then(|| vec3(frame.position(corner))),
             });
             self.collect_whole(corner, whole);

@@ -1,16 +1,15 @@
 //! Phong shading by Taylor's quadratic about the middle of a triangle: no root and no division at a pixel (Bishop, Weimer 1986).
 
 use super::quadratic_products::{
-    Growth, OverPolygon, QuadraticProducts, WIDEST, least_length, plain, width,
+    Growth, OverPolygon, QuadraticProducts, least_length, narrow_triangle, set_up_triangle,
 };
 use super::{
     Approximation, Corners, Family, Info, Lit, Local, Pixel, Planes, Roundings, Shader, Span,
     Stepped,
 };
 use crate::frame::{Frame, Polygon};
-use crate::number::{Num, Real, Vec3, vec3};
+use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
-use crate::scene::Interpolation;
 
 /// Taylor's quadratics, for up to `L` lights: with `v = v_0 + x v_x + y v_y` the interpolated normal, from the middle of a triangle,
 ///
@@ -38,21 +37,9 @@ const ROOTS: u8 = 1;
 
 /// Bounds the error of Taylor's quadratics on a polygon.
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
-    let &[a, b, c] = frame.corners(polygon) else {
+    let Some(corners) = narrow_triangle(frame, polygon) else {
         return Approximation::NONE;
     };
-    let corner = |corner: u32| {
-        let weight = match frame.interpolation() {
-            Interpolation::Screen => 1.0,
-            Interpolation::Perspective => frame.vertices()[corner as usize].inv_w,
-        };
-        (vec3(frame.normal(corner)), weight)
-    };
-    let corners = [a, b, c].map(corner);
-    let is_whole = [a, b, c].iter().all(|&v| frame.clip_corner(v).is_none());
-    if !is_whole || width(corners) > WIDEST {
-        return Approximation::NONE;
-    }
     let [a, b, c] = corners.map(|(normal, weight)| normal * weight);
     let middle = (a + b + c) * (1.0 / 3.0);
     let square = |v: Vec3<f32>| (v - middle).dot(v - middle);
@@ -142,16 +129,10 @@ impl<const L: usize> Shader for BishopWeimer<L> {
         polygon: &Corners<'_, R>,
     ) -> (u8, Self::Constants<R>) {
         let mut constants = Self::Constants::<R>::filled(lit.count(), lit.zero());
-        let &[a, b, c] = polygon.all else {
+        let Some(([a, b, c], growth)) = set_up_triangle(polygon) else {
             return (ROOTS, constants);
         };
-        let Some(Growth { p, q, r, s }) = Growth::of([&a, &b, &c]) else {
-            return (ROOTS, constants);
-        };
-        let width = width([a, b, c].map(|v| (plain(v.normal), v.weight.value())));
-        if !polygon.is_whole || width > WIDEST {
-            return (ROOTS, constants);
-        }
+        let Growth { p, q, r, s } = growth;
         let [va, vb, vc] = [a, b, c].map(|corner| corner.normal * corner.weight);
         let third = 1.0 / 3.0;
         let v = (va + vb + vc) * third;

@@ -5,7 +5,7 @@ use super::lighting::highlight_error;
 use super::spread::{PolygonSpread, SeenLights, Spread};
 use super::{Approximation, Entry, LitAt, Local, Perspective, Value, Variant};
 use crate::frame::{Frame, Polygon};
-use crate::scene::{Interpolation, LightTerm, Lighting, Power, SpecularGate, SpecularModel};
+use crate::scene::{LightTerm, Lighting, Power, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
@@ -205,9 +205,9 @@ fn errors(entry: &Entry, frame: &Frame, polygon: &Polygon, spread: PolygonSpread
     let Roundings { start, step, of } = info.roundings;
     let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
     // A rounding where the weight of perspective is largest counts for more where it is smallest.
-    let weights = match (entry.perspective, frame.interpolation()) {
-        (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => extent.weights,
-        _ => 1.0,
+    let weights = match entry.perspective {
+        Perspective::Free | Perspective::Divides => extent.weights,
+        Perspective::Unaffected | Perspective::ScreenOnly => 1.0,
     };
     // True if vectors to places are stepped beside normals.
     let is_followed = frame.is_local() && entry.local == Local::PerPixel;

@@ -5,7 +5,9 @@ use super::kernels::colour;
 use super::lighting::Lit;
 use super::planes::each;
 use super::span::RunStart;
-use super::{Corner, Corners, LitAt, Local, Shader, Span, SpanBench, SpanPlace, Variant, ramp};
+use super::{
+    Corner, Corners, LitAt, Local, Planes, Shader, Span, SpanBench, SpanPlace, Variant, ramp,
+};
 use crate::number::{Counted, Counter, Counts, Real, vec3};
 use alloc::vec::Vec;
 
@@ -50,7 +52,9 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     let is_polygon = matches!(entry.lit_at, LitAt::Polygon | LitAt::PolygonMean);
     let mut counts = OperationCounts::default();
 
-    let corners = [0, 1, 2].map(|i| {
+    // A loop: as a map of an array it would be compiled three times, for each method.
+    let mut corners = [const { Vec::new() }; 3];
+    for (i, corner) in corners.iter_mut().enumerate() {
         counter.take();
         let normal = match entry.lit_at {
             LitAt::Polygon => face,
@@ -61,16 +65,14 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
             LitAt::Vertex | LitAt::Pixel => three(bench.normals[i]),
         };
         let varying = method.vertex(&lit.at(three(bench.points[i])), normal);
-        let mut corner: Vec<Counted<'_>> = Vec::new();
-        each(varying, |_, x| corner.push(*x));
+        put(varying, corner);
         if extras.point {
             corner.extend(bench.points[i].map(number));
         }
         if extras.weight {
             corner.push(number(1.0));
         }
-        corner
-    });
+    }
     if !is_polygon {
         counts.vertex = counter.take();
     }
@@ -150,7 +152,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         second.push(step);
     }
     let mut planned = Vec::new();
-    each(constants, |_, number| planned.push(*number));
+    put(constants, &mut planned);
     let start = RunStart {
         numbers: [&first, &second],
         x: 0,
@@ -182,6 +184,11 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         operations: counts,
         colour: colour.array().map(|channel| channel.value()),
     }
+}
+
+/// Puts the numbers of a value at the end of a list.
+fn put<'a, P: Planes<Counted<'a>>>(value: P, list: &mut Vec<Counted<'a>>) {
+    each(value, |_, number| list.push(*number));
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 #[allow(unused_imports)] // named by the documentation
 use super::Variant;
 use crate::frame::{Frame, Polygon, ScreenVertex, SubPixel};
+use crate::scene::Interpolation;
 use glam::DVec3;
 
 /// Up to this many pixels wide the row engine draws a triangle pixel by pixel, eight triangles at a time.
@@ -19,7 +20,7 @@ pub(crate) const TILE_HEIGHT: usize = 16;
 pub(super) struct Extent {
     /// The most steps from a corner to a pixel: down the rows and across the columns, inside the picture.
     pub steps: f64,
-    /// The largest weight of perspective over the smallest.
+    /// The largest weight of perspective over the smallest; 1 without.
     pub weights: f64,
     /// The least cosine c of the angles between the corners' normals and their mean direction m; −1 if they have none.
     ///
@@ -47,7 +48,10 @@ impl Extent {
         let (least, most) = range(corners.iter().map(|v| f64::from(vertex(v).inv_w)));
         Extent {
             steps: steps as f64,
-            weights: f64::max(1.0, most / least),
+            weights: match frame.interpolation() {
+                Interpolation::Screen => 1.0,
+                Interpolation::Perspective => f64::max(1.0, most / least),
+            },
             cosine: least_cosine(frame, corners),
             growth: match corners {
                 [a, b, c] => growth([a, b, c].map(vertex)),

@@ -324,6 +324,17 @@ pub enum Standing {
     Exhibit,
 }
 
+impl Standing {
+    /// Returns it in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Standing::Default => "default",
+            Standing::Asked => "where asked for",
+            Standing::Exhibit => "an exhibit",
+        }
+    }
+}
+
 /// The description of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Info {

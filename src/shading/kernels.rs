@@ -343,7 +343,7 @@ fn light<M: Shader, F: Num>(
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = if uniforms.model.is_general || job.extras != Extras::default() {
+        out = if M::IS_HALFWAY || uniforms.model.is_general || job.extras != Extras::default() {
             shade_runs::<M>(job, uniforms, true, runs, out)
         } else {
             shade_fast_runs::<M>(job, uniforms, runs, out)

@@ -9,7 +9,6 @@ use super::{
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
-use crate::scene::Interpolation;
 
 /// A Phong map of unlimited resolution: N_x and N_y are interpolated in the frame whose z is toward the eye, and a pixel has the colour
 /// of the ball's picture there, that of
@@ -26,11 +25,7 @@ pub struct PhongMap;
 /// Bounds the error of a map on a polygon. At the ball's rim roundings of N_x and N_y count for more: two at each step, and 16 before.
 fn approximation(frame: &Frame, polygon: &Polygon) -> super::Approximation {
     let extent = Extent::of(frame, polygon);
-    let weights = match frame.interpolation() {
-        Interpolation::Screen => 1.0,
-        Interpolation::Perspective => extent.weights,
-    };
-    let rounding = (16.0 + 2.0 * extent.steps) * weights / (1u64 << 24) as f64;
+    let rounding = (16.0 + 2.0 * extent.steps) * extent.weights / (1u64 << 24) as f64;
     of_angle(FromEye::of(frame, polygon).angle_of_map(rounding))
 }
 

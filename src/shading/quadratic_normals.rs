@@ -6,7 +6,6 @@ use super::{Approximation, Family, Info, Lit, Local, Pixel, Roundings, Shader, S
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
-use crate::scene::Interpolation;
 
 /// Quadratic vectors: of the normals at both ends of a span and in its middle unit vectors are made, and the quadratic through them is
 /// stepped by six additions a pixel. It is so nearly of length 1 that it is lit as it is.
@@ -30,11 +29,7 @@ pub struct QuadraticNormals;
 
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let extent = Extent::of(frame, polygon);
-    let weights = match frame.interpolation() {
-        Interpolation::Screen => 1.0,
-        Interpolation::Perspective => extent.weights,
-    };
-    let apart = weights * extent.apart() + weights - 1.0;
+    let apart = extent.weights * extent.apart() + extent.weights - 1.0;
     let cosine = match extent.cosine > 0.0 {
         true => 0.0241 * libm::pow(apart / extent.cosine, 3.0),
         false => f64::INFINITY,

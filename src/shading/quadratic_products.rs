@@ -2,7 +2,8 @@
 
 use super::increments::{Linear, Quadratic, Walk};
 use super::planes::{each, scaled};
-use super::{Corner, Lit, PerLight, Planes};
+use super::{Corner, Corners, Lit, PerLight, Planes};
+use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 
 /// J of each light, and K.
@@ -41,6 +42,29 @@ pub(super) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
         true => Num::sqrt(longest) / length,
         false => f32::INFINITY,
     }
+}
+
+/// Returns the unit normals and weights of a polygon of a frame, if it is a whole triangle and not too [wide](WIDEST).
+pub(super) fn narrow_triangle(frame: &Frame, polygon: &Polygon) -> Option<[(Vec3<f32>, f32); 3]> {
+    let &[a, b, c] = frame.corners(polygon) else {
+        return None;
+    };
+    let is_whole = [a, b, c].iter().all(|&v| frame.clip_corner(v).is_none());
+    let corners = [a, b, c].map(|v| (vec3(frame.normal(v)), frame.weight(v)));
+    (is_whole && width(corners) <= WIDEST).then_some(corners)
+}
+
+/// Returns the corners of a polygon as a method sets it up, and their growth, if it is such a triangle, and no sliver.
+#[inline(always)]
+pub(super) fn set_up_triangle<R: Real>(
+    polygon: &Corners<'_, R>,
+) -> Option<([Corner<R>; 3], Growth<R>)> {
+    let &[a, b, c] = polygon.all else {
+        return None;
+    };
+    let growth = Growth::of([&a, &b, &c])?;
+    let width = width([a, b, c].map(|v| (plain(v.normal), v.weight.value())));
+    (polygon.is_whole && width <= WIDEST).then_some(([a, b, c], growth))
 }
 
 /// The growth of the barycentric coordinates b and c of a triangle: `b = p x + q y`, `c = r x + s y`, from its first corner.

@@ -3,6 +3,7 @@
 use super::adaptive_plan::{WIDEST, line, parabola, rounded_up, spread, squares};
 use super::increments::{Quadratic, Walk};
 use super::planes::scaled;
+use super::quadratic_products::plain;
 use super::{
     Approximation, Corners, Family, Info, LightModel, Linear, Lit, Local, MethodParameter,
     PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped, Value,
@@ -10,7 +11,6 @@ use super::{
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::reference::Model;
-use crate::scene::Interpolation;
 
 /// Series Phong shading for up to `L` lights: `J = L·N` and `K = V·N` by one addition each and `D = N·N` by two, as Duff's method has
 /// them, and
@@ -56,7 +56,6 @@ pub(super) fn polynomial(
 
 /// Returns the same for a polygon as a method sets it up. It is decided by plain values, which are nothing that the method computes.
 pub(super) fn of_corners<R: Real>(order: u32, polygon: &Corners<'_, R>) -> Option<[f32; 3]> {
-    let plain = |v: Vec3<R>| vec3([v.x.value(), v.y.value(), v.z.value()]);
     let normals = polygon.all.iter().map(|corner| plain(corner.normal));
     let weights = polygon.all.iter().map(|corner| corner.weight.value());
     let polynomial = polynomial(order, normals, weights)?;
@@ -69,12 +68,9 @@ pub(super) fn approximation(frame: &Frame, polygon: &Polygon, order: u32) -> App
     if corners.iter().any(|&v| frame.clip_corner(v).is_some()) {
         return Approximation::NONE;
     }
-    let weight = |corner: &u32| match frame.interpolation() {
-        Interpolation::Screen => 1.0,
-        Interpolation::Perspective => frame.vertices()[*corner as usize].inv_w,
-    };
     let normals = corners.iter().map(|&v| vec3(frame.normal(v)));
-    let polynomial = polynomial(order, normals, corners.iter().map(weight));
+    let weights = corners.iter().map(|&v| frame.weight(v));
+    let polynomial = polynomial(order, normals, weights);
     Approximation {
         length: polynomial.map_or(0.0, |(_, error)| error.into()),
         ..Approximation::NONE

@@ -1,14 +1,14 @@
 //! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
 
 use super::quadratic_products::{
-    Growth, OverPolygon, QuadraticProducts, WIDEST, lagrange, plain, width,
+    OverPolygon, QuadraticProducts, lagrange, narrow_triangle, set_up_triangle, width,
 };
 use super::{
     Approximation, Corner, Corners, Family, Info, LightModel, Lit, Local, MethodParameter, Pixel,
     Planes, Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
-use crate::number::{Num, Real, Vec3, vec3};
+use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
 use crate::scene::Interpolation;
 
@@ -68,19 +68,9 @@ fn lack([a, b]: [Vec3<f32>; 2]) -> f64 {
 
 /// Bounds the error of six-point products on a polygon: see [`SixPoint`].
 fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Approximation {
-    let &[a, b, c] = frame.corners(polygon) else {
+    let Some(corners) = narrow_triangle(frame, polygon) else {
         return Approximation::NONE;
     };
-    let corner = |corner: u32| {
-        let weight = match frame.interpolation() {
-            Interpolation::Screen => 1.0,
-            Interpolation::Perspective => frame.vertices()[corner as usize].inv_w,
-        };
-        (vec3(frame.normal(corner)), weight)
-    };
-    let is_whole = [a, b, c].iter().all(|&v| frame.clip_corner(v).is_none());
-    let corners = [a, b, c].map(corner);
-    let width = width(corners);
     let is_near = parameters[0] == BARRERA && frame.interpolation() == Interpolation::Screen;
     let [a, b, c] = corners.map(|(normal, _)| normal);
     let lacks = [[a, b], [b, c], [c, a]].map(lack);
@@ -88,12 +78,9 @@ fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Appr
         true => 4.0 / 3.0 * lacks.into_iter().fold(0.0, f64::max),
         false => 0.0,
     };
-    match is_whole && width <= WIDEST {
-        true => Approximation {
-            cosine: 0.102 * libm::pow(width.into(), 3.0) + short,
-            ..Approximation::NONE
-        },
-        false => Approximation::NONE,
+    Approximation {
+        cosine: 0.102 * libm::pow(width(corners).into(), 3.0) + short,
+        ..Approximation::NONE
     }
 }
 
@@ -149,16 +136,9 @@ impl<const L: usize> Shader for SixPoint<L> {
     ) -> (u8, Self::Constants<R>) {
         let zero = polygon.face.x.broadcast(0.0);
         let none = Self::Constants::<R>::filled(lit.count(), zero);
-        let &[a, b, c] = polygon.all else {
+        let Some(([a, b, c], growth)) = set_up_triangle(polygon) else {
             return (ROOTS, none);
         };
-        let Some(growth) = Growth::of([&a, &b, &c]) else {
-            return (ROOTS, none);
-        };
-        let width = width([a, b, c].map(|v| (plain(v.normal), v.weight.value())));
-        if !polygon.is_whole || width > WIDEST {
-            return (ROOTS, none);
-        }
         let products = |n| lit.products::<L>(n);
         let [fa, fb, fc] = [a, b, c].map(|corner| products(corner.normal));
         let [ab, bc, ca] = match self.is_near && is_alike([a, b, c]) {
@@ -193,8 +173,10 @@ impl<const L: usize> Shader for SixPoint<L> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quadratic_products::WIDEST;
     use super::*;
     use crate::number::test_random::Random;
+    use crate::number::vec3;
     use alloc::vec::Vec;
 
     type Vector = [f64; 3];

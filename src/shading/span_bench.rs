@@ -102,6 +102,15 @@ impl SpanBench {
         }
     }
 
+    /// Returns the reason why a method is not for its light, if it is not.
+    pub fn refuses(&self, variant: &Variant) -> Option<&'static str> {
+        let interpolation = match self.perspective {
+            true => Interpolation::Perspective,
+            false => Interpolation::Screen,
+        };
+        (variant.entry().refuses_light)(&self.lighting, interpolation)
+    }
+
     /// Returns the uniforms of a method at `scale`.
     pub(crate) fn uniforms(&self, variant: &Variant, scale: f32) -> Uniforms {
         let uniforms = variant.uniforms(&self.lighting, scale);

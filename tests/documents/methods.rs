@@ -5,7 +5,7 @@
 
 use crate::markdown::read;
 use fastphong::number::Counts;
-use fastphong::shading::{Entry, METHODS, Standing};
+use fastphong::shading::{Entry, METHODS};
 use std::fmt::Write;
 
 const FILE: &str = "docs/methods.md";
@@ -60,12 +60,7 @@ fn described(entry: &'static Entry) -> String {
     let mut say = |head: &str, what: &str| {
         writeln!(text, "**{head}:** {}.\n", what.trim_end_matches('.')).expect("a string");
     };
-    let standing = match info.standing {
-        Standing::Default => "default",
-        Standing::Asked => "where asked for",
-        Standing::Exhibit => "an exhibit",
-    };
-    let words = [info.family.name(), standing];
+    let words = [info.family.name(), info.standing.name()];
     let family: Vec<_> = words.iter().chain(info.ids).copied().collect();
     say("Family", &family.join(", "));
     say("Source", info.source);

@@ -145,7 +145,7 @@ impl WorstCase {
     }
 
     /// Returns a random case.
-    fn random(random: &mut Random, setting: SearchSetting, halfway: bool) -> WorstCase {
+    fn random(random: &mut Random, setting: SearchSetting) -> WorstCase {
         // The distance of the corners of a triangle from its middle, if it is as wide as may be. Some begin narrower.
         let widest = 0.95 * setting.degrees.to_radians() / libm::sqrt(3.0);
         loop {
@@ -164,7 +164,7 @@ impl WorstCase {
             });
             let case = WorstCase {
                 levels: 0.0,
-                halfway,
+                halfway: false,
                 normals,
                 to_lights: lights.collect(),
             };
@@ -192,12 +192,15 @@ impl WorstCase {
 
 /// Climbs once, with the random numbers of restart number `restart`; `None` if the method is for no such case.
 pub fn climb(variant: &Variant, setting: SearchSetting, restart: u32) -> Option<WorstCase> {
-    let seed =
-        u64::from(restart) << 32 | (setting.degrees * 64.0) as u64 ^ (setting.lights as u64) << 24;
-    let mut random = Random(seed);
+    // Settings differ in bits below those of the restart.
+    let bits = (setting.lights as u64) << 24 | (setting.degrees * 64.0) as u64;
+    let mut random = Random(u64::from(restart) << 32 | bits);
+    let start = WorstCase::random(&mut random, setting);
     let mut best = [false, true].into_iter().find_map(|halfway| {
-        let mut random = Random(seed);
-        let case = WorstCase::random(&mut random, setting, halfway);
+        let case = WorstCase {
+            halfway,
+            ..start.clone()
+        };
         let levels = case.error(variant)?;
         Some(WorstCase { levels, ..case })
     })?;
