@@ -30,6 +30,8 @@ impl Shader for EyeFramePhong {
         ..Info::OF_PIXELS
     };
     const LOCAL: Local = Local::PerPolygon;
+    const SCALAR_ONLY: Option<&'static str> =
+        Some("eye-frame-phong saves products, and a block of pixels is no faster without them");
     type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // N in the frame
     type Walk<F: Num> = Linear<Vec3<F>>;

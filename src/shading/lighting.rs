@@ -705,6 +705,7 @@ impl<'a, F: Num> Lit<'a, F> {
         let mut power = match exponent {
             Exponent::Squarings(times) => squared_up_to_7(cosine, times),
             _ if !self.general && F::WIDTH > 1 => return None, // the fast path has no other
+            Exponent::Whole(n) if F::WIDTH == 1 && n > 0 => to_whole(cosine, n),
             _ if F::WIDTH == 1 => power_by_call(exponent, cosine, self.powers),
             _ => exponent.of_or_read(cosine, self.powers),
         };
@@ -851,34 +852,40 @@ impl Exponent {
     /// none is faster by a cheaper one; `Lit::power` calls its squarings directly.
     #[inline(always)]
     pub fn of<F: Num>(self, base: F) -> F {
-        let n = match self {
-            Exponent::Squarings(times) => return squared_up_to_7(base, times),
-            Exponent::Whole(0) => return base.broadcast(1.0),
-            Exponent::Whole(n) => n,
-            Exponent::Fractional(n) => return base.powf(n),
-            Exponent::Exp(rate) => return ((base.max(0.0) - 1.0) * rate).exp2(),
+        match self {
+            Exponent::Squarings(times) => squared_up_to_7(base, times),
+            Exponent::Whole(0) => base.broadcast(1.0),
+            Exponent::Whole(n) => to_whole(base, n),
+            Exponent::Fractional(n) => base.powf(n),
+            Exponent::Exp(rate) => ((base.max(0.0) - 1.0) * rate).exp2(),
             Exponent::Lyon { slope, squarings } => {
                 let linear = ((base.max(0.0) - 1.0) * slope + 1.0).max(0.0);
-                return squared_up_to_7(linear, squarings);
+                squared_up_to_7(linear, squarings)
             }
-            Exponent::Schlick(n) => return base / (base * (1.0 - n) + n),
+            Exponent::Schlick(n) => base / (base * (1.0 - n) + n),
             Exponent::Table { .. } => unreachable!("`Lit::power` reads tables"),
-        };
-        let (mut square, mut left) = (base, n);
-        while left & 1 == 0 {
-            square = square * square;
-            left >>= 1;
         }
-        let mut power = square;
-        while left > 1 {
-            square = square * square;
-            left >>= 1;
-            if left & 1 == 1 {
-                power = power * square;
-            }
-        }
-        power
     }
+}
+
+/// Returns `x` to the power `n` of 1 or more, by squaring.
+#[inline(always)]
+fn to_whole<F: Num>(x: F, n: u32) -> F {
+    debug_assert!(n > 0);
+    let (mut square, mut left) = (x, n);
+    while left & 1 == 0 {
+        square = square * square;
+        left >>= 1;
+    }
+    let mut power = square;
+    while left > 1 {
+        square = square * square;
+        left >>= 1;
+        if left & 1 == 1 {
+            power = power * square;
+        }
+    }
+    power
 }
 
 /// [`Exponent::of_or_read`] as a call. Inlined in a scalar loop, compilers compute all functions at each pixel and then choose: what the

@@ -48,6 +48,8 @@ impl Shader for PhongMap {
     };
     const LOCAL: Local = Local::PerPolygon;
     const PERSPECTIVE: Perspective = Perspective::Divides;
+    const SCALAR_ONLY: Option<&'static str> =
+        Some("phong-map reads a map, which a block of pixels does one by one");
     type Constants<F: Num> = ();
     type Varying<F: Num> = (F, F); // N_x, N_y
     type Walk<F: Num> = Linear<(F, F)>;

@@ -44,6 +44,8 @@ impl Shader for QuaternionPhong {
         ..Info::OF_PIXELS
     };
     const LOCAL: Local = Local::PerPolygon;
+    const SCALAR_ONLY: Option<&'static str> =
+        Some("quaternion-phong divides at each pixel, and a block of pixels takes a root for less");
     type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // m
     type Walk<F: Num> = Linear<Vec3<F>>;

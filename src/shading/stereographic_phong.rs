@@ -41,6 +41,9 @@ impl Shader for StereographicPhong {
     };
     const LOCAL: Local = Local::PerPolygon;
     const PERSPECTIVE: Perspective = Perspective::Divides;
+    const SCALAR_ONLY: Option<&'static str> = Some(
+        "stereographic-phong divides at each pixel, and a block of pixels takes a root for less",
+    );
     type Constants<F: Num> = ();
     type Varying<F: Num> = (F, F); // u, v
     type Walk<F: Num> = Linear<(F, F)>;

@@ -34,6 +34,7 @@ fn four_parts_find_what_one_run_finds() {
 #[test]
 fn parts_that_make_no_whole_are_refused() {
     let folder = Folder::new();
+    const PART: &str = "expected a part of a whole of 100000 at most, as in 3/16";
     let few = "search -m gouraud --degrees 10 --lights 1 -q";
     for part in 1..=3 {
         folder
@@ -67,8 +68,9 @@ fn parts_that_make_no_whole_are_refused() {
             .refused(&[said]);
     }
     for (flags, said) in [
-        ("--shard 0/3", "expected a part of a whole, as in 3/16"),
-        ("--shard 4/3", "expected a part of a whole, as in 3/16"),
+        ("--shard 0/3", PART),
+        ("--shard 4/3", PART),
+        ("--shard 1/100001", PART),
         ("--degrees 0,5", "degrees from 1 to 90"),
         ("--lights 9", "numbers of lights from 1 to 8"),
         ("--restarts 0", "a number of restarts from 1 to 100000"),
