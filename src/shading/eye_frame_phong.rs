@@ -30,6 +30,7 @@ impl Shader for EyeFramePhong {
         ..Info::OF_PIXELS
     };
     const LOCAL: Local = Local::PerPolygon;
+    const TURNS_NORMALS: bool = true;
     const SCALAR_ONLY: Option<&'static str> =
         Some("eye-frame-phong saves products, and a block of pixels is no faster without them");
     type Constants<F: Num> = ();

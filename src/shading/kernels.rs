@@ -164,6 +164,7 @@ pub struct Kernels {
     /// True if pixels are the varyings themselves.
     pub(crate) linear: bool,
     pub(crate) passes_normal: bool,
+    pub(crate) turns_normals: bool,
     pub(crate) reads_attributes: bool,
     /// True if SIMD walks along runs with these parameters: [`Shader::walks_along_runs`].
     pub(crate) walks_along_runs: fn(&[Value], &LightModel) -> bool,
@@ -212,6 +213,7 @@ impl Kernels {
             reads_positions: M::READS_POSITIONS,
             linear: <M::Walk<f32> as Walk<f32>>::LINEAR,
             passes_normal: M::PASSES_NORMAL,
+            turns_normals: M::TURNS_NORMALS,
             reads_attributes: M::READS_ATTRIBUTES,
             walks_along_runs: |parameters, model| M::new(parameters, model).walks_along_runs(),
             polygon: polygon::<M>,

@@ -53,8 +53,8 @@ pub struct LightModel {
     ambient: Vec3<f32>,
     /// The unit vector toward the eye, or its position.
     pub(super) eye: Place<Vec3<f32>>,
-    /// The frame of eye and first light: see [`Lit::framed`].
-    frame: [Vec3<f32>; 3],
+    /// The frame of eye and first light, for methods that turn normals into it: see [`Lit::framed`].
+    frame: Option<[Vec3<f32>; 3]>,
     /// The cosine that is raised to the exponent.
     pub specular: SpecularModel,
     pub(super) gate: SpecularGate,
@@ -111,7 +111,7 @@ impl Uniforms {
             scale,
             ambient: vec3(lighting.ambient) * scale,
             eye: lighting.view.map(vec3),
-            frame: [Vec3::default(); 3],
+            frame: None,
             specular: lighting.specular,
             gate: lighting.gate,
             shininess: lighting.shininess,
@@ -123,6 +123,17 @@ impl Uniforms {
         let exponent = Exponent::new(power, model.shininess, model.faint);
         let powers = exponent.table(model.shininess, model.faint);
         Uniforms::derived(LightModel { exponent, ..model }, lights, powers)
+    }
+
+    /// Fills in the frame of eye and first light: see [`Lit::framed`].
+    pub(super) fn turned(mut self) -> Uniforms {
+        let first = self.lights.first().map(|light| vector(light.place));
+        let frame = frame_of(vector(self.model.eye), first);
+        self.model.frame = Some(frame);
+        for light in &mut self.lights {
+            light.framed = in_frame(frame, vector(light.place));
+        }
+        self
     }
 
     /// Returns the same light as directional lights: as `point` sees it. The lecture assumes so along a polygon (L21 1).
@@ -139,7 +150,11 @@ impl Uniforms {
         });
         let eye = Place::Infinite(lit.view);
         let model = LightModel { eye, ..self.model };
-        Uniforms::derived(model, lights.collect(), self.powers.clone())
+        let seen = Uniforms::derived(model, lights.collect(), self.powers.clone());
+        match model.frame {
+            Some(_) => seen.turned(),
+            None => seen,
+        }
     }
 
     /// Returns them as points see them.
@@ -160,12 +175,9 @@ impl Uniforms {
         powers: Vec<f32>,
     ) -> Uniforms {
         let mut most = magnitude(model.ambient);
-        let first = lights.first().map(|light| vector(light.place));
-        model.frame = frame_of(vector(model.eye), first);
         for light in &mut lights {
             light.l_v = vector(light.place).dot(vector(model.eye));
             light.half = over_sum(light.l_v);
-            light.framed = in_frame(model.frame, vector(light.place));
             most += magnitude(light.diffuse) + magnitude(light.specular);
         }
         model.is_general = model.eye.is_local()
@@ -523,10 +535,14 @@ impl<'a, F: Num> Lit<'a, F> {
     }
 
     /// Returns a vector in the frame of the eye and the first light: z is toward the eye, and the light in the plane of x and z. For
-    /// methods that see lights and eye at infinity.
+    /// methods that see lights and eye at infinity, and say so by [`Shader::TURNS_NORMALS`](super::Shader::TURNS_NORMALS).
     #[inline(always)]
     pub(super) fn framed(&self, v: Vec3<F>) -> Vec3<F> {
-        in_frame(self.model.frame, v)
+        debug_assert!(
+            self.model.frame.is_some(),
+            "the method does not say that it turns normals"
+        );
+        in_frame(self.model.frame.unwrap_or_default(), v)
     }
 
     /// Returns the unit vectors L toward a light and H half-way to the eye, of a light and an eye at infinity.

@@ -120,6 +120,9 @@ pub trait Shader: Copy + Default + 'static {
     const PERSPECTIVE: Perspective = Perspective::Free;
     /// True if `vertex` returns the normal unchanged: engines then read the frame's normals and skip the vertex pass.
     const PASSES_NORMAL: bool = false;
+    /// True if `vertex` turns normals into the frame of eye and first light: for others that is not computed, once a polygon where lights
+    /// are at positions.
+    const TURNS_NORMALS: bool = false;
     /// True if `vertex` reads [`Lit::attributes`].
     const READS_ATTRIBUTES: bool = false;
     /// True if its varying is a unit normal that edges carry along great circles (L21 4.7).

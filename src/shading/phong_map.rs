@@ -48,6 +48,7 @@ impl Shader for PhongMap {
     };
     const LOCAL: Local = Local::PerPolygon;
     const PERSPECTIVE: Perspective = Perspective::Divides;
+    const TURNS_NORMALS: bool = true;
     const SCALAR_ONLY: Option<&'static str> =
         Some("phong-map reads a map, which a block of pixels does one by one");
     type Constants<F: Num> = ();

@@ -44,6 +44,7 @@ impl Shader for QuaternionPhong {
         ..Info::OF_PIXELS
     };
     const LOCAL: Local = Local::PerPolygon;
+    const TURNS_NORMALS: bool = true;
     const SCALAR_ONLY: Option<&'static str> =
         Some("quaternion-phong divides at each pixel, and a block of pixels takes a root for less");
     type Constants<F: Num> = ();

@@ -41,6 +41,7 @@ impl Shader for StereographicPhong {
     };
     const LOCAL: Local = Local::PerPolygon;
     const PERSPECTIVE: Perspective = Perspective::Divides;
+    const TURNS_NORMALS: bool = true;
     const SCALAR_ONLY: Option<&'static str> = Some(
         "stereographic-phong divides at each pixel, and a block of pixels takes a root for less",
     );

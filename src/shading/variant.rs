@@ -94,6 +94,9 @@ impl Variant {
         if self.entry.is_integer {
             uniforms.materials = integers::materials(lighting);
         }
+        if self.entry.kernels(1, false).turns_normals {
+            uniforms = uniforms.turned();
+        }
         uniforms
     }
 
