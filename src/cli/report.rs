@@ -13,7 +13,8 @@ use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
 use fastphong::lectures::{FIGURES, Figure};
 use fastphong::report::{
-    Document, MOST_BYTES, MOST_POLYGONS, Report, ScenePictures, live_scene, small, utc_date,
+    Document, MOST_BYTES, MOST_POLYGONS, PartOf, Report, ScenePictures, Shard, check_whole,
+    live_scene, small, utc_date,
 };
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
@@ -48,9 +49,13 @@ pub struct ReportArgs {
     /// first three
     #[arg(long)]
     full: bool,
-    /// Compare saved `--json` files of several machines or commits side by side, without drawing
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["inputs", "figures", "studies", "full"])]
+    /// Compare saved `--json` files of several machines or commits side by side, without drawing; the files of all parts of one run are
+    /// joined
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["inputs", "figures", "studies", "full", "shard"])]
     from: Vec<PathBuf>,
+    /// Do the part K of N of the scenes, errors and no times; `--from` joins the `--json` files of all parts
+    #[arg(long, value_name = "K/N", value_parser = Shard::parse, conflicts_with_all = ["figures", "studies"])]
+    shard: Option<Shard>,
     /// Also write README.md and its pictures beside the page
     #[arg(long)]
     markdown: bool,
@@ -94,9 +99,10 @@ impl ReportArgs {
         // Contradicting flags and bad documents are refused before a folder is made.
         self.drawn.renderer()?;
         let read = self.from.iter().map(|path| read(path, log));
-        let mut read = read.collect::<Result<Vec<Report>, _>>()?.into_iter();
+        let read = read.collect::<Result<Vec<Report>, _>>()?;
+        let mut read = self.joined(read)?.into_iter();
         let first = read.next();
-        let names = named_or_shipped(&self.inputs);
+        let names = self.names()?;
         // Every input is loaded first, so that a bad one fails at once.
         let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
         let inputs: &[&str] = if first.is_some() { &[] } else { &names };
@@ -132,11 +138,66 @@ impl ReportArgs {
             .then(|| self.output.with_file_name("README.md"))
     }
 
+    /// Returns the names of the scenes of this part.
+    fn names(&self) -> Result<Vec<&str>, CliError> {
+        let all = named_or_shipped(&self.inputs);
+        let shard = self.shard.unwrap_or(Shard::WHOLE);
+        if shard.of as usize > all.len() {
+            let (of, scenes) = (shard.of, all.len());
+            return Err(format!(
+                "`--shard {}/{of}`: expected as many parts as scenes at most, {scenes}",
+                shard.number
+            )
+            .into());
+        }
+        let named = all.into_iter().enumerate();
+        Ok(named
+            .filter(|(number, _)| shard.has(*number))
+            .map(|(_, name)| name)
+            .collect())
+    }
+
+    /// Joins those documents that are parts of one run; others stay as they are. All are in the order of their first files.
+    fn joined(&self, read: Vec<Report>) -> Result<Vec<Report>, CliError> {
+        let mut groups: Vec<(Option<String>, Vec<Report>, Vec<PartOf>)> = Vec::new();
+        for (report, path) in read.into_iter().zip(&self.from) {
+            let Some((run, shard)) = report.part() else {
+                groups.push((None, vec![report], Vec::new()));
+                continue;
+            };
+            let (run, file) = (run.to_owned(), path.display().to_string());
+            if !shard.is_part() {
+                let Shard { number, of } = shard;
+                return Err(format!("{file}: it says it is part {number} of {of}").into());
+            }
+            let part = PartOf {
+                file,
+                run: run.clone(),
+                shard,
+            };
+            match groups.iter_mut().find(|(other, ..)| other.as_ref() == Some(&run)) {
+                Some((_, reports, parts)) => {
+                    reports.push(report);
+                    parts.push(part);
+                }
+                None => groups.push((Some(run), vec![report], vec![part])),
+            }
+        }
+        let join = |(run, mut reports, parts): (Option<String>, Vec<Report>, Vec<PartOf>)| {
+            check_whole(&parts)?;
+            Ok(match run {
+                Some(_) => Report::joined(reports),
+                None => reports.swap_remove(0),
+            })
+        };
+        groups.into_iter().map(join).collect()
+    }
+
     /// Draws, measures and times the scenes `files`, called `names`.
     fn make(&self, names: &[&str], files: &[SceneFile], log: Log) -> Result<Report, CliError> {
         let start = Instant::now();
         // Everything is made with the shipped scenes.
-        let is_default = self.inputs.is_empty();
+        let is_default = self.inputs.is_empty() && self.shard.is_none();
         let default = if is_default { "all" } else { "none" };
         let figures = self.figures.clone().map_or_else(|| figures(default), Ok)?;
         let experiments = self.studies.map_or_else(|| experiments(default), Ok)?;
@@ -178,20 +239,21 @@ impl ReportArgs {
         for (number, (frame, mut comparison, shown)) in drawn.into_iter().enumerate() {
             let next = format!("{}: timing", names[number]);
             let progress = |part| progress(3, (number as f32 + part) / scenes, &next);
-            self.time(number, &frame, &mut comparison, &progress)?;
+            if self.shard.is_none() {
+                self.time(number, &frame, &mut comparison, &progress)?;
+            }
             pictures.push(shown);
             document.comparisons.push(comparison);
         }
         document.describe_methods();
+        if let Some(shard) = self.shard {
+            document.run = Some(run(command_line()));
+            document.shard = Some(shard);
+        }
         let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
         document.date = since_1970.ok().map(|time| utc_date(time.as_secs()));
         document.seconds = Some(start.elapsed().as_secs_f64());
         Ok(Report::new(&document, pictures)?)
-    }
-
-    /// Returns the number of scenes.
-    fn scenes(&self) -> usize {
-        named_or_shipped(&self.inputs).len()
     }
 
     /// Makes the picture of a scene no larger than the page shows it, unless flags say otherwise.
@@ -236,7 +298,7 @@ impl ReportArgs {
         bar.aside(|| self.scene.warn(&file, &resolved, log));
         let frame = resolved.scene.frame()?;
         drop(resolved);
-        let at_once = rayon::current_num_threads().min(self.scenes());
+        let at_once = rayon::current_num_threads().min(self.names()?.len());
         bar.aside(|| memory::check(&frame, &self.timing.methods, at_once, log))?;
         let input = Input {
             name: name.to_owned(),
@@ -307,6 +369,27 @@ impl ReportArgs {
         }
         Ok(written)
     }
+}
+
+/// Returns what all parts of one run have in common: the command line but for the part and the files that are written.
+fn run(command_line: Vec<String>) -> String {
+    const OWN: [&str; 5] = ["--shard", "--json", "--csv", "--output", "-o"];
+    let mut words = command_line.into_iter();
+    let mut run = vec![env!("CARGO_PKG_VERSION").to_owned()];
+    while let Some(word) = words.next() {
+        let (flag, value) = match word.split_once('=') {
+            Some((flag, value)) => (flag, Some(value)),
+            None => (&*word, None),
+        };
+        match OWN.contains(&flag) {
+            _ if word.starts_with("-o") && word != "-o" => {} // `-oPAGE`
+            // Its value is the next word, but for `--shard=1/4`.
+            true if value.is_none() => drop(words.next()),
+            true => {}
+            false => run.push(word),
+        }
+    }
+    run.join(" ")
 }
 
 /// Reads a document of `--json`; notes what of it cannot be compared with those of today.

@@ -7,9 +7,9 @@ use super::values::number;
 use super::{CliError, Log, Outcome, done};
 use fastphong::compare::experiments::{SearchSetting, WorstCase, climb};
 use fastphong::compare::table::Table;
+use fastphong::report::{PartOf, Shard, check_whole};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -69,31 +69,6 @@ impl Listed for usize {
     const EXPECTED: &'static str = "numbers of lights from 1 to 8 between commas";
     fn is_in_range(&self) -> bool {
         (1..=8).contains(self)
-    }
-}
-
-/// A part of a search: restarts `number − 1`, `number − 1 + of`, …
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-struct Shard {
-    number: u32,
-    of: u32,
-}
-
-impl Shard {
-    fn parse(text: &str) -> Result<Shard, String> {
-        let numbers = text.split_once('/').and_then(|(number, of)| {
-            Some(Shard {
-                number: number.parse().ok()?,
-                of: of.parse().ok()?,
-            })
-        });
-        numbers
-            .filter(Shard::is_part)
-            .ok_or_else(|| "expected a part of a whole of 100000 at most, as in 3/16".into())
-    }
-
-    fn is_part(&self) -> bool {
-        (1..=self.of).contains(&self.number) && self.of <= 100_000
     }
 }
 
@@ -261,40 +236,15 @@ impl Document {
         Ok(document)
     }
 
-    /// Joins all parts of one search: they have one run id, and none is missing or there twice.
+    /// Joins all parts of one search.
     fn joined(parts: Vec<Document>, paths: &[PathBuf]) -> Result<Document, CliError> {
+        let of = |(part, path): (&Document, &PathBuf)| PartOf {
+            file: path.display().to_string(),
+            run: format!("{} {}", part.version, part.run),
+            shard: part.shard,
+        };
+        check_whole(&parts.iter().zip(paths).map(of).collect::<Vec<_>>())?;
         let first = parts[0].clone();
-        let mut seen = BTreeSet::new();
-        for (part, path) in parts.iter().zip(paths) {
-            let shown = path.display();
-            if (&part.run, &part.version, part.shard.of)
-                != (&first.run, &first.version, first.shard.of)
-            {
-                let of = paths[0].display();
-                return Err(format!(
-                    "{shown}: part of another search than {of}: expected parts of one, of as many parts"
-                )
-                .into());
-            }
-            if !seen.insert(part.shard.number) {
-                let Shard { number, of } = part.shard;
-                return Err(format!("{shown}: part {number} of {of} is there twice").into());
-            }
-        }
-        let missing: Vec<_> = (1..=first.shard.of)
-            .filter(|number| !seen.contains(number))
-            .map(|number| number.to_string())
-            .collect();
-        if !missing.is_empty() {
-            const SHOWN: usize = 10;
-            let more = match missing.len().saturating_sub(SHOWN) {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            let shown = missing[..missing.len().min(SHOWN)].join(", ");
-            let of = first.shard.of;
-            return Err(format!("of {of} parts are missing: {shown}{more}").into());
-        }
         // The first part has the first restart of each method and setting, in the order asked for.
         let whole = parts.iter().find(|part| part.shard.number == 1);
         let keys = whole.into_iter().flat_map(|part| &part.cases);
@@ -303,7 +253,7 @@ impl Document {
         let cases = parts.into_iter().flat_map(|part| part.cases);
         let cases = cases.fold(Worst::default(), Worst::with).in_order(&keys);
         Ok(Document {
-            shard: Shard { number: 1, of: 1 },
+            shard: Shard::WHOLE,
             command_line: command_line(),
             cases,
             ..first

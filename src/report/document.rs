@@ -5,6 +5,7 @@
 
 use crate::compare::comparison::{BASELINE, Comparison, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::experiments::{Scaling, Speedups};
+use super::shard::Shard;
 use crate::compare::timing::Machine;
 use crate::lectures::{Figure, FigureContent};
 use crate::number::Counts;
@@ -58,6 +59,10 @@ pub struct Document {
     pub scaling: Option<Scaling>,
     /// What pixels cost on processors without a floating-point unit: [`small`]; `None` but in reports.
     pub small: Option<Value>,
+    /// The run that it is a part of, the same in all parts; `None` if it is whole.
+    pub run: Option<String>,
+    /// The part of that run: of its scenes one of each [`Shard::of`].
+    pub shard: Option<Shard>,
 }
 
 /// The description of a method.
@@ -143,6 +148,8 @@ impl Document {
             speedups: None,
             scaling: None,
             small: None,
+            run: None,
+            shard: None,
         };
         document.describe_methods();
         document
@@ -158,10 +165,15 @@ impl Document {
 
     /// Writes it as indented JSON, with fields in the order in which they are described.
     pub fn to_text(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).expect("numbers, texts and lists");
-        text.push('\n');
-        text
+        indented(self)
     }
+}
+
+/// Writes a document as text.
+pub(super) fn indented(document: &impl Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(document).expect("numbers, texts and lists");
+    text.push('\n');
+    text
 }
 
 /// Returns what `examples/small/run` measured on emulated processors without a floating-point unit: they are not this machine.
@@ -171,7 +183,7 @@ pub fn small() -> Value {
 }
 
 /// Describes variants, each once, in the order of the method table; unknown ones are left out.
-fn described(names: &mut dyn Iterator<Item = String>) -> Vec<MethodData> {
+pub(super) fn described(names: &mut dyn Iterator<Item = String>) -> Vec<MethodData> {
     let mut variants: Vec<Variant> = Vec::new();
     for variant in names.filter_map(|name| Variant::parse(&name).ok()) {
         if variants

@@ -32,6 +32,7 @@ mod live;
 mod markdown;
 mod page;
 mod pictures;
+mod shard;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -44,6 +45,7 @@ pub use document::{
 pub use live::{MOST_BYTES, MOST_POLYGONS, live_scene};
 pub use markdown::Markdown;
 pub use page::shell_word;
+pub use shard::{PartOf, Shard, check_whole};
 
 use crate::compare::comparison::Comparison;
 use crate::lectures::{FigureBlock, FigureContent};
@@ -164,6 +166,47 @@ impl Report {
         match all.any(document::is_older) {
             true => alloc::format!(" Of documents of schema {OLDER}: {NOT_COMPARABLE}."),
             false => String::new(),
+        }
+    }
+
+    /// Returns the run that a document which was [read](Self::read) is a part of, and the part; `None` if it is whole.
+    pub fn part(&self) -> Option<(&str, Shard)> {
+        let shard = &self.data["shard"];
+        let number = |name: &str| shard[name].as_u64()?.try_into().ok();
+        let shard = Shard {
+            number: number("number")?,
+            of: number("of")?,
+        };
+        Some((document::text(&self.data, "/run"), shard))
+    }
+
+    /// Joins the documents of all parts of one run: scenes in the order of the run, all else as in the first part.
+    ///
+    /// # Panics
+    /// If a part is missing: see [`check_whole`].
+    pub fn joined(mut parts: Vec<Report>) -> Report {
+        parts.sort_by_key(|part| part.part().map(|(_, shard)| shard.number));
+        let mut scenes: Vec<_> = (parts.iter())
+            .map(|part| document::list(&part.data, "/comparisons").iter())
+            .collect();
+        let mut comparisons = Vec::new();
+        // One scene of each part in turn.
+        while let Some(scene) = scenes[comparisons.len() % parts.len()].next() {
+            comparisons.push(scene.clone());
+        }
+        let methods = parts.iter().flat_map(|part| document::list(&part.data, "/methods"));
+        let names = methods.map(|method| document::text(method, "/name").to_string());
+        let methods = document::described(&mut names.into_iter());
+        let mut data = parts.swap_remove(0).data;
+        data["comparisons"] = Value::Array(comparisons);
+        data["methods"] = json!(methods);
+        data["shard"] = json!(Shard::WHOLE);
+        Report {
+            text: document::indented(&data),
+            data,
+            beside: Vec::new(),
+            pictures: Vec::new(),
+            figures: Vec::new(),
         }
     }
 

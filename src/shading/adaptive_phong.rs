@@ -10,6 +10,7 @@ use super::{
 use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::reference::Model;
+use crate::scene::{Lighting, SpecularGate};
 
 /// Adaptive Phong shading: of five kinds of pixel loops a polygon takes the cheapest whose error is derived
 /// to be within `levels`. [`super::adaptive_plan`] has the derivation.
@@ -30,14 +31,19 @@ pub struct AdaptivePhong<const MANY: bool> {
     levels: f32,
 }
 
-/// Polygons whose mean run is shorter than this gain nothing: set-up and the span engine take most of their time.
+/// Polygons whose mean run is shorter than this gain nothing: set-up and the span engine take most of their time. With one light there is
+/// less to save at a pixel.
+const LEAST_RUN_OF_ONE: f64 = 6.0;
 const LEAST_RUN: f64 = 4.0;
 /// The polygons by which a frame is judged.
 const SAMPLES: usize = 256;
 
-/// True if plans pay on a frame: lights and eye are at infinity, and runs are not too short, judged by some polygons spread over all.
+/// True if plans pay on a frame: lights and eye are at infinity, some highlights are gated, and runs are not too short, judged by some polygons
+/// spread over all.
 fn is_worth_planning(frame: &Frame) -> bool {
-    if frame.is_local() {
+    // Highlights of other gates are drawn by the root: see `plan`.
+    let is_gated = |lighting: &Lighting| lighting.gate == SpecularGate::Gated;
+    if frame.is_local() || !frame.lightings().iter().any(is_gated) {
         return false;
     }
     let (width, height) = (frame.width() as f64, frame.height() as f64);
@@ -58,7 +64,11 @@ fn is_worth_planning(frame: &Frame) -> bool {
         area += f64::min(0.5 * doubled.abs(), width * (high - low));
         rows += high - low;
     }
-    area > LEAST_RUN * rows
+    let least = match frame.light_count() {
+        0 | 1 => LEAST_RUN_OF_ONE,
+        _ => LEAST_RUN,
+    };
+    area > least * rows
 }
 
 /// Returns a vector, the same for all pixels of a number like `zero`.

@@ -22,6 +22,7 @@ impl Shader for Gouraud {
         title: "vertex colours, interpolated along edges and spans",
         formula: "dI = (I2 - I1) / (y2 - y1) along edges, (I2 - I1) / (x2 - x1) along spans; I_next = I + dI",
         source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",
+        claimed: "one addition a pixel and channel (L21 3.6)",
         model: Model::Gouraud,
         roundings: Roundings::new(4.0, 1.0, Stepped::Colours),
         derivation: "a vertex is lit as in flat shading; each step of a colour of at most 1 rounds by half of 2^-24, and so does the \

@@ -352,6 +352,8 @@ pub struct Info {
     pub formula: &'static str,
     /// The source of the formulas.
     pub source: &'static str,
+    /// The operations that the source states, in its own words; empty where it states none.
+    pub claimed: &'static str,
     /// The closed form that its picture is measured against.
     pub model: Model,
     /// The roundings that its numbers gather. [`super::Variant::bound`] derives the largest difference to the closed form from them.
@@ -378,6 +380,7 @@ impl Info {
         title: "",
         formula: "",
         source: "",
+        claimed: "",
         model: Model::Phong,
         roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
         derivation: "no bound was derived",

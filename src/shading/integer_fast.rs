@@ -19,6 +19,7 @@ const INFO: Info = Info {
     formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = table(D)\n\
               I = table(J r) + table(2 (J r) (K r) - L.V)",
     source: "L21 4.2, 4.3, eq 4.3, 4.6; Duff 1979",
+    claimed: "",
     model: Model::PhongConstant,
     roundings: integers::ROUNDINGS,
     derivation: integers::DERIVATION,

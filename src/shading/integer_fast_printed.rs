@@ -19,6 +19,7 @@ const INFO: Info = Info {
     formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  d_next = (d + N.N / d) / 2\n\
               I = table(J / d) + table(2 J K / (N.N) - L.V)",
     source: "L21 4.2, 4.3, eq 4.3, 4.4, 4.6",
+    claimed: "",
     model: Model::PhongConstant,
     roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
     derivation: "no bound: one step of Newton's from the pixel before follows |N| where a pixel turns little",

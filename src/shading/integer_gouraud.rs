@@ -25,6 +25,7 @@ const INFO: Info = Info {
     title: "vertex colours, interpolated in integers",
     formula: "I = table(L.N) + table(R.V) at vertices;  I_next = I + dI, red and blue in one sum",
     source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",
+    claimed: "",
     model: Model::Gouraud,
     roundings: super::Roundings::new(4.0, 0.9, super::Stepped::Colours),
     derivation: integers::DERIVATION,

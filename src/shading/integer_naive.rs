@@ -19,6 +19,7 @@ const INFO: Info = Info {
     formula: "N_next = N + dN;  J = L.N;  K = V.N;  D = N.N;  r = table(D)\n\
               I = table(J r) + table(2 (J r) (K r) - L.V)",
     source: "L21 4.1, eq 4.1, 4.2",
+    claimed: "",
     model: Model::PhongConstant,
     roundings: integers::ROUNDINGS,
     derivation: integers::DERIVATION,

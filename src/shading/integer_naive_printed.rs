@@ -18,6 +18,7 @@ const INFO: Info = Info {
     title: "naive Phong shading in integers, as the lecture prints it",
     formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  I = table(L.N_unit) + table(R.V)",
     source: "L21 4.1, eq 4.1, 4.2",
+    claimed: "",
     model: Model::PhongConstant,
     roundings: integers::ROUNDINGS,
     derivation: integers::DERIVATION,

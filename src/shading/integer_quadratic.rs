@@ -19,6 +19,7 @@ const INFO: Info = Info {
     formula: "F_next = F + dF;  dF_next = dF + ddF, for F = L.N and F = R.V through both ends and the middle of a span\n\
               I = table(L.N) + table(R.V)",
     source: "Bishop, Weimer 1986, fitted through three points",
+    claimed: "",
     model: Model::PhongConstant,
     roundings: integers::ROUNDINGS,
     derivation: integers::DERIVATION,

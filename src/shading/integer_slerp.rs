@@ -19,6 +19,7 @@ const INFO: Info = Info {
     formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 2 (1 - cos d), d the angle of a pixel;  K likewise\n\
               I = table(J) + table(2 J K - L.V)",
     source: "L21 4.4, eq 4.7; Barrera, Hast, Bengtsson 2004",
+    claimed: "",
     model: Model::Slerp,
     roundings: integers::CIRCLE_ROUNDINGS,
     derivation: integers::DERIVATION,

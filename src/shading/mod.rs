@@ -21,6 +21,7 @@
 mod bound;
 mod cell;
 mod count;
+mod exponent;
 pub(crate) mod extent;
 mod info;
 mod kernels;

@@ -22,6 +22,7 @@ impl Shader for NaivePhong {
         title: "normals, interpolated and renormalised at every pixel",
         formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  eq 2.1 at every pixel",
         source: "L21 4.1, eq 4.1, 4.2 (Phong 1975)",
+        claimed: "three additions a pixel step the normal, which is then normalised (L21 4.1)",
         model: Model::Phong,
         roundings: Roundings::new(4.0, 0.9, Stepped::Cosines),
         derivation: "each step rounds the three components of N by half of 2^-24, which is a vector of length 0.87 * 2^-24; what \

@@ -49,6 +49,7 @@ impl Shader for QuadraticNormals {
         formula: "N(t) = N1 + (4 Nm - 3 N1 - N2) t + 2 (N1 + N2 - 2 Nm) t^2;  N_next = N + dN;  dN_next = dN + ddN\n\
                   I = Ia ka + Ip kd L.N + Ip ks (2 (L.N) (V.N) - L.V)^n",
         source: "Hast, Barrera, Bengtsson 2002",
+        claimed: "no normalisation",
         model: Model::PhongConstant,
         roundings: Roundings::new(24.0, 3.0, Stepped::Cosines),
         derivation: "unit vectors take 3 roundings, the quadratic's coefficients 8 of them; each component is a quadratic, off by 3 a step \

@@ -23,6 +23,7 @@ impl<const L: usize> Shader for SlerpPhong<L> {
         formula: "J(t) = sin((1-t)phi)/sin(phi) L.N1 + sin(t phi)/sin(phi) L.N2, K likewise; sines by eq 4.9-4.12\n\
                   I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
         source: "L21 4.4, eq 4.7-4.12, summary c",
+        claimed: "four additions or subtractions and eight multiplications a pixel for the sines and cosines (L21 4.9-4.12)",
         model: Model::Slerp,
         roundings: Roundings::new(4.0, 2.0, Stepped::GreatCircles),
         derivation: "each step turns a vector of length 1 by two products and a sum in each component, 1.5 * 2^-24 in all, with a \

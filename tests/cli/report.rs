@@ -295,3 +295,69 @@ fn what_cannot_be_compared_in_older_documents_is_said() {
     assert_eq!(ended.err, "");
     assert!(!page(&folder, "one.html").contains("Of documents of schema"));
 }
+
+/// Scenes of one run may be drawn on several machines: joined they are what one machine finds.
+#[test]
+fn four_parts_are_one_report() {
+    let folder = Folder::new();
+    let scenes = "report figure5 polygons coarse-sphere builtin:prism two-lights --size 48x36 -m kuijk-blake,gouraud";
+    for part in 1..=4 {
+        let own = format!("--shard {part}/4 --json {part}.json -o{part}.html");
+        folder.run(&format!("{scenes} {own}")).done();
+    }
+    folder
+        .run(&format!("{scenes} --shard=1/1 --json=whole.json"))
+        .done();
+    folder
+        .run("report --from 3.json 1.json 4.json 2.json --json all.json --csv all.csv -o all.html")
+        .done();
+    let [mut all, mut whole, first] = ["all.json", "whole.json", "1.json"]
+        .map(|name| serde_json::from_slice::<serde_json::Value>(&folder.read(name)).unwrap());
+    let names = |data: &serde_json::Value| {
+        let scenes = data["comparisons"].as_array().unwrap().iter();
+        scenes.map(|s| s["name"].to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&first), [r#""figure5""#, r#""two-lights""#]);
+    assert_eq!(names(&all).len(), 5);
+    for document in [&mut all, &mut whole] {
+        for own in ["command_line", "date", "seconds"] {
+            document.as_object_mut().unwrap().remove(own);
+        }
+    }
+    assert_eq!(all, whole, "{:?}", names(&all));
+    let described = include_str!("../../docs/bench-json.md");
+    assert!(described.contains("`run`, `shard`"));
+    // Shown side by side with another run, and joined.
+    folder
+        .run("report --from 3.json whole.json 1.json 4.json 2.json -o both.html")
+        .done();
+    let titles = page(&folder, "both.html").matches("<!doctype html>").count();
+    assert_eq!(titles, 1);
+}
+
+#[test]
+fn parts_that_make_no_report_are_refused() {
+    let folder = Folder::new();
+    let scenes = "report figure5 builtin:prism --size 48x36 -m gouraud";
+    for part in 1..=2 {
+        folder
+            .run(&format!("{scenes} --shard {part}/2 --json {part}.json"))
+            .done();
+    }
+    for (flags, said) in [
+        ("--from 2.json", "of 2 parts are missing: 1"),
+        ("--from 1.json 2.json 1.json", "1.json: part 1 of 2 is there twice"),
+        ("figure5 --shard 1/2", "expected as many parts as scenes at most, 1"),
+        ("--shard 3/2", "expected a part of a whole"),
+        ("--shard 1/2 --studies all", "cannot be used with"),
+        ("--from 1.json 2.json --shard 1/2", "cannot be used with"),
+    ] {
+        folder.run(&format!("report {flags}")).refused(&[said]);
+    }
+    let other = String::from_utf8(folder.read("2.json")).unwrap();
+    let other = other.replace(r#""number": 2,"#, r#""number": 7,"#);
+    folder.write("7.json", &other);
+    folder
+        .run("report --from 1.json 7.json")
+        .refused(&["7.json: it says it is part 7 of 2"]);
+}

@@ -57,7 +57,7 @@ fn parts_that_make_no_whole_are_refused() {
         ),
         (
             "1.json other.json 3.json",
-            "other.json: part of another search than 1.json",
+            "other.json: part of another run than 1.json",
         ),
         ("text.json", "text.json: missing field `schema`"),
         ("report.json", "report.json: missing field"),

@@ -93,6 +93,9 @@ fn described(entry: &'static Entry) -> String {
     if let Some(why) = entry.scalar_only() {
         say("Scalar only", why);
     }
+    if !info.claimed.is_empty() {
+        say("Operations that the source states", info.claimed);
+    }
     text + &operations(entry) + "\n"
 }
 
