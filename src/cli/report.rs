@@ -159,10 +159,10 @@ impl ReportArgs {
 
     /// Joins those documents that are parts of one run; others stay as they are. All are in the order of their first files.
     fn joined(&self, read: Vec<Report>) -> Result<Vec<Report>, CliError> {
-        let mut groups: Vec<(Option<String>, Vec<Report>, Vec<PartOf>)> = Vec::new();
+        let mut groups: Vec<(Vec<Report>, Vec<PartOf>)> = Vec::new();
         for (report, path) in read.into_iter().zip(&self.from) {
             let Some((run, shard)) = report.part() else {
-                groups.push((None, vec![report], Vec::new()));
+                groups.push((vec![report], Vec::new()));
                 continue;
             };
             let (run, file) = (run.to_owned(), path.display().to_string());
@@ -170,24 +170,24 @@ impl ReportArgs {
                 let Shard { number, of } = shard;
                 return Err(format!("{file}: it says it is part {number} of {of}").into());
             }
-            let part = PartOf {
-                file,
-                run: run.clone(),
-                shard,
+            let part = PartOf { file, run, shard };
+            let is_of_run = |(_, parts): &&mut (_, Vec<PartOf>)| {
+                let first = parts.first().map(|first| (&first.run, first.shard.of));
+                first == Some((&part.run, shard.of))
             };
-            match groups.iter_mut().find(|(other, ..)| other.as_ref() == Some(&run)) {
-                Some((_, reports, parts)) => {
+            match groups.iter_mut().find(is_of_run) {
+                Some((reports, parts)) => {
                     reports.push(report);
                     parts.push(part);
                 }
-                None => groups.push((Some(run), vec![report], vec![part])),
+                None => groups.push((vec![report], vec![part])),
             }
         }
-        let join = |(run, mut reports, parts): (Option<String>, Vec<Report>, Vec<PartOf>)| {
+        let join = |(mut reports, parts): (Vec<Report>, Vec<PartOf>)| {
             check_whole(&parts)?;
-            Ok(match run {
-                Some(_) => Report::joined(reports),
-                None => reports.swap_remove(0),
+            Ok(match parts.is_empty() {
+                true => reports.swap_remove(0),
+                false => Report::joined(reports),
             })
         };
         groups.into_iter().map(join).collect()

@@ -3,9 +3,9 @@
 //! [`Document`] is the data as it was measured, written by serde; `docs/bench-json.md` describes it. Views read the JSON and
 //! not the structs, so that a document of another machine or commit ([`parse`]) is shown like one that was just made.
 
+use super::shard::Shard;
 use crate::compare::comparison::{BASELINE, Comparison, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::experiments::{Scaling, Speedups};
-use super::shard::Shard;
 use crate::compare::timing::Machine;
 use crate::lectures::{Figure, FigureContent};
 use crate::number::Counts;

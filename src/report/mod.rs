@@ -194,7 +194,9 @@ impl Report {
         while let Some(scene) = scenes[comparisons.len() % parts.len()].next() {
             comparisons.push(scene.clone());
         }
-        let methods = parts.iter().flat_map(|part| document::list(&part.data, "/methods"));
+        let methods = parts
+            .iter()
+            .flat_map(|part| document::list(&part.data, "/methods"));
         let names = methods.map(|method| document::text(method, "/name").to_string());
         let methods = document::described(&mut names.into_iter());
         let mut data = parts.swap_remove(0).data;

@@ -331,7 +331,9 @@ fn four_parts_are_one_report() {
     folder
         .run("report --from 3.json whole.json 1.json 4.json 2.json -o both.html")
         .done();
-    let titles = page(&folder, "both.html").matches("<!doctype html>").count();
+    let titles = page(&folder, "both.html")
+        .matches("<!doctype html>")
+        .count();
     assert_eq!(titles, 1);
 }
 
@@ -346,8 +348,14 @@ fn parts_that_make_no_report_are_refused() {
     }
     for (flags, said) in [
         ("--from 2.json", "of 2 parts are missing: 1"),
-        ("--from 1.json 2.json 1.json", "1.json: part 1 of 2 is there twice"),
-        ("figure5 --shard 1/2", "expected as many parts as scenes at most, 1"),
+        (
+            "--from 1.json 2.json 1.json",
+            "1.json: part 1 of 2 is there twice",
+        ),
+        (
+            "figure5 --shard 1/2",
+            "expected as many parts as scenes at most, 1",
+        ),
         ("--shard 3/2", "expected a part of a whole"),
         ("--shard 1/2 --studies all", "cannot be used with"),
         ("--from 1.json 2.json --shard 1/2", "cannot be used with"),
