@@ -58,6 +58,9 @@ impl ExplainArgs {
             let title = format!("operations with {lights} light{s}{eye}, {how}");
             section(&title, &costs(&self.operations(lights, at_positions)));
         }
+        if !info.claimed.is_empty() {
+            section("operations that the source states", &wrapped(info.claimed, 2));
+        }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section(

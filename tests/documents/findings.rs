@@ -281,9 +281,9 @@ fn table(machine: &str) -> String {
     text
 }
 
-/// The length from which each method of the scalar front is faster than each other.
-fn break_even() -> String {
-    let (times, errors) = (times("scalar-1"), errors(1));
+/// The length from which each method of the scalar front is faster than each other, with so many lights.
+fn break_even(lights: u64) -> String {
+    let (times, errors) = (times(&format!("scalar-{lights}")), errors(lights));
     let document = data("spans");
     let lengths: Vec<f64> = list(&document, "lengths").iter().map(number).collect();
     let mut names = front(&times, &errors, 1);
@@ -300,7 +300,7 @@ fn break_even() -> String {
     }
     let ns = |name: &str| -> Vec<f64> {
         let mut spans = list(&document, "spans").iter();
-        let span = spans.find(|s| s["method"] == name && s["lights"] == 1);
+        let span = spans.find(|s| s["method"] == name && s["lights"] == lights);
         list(span.expect("a method"), "ns")
             .iter()
             .map(number)
@@ -469,6 +469,95 @@ fn claims() -> String {
         "Harrison, Mitchell, Watt 1988",
         format!("{} as fast as naive Phong, scalar", times_of(h_test)),
         h_test > 1.0,
+    );
+    let at_pixels = |name: &str| {
+        let all = Variant::parse(name).expect("a method").operations(1);
+        (all.walk, all.shade)
+    };
+    let (walk, _) = at_pixels("naive-phong");
+    row(
+        "three additions a pixel step the normal",
+        "L21 4.1",
+        format!("{} additions, {} multiplications", walk.additions, walk.multiplications),
+        (walk.additions, walk.multiplications) == (3, 0),
+    );
+    let (walk, _) = at_pixels("slerp-phong");
+    row(
+        "four additions and eight multiplications a pixel step the sines",
+        "L21 4.9-4.12",
+        format!(
+            "{} and {}, of which J and K are 2 and 4",
+            walk.additions, walk.multiplications
+        ),
+        (walk.additions, walk.multiplications) == (4 + 2, 8 + 4),
+    );
+    let (walk, shade) = at_pixels("duff-phong");
+    row(
+        "three additions, a division and a root a pixel for diffuse light",
+        "Duff 1979, after Bishop, Weimer 1986",
+        format!(
+            "{} additions with K of the highlight, {} division, {} root",
+            walk.additions, shade.divisions, shade.roots
+        ),
+        (walk.additions, shade.divisions, shade.roots) == (4, 1, 1),
+    );
+    let (walk, shade) = at_pixels("bishop-weimer");
+    row(
+        "five additions and a table's entry a pixel",
+        "Bishop, Weimer 1986",
+        format!(
+            "{} additions for L.N and the highlight's cosine; {} additions and {} multiplications for clamps, power and three channels",
+            walk.additions, shade.additions, shade.multiplications
+        ),
+        walk.additions <= 5,
+    );
+    let (walk, shade) = at_pixels("kuijk-blake");
+    row(
+        "two additions a pixel, for angles",
+        "Kuijk, Blake 1989",
+        format!(
+            "{} additions; {} entry of a table, and {} additions and {} multiplications for parabolas and three channels",
+            walk.additions, shade.lookups, shade.additions, shade.multiplications
+        ),
+        (walk.additions, walk.multiplications) == (2, 0),
+    );
+    let slower = over("gouraud", "naive-phong");
+    row(
+        "Phong shading takes six to seven times as long as Gouraud",
+        "Hearn, Baker",
+        format!("{} as long, whole frames, scalar", times_of(slower)),
+        (6.0..=7.0).contains(&slower),
+    );
+    let (quadratic, roots) = (errors["quadratic-normals"], at_pixels("quadratic-normals"));
+    row(
+        "quadratics make normalisation unnecessary",
+        "Hast, Barrera, Bengtsson 2002",
+        format!(
+            "{} roots a pixel; {} levels at 15°, {} at 30°",
+            roots.0.roots + roots.1.roots,
+            short(quadratic[1]),
+            short(quadratic[2])
+        ),
+        quadratic[1] < 1.0,
+    );
+    let (reflected, roots) = (errors["half-reflection"], at_pixels("half-reflection"));
+    row(
+        "reflection at a vector of any length gives unit normals",
+        "Hast, Barrera, Bengtsson 2001",
+        format!(
+            "{} roots a pixel; {} levels at 15°, {} at 30°",
+            roots.0.roots + roots.1.roots,
+            short(reflected[1]),
+            short(reflected[2])
+        ),
+        reflected[1] < 1.0,
+    );
+    let adaptive = over("adaptive-phong", "phong-rsqrt");
+    row(
+        "an order chosen for each polygon is cheaper than a root at each pixel",
+        "US patent 5,253,339; Cho, Neumann, Woo 1996",
+        format!("{} as fast, within {} levels at 30°", times_of(adaptive), short(errors["adaptive-phong"][2])),
+        adaptive > 1.0,
     );
     let mut text = String::from("| claim | source | measured | verdict |\n|---|---|---|---|\n");
     for row in rows {
@@ -695,12 +784,13 @@ fn findings_are_the_measured_figures() {
     }
     let old = read(FILE);
     let mut new = old.clone();
-    let blocks: [(&str, &dyn Fn() -> String); 9] = [
+    let blocks: [(&str, &dyn Fn() -> String); 10] = [
         ("answer", &answer),
         ("machine", &machine),
         ("simd", &|| table("simd")),
         ("scalar", &|| table("scalar")),
-        ("break-even", &break_even),
+        ("break-even", &|| break_even(1)),
+        ("break-even-4", &|| break_even(4)),
         ("small", &small_table),
         ("floor", &floor),
         ("worst", &worst),
