@@ -59,7 +59,10 @@ impl ExplainArgs {
             section(&title, &costs(&self.operations(lights, at_positions)));
         }
         if !info.claimed.is_empty() {
-            section("operations that the source states", &wrapped(info.claimed, 2));
+            section(
+                "operations that the source states",
+                &wrapped(info.claimed, 2),
+            );
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));

@@ -371,9 +371,19 @@ impl ReportArgs {
     }
 }
 
-/// Returns what all parts of one run have in common: the command line but for the part and the files that are written.
+/// Returns what all parts of one run have in common: the command line but for the part, the files that are written, and what changes no
+/// error.
 fn run(command_line: Vec<String>) -> String {
-    const OWN: [&str; 5] = ["--shard", "--json", "--csv", "--output", "-o"];
+    const OWN: [&str; 7] = [
+        "--shard",
+        "--json",
+        "--csv",
+        "--output",
+        "-o",
+        "--threads",
+        "--time-budget",
+    ];
+    const SWITCHES: [&str; 5] = ["--markdown", "-q", "--quiet", "-v", "--verbose"];
     let mut words = command_line.into_iter();
     let mut run = vec![env!("CARGO_PKG_VERSION").to_owned()];
     while let Some(word) = words.next() {
@@ -382,6 +392,7 @@ fn run(command_line: Vec<String>) -> String {
             None => (&*word, None),
         };
         match OWN.contains(&flag) {
+            _ if SWITCHES.contains(&flag) => {}
             _ if word.starts_with("-o") && word != "-o" => {} // `-oPAGE`
             // Its value is the next word, but for `--shard=1/4`.
             true if value.is_none() => drop(words.next()),

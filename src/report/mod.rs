@@ -186,14 +186,16 @@ impl Report {
     /// If a part is missing: see [`check_whole`].
     pub fn joined(mut parts: Vec<Report>) -> Report {
         parts.sort_by_key(|part| part.part().map(|(_, shard)| shard.number));
-        let mut scenes: Vec<_> = (parts.iter())
-            .map(|part| document::list(&part.data, "/comparisons").iter())
-            .collect();
-        let mut comparisons = Vec::new();
+        let scenes = parts
+            .iter()
+            .map(|part| document::list(&part.data, "/comparisons"));
+        let scenes: Vec<_> = scenes.collect();
+        let most = scenes.iter().map(|scenes| scenes.len()).max();
         // One scene of each part in turn.
-        while let Some(scene) = scenes[comparisons.len() % parts.len()].next() {
-            comparisons.push(scene.clone());
-        }
+        let comparisons = (0..most.unwrap_or(0))
+            .flat_map(|i| scenes.iter().filter_map(move |scenes| scenes.get(i)))
+            .cloned()
+            .collect();
         let methods = parts
             .iter()
             .flat_map(|part| document::list(&part.data, "/methods"));

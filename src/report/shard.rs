@@ -93,5 +93,8 @@ pub fn check_whole(parts: &[PartOf]) -> Result<(), String> {
         more => format!(" and {more} more"),
     };
     let shown = missing[..missing.len().min(SHOWN)].join(", ");
-    Err(format!("of {of} parts are missing: {shown}{more}"))
+    Err(format!(
+        "{}: of {of} parts of this run are missing: {shown}{more}",
+        first.file
+    ))
 }

@@ -49,8 +49,9 @@ impl Shader for PhongMap {
     const LOCAL: Local = Local::PerPolygon;
     const PERSPECTIVE: Perspective = Perspective::Divides;
     const TURNS_NORMALS: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("phong-map saves no root, and a block of pixels is no faster without the third component");
+    const SCALAR_ONLY: Option<&'static str> = Some(
+        "phong-map saves no root, and a block of pixels is no faster without the third component",
+    );
     type Constants<F: Num> = ();
     type Varying<F: Num> = (F, F); // N_x, N_y
     type Walk<F: Num> = Linear<(F, F)>;

@@ -302,7 +302,7 @@ fn four_parts_are_one_report() {
     let folder = Folder::new();
     let scenes = "report figure5 polygons coarse-sphere builtin:prism two-lights --size 48x36 -m kuijk-blake,gouraud";
     for part in 1..=4 {
-        let own = format!("--shard {part}/4 --json {part}.json -o{part}.html");
+        let own = format!("-q --threads {part} --shard {part}/4 --json {part}.json -o{part}.html");
         folder.run(&format!("{scenes} {own}")).done();
     }
     folder
@@ -347,7 +347,10 @@ fn parts_that_make_no_report_are_refused() {
             .done();
     }
     for (flags, said) in [
-        ("--from 2.json", "of 2 parts are missing: 1"),
+        (
+            "--from 2.json",
+            "2.json: of 2 parts of this run are missing: 1",
+        ),
         (
             "--from 1.json 2.json 1.json",
             "1.json: part 1 of 2 is there twice",

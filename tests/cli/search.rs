@@ -50,7 +50,10 @@ fn parts_that_make_no_whole_are_refused() {
         .write("text.json", "{}")
         .write("report.json", r#"{"schema": "fastphong.report/1"}"#);
     for (files, said) in [
-        ("1.json 3.json", "of 3 parts are missing: 2"),
+        (
+            "1.json 3.json",
+            "1.json: of 3 parts of this run are missing: 2",
+        ),
         (
             "1.json 2.json 2.json 3.json",
             "2.json: part 2 of 3 is there twice",

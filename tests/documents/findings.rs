@@ -478,7 +478,10 @@ fn claims() -> String {
     row(
         "three additions a pixel step the normal",
         "L21 4.1",
-        format!("{} additions, {} multiplications", walk.additions, walk.multiplications),
+        format!(
+            "{} additions, {} multiplications",
+            walk.additions, walk.multiplications
+        ),
         (walk.additions, walk.multiplications) == (3, 0),
     );
     let (walk, _) = at_pixels("slerp-phong");
@@ -556,7 +559,11 @@ fn claims() -> String {
     row(
         "an order chosen for each polygon is cheaper than a root at each pixel",
         "US patent 5,253,339; Cho, Neumann, Woo 1996",
-        format!("{} as fast, within {} levels at 30°", times_of(adaptive), short(errors["adaptive-phong"][2])),
+        format!(
+            "{} as fast, within {} levels at 30°",
+            times_of(adaptive),
+            short(errors["adaptive-phong"][2])
+        ),
         adaptive > 1.0,
     );
     let mut text = String::from("| claim | source | measured | verdict |\n|---|---|---|---|\n");
