@@ -39,6 +39,8 @@ impl Shader for PhongUnnormalised {
     };
     const PERSPECTIVE: Perspective = Perspective::Divides;
     const PASSES_NORMAL: bool = true;
+    const SCALAR_ONLY: Option<&'static str> =
+        Some("phong-unnormalised saves roots, which a block of pixels takes for next to nothing");
     type Constants<F: Num> = ();
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Linear<Vec3<F>>;
