@@ -30,7 +30,7 @@ function stack(counts, most) {
 	const label = list.map(([n, what]) => `${n} ${what}`).join(", ");
 	// Divisions, roots and the like are few, and get room for their number.
 	const parts = list.map(([n, what, i]) => {
-		const number = (n / most > 0.035 || i > 2) && n;
+		const number = (n / most > 0.05 || i > 2) && n;
 		const flex = `${n} 0 ${i > 2 ? 13 : 0}px`;
 		return html`<i class="o${i}" style="flex:${flex}" title="${n} ${what}">${number}</i>`;
 	});

@@ -11,7 +11,7 @@ function strip() {
 		by(s => -(value(s, few[0]) ?? 0)),
 	);
 	const [rows, more] = folded(timed, 24, "scenes");
-	const [most, l] = W < 520 ? [19, 132] : [34, 208];
+	const [most, l] = W < 520 ? [17, 132] : [31, 224];
 	const t = 8;
 	const high = 20.5;
 	const H = t + rows.length * high + 26;
