@@ -42,7 +42,7 @@ fn text(of: &Value) -> &str {
 type ByMethod = BTreeMap<String, [f64; 4]>;
 
 /// The files of `bench` that `docs/findings/run` leaves in `target/findings`.
-const TIMES: [&str; 4] = ["scalar-1", "scalar-4", "simd-1", "simd-4"];
+const TIMES: [&str; 5] = ["scalar-1", "scalar-4", "simd-1", "simd-4", "halfway-1"];
 
 /// Takes from them what the page says, to be kept: times of frames as multiples of naive Phong's, medians of rounds in which methods take
 /// turns, and naive Phong's own in milliseconds, one for each mesh.
@@ -308,6 +308,27 @@ fn table(machine: &str) -> String {
             speeds.join(" | ")
         )
         .expect("a text");
+    }
+    text
+}
+
+/// A row a method on frames with highlights of N·H: those that are for no other, and two that are.
+fn halfway_table() -> String {
+    let (times, errors) = (times("halfway-1"), errors(1));
+    let mut rows: Vec<_> = times.keys().collect();
+    rows.sort_by(|a, b| {
+        let [a, b] = [a, b].map(|m| speed(&times, m, "naive-phong"));
+        b.total_cmp(&a)
+    });
+    let mut text = String::from(
+        "| method | error at 5° | 15° | 30° | 60° | speed |\n|---|---:|---:|---:|---:|---:|\n",
+    );
+    for name in rows {
+        let (cells, speed) = (
+            errors[name].map(short).join(" | "),
+            speed(&times, name, "naive-phong"),
+        );
+        writeln!(text, "| `{name}` | {cells} | {speed:.2} |").expect("a text");
     }
     text
 }
@@ -820,17 +841,18 @@ fn machine() -> String {
 #[test]
 fn findings_are_the_measured_figures() {
     let blesses = std::env::var_os("FASTPHONG_BLESS").is_some();
-    if blesses && root().join("target/findings/simd-4.json").exists() {
+    if blesses && root().join("target/findings/halfway-1.json").exists() {
         let times = format!("{:#}\n", condensed());
         std::fs::write(root().join("docs/findings/times.json"), times).expect("a file to write");
     }
     let old = read(FILE);
     let mut new = old.clone();
-    let blocks: [(&str, &dyn Fn() -> String); 10] = [
+    let blocks: [(&str, &dyn Fn() -> String); 11] = [
         ("answer", &answer),
         ("machine", &machine),
         ("simd", &|| table("simd")),
         ("scalar", &|| table("scalar")),
+        ("halfway", &halfway_table),
         ("break-even", &|| break_even(1)),
         ("break-even-4", &|| break_even(4)),
         ("small", &small_table),
