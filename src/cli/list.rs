@@ -202,6 +202,7 @@ pub fn method_json(method: &Entry) -> Value {
         "standing": info.standing.name(),
         "integer": method.is_integer,
         "source": info.source,
+        "claimed": info.claimed,
         "model": info.model.name(),
         "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": method.perspective.sentence(),

@@ -587,30 +587,32 @@ fn claims() -> String {
         format!("{} as long, whole frames, scalar", times_of(slower)),
         (6.0..=7.0).contains(&slower),
     );
-    let (quadratic, roots) = (errors["quadratic-normals"], at_pixels("quadratic-normals"));
-    row(
-        "quadratics make normalisation unnecessary",
-        "Hast, Barrera, Bengtsson 2002",
-        format!(
-            "{} roots a pixel; {} levels at 15°, {} at 30°",
-            roots.0.roots + roots.1.roots,
-            short(quadratic[1]),
-            short(quadratic[2])
+    for (method, claim, source) in [
+        (
+            "quadratic-normals",
+            "quadratics make normalisation unnecessary",
+            "Hast, Barrera, Bengtsson 2002",
         ),
-        quadratic[1] < 1.0,
-    );
-    let (reflected, roots) = (errors["half-reflection"], at_pixels("half-reflection"));
-    row(
-        "reflection at a vector of any length gives unit normals",
-        "Hast, Barrera, Bengtsson 2001",
-        format!(
-            "{} roots a pixel; {} levels at 15°, {} at 30°",
-            roots.0.roots + roots.1.roots,
-            short(reflected[1]),
-            short(reflected[2])
+        (
+            "half-reflection",
+            "reflection at a vector of any length gives unit normals",
+            "Hast, Barrera, Bengtsson 2001",
         ),
-        reflected[1] < 1.0,
-    );
+    ] {
+        let (walk, shade) = at_pixels(method);
+        let error = errors[method];
+        row(
+            claim,
+            source,
+            format!(
+                "{} roots a pixel; {} levels at 15°, {} at 30°",
+                walk.roots + shade.roots,
+                short(error[1]),
+                short(error[2])
+            ),
+            error[1] < 1.0,
+        );
+    }
     let adaptive = over("adaptive-phong", "phong-rsqrt");
     row(
         "an order chosen for each polygon is cheaper than a root at each pixel",
