@@ -1,15 +1,19 @@
 //! Phong shading by Taylor's quadratic about the middle of a triangle: no root and no division at a pixel (Bishop, Weimer 1986).
 
+use super::duff_phong::DuffPhongLocal;
+use super::lighting::toward;
+use super::positional_products::{self, Placed, PositionalProducts, set_up_placed};
 use super::quadratic_products::{
-    Growth, OverPolygon, QuadraticProducts, least_length, narrow_triangle, set_up_triangle,
+    Growth, OverPolygon, QuadraticProducts, farthest, narrow_triangle, relative, set_up_triangle,
 };
 use super::{
-    Approximation, Corners, Family, Info, Lit, Local, Pixel, Planes, Roundings, Shader, Span,
+    Approximation, Corner, Corners, Family, Info, Lit, Pixel, Planes, Roundings, Shader, Span,
     Stepped,
 };
 use crate::frame::{Frame, Polygon};
-use crate::number::{Num, Real, Vec3};
+use crate::number::{Num, Real, Vec3, vec3};
 use crate::reference::Model;
+use crate::scene::{Falloff, Place};
 
 /// Taylor's quadratics, for up to `L` lights: with `v = v_0 + x v_x + y v_y` the interpolated normal, from the middle of a triangle,
 ///
@@ -40,19 +44,35 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let Some(corners) = narrow_triangle(frame, polygon) else {
         return Approximation::NONE;
     };
-    let [a, b, c] = corners.map(|(normal, weight)| normal * weight);
-    let middle = (a + b + c) * (1.0 / 3.0);
-    let square = |v: Vec3<f32>| (v - middle).dot(v - middle);
-    let farthest = Num::sqrt(square(a).max(square(b)).max(square(c)));
+    if frame.is_local() {
+        return positional_products::approximation(frame, polygon, (farthest, 1.0 / 6.0));
+    }
     Approximation {
-        cosine: 0.5 * libm::pow(f64::from(farthest / least_length(corners)), 3.0),
+        cosine: 0.5 * libm::pow(relative(farthest, corners).into(), 3.0),
         ..Approximation::NONE
     }
+}
+
+/// Returns the middle of a triangle on the picture.
+#[inline(always)]
+fn middle<R: Real>([a, b, c]: [Corner<R>; 3]) -> [R; 2] {
+    [0, 1].map(|i| (a.place[i] + b.place[i] + c.place[i]) * (1.0 / 3.0))
 }
 
 /// A number as a function of x and y, cut off after the second order: the coefficients of 1, x, y, x², xy, y².
 #[derive(Clone, Copy)]
 struct Jet<R>([R; 6]);
+
+/// A vector as a linear function of x and y: the coefficients of 1, x, y.
+type Plane<R> = [Vec3<R>; 3];
+
+/// Returns the vector through those at the corners of a triangle, from its middle on.
+#[inline(always)]
+fn plane<R: Real>([a, b, c]: [Vec3<R>; 3], Growth { p, q, r, s }: Growth<R>) -> Plane<R> {
+    let (to_b, to_c) = (b - a, c - a);
+    let middle = (a + b + c) * (1.0 / 3.0);
+    [middle, to_b * p + to_c * r, to_b * q + to_c * s]
+}
 
 impl<R: Real> Jet<R> {
     /// Returns the product with a linear function.
@@ -67,6 +87,56 @@ impl<R: Real> Jet<R> {
             rx * y + ry * x + rxy * c,
             ry * y + ryy * c,
         ])
+    }
+
+    /// Makes a function that is linear.
+    #[inline(always)]
+    fn linear([c, x, y]: [R; 3]) -> Jet<R> {
+        let zero = c.broadcast(0.0);
+        Jet([c, x, y, zero, zero, zero])
+    }
+
+    /// Makes the product of two vectors that are linear.
+    #[inline(always)]
+    fn dot([v, vx, vy]: Plane<R>, [w, wx, wy]: Plane<R>) -> Jet<R> {
+        Jet([
+            v.dot(w),
+            v.dot(wx) + vx.dot(w),
+            v.dot(wy) + vy.dot(w),
+            vx.dot(wx),
+            vx.dot(wy) + vy.dot(wx),
+            vy.dot(wy),
+        ])
+    }
+
+    /// Returns the product.
+    #[inline(always)]
+    fn times(self, Jet([c, x, y, xx, xy, yy]): Jet<R>) -> Jet<R> {
+        let [r, rx, ry, rxx, rxy, ryy] = self.0;
+        Jet([
+            r * c,
+            r * x + rx * c,
+            r * y + ry * c,
+            r * xx + rx * x + rxx * c,
+            r * xy + rx * y + ry * x + rxy * c,
+            r * yy + ry * y + ryy * c,
+        ])
+    }
+
+    /// Returns the square.
+    #[inline(always)]
+    fn square(self) -> Jet<R> {
+        self.times(self)
+    }
+
+    /// Returns the sum with another one times a factor.
+    #[inline(always)]
+    fn plus(self, Jet(other): Jet<R>, factor: f32) -> Jet<R> {
+        let mut sum = self.0;
+        for (sum, other) in sum.iter_mut().zip(other) {
+            *sum = *sum + other * factor;
+        }
+        Jet(sum)
     }
 
     /// Returns 1 over the root: with q what is added to 1, divided by the constant part,
@@ -92,29 +162,33 @@ impl<R: Real> Jet<R> {
     }
 }
 
+const BISHOP_WEIMER: Info = Info {
+    name: "bishop-weimer",
+    ids: &["M09"],
+    family: Family::Quadratics,
+    title: "J and K of unit normals by Taylor's quadratic about the middle of each triangle",
+    formula: "F(x, y) = T0 + T1 x + T2 y + T3 x^2 + T4 x y + T5 y^2 ~ L.N / |N|;  F_next = F + dF;  dF_next = dF + ddF\n\
+              I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
+    source: "Bishop, Weimer 1986, coefficients derived anew",
+    claimed: "2 additions a pixel for diffuse light; 5 additions and 1 memory reference for Phong's model",
+    model: Model::Phong,
+    roundings: Roundings::new(40.0, 3.0, Stepped::Products),
+    derivation: "as six-point; coefficients take three times as many roundings, as products of derivatives",
+    approximation: |frame, polygon, _| approximation(frame, polygon),
+    fails: "where normals turn by more than 15 degrees over a triangle; neighbours differ along their edge, which is seen as seams",
+    ..Info::OF_PIXELS
+};
+
+const KINDS: &[&str] = &["quadratic", "roots"];
+const SCALAR_ONLY: &str =
+    "bishop-weimer steps quadratics of a polygon's own, and the row engine has no spans";
+
 impl<const L: usize> Shader for BishopWeimer<L> {
-    const INFO: Info = Info {
-        name: "bishop-weimer",
-        ids: &["M09"],
-        family: Family::Quadratics,
-        title: "J and K of unit normals by Taylor's quadratic about the middle of each triangle",
-        formula: "F(x, y) = T0 + T1 x + T2 y + T3 x^2 + T4 x y + T5 y^2 ~ L.N / |N|;  F_next = F + dF;  dF_next = dF + ddF\n\
-                  I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
-        source: "Bishop, Weimer 1986, coefficients derived anew",
-        claimed: "2 additions a pixel for diffuse light; 5 additions and 1 memory reference for Phong's model",
-        model: Model::PhongConstant,
-        roundings: Roundings::new(40.0, 3.0, Stepped::Products),
-        derivation: "as six-point; coefficients take three times as many roundings, as products of derivatives",
-        approximation: |frame, polygon, _| approximation(frame, polygon),
-        fails: "where normals turn by more than 15 degrees over a triangle; neighbours differ along their edge, which is seen as seams",
-        ..Info::OF_PIXELS
-    };
-    const LOCAL: Local = Local::PerPolygon;
+    const INFO: Info = BISHOP_WEIMER;
     const PASSES_NORMAL: bool = true;
-    const KINDS: &'static [&'static str] = &["quadratic", "roots"];
+    const KINDS: &'static [&'static str] = KINDS;
     const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("bishop-weimer steps quadratics of a polygon's own, and the row engine has no spans");
+    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
     type Constants<F: Num> = OverPolygon<F, L>; // from the middle
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = QuadraticProducts<F, L>;
@@ -133,12 +207,7 @@ impl<const L: usize> Shader for BishopWeimer<L> {
         let Some(([a, b, c], growth)) = set_up_triangle(polygon) else {
             return (ROOTS, constants);
         };
-        let Growth { p, q, r, s } = growth;
-        let [va, vb, vc] = [a, b, c].map(|corner| corner.normal * corner.weight);
-        let third = 1.0 / 3.0;
-        let v = (va + vb + vc) * third;
-        let (to_b, to_c) = (vb - va, vc - va);
-        let (vx, vy) = (to_b * p + to_c * r, to_b * q + to_c * s);
+        let [v, vx, vy] = plane([a, b, c].map(|v| v.normal * v.weight), growth);
         let [x, y, xy] = [v.dot(vx), v.dot(vy), vx.dot(vy)];
         let square = Jet([v.dot(v), x + x, y + y, vx.dot(vx), xy + xy, vy.dot(vy)]); // D
         let over = square.rsqrt();
@@ -153,7 +222,7 @@ impl<const L: usize> Shader for BishopWeimer<L> {
                 of.0.values[light.index] = j;
             }
         }
-        constants.1 = [0, 1].map(|i| (a.place[i] + b.place[i] + c.place[i]) * third);
+        constants.1 = middle([a, b, c]);
         (0, constants)
     }
     #[inline(always)]
@@ -170,5 +239,99 @@ impl<const L: usize> Shader for BishopWeimer<L> {
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
         lit.shade_products(products)
+    }
+}
+
+/// Taylor's quadratics where a light or the eye is at a position, for up to `L` lights: of L·V and of each light's strength beside J and K,
+/// by derivatives of the vectors toward them. Triangles to which a light or the eye is near take Duff's way.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BishopWeimerLocal<const L: usize>(BishopWeimer<L>);
+
+impl<const L: usize> Shader for BishopWeimerLocal<L> {
+    const INFO: Info = BISHOP_WEIMER;
+    const KINDS: &'static [&'static str] = KINDS;
+    const READS_SPAN: bool = true;
+    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
+    type Constants<F: Num> = positional_products::OverPolygon<F, L>; // from the middle
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
+    type Walk<F: Num> = PositionalProducts<F, L>;
+
+    #[inline(always)]
+    fn of_kind(self, kind: u8) -> Self {
+        BishopWeimerLocal(BishopWeimer { kind })
+    }
+    #[inline(always)]
+    fn polygon<R: Real>(
+        self,
+        lit: &Lit<'_, R>,
+        polygon: &Corners<'_, R>,
+    ) -> (u8, Self::Constants<R>) {
+        let mut constants = Self::Constants::<R>::filled(lit.count(), lit.zero());
+        let Some((corners, growth)) = set_up_placed(lit, polygon) else {
+            return (ROOTS, constants);
+        };
+        let weights = corners.map(|(corner, _)| corner.weight);
+        // The vectors that are linear on the screen: N/w, and those toward places over w.
+        let toward = |place: Place<Vec3<f32>>| match place {
+            Place::Local(_) => {
+                let to = |(corner, point): Placed<R>| {
+                    toward(place, point * corner.weight, corner.weight)
+                };
+                plane(corners.map(to), growth)
+            }
+            Place::Infinite(direction) => {
+                let none = vec3([lit.zero(); 3]);
+                [direction.broadcast(lit.zero()), none, none]
+            }
+        };
+        let n = plane(corners.map(|(v, _)| v.normal * v.weight), growth);
+        let v = toward(lit.model.eye);
+        let (over_n, over_v) = (Jet::dot(n, n).rsqrt(), Jet::dot(v, v).rsqrt());
+        let k = Jet::dot(n, v).times(over_n).times(over_v);
+        let weight = {
+            let along = weights.map(|weight| vec3([weight, lit.zero(), lit.zero()]));
+            Jet::linear(plane(along, growth).map(|v| v.x))
+        };
+        for (of, k) in constants.0.iter_mut().zip(k.0) {
+            of.1.1 = k;
+        }
+        for (index, light) in lit.stored.iter().enumerate() {
+            let l = toward(light.place);
+            let square = Jet::dot(l, l);
+            let over_l = square.rsqrt();
+            let j = Jet::dot(l, n).times(over_l).times(over_n);
+            let l_v = Jet::dot(l, v).times(over_l).times(over_v);
+            let strength = match light.falloff {
+                Falloff::None => Jet::linear([1.0, 0.0, 0.0].map(|c| over_l.0[0].broadcast(c))),
+                Falloff::Inverse => weight.times(over_l), // (1/w) / (d/w)
+                Falloff::InverseSquare => weight.times(over_l).square(),
+                Falloff::Attenuation(k) => {
+                    let all = weight.square().plus(square, k); // (1 + k d²)/w²
+                    weight.times(all.rsqrt()).square()
+                }
+            };
+            for (i, of) in constants.0.iter_mut().enumerate() {
+                of.0.0.values[index] = j.0[i];
+                of.0.1.values[index] = l_v.0[i];
+                of.1.0.values[index] = strength.0[i];
+            }
+        }
+        constants.1 = middle(corners.map(|(corner, _)| corner));
+        (0, constants)
+    }
+    #[inline(always)]
+    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+        DuffPhongLocal::<L>.vertex(lit, n)
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        match self.0.kind {
+            ROOTS => PositionalProducts::of_vectors(lit, span.linear()),
+            _ => PositionalProducts::over_polygon(lit, span.constants(), span.place()),
+        }
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+        positional_products::shade(lit, pixel, self.0.kind == ROOTS)
     }
 }

@@ -80,21 +80,19 @@ pub struct DuffPhongLocal<const L: usize>;
 type Shared<Q> = ((Q, Q), (Q, Q));
 type Each<Q> = ((Q, Q), Q);
 
-impl<const L: usize> Shader for DuffPhongLocal<L> {
-    const INFO: Info = DUFF_PHONG;
-    type Constants<F: Num> = ();
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
-    // N·N, V·V, N·V, 1/w²; L·L, L·N and L·V of each light
-    type Walk<F: Num> = (Shared<Quadratic<F>>, Each<PerLight<Quadratic<F>, L>>);
+/// N·N, V·V, N·V, 1/w²; L·L, L·N and L·V of each light.
+pub(super) type LocalWalk<F, const L: usize> =
+    (Shared<Quadratic<F>>, Each<PerLight<Quadratic<F>, L>>);
 
+impl<const L: usize> DuffPhongLocal<L> {
+    /// Starts the products of vectors that grow linearly.
     #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (n, lit.point(), n.x.broadcast(1.0))
-    }
-    #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        let Linear { at, step } = span.linear();
+    pub(super) fn products<F: Num>(
+        lit: &Lit<'_, F>,
+        Linear { at, step }: Linear<(Vec3<F>, Vec3<F>, F)>,
+    ) -> LocalWalk<F, L> {
         let ((n, p, w), (dn, dp, dw)) = (at, step);
+
         let eye = lit.model.eye;
         let (v, dv) = (toward(eye, p, w), toward(eye, dp, dw));
         let half = w * dw;
@@ -110,6 +108,22 @@ impl<const L: usize> Shader for DuffPhongLocal<L> {
             lv.values[i] = Quadratic::product(l, dl, v, dv);
         }
         (((nn, vv), (nv, ww)), ((ll, ln), lv))
+    }
+}
+
+impl<const L: usize> Shader for DuffPhongLocal<L> {
+    const INFO: Info = DUFF_PHONG;
+    type Constants<F: Num> = ();
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
+    type Walk<F: Num> = LocalWalk<F, L>;
+
+    #[inline(always)]
+    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+        (n, lit.point(), n.x.broadcast(1.0))
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        Self::products(lit, span.linear())
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {

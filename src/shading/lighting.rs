@@ -85,7 +85,8 @@ pub struct Stored<'a> {
 pub struct LightUniforms {
     /// The unit vector toward it, or its position.
     pub(super) place: Place<Vec3<f32>>,
-    falloff: Falloff,
+    /// None of a light at infinity.
+    pub(super) falloff: Falloff,
     pub(super) diffuse: Vec3<f32>,
     pub(super) specular: Vec3<f32>,
     /// L·V and 1/|L + V| where both are at infinity.
@@ -100,7 +101,10 @@ impl Uniforms {
     pub fn new(lighting: &Lighting, power: Power, scale: f32) -> Uniforms {
         let lights = lighting.lights.iter().map(|light| LightUniforms {
             place: light.place.map(vec3),
-            falloff: light.falloff,
+            falloff: match light.place {
+                Place::Local(_) => light.falloff,
+                Place::Infinite(_) => Falloff::None,
+            },
             diffuse: vec3(light.diffuse) * scale,
             specular: vec3(light.specular) * scale,
             l_v: 0.0,
@@ -144,6 +148,7 @@ impl Uniforms {
             let strength = seen.strength.unwrap_or(1.0);
             LightUniforms {
                 place: Place::Infinite(seen.to),
+                falloff: Falloff::None,
                 diffuse: seen.light.diffuse * strength,
                 specular: seen.light.specular * strength,
                 ..*seen.light
@@ -241,15 +246,9 @@ const MOST_LEVELS: f32 = 1_073_741_824.0;
 /// Returns how strong a light is at the squared distance `square`; `None` is full strength. `unit` is 1, or the factor in
 /// all squared distances.
 #[inline(always)]
-pub(super) fn strength<F: Num>(
-    is_positional: bool,
-    falloff: Falloff,
-    square: F,
-    unit: F,
-) -> Option<F> {
+pub(super) fn strength<F: Num>(falloff: Falloff, square: F, unit: F) -> Option<F> {
     let square = square.max(LEAST_SQUARE);
     match falloff {
-        _ if !is_positional => None,
         Falloff::None => None,
         Falloff::Attenuation(k) => Some(unit / (unit + square * k)), // 1 / (1 + k d²)
         Falloff::InverseSquare => Some(unit / square),               // 1 / r²
@@ -285,7 +284,7 @@ fn faint(function: Power, shininess: f32, scale: f32, lights: &[LightUniforms]) 
         return f32::NEG_INFINITY;
     }
     let strongest = lights.iter().map(|light| {
-        let nearest = strength(light.place.is_local(), light.falloff, 0.0, 1.0);
+        let nearest = strength(light.falloff, 0.0, 1.0);
         magnitude(light.specular) * nearest.unwrap_or(1.0)
     });
     let faint = FAINT * scale;
@@ -383,7 +382,7 @@ pub struct Seen<'a, F> {
     pub l_v: F,
     /// 1 / |L + V|, where highlights are N·H.
     pub half: F,
-    strength: Option<F>,
+    pub(super) strength: Option<F>,
     light: &'a LightUniforms,
 }
 
@@ -491,7 +490,7 @@ impl<'a, F: Num> Lit<'a, F> {
             let to = seen.to - self.point;
             let square = to.dot(to);
             seen.to = to * (one / square.sqrt());
-            seen.strength = strength(is_positional, light.falloff, square, one);
+            seen.strength = strength(light.falloff, square, one);
         }
         if self.general && (is_positional || self.model.eye.is_local()) {
             seen.l_v = seen.to.dot(self.view);
@@ -507,6 +506,18 @@ impl<'a, F: Num> Lit<'a, F> {
     #[inline(always)]
     pub fn light(&self, index: usize, l_v: F, square: F, unit: F) -> Seen<'a, F> {
         let light = &self.stored[index];
+        let strength = strength(light.falloff, square, unit);
+        self.light_of_strength(index, l_v, strength)
+    }
+
+    /// Returns a light seen along unit vectors whose L·V is `l_v`, and its strength; `None` is full strength.
+    #[inline(always)]
+    pub(super) fn light_of_strength(
+        &self,
+        index: usize,
+        l_v: F,
+        strength: Option<F>,
+    ) -> Seen<'a, F> {
         Seen {
             index,
             to: self.view,
@@ -516,8 +527,8 @@ impl<'a, F: Num> Lit<'a, F> {
             } else {
                 l_v
             },
-            strength: strength(light.place.is_local(), light.falloff, square, unit),
-            light,
+            strength,
+            light: &self.stored[index],
         }
     }
 

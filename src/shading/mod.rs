@@ -69,6 +69,7 @@ mod phong_map;
 mod phong_rsqrt;
 mod phong_unnormalised;
 mod planes;
+mod positional_products;
 mod quadratic_normals;
 mod quadratic_products;
 mod quaternion_phong;

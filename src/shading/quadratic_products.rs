@@ -32,16 +32,31 @@ pub(super) fn least_length(corners: [(Vec3<f32>, f32); 3]) -> f32 {
     least(corners.map(|(normal, _)| normal.dot(mean))) * least(corners.map(|(_, weight)| weight))
 }
 
-/// Returns D/ℓ of three unit normals and their weights; more than any number where ℓ may be 0.
-pub(super) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
-    let [a, b, c] = corners.map(|(normal, weight)| normal * weight);
+/// Returns D, the longest distance between two of three vectors.
+pub(super) fn longest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
     let square = |d: Vec3<f32>| d.dot(d);
-    let longest = square(a - b).max(square(b - c)).max(square(c - a));
+    Num::sqrt(square(a - b).max(square(b - c)).max(square(c - a)))
+}
+
+/// Returns the longest distance of three vectors from their mean.
+pub(super) fn farthest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
+    let middle = (a + b + c) * (1.0 / 3.0);
+    let square = |v: Vec3<f32>| (v - middle).dot(v - middle);
+    Num::sqrt(square(a).max(square(b)).max(square(c)))
+}
+
+/// Returns a distance `across` three unit vectors times their weights, over ℓ; more than any number where ℓ may be 0.
+pub(super) fn relative(across: fn([Vec3<f32>; 3]) -> f32, corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let length = least_length(corners);
     match length > 0.0 {
-        true => Num::sqrt(longest) / length,
+        true => across(corners.map(|(unit, weight)| unit * weight)) / length,
         false => f32::INFINITY,
     }
+}
+
+/// Returns D/ℓ of three unit normals and their weights.
+pub(super) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
+    relative(longest, corners)
 }
 
 /// Returns the unit normals and weights of a polygon of a frame, if it is a whole triangle and not too [wide](WIDEST).

@@ -1,16 +1,17 @@
 //! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
 
+use super::duff_phong::DuffPhongLocal;
+use super::positional_products::{self, PositionalProducts, set_up_placed};
 use super::quadratic_products::{
-    OverPolygon, QuadraticProducts, lagrange, narrow_triangle, set_up_triangle, width,
+    OverPolygon, QuadraticProducts, lagrange, longest, narrow_triangle, set_up_triangle, width,
 };
 use super::{
-    Approximation, Corner, Corners, Family, Info, LightModel, Lit, Local, MethodParameter, Pixel,
-    Planes, Roundings, Shader, Span, Standing, Stepped, Value,
+    Approximation, Corner, Corners, Family, Info, LightModel, Lit, MethodParameter, Pixel, Planes,
+    Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
-use crate::scene::Interpolation;
 
 /// Six-point quadratics, for up to `L` lights: `J = L·N` and `K = V·N` of *unit* normals are computed at the corners of a triangle
 /// and half-way along its edges. The quadratic through these six points in the barycentric coordinates b, c of two corners
@@ -54,10 +55,23 @@ const ROOTS: u8 = 1;
 /// The place of `barrera` among the words of the only parameter.
 const BARRERA: Value = Value::Word(1);
 
+/// The share of the third derivative by which quadratics are off: a sixth of the sum of weights and cubes of distances.
+const SHARE: f64 = 0.204 / 6.0;
+
 /// True if corners have the same weight.
-fn is_alike<R: Real>(corners: [Corner<R>; 3]) -> bool {
-    let [a, b, c] = corners.map(|corner| corner.weight.value());
+fn is_alike([a, b, c]: [f32; 3]) -> bool {
     a == b && b == c
+}
+
+/// Returns the unit normals half-way along the edges AB, BC, CA: near ones, if they are asked for and corners have the same weight.
+#[inline(always)]
+fn midway<R: Real>(corners: [Corner<R>; 3], is_near: bool) -> [Vec3<R>; 3] {
+    if is_near && is_alike(corners.map(|corner| corner.weight.value())) {
+        let [a, b, c] = corners.map(|corner| corner.normal);
+        return [(a, b), (b, c), (c, a)].map(|(a, b)| (a + b) * ((-a.dot(b) + 5.0) * 0.125));
+    }
+    let [a, b, c] = corners.map(|corner| corner.normal * corner.weight);
+    [(a, b), (b, c), (c, a)].map(|(a, b)| (a + b).unit())
 }
 
 /// Returns how much shorter than 1 the near midpoint of two unit normals is.
@@ -71,48 +85,56 @@ fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Appr
     let Some(corners) = narrow_triangle(frame, polygon) else {
         return Approximation::NONE;
     };
-    let is_near = parameters[0] == BARRERA && frame.interpolation() == Interpolation::Screen;
     let [a, b, c] = corners.map(|(normal, _)| normal);
     let lacks = [[a, b], [b, c], [c, a]].map(lack);
-    let short = match is_near {
+    let short = match parameters[0] == BARRERA && is_alike(corners.map(|(_, weight)| weight)) {
         true => 4.0 / 3.0 * lacks.into_iter().fold(0.0, f64::max),
         false => 0.0,
     };
-    Approximation {
-        cosine: 0.102 * libm::pow(width(corners).into(), 3.0) + short,
-        ..Approximation::NONE
-    }
+    let mut error = match frame.is_local() {
+        true => positional_products::approximation(frame, polygon, (longest, SHARE)),
+        false => Approximation {
+            cosine: 0.102 * libm::pow(width(corners).into(), 3.0),
+            ..Approximation::NONE
+        },
+    };
+    error.cosine += short;
+    error
 }
 
+const SIX_POINT: Info = Info {
+    name: "six-point",
+    ids: &["M10"],
+    family: Family::Quadratics,
+    standing: Standing::Default,
+    title: "J = L.N and K = V.N as quadratics over each triangle",
+    formula: "F(b) = sum Fi bi (2 bi - 1) + 4 (F12 b1 b2 + F23 b2 b3 + F31 b3 b1) of unit normals;  F_next = F + dF;  \
+              dF_next = dF + ddF\nI = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
+    source: "Seiler 1998; Kirk, Voorhies 1990; midpoints=barrera: Barrera, Hast, Bengtsson 2006",
+    model: Model::Phong,
+    fails: "where normals turn by more than 30 degrees over a triangle: a highlight may end, or peak, elsewhere",
+    roundings: Roundings::new(24.0, 3.0, Stepped::Products),
+    derivation: "as duff-phong, whose roots other polygons take; the coefficients of a quadratic take 6 roundings of sums of up to \
+                 8 products of at most 1, and x^2 and y^2 as many, of coordinates of at most 1",
+    approximation,
+    parameters: &[MethodParameter::word(
+        "midpoints",
+        "unit normals half-way along edges: by roots, or by Barrera's polynomial",
+        &["exact", "barrera"],
+    )],
+    ..Info::OF_PIXELS
+};
+
+const KINDS: &[&str] = &["quadratic", "roots"];
+const SCALAR_ONLY: &str =
+    "six-point steps quadratics of a polygon's own, and the row engine has no spans";
+
 impl<const L: usize> Shader for SixPoint<L> {
-    const INFO: Info = Info {
-        name: "six-point",
-        ids: &["M10"],
-        family: Family::Quadratics,
-        standing: Standing::Default,
-        title: "J = L.N and K = V.N as quadratics over each triangle",
-        formula: "F(b) = sum Fi bi (2 bi - 1) + 4 (F12 b1 b2 + F23 b2 b3 + F31 b3 b1) of unit normals;  F_next = F + dF;  \
-                  dF_next = dF + ddF\nI = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
-        source: "Seiler 1998; Kirk, Voorhies 1990; midpoints=barrera: Barrera, Hast, Bengtsson 2006",
-        model: Model::PhongConstant,
-        fails: "where normals turn by more than 30 degrees over a triangle: a highlight may end, or peak, elsewhere",
-        roundings: Roundings::new(24.0, 3.0, Stepped::Products),
-        derivation: "as duff-phong, whose roots other polygons take; the coefficients of a quadratic take 6 roundings of sums of up to \
-                     8 products of at most 1, and x^2 and y^2 as many, of coordinates of at most 1",
-        approximation,
-        parameters: &[MethodParameter::word(
-            "midpoints",
-            "unit normals half-way along edges: by roots, or by Barrera's polynomial",
-            &["exact", "barrera"],
-        )],
-        ..Info::OF_PIXELS
-    };
-    const LOCAL: Local = Local::PerPolygon;
+    const INFO: Info = SIX_POINT;
     const PASSES_NORMAL: bool = true;
-    const KINDS: &'static [&'static str] = &["quadratic", "roots"];
+    const KINDS: &'static [&'static str] = KINDS;
     const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("six-point steps quadratics of a polygon's own, and the row engine has no spans");
+    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
     type Constants<F: Num> = OverPolygon<F, L>; // from the first corner
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = QuadraticProducts<F, L>;
@@ -141,17 +163,8 @@ impl<const L: usize> Shader for SixPoint<L> {
         };
         let products = |n| lit.products::<L>(n);
         let [fa, fb, fc] = [a, b, c].map(|corner| products(corner.normal));
-        let [ab, bc, ca] = match self.is_near && is_alike([a, b, c]) {
-            true => [(a, b), (b, c), (c, a)].map(|(a, b)| {
-                let factor = (-a.normal.dot(b.normal) + 5.0) * 0.125;
-                products((a.normal + b.normal) * factor)
-            }),
-            false => {
-                let [a, b, c] = [a, b, c].map(|corner| corner.normal * corner.weight);
-                [(a, b), (b, c), (c, a)].map(|(a, b)| products((a + b).unit()))
-            }
-        };
-        let in_screen = lagrange([fa, fb, fc], [ab, bc, ca], growth);
+        let midway = midway([a, b, c], self.is_near).map(products);
+        let in_screen = lagrange([fa, fb, fc], midway, growth);
         (0, (in_screen, a.place))
     }
     #[inline(always)]
@@ -168,6 +181,69 @@ impl<const L: usize> Shader for SixPoint<L> {
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
         lit.shade_products(products)
+    }
+}
+
+/// Six-point quadratics where a light or the eye is at a position, for up to `L` lights: of L·V and of each light's strength beside J and K,
+/// from positions half-way along edges on the screen, `(P_1/w_1 + P_2/w_2)/(1/w_1 + 1/w_2)`. Triangles to which a light or the eye
+/// is near take Duff's way.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SixPointLocal<const L: usize>(SixPoint<L>);
+
+impl<const L: usize> Shader for SixPointLocal<L> {
+    const INFO: Info = SIX_POINT;
+    const KINDS: &'static [&'static str] = KINDS;
+    const READS_SPAN: bool = true;
+    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
+    type Constants<F: Num> = positional_products::OverPolygon<F, L>; // from the first corner
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
+    type Walk<F: Num> = PositionalProducts<F, L>;
+
+    #[inline(always)]
+    fn new(parameters: &[Value], model: &LightModel) -> Self {
+        SixPointLocal(SixPoint::new(parameters, model))
+    }
+    #[inline(always)]
+    fn of_kind(self, kind: u8) -> Self {
+        SixPointLocal(self.0.of_kind(kind))
+    }
+    #[inline(always)]
+    fn polygon<R: Real>(
+        self,
+        lit: &Lit<'_, R>,
+        polygon: &Corners<'_, R>,
+    ) -> (u8, Self::Constants<R>) {
+        let Some((corners, growth)) = set_up_placed(lit, polygon) else {
+            return (ROOTS, Planes::filled(lit.count(), lit.zero()));
+        };
+        let products = |(n, point)| positional_products::products(lit, n, point);
+        let normals = midway(corners.map(|(corner, _)| corner), self.0.is_near);
+        let [a, b, c] = corners.map(|(corner, point)| (point * corner.weight, corner.weight));
+        let points =
+            [(a, b), (b, c), (c, a)].map(|((p, v), (q, w))| (p + q) * (v.broadcast(1.0) / (v + w)));
+        let [ab, bc, ca] = normals;
+        let [to_ab, to_bc, to_ca] = points;
+        let in_screen = lagrange(
+            corners.map(|(corner, point)| products((corner.normal, point))),
+            [(ab, to_ab), (bc, to_bc), (ca, to_ca)].map(products),
+            growth,
+        );
+        (0, (in_screen, corners[0].0.place))
+    }
+    #[inline(always)]
+    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+        DuffPhongLocal::<L>.vertex(lit, n)
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        match self.0.kind {
+            ROOTS => PositionalProducts::of_vectors(lit, span.linear()),
+            _ => PositionalProducts::over_polygon(lit, span.constants(), span.place()),
+        }
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+        positional_products::shade(lit, pixel, self.0.kind == ROOTS)
     }
 }
 

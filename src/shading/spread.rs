@@ -92,7 +92,10 @@ impl Spread {
             let to = ball.sees(light.place);
             here.add(&to);
             let square = (to.nearest * to.nearest) as f32;
-            let strength = strength(light.place.is_local(), light.falloff, square, 1.0);
+            let strength = match light.place {
+                Place::Local(_) => strength(light.falloff, square, 1.0),
+                Place::Infinite(_) => None,
+            };
             *greatest = greatest.max(strength.map_or(1.0, f64::from));
             // |l + v| = 2 cos(θ/2) for unit vectors at the angle θ.
             let angle = libm::acos(to.direction.dot(view.direction).clamp(-1.0, 1.0));

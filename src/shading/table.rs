@@ -2,7 +2,7 @@
 
 use super::adaptive_phong::AdaptivePhong;
 use super::biquadratic_normals::BiquadraticNormals;
-use super::bishop_weimer::BishopWeimer;
+use super::bishop_weimer::{BishopWeimer, BishopWeimerLocal};
 use super::count::{CountedSpan, count};
 use super::cubic_phong::CubicPhong;
 use super::difference_vector::DifferenceVector;
@@ -25,7 +25,7 @@ use super::phong_unnormalised::PhongUnnormalised;
 use super::quadratic_normals::QuadraticNormals;
 use super::quaternion_phong::QuaternionPhong;
 use super::series_phong::SeriesPhong;
-use super::six_point::SixPoint;
+use super::six_point::{SixPoint, SixPointLocal};
 use super::slerp_chebyshev::SlerpChebyshev;
 use super::slerp_half::SlerpHalf;
 use super::slerp_phong::SlerpPhong;
@@ -70,8 +70,10 @@ pub static METHODS: &[Entry] = &[
         DifferenceVector<8>,
         DifferenceVector<64>,
     >(),
-    Entry::by_lights::<BishopWeimer<1>, BishopWeimer<4>, BishopWeimer<8>, BishopWeimer<64>>(),
-    Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>(),
+    Entry::by_lights::<BishopWeimer<1>, BishopWeimer<4>, BishopWeimer<8>, BishopWeimer<64>>()
+        .positional::<BishopWeimerLocal<4>, BishopWeimerLocal<64>>(),
+    Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>()
+        .positional::<SixPointLocal<4>, SixPointLocal<64>>(),
     Entry::of::<QuadraticNormals>(),
     Entry::of::<BiquadraticNormals>(),
     Entry::of::<HTest>(),

@@ -1,0 +1,280 @@
+//! Products of vectors toward lights and eye at positions, as quadratics over a triangle: what methods share that make one per polygon.
+
+use super::duff_phong::{DuffPhongLocal, LocalWalk};
+use super::increments::{Linear, Quadratic, Walk};
+use super::quadratic_products::{
+    Growth, WIDEST, along, each_of, least_length, longest, plain, relative, set_up_triangle,
+};
+use super::{Approximation, Corner, Corners, Lit, PerLight, Planes, Shader};
+use crate::frame::{Frame, Polygon};
+use crate::number::{Num, Real, Vec3, vec3};
+use crate::scene::{Falloff, LightTerm, Place};
+
+/// J = L·N and L·V of each light, and its strength; K = V·N: products of unit vectors.
+pub(super) type Products<F, const L: usize> =
+    ((PerLight<F, L>, PerLight<F, L>), (PerLight<F, L>, F));
+
+/// The coefficients of 1, x, y, x², xy, y², and the point of the picture from which x and y are counted.
+pub(super) type OverPolygon<F, const L: usize> = ([Products<F, L>; 6], [F; 2]);
+
+/// Returns the products at a point, from its unit normal.
+#[inline(always)]
+pub(super) fn products<F: Num, const L: usize>(
+    lit: &Lit<'_, F>,
+    n: Vec3<F>,
+    point: Vec3<F>,
+) -> Products<F, L> {
+    let lit = lit.at(point);
+    let none = PerLight::new(lit.count(), n.x);
+    let (mut j, mut l_v, mut strength) = (none, none, none);
+    for light in lit.lights() {
+        j.values[light.index] = n.dot(light.to); // J = L · N
+        l_v.values[light.index] = light.l_v;
+        strength.values[light.index] = light.strength.unwrap_or(n.x.broadcast(1.0));
+    }
+    ((j, l_v), (strength, n.dot(lit.view()))) // K = V · N
+}
+
+/// A corner of a triangle and its position in the world.
+pub(super) type Placed<R> = (Corner<R>, Vec3<R>);
+
+/// Returns the corners of a polygon as a method sets it up, and their growth, if it is a triangle over which products are quadratics: no
+/// sliver, and no light, eye or normal turns or changes by too much.
+#[inline(always)]
+pub(super) fn set_up_placed<R: Real>(
+    lit: &Lit<'_, R>,
+    polygon: &Corners<'_, R>,
+) -> Option<([Placed<R>; 3], Growth<R>)> {
+    let ([a, b, c], growth) = set_up_triangle(polygon)?;
+    let corners = [(a, a.position?), (b, b.position?), (c, c.position?)];
+    let lights = lit.stored.iter().map(|light| (light.place, light.falloff));
+    let seen = Triangle(corners.map(|(v, p)| (plain(v.normal), plain(p), v.weight.value())));
+    seen.is_narrow(lit.model.eye, lights)
+        .then_some((corners, growth))
+}
+
+/// The way across a triangle of vectors by which a quadratic's error grows.
+pub(super) type Across = fn([Vec3<f32>; 3]) -> f32;
+
+/// Unit normals, positions and weights of the corners of a triangle.
+///
+/// **The error of a quadratic** is a share of the third derivative along a line. For the direction g = v/|v| of a vector v that is linear on
+/// the screen, as N/w and (p − P)/w are, and with a = D/ℓ of a way D `across` the triangle and the least length ℓ of v
+///
+/// ```text
+/// |g′| ≤ a,   |g″| ≤ √(4/3) a²,   |g‴| ≤ 3 a³,      so that of the product of two   |(g·h)‴| ≤ 3 (a + b)³
+/// ```
+/// as those of a unit vector at the angle atan(s/h) on a line at the distance h from 0. The nth derivative of 1/r is at most n!/rⁿ⁺¹ there, and
+/// that of 1/r² (n + 1)!/rⁿ⁺². So of strengths, with ρ the share of the largest weight w by which weights differ,
+///
+/// ```text
+/// |(w/|v|)‴| ≤ 6 (a + ρ)³ w/ℓ,      |(w²/|v|²)‴| ≤ 24 (a + ρ)³ w²/ℓ²
+/// ```
+/// for 1/d and 1/d², and for 1/(1 + k d²) if v is (w, √k (p − P)/w), of four coordinates.
+pub(super) struct Triangle([(Vec3<f32>, Vec3<f32>, f32); 3]);
+
+impl Triangle {
+    /// Returns the largest third derivative of a product, over 3: (a + b)³ of the two vectors that turn by most.
+    fn turn(
+        &self,
+        across: Across,
+        eye: Place<Vec3<f32>>,
+        lights: impl Iterator<Item = Light>,
+    ) -> f32 {
+        let normal = relative(across, self.0.map(|(n, _, weight)| (n, weight)));
+        let view = self.vectors(eye).map_or(0.0, |to| relative(across, to));
+        let light = |light: Light| self.vectors(light.0).map_or(0.0, |to| relative(across, to));
+        let light = lights.map(light).fold(0.0, f32::max);
+        let most = (normal + view).max(normal + light).max(view + light);
+        most * most * most
+    }
+
+    /// Returns the largest third derivative of a light's strength, over 3, as a factor and the strength that it multiplies; 0 without falloff.
+    fn fall(&self, across: Across, (place, falloff): Light) -> [f32; 2] {
+        let Some(to) = self.vectors(place) else {
+            return [0.0; 2];
+        };
+        let weights = self.0.map(|(_, _, weight)| weight);
+        let least = weights[0].min(weights[1]).min(weights[2]);
+        let most = weights[0].max(weights[1]).max(weights[2]);
+        let differ = across(weights.map(|weight| vec3([weight, 0.0, 0.0])));
+        let (far, length) = (
+            across(to.map(|(unit, length)| unit * length)),
+            least_length(to),
+        );
+        let (factor, far, length) = match falloff {
+            Falloff::None => return [0.0; 2],
+            Falloff::Inverse => (2.0, far, length),
+            Falloff::InverseSquare => (8.0, far, length),
+            Falloff::Attenuation(k) => {
+                let squared = |w: f32, v: f32| Num::sqrt(w * w + k * v * v);
+                (8.0, squared(differ, far), squared(least, length.max(0.0)))
+            }
+        };
+        let change = far / length + differ / most;
+        let strength = match falloff {
+            Falloff::Inverse => most / length,
+            _ => most / length * (most / length),
+        };
+        match length > 0.0 {
+            true => [factor * change * change * change, strength],
+            false => [f32::INFINITY; 2],
+        }
+    }
+
+    /// Returns the unit vectors from the corners to a position, and their lengths, times the weights; `None` for one at infinity.
+    fn vectors(&self, place: Place<Vec3<f32>>) -> Option<[(Vec3<f32>, f32); 3]> {
+        let Place::Local(position) = place else {
+            return None;
+        };
+        Some(self.0.map(|(_, point, weight)| {
+            let to = position - point;
+            let length = Num::sqrt(to.dot(to));
+            (to * (1.0 / length), length * weight)
+        }))
+    }
+
+    /// True if quadratics follow products and strengths as far as those of normals alone may be followed: see [`WIDEST`].
+    fn is_narrow(
+        &self,
+        eye: Place<Vec3<f32>>,
+        lights: impl Iterator<Item = Light> + Clone,
+    ) -> bool {
+        const MOST: f32 = WIDEST * WIDEST * WIDEST;
+        let mut falls = lights.clone().map(|light| self.fall(longest, light)[0]);
+        self.turn(longest, eye, lights) <= MOST && falls.all(|fall| fall <= MOST)
+    }
+}
+
+/// The place of a light, and its falloff.
+type Light = (Place<Vec3<f32>>, Falloff);
+
+/// Bounds the error on a polygon of quadratics that are off by a `share` of their third derivatives: see [`Triangle`]. None where
+/// vectors are followed.
+pub(super) fn approximation(
+    frame: &Frame,
+    polygon: &Polygon,
+    (across, share): (Across, f64),
+) -> Approximation {
+    let &[a, b, c] = frame.corners(polygon) else {
+        return Approximation::NONE;
+    };
+    let corner = |v: u32| {
+        let [normal, point] = [frame.normal(v), frame.position(v)].map(vec3);
+        (normal, point, frame.weight(v))
+    };
+    let triangle = Triangle([a, b, c].map(corner));
+    let lighting = &frame.lightings()[polygon.material as usize];
+    let eye = lighting.view.map(vec3);
+    let seen = |light: &LightTerm| (light.place.map(vec3), light.falloff);
+    let lights = lighting.lights.iter().map(seen);
+    if !triangle.is_narrow(eye, lights.clone()) {
+        return Approximation::NONE;
+    }
+    let mut colour = [0.0; 3];
+    for (light, seen) in lighting.lights.iter().zip(lights.clone()) {
+        let [factor, strength] = triangle.fall(across, seen).map(f64::from);
+        for (c, colour) in colour.iter_mut().enumerate() {
+            let lit = f64::from(light.diffuse[c] + light.specular[c]);
+            *colour += 3.0 * share * factor * strength * lit;
+        }
+    }
+    Approximation {
+        cosine: 3.0 * share * f64::from(triangle.turn(across, eye, lights)),
+        colour: colour.into_iter().fold(0.0, f64::max),
+        ..Approximation::NONE
+    }
+}
+
+type Pixel<F, const L: usize> = (Products<F, L>, super::Pixel<DuffPhongLocal<L>, F>);
+
+/// Products that a run steps: quadratics over a polygon, or those of vectors whose lengths are divided out at pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct PositionalProducts<F, const L: usize> {
+    quadratics: Stepped<F, L>,
+    vectors: Option<LocalWalk<F, L>>,
+    /// 0, as the products that are not stepped are.
+    zero: F,
+}
+
+type Stepped<F, const L: usize> = (
+    (PerLight<Quadratic<F>, L>, PerLight<Quadratic<F>, L>),
+    (PerLight<Quadratic<F>, L>, Quadratic<F>),
+);
+
+impl<F: Num, const L: usize> PositionalProducts<F, L> {
+    /// Starts a run at `place`, where products are quadratics over the polygon.
+    #[inline(always)]
+    pub(super) fn over_polygon(
+        lit: &Lit<'_, F>,
+        (of, from): OverPolygon<F::One, L>,
+        [x, y]: [F; 2],
+    ) -> Self {
+        let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
+        let mut start = Self::new(lit);
+        let ((j, l_v), (strength, k)) = &mut start.quadratics;
+        *k = along(each_of(|i| of[i].1.1), from);
+        for light in 0..lit.count() {
+            j.values[light] = along(each_of(|i| of[i].0.0.values[light]), from);
+            l_v.values[light] = along(each_of(|i| of[i].0.1.values[light]), from);
+            strength.values[light] = along(each_of(|i| of[i].1.0.values[light]), from);
+        }
+        start
+    }
+
+    /// Starts a run of normals, positions and weights: as Duff's.
+    #[inline(always)]
+    pub(super) fn of_vectors(lit: &Lit<'_, F>, linear: Linear<(Vec3<F>, Vec3<F>, F)>) -> Self {
+        PositionalProducts {
+            vectors: Some(DuffPhongLocal::products(lit, linear)),
+            ..Self::new(lit)
+        }
+    }
+
+    #[inline(always)]
+    fn new(lit: &Lit<'_, F>) -> Self {
+        let none = Quadratic::zero(lit.zero());
+        let all = PerLight::new(lit.count(), none);
+        PositionalProducts {
+            quadratics: ((all, all), (all, none)),
+            vectors: None,
+            zero: lit.zero(),
+        }
+    }
+}
+
+impl<F: Num, const L: usize> Walk<F> for PositionalProducts<F, L> {
+    type Pixel = Pixel<F, L>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Pixel {
+        let mut pixel = Self::Pixel::filled(self.quadratics.1.0.count, self.zero);
+        match &mut self.vectors {
+            None => pixel.0 = self.quadratics.next(),
+            Some(vectors) => pixel.1 = vectors.next(),
+        }
+        pixel
+    }
+}
+
+/// Returns the colour of a surface from quadratics, or from products of vectors that are followed.
+#[inline(always)]
+pub(super) fn shade<F: Num, const L: usize>(
+    lit: &Lit<'_, F>,
+    (products, vectors): Pixel<F, L>,
+    is_followed: bool,
+) -> Vec3<F> {
+    if is_followed {
+        return DuffPhongLocal::<L>.shade(lit, vectors);
+    }
+    let ((j, l_v), (strength, k)) = products;
+    let mut colour = lit.ambient();
+    for index in 0..lit.count() {
+        let falls = lit.stored[index].falloff != Falloff::None;
+        let strength = falls.then_some(strength.values[index]);
+        let light = lit.light_of_strength(index, l_v.values[index], strength);
+        let l_n = j.values[index];
+        colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, k)); // 4.5
+    }
+    colour
+}
