@@ -60,7 +60,7 @@ pub static METHODS: &[Entry] = &[
     >(),
     Entry::of::<PhongRsqrt>(),
     Entry::by_lights::<DuffPhong<1>, DuffPhong<4>, DuffPhong<8>, DuffPhong<64>>()
-        .positional::<DuffPhongLocal<4>, DuffPhongLocal<64>>(),
+        .positional::<DuffPhongLocal<1>, DuffPhongLocal<4>, DuffPhongLocal<64>>(),
     Entry::by_lights::<DuffNewton<1>, DuffNewton<4>, DuffNewton<8>, DuffNewton<64>>(),
     Entry::by_lights::<SeriesPhong<1>, SeriesPhong<4>, SeriesPhong<8>, SeriesPhong<64>>(),
     Entry::by_lights::<CubicPhong<1>, CubicPhong<4>, CubicPhong<8>, CubicPhong<64>>(),
@@ -71,15 +71,15 @@ pub static METHODS: &[Entry] = &[
         DifferenceVector<64>,
     >(),
     Entry::by_lights::<BishopWeimer<1>, BishopWeimer<4>, BishopWeimer<8>, BishopWeimer<64>>()
-        .positional::<BishopWeimerLocal<4>, BishopWeimerLocal<64>>(),
+        .positional::<BishopWeimerLocal<1>, BishopWeimerLocal<4>, BishopWeimerLocal<64>>(),
     Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>()
-        .positional::<SixPointLocal<4>, SixPointLocal<64>>(),
+        .positional::<SixPointLocal<1>, SixPointLocal<4>, SixPointLocal<64>>(),
     Entry::of::<QuadraticNormals>(),
     Entry::of::<BiquadraticNormals>(),
     Entry::of::<HTest>(),
     Entry::of::<AdaptivePhong<true>>()
         .one_light::<AdaptivePhong<false>>()
-        .positional::<PhongRsqrt, PhongRsqrt>(),
+        .positional::<PhongRsqrt, PhongRsqrt, PhongRsqrt>(),
     Entry::by_lights::<SlerpPhong<1>, SlerpPhong<4>, SlerpPhong<8>, SlerpPhong<64>>(),
     Entry::by_lights::<SlerpChebyshev<1>, SlerpChebyshev<4>, SlerpChebyshev<8>, SlerpChebyshev<64>>(
     ),
@@ -208,12 +208,18 @@ impl Entry {
         }
     }
 
-    /// Takes other kernels where a light or the eye is at a position: for 4 lights and for 64.
-    pub const fn positional<A: Shader, B: Shader>(self) -> Entry {
-        let [few, many] = const { [&Kernels::of::<A>(), &Kernels::of::<B>()] };
+    /// Takes other kernels where a light or the eye is at a position: for 1 light, for 4 and for 64.
+    pub const fn positional<A: Shader, B: Shader, C: Shader>(self) -> Entry {
+        let [one, few, many] = const {
+            [
+                &Kernels::of::<A>(),
+                &Kernels::of::<B>(),
+                &Kernels::of::<C>(),
+            ]
+        };
         Entry {
-            positional: [few, few, many, many],
-            count: [self.count[0], [count::<B>; 2]],
+            positional: [one, few, many, many],
+            count: [self.count[0], [count::<C>; 2]],
             ..self
         }
     }
