@@ -246,9 +246,9 @@ fn errors(entry: &Entry, frame: &Frame, polygon: &Polygon, spread: PolygonSpread
         }
         // Squares of weighted vectors have the squares of the weights.
         Stepped::Products => {
-            // With positions three products are stepped, where there was one product and one cosine.
+            // With positions three products are stepped: L·N is off by 3 a step, as D, and the roots of N·N and L·L by half of it each.
             let (step, vectors) = match is_followed {
-                true => (3.0 * step, vectors * vectors),
+                true => (step.max(6.0), vectors * vectors),
                 false => (step, vectors),
             };
             let rounding = rounding * weights * over_length * over_length;

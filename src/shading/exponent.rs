@@ -1,5 +1,6 @@
 //! The power functions of highlights, as pixel loops compute them.
 
+use super::lighting::at_most;
 use crate::number::Num;
 use crate::scene::Power;
 use alloc::vec::Vec;
@@ -108,7 +109,10 @@ impl Exponent {
                 let linear = ((base.max(0.0) - 1.0) * slope + 1.0).max(0.0);
                 squared_up_to_7(linear, squarings)
             }
-            Exponent::Schlick(n) => base / (base * (1.0 - n) + n),
+            Exponent::Schlick(n) => {
+                let t = at_most(base, 1.0); // it has a pole at n / (n − 1)
+                t / (t * (1.0 - n) + n)
+            }
             Exponent::Table { .. } => unreachable!("`Lit::power` reads tables"),
         }
     }
@@ -161,4 +165,38 @@ pub(super) fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
         x = x * x;
     }
     x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shading::lighting::FAINT;
+
+    /// Cosines that a method approximates may pass 1 by x: no function then passes eⁿˣ, falls below what it is at 1, or ends, but for 16 roundings
+    /// for each of n.
+    #[test]
+    fn powers_of_cosines_over_1_are_little_over_1() {
+        let functions = [
+            Power::Squaring,
+            Power::Exp,
+            Power::Table { size: 16 },
+            Power::Lyon { k: 3 },
+            Power::Schlick,
+        ];
+        for power in functions {
+            for n in [1.0f32, 2.0, 7.5, 32.0, 100.0, 1e4, 1e6] {
+                let exponent = Exponent::new(power, n, 0.0);
+                let table = exponent.table(n, 0.0);
+                for x in [0.0f32, 1e-7, 1e-4, 0.005, 0.01, 0.1] {
+                    let value = power_by_call(exponent, 1.0 + x, &table);
+                    let rounding = 16.0 * (n + 1.0) * FAINT;
+                    let most = libm::expf(n * (x + rounding));
+                    assert!(
+                        (1.0 - rounding..=most).contains(&value),
+                        "{power:?}, n {n}, 1 + {x}: {value}"
+                    );
+                }
+            }
+        }
+    }
 }

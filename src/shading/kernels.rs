@@ -417,7 +417,8 @@ pub(super) fn colour<M: Shader, F: Num>(
     (pixel, extra): (Pixel<M, F>, (Vec3<F>, F)),
 ) -> Vec3<F> {
     let (pixel, point) = extras.divided(pixel, extra);
-    method.shade(&lit.at(point), pixel)
+    let lit = if extras.point { lit.at(point) } else { lit };
+    method.shade(&lit, pixel)
 }
 
 /// A row of the G-buffer to be shaded.

@@ -30,7 +30,7 @@ use glam::DVec3;
 const LEAST_SQUARE: f32 = 1e-30;
 
 /// The largest rounding of a colour of ½ or more: half a unit in the last place, 2⁻²⁴.
-const FAINT: f32 = 1.0 / (1 << 24) as f32;
+pub(super) const FAINT: f32 = 1.0 / (1 << 24) as f32;
 
 /// The light on one material, as kernels read it: plain numbers, made once per material.
 #[derive(Clone, Debug)]
@@ -316,8 +316,9 @@ const LEAST_POWER: f32 = 2.0 * f32::MIN_POSITIVE;
 /// `half` is |L + V|.
 ///
 /// `R·V = 2 (L·N)(N·V) − L·V` is off by up to four times as much; of `N·H = (L·N + V·N) / h` the sum is off by twice that and
-/// h by e/h, so that it is off by `2 e/h + e/h²`. An exponent of 1 or more multiplies by n. One below 1 is concave, and
-/// infinitely steep at 0, where highlights end:
+/// h by e/h, so that it is off by `2 e/h + e/h²`. An exponent of 1 or more multiplies by n, and by more where the cosine is passed 1: t off by x
+/// leaves tⁿ off by (1 + x)ⁿ − 1 at most, and other functions by eⁿˣ − 1; Schlick's ends at 1, and a table goes on in a line. One below 1 is
+/// concave, and infinitely steep at 0, where highlights end:
 /// ```text
 /// |aⁿ − bⁿ| ≤ |a − b|ⁿ   for a, b ≥ 0 and 0 < n ≤ 1, with equality at b = 0
 /// ```
@@ -348,7 +349,13 @@ pub(super) fn highlight_error(lighting: &Lighting, power: Power, half: f64, e: f
                 Power::Schlick => 6.0,
                 Power::Table { .. } => 3.0 * n + 4.0,
             };
-            gain * n * e + roundings * f64::from(FAINT)
+            // An approximate cosine may pass 1, where powers are steeper: at most from 1 on.
+            let off = match power {
+                Power::Squaring => libm::expm1(n * libm::log1p(gain * e)),
+                Power::Exp | Power::Lyon { .. } => libm::expm1(gain * n * e),
+                Power::Schlick | Power::Table { .. } => gain * n * e,
+            };
+            off.min(f64::MAX) + roundings * f64::from(FAINT)
         }
     };
     power + weight

@@ -268,7 +268,7 @@ fn measure(setting: Setting, all: &[Genes]) -> Measured {
 }
 
 /// Returns a number of the environment, so that a test runs longer than `cargo test` has time for.
-fn asked(name: &str, otherwise: u64) -> u64 {
+pub fn asked(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).map_or(otherwise, |number| number.parse().expect("a number"))
 }
 

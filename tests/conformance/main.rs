@@ -19,6 +19,7 @@ mod lecture;
 mod lights;
 mod ndc_cube;
 mod pins;
+mod positional;
 mod published;
 mod regression;
 mod span_shader;
