@@ -71,7 +71,7 @@ pub(super) type Across = fn([Vec3<f32>; 3]) -> f32;
 /// |(w/|v|)‴| ≤ 6 (a + ρ)³ w/ℓ,      |(w²/|v|²)‴| ≤ 24 (a + ρ)³ w²/ℓ²
 /// ```
 /// for 1/d and 1/d², and for 1/(1 + k d²) if v is (w, √k (p − P)/w), of four coordinates.
-pub(super) struct Triangle([(Vec3<f32>, Vec3<f32>, f32); 3]);
+pub(super) struct Triangle(pub(super) [(Vec3<f32>, Vec3<f32>, f32); 3]);
 
 impl Triangle {
     /// Returns the largest third derivative of a product, over 3: (a + b)³ of the two vectors that turn by most.
@@ -90,7 +90,7 @@ impl Triangle {
     }
 
     /// Returns the largest third derivative of a light's strength, over 3, as a factor and the strength that it multiplies; 0 without falloff.
-    fn fall(&self, across: Across, (place, falloff): Light) -> [f32; 2] {
+    pub(super) fn fall(&self, across: Across, (place, falloff): Light) -> [f32; 2] {
         let Some(to) = self.vectors(place) else {
             return [0.0; 2];
         };

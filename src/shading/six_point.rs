@@ -249,10 +249,12 @@ impl<const L: usize> Shader for SixPointLocal<L> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::positional_products::Triangle;
     use super::super::quadratic_products::WIDEST;
     use super::*;
     use crate::number::test_random::Random;
     use crate::number::vec3;
+    use crate::scene::{Falloff, Place};
     use alloc::vec::Vec;
 
     type Vector = [f64; 3];
@@ -351,5 +353,66 @@ mod tests {
             }
         }
         assert!(most > 0.2, "{most}");
+    }
+
+    /// Random triangles at random distances from a light, with and without weights: the quadratic of a strength is off by less than is
+    /// stated, and not by far less somewhere.
+    #[test]
+    fn no_quadratic_is_farther_from_a_strength_than_stated() {
+        let mut random = Random::new(11);
+        let falloffs = [
+            Falloff::Attenuation(0.7),
+            Falloff::Inverse,
+            Falloff::InverseSquare,
+        ];
+        for falloff in falloffs {
+            let (mut most, mut tried) = (0.0f64, 0);
+            while tried < 2000 {
+                let corner = |random: &mut Random| {
+                    let point = vec3([random.signed(), random.signed(), random.signed()]);
+                    let weight = 1.0 + 0.2 * random.signed();
+                    (vec3([0.0, 0.0, 1.0]), point, weight)
+                };
+                let triangle = Triangle([(); 3].map(|()| corner(&mut random)));
+                let light = random
+                    .unit()
+                    .map(|c| c * (2.0 + 8.0 * random.signed().abs()));
+                let light = (Place::Local(vec3(light)), falloff);
+                let [factor, strength] = triangle.fall(longest, light).map(f64::from);
+                if factor > f64::from(WIDEST).powi(3) {
+                    continue;
+                }
+                tried += 1;
+                let at = |b: Vector| {
+                    let weights = [0, 1, 2].map(|i| (b[i] * f64::from(triangle.0[i].2)));
+                    let points = triangle.0.map(|(_, p, _)| p.array().map(f64::from));
+                    let terms = [0, 1, 2].map(|i| (weights[i], points[i]));
+                    let over = 1.0 / weights.iter().sum::<f64>();
+                    let Place::Local(position) = light.0 else {
+                        unreachable!("a position")
+                    };
+                    let to = sum(&[(1.0, position.array().map(f64::from)), (-over, sum(&terms))]);
+                    let r = length(to);
+                    match falloff {
+                        Falloff::Attenuation(k) => 1.0 / (1.0 + f64::from(k) * r * r),
+                        Falloff::Inverse => 1.0 / r,
+                        _ => 1.0 / (r * r),
+                    }
+                };
+                let bound = 3.0 * SHARE * factor * strength;
+                for b in grid(12) {
+                    let terms = weights(b).into_iter().zip(POINTS.map(at));
+                    let quadratic: f64 = terms.map(|(weight, value)| weight * value).sum();
+                    let error = (quadratic - at(b)).abs();
+                    assert!(
+                        error <= bound * (1.0 + 1e-5),
+                        "{falloff:?}, {:?} from {light:?} at {b:?}: {error} over {bound}",
+                        triangle.0
+                    );
+                    most = most.max(error / bound);
+                }
+            }
+            assert!(most > 0.05, "{falloff:?}: {most}");
+        }
     }
 }
