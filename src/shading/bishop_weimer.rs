@@ -250,6 +250,7 @@ pub struct BishopWeimerLocal<const L: usize>(BishopWeimer<L>);
 impl<const L: usize> Shader for BishopWeimerLocal<L> {
     const INFO: Info = BISHOP_WEIMER;
     const KINDS: &'static [&'static str] = KINDS;
+    const IS_GENERAL: bool = true;
     const READS_SPAN: bool = true;
     const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
     type Constants<F: Num> = positional_products::OverPolygon<F, L>; // from the middle

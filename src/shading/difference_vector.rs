@@ -69,7 +69,7 @@ impl<const L: usize> Shader for DifferenceVector<L> {
     };
     const LOCAL: Local = Local::PerPolygon;
     const PASSES_NORMAL: bool = true;
-    const IS_HALFWAY: bool = true;
+    const IS_GENERAL: bool = true;
     const SCALAR_ONLY: Option<&'static str> =
         Some("difference-vector saves a root a pixel, and eight lanes take theirs at once");
     type Constants<F: Num> = ();

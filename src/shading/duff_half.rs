@@ -36,7 +36,7 @@ impl<const L: usize> Shader for DuffHalf<L> {
         fails: "as duff-phong; for N.H only, with lights and eye at infinity",
         ..Info::OF_PIXELS
     };
-    const IS_HALFWAY: bool = true;
+    const IS_GENERAL: bool = true;
     const SCALAR_ONLY: Option<&'static str> = Some(
         "duff-half steps differences from pixel to pixel, and a block of pixels would keep two numbers a light",
     );

@@ -345,7 +345,7 @@ fn light<M: Shader, F: Num>(
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = if M::IS_HALFWAY || uniforms.model.is_general || job.extras != Extras::default() {
+        out = if M::IS_GENERAL || uniforms.model.is_general || job.extras != Extras::default() {
             shade_runs::<M>(job, uniforms, true, runs, out)
         } else {
             shade_fast_runs::<M>(job, uniforms, runs, out)
@@ -417,8 +417,7 @@ pub(super) fn colour<M: Shader, F: Num>(
     (pixel, extra): (Pixel<M, F>, (Vec3<F>, F)),
 ) -> Vec3<F> {
     let (pixel, point) = extras.divided(pixel, extra);
-    let lit = if extras.point { lit.at(point) } else { lit };
-    method.shade(&lit, pixel)
+    method.shade(&lit.at_pixel(point, extras.point), pixel)
 }
 
 /// A row of the G-buffer to be shaded.
@@ -465,7 +464,7 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
     vectorize(
         simd,
         #[inline(always)]
-        || match job.uniforms.model.is_fast {
+        || match job.uniforms.model.is_fast && !M::IS_GENERAL {
             true => light::<M, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into()),
             false => light::<M, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into()),
         },
@@ -515,7 +514,9 @@ fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowCo
             let is_bytes = matches!(out, RowColours::Bytes(..));
             let is_fast = job.uniforms.model.is_fast && job.extras == Extras::default();
             match stored.lights {
-                _ if !(is_bytes && is_fast) => shade_blocks::<M, S>(job, stored, true, cells, out),
+                _ if M::IS_GENERAL || !(is_bytes && is_fast) => {
+                    shade_blocks::<M, S>(job, stored, true, cells, out)
+                }
                 // One light as a slice of length 1: its loop is unrolled.
                 [one] => {
                     let lights = &[*one];

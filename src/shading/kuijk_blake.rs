@@ -132,7 +132,7 @@ impl<const L: usize> Shader for KuijkBlake<L> {
     const PERSPECTIVE: Perspective = SlerpPhong::<L>::PERSPECTIVE;
     const GREAT_CIRCLES: bool = true;
     const READS_SPAN: bool = true;
-    const IS_HALFWAY: bool = true;
+    const IS_GENERAL: bool = true;
     const SCALAR_ONLY: Option<&'static str> =
         Some("kuijk-blake reads tables, which a block of pixels does one by one");
     type Constants<F: Num> = Vec3<F>; // the polygon's normal

@@ -419,11 +419,17 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns the light as `point` sees it.
     #[inline(always)]
-    pub fn at(mut self, point: Vec3<F>) -> Self {
-        if self.general && self.model.eye.is_local() {
+    pub fn at(self, point: Vec3<F>) -> Self {
+        self.at_pixel(point, true)
+    }
+
+    /// Returns the light as a pixel sees it, whose point means something or nothing.
+    #[inline(always)]
+    pub(super) fn at_pixel(mut self, point: Vec3<F>, has_point: bool) -> Self {
+        if has_point && self.general && self.model.eye.is_local() {
             self.view = (vector(self.model.eye).broadcast(self.zero) - point).unit();
         }
-        (self.point, self.has_point) = (point, true);
+        (self.point, self.has_point) = (point, has_point);
         self
     }
 

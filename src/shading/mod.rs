@@ -131,8 +131,8 @@ pub trait Shader: Copy + Default + 'static {
     const GREAT_CIRCLES: bool = false;
     /// The reason why it is not compiled for SIMD, if it is not.
     const SCALAR_ONLY: Option<&'static str> = None;
-    /// True if it is for highlights by N·H alone: those are general light, and no loop is compiled for other light.
-    const IS_HALFWAY: bool = false;
+    /// True if it is for general light alone, by N·H or from positions: no loop is compiled for other light.
+    const IS_GENERAL: bool = false;
     /// The kinds of polygons that it tells apart, by name: up to 5, or none. Those of [`Shader::SCALAR_ONLY`] methods only, as the
     /// G-buffer does not keep them: see [`Shader::of_kind`].
     const KINDS: &'static [&'static str] = &[];

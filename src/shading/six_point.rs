@@ -193,6 +193,7 @@ pub struct SixPointLocal<const L: usize>(SixPoint<L>);
 impl<const L: usize> Shader for SixPointLocal<L> {
     const INFO: Info = SIX_POINT;
     const KINDS: &'static [&'static str] = KINDS;
+    const IS_GENERAL: bool = true;
     const READS_SPAN: bool = true;
     const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
     type Constants<F: Num> = positional_products::OverPolygon<F, L>; // from the first corner

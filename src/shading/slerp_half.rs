@@ -28,7 +28,7 @@ impl<const L: usize> Shader for SlerpHalf<L> {
     const PERSPECTIVE: Perspective = SlerpChebyshev::<L>::PERSPECTIVE;
     const GREAT_CIRCLES: bool = true;
     const READS_SPAN: bool = true;
-    const IS_HALFWAY: bool = true;
+    const IS_GENERAL: bool = true;
     const SCALAR_ONLY: Option<&'static str> =
         Some("slerp-half walks along spans, and a block of pixels would keep two numbers a light");
     type Constants<F: Num> = Vec3<F>; // the polygon's normal

@@ -42,10 +42,18 @@ fn text(of: &Value) -> &str {
 type ByMethod = BTreeMap<String, [f64; 4]>;
 
 /// The files of `bench` that `docs/findings/run` leaves in `target/findings`.
-const TIMES: [&str; 5] = ["scalar-1", "scalar-4", "simd-1", "simd-4", "halfway-1"];
+const TIMES: [&str; 7] = [
+    "scalar-1",
+    "scalar-4",
+    "simd-1",
+    "simd-4",
+    "halfway-1",
+    "positions-1",
+    "positions-4",
+];
 
 /// Takes from them what the page says, to be kept: times of frames as multiples of naive Phong's, medians of rounds in which methods take
-/// turns, and naive Phong's own in milliseconds, one for each mesh.
+/// turns, naive Phong's own in milliseconds, and the largest errors of the frames in levels, one for each mesh.
 fn condensed() -> Value {
     let of_file = |name: &str| {
         let document: Value =
@@ -53,6 +61,7 @@ fn condensed() -> Value {
         let comparisons = list(&document, "comparisons");
         assert_eq!(comparisons.len(), DEGREES.len());
         let mut times = BTreeMap::<&str, Vec<f64>>::new();
+        let mut levels = BTreeMap::<&str, Vec<f64>>::new();
         let mut naive = Vec::new();
         for row in comparisons
             .iter()
@@ -63,7 +72,9 @@ fn condensed() -> Value {
                 Value::Null => 1.0,
                 ratio => 1.0 / number(ratio),
             };
-            times.entry(text(&row["variant"])).or_default().push(time);
+            let (name, error) = (text(&row["variant"]), &row["error"]["max"]);
+            times.entry(name).or_default().push(time);
+            levels.entry(name).or_default().push(255.0 * number(error));
             if row["variant"] == "naive-phong" {
                 naive.push(number(&speed["timing"]["median_ns"]) / 1e6);
             }
@@ -71,6 +82,7 @@ fn condensed() -> Value {
         serde_json::json!({
             "command_line": document["command_line"], "machine": document["machine"],
             "level": comparisons[0]["renderer"]["level"], "naive_ms": naive, "times": times,
+            "levels": levels,
         })
     };
     TIMES
@@ -81,13 +93,18 @@ fn condensed() -> Value {
 
 /// Returns times of frames as multiples of naive Phong's.
 fn times(name: &str) -> ByMethod {
+    measured(name, "times")
+}
+
+/// Returns what was measured on frames.
+fn measured(name: &str, what: &str) -> ByMethod {
     let document = data("times");
-    let times = document[name]["times"].as_object().expect("an object");
+    let all = document[name][what].as_object().expect("an object");
     let row = |(method, all): (&String, &Value)| {
         let all: Vec<f64> = all.as_array().expect("a list").iter().map(number).collect();
-        (method.clone(), all.try_into().expect("a time a mesh"))
+        (method.clone(), all.try_into().expect("a number a mesh"))
     };
-    times.iter().map(row).collect()
+    all.iter().map(row).collect()
 }
 
 /// Returns the milliseconds of naive Phong's frames, medians.
@@ -329,6 +346,28 @@ fn halfway_table() -> String {
             speed(&times, name, "naive-phong"),
         );
         writeln!(text, "| `{name}` | {cells} | {speed:.2} |").expect("a text");
+    }
+    text
+}
+
+/// A row a method on frames with lights and eye at positions: errors of these frames, and speeds mesh by mesh.
+fn positions_table() -> String {
+    let [one, four] = ["positions-1", "positions-4"].map(times);
+    let levels = measured("positions-1", "levels");
+    let mut rows: Vec<_> = one.keys().collect();
+    let mean = |name: &str| speed(&one, name, "naive-phong");
+    rows.sort_by(|a, b| mean(b).total_cmp(&mean(a)));
+    let mut text = String::from(
+        "| method | error at 5° | 15° | 30° | 60° | speed at 5° | 15° | 30° | 60° | 4 lights |\n\
+         |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for name in rows {
+        let errors = levels[name].map(short).join(" | ");
+        let speeds = one[name]
+            .map(|time| format!("{:.2}", 1.0 / time))
+            .join(" | ");
+        let four = speed(&four, name, "naive-phong");
+        writeln!(text, "| `{name}` | {errors} | {speeds} | {four:.2} |").expect("a text");
     }
     text
 }
@@ -843,18 +882,19 @@ fn machine() -> String {
 #[test]
 fn findings_are_the_measured_figures() {
     let blesses = std::env::var_os("FASTPHONG_BLESS").is_some();
-    if blesses && root().join("target/findings/halfway-1.json").exists() {
+    if blesses && root().join("target/findings/positions-4.json").exists() {
         let times = format!("{:#}\n", condensed());
         std::fs::write(root().join("docs/findings/times.json"), times).expect("a file to write");
     }
     let old = read(FILE);
     let mut new = old.clone();
-    let blocks: [(&str, &dyn Fn() -> String); 11] = [
+    let blocks: [(&str, &dyn Fn() -> String); 12] = [
         ("answer", &answer),
         ("machine", &machine),
         ("simd", &|| table("simd")),
         ("scalar", &|| table("scalar")),
         ("halfway", &halfway_table),
+        ("positions", &positions_table),
         ("break-even", &|| break_even(1)),
         ("break-even-4", &|| break_even(4)),
         ("small", &small_table),
