@@ -1,10 +1,13 @@
 //! Phong shading by Taylor's quadratic about the middle of a triangle: no root and no division at a pixel (Bishop, Weimer 1986).
 
 use super::duff_phong::DuffPhongLocal;
-use super::lighting::toward;
-use super::positional_products::{self, Placed, PositionalProducts, set_up_placed};
+use super::lighting::{LightUniforms, toward};
+use super::positional_products::{
+    self, OverTriangle, Placed, PositionalProducts, set_light, set_up_placed, set_view,
+};
 use super::quadratic_products::{
-    Growth, OverPolygon, QuadraticProducts, farthest, narrow_triangle, relative, set_up_triangle,
+    Growth, OverPolygon, QuadraticProducts, each_of, farthest, narrow_triangle, relative,
+    set_up_triangle,
 };
 use super::{
     Approximation, Corner, Corners, Family, Info, Lit, Pixel, Planes, Roundings, Shader, Span,
@@ -242,6 +245,82 @@ impl<const L: usize> Shader for BishopWeimer<L> {
     }
 }
 
+/// The vectors over a triangle that are linear on the screen: N/w, those toward places over w, and 1/w.
+struct Vectors<R> {
+    corners: [Placed<R>; 3],
+    growth: Growth<R>,
+    n: Plane<R>,
+    v: Plane<R>,
+    over_n: Jet<R>,
+    over_v: Jet<R>,
+    weight: Jet<R>,
+}
+
+// Not inlined: they are the same for any number of lights.
+impl<R: Real> Vectors<R> {
+    #[inline(never)]
+    fn of(lit: &Lit<'_, R>, corners: [Placed<R>; 3], growth: Growth<R>) -> Self {
+        let (zero, none) = (lit.zero(), vec3([lit.zero(); 3]));
+        let weight = plane(corners.map(|(v, _)| vec3([v.weight, zero, zero])), growth);
+        let n = plane(corners.map(|(v, _)| v.normal * v.weight), growth);
+        let mut all = Vectors {
+            corners,
+            growth,
+            n,
+            v: [none; 3],
+            over_n: Jet::dot(n, n).rsqrt(),
+            over_v: Jet::linear([zero; 3]),
+            weight: Jet::linear(weight.map(|v| v.x)),
+        };
+        all.v = all.toward(lit.model.eye);
+        all.over_v = Jet::dot(all.v, all.v).rsqrt();
+        all
+    }
+
+    #[inline(never)]
+    fn toward(&self, place: Place<Vec3<f32>>) -> Plane<R> {
+        match place {
+            Place::Local(_) => {
+                let to = |(v, p): Placed<R>| toward(place, p * v.weight, v.weight);
+                plane(self.corners.map(to), self.growth)
+            }
+            Place::Infinite(direction) => {
+                let none = self.n[0].x.broadcast(0.0);
+                let none = vec3([none; 3]);
+                [direction.broadcast(none.x), none, none]
+            }
+        }
+    }
+
+    /// Returns K.
+    #[inline(never)]
+    fn k(&self) -> Jet<R> {
+        let product = Jet::dot(self.n, self.v);
+        product.times(self.over_n).times(self.over_v)
+    }
+
+    /// Returns J, L·V and the strength of a light.
+    #[inline(never)]
+    fn light(&self, light: &LightUniforms) -> [Jet<R>; 3] {
+        let l = self.toward(light.place);
+        let square = Jet::dot(l, l);
+        let over_l = square.rsqrt();
+        let j = Jet::dot(l, self.n).times(over_l).times(self.over_n);
+        let l_v = Jet::dot(l, self.v).times(over_l).times(self.over_v);
+        let weight = self.weight;
+        let strength = match light.falloff {
+            Falloff::None => Jet::linear([1.0, 0.0, 0.0].map(|c| over_l.0[0].broadcast(c))),
+            Falloff::Inverse => weight.times(over_l), // (1/w) / (d/w)
+            Falloff::InverseSquare => weight.times(over_l).square(),
+            Falloff::Attenuation(k) => {
+                let all = weight.square().plus(square, k); // (1 + k d²)/w²
+                weight.times(all.rsqrt()).square()
+            }
+        };
+        [j, l_v, strength]
+    }
+}
+
 /// Taylor's quadratics where a light or the eye is at a position, for up to `L` lights: of L·V and of each light's strength beside J and K,
 /// by derivatives of the vectors toward them. Triangles to which a light or the eye is near take Duff's way.
 #[derive(Clone, Copy, Debug, Default)]
@@ -253,7 +332,7 @@ impl<const L: usize> Shader for BishopWeimerLocal<L> {
     const IS_GENERAL: bool = true;
     const READS_SPAN: bool = true;
     const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
-    type Constants<F: Num> = positional_products::OverPolygon<F, L>; // from the middle
+    type Constants<F: Num> = OverTriangle<F, L>; // from the middle
     type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
     type Walk<F: Num> = PositionalProducts<F, L>;
 
@@ -271,51 +350,15 @@ impl<const L: usize> Shader for BishopWeimerLocal<L> {
         let Some((corners, growth)) = set_up_placed(lit, polygon) else {
             return (ROOTS, constants);
         };
-        let weights = corners.map(|(corner, _)| corner.weight);
-        // The vectors that are linear on the screen: N/w, and those toward places over w.
-        let toward = |place: Place<Vec3<f32>>| match place {
-            Place::Local(_) => {
-                let to = |(corner, point): Placed<R>| {
-                    toward(place, point * corner.weight, corner.weight)
-                };
-                plane(corners.map(to), growth)
-            }
-            Place::Infinite(direction) => {
-                let none = vec3([lit.zero(); 3]);
-                [direction.broadcast(lit.zero()), none, none]
-            }
-        };
-        let n = plane(corners.map(|(v, _)| v.normal * v.weight), growth);
-        let v = toward(lit.model.eye);
-        let (over_n, over_v) = (Jet::dot(n, n).rsqrt(), Jet::dot(v, v).rsqrt());
-        let k = Jet::dot(n, v).times(over_n).times(over_v);
-        let weight = {
-            let along = weights.map(|weight| vec3([weight, lit.zero(), lit.zero()]));
-            Jet::linear(plane(along, growth).map(|v| v.x))
-        };
-        for (of, k) in constants.0.iter_mut().zip(k.0) {
-            of.1.1 = k;
-        }
+        let vectors = Vectors::of(lit, corners, growth);
+        set_view(&mut constants.0, vectors.k().0);
         for (index, light) in lit.stored.iter().enumerate() {
-            let l = toward(light.place);
-            let square = Jet::dot(l, l);
-            let over_l = square.rsqrt();
-            let j = Jet::dot(l, n).times(over_l).times(over_n);
-            let l_v = Jet::dot(l, v).times(over_l).times(over_v);
-            let strength = match light.falloff {
-                Falloff::None => Jet::linear([1.0, 0.0, 0.0].map(|c| over_l.0[0].broadcast(c))),
-                Falloff::Inverse => weight.times(over_l), // (1/w) / (d/w)
-                Falloff::InverseSquare => weight.times(over_l).square(),
-                Falloff::Attenuation(k) => {
-                    let all = weight.square().plus(square, k); // (1 + k d²)/w²
-                    weight.times(all.rsqrt()).square()
-                }
-            };
-            for (i, of) in constants.0.iter_mut().enumerate() {
-                of.0.0.values[index] = j.0[i];
-                of.0.1.values[index] = l_v.0[i];
-                of.1.0.values[index] = strength.0[i];
-            }
+            let [j, l_v, strength] = vectors.light(light).map(|Jet(of)| of);
+            set_light(
+                &mut constants.0,
+                index,
+                each_of(|i| (j[i], l_v[i], strength[i])),
+            );
         }
         constants.1 = middle(corners.map(|(corner, _)| corner));
         (0, constants)

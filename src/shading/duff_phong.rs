@@ -77,12 +77,13 @@ impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DuffPhongLocal<const L: usize>;
 
+/// N·N, V·V, N·V and 1/w².
 type Shared<Q> = ((Q, Q), (Q, Q));
+/// L·L, L·N and L·V of each light.
 type Each<Q> = ((Q, Q), Q);
 
-/// N·N, V·V, N·V, 1/w²; L·L, L·N and L·V of each light.
-pub(super) type LocalWalk<F, const L: usize> =
-    (Shared<Quadratic<F>>, Each<PerLight<Quadratic<F>, L>>);
+pub(super) type LightWalk<F, const L: usize> = Each<PerLight<Quadratic<F>, L>>;
+type LocalWalk<F, const L: usize> = (Shared<Quadratic<F>>, LightWalk<F, L>);
 
 impl<const L: usize> DuffPhongLocal<L> {
     /// Starts the products of vectors that grow linearly.

@@ -1,11 +1,11 @@
 //! Products of vectors toward lights and eye at positions, as quadratics over a triangle: what methods share that make one per polygon.
 
-use super::duff_phong::{DuffPhongLocal, LocalWalk};
+use super::duff_phong::{DuffPhongLocal, LightWalk};
 use super::increments::{Linear, Quadratic, Walk};
 use super::quadratic_products::{
     Growth, WIDEST, along, each_of, least_length, longest, plain, relative, set_up_triangle,
 };
-use super::{Approximation, Corner, Corners, Lit, PerLight, Planes, Shader};
+use super::{Approximation, Corner, Corners, Lit, PerLight, Shader};
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::scene::{Falloff, LightTerm, Place};
@@ -14,25 +14,32 @@ use crate::scene::{Falloff, LightTerm, Place};
 pub(super) type Products<F, const L: usize> =
     ((PerLight<F, L>, PerLight<F, L>), (PerLight<F, L>, F));
 
-/// The coefficients of 1, x, y, x², xy, y², and the point of the picture from which x and y are counted.
-pub(super) type OverPolygon<F, const L: usize> = ([Products<F, L>; 6], [F; 2]);
+/// The coefficients of 1, x, y, x², xy, y².
+type Coefficients<F, const L: usize> = [Products<F, L>; 6];
 
-/// Returns the products at a point, from its unit normal.
+/// They, and the point of the picture from which x and y are counted.
+pub(super) type OverTriangle<F, const L: usize> = (Coefficients<F, L>, [F; 2]);
+
+/// Sets the coefficients of K.
 #[inline(always)]
-pub(super) fn products<F: Num, const L: usize>(
-    lit: &Lit<'_, F>,
-    n: Vec3<F>,
-    point: Vec3<F>,
-) -> Products<F, L> {
-    let lit = lit.at(point);
-    let none = PerLight::new(lit.count(), n.x);
-    let (mut j, mut l_v, mut strength) = (none, none, none);
-    for light in lit.lights() {
-        j.values[light.index] = n.dot(light.to); // J = L · N
-        l_v.values[light.index] = light.l_v;
-        strength.values[light.index] = light.strength.unwrap_or(n.x.broadcast(1.0));
+pub(super) fn set_view<F: Copy, const L: usize>(to: &mut Coefficients<F, L>, k: [F; 6]) {
+    for (of, k) in to.iter_mut().zip(k) {
+        of.1.1 = k;
     }
-    ((j, l_v), (strength, n.dot(lit.view()))) // K = V · N
+}
+
+/// Sets those of J, L·V and the strength of a light.
+#[inline(always)]
+pub(super) fn set_light<F: Copy, const L: usize>(
+    to: &mut Coefficients<F, L>,
+    light: usize,
+    all: [(F, F, F); 6],
+) {
+    for (of, (j, l_v, strength)) in to.iter_mut().zip(all) {
+        of.0.0.values[light] = j;
+        of.0.1.values[light] = l_v;
+        of.1.0.values[light] = strength;
+    }
 }
 
 /// A corner of a triangle and its position in the world.
@@ -186,88 +193,83 @@ pub(super) fn approximation(
     }
 }
 
-type Pixel<F, const L: usize> = (Products<F, L>, super::Pixel<DuffPhongLocal<L>, F>);
-
-/// Products that a run steps: quadratics over a polygon, or those of vectors whose lengths are divided out at pixels.
+/// Products that a run steps, as those of [`DuffPhongLocal`]: quadratics over a polygon are products of vectors of length 1, which need no
+/// lengths, and have strengths in their place.
 #[derive(Clone, Copy, Debug)]
 pub struct PositionalProducts<F, const L: usize> {
-    quadratics: Stepped<F, L>,
-    vectors: Option<LocalWalk<F, L>>,
-    /// 0, as the products that are not stepped are.
+    /// N·N, V·V and 1/w².
+    lengths: Option<[Quadratic<F>; 3]>,
+    /// N·V.
+    view: Quadratic<F>,
+    /// L·L or the strength, L·N and L·V of each light.
+    lights: LightWalk<F, L>,
     zero: F,
 }
-
-type Stepped<F, const L: usize> = (
-    (PerLight<Quadratic<F>, L>, PerLight<Quadratic<F>, L>),
-    (PerLight<Quadratic<F>, L>, Quadratic<F>),
-);
 
 impl<F: Num, const L: usize> PositionalProducts<F, L> {
     /// Starts a run at `place`, where products are quadratics over the polygon.
     #[inline(always)]
     pub(super) fn over_polygon(
         lit: &Lit<'_, F>,
-        (of, from): OverPolygon<F::One, L>,
+        (of, from): OverTriangle<F::One, L>,
         [x, y]: [F; 2],
     ) -> Self {
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
-        let mut start = Self::new(lit);
-        let ((j, l_v), (strength, k)) = &mut start.quadratics;
-        *k = along(each_of(|i| of[i].1.1), from);
+        let none = PerLight::new(lit.count(), Quadratic::zero(lit.zero()));
+        let ((mut strength, mut j), mut l_v) = ((none, none), none);
         for light in 0..lit.count() {
             j.values[light] = along(each_of(|i| of[i].0.0.values[light]), from);
             l_v.values[light] = along(each_of(|i| of[i].0.1.values[light]), from);
             strength.values[light] = along(each_of(|i| of[i].1.0.values[light]), from);
         }
-        start
-    }
-
-    /// Starts a run of normals, positions and weights: as Duff's.
-    #[inline(always)]
-    pub(super) fn of_vectors(lit: &Lit<'_, F>, linear: Linear<(Vec3<F>, Vec3<F>, F)>) -> Self {
         PositionalProducts {
-            vectors: Some(DuffPhongLocal::products(lit, linear)),
-            ..Self::new(lit)
+            lengths: None,
+            view: along(each_of(|i| of[i].1.1), from),
+            lights: ((strength, j), l_v),
+            zero: lit.zero(),
         }
     }
 
+    /// Starts a run of normals, positions and weights.
     #[inline(always)]
-    fn new(lit: &Lit<'_, F>) -> Self {
-        let none = Quadratic::zero(lit.zero());
-        let all = PerLight::new(lit.count(), none);
+    pub(super) fn of_vectors(lit: &Lit<'_, F>, linear: Linear<(Vec3<F>, Vec3<F>, F)>) -> Self {
+        let (((nn, vv), (view, ww)), lights) = DuffPhongLocal::products(lit, linear);
         PositionalProducts {
-            quadratics: ((all, all), (all, none)),
-            vectors: None,
+            lengths: Some([nn, vv, ww]),
+            view,
+            lights,
             zero: lit.zero(),
         }
     }
 }
+
+type Pixel<F, const L: usize> = super::Pixel<DuffPhongLocal<L>, F>;
 
 impl<F: Num, const L: usize> Walk<F> for PositionalProducts<F, L> {
     type Pixel = Pixel<F, L>;
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
-        let mut pixel = Self::Pixel::filled(self.quadratics.1.0.count, self.zero);
-        match &mut self.vectors {
-            None => pixel.0 = self.quadratics.next(),
-            Some(vectors) => pixel.1 = vectors.next(),
-        }
-        pixel
+        let (view, lights) = (self.view.next(), self.lights.next());
+        let [nn, vv, ww] = match &mut self.lengths {
+            Some([nn, vv, ww]) => [nn.next(), vv.next(), ww.next()],
+            None => [self.zero; 3],
+        };
+        (((nn, vv), (view, ww)), lights)
     }
 }
 
-/// Returns the colour of a surface from quadratics, or from products of vectors that are followed.
+/// Returns the colour of a surface from quadratics, or from products of vectors whose lengths are divided out.
 #[inline(always)]
 pub(super) fn shade<F: Num, const L: usize>(
     lit: &Lit<'_, F>,
-    (products, vectors): Pixel<F, L>,
-    is_followed: bool,
+    pixel: Pixel<F, L>,
+    has_lengths: bool,
 ) -> Vec3<F> {
-    if is_followed {
-        return DuffPhongLocal::<L>.shade(lit, vectors);
+    if has_lengths {
+        return DuffPhongLocal::<L>.shade(lit, pixel);
     }
-    let ((j, l_v), (strength, k)) = products;
+    let ((_, (k, _)), ((strength, j), l_v)) = pixel;
     let mut colour = lit.ambient();
     for index in 0..lit.count() {
         let falls = lit.stored[index].falloff != Falloff::None;

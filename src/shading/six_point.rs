@@ -1,9 +1,12 @@
 //! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
 
 use super::duff_phong::DuffPhongLocal;
-use super::positional_products::{self, PositionalProducts, set_up_placed};
+use super::positional_products::{
+    self, OverTriangle, Placed, PositionalProducts, set_light, set_up_placed, set_view,
+};
 use super::quadratic_products::{
-    OverPolygon, QuadraticProducts, lagrange, longest, narrow_triangle, set_up_triangle, width,
+    Growth, OverPolygon, QuadraticProducts, lagrange, longest, narrow_triangle, set_up_triangle,
+    width,
 };
 use super::{
     Approximation, Corner, Corners, Family, Info, LightModel, Lit, MethodParameter, Pixel, Planes,
@@ -184,6 +187,45 @@ impl<const L: usize> Shader for SixPoint<L> {
     }
 }
 
+/// Returns the light at six points as they see it, and their unit normals: corners, and half-way along the edges AB, BC, CA on the screen.
+#[inline(always)]
+fn six_points<'a, R: Real>(
+    lit: &Lit<'a, R>,
+    [a, b, c]: [Placed<R>; 3],
+    is_near: bool,
+) -> [(Lit<'a, R>, Vec3<R>); 6] {
+    let [ab, bc, ca] = midway([a.0, b.0, c.0], is_near);
+    let at = |(corner, point): Placed<R>| (lit.at(point), corner.normal);
+    let half_way = |normal, (a, p): Placed<R>, (b, q): Placed<R>| {
+        let weights = a.weight + b.weight;
+        let point = (p * a.weight + q * b.weight) * (weights.broadcast(1.0) / weights);
+        (lit.at(point), normal)
+    };
+    [
+        at(a),
+        at(b),
+        at(c),
+        half_way(ab, a, b),
+        half_way(bc, b, c),
+        half_way(ca, c, a),
+    ]
+}
+
+/// Returns the quadratics of J, L·V and the strength of a light. Not inlined: it is the same for any number of lights.
+#[inline(never)]
+fn of_light<R: Real>(
+    points: &[(Lit<'_, R>, Vec3<R>); 6],
+    light: usize,
+    growth: Growth<R>,
+) -> [(R, R, R); 6] {
+    let [a, b, c, ab, bc, ca] = points.map(|(lit, n)| {
+        let seen = lit.seen(light);
+        let strength = seen.strength.unwrap_or(n.x.broadcast(1.0));
+        (n.dot(seen.to), seen.l_v, strength)
+    });
+    lagrange([a, b, c], [ab, bc, ca], growth)
+}
+
 /// Six-point quadratics where a light or the eye is at a position, for up to `L` lights: of L·V and of each light's strength beside J and K,
 /// from positions half-way along edges on the screen, `(P_1/w_1 + P_2/w_2)/(1/w_1 + 1/w_2)`. Triangles to which a light or the eye
 /// is near take Duff's way.
@@ -196,7 +238,7 @@ impl<const L: usize> Shader for SixPointLocal<L> {
     const IS_GENERAL: bool = true;
     const READS_SPAN: bool = true;
     const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
-    type Constants<F: Num> = positional_products::OverPolygon<F, L>; // from the first corner
+    type Constants<F: Num> = OverTriangle<F, L>; // from the first corner
     type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
     type Walk<F: Num> = PositionalProducts<F, L>;
 
@@ -217,19 +259,15 @@ impl<const L: usize> Shader for SixPointLocal<L> {
         let Some((corners, growth)) = set_up_placed(lit, polygon) else {
             return (ROOTS, Planes::filled(lit.count(), lit.zero()));
         };
-        let products = |(n, point)| positional_products::products(lit, n, point);
-        let normals = midway(corners.map(|(corner, _)| corner), self.0.is_near);
-        let [a, b, c] = corners.map(|(corner, point)| (point * corner.weight, corner.weight));
-        let points =
-            [(a, b), (b, c), (c, a)].map(|((p, v), (q, w))| (p + q) * (v.broadcast(1.0) / (v + w)));
-        let [ab, bc, ca] = normals;
-        let [to_ab, to_bc, to_ca] = points;
-        let in_screen = lagrange(
-            corners.map(|(corner, point)| products((corner.normal, point))),
-            [(ab, to_ab), (bc, to_bc), (ca, to_ca)].map(products),
-            growth,
-        );
-        (0, (in_screen, corners[0].0.place))
+        let points = six_points(lit, corners, self.0.is_near);
+        let mut constants = Self::Constants::<R>::filled(lit.count(), lit.zero());
+        let [a, b, c, ab, bc, ca] = points.map(|(lit, n)| n.dot(lit.view()));
+        set_view(&mut constants.0, lagrange([a, b, c], [ab, bc, ca], growth));
+        for light in 0..lit.count() {
+            set_light(&mut constants.0, light, of_light(&points, light, growth));
+        }
+        constants.1 = corners[0].0.place;
+        (0, constants)
     }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
