@@ -188,7 +188,7 @@ impl<const L: usize> Shader for SixPoint<L> {
 }
 
 /// Returns the light at six points as they see it, and their unit normals: corners, and half-way along the edges AB, BC, CA on the screen.
-#[inline(always)]
+#[inline(never)]
 fn six_points<'a, R: Real>(
     lit: &Lit<'a, R>,
     [a, b, c]: [Placed<R>; 3],
@@ -209,6 +209,13 @@ fn six_points<'a, R: Real>(
         half_way(bc, b, c),
         half_way(ca, c, a),
     ]
+}
+
+/// Returns the quadratic of K.
+#[inline(never)]
+fn of_view<R: Real>(points: &[(Lit<'_, R>, Vec3<R>); 6], growth: Growth<R>) -> [R; 6] {
+    let [a, b, c, ab, bc, ca] = points.map(|(lit, n)| n.dot(lit.view()));
+    lagrange([a, b, c], [ab, bc, ca], growth)
 }
 
 /// Returns the quadratics of J, L·V and the strength of a light. Not inlined: it is the same for any number of lights.
@@ -261,8 +268,7 @@ impl<const L: usize> Shader for SixPointLocal<L> {
         };
         let points = six_points(lit, corners, self.0.is_near);
         let mut constants = Self::Constants::<R>::filled(lit.count(), lit.zero());
-        let [a, b, c, ab, bc, ca] = points.map(|(lit, n)| n.dot(lit.view()));
-        set_view(&mut constants.0, lagrange([a, b, c], [ab, bc, ca], growth));
+        set_view(&mut constants.0, of_view(&points, growth));
         for light in 0..lit.count() {
             set_light(&mut constants.0, light, of_light(&points, light, growth));
         }
