@@ -114,7 +114,6 @@ impl<const L: usize> DuffPhongLocal<L> {
 
 impl<const L: usize> Shader for DuffPhongLocal<L> {
     const INFO: Info = DUFF_PHONG;
-    const IS_GENERAL: bool = true;
     type Constants<F: Num> = ();
     type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
     type Walk<F: Num> = LocalWalk<F, L>;

@@ -1,6 +1,5 @@
 //! The power functions of highlights, as pixel loops compute them.
 
-use super::lighting::at_most;
 use crate::number::Num;
 use crate::scene::Power;
 use alloc::vec::Vec;
@@ -110,7 +109,7 @@ impl Exponent {
                 squared_up_to_7(linear, squarings)
             }
             Exponent::Schlick(n) => {
-                let t = at_most(base, 1.0); // it has a pole at n / (n − 1)
+                let t = -(-base).max(-1.0); // at most 1: there is a pole at n / (n − 1)
                 t / (t * (1.0 - n) + n)
             }
             Exponent::Table { .. } => unreachable!("`Lit::power` reads tables"),
@@ -170,7 +169,6 @@ pub(super) fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shading::lighting::FAINT;
 
     /// Cosines that a method approximates may pass 1 by x: no function then passes eⁿˣ, falls below what it is at 1, or ends, but for 16 roundings
     /// for each of n.
@@ -189,7 +187,7 @@ mod tests {
                 let table = exponent.table(n, 0.0);
                 for x in [0.0f32, 1e-7, 1e-4, 0.005, 0.01, 0.1] {
                     let value = power_by_call(exponent, 1.0 + x, &table);
-                    let rounding = 16.0 * (n + 1.0) * FAINT;
+                    let rounding = 16.0 * (n + 1.0) * 2f32.powi(-24);
                     let most = libm::expf(n * (x + rounding));
                     assert!(
                         (1.0 - rounding..=most).contains(&value),

@@ -30,7 +30,7 @@ use glam::DVec3;
 const LEAST_SQUARE: f32 = 1e-30;
 
 /// The largest rounding of a colour of ½ or more: half a unit in the last place, 2⁻²⁴.
-pub(super) const FAINT: f32 = 1.0 / (1 << 24) as f32;
+const FAINT: f32 = 1.0 / (1 << 24) as f32;
 
 /// The light on one material, as kernels read it: plain numbers, made once per material.
 #[derive(Clone, Debug)]
