@@ -429,7 +429,7 @@ mod tests {
                 }
                 tried += 1;
                 let at = |b: Vector| {
-                    let weights = [0, 1, 2].map(|i| (b[i] * f64::from(triangle.0[i].2)));
+                    let weights = [0, 1, 2].map(|i| b[i] * f64::from(triangle.0[i].2));
                     let points = triangle.0.map(|(_, p, _)| p.array().map(f64::from));
                     let terms = [0, 1, 2].map(|i| (weights[i], points[i]));
                     let over = 1.0 / weights.iter().sum::<f64>();
