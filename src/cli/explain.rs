@@ -28,6 +28,11 @@ pub struct ExplainArgs {
 /// The cases that operations are counted for: the number of lights; true if these and the eye are at positions.
 const CASES: [(usize, bool); 4] = [(1, false), (4, false), (1, true), (2, true)];
 
+/// Makes the span that operations are counted on where lights and eye are at positions. The angle of its normals does not change the counts.
+fn at_positions_span(lights: usize) -> SpanBench {
+    SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen)
+}
+
 impl ExplainArgs {
     /// Prints the explanation.
     pub fn run(&self) -> Result<Outcome, CliError> {
@@ -93,12 +98,12 @@ impl ExplainArgs {
         Ok(text)
     }
 
-    /// Returns those of [`CASES`] that the method draws: in integers, lights are at infinity.
+    /// Returns those of [`CASES`] that the method draws: some want lights and eye at infinity.
     fn cases(&self) -> impl Iterator<Item = (usize, bool)> {
-        let is_integer = self.method.entry().is_integer;
-        CASES
-            .into_iter()
-            .filter(move |(_, at_positions)| !(is_integer && *at_positions))
+        let is_drawn = |(lights, at_positions): &(usize, bool)| {
+            !at_positions || at_positions_span(*lights).refuses(&self.method).is_none()
+        };
+        CASES.into_iter().filter(is_drawn)
     }
 
     /// Counts the operations with `lights` lights. At positions, they have no falloff, and varyings are linear on the screen.
@@ -106,9 +111,7 @@ impl ExplainArgs {
         if !at_positions {
             return self.method.operations(lights);
         }
-        // The angle of the span's normals does not change the counts.
-        let span = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
-        self.method.operations_on(&span)
+        self.method.operations_on(&at_positions_span(lights))
     }
 
     fn tolerance(&self) -> Result<String, CliError> {
