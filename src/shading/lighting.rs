@@ -423,13 +423,13 @@ impl<'a, F: Num> Lit<'a, F> {
         self.at_pixel(point, true)
     }
 
-    /// Returns the light as a pixel sees it, whose point means something or nothing.
+    /// Returns the light as a pixel sees it; without `has_point` its point means nothing, and no vector toward the eye is made.
     #[inline(always)]
     pub(super) fn at_pixel(mut self, point: Vec3<F>, has_point: bool) -> Self {
         if has_point && self.general && self.model.eye.is_local() {
             self.view = (vector(self.model.eye).broadcast(self.zero) - point).unit();
         }
-        (self.point, self.has_point) = (point, has_point);
+        (self.point, self.has_point) = (point, true);
         self
     }
 
