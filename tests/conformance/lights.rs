@@ -115,9 +115,14 @@ fn every_mode_agrees_with_the_reference() {
     // The bounds combine the worst polygon, light and weight, which never coincide. They are far
     // from tight, but still too small to be visible.
     for (name, share) in nearest {
+        let least = match name {
+            // Its bound has room for 40 roundings of a quadratic; most of these n-gons take Duff's way, with 6.
+            "bishop-weimer" => 0.0004,
+            _ => 0.0005,
+        };
         assert!(
-            share > 0.0004,
-            "{name}: its bound is 2500 times its largest error"
+            share > least,
+            "{name}: its largest error is {share} of its bound"
         );
     }
 }

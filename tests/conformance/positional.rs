@@ -231,7 +231,8 @@ fn pixels_are_lit_by_quadratics() {
                         Place::Infinite([0.0, 0.0, 1.0]),
                     ] {
                         let triangle = given(falloff, specular, weights, eye);
-                        let (frame, variant) = (triangle.frame(), Variant::parse(name).unwrap());
+                        let (frame, variant) =
+                            (triangle.frame(), Variant::parse(name).expect("a method"));
                         let kinds = variant.polygon_kinds(&frame);
                         assert_eq!(kinds[0].polygons, 1, "{name}, {falloff:?}, {weights:?}");
                         let picture = variant.render_linear(&frame);
@@ -339,7 +340,7 @@ fn random_triangles_are_within_their_bounds() {
     let mut random = Random::new(9);
     let count = asked("FASTPHONG_TRIANGLES", 2000);
     for name in ["six-point", "six-point:midpoints=barrera", "bishop-weimer"] {
-        let variant = Variant::parse(name).unwrap();
+        let variant = Variant::parse(name).expect("a method");
         let (mut worst, mut kinds) = ((0.0f64, 0.0), [0; 2]);
         for number in 0..count {
             let triangle = random_triangle(&mut random);

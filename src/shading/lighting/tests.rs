@@ -427,3 +427,32 @@ fn pixels_do_not_depend_on_their_neighbours() {
     }
     on_each_level!(of);
 }
+
+/// A cosine of 1 that is off by 4 e makes a highlight that is off by no more than the bound has room for, also where it passes 1.
+#[test]
+fn highlights_over_1_are_within_their_bound() {
+    let material = Material {
+        specular: [1.0; 3],
+        ..Material::default()
+    };
+    let light = Light::directional(DVec3::Z, [1.0; 3]);
+    for power in Power::ALL {
+        for n in [1.0f32, 8.0, 32.0, 200.0] {
+            let mut lighting = Lighting::new(&material, [0.0; 3], &[light], DVec3::Z);
+            lighting.shininess = n;
+            let uniforms = Uniforms::new(&lighting, power, 1.0);
+            let stored = uniforms.stored();
+            for e in [0.0f32, 1e-6, 1e-4, 1e-3, 5e-3, 2e-2] {
+                let at = |cosine| power_by_call(stored.model.exponent, cosine, stored.powers);
+                let off = f64::from(at(1.0 + 4.0 * e) - at(1.0));
+                let bound = highlight_error(&lighting, power, 2.0, e.into());
+                // The sum 1 + 4 e is rounded by 2⁻²⁴, which n multiplies, and so is the power itself.
+                let rounding = f64::from(2.0 * (n + 1.0) * FAINT) * (1.0 + off.abs());
+                assert!(
+                    off <= bound + rounding,
+                    "{power:?}, n {n}, e {e}: {off} over {bound}"
+                );
+            }
+        }
+    }
+}
