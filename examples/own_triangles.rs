@@ -29,13 +29,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let lit = builder.lighting(Lighting::new(&material, [1.0; 3], &[light], DVec3::Z));
 
     // A fan around the pole of a ball. Columns and rows are in pixels, downward from the upper left corner; depth is 0 at
-    // the near plane and 1 at the far plane. Under perspective `inv_w` is near/w, and the frame's interpolation
-    // `Interpolation::Perspective`.
+    // the near plane and 1 at the far plane. Under perspective it is −1/w after `builder.depth_range`, `inv_w` is near/w, and
+    // the frame's interpolation `Interpolation::Perspective`.
     let mut corner = |normal: Vec3| {
         builder.vertex(Vertex {
             x: SubPixel::from_num(160.0 + 110.0 * normal.x),
             y: SubPixel::from_num(120.0 - 110.0 * normal.y),
-            depth: 0.5 - 0.4 * normal.z,
+            depth: f64::from(0.5 - 0.4 * normal.z),
             inv_w: 1.0,
             normal: normal.to_array(),
             material: lit,

@@ -238,6 +238,8 @@ impl FrameBuilder {
             }
             previous = Some(corner.vertex);
         }
+        let weights = frame.vertices.iter().map(|v| v.inv_w);
+        frame.scale_weights(weights.fold(0.0, f64::max));
         frame.sort();
         Ok(frame)
     }
@@ -255,6 +257,7 @@ impl Frame {
             hidden_surfaces: HiddenSurfaces::default(),
             clipping: Clipping::Planes,
             depth_range: DepthRange::default(),
+            weight_scale: 1.0,
             encoding: Encoding::Linear,
             alpha: Alpha::Straight,
             origin: [0.0; 3],

@@ -5,14 +5,15 @@ use crate::scene::{Camera, Projection};
 /// The distances along the line of sight at which depth is 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DepthRange {
-    /// Depth is linear in the distance d: z = (d − n) / (f − n).
+    /// Depth is linear in the distance d: z = (d − n) / (f − n), and is compared as that.
     Orthographic {
         /// The distance at which depth is 0.
         near: f64,
         /// The distance at which depth is 1; over `near`.
         far: f64,
     },
-    /// Depth is linear in the reciprocal of the distance w: z = f/(f − n) · (1 − n/w).
+    /// Depth is linear in the reciprocal of the distance w: z = f/(f − n) · (1 − n/w). It is compared
+    /// as −1/w, which has the same order.
     Perspective {
         /// The distance at which depth is 0; over 0.
         near: f64,
@@ -28,6 +29,29 @@ impl DepthRange {
             DepthRange::Orthographic { near, far } | DepthRange::Perspective { near, far } => {
                 (near, far)
             }
+        }
+    }
+
+    /// Returns z/w on the lecture's scale, 0 at the near plane and 1 at the far plane, for a depth as
+    /// [`Vertex::depth`](super::Vertex::depth) holds it.
+    ///
+    /// ```text
+    /// perspective:  z = f/(f − n) · (1 − n/w),  depth = −1/w
+    /// ```
+    /// This is L5's z ↦ (f+n)/(f−n) + (1/z) · 2fn/(f−n) with z = −w, moved from −1..1 to 0..1.
+    pub fn z(self, depth: f64) -> f64 {
+        match self {
+            DepthRange::Orthographic { .. } => depth,
+            DepthRange::Perspective { near, far } => far / (far - near) * (1.0 + near * depth),
+        }
+    }
+
+    /// Returns the depths at the near and the far plane, as [`Vertex::depth`](super::Vertex::depth)
+    /// holds them.
+    pub fn depths(self) -> [f64; 2] {
+        match self {
+            DepthRange::Orthographic { .. } => [0.0, 1.0],
+            DepthRange::Perspective { near, far } => [-1.0 / near, -1.0 / far],
         }
     }
 

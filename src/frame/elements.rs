@@ -14,29 +14,38 @@ pub struct Vertex {
     pub x: SubPixel,
     /// Row of the picture, downward, at most [`Frame::GUARD`] pixels from 0.
     pub y: SubPixel,
-    /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane; outside that under [`Clipping::NdcCube`] only.
-    pub depth: f32,
-    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and the
-    /// source of depth at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Greater than 0; under
+    /// What the depth test compares: less is nearer. It is linear on the screen. The frame's
+    /// [`DepthRange`](super::DepthRange) says which number it is:
+    ///
+    /// - orthographic, and without a range: 0 at the near plane, 1 at the far plane;
+    /// - perspective: −1/w, from −1/near to −1/far. A float holds it with the same relative
+    ///   precision at every distance w, where z/w crowds all that is far away below 1.
+    ///
+    /// Values outside these ends are for [`Clipping::NdcCube`] only.
+    pub depth: f64,
+    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective
+    /// interpolation, and the source of depth at each sample
+    /// ([`DepthSource::PerSample`](crate::scene::DepthSource)). Greater than 0; under
     /// [`Clipping::NdcCube`] less than 0 behind the eye.
-    pub inv_w: f32,
+    pub inv_w: f64,
     /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
     pub normal: [f32; 3],
     /// The index of its material in [`Frame::lightings`].
     pub material: u32,
 }
 
-/// A vertex in screen space, as rasterization reads it, in 16 bytes.
+/// A vertex in screen space, as rasterization reads it, in 24 bytes. Engines round depth and weight
+/// to `f32`; the reference reads them as they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ScreenVertex {
     /// Column of the picture, at most [`Frame::GUARD`] pixels from 0.
     pub x: SubPixel,
     /// Row of the picture, downward, at most [`Frame::GUARD`] pixels from 0.
     pub y: SubPixel,
-    /// z/w: see [`Vertex::depth`].
-    pub depth: f32,
+    /// What the depth test compares: see [`Vertex::depth`].
+    pub depth: f64,
     /// near/w: see [`Vertex::inv_w`].
-    pub inv_w: f32,
+    pub inv_w: f64,
 }
 
 impl ScreenVertex {

@@ -46,6 +46,8 @@ pub struct Frame {
     pub(crate) hidden_surfaces: HiddenSurfaces,
     pub(crate) clipping: Clipping,
     pub(crate) depth_range: DepthRange,
+    /// A power of two by which weights of perspective are multiplied: see [`Frame::weight`].
+    pub(crate) weight_scale: f64,
     pub(crate) encoding: Encoding,
     pub(crate) alpha: Alpha,
     pub(crate) origin: [f64; 3],
@@ -193,12 +195,31 @@ impl Frame {
         }
     }
 
-    /// Returns the weight by which what a vertex carries is interpolated: near/w under perspective interpolation, else 1.
+    /// Returns the weight by which what a vertex carries is interpolated: 1/w under perspective
+    /// interpolation, in a unit in which the frame's nearest vertex has about 1; else 1.
+    ///
+    /// Only ratios of weights matter. near/w itself may be so small that its square is 0 in `f32`.
+    #[inline(always)]
     pub(crate) fn weight(&self, vertex: u32) -> f32 {
         match self.interpolation {
             Interpolation::Screen => 1.0,
-            Interpolation::Perspective => self.vertices[vertex as usize].inv_w,
+            Interpolation::Perspective => self.scaled_weight(&self.vertices[vertex as usize]),
         }
+    }
+
+    /// Returns near/w of a vertex in that unit.
+    #[inline(always)]
+    pub(crate) fn scaled_weight(&self, vertex: &ScreenVertex) -> f32 {
+        (vertex.inv_w * self.weight_scale) as f32
+    }
+
+    /// Chooses the unit of weights, where the largest near/w is `largest`.
+    pub(crate) fn scale_weights(&mut self, largest: f64) {
+        // A power of two changes no bit of a ratio.
+        self.weight_scale = match largest > 0.0 && largest.is_finite() {
+            true => libm::scalbn(1.0, -libm::frexp(largest).1),
+            false => 1.0,
+        };
     }
 
     /// Returns the position of a vertex relative to [`Frame::origin`], in world units along the axes of the world: points near

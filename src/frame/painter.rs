@@ -1,7 +1,7 @@
 //! The painter's algorithm: polygons sorted from back to front, so that later ones hide earlier ones (L5).
 //!
 //! Sorting takes O(n log n), and the sorted frame is then drawn without looking at depth. The key is one number per polygon:
-//! the depth z/w of its corners, their mean or that of the farthest one. One number cannot order all scenes, and for some
+//! the depth of its corners, their mean or that of the farthest one. One number cannot order all scenes, and for some
 //! no order is right at all (L5: *Can have unresolvable depth order*):
 //! [`conflicts`](crate::raster::painter::conflicts) finds both.
 
@@ -30,7 +30,7 @@ fn key_of(frame: &Frame, polygon: &Polygon, key: PainterKey) -> f64 {
     let depths = frame
         .corners(polygon)
         .iter()
-        .map(|&v| f64::from(frame.vertices()[v as usize].depth));
+        .map(|&v| frame.vertices()[v as usize].depth);
     match key {
         PainterKey::Mean => depths.sum::<f64>() / f64::from(polygon.count),
         PainterKey::Farthest => depths.fold(f64::NEG_INFINITY, f64::max),

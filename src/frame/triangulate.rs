@@ -126,8 +126,8 @@ fn walks_of_equal_polygons(frame: &Frame) -> BTreeMap<u32, Walk> {
 /// Mixes the bits of a vertex, so that sums of different ones differ.
 fn mixed(vertex: &ScreenVertex) -> u64 {
     // Adding 0 makes the two zeros one.
-    let bits = |c: f32| u64::from((c + 0.0).to_bits());
-    let weights = bits(vertex.depth) | bits(vertex.inv_w) << 32;
+    let bits = |c: f64| (c + 0.0).to_bits();
+    let weights = bits(vertex.depth) ^ bits(vertex.inv_w).rotate_left(32);
     // The odd number next to 2⁶⁴ over the golden ratio spreads close numbers over all bits.
     let spread = |bits: u64| bits.wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let place = spread(vertex.packed());

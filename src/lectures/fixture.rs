@@ -71,7 +71,7 @@ impl ScreenPolygon {
         let vertex = |corner: &ScreenCorner| Vertex {
             x: SubPixel::from_num(corner.position[0]),
             y: SubPixel::from_num(corner.position[1]),
-            depth: corner.depth as f32,
+            depth: corner.depth,
             inv_w: 1.0,
             normal: corner.normal.as_vec3().to_array(),
             material,

@@ -114,7 +114,7 @@ fn strip() -> Result<LinearPicture> {
             x: SubPixel::from_num(end * STRIP),
             y: SubPixel::from_num(y),
             depth: 0.5,
-            inv_w: (1.0 / ENDS[end]) as f32,
+            inv_w: 1.0 / ENDS[end],
             normal: [0.0, 0.0, 1.0],
             material,
         });

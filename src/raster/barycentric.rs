@@ -93,7 +93,7 @@ pub(super) fn scan(
         // f ≥ 1 is f > 0 in integers: the edges that do not own their pixels need that.
         let least = each(|i| i64::from(edges == Edges::TopLeft && !functions[i].owns_its_pixels()));
         let scale = 1.0 / doubled_area.abs() as f32;
-        let depths = each(|i| depth.of_corner(frame, vertices[order[i]]));
+        let depths = each(|i| depth.of_corner(vertices[order[i]]));
         let values = each(|i| varyings.of_corner(number, order[i] as u32, corners[order[i]]));
         let constant = varyings.of_polygon(number);
         let three = match values {
@@ -234,7 +234,7 @@ mod tests {
         let material =
             builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
         for number in 0..count {
-            let depth = 0.5 + 0.5 * random.signed();
+            let depth = f64::from(0.5 + 0.5 * random.signed());
             let centre = [
                 random.below(u64::from(256 * side)) as i32,
                 random.below(u64::from(256 * side)) as i32,

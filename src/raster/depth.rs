@@ -5,31 +5,39 @@
 use crate::frame::{DepthRange, Frame, ScreenVertex};
 use crate::scene::{Clipping, DepthSource, HiddenSurfaces};
 
-/// The rule by which depth is computed at a sample, stored and compared.
+/// The rule by which depth is computed at a sample, stored and compared. Less is nearer.
 ///
 /// ```text
-/// interpolated:              z = q,                       q = z/w at the corners
-/// per sample, perspective:   z = f/(f−n) · (1 − q),       q = n/w at the corners
+/// interpolated, 32 bits:     d = q,                       q = the corners' depth: −1/w, or z if orthographic
+/// interpolated, in levels:   z = q,                       q = z/w at the corners
+/// per sample, perspective:   z = f/(f−n) · (1 − q),       q = n/w at the corners; or d = −q/n
 /// per sample, orthographic:  z = 1/(f−n) · (q − n),       q = the distance of the corners
 /// ```
-/// The second line is L5's z ↦ (f+n)/(f−n) + (1/z) · 2fn/(f−n) with z = −w, moved from −1..1 to 0..1.
+/// Levels are those of z, as the lecture has them: the third line is L5's z ↦ (f+n)/(f−n) + (1/z) · 2fn/(f−n) with z = −w, moved
+/// from −1..1 to 0..1. Floats hold d = −1/w under perspective, whose relative precision is the same at every distance.
 #[derive(Clone, Copy, Debug)]
 pub struct SampleDepth {
     quantity: Quantity,
+    range: DepthRange,
+    /// Multiplies 1/w of a corner where that is interpolated.
+    weight_scale: f64,
     origin: f32,
     factor: f32,
     /// The largest integer that depth is stored as, if it is stored as integers.
     pub most: Option<u32>,
     /// True if nearer samples hide farther ones.
     pub hides: bool,
-    /// True if samples outside of the NDC cube are not drawn.
-    pub cube: bool,
+    /// The least and the largest depth of samples that are drawn, if others are not: the ends of the NDC cube.
+    pub cube: Option<[f32; 2]>,
 }
 
 /// The number that is interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
+    /// The depth of the corners.
     Depth,
+    /// z/w.
+    Z,
     InverseW,
     Distance,
 }
@@ -41,42 +49,63 @@ impl SampleDepth {
             HiddenSurfaces::ZBuffer(buffer) => Some(buffer),
             HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => None,
         };
-        let (near, far) = frame.depth_range().ends();
+        let range = frame.depth_range();
+        let (near, far) = range.ends();
+        let most = buffer.and_then(|buffer| buffer.bits.most());
         let source = buffer.unwrap_or_default().source;
-        let (quantity, origin, factor) = match (source, frame.depth_range()) {
-            (DepthSource::Interpolated, _) => (Quantity::Depth, 0.0, 1.0),
-            (_, DepthRange::Perspective { .. }) => (Quantity::InverseW, 1.0, -far / (far - near)),
-            (_, DepthRange::Orthographic { .. }) => (Quantity::Distance, near, 1.0 / (far - near)),
+        let scale = frame.weight_scale;
+        let (quantity, origin, factor) = match (source, range, most) {
+            (DepthSource::Interpolated, DepthRange::Perspective { .. }, Some(_)) => {
+                (Quantity::Z, 0.0, 1.0)
+            }
+            (DepthSource::Interpolated, ..) => (Quantity::Depth, 0.0, 1.0),
+            (_, DepthRange::Perspective { .. }, None) => {
+                (Quantity::InverseW, 0.0, -1.0 / (near * scale))
+            }
+            (_, DepthRange::Perspective { .. }, Some(_)) => {
+                (Quantity::InverseW, scale, -far / (far - near) / scale)
+            }
+            (_, DepthRange::Orthographic { .. }, _) => {
+                (Quantity::Distance, near, 1.0 / (far - near))
+            }
+        };
+        // Levels are of z, 0 at the near plane and 1 at the far one.
+        let ends = match most {
+            Some(_) => [0.0, 1.0],
+            None => range.depths(),
         };
         SampleDepth {
             quantity,
+            range,
+            weight_scale: scale,
             origin: origin as f32,
             factor: factor as f32,
-            most: buffer.and_then(|buffer| buffer.bits.most()),
+            most,
             hides: buffer.is_some(),
-            cube: frame.clipping() == Clipping::NdcCube,
+            cube: (frame.clipping() == Clipping::NdcCube).then(|| ends.map(|end| end as f32)),
         }
     }
 
     /// True if depth is interpolated, not computed at each sample.
     pub fn is_interpolated(&self) -> bool {
-        self.quantity == Quantity::Depth
+        matches!(self.quantity, Quantity::Depth | Quantity::Z)
     }
 
     /// True if the interpolated number itself is stored and compared, without any other test.
     pub fn is_plain(&self) -> bool {
-        self.hides && self.is_interpolated() && self.most.is_none() && !self.cube
+        self.hides && self.is_interpolated() && self.most.is_none() && self.cube.is_none()
     }
 
     /// Returns the number of a corner that is interpolated.
     #[inline(always)]
-    pub fn of_corner(&self, frame: &Frame, vertex: &ScreenVertex) -> f32 {
+    pub fn of_corner(&self, vertex: &ScreenVertex) -> f32 {
         match self.quantity {
-            Quantity::Depth => vertex.depth,
-            Quantity::InverseW => vertex.inv_w,
+            Quantity::Depth => vertex.depth as f32,
+            Quantity::Z => self.range.z(vertex.depth) as f32,
+            Quantity::InverseW => (vertex.inv_w * self.weight_scale) as f32,
             Quantity::Distance => {
-                let (near, far) = frame.depth_range().ends();
-                (near + f64::from(vertex.depth) * (far - near)) as f32
+                let (near, far) = self.range.ends();
+                (near + vertex.depth * (far - near)) as f32
             }
         }
     }
@@ -84,28 +113,31 @@ impl SampleDepth {
     /// Returns the depth to store for a sample with the interpolated number `q`, if it passes the test against the stored `depth`.
     #[inline(always)]
     pub fn seen(&self, q: f32, depth: f32) -> Option<f32> {
-        let z = (q - self.origin) * self.factor; // q itself where depth is interpolated
+        let d = (q - self.origin) * self.factor; // q itself where depth is interpolated
         // CS171 3, Algorithm 5, is the sample in the cube? The picture ends at the cube's other faces.
-        let is_inside = !self.cube || (0.0..=1.0).contains(&z);
-        let kept = self.kept(z);
+        let is_inside = self
+            .cube
+            .is_none_or(|[near, far]| (near..=far).contains(&d));
+        let kept = self.kept(d);
         (is_inside && (!self.hides || kept < depth)).then_some(kept)
     }
 
-    /// Returns `z` as the depth buffer stores it: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
+    /// Returns the depth `d` as the depth buffer stores it: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
     #[inline(always)]
-    pub fn kept(&self, z: f32) -> f32 {
+    pub fn kept(&self, d: f32) -> f32 {
         match self.most {
-            None => z,
+            None => d,
             // The product has at most 48 bits: exact in f64, and the conversion clamps at both ends.
-            Some(most) => (((f64::from(z) * f64::from(most) + 0.5) as u32).min(most)) as f32,
+            Some(most) => (((f64::from(d) * f64::from(most) + 0.5) as u32).min(most)) as f32,
         }
     }
 
-    /// Returns the depth that the stored `kept` stands for, 0..=1.
+    /// Returns z, 0 at the near plane and 1 at the far one, that the stored `kept` stands for.
     pub fn shown(&self, kept: f32) -> f32 {
         match self.most {
-            Some(most) if kept.is_finite() => kept / most as f32,
-            _ => kept,
+            _ if kept.is_infinite() => kept,
+            Some(most) => kept / most as f32,
+            None => self.range.z(f64::from(kept)) as f32,
         }
     }
 }
@@ -156,11 +188,13 @@ mod tests {
     fn keeping(bits: DepthBits) -> SampleDepth {
         SampleDepth {
             quantity: Quantity::Depth,
+            range: DepthRange::default(),
+            weight_scale: 1.0,
             origin: 0.0,
             factor: 1.0,
             most: bits.most(),
             hides: true,
-            cube: false,
+            cube: None,
         }
     }
 

@@ -40,8 +40,8 @@ pub struct Conflicts {
     pub cycles: Vec<Vec<u32>>,
 }
 
-/// Depths that differ by less are taken for equal: corners are rounded to `f32`, by at most 2⁻²⁵ for depths up to 1, and so
-/// are those of the other polygon.
+/// Depths that differ by a smaller share of the larger one are taken for equal: engines round each to `f32`, by at most 2⁻²⁵ of it,
+/// and cannot tell them apart.
 const SAME_DEPTH: f64 = 1.0 / (1u64 << 24) as f64;
 
 /// Finds the conflicts of drawing the polygons of `frame` in their order, whether or not it is the painter's.
@@ -81,9 +81,10 @@ fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTr
             for x in (first..=last).step_by(step.max(1)) {
                 let depths = (depth(frame, &scanline, x), depth(frame, others_scanline, x));
                 if let (Some(a), Some(b)) = depths {
-                    if b - a > SAME_DEPTH {
+                    let same = SAME_DEPTH * f64::max(a.abs(), b.abs());
+                    if b - a > same {
                         hides.insert((polygon, *other));
-                    } else if a - b > SAME_DEPTH {
+                    } else if a - b > same {
                         hides.insert((*other, polygon));
                     }
                 }
@@ -95,9 +96,9 @@ fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTr
 
 /// Returns the depth of a polygon at a pixel that shows it when nothing hides it.
 fn depth(frame: &Frame, scanline: &Scanline, x: usize) -> Option<f64> {
-    let depth = |v: usize| f64::from(frame.vertices()[v].depth);
-    let depth = scanline.weights(x)?.sum(depth);
-    (frame.clipping() == Clipping::Planes || (0.0..=1.0).contains(&depth)).then_some(depth)
+    let depth = scanline.weights(x)?.sum(|v| frame.vertices()[v].depth);
+    let [near, far] = frame.depth_range().depths();
+    (frame.clipping() == Clipping::Planes || (near..=far).contains(&depth)).then_some(depth)
 }
 
 /// Returns the strongly connected components of two polygons or more of `count` polygons.

@@ -97,7 +97,7 @@ impl Variant {
             Renderer::Row(_) if !depth.is_interpolated() => {
                 Some("the row engine interpolates depth and does not compute it per sample")
             }
-            Renderer::Row(_) if depth.cube => {
+            Renderer::Row(_) if depth.cube.is_some() => {
                 Some("the row engine does not test samples against the NDC cube")
             }
             // The number of a material is a float in the G-buffer.

@@ -389,7 +389,7 @@ impl<'a> SetUp<'a> {
                 to.copy_from_slice(&self.clipped(number, vertex));
             }
             if is_weighted {
-                let weight = frame.vertices()[vertex as usize].inv_w;
+                let weight = frame.weight(vertex);
                 to.iter_mut().for_each(|value| *value *= weight);
             }
         }
@@ -526,7 +526,8 @@ pub(super) fn finish(
     }
     if is_weighted && count > 0 {
         for (varying, vertex) in values.chunks_exact_mut(count).zip(frame.vertices()) {
-            varying.iter_mut().for_each(|value| *value *= vertex.inv_w);
+            let weight = frame.scaled_weight(vertex);
+            varying.iter_mut().for_each(|value| *value *= weight);
         }
     }
 }
@@ -575,7 +576,7 @@ mod tests {
                 let vertices = (0..).zip(frame.vertices()).filter(|(v, _)| !clipped(*v));
                 for (number, vertex) in vertices {
                     let weight = match scene.interpolation {
-                        Interpolation::Perspective => vertex.inv_w,
+                        Interpolation::Perspective => frame.scaled_weight(vertex),
                         Interpolation::Screen => 1.0,
                     };
                     let expected = frame.normal(number).map(|x| x * weight);

@@ -179,7 +179,7 @@ impl<'a> VertexAttributes<'a> {
         match self.frame.interpolation() {
             Interpolation::Screen => weights.sum(|v| values[v]),
             Interpolation::Perspective => {
-                let inv_w = |v: usize| f64::from(self.frame.vertices()[v].inv_w);
+                let inv_w = |v: usize| self.frame.vertices()[v].inv_w;
                 weights.sum(|v| values[v] * inv_w(v)) / weights.sum(inv_w)
             }
         }

@@ -296,7 +296,7 @@ fn two_layers(depth_test: bool, first: (f32, f32), second: (f32, f32)) -> Frame 
     for (source, (left, right)) in (0..).zip([first, second]) {
         let mut corners = square(4.0, [[0.0, 0.0, 1.0]; 4]);
         for (vertex, depth) in corners.iter_mut().zip([left, right, right, left]) {
-            vertex.depth = depth;
+            vertex.depth = f64::from(depth);
         }
         let corners = corners.map(|v| builder.vertex(v));
         builder.polygon(&corners, [0.0, 0.0, 1.0], source);

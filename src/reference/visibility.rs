@@ -10,10 +10,11 @@ use crate::scene::{Clipping, DepthBuffer, DepthSource, HiddenSurfaces};
 pub struct Visibility {
     /// The index of the polygon seen in [`Frame::polygons`], [`Visibility::NONE`] where there is none.
     pub polygons: Picture<u32>,
-    /// The depth of that polygon as it is compared, 0 at the near plane, 1 at the far plane; infinite where there is none.
+    /// The depth z of that polygon, 0 at the near plane, 1 at the far plane, as the depth buffer stores it; infinite where there
+    /// is none.
     pub depth: Picture<f64>,
-    /// The distance to the next polygon behind it: where it is within the rounding of depths, other arithmetic may see the
-    /// other polygon. Infinite where no other covers the pixel, and where there is no depth test to decide.
+    /// From there to the z of the next polygon behind it, exact to `f64`: where it is within the rounding of depths, other arithmetic may see
+    /// the other polygon. Infinite where no other covers the pixel, and where there is no depth test to decide.
     pub depth_gap: Picture<f64>,
 }
 
@@ -49,22 +50,43 @@ fn buffer(frame: &Frame) -> DepthBuffer {
     }
 }
 
-/// Returns the depth of a sample that is made of a polygon's corners in these shares.
+/// Returns z at the distance `w` under perspective, 0 at the near plane and 1 at the far one.
+fn perspective_z(n: f64, f: f64, w: f64) -> f64 {
+    // The eye looks along −z.
+    let ndc = (f + n) / (f - n) + (1.0 / -w) * (2.0 * f * n) / (f - n); // L5
+    (ndc + 1.0) / 2.0
+}
+
+/// Returns what is compared at a sample that is made of a polygon's corners in these shares: less is nearer. Levels are of z;
+/// without them it is −1/w under perspective, which is linear on the screen as z is, and tells far distances apart.
 fn depth(frame: &Frame, weights: &VertexWeights) -> f64 {
     let vertex = |v: usize| &frame.vertices()[v];
-    let interpolated = || weights.sum(|v| f64::from(vertex(v).depth));
-    match (buffer(frame).source, frame.depth_range()) {
-        (DepthSource::Interpolated, _) => interpolated(),
-        (DepthSource::PerSample, DepthRange::Perspective { near: n, far: f }) => {
-            // The eye looks along −z; 1/z is linear on the screen.
-            let z = -n / weights.sum(|v| f64::from(vertex(v).inv_w));
-            let ndc = (f + n) / (f - n) + (1.0 / z) * (2.0 * f * n) / (f - n); // L5
-            (ndc + 1.0) / 2.0
+    let DepthBuffer { source, bits } = buffer(frame);
+    let has_levels = bits.most().is_some();
+    match (source, frame.depth_range()) {
+        (DepthSource::Interpolated, DepthRange::Perspective { near, far }) if has_levels => {
+            weights.sum(|v| perspective_z(near, far, -1.0 / vertex(v).depth))
+        }
+        (DepthSource::Interpolated, _) => weights.sum(|v| vertex(v).depth),
+        (DepthSource::PerSample, DepthRange::Perspective { near, far }) => {
+            let w = near / weights.sum(|v| vertex(v).inv_w);
+            match has_levels {
+                true => perspective_z(near, far, w),
+                false => -1.0 / w,
+            }
         }
         (DepthSource::PerSample, DepthRange::Orthographic { near: n, far: f }) => {
-            let distance = weights.sum(|v| n + f64::from(vertex(v).depth) * (f - n));
+            let distance = weights.sum(|v| n + vertex(v).depth * (f - n));
             (distance - n) / (f - n)
         }
+    }
+}
+
+/// Returns the ends of what [`depth`] returns inside the view, at the near and the far plane.
+fn ends(frame: &Frame) -> [f64; 2] {
+    match (buffer(frame).bits.most(), frame.depth_range()) {
+        (None, DepthRange::Perspective { near, far }) => [-1.0 / near, -1.0 / far],
+        _ => [0.0, 1.0],
     }
 }
 
@@ -85,6 +107,7 @@ pub fn visibility(frame: &Frame) -> Visibility {
         depth: Picture::new(width, height, f64::INFINITY),
         depth_gap: Picture::new(width, height, f64::INFINITY),
     };
+    let [nearest, farthest] = ends(frame);
     let mut scanline = Scanline::new(frame);
     for (number, polygon) in (0..).zip(frame.polygons()) {
         let corners = frame.corners(polygon);
@@ -94,7 +117,7 @@ pub fn visibility(frame: &Frame) -> Visibility {
             for x in columns.clone() {
                 if let Some(weights) = scanline.weights(x) {
                     let z = depth(frame, &weights);
-                    if frame.clipping() == Clipping::NdcCube && !(0.0..=1.0).contains(&z) {
+                    if frame.clipping() == Clipping::NdcCube && !(nearest..=farthest).contains(&z) {
                         continue;
                     }
                     visibility.add((x, y), number, kept(frame, z), frame.depth_test());
@@ -102,5 +125,15 @@ pub fn visibility(frame: &Frame) -> Visibility {
             }
         }
     }
-    visibility
+    // From what was compared to z, whatever the distance of the planes: between them it is linear.
+    let range = farthest - nearest;
+    let z = |depth: f64| match depth.is_finite() {
+        true => (depth - nearest) / range,
+        false => depth,
+    };
+    Visibility {
+        depth: visibility.depth.map(z),
+        depth_gap: visibility.depth_gap.map(|gap| gap / range),
+        ..visibility
+    }
 }

@@ -49,8 +49,30 @@ impl Camera {
 
     /// Returns the matrix from world space to clip space: x and y in −w..=w from left to right and bottom to top, z in 0..=w from near to far.
     pub fn clip_matrix(&self, aspect: f64) -> DMat4 {
-        let [right, up, forward] = self.axes();
         let depth = self.far - self.near;
+        self.matrix(
+            aspect,
+            match self.projection {
+                Projection::Orthographic { .. } => [1.0 / depth, -self.near / depth],
+                Projection::Perspective { .. } => [self.far / depth, -self.far * self.near / depth],
+            },
+        )
+    }
+
+    /// Returns the matrix to the clip space in which polygons are clipped. Under perspective its z is
+    /// (f − w)/(f − n), from 1 at the near plane to 0 at the far one: that of [`Camera::clip_matrix`]
+    /// is w but for rounding where the near plane is very near, and then tells nothing of the far one.
+    pub(crate) fn precise_clip_matrix(&self, aspect: f64) -> DMat4 {
+        let depth = self.far - self.near;
+        match self.projection {
+            Projection::Orthographic { .. } => self.clip_matrix(aspect),
+            Projection::Perspective { .. } => self.matrix(aspect, [-1.0 / depth, self.far / depth]),
+        }
+    }
+
+    /// Returns the matrix whose z is `z[0]` times the distance along the line of sight, plus `z[1]`.
+    fn matrix(&self, aspect: f64, z: [f64; 2]) -> DMat4 {
+        let [right, up, forward] = self.axes();
         let row = |axis: DVec3, scale: f64, offset: f64| {
             let axis = axis * scale;
             axis.extend(offset - axis.dot(self.eye))
@@ -61,7 +83,7 @@ impl Camera {
                 [
                     row(right, scale / aspect, 0.0),
                     row(up, scale, 0.0),
-                    row(forward, 1.0 / depth, -self.near / depth),
+                    row(forward, z[0], z[1]),
                     DVec4::W,
                 ]
             }
@@ -70,7 +92,7 @@ impl Camera {
                 [
                     row(right, scale / aspect, 0.0),
                     row(up, scale, 0.0),
-                    row(forward, self.far / depth, -self.far * self.near / depth),
+                    row(forward, z[0], z[1]),
                     row(forward, 1.0, 0.0),
                 ]
             }

@@ -45,7 +45,7 @@ impl Extent {
             (range as usize / 256 + 1).min(limit)
         };
         let steps = steps(|v| v.y, frame.height()) + steps(|v| v.x, frame.width());
-        let (least, most) = range(corners.iter().map(|v| f64::from(vertex(v).inv_w)));
+        let (least, most) = range(corners.iter().map(|v| vertex(v).inv_w));
         Extent {
             steps: steps as f64,
             weights: match frame.interpolation() {

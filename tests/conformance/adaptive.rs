@@ -168,7 +168,7 @@ impl Reader<'_> {
                 y: at(number / COLUMNS, sin),
                 depth: 0.5,
                 inv_w: match setting.interpolation {
-                    Interpolation::Perspective => weight,
+                    Interpolation::Perspective => weight.into(),
                     Interpolation::Screen => 1.0,
                 },
                 normal: normal.as_vec3().to_array(),

@@ -62,7 +62,7 @@ fn equal_normals_make_all_methods_equal() {
                     builder.vertex(Vertex {
                         x,
                         y,
-                        depth: c.depth,
+                        depth: c.depth.into(),
                         inv_w: 1.0,
                         normal,
                         material,

@@ -560,8 +560,8 @@ fn corners_of(shape: Shape, random: &mut Random, size: u64, side: u64) -> Vec<Ve
         Vertex {
             x: SubPixel::from_bits(moved[0]),
             y: SubPixel::from_bits(moved[1]),
-            depth: 0.1 + 0.8 * random.unit(),
-            inv_w: 0.2 + 0.8 * random.unit(),
+            depth: f64::from(0.1 + 0.8 * random.unit()),
+            inv_w: f64::from(0.2 + 0.8 * random.unit()),
             normal: [0.0, 0.0, 1.0],
             material: 0,
         }

@@ -53,7 +53,7 @@ fn depth_at(frame: &Frame, polygon: u32, x: usize, y: usize) -> (f64, f64) {
     let corners = frame.corners(&frame.polygons()[polygon as usize]);
     let at = |i: usize| {
         let v = &frame.vertices()[corners[i] as usize];
-        DVec3::new(v.x.to_num(), v.y.to_num(), v.depth.into())
+        DVec3::new(v.x.to_num(), v.y.to_num(), frame.depth_range().z(v.depth))
     };
     let normal = (at(1) - at(0)).cross(at(2) - at(0));
     let (dx, dy) = (-normal.x / normal.z, -normal.y / normal.z);
@@ -68,8 +68,8 @@ fn rounding(frame: &Frame) -> f64 {
     let largest = frame
         .vertices()
         .iter()
-        .fold(1.0f32, |most, v| most.max(v.depth.abs()));
-    (2.0 * (frame.width() + frame.height()) as f64 + 32.0) * f64::from(largest) / f64::from(1 << 24)
+        .fold(1.0f64, |most, v| most.max(frame.depth_range().z(v.depth).abs()));
+    (2.0 * (frame.width() + frame.height()) as f64 + 32.0) * largest / f64::from(1 << 24)
 }
 
 /// Counts pixels missing and extra compared with clipping, and how many of them the margins do not

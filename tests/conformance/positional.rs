@@ -34,7 +34,7 @@ impl Triangle {
                 x,
                 y,
                 depth: 0.5,
-                inv_w: self.weights[i],
+                inv_w: self.weights[i].into(),
                 normal: self.normals[i].as_vec3().to_array(),
                 material,
             });

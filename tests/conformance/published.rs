@@ -230,7 +230,7 @@ fn biquadratic_normals_are_reflected_half_way() {
                 x,
                 y,
                 depth: 0.5,
-                inv_w: weights[i],
+                inv_w: weights[i].into(),
                 normal: normals[i].as_vec3().to_array(),
                 material,
             });

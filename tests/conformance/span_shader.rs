@@ -75,7 +75,7 @@ impl Rectangle {
         let all: [Corner<f32>; 4] = [0, 1, 2, 3].map(|i| Corner {
             normal: vec3(self.vertices[i].normal),
             place: [self.vertices[i].x, self.vertices[i].y].map(|at| at.to_num()),
-            weight: self.vertices[i].inv_w,
+            weight: self.vertices[i].inv_w as f32,
             position: near.then(|| vec3(self.positions[i])),
         });
         let whole = all.map(|corner| corner.normal);
@@ -104,7 +104,7 @@ impl Rectangle {
                     normal,
                     position: self.positions[i],
                     attributes: [1.0; 4],
-                    inv_w,
+                    inv_w: inv_w as f32,
                 })
             });
             let both = upper.iter().zip(&lower);

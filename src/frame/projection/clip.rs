@@ -10,6 +10,8 @@ pub(crate) struct Plane {
     pub normal: DVec4,
     /// True if w is positive on both sides, so that a parameter linear on the screen exists.
     pub in_front: bool,
+    /// The w of all its points, if it is the same for all.
+    pub w: Option<f64>,
 }
 
 /// A corner on its way through the planes: its position, and the number of the vertex whose attributes it has.
@@ -44,10 +46,14 @@ impl Cut {
         debug_assert!((da < 0.0) != (db < 0.0), "the plane is between the ends");
         let t = (da / (da - db)).clamp(0.0, 1.0);
         // a + (b − a) is not always b: a corner on the plane stays where it is.
-        let position = match t < 1.0 {
+        let mut position = match t < 1.0 {
             true => a.position + (b.position - a.position) * t,
             false => b.position,
         };
+        // Rounded, it might lie behind the eye where the near plane is very near.
+        if let Some(w) = plane.w {
+            position.w = w;
+        }
         Cut { a, b, t, position }
     }
 
@@ -206,6 +212,7 @@ mod tests {
         let plane = Plane {
             normal: DVec4::new(0.3, -0.2, 1.0, 0.1),
             in_front: false,
+            w: None,
         };
         let mut cuts = 0;
         while cuts < 1000 {
@@ -276,6 +283,7 @@ mod tests {
         Plane {
             normal: DVec4::from_array(normal),
             in_front: false,
+            w: None,
         }
     }
 
@@ -394,6 +402,7 @@ mod tests {
             let ends = polygon(&[other, on]);
             let normal = DVec4::new(0.0, 1.0, 0.0, -0.7);
             let plane = Plane {
+                w: None,
                 normal,
                 in_front: true,
             };

@@ -198,7 +198,7 @@ mod tests {
     }
 
     /// Returns column, row and depth of the corners of a polygon.
-    fn outline(frame: &Frame, polygon: usize) -> Vec<[f32; 3]> {
+    fn outline(frame: &Frame, polygon: usize) -> Vec<[f64; 3]> {
         let corners = frame.corners(&frame.polygons()[polygon]).iter();
         let vertices = corners.map(|&v| frame.vertices()[v as usize]);
         vertices
@@ -241,7 +241,7 @@ mod tests {
             }
         );
         for (number, top) in [(0, 0.5), (1, 1.5)] {
-            let bottom = top + 2.0;
+            let bottom: f64 = top + 2.0;
             let expected = [
                 [1.0, bottom, 0.5],
                 [2.0, bottom, 0.0],
@@ -260,7 +260,7 @@ mod tests {
             // Of the whole polygon.
             assert_eq!(
                 frame.mean(polygon).position,
-                [0.0, 2.0 - 0.5 * (top + bottom), -1.0]
+                [0.0, 2.0 - 0.5 * (top + bottom) as f32, -1.0]
             );
         }
     }

@@ -27,6 +27,7 @@ use cut::Cutting;
 use glam::DVec3;
 use polygons::{Chunk, Filling, Piece, PolygonTable, Sight, add_up, for_each_cut};
 use prepare::Preparation;
+use vertices::Placed;
 use view::{Codes, View};
 
 impl Scene {
@@ -183,7 +184,10 @@ impl PreparedScene {
         frame.check_settings()?;
         frame.check_lightings()?;
         self.check_positions(origin)?;
-        let is_any_beyond = self.vertices(frame, &view, &mut scratch.codes)?;
+        let Placed {
+            is_any_beyond,
+            mut largest_weight,
+        } = self.vertices(frame, &view, &mut scratch.codes)?;
         let Scratch {
             codes,
             chunks,
@@ -208,7 +212,10 @@ impl PreparedScene {
                 pieces,
             };
             for_each_cut(chunks, |polygon| cutting.polygon(polygon));
+            let cuts = frame.vertices[self.geometry.vertex_count()..].iter();
+            largest_weight = cuts.fold(largest_weight, |largest, v| largest.max(v.inv_w));
         }
+        frame.scale_weights(largest_weight);
         let count = add_up(chunks, pieces, &mut frame.stats);
         frame.polygons.resize(count, Polygon::default());
         let filling = Filling {
@@ -239,24 +246,24 @@ impl PreparedScene {
         frame.cut_corners.clear();
     }
 
-    /// Projects all vertices; returns true if any is beyond a plane.
+    /// Projects all vertices.
     fn vertices(
         &self,
         frame: &mut Frame,
         view: &View<'_>,
         codes: &mut Vec<Codes>,
-    ) -> Result<bool, FrameError> {
+    ) -> Result<Placed, FrameError> {
         let count = self.geometry.models.len();
         frame
             .vertices
             .resize(self.geometry.vertex_count(), Default::default());
         codes.resize(count, 0);
         let (front, back) = frame.vertices.split_at_mut(count);
-        let is_any_beyond = vertices::place(view, &self.geometry.models, front, codes)?;
+        let placed = vertices::place(view, &self.geometry.models, front, codes)?;
         if self.settings.two_sided {
             back.copy_from_slice(front);
         }
-        Ok(is_any_beyond)
+        Ok(placed)
     }
 
     /// Returns the point that positions count from. Under a local light or viewer, `f32` must hold what matters: around the eye

@@ -1,14 +1,15 @@
 //! CS171's literal way into the picture: corners divided by w as they are, and no clipping (CS171 3, Algorithms 4, 5).
 
 use super::view::{Codes, View, bits, reach};
-use crate::frame::Frame;
+use crate::frame::{DepthRange, Frame};
 use glam::DVec4;
 
 impl View<'_> {
     /// The sides of the cube that a corner is beyond after the division by w, on whichever side of the eye it is. Corners
     /// without a place that the frame can hold, in the plane of the eye or near it, are beyond a plane.
     pub(super) fn codes_unclipped(&self, clip: DVec4) -> Codes {
-        let [x, y, z] = [clip.x, clip.y, clip.z].map(|c| c / clip.w);
+        let [x, y] = [clip.x, clip.y].map(|c| c / clip.w);
+        let z = DepthRange::from(&self.scene.camera).z(self.depth(clip));
         // Comparisons with NaN are false: 0/0 has no place either.
         let has_place = x.abs() <= reach(self.width)
             && y.abs() <= reach(self.height)

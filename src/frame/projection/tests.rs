@@ -99,7 +99,7 @@ impl<'a> Plainly<'a> {
                 let screen = self.view.vertex(clip);
                 assert_eq!(
                     (screen.x, screen.y, screen.depth),
-                    (x, y, (clip.z / clip.w) as f32)
+                    (x, y, self.view.depth(clip))
                 );
                 let (depth, inv_w, normal) =
                     (screen.depth, screen.inv_w, normal.as_vec3().to_array());

@@ -1,6 +1,6 @@
 //! All vertices through the camera: blocks of them at once where nothing stands in the way.
 
-use super::view::{Codes, View, reach};
+use super::view::{BEYOND_PLANES, Codes, View, reach};
 use crate::frame::{FrameError, Models, ScreenVertex, SubPixel};
 use crate::number::parallel::for_each_chunk;
 use crate::number::vectorized;
@@ -17,7 +17,26 @@ const CHUNK: usize = 64 * BLOCK;
 /// integer in the lowest bits.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
-/// Places all vertices, says for each which planes it is beyond, and returns whether any is beyond one.
+/// What is known of vertices once they are placed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Placed {
+    /// True if any is beyond a plane.
+    pub is_any_beyond: bool,
+    /// The largest near/w of those on the picture, rounded down to a power of two; 0 if none is on it, or nothing is weighted.
+    pub largest_weight: f64,
+}
+
+impl Placed {
+    fn add(&mut self, other: Placed) {
+        self.is_any_beyond |= other.is_any_beyond;
+        self.largest_weight = self.largest_weight.max(other.largest_weight);
+    }
+}
+
+/// The bits of an `f64` below its exponent.
+const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+
+/// Places all vertices, and says for each which planes it is beyond.
 ///
 /// # Errors
 /// [`FrameError::Vertex`] for the first vertex that is nowhere: a number of it is not finite, or its weight not positive.
@@ -26,8 +45,9 @@ pub(super) fn place(
     models: &Models,
     vertices: &mut [ScreenVertex],
     codes: &mut [Codes],
-) -> Result<bool, FrameError> {
+) -> Result<Placed, FrameError> {
     let (is_any_beyond, first_invalid) = (AtomicBool::new(false), AtomicUsize::new(usize::MAX));
+    let exponent = AtomicUsize::new(0);
     for_each_chunk((vertices, codes), CHUNK, &|first,
                                                (vertices, codes): (
         &mut [ScreenVertex],
@@ -46,15 +66,23 @@ pub(super) fn place(
                 || placing.vertices(models, at, &mut vertices[range.clone()], &mut codes[range]),
             );
             match found {
-                Ok(false) => (),
-                Ok(true) => is_any_beyond.store(true, Ordering::Relaxed),
+                Ok(placed) => {
+                    if placed.is_any_beyond {
+                        is_any_beyond.store(true, Ordering::Relaxed);
+                    }
+                    let bits = (placed.largest_weight.to_bits() >> MANTISSA) as usize;
+                    exponent.fetch_max(bits, Ordering::Relaxed);
+                }
                 Err(vertex) => _ = first_invalid.fetch_min(vertex, Ordering::Relaxed),
             }
             at = to;
         }
     });
     match first_invalid.into_inner() {
-        usize::MAX => Ok(is_any_beyond.into_inner()),
+        usize::MAX => Ok(Placed {
+            is_any_beyond: is_any_beyond.into_inner(),
+            largest_weight: f64::from_bits((exponent.into_inner() as u64) << MANTISSA),
+        }),
         index => Err(FrameError::Vertex { index }),
     }
 }
@@ -75,7 +103,9 @@ struct Placing<'a> {
     guard: [f64; 2],
     /// The near distance.
     near: f64,
-    /// Between them w is positive, and near/w far inside the range of an `f32`.
+    /// How much of z is to be at most w.
+    z_scale: f64,
+    /// Between them w is positive, and 1/w far inside the range of an `f32`.
     least_w: f64,
     most_w: f64,
 }
@@ -85,11 +115,7 @@ impl<'a> Placing<'a> {
         let near = view.scene.camera.near;
         let (is_perspective, least_w, most_w) = match view.scene.camera.projection {
             Projection::Orthographic { .. } => (false, 1.0, 1.0),
-            Projection::Perspective { .. } => (
-                true,
-                (near * 1e-30).max(f64::MIN_POSITIVE),
-                (near * 1e30).min(f64::MAX),
-            ),
+            Projection::Perspective { .. } => (true, 1e-30, 1e30),
         };
         let size = [view.width, view.height].map(f64::from);
         let clips = view.scene.clipping == Clipping::Planes;
@@ -102,6 +128,7 @@ impl<'a> Placing<'a> {
             clips,
             guard,
             near,
+            z_scale: view.z_scale,
             least_w,
             most_w,
         }
@@ -115,8 +142,8 @@ impl<'a> Placing<'a> {
         first: usize,
         vertices: &mut [ScreenVertex],
         codes: &mut [Codes],
-    ) -> Result<bool, usize> {
-        let mut is_any_beyond = false;
+    ) -> Result<Placed, usize> {
+        let mut placed = Placed::default();
         // The last block may have fewer vertices than there is room for.
         let (mut last, mut last_codes) = ([ScreenVertex::default(); BLOCK], [0; BLOCK]);
         let mut at = 0;
@@ -125,18 +152,23 @@ impl<'a> Placing<'a> {
             let count = out.len().min(BLOCK);
             match (out.first_chunk_mut(), codes.first_chunk_mut()) {
                 (Some(out), Some(codes)) => {
-                    is_any_beyond |= self.block(models, first + at, BLOCK, out, codes)?
+                    placed.add(self.block(models, first + at, BLOCK, out, codes)?);
                 }
                 _ => {
-                    is_any_beyond |=
-                        self.block(models, first + at, count, &mut last, &mut last_codes)?;
+                    placed.add(self.block(
+                        models,
+                        first + at,
+                        count,
+                        &mut last,
+                        &mut last_codes,
+                    )?);
                     out.copy_from_slice(&last[..count]);
                     codes.copy_from_slice(&last_codes[..count]);
                 }
             }
             at += count;
         }
-        Ok(is_any_beyond)
+        Ok(placed)
     }
 
     /// Places the `count` vertices of a block.
@@ -148,7 +180,7 @@ impl<'a> Placing<'a> {
         count: usize,
         out: &mut [ScreenVertex; BLOCK],
         codes: &mut [Codes; BLOCK],
-    ) -> Result<bool, usize> {
+    ) -> Result<Placed, usize> {
         let (x, y, z) = (
             lanes(&models.x, from, count),
             lanes(&models.y, from, count),
@@ -158,27 +190,33 @@ impl<'a> Placing<'a> {
         let (c_z, c_w) = (self.row(2, &x, &y, &z), self.row(3, &x, &y, &z));
         let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
         if is_inside || (self.clips && self.all_inside(self.guard, &c_x, &c_y, &c_z, &c_w)) {
-            if self.is_perspective {
-                self.on_picture::<true>(&c_x, &c_y, &c_z, &c_w, out);
+            let largest_weight = if self.is_perspective {
+                self.on_picture::<true>(&c_x, &c_y, &c_z, &c_w, out)
             } else {
-                self.on_picture::<false>(&c_x, &c_y, &c_z, &c_w, out);
-            }
+                self.on_picture::<false>(&c_x, &c_y, &c_z, &c_w, out)
+            };
             if !is_inside {
                 sides(&c_x, &c_y, &c_w, codes);
             }
-            return Ok(!is_inside);
+            return Ok(Placed {
+                is_any_beyond: !is_inside,
+                largest_weight,
+            });
         }
-        let mut is_any_beyond = false;
+        let mut placed = Placed::default();
         for i in 0..count {
             let clip = DVec4::new(c_x[i], c_y[i], c_z[i], c_w[i]);
             codes[i] = self.view.codes(clip);
             out[i] = self.view.vertex(clip);
-            is_any_beyond |= codes[i] != 0;
+            placed.is_any_beyond |= codes[i] != 0;
+            if self.view.needs_inv_w && codes[i] & BEYOND_PLANES == 0 {
+                placed.largest_weight = placed.largest_weight.max(out[i].inv_w);
+            }
             if !View::is_in_range(clip) || !self.view.is_valid(&out[i]) {
                 return Err(from + i);
             }
         }
-        Ok(is_any_beyond)
+        Ok(placed)
     }
 
     /// Returns one coordinate in clip space, in the order of additions of a product of matrix and vector.
@@ -200,14 +238,15 @@ impl<'a> Placing<'a> {
         for i in 0..BLOCK {
             // As the planes compute it: the sign of a difference is exact.
             let (right, bottom) = (reach[0] * w[i], reach[1] * w[i]);
-            inside &=
-                (x[i].abs() <= right) & (y[i].abs() <= bottom) & (z[i] >= 0.0) & (z[i] <= w[i]);
+            inside &= (x[i].abs() <= right) & (y[i].abs() <= bottom);
+            inside &= (z[i] >= 0.0) & (z[i] * self.z_scale <= w[i]);
             inside &= (w[i] >= self.least_w) & (w[i] <= self.most_w);
         }
         inside
     }
 
-    /// Computes the vertices that [`View::vertex`] gives inside all planes, to the bit. Orthographic ones have w = 1.
+    /// Computes the vertices that [`View::vertex`] gives inside all planes, to the bit. Orthographic ones have w = 1. Returns the
+    /// largest weight, or 0 if there are none.
     #[inline(always)]
     fn on_picture<const PERSPECTIVE: bool>(
         &self,
@@ -216,21 +255,28 @@ impl<'a> Placing<'a> {
         z: &Coord,
         w: &Coord,
         out: &mut [ScreenVertex; BLOCK],
-    ) {
-        let mut weights = [1.0; BLOCK];
+    ) -> f64 {
+        let (mut weights, mut largest) = ([1.0; BLOCK], 0.0f64);
         if PERSPECTIVE && self.view.needs_inv_w {
             for i in 0..BLOCK {
-                weights[i] = (self.near / w[i]) as f32;
+                weights[i] = self.near / w[i];
+            }
+            for weight in weights {
+                largest = largest.max(weight);
             }
         }
         for i in 0..BLOCK {
             out[i] = ScreenVertex {
                 x: nearest((over::<PERSPECTIVE>(x[i], w[i]) * 0.5 + 0.5) * self.size[0]),
                 y: nearest((0.5 - over::<PERSPECTIVE>(y[i], w[i]) * 0.5) * self.size[1]),
-                depth: over::<PERSPECTIVE>(z[i], w[i]) as f32,
+                depth: match PERSPECTIVE {
+                    true => -1.0 / w[i],
+                    false => z[i],
+                },
                 inv_w: weights[i],
             };
         }
+        largest
     }
 }
 

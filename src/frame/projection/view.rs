@@ -3,7 +3,7 @@
 use super::clip::Plane;
 use crate::frame::{Frame, FrameError, ScreenVertex, SubPixel};
 use crate::scene::{
-    Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
+    Camera, Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
 };
 use glam::{DMat4, DVec4};
 
@@ -21,19 +21,22 @@ pub(super) struct View<'a> {
     /// Samples a row, and rows of them: what coordinates count.
     pub width: u32,
     pub height: u32,
+    /// To clip space: see [`Camera::precise_clip_matrix`](crate::scene::Camera).
     pub clip_matrix: DMat4,
+    /// How much of z is to be at most w: 1, and under perspective the near distance.
+    pub z_scale: f64,
     /// Near and far, then the four sides of the guard band.
     pub planes: [Plane; 6],
     /// True if anything is to be interpolated with 1/w.
     pub needs_inv_w: bool,
 }
 
-/// A vertex without a place on the picture stands in its first corner.
+/// A vertex without a place on the picture stands in its first corner. Its weight is never the largest.
 const NOWHERE: ScreenVertex = ScreenVertex {
     x: SubPixel::ZERO,
     y: SubPixel::ZERO,
-    depth: 0.0,
-    inv_w: 1.0,
+    depth: -1.0,
+    inv_w: f64::MIN_POSITIVE,
 };
 
 impl<'a> View<'a> {
@@ -52,7 +55,7 @@ impl<'a> View<'a> {
         }
         let clip_matrix = scene
             .camera
-            .clip_matrix(f64::from(scene.width) / f64::from(scene.height));
+            .precise_clip_matrix(f64::from(scene.width) / f64::from(scene.height));
         let ordered = scene.camera.near < scene.camera.far;
         if !clip_matrix.is_finite() || !scene.camera.view().is_finite() || !ordered {
             return Err(FrameError::Camera);
@@ -62,13 +65,32 @@ impl<'a> View<'a> {
         let guard = |normal| Plane {
             normal,
             in_front: true,
+            w: None,
+        };
+        let Camera { near, far, .. } = scene.camera;
+        let (z_scale, [near, far]) = match scene.camera.projection {
+            Projection::Orthographic { .. } => {
+                let plane = |normal| Plane {
+                    normal,
+                    in_front: false,
+                    w: None,
+                };
+                (1.0, [plane(DVec4::Z), guard(DVec4::W - DVec4::Z)])
+            }
+            // z goes from 1 down to 0: (f − w)/(f − n) n ≤ w is n ≤ w.
+            Projection::Perspective { .. } => {
+                let plane = |normal, in_front, w| Plane {
+                    normal,
+                    in_front,
+                    w: Some(w),
+                };
+                let nearest = plane(DVec4::W - DVec4::Z * near, false, near);
+                (near, [nearest, plane(DVec4::Z, true, far)])
+            }
         };
         let planes = [
-            Plane {
-                normal: DVec4::Z,
-                in_front: false,
-            },
-            guard(DVec4::W - DVec4::Z),
+            near,
+            far,
             guard(w_x + x),
             guard(w_x - x),
             guard(w_y + y),
@@ -82,6 +104,7 @@ impl<'a> View<'a> {
             width,
             height,
             clip_matrix,
+            z_scale,
             planes,
             needs_inv_w,
         })
@@ -92,9 +115,10 @@ impl<'a> View<'a> {
         if self.scene.clipping == Clipping::NdcCube {
             return self.codes_unclipped(clip);
         }
-        let DVec4 { x, y, z, w } = clip;
+        let DVec4 { x, y, w, .. } = clip;
         let beyond_planes = self.planes.map(|plane| plane.normal.dot(clip) < 0.0);
-        bits(&[x < -w, x > w, y < -w, y > w, z < 0.0, z > w]) | bits(&beyond_planes) << 8
+        let [near, far, ..] = beyond_planes;
+        bits(&[x < -w, x > w, y < -w, y > w, near, far]) | bits(&beyond_planes) << 8
     }
 
     /// True if clipping can compute with a position: its coordinates are finite, and stay so in distances from planes, up to
@@ -133,7 +157,7 @@ impl<'a> View<'a> {
         ScreenVertex {
             x,
             y,
-            depth: (clip.z / clip.w) as f32,
+            depth: self.depth(clip),
             inv_w,
         }
     }
@@ -144,14 +168,29 @@ impl<'a> View<'a> {
         let inside = |c: SubPixel| -guard <= c && c <= guard;
         let weighs =
             v.inv_w.is_finite() && (v.inv_w > 0.0 || self.scene.clipping == Clipping::NdcCube);
-        inside(v.x) && inside(v.y) && v.depth.is_finite() && weighs
+        // Engines compare depth in `f32`: nothing is to be so far away that 1/w is none there.
+        let depth = v.depth as f32;
+        let is_far = self.is_perspective() && !depth.is_normal();
+        inside(v.x) && inside(v.y) && depth.is_finite() && !is_far && weighs
+    }
+
+    pub fn is_perspective(&self) -> bool {
+        matches!(self.scene.camera.projection, Projection::Perspective { .. })
+    }
+
+    /// Returns what the depth test compares at a position: see [`Vertex::depth`](crate::frame::Vertex).
+    pub fn depth(&self, clip: DVec4) -> f64 {
+        match self.is_perspective() {
+            true => -1.0 / clip.w,
+            false => clip.z / clip.w,
+        }
     }
 
     /// Returns 1/w, scaled to 1 at the near plane.
-    fn weight(&self, w: f64) -> f32 {
-        match self.scene.camera.projection {
-            Projection::Orthographic { .. } => 1.0,
-            Projection::Perspective { .. } => (self.scene.camera.near / w) as f32,
+    fn weight(&self, w: f64) -> f64 {
+        match self.is_perspective() {
+            true => self.scene.camera.near / w,
+            false => 1.0,
         }
     }
 

@@ -374,7 +374,7 @@ impl<'a> RowEngine<'a> {
                 let (m, top) = (Lanes(simd), rows.start);
                 let (batch, fragments) = (&mut buffers.batch, &buffers.fragments);
                 let all = tiny | others;
-                batch.set_up_planes::<S, N>(m, &self.setup, self.cell, all);
+                batch.set_up_planes::<S, N>(m, &self.setup, (self.cell, self.test), all);
                 let writer = &mut buffers.tile.writer::<S, N>(m, self.test);
                 for k in bits(all) {
                     if others >> k & 1 == 0 {
@@ -417,7 +417,7 @@ impl<'a> RowEngine<'a> {
                 let taken = taken.min(others.trailing_zeros() as usize);
                 let drawn = bounded.drawn & ((1 << taken) - 1);
                 let Buffers { quads, tile, .. } = buffers;
-                quads.read::<N>(&self.setup, self.cell, drawn);
+                quads.read::<N>(&self.setup, (self.cell, self.test), drawn);
                 quads.find_runs(m, &bounded, (width, rows), count);
                 tile.extend(bounded.blocks());
                 let writer = &mut tile.writer::<S, N>(m, self.test);

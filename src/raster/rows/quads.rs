@@ -12,6 +12,7 @@ use crate::frame::Frame;
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use crate::raster::bins::Listed;
+use crate::raster::depth::SampleDepth;
 use crate::raster::setup::SetUp;
 use crate::shading::CellLayout;
 use core::ops::Range;
@@ -305,7 +306,12 @@ impl QuadBatch {
 
     /// Reads the `N` numbers of `cell`, or any of them for `N` = 0, at the corners of the quadrangles whose bits `drawn` has.
     #[inline(always)]
-    pub fn read<const N: usize>(&mut self, setup: &SetUp<'_>, cell: CellLayout, drawn: u32) {
+    pub fn read<const N: usize>(
+        &mut self,
+        setup: &SetUp<'_>,
+        (cell, test): (CellLayout, SampleDepth),
+        drawn: u32,
+    ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
         let count = NumberCount::<N>(cell.count());
         let all = N.saturating_sub(CellLayout::varying(0));
@@ -314,7 +320,7 @@ impl QuadBatch {
             let number = self.polygons[k];
             for (corner, (&vertex, to)) in (0..).zip(self.vertices[k].iter().zip(&mut self.numbers))
             {
-                let depth = vertices[vertex as usize].depth;
+                let depth = test.of_corner(&vertices[vertex as usize]);
                 let mut line: Numbers = Default::default();
                 if is_known {
                     let varying = varyings.of_corner_with(all, number, [corner, vertex]);

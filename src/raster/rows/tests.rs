@@ -254,7 +254,7 @@ fn coplanar(lights: usize) -> Frame {
             builder.vertex(Vertex {
                 x,
                 y,
-                depth,
+                depth: depth.into(),
                 inv_w: 1.0,
                 normal: [0.0, 0.0, 1.0],
                 material,
@@ -499,7 +499,7 @@ fn quadrangles(random: &mut Random, [width, height]: [usize; 2], lights: usize) 
             builder.vertex(Vertex {
                 x,
                 y,
-                depth,
+                depth: depth.into(),
                 inv_w: 1.0,
                 normal,
                 material,

@@ -11,6 +11,7 @@ use crate::frame::Frame;
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use crate::raster::bins::Listed;
+use crate::raster::depth::SampleDepth;
 use crate::raster::setup::{Per, SetUp};
 use crate::shading::CellLayout;
 use crate::shading::extent::{STEEPEST, TINY_HEIGHT, TINY_WIDTH};
@@ -355,7 +356,7 @@ impl Batch {
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        cell: CellLayout,
+        (cell, test): (CellLayout, SampleDepth),
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
@@ -373,7 +374,7 @@ impl Batch {
                 #[inline(always)]
                 |_, _, vertex, line| {
                     let [x, y, z] = values[vertex as usize];
-                    let depth = vertices[vertex as usize].depth;
+                    let depth = test.of_corner(&vertices[vertex as usize]);
                     cell.write(line, depth, &[x, y, z], || unreachable!("it has none"));
                 },
             );
@@ -386,7 +387,7 @@ impl Batch {
                 count,
                 #[inline(always)]
                 |number, corner, vertex, line| {
-                    let depth = vertices[vertex as usize].depth;
+                    let depth = test.of_corner(&vertices[vertex as usize]);
                     let varying = varyings.of_corner_with(all, number, [corner, vertex]);
                     cell.write(line, depth, varying, || unreachable!("it has none"));
                 },
@@ -398,7 +399,7 @@ impl Batch {
             count,
             #[inline(always)]
             |number, corner, vertex, line| {
-                let depth = vertices[vertex as usize].depth;
+                let depth = test.of_corner(&vertices[vertex as usize]);
                 let varying = varyings.of_corner(number, corner, vertex);
                 cell.write(line, depth, varying, || setup.uniforms_of(number));
             },

@@ -257,8 +257,8 @@ impl<'a> ActiveEdges<'a> {
             true => self.start_varyings(edge, [t0, dt]),
             false => (Group::default(), 0),
         };
-        let from = self.depth.of_corner(self.frame, top);
-        let to = self.depth.of_corner(self.frame, bottom);
+        let from = self.depth.of_corner(top);
+        let to = self.depth.of_corner(bottom);
         self.merged.push(ActiveEdge {
             polygon: edge.polygon,
             corner: edge.corner,

@@ -143,11 +143,11 @@ fn corners(frame: &Frame) -> Vec<TriangleCorner> {
         ndc: DVec3::new(
             2.0 * v.x.to_num::<f64>() / size[0] - 1.0,
             1.0 - 2.0 * v.y.to_num::<f64>() / size[1],
-            2.0 * f64::from(v.depth) - 1.0,
+            2.0 * frame.depth_range().z(v.depth) - 1.0,
         ),
         inv_w: match frame.interpolation() {
             Interpolation::Screen => 1.0,
-            Interpolation::Perspective => f64::from(v.inv_w),
+            Interpolation::Perspective => v.inv_w,
         },
     };
     let mut all: Vec<TriangleCorner> = (0..).zip(frame.vertices()).map(corner).collect();

@@ -90,7 +90,7 @@ fn numbered(width: u32, height: u32, polygons: &[Vec<Corner>]) -> Frame {
                 builder.vertex(Vertex {
                     x,
                     y,
-                    depth: c.depth,
+                    depth: c.depth.into(),
                     inv_w: 1.0,
                     normal: [0.0, 0.0, 1.0],
                     material,

@@ -146,7 +146,7 @@ pub fn add(builder: &mut FrameBuilder, material: u32, source: u32, corners: &[Co
             builder.vertex(Vertex {
                 x: SubPixel::from_bits(c.x),
                 y: SubPixel::from_bits(c.y),
-                depth: c.depth,
+                depth: c.depth.into(),
                 inv_w: 1.0,
                 normal: normal_of(c.intensity),
                 material,
