@@ -101,6 +101,8 @@ function sceneFacts(s) {
 		.filter(k => s.stats[k])
 		.map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
 	const share = k => `${((k.polygons / s.polygons) * 100).toFixed(0)} % ${k.name}`;
+	const most = Math.max(0, ...Object.values(s.rows).map(q => q.other ?? 0));
+	const others = (100 * most) / s.covered_pixels;
 	const byKind = Object.values(s.rows)
 		.filter(q => q.kinds && s.polygons)
 		.map(q => `polygons by ${nameOf(q.variant)}: ${q.kinds.map(share).join(", ")}`);
@@ -108,6 +110,8 @@ function sceneFacts(s) {
 		`${plural(s.polygons, "polygon")} in view`,
 		plural(s.lights, "light"),
 		`${((s.covered_pixels / s.w / s.h) * 100).toFixed(0)} % covered`,
+		others > 0.1 &&
+			`up to ${num(others)} % of these show another polygon than the reference: their depths are one but for rounding`,
 		`${s.w} × ${s.h}`,
 		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct",
 		`${levelName(s.renderer)} code, ${plural(s.renderer.threads, "thread")}`,

@@ -211,6 +211,13 @@ impl ObjectFacts<'_> {
             let [low, high] = [low, high].map(|p| point(p, extent));
             format!("\n  bounds      {low} to {high}")
         });
+        let doubled = match facts.doubled {
+            0 => String::new(),
+            n => format!(
+                "\n  doubled     {} with the corners of an earlier one",
+                grouped(n)
+            ),
+        };
         let cancelling = match facts.cancelling {
             0 => String::new(),
             n => format!(", {} that cross themselves, their areas cancel", grouped(n)),
@@ -224,7 +231,7 @@ impl ObjectFacts<'_> {
             "
 {mesh}
   polygons    {polygons}: {sides}
-  degenerate  {degenerate} without area{cancelling}
+  degenerate  {degenerate} without area{cancelling}{doubled}
   concave     {concave}
   not planar  {bent} by more than {share} % of their extent
   vertices    {vertices} places, {positions} positions

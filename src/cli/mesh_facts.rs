@@ -24,6 +24,8 @@ pub struct MeshFacts {
     pub degenerate: usize,
     /// Polygons that cross themselves and the areas of whose lobes cancel, so that they have no normal.
     pub cancelling: usize,
+    /// Polygons with the corners of an earlier one, in any order.
+    pub doubled: usize,
     /// Polygons with a corner that turns the wrong way.
     pub concave: usize,
     /// Polygons that are out of their plane by more than [`PLANAR`].
@@ -98,9 +100,21 @@ impl MeshFacts {
             facts.not_planar += usize::from(!is_planar(&points, normal));
         }
         facts.count_edges(mesh, &vertex);
+        facts.count_doubled(mesh, &vertex);
         let odd = facts.open_edges + facts.non_manifold_edges + facts.reversed_edges;
         facts.closed = facts.edges > 0 && odd == 0;
         facts
+    }
+
+    /// Counts the polygons that lie upon others.
+    fn count_doubled(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
+        let corners = |corners: &[u32]| {
+            let mut corners: Vec<u32> = corners.iter().map(|&c| vertex[c as usize]).collect();
+            corners.sort_unstable();
+            corners
+        };
+        let different: HashSet<Vec<u32>> = mesh.polygons().map(corners).collect();
+        self.doubled = mesh.polygon_count() - different.len();
     }
 
     /// Counts the edges by the polygons at them.

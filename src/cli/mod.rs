@@ -6,6 +6,7 @@
 mod aov;
 mod bench;
 mod compare;
+mod depth_notes;
 mod diff;
 mod drawing;
 mod engines;

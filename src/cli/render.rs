@@ -1,6 +1,7 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::{Aov, KINDS, Subject};
+use super::depth_notes::{note_depth_ties, note_screen_interpolation};
 use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
 use super::name_template::{named, scene_name};
@@ -143,6 +144,11 @@ impl RenderArgs {
         progress.aside(|| {
             log.duration("projected", started);
             warn_of_polygons_left_out(&frame, log);
+            note_depth_ties(&frame, log);
+            // Who asked for it knows.
+            if file.table().get("interpolation").is_none() {
+                note_screen_interpolation(&frame, log);
+            }
             if self.stats {
                 return print_beside(output.as_ref(), &stats_text(&frame));
             }

@@ -238,8 +238,12 @@ impl FrameBuilder {
             }
             previous = Some(corner.vertex);
         }
-        let weights = frame.vertices.iter().map(|v| v.inv_w);
-        frame.scale_weights(weights.fold(0.0, f64::max));
+        let weights = || frame.vertices.iter().map(|v| v.inv_w).filter(|w| *w > 0.0);
+        let [least, largest] = [
+            weights().fold(f64::INFINITY, f64::min),
+            weights().fold(0.0, f64::max),
+        ];
+        frame.scale_weights(least, largest)?;
         frame.sort();
         Ok(frame)
     }

@@ -36,6 +36,8 @@ pub enum FrameError {
     TooLarge,
     /// A camera that gives no finite picture: eye at the target, up along the view, planes in the wrong order.
     Camera,
+    /// Perspective interpolation where the farthest vertex is over 2⁶⁰ times as far away as the nearest.
+    Weights,
     /// A vertex is outside the guard band, or a number of it is not finite, or its weight is not positive.
     Vertex {
         /// The number of the element.
@@ -84,6 +86,11 @@ impl fmt::Display for FrameError {
                 f,
                 "the camera gives no picture: the eye must differ from the target, up must not be along the view, and \
                  near must be less than far (and over 0 under perspective)"
+            ),
+            FrameError::Weights => write!(
+                f,
+                "the farthest vertex in view is over 10¹⁸ times as far from the eye as the nearest: expected attributes that \
+                 are linear on the screen, or a near plane that leaves the nearest out"
             ),
             FrameError::Vertex { index } => {
                 write!(

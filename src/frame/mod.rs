@@ -213,13 +213,24 @@ impl Frame {
         (vertex.inv_w * self.weight_scale) as f32
     }
 
-    /// Chooses the unit of weights, where the largest near/w is `largest`.
-    pub(crate) fn scale_weights(&mut self, largest: f64) {
+    /// Chooses the unit of weights, where near/w goes from `least` to `largest`, or is rounded down to powers of two.
+    ///
+    /// # Errors
+    /// [`FrameError::Weights`] if perspective interpolation needs weights that methods cannot square in `f32`: measured, pictures
+    /// are right up to a ratio of 10¹⁸ and wrong from 10²⁰ on.
+    pub(crate) fn scale_weights(&mut self, least: f64, largest: f64) -> Result<(), FrameError> {
+        const MOST: f64 = (1u64 << 60) as f64;
+        if !(largest > 0.0 && largest.is_finite()) {
+            self.weight_scale = 1.0;
+            return Ok(());
+        }
         // A power of two changes no bit of a ratio.
-        self.weight_scale = match largest > 0.0 && largest.is_finite() {
-            true => libm::scalbn(1.0, -libm::frexp(largest).1),
-            false => 1.0,
-        };
+        self.weight_scale = libm::scalbn(1.0, -libm::frexp(largest).1);
+        let is_used = self.interpolation == Interpolation::Perspective;
+        match is_used && least < largest / MOST {
+            true => Err(FrameError::Weights),
+            false => Ok(()),
+        }
     }
 
     /// Returns the position of a vertex relative to [`Frame::origin`], in world units along the axes of the world: points near

@@ -110,6 +110,12 @@ impl SampleDepth {
         }
     }
 
+    /// Returns the depth that is stored for a sample with the interpolated number `q`.
+    #[inline(always)]
+    pub fn stored(&self, q: f32) -> f32 {
+        self.kept((q - self.origin) * self.factor)
+    }
+
     /// Returns the depth to store for a sample with the interpolated number `q`, if it passes the test against the stored `depth`.
     #[inline(always)]
     pub fn seen(&self, q: f32, depth: f32) -> Option<f32> {

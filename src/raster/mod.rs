@@ -16,6 +16,7 @@
 //! | fill rule, by crossings | `first_centre` and `EdgeCrossing` in `spans/edge.rs`, the parity in `ActiveEdges::spans` |
 //! | fill rule, by edge functions | `Batch::edge` in `rows/triangles.rs`; `EdgeFunction` in `barycentric.rs` |
 //! | depth at a sample | `depth.rs` |
+//! | what depth cannot decide | `depth_ties.rs` |
 //! | depth test | `VisibleLine::draw` in `spans/line.rs`; `Writer` in `rows/tile.rs`; `SampleDepth::seen` in `depth.rs` |
 //!
 //! Start with `spans/mod.rs`. `render.rs` chooses the engine. Before the first scanline `setup.rs` prepares uniforms and has vertices
@@ -29,6 +30,8 @@ mod barycentric;
 #[cfg(feature = "simd")]
 mod bins;
 mod depth;
+#[doc(hidden)]
+pub mod depth_ties;
 mod draw;
 mod engine;
 pub mod painter;

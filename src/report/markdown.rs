@@ -98,9 +98,28 @@ fn about(scene: &Value) -> String {
         plural("lights", "light"),
         plural("covered_pixels", "pixel")
     );
+    let facts = facts + &others(scene);
     match text(scene, "/description") {
         "" => facts,
         description => format!("{}\n\n{facts}", markdown_text(description)),
+    }
+}
+
+/// Says that many pixels show another polygon than the reference, if any method has over a thousandth of those covered.
+fn others(scene: &Value) -> String {
+    let rows = list(scene, "/rows")
+        .iter()
+        .chain(list(scene, "/barycentric"));
+    let most = rows
+        .filter_map(|row| row["other_polygon"].as_f64())
+        .fold(0.0, f64::max);
+    let share = 100.0 * most / scene["covered_pixels"].as_f64().unwrap_or(0.0).max(1.0);
+    match share > 0.1 {
+        true => format!(
+            "At up to {share:.2} % of the pixels covered a method shows another polygon than the reference: their depths are one but for \
+             rounding, and the errors say nothing of these pixels.\n\n"
+        ),
+        false => String::new(),
     }
 }
 

@@ -557,3 +557,71 @@ fn the_only_polygon_is_told_as_such() {
     let told = folder.run(quad).done();
     told.says("1 polygon of more than three corners is cut into triangles for");
 }
+
+const SQUARE: &str = "v -1 -1 -0.3\nv 1 -1 0.2\nv 1 1 0.3\nv -1 1 -0.2\n";
+
+#[test]
+fn one_face_in_other_pieces_is_told_once() {
+    let folder = Folder::new();
+    folder.write(
+        "pieces.obj",
+        format!("{SQUARE}f 1 2 3 4\nf 1 2 3\nf 1 3 4\n"),
+    );
+    let ended = folder.run("render pieces.obj -o a.png --size 80x60").done();
+    let told = "3 polygons meet others at one depth but for rounding";
+    assert_eq!(ended.err.matches(told).count(), 1, "{}", ended.err);
+    assert!(!ended.err.contains("earlier"), "{}", ended.err);
+    // Their pixels are counted where they are left out of errors.
+    let table = folder.run("compare pieces.obj --methods flat --time-budget 0 --size 80x60");
+    let told = "of the pixels covered: their depths are one but for rounding";
+    assert_eq!(table.done().out.matches(told).count(), 1);
+    // Levels that are equal are told as such, with what helps.
+    let levels = folder.run("render z-fighting -o a.png").done();
+    assert!(levels.err.contains("in 16 bits"), "{}", levels.err);
+    assert!(levels.err.contains("--depth-bits 32"), "{}", levels.err);
+}
+
+#[test]
+fn a_face_that_is_there_twice_is_told_once_and_counted() {
+    let folder = Folder::new();
+    folder.write(
+        "twice.obj",
+        format!("{SQUARE}f 1 2 3 4\nf 2 3 4 1\nf 3 4 1 2\n"),
+    );
+    let ended = folder.run("render twice.obj -o a.png --size 80x60").done();
+    let told = "2 polygons have the corners of earlier ones, which are seen in their place\n";
+    assert_eq!(ended.err.matches(told).count(), 1, "{}", ended.err);
+    assert!(!ended.err.contains("rounding"), "{}", ended.err);
+    let info = folder.run("info twice.obj").done().out;
+    assert!(
+        info.contains("doubled     2 with the corners of an earlier one"),
+        "{info}"
+    );
+}
+
+#[test]
+fn a_ground_that_is_linear_on_the_screen_is_told_unless_it_was_asked_for() {
+    let folder = Folder::new();
+    folder.write(
+        "ground.obj",
+        "v -50 0 2\nv 50 0 2\nv 50 0 -100\nv -50 0 -100\nf 1 2 3 4\n",
+    );
+    let near = "--eye 0,1,0 --target 0,0.8,-10 --fovy 60 --light-at 0,2,-4 --viewer local";
+    let told = "--interpolation perspective is right there";
+    for (more, is_told) in [
+        ("", true),
+        (" --interpolation screen", false),
+        (" --interpolation perspective", false),
+    ] {
+        let ended = folder.run(&format!(
+            "render ground.obj {near}{more} -o a.png --size 80x60"
+        ));
+        assert_eq!(ended.done().err.contains(told), is_told, "{more}");
+    }
+    // Nothing varies over a plane that is lit from infinity.
+    let far = near
+        .replace("--light-at", "--light")
+        .replace("--viewer local", "");
+    let ended = folder.run(&format!("render ground.obj {far} -o a.png --size 80x60"));
+    assert!(!ended.done().err.contains(told));
+}

@@ -2,7 +2,7 @@
 //! picture.
 
 use crate::support::floats_on;
-use fastphong::frame::Frame;
+use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
 use fastphong::raster;
@@ -367,6 +367,12 @@ fn inside_a_closed_mesh_every_pixel_is_covered_once() {
 
 /// Returns the frame of one polygon with the given corners, seen orthographically from +z at a scale of 1.
 fn one_polygon(corners: &[[f32; 3]], change: impl FnOnce(&mut Scene)) -> Frame {
+    let mut scene = scene_of_one(corners);
+    change(&mut scene);
+    scene.frame().expect("a frame")
+}
+
+fn scene_of_one(corners: &[[f32; 3]]) -> Scene {
     let positions = corners.iter().map(|&c| Vec3::from_array(c)).collect();
     let mut builder = MeshBuilder::new(positions);
     let all: Vec<u32> = (0..corners.len() as u32).collect();
@@ -381,8 +387,7 @@ fn one_polygon(corners: &[[f32; 3]], change: impl FnOnce(&mut Scene)) -> Frame {
     };
     let mut scene = scene(builder.finish().expect("a mesh"), camera);
     (scene.width, scene.height) = (640, 480);
-    change(&mut scene);
-    scene.frame().expect("a frame")
+    scene
 }
 
 /// One plane of the guard band cuts, and what it leaves lies wholly beyond the next, though the polygon is outside no single plane
@@ -455,24 +460,89 @@ fn every_polygon_around_the_eye_is_counted_once() {
     assert!(cut > 300, "{cut}");
 }
 
-/// Where near/w at a cut is less than the least `f32` the polygon is left out, as a mesh's own vertex is refused: without a weight
-/// nothing can be interpolated to it.
+/// Weights of perspective are relative to the nearest vertex: a near plane that is very near neither
+/// rounds them to 0 nor leaves a polygon out.
 #[test]
-fn a_cut_without_a_weight_leaves_its_polygon_out() {
-    // Two corners are beyond the guard band, so that only cuts have a weight. The least near/w is 10⁻⁴⁸ or 10⁻⁴², and the least `f32`
-    // 1.4·10⁻⁴⁵.
+fn cuts_have_weights_however_near_the_near_plane_is() {
+    // Two corners are beyond the guard band, so that only cuts have a weight. The least near/w is
+    // 10⁻⁷⁶, 10⁻⁴⁸ or 10⁻⁴², and the least `f32` 1.4·10⁻⁴⁵.
     let corners = [[0.0, -1.0, 4.0], [9e7, 0.0, -1e6], [-9e7, 0.0, -1e6]];
-    for (near, unprojected) in [(1e-42, 1), (1e-36, 0)] {
+    for near in [1e-70, 1e-42, 1e-36] {
         let frame = one_polygon(&corners, |scene| {
             scene.camera.projection = Projection::Perspective { fovy: 90.0 };
             (scene.camera.near, scene.camera.far) = (near, 1e8);
             scene.interpolation = Interpolation::Perspective;
         });
-        assert_eq!(frame.stats().unprojected, unprojected, "{near}");
-        assert_eq!(frame.polygons().len(), 1 - unprojected, "{near}");
+        assert_eq!(frame.stats().unprojected, 0, "{near}");
+        assert_eq!(frame.polygons().len(), 1, "{near}");
         let drawn = frame.polygons().iter().flat_map(|p| frame.corners(p));
         for &vertex in drawn {
             assert!(frame.vertices()[vertex as usize].inv_w > 0.0, "{near}");
+        }
+    }
+}
+
+/// The near plane decides what is cut off and nothing else: where it cuts nothing, its distance changes no bit of a picture
+/// that is interpolated in perspective, however small near/w gets.
+#[test]
+fn a_near_plane_that_cuts_nothing_changes_nothing() {
+    let torus = "torus?segments=24&sides=16";
+    let mut scene =
+        Scene::of_mesh(fastphong::mesh::builtin::builtin(torus).expect("a built-in mesh"));
+    (scene.width, scene.height) = (64, 48);
+    scene.camera.projection = Projection::Perspective { fovy: 40.0 };
+    scene.interpolation = Interpolation::Perspective;
+    let mut frame_with = |exponent: i32| {
+        // Powers of two, so that near/w are the same but for their exponents.
+        scene.camera.near = f64::powi(2.0, exponent);
+        scene.frame().expect("a frame")
+    };
+    let usual = frame_with(-3);
+    let truth = fastphong::reference::render(&usual, fastphong::reference::Model::Phong);
+    for exponent in [-70, -200, -1000] {
+        let frame = frame_with(exponent);
+        for entry in floats_on(&frame) {
+            let variant = entry.variant();
+            let [expected, found] = [&usual, &frame].map(|frame| variant.render_linear(frame));
+            assert!(
+                expected == found,
+                "{variant} with a near plane at 2^{exponent}"
+            );
+        }
+        let found = fastphong::reference::render(&frame, fastphong::reference::Model::Phong);
+        assert!(
+            found.picture == truth.picture,
+            "the reference at 2^{exponent}"
+        );
+    }
+}
+
+/// Methods square weights of perspective in `f32`: a frame whose weights leave that range is refused.
+#[test]
+fn perspective_over_too_many_distances_is_refused() {
+    for (nearest, is_drawn) in [(1e-8, true), (1e-10, false)] {
+        let corners = [
+            [0.0, 0.0, -nearest as f32],
+            [1e9, 0.0, -1e10],
+            [0.0, 1e9, -1e10],
+        ];
+        for interpolation in [Interpolation::Perspective, Interpolation::Screen] {
+            let mut scene = scene_of_one(&corners);
+            scene.camera = Camera {
+                eye: DVec3::ZERO,
+                target: -DVec3::Z,
+                projection: Projection::Perspective { fovy: 90.0 },
+                near: 1e-20,
+                far: 1e20,
+                ..scene.camera
+            };
+            scene.interpolation = interpolation;
+            let expected = is_drawn || interpolation == Interpolation::Screen;
+            let found = scene.frame();
+            assert_eq!(found.is_ok(), expected, "{nearest} {interpolation:?}");
+            if let Err(error) = found {
+                assert_eq!(error, FrameError::Weights);
+            }
         }
     }
 }

@@ -4,16 +4,18 @@ use crate::support;
 use crate::support::{Corner, Random, add, plain_lighting, random_polygon, renderers};
 use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{DepthRange, Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::mesh::MeshBuilder;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::Picture;
 use fastphong::raster::painter::conflicts;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
 use fastphong::scene::{
-    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Projection,
-    Scene,
+    Camera, Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey,
+    Projection, Scene,
 };
 use fastphong::shading::Variant;
+use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 
 fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
@@ -28,7 +30,8 @@ fn torus(perspective: bool, hidden_surfaces: HiddenSurfaces) -> Frame {
     if perspective {
         scene.camera.projection = Projection::Perspective { fovy: 60.0 };
         scene.camera.eye = scene.camera.target + scene.camera.view() * 2.5;
-        (scene.camera.near, scene.camera.far) = (0.5, 5.0);
+        // Not a power of two: near/w and 1/w are rounded differently.
+        (scene.camera.near, scene.camera.far) = (0.45, 5.0);
     }
     scene.hidden_surfaces = hidden_surfaces;
     scene.frame().expect("a frame")
@@ -625,6 +628,16 @@ fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
         // From tiny triangles to ones that reach beyond the picture.
         let size = [5, 14, 40, 70, 300][round / SHAPES.len() % 5];
         let [bits, source, range, samples] = [3, 2, 2, 2].map(|n| random.below(n) as usize);
+        let range = [
+            DepthRange::Perspective {
+                near: 0.3,
+                far: 7.0,
+            },
+            DepthRange::Orthographic {
+                near: -2.0,
+                far: 5.1,
+            },
+        ][range];
         let mut builder = FrameBuilder::new(side, side);
         builder
             .samples([1, 2][samples])
@@ -636,22 +649,15 @@ fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
                 ][bits],
                 [DepthSource::Interpolated, DepthSource::PerSample][source],
             ))
-            .depth_range(
-                [
-                    DepthRange::Perspective {
-                        near: 0.3,
-                        far: 7.0,
-                    },
-                    DepthRange::Orthographic {
-                        near: -2.0,
-                        far: 5.1,
-                    },
-                ][range],
-            );
+            .depth_range(range);
+        let [nearest, farthest] = range.depths();
         builder.lighting(plain_lighting());
         let corners: Vec<u32> = corners_of(shape, &mut random, size, u64::from(side))
             .into_iter()
-            .map(|corner| builder.vertex(corner))
+            .map(|corner| {
+                let depth = nearest + (farthest - nearest) * corner.depth;
+                builder.vertex(Vertex { depth, ..corner })
+            })
             .collect();
         // The first of them runs either way from any corner, too.
         let first = random.below(2 * corners.len() as u64) as usize;
@@ -688,4 +694,81 @@ fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
     assert!(covered, "pixels of later ones, and all: {found:?}");
     let none_later = found.values().all(|[later, _]| *later == 0);
     assert!(none_later, "pixels of later ones, and all: {found:?}");
+}
+
+/// Returns a scene of two walls before an eye in the origin, the farther one first: it is `apart` of the distance
+/// behind the nearer one, and wider.
+fn walls(distance: f64, apart: f64, slope: f64) -> Scene {
+    let wall = |z: f64, half: f64| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
+            let (x, y) = (half * x * distance, half * y * distance);
+            Vec3::new(x as f32, y as f32, (slope * x - z) as f32)
+        })
+    };
+    let corners = [wall(distance * (1.0 + apart), 0.9), wall(distance, 0.1)];
+    let mut builder = MeshBuilder::new(corners.concat());
+    builder.polygon(&[0, 1, 2, 3]).polygon(&[4, 5, 6, 7]);
+    let mut scene = Scene::of_mesh(builder.finish().expect("a mesh"));
+    (scene.width, scene.height) = (80, 60);
+    scene.culling = Culling::None;
+    scene.camera = Camera {
+        eye: DVec3::ZERO,
+        target: -DVec3::Z,
+        up: DVec3::Y,
+        projection: Projection::Perspective { fovy: 25.0 },
+        near: 1e-3,
+        far: 1e6,
+    };
+    scene
+}
+
+/// Returns every picture of the polygons seen: by the reference, the barycentric renderer, and the span and the row
+/// engine on each instruction set, along runs and by plane equations.
+fn all_that_see(frame: &Frame) -> Vec<(String, Picture<u32>)> {
+    let cut = triangulated(frame);
+    let origin = |number: u32| cut.origins.get(number as usize).map_or(NOTHING, |&o| o);
+    let barycentric = raster::barycentric_polygon_numbers(&cut.frame, Edges::TopLeft).map(origin);
+    let mut all = vec![
+        (
+            "reference".to_owned(),
+            reference::visibility(frame).polygons,
+        ),
+        ("barycentric".to_owned(), barycentric),
+    ];
+    for method in ["naive-phong", "slerp-phong"] {
+        let variant = Variant::parse(method).expect("a method");
+        for renderer in renderers::distinct(&variant, frame) {
+            let name = format!("{method}, {}", renderers::name(renderer));
+            all.push((name, variant.polygon_numbers(frame, renderer)));
+        }
+    }
+    all
+}
+
+/// Walls a ten-thousandth of their distance apart are told apart wherever they stand between near and far planes that
+/// are 10⁹ times, and up to 10³⁰ times, as far away as one another; also where they are oblique.
+#[test]
+fn walls_are_told_apart_at_every_distance() {
+    let far_away = [1e-3, 0.02, 1.0, 6.0, 250.0, 1e4, 8e5].map(|w| (w, 0.9e-3, 1e6));
+    let very_near = [(6.0, 1e-7, 100.0), (6.0, 1e-20, 1e10), (1e4, 1e-12, 3e4)];
+    for (distance, near, far) in far_away.into_iter().chain(very_near) {
+        for slope in [0.0, 0.3] {
+            let mut scene = walls(distance, 1e-4, slope);
+            (scene.camera.near, scene.camera.far) = (near, far);
+            for source in [DepthSource::Interpolated, DepthSource::PerSample] {
+                scene.hidden_surfaces = buffer(DepthBits::ThirtyTwo, source);
+                let frame = scene.frame().expect("a frame");
+                let mut nearer = Picture::new(frame.width(), frame.height(), NOTHING);
+                raster::coverage(&frame, |number, y, pixels| {
+                    nearer.row_mut(y)[pixels].fill(number);
+                });
+                assert!(nearer.pixels().iter().filter(|n| **n == 1).count() > 500);
+                for (name, seen) in all_that_see(&frame) {
+                    // The barycentric renderer splits walls: the same pixels.
+                    let who = format!("{name} at {distance}, slope {slope}, {source:?}");
+                    assert!(seen == nearer, "{who}");
+                }
+            }
+        }
+    }
 }

@@ -65,10 +65,9 @@ fn depth_at(frame: &Frame, polygon: u32, x: usize, y: usize) -> (f64, f64) {
 /// twice, and fewer than 32 roundings precede the steps. Each is half a unit in the last place of
 /// the largest corner depth.
 fn rounding(frame: &Frame) -> f64 {
-    let largest = frame
-        .vertices()
-        .iter()
-        .fold(1.0f64, |most, v| most.max(frame.depth_range().z(v.depth).abs()));
+    let largest = frame.vertices().iter().fold(1.0f64, |most, v| {
+        most.max(frame.depth_range().z(v.depth).abs())
+    });
     (2.0 * (frame.width() + frame.height()) as f64 + 32.0) * largest / f64::from(1 << 24)
 }
 

@@ -6,9 +6,7 @@ use fastphong::mesh::Material;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
 use fastphong::raster::{self, DrawOptions, Edges, NOTHING, Renderer};
 use fastphong::reference::{self, Model, Visibility};
-use fastphong::scene::{
-    Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Lighting, Place, Scene,
-};
+use fastphong::scene::{Clipping, DepthBuffer, HiddenSurfaces, Lighting, Place, Scene};
 use fastphong::shading::{METHODS, Variant};
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -444,19 +442,17 @@ fn pools() -> &'static [rayon::ThreadPool; 2] {
 /// Returns by how much two stored depths may differ and still be seen in another order: twice the error of one.
 ///
 /// Rounding is derived at [`depth_rounding`] for depths in 0..=1, two of them; those of corners that are not cut may be
-/// larger. Depth that is computed from 1/w anew is `f/(f − n) (1 − n/w)`: its rounding is larger by f/(f − n). In a narrow
+/// larger. Under perspective n/w is rounded, and z is `f/(f − n) (1 − n/w)`: its rounding is larger by f/(f − n). In a narrow
 /// buffer each depth may be stored one level away.
 fn depth_margin(frame: &Frame) -> f64 {
-    let HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }) = frame.hidden_surfaces() else {
+    let HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) = frame.hidden_surfaces() else {
         return 0.0;
     };
-    let depths = frame.vertices().iter().map(|v| f64::from(v.depth.abs()));
+    let range = frame.depth_range();
+    let depths = frame.vertices().iter().map(|v| range.z(v.depth).abs());
     let largest = depths.fold(1.0, f64::max);
-    let (near, far) = frame.depth_range().ends();
-    let gain = match source {
-        DepthSource::Interpolated => 1.0,
-        DepthSource::PerSample => 1.0 + (far / (far - near)).abs(),
-    };
+    let (near, far) = range.ends();
+    let gain = 1.0 + (far / (far - near)).abs();
     let level = bits.most().map_or(0.0, |most| 2.0 / f64::from(most));
     depth_rounding(frame) * largest * gain + level
 }

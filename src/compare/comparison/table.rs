@@ -102,6 +102,16 @@ const BENCH: &[Column] = &[
     OTHER_POLYGON,
 ];
 
+/// The share of covered pixels that show another polygon from which on it is worth a word, in percent.
+const OTHERS: f64 = 0.1;
+
+/// Returns the row with most pixels of other polygons and their share of all in percent, if that is over [`OTHERS`].
+fn most_others(comparison: &Comparison) -> Option<(&MethodRow, f64)> {
+    let row = comparison.all_rows().max_by_key(|row| row.other_polygon)?;
+    let share = 100.0 * row.other_polygon as f64 / comparison.covered_pixels.max(1) as f64;
+    (share > OTHERS).then_some((row, share))
+}
+
 /// Writes a comparison as text: some lines on the frame, then a row a method.
 pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     let columns = match kind {
@@ -133,6 +143,13 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     }
     for left_out in &comparison.left_out {
         text += &format!("{} is left out: {}\n", left_out.variant, left_out.reason);
+    }
+    if let Some((row, share)) = most_others(comparison) {
+        text += &format!(
+            "! {} shows another polygon than the reference at {share:.2} % of the pixels covered: their depths are one but for rounding, and \
+             the errors say nothing of these pixels\n",
+            cell(row, &&METHOD)
+        );
     }
     if shows_others {
         text +=

@@ -64,7 +64,7 @@ impl Cutting<'_> {
             pieces = inside;
         }
         // Cuts of edges that reach some 10⁹ times as far as they are away may be rounded to beyond the plane that made them, and
-        // near/w of cuts some 10⁴⁵ times as far as the near plane to 0.
+        // 1/w of those nearer than 10⁻³⁸ is no `f32`.
         let is_placed = |corner: &HomogeneousCorner| {
             self.view.is_on_picture(corner.position)
                 && self

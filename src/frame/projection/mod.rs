@@ -186,7 +186,7 @@ impl PreparedScene {
         self.check_positions(origin)?;
         let Placed {
             is_any_beyond,
-            mut largest_weight,
+            weights: [mut least, mut largest],
         } = self.vertices(frame, &view, &mut scratch.codes)?;
         let Scratch {
             codes,
@@ -213,9 +213,12 @@ impl PreparedScene {
             };
             for_each_cut(chunks, |polygon| cutting.polygon(polygon));
             let cuts = frame.vertices[self.geometry.vertex_count()..].iter();
-            largest_weight = cuts.fold(largest_weight, |largest, v| largest.max(v.inv_w));
+            // One without a place has no weight.
+            for weight in cuts.map(|v| v.inv_w).filter(|w| *w > f64::MIN_POSITIVE) {
+                (least, largest) = (least.min(weight), largest.max(weight));
+            }
         }
-        frame.scale_weights(largest_weight);
+        frame.scale_weights(least, largest)?;
         let count = add_up(chunks, pieces, &mut frame.stats);
         frame.polygons.resize(count, Polygon::default());
         let filling = Filling {

@@ -18,18 +18,26 @@ const CHUNK: usize = 64 * BLOCK;
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
 /// What is known of vertices once they are placed.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
     /// True if any is beyond a plane.
     pub is_any_beyond: bool,
-    /// The largest near/w of those on the picture, rounded down to a power of two; 0 if none is on it, or nothing is weighted.
-    pub largest_weight: f64,
+    /// The least and the largest near/w of those on the picture, rounded down to powers of two; +∞ and 0 if none is on it, or
+    /// nothing is weighted.
+    pub weights: [f64; 2],
 }
 
 impl Placed {
+    const NONE: Placed = Placed {
+        is_any_beyond: false,
+        weights: [f64::INFINITY, 0.0],
+    };
+
     fn add(&mut self, other: Placed) {
         self.is_any_beyond |= other.is_any_beyond;
-        self.largest_weight = self.largest_weight.max(other.largest_weight);
+        let [least, largest] = &mut self.weights;
+        *least = least.min(other.weights[0]);
+        *largest = largest.max(other.weights[1]);
     }
 }
 
@@ -47,7 +55,9 @@ pub(super) fn place(
     codes: &mut [Codes],
 ) -> Result<Placed, FrameError> {
     let (is_any_beyond, first_invalid) = (AtomicBool::new(false), AtomicUsize::new(usize::MAX));
-    let exponent = AtomicUsize::new(0);
+    // Exponents of weights, which are in the order of the weights.
+    let exponent = |weight: f64| (weight.to_bits() >> MANTISSA) as usize;
+    let exponents = Placed::NONE.weights.map(|w| AtomicUsize::new(exponent(w)));
     for_each_chunk((vertices, codes), CHUNK, &|first,
                                                (vertices, codes): (
         &mut [ScreenVertex],
@@ -70,8 +80,9 @@ pub(super) fn place(
                     if placed.is_any_beyond {
                         is_any_beyond.store(true, Ordering::Relaxed);
                     }
-                    let bits = (placed.largest_weight.to_bits() >> MANTISSA) as usize;
-                    exponent.fetch_max(bits, Ordering::Relaxed);
+                    let [least, largest] = placed.weights.map(exponent);
+                    exponents[0].fetch_min(least, Ordering::Relaxed);
+                    exponents[1].fetch_max(largest, Ordering::Relaxed);
                 }
                 Err(vertex) => _ = first_invalid.fetch_min(vertex, Ordering::Relaxed),
             }
@@ -81,7 +92,7 @@ pub(super) fn place(
     match first_invalid.into_inner() {
         usize::MAX => Ok(Placed {
             is_any_beyond: is_any_beyond.into_inner(),
-            largest_weight: f64::from_bits((exponent.into_inner() as u64) << MANTISSA),
+            weights: exponents.map(|e| f64::from_bits((e.into_inner() as u64) << MANTISSA)),
         }),
         index => Err(FrameError::Vertex { index }),
     }
@@ -143,7 +154,7 @@ impl<'a> Placing<'a> {
         vertices: &mut [ScreenVertex],
         codes: &mut [Codes],
     ) -> Result<Placed, usize> {
-        let mut placed = Placed::default();
+        let mut placed = Placed::NONE;
         // The last block may have fewer vertices than there is room for.
         let (mut last, mut last_codes) = ([ScreenVertex::default(); BLOCK], [0; BLOCK]);
         let mut at = 0;
@@ -190,7 +201,7 @@ impl<'a> Placing<'a> {
         let (c_z, c_w) = (self.row(2, &x, &y, &z), self.row(3, &x, &y, &z));
         let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
         if is_inside || (self.clips && self.all_inside(self.guard, &c_x, &c_y, &c_z, &c_w)) {
-            let largest_weight = if self.is_perspective {
+            let weights = if self.is_perspective {
                 self.on_picture::<true>(&c_x, &c_y, &c_z, &c_w, out)
             } else {
                 self.on_picture::<false>(&c_x, &c_y, &c_z, &c_w, out)
@@ -200,17 +211,20 @@ impl<'a> Placing<'a> {
             }
             return Ok(Placed {
                 is_any_beyond: !is_inside,
-                largest_weight,
+                weights,
             });
         }
-        let mut placed = Placed::default();
+        let mut placed = Placed::NONE;
         for i in 0..count {
             let clip = DVec4::new(c_x[i], c_y[i], c_z[i], c_w[i]);
             codes[i] = self.view.codes(clip);
             out[i] = self.view.vertex(clip);
             placed.is_any_beyond |= codes[i] != 0;
             if self.view.needs_inv_w && codes[i] & BEYOND_PLANES == 0 {
-                placed.largest_weight = placed.largest_weight.max(out[i].inv_w);
+                placed.add(Placed {
+                    is_any_beyond: false,
+                    weights: [out[i].inv_w; 2],
+                });
             }
             if !View::is_in_range(clip) || !self.view.is_valid(&out[i]) {
                 return Err(from + i);
@@ -246,7 +260,7 @@ impl<'a> Placing<'a> {
     }
 
     /// Computes the vertices that [`View::vertex`] gives inside all planes, to the bit. Orthographic ones have w = 1. Returns the
-    /// largest weight, or 0 if there are none.
+    /// least and the largest weight, if there are any.
     #[inline(always)]
     fn on_picture<const PERSPECTIVE: bool>(
         &self,
@@ -255,14 +269,14 @@ impl<'a> Placing<'a> {
         z: &Coord,
         w: &Coord,
         out: &mut [ScreenVertex; BLOCK],
-    ) -> f64 {
-        let (mut weights, mut largest) = ([1.0; BLOCK], 0.0f64);
+    ) -> [f64; 2] {
+        let (mut weights, [mut least, mut largest]) = ([1.0; BLOCK], Placed::NONE.weights);
         if PERSPECTIVE && self.view.needs_inv_w {
             for i in 0..BLOCK {
                 weights[i] = self.near / w[i];
             }
             for weight in weights {
-                largest = largest.max(weight);
+                (least, largest) = (least.min(weight), largest.max(weight));
             }
         }
         for i in 0..BLOCK {
@@ -276,7 +290,7 @@ impl<'a> Placing<'a> {
                 inv_w: weights[i],
             };
         }
-        largest
+        [least, largest]
     }
 }
 

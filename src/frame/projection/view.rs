@@ -1,7 +1,7 @@
 //! The view: from a position in the world to clip space, to the planes that it is beyond, to pixel coordinates.
 
 use super::clip::Plane;
-use crate::frame::{Frame, FrameError, ScreenVertex, SubPixel};
+use crate::frame::{DepthRange, Frame, FrameError, ScreenVertex, SubPixel};
 use crate::scene::{
     Camera, Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
 };
@@ -30,14 +30,6 @@ pub(super) struct View<'a> {
     /// True if anything is to be interpolated with 1/w.
     pub needs_inv_w: bool,
 }
-
-/// A vertex without a place on the picture stands in its first corner. Its weight is never the largest.
-const NOWHERE: ScreenVertex = ScreenVertex {
-    x: SubPixel::ZERO,
-    y: SubPixel::ZERO,
-    depth: -1.0,
-    inv_w: f64::MIN_POSITIVE,
-};
 
 impl<'a> View<'a> {
     pub fn new(scene: &'a Scene) -> Result<Self, FrameError> {
@@ -146,7 +138,13 @@ impl<'a> View<'a> {
     /// Returns the vertex at a position. If it has no pixel coordinates, only its attributes matter.
     pub fn vertex(&self, clip: DVec4) -> ScreenVertex {
         if !self.is_on_picture(clip) {
-            return NOWHERE;
+            // In the first corner of the picture, as far away as can be, with a weight that is none.
+            return ScreenVertex {
+                x: SubPixel::ZERO,
+                y: SubPixel::ZERO,
+                depth: DepthRange::from(&self.scene.camera).depths()[1],
+                inv_w: f64::MIN_POSITIVE,
+            };
         }
         let [x, y] = self.snap(clip);
         let inv_w = if self.needs_inv_w {

@@ -94,6 +94,11 @@ impl VisibleLine {
         self.pixels.iter().map(|(kept, _)| self.rule.shown(*kept))
     }
 
+    /// Returns the depth at pixel `x` as it is stored.
+    pub fn stored(&self, x: usize) -> f32 {
+        self.pixels[x].0
+    }
+
     /// Returns the polygon seen at pixel `x`, or [`NOTHING`].
     pub fn polygon(&self, x: usize) -> u32 {
         self.spans
