@@ -70,15 +70,27 @@ struct Face {
     /// One of [`MATERIALS`], or none.
     material: Option<u8>,
     smoothing: Option<u8>,
-    /// The polygon once more, from another corner on, in this direction or the other.
-    again: Option<(u16, bool)>,
+    /// The polygon once more, from this corner on.
+    again: Option<(u16, Again)>,
+}
+
+/// How a polygon is there once more.
+#[derive(Clone, Copy, Debug)]
+enum Again {
+    /// Whole, in the same direction.
+    Same,
+    /// Whole, in the other direction.
+    Reversed,
+    /// As the triangles of a fan.
+    Fan,
 }
 
 /// The names of the materials in `world.mtl`.
 const MATERIALS: [&str; 3] = ["dull", "red", "shiny"];
 
 fn face(corners: std::ops::Range<usize>) -> BoxedStrategy<Face> {
-    let again = prop::option::weighted(0.15, (any::<u16>(), any::<bool>()));
+    let how = prop_oneof![Just(Again::Same), Just(Again::Reversed), Just(Again::Fan)];
+    let again = prop::option::weighted(0.2, (any::<u16>(), how));
     (
         prop::collection::vec(any::<u16>(), corners),
         any::<u16>(),
@@ -202,13 +214,22 @@ fn write_obj(
             let _ = writeln!(text, "s {group}");
         }
         write_face(&mut text, face, &face.corners, positions, normals);
-        if let Some((start, is_reversed)) = face.again {
+        if let Some((start, how)) = face.again {
             let mut corners = face.corners.clone();
             corners.rotate_left(usize::from(start) % face.corners.len());
-            if is_reversed {
+            if let Again::Reversed = how {
                 corners.reverse();
             }
-            write_face(&mut text, face, &corners, positions, normals);
+            let fan = 1..corners.len() - 1;
+            let pieces = match how {
+                Again::Same | Again::Reversed => vec![corners],
+                Again::Fan => fan
+                    .map(|i| vec![corners[0], corners[i], corners[i + 1]])
+                    .collect(),
+            };
+            for piece in pieces {
+                write_face(&mut text, face, &piece, positions, normals);
+            }
         }
     }
     text

@@ -1,7 +1,7 @@
 //! What must hold in every world.
 
 use super::renderers::{depth_rounding, distinct, name, renderers};
-use fastphong::frame::{Frame, FrameBuilder, FrameError};
+use fastphong::frame::{DepthRange, Frame, FrameBuilder, FrameError};
 use fastphong::mesh::Material;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
 use fastphong::raster::{self, DrawOptions, Edges, NOTHING, Renderer};
@@ -441,20 +441,32 @@ fn pools() -> &'static [rayon::ThreadPool; 2] {
 
 /// Returns by how much two stored depths may differ and still be seen in another order: twice the error of one.
 ///
-/// Rounding is derived at [`depth_rounding`] for depths in 0..=1, two of them; those of corners that are not cut may be
-/// larger. Under perspective n/w is rounded, and z is `f/(f − n) (1 − n/w)`: its rounding is larger by f/(f − n). In a narrow
-/// buffer each depth may be stored one level away.
+/// Rounding is derived at [`depth_rounding`] for depths in 0..=1, two of them; it is in proportion to the largest depth of a
+/// corner. Under perspective −1/w is rounded, and z is `f/(f − n) (1 − n/w)`, which is rounded itself where it is stored as levels.
+/// An orthographic depth that is computed at each sample is that of a distance of up to f, over f − n. In a narrow buffer
+/// each depth may be stored one level away.
 fn depth_margin(frame: &Frame) -> f64 {
     let HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) = frame.hidden_surfaces() else {
         return 0.0;
     };
     let range = frame.depth_range();
-    let depths = frame.vertices().iter().map(|v| range.z(v.depth).abs());
-    let largest = depths.fold(1.0, f64::max);
-    let (near, far) = range.ends();
-    let gain = 1.0 + (far / (far - near)).abs();
     let level = bits.most().map_or(0.0, |most| 2.0 / f64::from(most));
-    depth_rounding(frame) * largest * gain + level
+    let corners = frame.polygons().iter().flat_map(|p| frame.corners(p));
+    let depths = || corners.clone().map(|&v| frame.vertices()[v as usize].depth);
+    let largest_z = depths()
+        .map(|depth| range.z(depth).abs())
+        .fold(1.0, f64::max);
+    let (near, far) = range.ends();
+    let largest = match range {
+        DepthRange::Orthographic { .. } => (2.0 + (far / (far - near)).abs()) * largest_z,
+        // From −1/w to z it is multiplied by this.
+        DepthRange::Perspective { .. } => {
+            let slope = near * (far / (far - near));
+            let of_depth = slope * depths().map(f64::abs).fold(0.0, f64::max);
+            of_depth + if level > 0.0 { largest_z } else { 0.0 }
+        }
+    };
+    depth_rounding(frame) * largest + level
 }
 
 /// Draws all that is drawn beside shaded colours, and the method that is chosen: none of it may panic.

@@ -1,7 +1,7 @@
 //! Every way in which this machine can draw a frame: the span engine, the row engine on each
 //! instruction set, threads.
 
-use fastphong::frame::Frame;
+use fastphong::frame::{DepthRange, Frame};
 use fastphong::picture::Picture;
 use fastphong::raster::Renderer;
 use fastphong::reference::Visibility;
@@ -65,7 +65,12 @@ pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) ->
         }
         HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => 0.0,
     };
-    visibility.depth_gap.get(x, y) > depth_rounding(frame) + levels
+    // Under perspective 1/w is rounded, and z is f/(f − n) (1 − n/w).
+    let gain = match frame.depth_range() {
+        DepthRange::Perspective { near, far } => far / (far - near),
+        DepthRange::Orthographic { .. } => 1.0,
+    };
+    visibility.depth_gap.get(x, y) > gain * depth_rounding(frame) + levels
 }
 
 /// Returns the error bound of the difference of two depths in 0..=1.
