@@ -122,7 +122,7 @@ pub struct FrameStats {
     /// Cut by the near plane, the far plane or the guard band.
     pub clipped: usize,
     /// Left out because a corner has no place on the picture: under [`Clipping::NdcCube`], or where a polygon reaches so far that
-    /// a cut is rounded to beyond its plane, or its 1/w to 0.
+    /// a cut is rounded to beyond its plane, or its 1/w is no `f32`.
     pub unprojected: usize,
 }
 

@@ -95,7 +95,7 @@ impl fmt::Display for FrameError {
             FrameError::Vertex { index } => {
                 write!(
                     f,
-                    "vertex {index} is outside the guard band of {} pixels, not finite, or so far away that its 1/w is 0",
+                    "vertex {index} is outside the guard band of {} pixels, not finite, or so far away that its 1/w is 0 in 32 bits",
                     Frame::GUARD
                 )
             }

@@ -28,7 +28,8 @@ pub struct DrawOptions<'a> {
     /// What becomes of pixels that nothing covers.
     pub background: Background,
     /// A depth buffer of the caller's: [`Frame::width`] × [`Frame::height`] numbers, one a sample, row by row from the top. They are
-    /// screen depths as [`Vertex::depth`](crate::frame::Vertex::depth) is, infinite or 1 where there is nothing yet. A sample is drawn
+    /// depths as [`Vertex::depth`](crate::frame::Vertex::depth) is: −1/w under perspective, else from 0 to 1; infinite where there is
+    /// nothing yet. A sample is drawn
     /// where its depth is less than the number, which then becomes its depth: so several frames share a picture, and
     /// a rasterizer of one's own may draw between them. Wants a frame with a depth buffer of 32 bits.
     pub depth: Option<&'a mut [f32]>,

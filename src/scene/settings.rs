@@ -61,7 +61,8 @@ pub enum DepthBits {
     Sixteen,
     /// The whole number round(z · (2²⁴ − 1)), halves up.
     TwentyFour,
-    /// z as an `f32`; the reference keeps it as an `f64`.
+    /// An `f32`, which the reference keeps as an `f64`: z under an orthographic camera, and −1/w under perspective, which has
+    /// z's order and the same relative precision at every distance ([`Vertex::depth`](crate::frame::Vertex::depth)).
     #[default]
     ThirtyTwo,
 }
@@ -80,7 +81,7 @@ impl DepthBits {
 /// The computation of depth at a sample (L5 *Z-value Computation*): both ways give the same numbers but for rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DepthSource {
-    /// The second way: z/w is computed at the corners and interpolated linearly on the screen.
+    /// The second way: depth is computed at the corners and interpolated linearly on the screen.
     #[default]
     Interpolated,
     /// The first way: what is interpolated is 1/w (orthographic: the distance), and depth is computed from it anew at
@@ -91,10 +92,10 @@ pub enum DepthSource {
 /// By what the painter's algorithm sorts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PainterKey {
-    /// The mean depth (z/w) of the corners.
+    /// The mean depth of the corners.
     #[default]
     Mean,
-    /// The depth (z/w) of the farthest corner.
+    /// The depth of the farthest corner.
     Farthest,
 }
 

@@ -749,11 +749,14 @@ fn all_that_see(frame: &Frame) -> Vec<(String, Picture<u32>)> {
 /// are 10⁹ times, and up to 10³⁰ times, as far away as one another; also where they are oblique.
 #[test]
 fn walls_are_told_apart_at_every_distance() {
+    // Set FASTPHONG_APART to find out how near is too near.
+    let apart =
+        std::env::var("FASTPHONG_APART").map_or(1e-4, |text| text.parse().expect("a number"));
     let far_away = [1e-3, 0.02, 1.0, 6.0, 250.0, 1e4, 8e5].map(|w| (w, 0.9e-3, 1e6));
     let very_near = [(6.0, 1e-7, 100.0), (6.0, 1e-20, 1e10), (1e4, 1e-12, 3e4)];
     for (distance, near, far) in far_away.into_iter().chain(very_near) {
         for slope in [0.0, 0.3] {
-            let mut scene = walls(distance, 1e-4, slope);
+            let mut scene = walls(distance, apart, slope);
             (scene.camera.near, scene.camera.far) = (near, far);
             for source in [DepthSource::Interpolated, DepthSource::PerSample] {
                 scene.hidden_surfaces = buffer(DepthBits::ThirtyTwo, source);
