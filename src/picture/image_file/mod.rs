@@ -216,6 +216,7 @@ impl FilePicture {
                 let stated = png::Stated {
                     encoding: self.encoding,
                     background: self.background,
+                    software: true,
                 };
                 png::write(picture, stated, out)
             }

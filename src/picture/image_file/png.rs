@@ -35,6 +35,8 @@ pub(super) struct Stated {
     pub encoding: Option<Encoding>,
     /// The background, in grey levels, for `bKGD`.
     pub background: Option<[f64; 3]>,
+    /// True if the file names this program as its software.
+    pub software: bool,
 }
 
 /// Returns the bytes of a PNG file: 8 bits of red, green, blue, straight alpha, as they are stored. It states no encoding, so
@@ -55,7 +57,7 @@ pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
 /// Bytes of compressed pixels in a chunk: a file is written as it is compressed, and is never in memory as a whole.
 const PIECE: usize = 1 << 17;
 
-/// Writes a PNG file with the chunks that state more about it, and the name of this program.
+/// Writes a PNG file with the chunks that state more about it.
 ///
 /// # Errors
 /// If the picture does not fit ([`EncodeError`], inside), and those of `out`.
@@ -75,7 +77,9 @@ pub(super) fn write(picture: &Picture8, stated: Stated, out: impl Write) -> io::
             }
             None => {}
         }
-        encoder.add_text_chunk("Software".into(), env!("CARGO_PKG_NAME").into())?;
+        if stated.software {
+            encoder.add_text_chunk("Software".into(), env!("CARGO_PKG_NAME").into())?;
+        }
         let mut writer = encoder.write_header()?;
         if let Some(background) = stated.background {
             // Three samples of two bytes, whatever the depth (11.3.4.1).
