@@ -84,7 +84,7 @@ impl DiffArgs {
         let found = Found::of(&pair, self.flip)?;
         if let Some(output) = &output {
             let map = self.map(&pair, found.flip.as_ref())?;
-            output.write_picture(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
+            output.write_encoded(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
         }
         let sizes = [reference.size(), actual.size()];
         let difference = found.difference.as_ref();

@@ -221,11 +221,11 @@ impl Output {
         }
     }
 
-    /// Writes a picture; a file whole or not at all.
+    /// Writes a picture in its format; a file whole or not at all.
     ///
     /// # Errors
     /// As [`Output::write`].
-    pub fn write_picture(&self, picture: &FilePicture) -> Result<(), CliError> {
+    pub fn write_encoded(&self, picture: &FilePicture) -> Result<(), CliError> {
         let format = self.format().expect("an output of a picture");
         self.write(|out| picture.write_to(format, out))
     }

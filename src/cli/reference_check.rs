@@ -109,7 +109,7 @@ impl ReferenceCheck<'_> {
         let map = FilePicture::stored(difference_map(&r, &a, SCALE)?).encoded(Encoding::Srgb);
         let map_path = sibling(&candidate, reference, "diff", Format::Png);
         self.beside(map_path.clone(), Format::Png)
-            .write_picture(&map)?;
+            .write_encoded(&map)?;
         let found = match pair.is_one_size() {
             true => self.difference_text(&difference),
             false => {
@@ -171,7 +171,7 @@ impl ReferenceCheck<'_> {
             return Ok(path.to_owned());
         }
         let path = sibling(self.reference, self.reference, "actual", format);
-        self.beside(path.clone(), format).write_picture(actual)?;
+        self.beside(path.clone(), format).write_encoded(actual)?;
         Ok(path)
     }
 

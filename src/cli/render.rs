@@ -316,7 +316,7 @@ fn write(
         let picture = job.picture(format);
         progress.aside(|| log.duration("shaded", started));
         progress.at(0.75, "writing");
-        output.write_picture(&picture)?;
+        output.write_encoded(&picture)?;
     }
     if let Some(path) = output.path() {
         let ([width, height], path, shown) = (job.size(), path.display(), &job.name);
