@@ -14,14 +14,31 @@ fn main() -> ExitCode {
             cli::log::to_stderr(cli::FIRST_STEPS);
             return ExitCode::from(2);
         }
-        // Help and version are no errors: they go to standard output, with exit code 0.
+        Err(message) if message.use_stderr() => {
+            cli::log::to_stderr(&text(&message, cli::log::colour()));
+            return ExitCode::from(2);
+        }
+        // Help and version are no errors but results.
         Err(message) => {
-            // Nobody is left to be told when this cannot be written.
-            let _ = message.print();
-            return u8::try_from(message.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from);
+            let is_coloured = cli::log::is_coloured(&std::io::stdout());
+            return end(cli::log::done(&text(&message, is_coloured)));
         }
     };
-    match cli.run() {
+    end(cli.run())
+}
+
+/// Returns the text of a message of the parser.
+fn text(message: &clap::Error, is_coloured: bool) -> String {
+    let text = message.render();
+    match is_coloured {
+        true => text.ansi().to_string(),
+        false => text.to_string(),
+    }
+}
+
+/// Prints the error, if there is one, and returns the exit code.
+fn end(outcome: Result<cli::Outcome, cli::CliError>) -> ExitCode {
+    match outcome {
         Ok(cli::Outcome::Done) => ExitCode::SUCCESS,
         Ok(cli::Outcome::Differs) => ExitCode::from(1),
         Err(error) => {

@@ -1,9 +1,10 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
 use super::engines::{self, ScanlineEngine, Simd, SimdList, ThreadFlags, renderer};
-use super::files::{self, Destination};
 use super::frame_times::{FrameCount, frame_times};
+use super::input_name;
 use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
+use super::output::{self, Contents, Output};
 use super::scene_flags::SceneFlags;
 use super::span_times::span_times;
 use super::{CliError, Log, Outcome, done};
@@ -18,7 +19,7 @@ use std::path::PathBuf;
 #[derive(clap::Args, Debug)]
 pub struct BenchArgs {
     /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for standard input [default: all shipped scenes]
-    #[arg(value_name = "INPUT")]
+    #[arg(value_name = "INPUT", value_parser = input_name::parser())]
     inputs: Vec<String>,
     #[command(flatten)]
     timing: TimingFlags,
@@ -51,21 +52,19 @@ pub struct BenchArgs {
 impl BenchArgs {
     /// Times, and prints the tables.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
-        let file = self.json.as_deref().filter(|path| path.as_os_str() != "-");
-        let file = file.map(|path| Destination {
-            name: "--json",
-            path,
-        });
-        let destinations: Vec<_> = file.into_iter().collect();
+        let json_to = self.json.as_deref();
+        let json_to = json_to.map(|path| Output::new("--json", path, Contents::Json));
+        let outputs: Vec<&Output> = json_to.iter().collect();
         let measurement = Measurement {
             inputs: &named_or_shipped(&self.inputs),
             scene: &self.scene,
             renderers: &self.renderers()?,
             threads: self.threads,
             log,
-            destinations: &destinations,
+            outputs: &outputs,
         };
         let (text, json) = if self.spans {
+            output::check(&outputs)?;
             span_times(&self.timing.methods, log)?
         } else if self.frame_times {
             frame_times(&measurement, &self.timing.methods, self.count)?
@@ -76,10 +75,11 @@ impl BenchArgs {
             let text = format!("{}\n\n{tables}", Machine::this().line());
             (text, Document::new(command_line(), comparisons).to_text())
         };
-        match file {
-            Some(file) => files::write(file, |out| out.write_all(json.as_bytes()))?,
-            None if self.json.is_some() => return done(&json),
-            None => {}
+        if let Some(json_to) = json_to {
+            json_to.write_text(&json)?;
+            if json_to.is_stdout() {
+                return Ok(Outcome::Done);
+            }
         }
         done(&text)
     }

@@ -1,6 +1,7 @@
 //! `fastphong compare`: error and speed of methods on one scene, as a table.
 
 use super::engines::LectureFlags;
+use super::input_name;
 use super::measured::{Measurement, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
 use super::{CliError, Log, Outcome, done};
@@ -12,6 +13,7 @@ use fastphong::report::Document;
 #[derive(clap::Args, Debug)]
 pub struct CompareArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    #[arg(value_parser = input_name::parser())]
     input: String,
     #[command(flatten)]
     timing: TimingFlags,
@@ -38,7 +40,7 @@ impl CompareArgs {
             renderers: &[renderer],
             threads: self.drawn.threads,
             log,
-            destinations: &[],
+            outputs: &[],
         };
         let comparisons = self.timing.compare(&measurement, perceives)?;
         let kind = match self.all_columns {

@@ -1,18 +1,18 @@
 //! `fastphong diff`: two picture files, in numbers and as a map.
 
-use super::output::{Output, print_beside};
+use super::output::{self, Output, print_beside};
 use super::reference_check::{
     SCALE, alpha_text, has_two_encodings, largest_difference, not_finite_text,
 };
 use super::text::measured;
-use super::{CliError, Log, Outcome, files, values};
+use super::{CliError, Log, Outcome, files, memory, values};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare, difference_map, flip_colours, flip_map, mean_flip,
     signed_difference_map, ssim,
 };
 use fastphong::compare::table::aligned;
-use fastphong::picture::Encoding;
 use fastphong::picture::image_file::{FilePicture, Pair, read_picture_from};
+use fastphong::picture::{Encoding, Picture, Picture8};
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -52,8 +52,10 @@ pub struct DiffArgs {
 impl DiffArgs {
     /// Compares, prints, and writes the map.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
-        let output = self.output.as_deref().map(|path| Output::new(path, None));
+        let output = self.output.as_deref();
+        let output = output.map(|path| Output::of_picture(path, None));
         let output = output.transpose()?;
+        let outputs: Vec<&Output> = output.iter().collect();
         let paths = self.paths();
         if paths.iter().all(|path| path.as_os_str() == "-") {
             let expected = "expected a file for one of the pictures";
@@ -66,8 +68,7 @@ impl DiffArgs {
                 false => files::will_read(path, part),
             }
         }
-        let to = output.as_ref().map(Output::place);
-        files::check(to.map(Output::destination).as_slice())?;
+        output::check(&outputs)?;
         let [reference, actual] = parts.map(|(path, part)| read(path, part));
         let (reference, actual) = (reference?, actual?);
         for (path, picture) in paths.iter().zip([&reference, &actual]) {
@@ -79,52 +80,50 @@ impl DiffArgs {
         if let Some(text) = alpha_text(&pair, paths.map(Path::display)) {
             log.warning(&text);
         }
-        let [width, height] = pair.common_size();
-        let is_perceived = width * height <= MAX_PERCEIVED;
-        if self.flip && !is_perceived {
-            let problem = format!("{width}x{height} pixels are too many");
-            return Err(format!("--flip: {problem}: expected at most {MAX_PERCEIVED}").into());
-        }
-        let [r, a] = pair.compared();
-        let mut difference = compare(&r, &a)?;
-        let [seen, other] = pair.displayed();
-        difference.ssim = ssim(&seen, &other)?;
-        let flip = is_perceived.then(|| flip_map(&seen, &other)).transpose()?;
-        difference.flip = flip.as_ref().map(mean_flip);
+        memory::check_pair(&pair)?;
+        let found = Found::of(&pair, self.flip)?;
         if let Some(output) = &output {
-            let map = match (&flip, self.signed) {
-                (Some(flip), _) if self.flip => flip_colours(flip),
-                (_, true) => signed_difference_map(&r, &a, self.scale)?,
-                (_, false) => difference_map(&r, &a, self.scale)?,
-            };
-            output.write(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
+            let map = self.map(&pair, found.flip.as_ref())?;
+            output.write_encoded(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
         }
         let sizes = [reference.size(), actual.size()];
-        let text = match self.json {
-            true => format!("{:#}\n", self.json(&difference, &pair, sizes)),
-            false => {
-                let mut text = table(&difference, pair.is_one_size());
-                if !is_perceived {
+        let difference = found.difference.as_ref();
+        let text = match (self.json, difference) {
+            (true, _) => format!("{:#}\n", self.json(difference, &pair, sizes)),
+            (false, None) => self.encodings_text(&pair) + &self.sizes_text(&pair, sizes),
+            (false, Some(difference)) => {
+                let mut text = table(difference);
+                if found.flip.is_none() {
                     text += &format!("ssim and flip are left out: over {MAX_PERCEIVED} pixels\n");
                 }
-                text + &self.encodings_text(&pair) + &sizes_text(&pair, sizes)
+                text + &self.encodings_text(&pair)
             }
         };
-        print_beside(output.as_ref(), &text)?;
-        if !pair.is_one_size() {
+        print_beside(&outputs, &text)?;
+        let Some(difference) = difference else {
             log.note("the pictures differ in size");
             return Ok(Outcome::Differs);
-        }
-        let found = largest_difference(&difference);
+        };
+        let found = largest_difference(difference);
         let Some(most) = self.fail_above.filter(|most| found > *most) else {
             return Ok(Outcome::Done);
         };
         let by = match found.is_finite() {
             true => format!("by {} grey levels, more than {most}", measured(found)),
-            false => not_finite_text(&difference),
+            false => not_finite_text(difference),
         };
         log.note(&format!("the pictures differ {by}"));
         Ok(Outcome::Differs)
+    }
+
+    /// Draws the map, of the part that both pictures have; `flip` is what a viewer sees there.
+    fn map(&self, pair: &Pair<'_>, flip: Option<&Picture<f32>>) -> Result<Picture8, CliError> {
+        let [r, a] = pair.compared();
+        Ok(match (flip, self.signed) {
+            (Some(flip), _) if self.flip => flip_colours(flip),
+            (_, true) => signed_difference_map(&r, &a, self.scale)?,
+            (_, false) => difference_map(&r, &a, self.scale)?,
+        })
     }
 
     fn paths(&self) -> [&Path; 2] {
@@ -148,18 +147,33 @@ impl DiffArgs {
         format!("encodings: {reference}; {actual}{encoded}\n")
     }
 
-    /// Returns the numbers as data.
-    fn json(&self, difference: &Difference, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> Value {
+    /// Says that the sizes differ, and which part a map shows.
+    fn sizes_text(&self, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
+        let sizes = [sizes[0], sizes[1], pair.common_size()];
+        let [reference, actual, common] = sizes.map(|[width, height]| format!("{width}x{height}"));
+        let found = format!("the reference has {reference} pixels, the picture {actual}");
+        let mapped = match self.output {
+            Some(_) => format!("; the map shows the upper left part that both have, {common}"),
+            None => String::new(),
+        };
+        format!("the sizes differ: {found}{mapped}\n")
+    }
+
+    /// Returns the numbers as data; without metrics for pictures of different size.
+    fn json(
+        &self,
+        difference: Option<&Difference>,
+        pair: &Pair<'_>,
+        sizes: [[usize; 2]; 2],
+    ) -> Value {
         // JSON has neither infinity nor NaN: they become null.
-        let metrics = METRICS
-            .iter()
-            .map(|m| (m.name, json!((m.value)(difference))));
+        let metrics = METRICS.iter();
+        let metrics = metrics.map(|m| (m.name, json!(difference.map(|found| (m.value)(found)))));
         let ([width, height], [reference_size, actual_size]) = (pair.common_size(), sizes);
         let [reference_encoding, actual_encoding] = pair.encodings();
-        let is_failed = |most| !pair.is_one_size() || largest_difference(difference) > most;
-        let failed = match pair.is_one_size() {
-            true => self.fail_above.map(is_failed),
-            false => Some(true),
+        let failed = match difference {
+            Some(found) => self.fail_above.map(|most| largest_difference(found) > most),
+            None => Some(true),
         };
         json!({
             "schema": "fastphong.diff/1",
@@ -174,8 +188,8 @@ impl DiffArgs {
             "actual_encoding": actual_encoding.encoding,
             "actual_encoding_assumed": !actual_encoding.is_stated,
             "compared_encoding": pair.compared_encoding(),
-            "equal": difference.equal && pair.is_one_size(),
-            "worst": difference.worst,
+            "equal": difference.is_some_and(|found| found.equal),
+            "worst": difference.and_then(|found| found.worst),
             "metrics": metrics.collect::<Value>(),
             "fail_above": self.fail_above,
             "failed": failed,
@@ -202,19 +216,46 @@ fn encoding(text: &str) -> Result<Encoding, String> {
     named.ok_or_else(|| "expected linear or srgb".to_owned())
 }
 
-/// Says that the sizes differ, if they do.
-fn sizes_text(pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
-    if pair.is_one_size() {
-        return String::new();
+/// What a comparison finds.
+struct Found {
+    /// `None` for pictures of different size: numbers of a corner that both have say nothing about the pictures.
+    difference: Option<Difference>,
+    /// What a viewer sees where the pictures alternate, if it is computed.
+    flip: Option<Picture<f32>>,
+}
+
+impl Found {
+    /// Compares a pair; of pictures of different size, finds only what a map needs, which is of FLIP if `maps_flip`.
+    ///
+    /// # Errors
+    /// When there are too many pixels for a map of FLIP.
+    fn of(pair: &Pair<'_>, maps_flip: bool) -> Result<Found, CliError> {
+        let [width, height] = pair.common_size();
+        let is_perceived = width * height <= MAX_PERCEIVED;
+        if maps_flip && !is_perceived {
+            let problem = format!("{width}x{height} pixels are too many");
+            return Err(format!("--flip: {problem}: expected at most {MAX_PERCEIVED}").into());
+        }
+        let [seen, other] = pair.displayed();
+        let flip = is_perceived && (maps_flip || pair.is_one_size());
+        let flip = flip.then(|| flip_map(&seen, &other)).transpose()?;
+        if !pair.is_one_size() {
+            let difference = None;
+            return Ok(Found { difference, flip });
+        }
+        let [r, a] = pair.compared();
+        let difference = Difference {
+            ssim: ssim(&seen, &other)?,
+            flip: flip.as_ref().map(mean_flip),
+            ..compare(&r, &a)?
+        };
+        let difference = Some(difference);
+        Ok(Found { difference, flip })
     }
-    let sizes = [sizes[0], sizes[1], pair.common_size()];
-    let [reference, actual, common] = sizes.map(|[width, height]| format!("{width}x{height}"));
-    let found = format!("the reference has {reference} pixels, the picture {actual}");
-    format!("the sizes differ: {found}; compared is the upper left part, {common}\n")
 }
 
 /// Returns the numbers as a table.
-fn table(difference: &Difference, is_one_size: bool) -> String {
+fn table(difference: &Difference) -> String {
     let value = |value: Option<f64>| match value {
         None => "-".to_owned(),
         Some(value) if value == value.round() && value.abs() < 1e15 => format!("{value:.0}"),
@@ -227,7 +268,7 @@ fn table(difference: &Difference, is_one_size: bool) -> String {
     let mut text = aligned(&rows.collect::<Vec<_>>(), &[0, 2, 3]);
     if let Some([x, y]) = difference.worst {
         text += &format!("the largest difference is at column {x}, row {y}\n");
-    } else if difference.equal && is_one_size {
+    } else if difference.equal {
         text += "the pictures are equal\n";
     }
     if difference.not_finite_differing > 0 {

@@ -225,25 +225,45 @@ impl RenderJob {
                     variant.render_rows(&self.frame, *renderer, |pixels| file.pixels(pixels));
                 drawn.map_err(io::Error::other)??;
             }
-            _ => file.pixels(self.drawn(false).to_stored().pixels())?,
+            _ => match self.drawn(false).pixels {
+                FilePixels::Stored(picture) => file.pixels(picture.pixels())?,
+                _ => unreachable!("it is drawn in 8 bits"),
+            },
         }
         file.finish()
     }
 
-    /// Returns about how many bytes the picture needs beside the frame, where it is computed in `f64`; else 0, as little more than
-    /// the picture itself is in memory.
-    pub fn memory_needed(&self) -> u64 {
-        // The reference keeps polygon, depth and gap of each sample, twice while it shades; CS171 a depth buffer.
-        let a_sample = match self.content {
-            PictureContent::Reference(_) => 32 + 2 * (4 + 8 + 8),
-            PictureContent::Cs171(..) => 32 + 8,
-            _ => return 0,
-        };
+    /// Returns about how many bytes the picture needs beside the frame and the engine, until a file of `format` is written.
+    pub fn memory_needed(&self, format: Format) -> u64 {
         let samples = (self.frame.width() * self.frame.height()) as u64;
-        let filtered = if self.frame.samples() > 1 { 32 } else { 0 };
         let pixels = self.size().map(|side| side as u64).iter().product::<u64>();
-        // As stored, and packed for the file.
-        a_sample * samples + (filtered + 4 + 4) * pixels
+        let filtered = if self.frame.samples() > 1 { 32 } else { 0 };
+        let (linear, stored) = (16, 4);
+        let [a_sample, a_pixel] = match &self.content {
+            PictureContent::Scanlines(variant, renderer) => {
+                let renderer = variant.plan(&self.frame, *renderer).renderer();
+                match format {
+                    Format::Pfm => [0, linear],
+                    Format::Png => [0, stored],
+                    // Rows are written as they are drawn.
+                    Format::Ppm if matches!(renderer, Some(Renderer::Row(_))) => [0, 0],
+                    Format::Ppm => [0, stored],
+                }
+            }
+            // Colour and depth of each sample.
+            PictureContent::Barycentric(..) => [linear + 4, linear + stored],
+            // In `f64`, with a depth buffer; then in `f32`, then stored.
+            PictureContent::Cs171(..) => [32 + 8, filtered + linear + stored],
+            // The reference keeps polygon, depth and gap of each sample, twice while it shades.
+            PictureContent::Reference(_) => [32 + 2 * (4 + 8 + 8), filtered + 2 * stored],
+            PictureContent::Aov(..) => [0, linear + 2 * stored],
+        };
+        a_sample * samples + a_pixel * pixels
+    }
+
+    /// Returns the frame.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
     }
 
     /// Returns width and height of the picture in pixels.

@@ -245,6 +245,26 @@ pub fn threads(text: &str) -> Result<usize, String> {
     number(text, expected, |n| (1..=MOST_THREADS).contains(n))
 }
 
+/// The variables by which rayon takes the number of threads where no flag gives it; the second is its older name.
+const THREAD_VARIABLES: [&str; 2] = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"];
+
+/// Refuses a number of threads that the environment gives and `--threads` would not take. What is no number, or 0, rayon passes over.
+///
+/// # Errors
+/// When there are too many.
+pub fn check_environment() -> Result<(), CliError> {
+    for name in THREAD_VARIABLES {
+        let value = std::env::var_os(name).unwrap_or_default();
+        let value = value.to_string_lossy();
+        let digits = value.strip_prefix('+').unwrap_or(&value);
+        let is_whole = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+        if is_whole && digits.bytes().any(|byte| byte != b'0') {
+            threads(&value).map_err(|expected| format!("{name}={value}: {expected}"))?;
+        }
+    }
+    Ok(())
+}
+
 impl ThreadFlags {
     /// Starts as many threads as asked for.
     ///

@@ -1,15 +1,15 @@
 //! `fastphong figure`: figures of the lectures, made anew, as one page.
 
-use super::files::{self, Destination};
 use super::measured::command_line;
-use super::output::Output;
+use super::output::{self, Contents, ForceFlag, Output, print_beside};
 use super::progress::Progress;
-use super::{CliError, Log, Outcome, done};
+use super::{CliError, Log, Outcome};
 use fastphong::lectures::{FIGURES, Figure};
+use fastphong::picture::image_file::Format;
 use fastphong::report::{Document, FigureData, Report};
 use rayon::prelude::*;
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Redraw the lectures' figures, with measured values beside them, as one page
@@ -21,13 +21,15 @@ pub struct FigureArgs {
     /// All figures
     #[arg(long, conflicts_with = "names")]
     all: bool,
-    /// Page to write; its folder is made if there is none [default: report/figures/NAME.html, or index.html there for
-    /// several]
+    /// Page to write, `-` for standard output; its folder is made if there is none [default: report/figures/NAME.html, or
+    /// index.html there for several]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Also write the pictures as PNG files into this folder
     #[arg(long, value_name = "FOLDER")]
     pictures: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceFlag,
 }
 
 impl FigureArgs {
@@ -37,35 +39,43 @@ impl FigureArgs {
             true => FIGURES.to_vec(),
             false => distinct(self.names.clone()),
         };
-        let page = match (&self.output, &figures[..]) {
-            (Some(file), _) => file.clone(),
-            (None, [one]) => format!("report/figures/{}.html", one.name).into(),
-            (None, _) => "report/figures/index.html".into(),
+        let default = || match &figures[..] {
+            [one] => format!("report/figures/{}.html", one.name),
+            _ => "report/figures/index.html".to_owned(),
         };
-        page_folder(&page)?;
-        if let Some(folder) = &self.pictures {
-            make_folder(folder)?;
+        let page = Output::page(self.output.as_deref(), default, self.force);
+        let folder = self.pictures.as_deref();
+        let folder = folder.map(|folder| output::folder("--pictures", folder));
+        let folder = folder.transpose()?;
+        output::check(&[&page])?;
+        page.make_folder()?;
+        if let Some(folder) = folder {
+            output::make_folder(folder)?;
         }
         let progress = Progress::watched(log);
         let mut document = Document::new(command_line(), Vec::new());
         document.figures = draw_figures(&figures, &|part, name| progress.at(part, name))?;
         drop(progress);
         let report = Report::new(&document, Vec::new())?;
-        let to = Output::destination(&page);
-        files::write(to, |out| out.write_all(report.html().as_bytes()))?;
-        let mut written = format!("{}\n", page.display());
-        if let Some(folder) = &self.pictures {
-            for (name, png) in report.figure_files() {
+        let contents = Contents::Picture(Format::Png);
+        let pictures = folder.into_iter().flat_map(|folder| {
+            let files = report.figure_files();
+            files.map(|(name, png)| {
                 let path = folder.join(name);
-                let to = Destination {
-                    name: "--pictures",
-                    path: &path,
-                };
-                files::write(to, |out| out.write_all(png))?;
-                written += &format!("{}\n", path.display());
-            }
+                let output = Output::chosen("--pictures", path, contents, self.force);
+                (output, png)
+            })
+        });
+        let pictures: Vec<_> = pictures.collect();
+        let all = std::iter::once(&page).chain(pictures.iter().map(|(output, _)| output));
+        let all: Vec<&Output> = all.collect();
+        output::check(&all)?;
+        page.write_text(&report.html())?;
+        for (output, png) in &pictures {
+            output.write_bytes(png)?;
         }
-        done(&written)
+        print_beside(&all, &output::written(&all))?;
+        Ok(Outcome::Done)
     }
 }
 
@@ -97,22 +107,4 @@ pub fn draw_figures(
         Ok(FigureData { figure, content })
     };
     figures.par_iter().map(draw).collect()
-}
-
-/// Returns the folder of a page, made if need be.
-pub fn page_folder(page: &Path) -> Result<PathBuf, CliError> {
-    let folder = page.parent().unwrap_or(Path::new("")).to_owned();
-    let refused = |reason: &str| format!("{}: cannot be written: {reason}", page.display());
-    if page.file_name().is_none() || page.is_dir() {
-        let reason = "it is a folder: expected a file, such as report/index.html";
-        return Err(refused(reason).into());
-    }
-    std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;
-    Ok(folder)
-}
-
-/// Makes a folder, if there is none.
-pub fn make_folder(folder: &Path) -> Result<(), CliError> {
-    let refused = |error| format!("{}: cannot be made: {error}", folder.display());
-    Ok(std::fs::create_dir_all(folder).map_err(refused)?)
 }

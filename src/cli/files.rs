@@ -6,7 +6,8 @@
 //!
 //! `--watch` looks at the same list ([`wait_for_change`]): a file that is not there, or was there, is in it like any other.
 
-use super::{CliError, signals};
+use super::input_name::{is_stand_in, path_behind};
+use super::{CliError, memory, signals};
 use fastphong::picture::image_file::{
     FilePicture, ImageFileError, end_of_links, read_picture, write_file_by,
 };
@@ -115,6 +116,11 @@ pub fn will_read(path: &Path, part: &'static str) {
     }
 }
 
+/// True if a file of this name is registered.
+fn is_read(path: &Path) -> bool {
+    files().read.iter().any(|file| file.path == path)
+}
+
 /// Registers standard input, which is going to be read as `part` of the command.
 pub fn will_read_stdin(part: &'static str) {
     will_read(Path::new(STDIN), part);
@@ -131,13 +137,14 @@ pub fn will_read_of_scene(path: &Path) {
     will_read(path, part);
 }
 
-/// Reads a file that a scene is made of.
-fn read_of_scene(path: &Path) -> io::Result<Vec<u8>> {
-    match path.as_os_str() == STANDARD_INPUT {
+/// Reads a file that a scene is made of, by the name that it has there.
+fn read_of_scene(name: &Path) -> io::Result<Vec<u8>> {
+    let path = path_behind(name);
+    match name.as_os_str() == STANDARD_INPUT {
         true => will_read_stdin("the input"),
-        false => will_read_of_scene(path),
+        false => will_read_of_scene(&path),
     }
-    read_input(path)
+    read_input(&path)
 }
 
 /// Loads the scene that `input` names, as [`input::load`] does; on standard input it has `format`. Its mesh files are registered,
@@ -148,21 +155,32 @@ fn read_of_scene(path: &Path) -> io::Result<Vec<u8>> {
 pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, SceneError> {
     let file = match input {
         STANDARD_INPUT => input::load_standard_input(format, &mut read_of_scene)?,
+        // Under a name that is no file's, which is why only its ending is asked.
+        name if is_stand_in(name) && has_ending(name, "toml") => {
+            SceneFile::load_by(Path::new(name), &mut read_of_scene)?
+        }
+        name if is_stand_in(name) => SceneFile::for_mesh(name),
         input => input::load_by(input, &mut read_of_scene)?,
     };
     let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
     for mesh in file.meshes().filter(|mesh| input::is_mesh_file(mesh)) {
-        will_read_of_scene(&folder.join(mesh));
+        will_read_of_scene(&path_behind(&folder.join(mesh)));
     }
     Ok(file)
+}
+
+fn has_ending(name: &str, ending: &str) -> bool {
+    let found = Path::new(name).extension();
+    found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
 /// Returns the scene that `file` describes, as [`input::resolve`] does.
 ///
 /// # Errors
-/// As [`input::resolve`].
-pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
-    input::resolve_by(file, &mut read_of_scene)
+/// As [`input::resolve`], and when there is too little memory for its meshes.
+pub fn resolve(file: &SceneFile) -> Result<Resolved, CliError> {
+    memory::check_meshes(file)?;
+    Ok(input::resolve_by(file, &mut read_of_scene)?)
 }
 
 /// Returns the files that `file` was made of, mesh files and material libraries, named as from the folder of the scene; `None` if a
@@ -181,14 +199,15 @@ pub fn of_scene(file: &SceneFile, most: u64) -> Option<Vec<(String, Vec<u8>)>> {
     }
     // Judged before they are read: a pipe has nothing more to say.
     let is_small = |mesh: &str| {
-        fs::metadata(folder.join(mesh)).is_ok_and(|file| file.is_file() && file.len() <= most)
+        let path = path_behind(&folder.join(mesh));
+        fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() <= most)
     };
     if !meshes.all(is_small) {
         return None;
     }
     let mut read = Vec::new();
     let resolved = input::resolve_by(file, &mut |path| {
-        let bytes = read_input(path)?;
+        let bytes = read_input(&path_behind(path))?;
         let name = path.strip_prefix(folder).unwrap_or(path);
         read.push((name.to_string_lossy().into_owned(), bytes.clone()));
         Ok(bytes)
@@ -208,15 +227,25 @@ pub fn picture(path: &Path, part: &'static str) -> Result<FilePicture, ImageFile
 /// The largest document that is read, in bytes: those of all shipped scenes have about 1 MB.
 const LARGEST: u64 = 1 << 28;
 
-/// Reads a document of at most [`LARGEST`] bytes, from a device that never ends as well.
+/// Reads a document of at most [`LARGEST`] bytes, from a device that never ends as well, and from standard input if the path is
+/// `-`.
 ///
 /// # Errors
 /// When it cannot be read, has more bytes, or is no text.
 pub fn document(path: &Path) -> io::Result<String> {
-    will_read(path, "the document");
+    const PART: &str = "the document";
     let mut bytes = Vec::new();
-    let file = fs::File::open(path)?;
-    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    let mut limited = |input: &mut dyn Read| input.take(LARGEST + 1).read_to_end(&mut bytes);
+    if path.as_os_str() == STANDARD_INPUT {
+        if is_read(Path::new(STDIN)) {
+            return Err(io::Error::other("standard input holds one document"));
+        }
+        will_read_stdin(PART);
+        limited(&mut io::stdin().lock())?;
+    } else {
+        will_read(path, PART);
+        limited(&mut fs::File::open(path)?)?;
+    }
     if bytes.len() as u64 > LARGEST {
         let problem = format!("it has more than {LARGEST} bytes: expected a file of `--json`");
         return Err(io::Error::other(problem));
@@ -226,6 +255,16 @@ pub fn document(path: &Path) -> io::Result<String> {
         .ok()
         .filter(|text| !text.contains('\0'));
     text.ok_or_else(|| io::Error::other("it is no text in UTF-8: expected a file of `--json`"))
+}
+
+/// Returns the first `most` bytes of the plain file at `path`: none of one that cannot be read, `None` if there is no such file.
+pub fn beginning(path: &Path, most: u64) -> Option<Vec<u8>> {
+    if !fs::metadata(path).ok()?.is_file() {
+        return None;
+    }
+    let mut bytes = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes));
+    Some(read.map(|_| bytes).unwrap_or_default())
 }
 
 /// Refuses to write to a file that is read, and to write twice to one file.

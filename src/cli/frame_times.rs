@@ -3,7 +3,7 @@
 
 use super::measured::{Measurement, command_line};
 use super::values::number;
-use super::{CliError, Log};
+use super::{CliError, Log, memory};
 use fastphong::compare::timing::{Machine, Timing};
 use fastphong::frame::PreparedScene;
 use fastphong::picture::Picture8;
@@ -111,6 +111,7 @@ impl FrameTime {
             return Ok(None);
         }
         let drawn_by = plan.renderer().unwrap_or(renderer);
+        memory::check_stored(&frame, &variant.to_string())?;
         let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         let mut samples = Vec::with_capacity(count.frames);
         for number in 0..count.warmup + count.frames {

@@ -1,10 +1,11 @@
 //! `fastphong info`: the parts of a scene or a mesh, with their facts.
 
+use super::input_name;
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::normals::describe;
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped, wrapped};
-use super::{CliError, Log, Outcome, done, files};
+use super::{CliError, Log, Outcome, done, files, memory};
 use fastphong::frame::Frame;
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
@@ -18,6 +19,7 @@ use std::sync::Arc;
 #[derive(clap::Args, Debug)]
 pub struct InfoArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    #[arg(value_parser = input_name::parser())]
     input: String,
     /// Print everything as JSON
     #[arg(long)]
@@ -56,6 +58,7 @@ impl InfoArgs {
         };
         let objects = scene.objects.iter().zip(file.meshes());
         let objects: Vec<ObjectFacts> = objects.map(&mut object).collect();
+        memory::check_frame(scene)?;
         let frame = scene.frame()?;
         let facts = SceneFacts {
             input: &self.input,

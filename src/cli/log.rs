@@ -4,6 +4,7 @@
 
 use super::files::{self, Destination};
 use super::{CliError, Outcome};
+use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::Instant;
@@ -58,9 +59,28 @@ impl Log {
     }
 }
 
-/// True if standard error may be coloured: a terminal, and `NO_COLOR` not set (<https://no-color.org>).
+/// True if standard error may be coloured.
 pub fn colour() -> bool {
-    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+    is_coloured(&io::stderr())
+}
+
+/// True if `stream` may be coloured: never where `NO_COLOR` is set (<https://no-color.org>), always where `CLICOLOR_FORCE` is
+/// (<https://bixense.com/clicolors>), else on a terminal that can, unless `CLICOLOR` is 0.
+pub fn is_coloured(stream: &impl IsTerminal) -> bool {
+    let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    let is_zero = |value: &OsString| value == "0";
+    if value("NO_COLOR").is_some() {
+        return false;
+    }
+    if value("CLICOLOR_FORCE").is_some_and(|value| !is_zero(&value)) {
+        return true;
+    }
+    !value("CLICOLOR").is_some_and(|value| is_zero(&value)) && !is_dumb() && stream.is_terminal()
+}
+
+/// True if the terminal knows no sequences for colours and for the cursor.
+pub fn is_dumb() -> bool {
+    std::env::var_os("TERM").is_some_and(|term| term == "dumb")
 }
 
 /// Writes `text` to standard error, if anybody still reads it.

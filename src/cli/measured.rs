@@ -1,7 +1,8 @@
 //! Shared parts of the commands that compare and time methods.
 
 use super::engines::ThreadFlags;
-use super::files::{self, Destination};
+use super::files;
+use super::output::{self, Output};
 use super::polygon_counts::warn_of_polygons_left_out;
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
@@ -61,7 +62,7 @@ pub struct Measurement<'a> {
     pub threads: ThreadFlags,
     pub log: Log,
     /// The files to be written.
-    pub destinations: &'a [Destination<'a>],
+    pub outputs: &'a [&'a Output],
 }
 
 impl Measurement<'_> {
@@ -76,12 +77,13 @@ impl Measurement<'_> {
         warn_of_debug_build(self.log);
         let files = self.inputs.iter().map(|name| self.scene.load(name));
         let files = files.collect::<Result<Vec<_>, _>>()?;
-        files::check(self.destinations)?;
+        output::check_places(self.outputs)?;
         let progress = Progress::silent_between_moves(self.log);
         for (name, file) in self.inputs.iter().zip(&files) {
             let resolved = files::resolve(file)?;
-            files::check(self.destinations)?;
+            output::check(self.outputs)?;
             progress.aside(|| self.scene.warn(file, &resolved, self.log));
+            memory::check_frame(&resolved.scene)?;
             measure(name, resolved.scene, &progress)?;
         }
         Ok(())

@@ -17,8 +17,10 @@ mod figure;
 mod files;
 mod frame_times;
 mod info;
+mod input_name;
 mod list;
 pub mod log;
+mod marks;
 mod measured;
 mod memory;
 mod mesh_facts;
@@ -105,6 +107,7 @@ impl Cli {
     /// # Errors
     /// [`CliError`] for wrong usage or input.
     pub fn run(&self) -> Result<Outcome, CliError> {
+        engines::check_environment()?;
         let log = Log::new(self.quiet, self.verbose);
         match &self.command {
             Command::Render(command) => command.run(log),

@@ -1,6 +1,7 @@
 //! A progress bar, on a terminal and for work that takes longer than a second.
 
 use super::Log;
+use super::log::is_dumb;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::thread;
@@ -40,7 +41,7 @@ impl Progress {
         let style =
             ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed}, {eta} left: {msg}");
         bar.set_style(style.expect("a template").progress_chars("=> "));
-        let allowed = log != Log::Quiet && std::io::stderr().is_terminal();
+        let allowed = log != Log::Quiet && std::io::stderr().is_terminal() && !is_dumb();
         Progress { bar, allowed }
     }
 

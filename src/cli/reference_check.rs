@@ -1,8 +1,7 @@
 //! `render --reference`: a picture against the one that was accepted before.
 
 use super::drawing::RenderJob;
-use super::files::Destination;
-use super::output::Output;
+use super::output::{Contents, ForceFlag, Output};
 use super::text::{counted, measured};
 use super::{CliError, Outcome, files};
 use fastphong::compare::metrics::{Difference, compare, difference_map};
@@ -10,7 +9,6 @@ use fastphong::picture::Encoding;
 use fastphong::picture::image_file::{AlphaUse, FilePicture, Format, Pair};
 use fastphong::report::shell_word;
 use std::fmt;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Grey levels at the light end of difference pictures.
@@ -65,17 +63,11 @@ pub struct ReferenceCheck<'a> {
     pub threshold: f64,
     /// The place where the picture was written already, if it was.
     pub written: Option<&'a Output>,
+    /// `--force`: whether pictures beside the reference may replace those of others.
+    pub force: ForceFlag,
 }
 
 impl ReferenceCheck<'_> {
-    /// Returns the destination of a picture beside the reference.
-    pub fn destination(path: &Path) -> Destination<'_> {
-        Destination {
-            name: "--reference",
-            path,
-        }
-    }
-
     /// Compares the picture with its reference; returns the outcome and the lines to print. On a difference both pictures
     /// are left beside each other, with a map.
     ///
@@ -87,7 +79,7 @@ impl ReferenceCheck<'_> {
         let actual = job.picture(format);
         let unreadable = |error| format!("{shown}: cannot be read: {error}");
         if !reference.try_exists().map_err(unreadable)? {
-            let candidate = self.keep(&actual, format)?;
+            let candidate = self.keep(&actual)?;
             let (path, accept) = (candidate.display(), self.how_to_accept(&candidate));
             let text = format!("no reference {shown} yet: the picture is in {path}\n{accept}");
             return Ok((Outcome::Differs, text));
@@ -113,10 +105,11 @@ impl ReferenceCheck<'_> {
             let text = format!("{shown}: {within}: largest difference {largest}\n");
             return Ok((Outcome::Done, notes + &text));
         }
-        let candidate = self.keep(&actual, format)?;
+        let candidate = self.keep(&actual)?;
         let map = FilePicture::stored(difference_map(&r, &a, SCALE)?).encoded(Encoding::Srgb);
         let map_path = sibling(&candidate, reference, "diff", Format::Png);
-        write(&map_path, &map)?;
+        self.beside(map_path.clone(), Format::Png)
+            .write_encoded(&map)?;
         let found = match pair.is_one_size() {
             true => self.difference_text(&difference),
             false => {
@@ -140,24 +133,28 @@ impl ReferenceCheck<'_> {
     ///
     /// # Errors
     /// When the ending of the reference names no format.
-    pub fn destinations(&self) -> Result<Vec<PathBuf>, CliError> {
+    pub fn outputs(&self) -> Result<Vec<Output>, CliError> {
         let format = Format::of_path(self.reference)?;
         let written = self.written_as(format);
         let candidate = sibling(self.reference, self.reference, "actual", format);
-        let map = sibling(
-            written.unwrap_or(&candidate),
-            self.reference,
-            "diff",
-            Format::Png,
-        );
-        let candidate = written.is_none().then_some(candidate);
+        let is_new = written.is_none();
+        let map = written.unwrap_or(&candidate);
+        let map = sibling(map, self.reference, "diff", Format::Png);
+        let candidate = is_new.then(|| self.beside(candidate, format));
+        let map = self.beside(map, Format::Png);
         Ok(candidate.into_iter().chain([map]).collect())
+    }
+
+    /// Returns the output of a picture beside the reference.
+    fn beside(&self, path: PathBuf, format: Format) -> Output {
+        Output::chosen("--reference", path, Contents::Picture(format), self.force)
     }
 
     /// Returns the file that was written already, if it is of `format`.
     fn written_as(&self, format: Format) -> Option<&Path> {
-        let written = self.written.filter(|output| output.format == format);
-        written.and_then(|output| output.path.as_deref())
+        let written = self.written;
+        let written = written.filter(|output| output.format() == Some(format));
+        written.and_then(Output::path)
     }
 
     fn how_to_accept(&self, candidate: &Path) -> String {
@@ -168,12 +165,13 @@ impl ReferenceCheck<'_> {
 
     /// Returns the file that holds the picture in the format of the reference: the one already written, or one beside the
     /// reference.
-    fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, CliError> {
+    fn keep(&self, actual: &FilePicture) -> Result<PathBuf, CliError> {
+        let format = Format::of_path(self.reference)?;
         if let Some(path) = self.written_as(format) {
             return Ok(path.to_owned());
         }
         let path = sibling(self.reference, self.reference, "actual", format);
-        write(&path, actual)?;
+        self.beside(path.clone(), format).write_encoded(actual)?;
         Ok(path)
     }
 
@@ -205,14 +203,6 @@ impl ReferenceCheck<'_> {
         }
         text
     }
-}
-
-/// Writes a picture beside the reference.
-fn write(path: &Path, picture: &FilePicture) -> Result<(), CliError> {
-    let to = ReferenceCheck::destination(path);
-    files::write(to, |out| {
-        picture.write_to(Format::of_path(path).map_err(io::Error::other)?, out)
-    })
 }
 
 /// Returns `STEM.word.ending` in the folder of `beside`, where `STEM` is that of the reference.

@@ -4,8 +4,9 @@ use super::aov::{Aov, KINDS, Subject};
 use super::depth_notes::{note_depth_ties, note_screen_interpolation};
 use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
+use super::input_name;
 use super::name_template::{named, scene_name};
-use super::output::{self, Output, print_beside};
+use super::output::{self, ForceFlag, Output, print_beside};
 use super::polygon_counts::{stats_text, warn_of_polygons_left_out};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
@@ -32,6 +33,7 @@ use std::time::Instant;
 )]
 pub struct RenderArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    #[arg(value_parser = input_name::parser())]
     input: String,
     /// Picture file: .png, .ppm or .pfm (linear floats); `-` is standard output. `{scene}`, `{method}`, `{engine}`, `{width}` and
     /// `{height}` stand for those of the picture
@@ -80,6 +82,8 @@ pub struct RenderArgs {
     #[arg(long)]
     watch: bool,
     #[command(flatten)]
+    force: ForceFlag,
+    #[command(flatten)]
     scene: SceneFlags,
 }
 
@@ -96,6 +100,8 @@ impl RenderArgs {
     /// Loads, draws, writes and compares.
     fn draw(&self, log: Log) -> Result<Outcome, CliError> {
         let mut output = self.output()?;
+        let beside: Vec<Output> = output.iter().cloned().collect();
+        let beside: Vec<&Output> = beside.iter().collect();
         let renderer = match self.engine {
             EngineFlag::Scanlines(engine) => {
                 renderer(Some(engine), Some(self.simd), Renderer::fastest())?
@@ -132,7 +138,13 @@ impl RenderArgs {
                     let there = "`mesh = \"-\"` reads the mesh from standard input again";
                     log.note(&format!("{there}: write a file's name there to do without"));
                 }
-                print_beside(output.as_ref(), &file.to_toml())
+                if let Some(mesh) = file.meshes().find(|mesh| input_name::is_stand_in(mesh)) {
+                    let problem = "is the name of no file: a scene file holds text in UTF-8";
+                    log.warning(&format!(
+                        "`mesh = {mesh:?}` {problem}, and its path is none"
+                    ));
+                }
+                print_beside(&beside, &file.to_toml())
             })?;
         }
         if output.is_none() && self.reference.is_none() && !self.stats {
@@ -140,6 +152,7 @@ impl RenderArgs {
         }
         progress.at(0.25, "projecting");
         let started = Instant::now();
+        memory::check_frame(&resolved.scene)?;
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
             log.duration("projected", started);
@@ -150,7 +163,7 @@ impl RenderArgs {
                 note_screen_interpolation(&frame, log);
             }
             if self.stats {
-                return print_beside(output.as_ref(), &stats_text(&frame));
+                return print_beside(&beside, &stats_text(&frame));
             }
             log.detail(stats_text(&frame).trim_end());
             Ok(())
@@ -179,9 +192,17 @@ impl RenderArgs {
             reference,
             threshold: self.reference_threshold,
             written: output.as_ref(),
+            force: self.force,
         });
-        check_destinations(output.as_ref(), check.as_ref())?;
-        memory::check_picture(&job)?;
+        let others = check.as_ref().map(ReferenceCheck::outputs).transpose()?;
+        let others = others.unwrap_or_default();
+        output::check(&output.iter().chain(&others).collect::<Vec<_>>())?;
+        let formats = [
+            output.as_ref().and_then(Output::format),
+            self.reference_format(),
+        ];
+        let [written, compared] = formats;
+        memory::check_picture(&job, written, compared)?;
         if let Some(output) = &output {
             write(&mut job, output, &progress, log)?;
         }
@@ -189,8 +210,14 @@ impl RenderArgs {
             return Ok(Outcome::Done);
         };
         let (outcome, text) = check.run(&mut job)?;
-        progress.aside(|| print_beside(output.as_ref(), &text))?;
+        progress.aside(|| print_beside(&beside, &text))?;
         Ok(outcome)
+    }
+
+    /// Returns the format of the reference, which [`RenderArgs::output`] has checked.
+    fn reference_format(&self) -> Option<Format> {
+        let reference = self.reference.as_deref();
+        reference.and_then(|path| Format::of_path(path).ok())
     }
 
     /// Returns the destination of the picture.
@@ -204,12 +231,12 @@ impl RenderArgs {
         };
         // Wrong placeholders are said before anything is drawn.
         named(path, Default::default())?;
-        Output::new(path, self.format).map(Some)
+        Output::of_picture(path, self.format).map(Some)
     }
 
     /// Puts the facts of the picture into its name.
     fn name(&self, output: &mut Output, job: &RenderJob) -> Result<(), CliError> {
-        let Some(path) = &mut output.path else {
+        let Some(path) = output.path_mut() else {
             return Ok(());
         };
         let [width, height] = job.size().map(|side| side.to_string());
@@ -287,33 +314,21 @@ fn write(
     log: Log,
 ) -> Result<(), CliError> {
     let started = Instant::now();
-    if output.format == Format::Ppm {
-        output.write_by(|out| job.write_ppm(out))?;
+    let format = output.format().expect("an output of a picture");
+    if format == Format::Ppm {
+        output.write(|out| job.write_ppm(out))?;
         progress.aside(|| log.duration("shaded and written", started));
     } else {
-        let picture = job.picture(output.format);
+        let picture = job.picture(format);
         progress.aside(|| log.duration("shaded", started));
         progress.at(0.75, "writing");
-        output.write(&picture)?;
+        output.write_encoded(&picture)?;
     }
-    if let Some(path) = &output.path {
+    if let Some(path) = output.path() {
         let ([width, height], path, shown) = (job.size(), path.display(), &job.name);
         progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
     }
     Ok(())
-}
-
-/// Refuses to write over a file that is read: the scene, its meshes and material libraries, the reference.
-fn check_destinations(
-    output: Option<&Output>,
-    check: Option<&ReferenceCheck>,
-) -> Result<(), CliError> {
-    let beside = check.map(ReferenceCheck::destinations).transpose()?;
-    let beside = beside.unwrap_or_default();
-    let picture = output.map(Output::place);
-    let mut all: Vec<_> = picture.map(Output::destination).into_iter().collect();
-    all.extend(beside.iter().map(|path| ReferenceCheck::destination(path)));
-    files::check(&all)
 }
 
 /// Describes the pairs that the painter's algorithm draws in the wrong order, if any.

@@ -2,16 +2,19 @@
 
 use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};
-use super::figure::{Figures, distinct, draw_figures, make_folder, page_folder};
-use super::files::{self, Destination};
+use super::figure::{Figures, distinct, draw_figures};
+use super::files;
+use super::input_name;
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
+use super::output::{self, Contents, ForceFlag, Output, print_beside};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
-use super::{CliError, Log, Outcome, done, memory};
+use super::{CliError, Log, Outcome, memory};
 use fastphong::compare::comparison::{self, Comparison, Input};
 use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
 use fastphong::lectures::{FIGURES, Figure};
+use fastphong::picture::image_file::Format;
 use fastphong::report::{
     Document, MOST_BYTES, MOST_POLYGONS, PartOf, Report, ScenePictures, Shard, check_whole,
     live_scene, small, utc_date,
@@ -29,15 +32,15 @@ use std::time::{Instant, SystemTime};
 #[derive(clap::Args, Debug)]
 pub struct ReportArgs {
     /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for standard input [default: all shipped scenes]
-    #[arg(value_name = "INPUT")]
+    #[arg(value_name = "INPUT", value_parser = input_name::parser())]
     inputs: Vec<String>,
     #[command(flatten)]
     timing: TimingFlags,
     #[command(flatten)]
     drawn: LectureFlags,
-    /// Page to write; its folder is made if there is none
-    #[arg(short, long, value_name = "FILE", default_value = "report/index.html")]
-    output: PathBuf,
+    /// Page to write, `-` for standard output; its folder is made if there is none [default: report/index.html]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
     /// Figures of the lectures between commas, `all` or `none` [default: all with the shipped scenes, none with INPUT]
     #[arg(long, value_name = "NAMES", value_parser = figures)]
     figures: Option<Figures>,
@@ -50,7 +53,7 @@ pub struct ReportArgs {
     #[arg(long)]
     full: bool,
     /// Compare saved `--json` files of several machines or commits side by side, without drawing; the files of all parts of one run are
-    /// joined
+    /// joined. `-` is standard input
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["inputs", "figures", "studies", "full", "shard"])]
     from: Vec<PathBuf>,
     /// Do the part K of N of the scenes, errors and no times; `--from` joins the `--json` files of all parts
@@ -59,12 +62,14 @@ pub struct ReportArgs {
     /// Also write README.md and its pictures beside the page
     #[arg(long)]
     markdown: bool,
-    /// Also write all numbers as JSON
+    /// Also write all numbers as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Also write all tables as CSV
+    /// Also write all tables as CSV; `-` is standard output
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceFlag,
     #[command(flatten)]
     scene: SceneFlags,
 }
@@ -90,6 +95,25 @@ fn figures(text: &str) -> Result<Figures, String> {
 /// The folder of the small pictures, beside the text that shows them.
 const IMAGES: &str = "images";
 
+/// The page, unless `--output` gives another.
+const PAGE: &str = "report/index.html";
+
+/// The files of a report, without the pictures of the text.
+struct Outputs {
+    page: Output,
+    json: Option<Output>,
+    csv: Option<Output>,
+    readme: Option<Output>,
+}
+
+impl Outputs {
+    fn all(&self) -> Vec<&Output> {
+        let others = [&self.json, &self.csv, &self.readme];
+        let others = others.into_iter().flatten();
+        std::iter::once(&self.page).chain(others).collect()
+    }
+}
+
 /// A scene that was drawn, and is not yet timed.
 type DrawnScene = (Frame, Comparison, ScenePictures);
 
@@ -107,35 +131,46 @@ impl ReportArgs {
         let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
         let inputs: &[&str] = if first.is_some() { &[] } else { &names };
         let scenes = inputs.iter().map(load).collect::<Result<Vec<_>, _>>()?;
-        self.check_destinations()?;
-        let folder = page_folder(&self.output)?;
+        let outputs = self.outputs()?;
+        match first.is_some() {
+            true => output::check(&outputs.all())?,
+            false => output::check_places(&outputs.all())?,
+        }
+        outputs.page.make_folder()?;
         let mut report = match first {
             Some(report) => report,
-            None => self.make(&names, &scenes, log)?,
+            None => self.make(&names, &scenes, &outputs, log)?,
         };
         read.for_each(|other| report.lay_beside(other));
-        done(&self.write(&report, &folder)?)
+        self.write(&report, &outputs)?;
+        Ok(Outcome::Done)
     }
 
-    /// Refuses to write over a document that was read, or a file of a scene.
-    fn check_destinations(&self) -> Result<(), CliError> {
-        let readme = self.readme();
-        let named = [
-            ("--output", Some(&self.output)),
-            ("--json", self.json.as_ref()),
-            ("--csv", self.csv.as_ref()),
-            ("--markdown", readme.as_ref()),
-        ];
-        let given = named
-            .into_iter()
-            .filter_map(|(name, path)| Some(Destination { name, path: path? }));
-        files::check(&given.collect::<Vec<_>>())
-    }
-
-    /// Returns the text beside the page, if it is asked for.
-    fn readme(&self) -> Option<PathBuf> {
-        self.markdown
-            .then(|| self.output.with_file_name("README.md"))
+    /// Returns the files that are named, or known before anything is drawn.
+    fn outputs(&self) -> Result<Outputs, CliError> {
+        let named = |name, path: &Option<PathBuf>, contents| {
+            path.as_deref()
+                .map(|path| Output::new(name, path, contents))
+        };
+        let page = Output::page(self.output.as_deref(), || PAGE.to_owned(), self.force);
+        let readme = match (self.markdown, page.path()) {
+            (false, _) => None,
+            (true, Some(page)) => {
+                let path = page.with_file_name("README.md");
+                let contents = Contents::Markdown;
+                Some(Output::chosen("--markdown", path, contents, self.force))
+            }
+            (true, None) => {
+                let problem = "`--markdown` writes beside the page, which goes to standard output";
+                return Err(format!("{problem}: expected `-o FILE`").into());
+            }
+        };
+        Ok(Outputs {
+            page,
+            json: named("--json", &self.json, Contents::Json),
+            csv: named("--csv", &self.csv, Contents::Csv),
+            readme,
+        })
     }
 
     /// Returns the names of the scenes of this part.
@@ -194,7 +229,13 @@ impl ReportArgs {
     }
 
     /// Draws, measures and times the scenes `files`, called `names`.
-    fn make(&self, names: &[&str], files: &[SceneFile], log: Log) -> Result<Report, CliError> {
+    fn make(
+        &self,
+        names: &[&str],
+        files: &[SceneFile],
+        outputs: &Outputs,
+        log: Log,
+    ) -> Result<Report, CliError> {
         let start = Instant::now();
         // Everything is made with the shipped scenes.
         let is_default = self.inputs.is_empty() && self.shard.is_none();
@@ -218,7 +259,7 @@ impl ReportArgs {
         };
         let done = AtomicUsize::new(0);
         let draw = |(name, file): (&&str, &SceneFile)| {
-            let drawn = self.draw(name, file, &bar, log);
+            let drawn = self.draw(name, file, outputs, &bar, log);
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress(0, done as f32 / scenes, &format!("{name}: drawn"));
             drawn
@@ -288,14 +329,16 @@ impl ReportArgs {
         &self,
         name: &str,
         file: &SceneFile,
+        outputs: &Outputs,
         bar: &Progress,
         log: Log,
     ) -> Result<DrawnScene, CliError> {
         let mut file = file.clone();
         let resolved = self.scene.resolve_to_show(&mut file)?;
         // Which material libraries a mesh has is known by now.
-        self.check_destinations()?;
+        output::check(&outputs.all())?;
         bar.aside(|| self.scene.warn(&file, &resolved, log));
+        memory::check_frame(&resolved.scene)?;
         let frame = resolved.scene.frame()?;
         drop(resolved);
         let at_once = rayon::current_num_threads().min(self.names()?.len());
@@ -339,35 +382,37 @@ impl ReportArgs {
         self.drawn.threads.install_for(renderer, time)
     }
 
-    /// Writes the page and the files beside it; returns their paths, one per line.
-    fn write(&self, report: &Report, folder: &Path) -> Result<String, CliError> {
-        let mut written = String::new();
-        let mut write = |name: &str, path: &Path, text: &str| {
-            written += &format!("{}\n", path.display());
-            files::write(Destination { name, path }, |out| {
-                out.write_all(text.as_bytes())
+    /// Writes the page and the files beside it, and prints their paths, one per line.
+    fn write(&self, report: &Report, outputs: &Outputs) -> Result<(), CliError> {
+        let markdown = outputs.readme.as_ref().map(|_| report.markdown(IMAGES));
+        let readme = outputs.readme.as_ref().and_then(Output::path);
+        let images = readme.map_or(PathBuf::new(), |path| path.with_file_name(IMAGES));
+        let pictures = markdown.iter().flat_map(|markdown| &markdown.images);
+        let pictures: Vec<(Output, &[u8])> = pictures
+            .map(|(name, png)| {
+                let (path, contents) = (images.join(name), Contents::Picture(Format::Png));
+                let output = Output::chosen("--markdown", path, contents, self.force);
+                (output, &png[..])
             })
-        };
-        write("--output", &self.output, &report.html())?;
-        if let Some(path) = &self.json {
-            write("--json", path, &report.text)?;
+            .collect();
+        let all = outputs.all();
+        let pictures_too = pictures.iter().map(|(output, _)| output);
+        output::check(&all.iter().copied().chain(pictures_too).collect::<Vec<_>>())?;
+        outputs.page.write_text(&report.html())?;
+        if let Some(json) = &outputs.json {
+            json.write_text(&report.text)?;
         }
-        if let Some(path) = &self.csv {
-            write("--csv", path, &report.csv())?;
+        if let Some(csv) = &outputs.csv {
+            csv.write_text(&report.csv())?;
         }
-        if let Some(readme) = self.readme() {
-            let (markdown, images) = (report.markdown(IMAGES), folder.join(IMAGES));
-            make_folder(&images)?;
-            for (name, png) in &markdown.images {
-                let to = Destination {
-                    name: "--markdown",
-                    path: &images.join(name),
-                };
-                files::write(to, |out| out.write_all(png))?;
+        if let (Some(readme), Some(markdown)) = (&outputs.readme, &markdown) {
+            output::make_folder(&images)?;
+            for (output, png) in &pictures {
+                output.write_bytes(png)?;
             }
-            write("--markdown", &readme, &markdown.text)?;
+            readme.write_text(&markdown.text)?;
         }
-        Ok(written)
+        print_beside(&all, &output::written(&all))
     }
 }
 
@@ -383,7 +428,7 @@ fn run(command_line: Vec<String>) -> String {
         "--threads",
         "--time-budget",
     ];
-    const SWITCHES: [&str; 5] = ["--markdown", "-q", "--quiet", "-v", "--verbose"];
+    const SWITCHES: [&str; 6] = ["--markdown", "--force", "-q", "--quiet", "-v", "--verbose"];
     let mut words = command_line.into_iter();
     let mut run = vec![env!("CARGO_PKG_VERSION").to_owned()];
     while let Some(word) = words.next() {

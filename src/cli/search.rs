@@ -1,7 +1,8 @@
 //! `fastphong search`: the worst cases of methods, found on as many machines as one has.
 
-use super::files::{self, Destination};
+use super::files;
 use super::measured::{Methods, command_line, methods};
+use super::output::{self, Contents, Output};
 use super::progress::Progress;
 use super::values::number;
 use super::{CliError, Log, Outcome, done};
@@ -102,22 +103,20 @@ impl SearchArgs {
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let read = self.from.iter().map(|path| Document::read(path));
         let read = read.collect::<Result<Vec<_>, _>>()?;
-        let file = self.json.as_deref().filter(|path| path.as_os_str() != "-");
-        let file = file.map(|path| Destination {
-            name: "--json",
-            path,
-        });
-        files::check(&file.into_iter().collect::<Vec<_>>())?;
+        let json_to = self.json.as_deref();
+        let json_to = json_to.map(|path| Output::new("--json", path, Contents::Json));
+        output::check(&json_to.iter().collect::<Vec<_>>())?;
         let document = match read.is_empty() {
             true => self.search(log),
             false => Document::joined(read, &self.from)?,
         };
         let mut json = serde_json::to_string_pretty(&document)?;
         json.push('\n');
-        match file {
-            Some(file) => files::write(file, |out| out.write_all(json.as_bytes()))?,
-            None if self.json.is_some() => return done(&json),
-            None => {}
+        if let Some(json_to) = json_to {
+            json_to.write_text(&json)?;
+            if json_to.is_stdout() {
+                return Ok(Outcome::Done);
+            }
         }
         done(&document.table())
     }

@@ -1,6 +1,7 @@
 //! `--watch`: draws again whenever a file of the scene changes.
 
 use super::files;
+use super::input_name::path_behind;
 use super::log::{Log, colour, to_stderr};
 use super::text::counted;
 use super::{CliError, Outcome};
@@ -17,13 +18,13 @@ impl Watched {
     /// # Errors
     /// When it is not the name of a file.
     pub fn new(input: &str) -> Result<Self, CliError> {
-        let path = Path::new(input);
-        let may_come = !path.exists() && has_known_ending(path);
+        let path = path_behind(Path::new(input));
+        let may_come = !path.exists() && has_known_ending(&path);
         if !path.is_file() && !may_come {
             let expected = "expected a scene file or a mesh file with `--watch`";
             return Err(format!("`{input}` is no file, and never changes: {expected}").into());
         }
-        Ok(Watched(path.to_path_buf()))
+        Ok(Watched(path))
     }
 
     /// Forgets the files that were read before: what is read from now on is watched.

@@ -160,6 +160,15 @@ pub fn builtin(spec: &str) -> Result<PolygonMesh, BuiltinError> {
     (values.shape.build)(&values).map_err(|error| BuiltinError(error.to_string()))
 }
 
+/// Returns how many polygons the mesh has that [`builtin`] makes for `spec`.
+///
+/// # Errors
+/// As [`builtin`].
+#[doc(hidden)]
+pub fn polygon_count(spec: &str) -> Result<u64, BuiltinError> {
+    Ok(parse(spec).map_err(BuiltinError)?.polygon_count())
+}
+
 /// Reads a shape and its parameters, and checks all of them.
 fn parse(spec: &str) -> Result<Values, String> {
     let (name, settings) = spec.split_once('?').unwrap_or((spec, ""));

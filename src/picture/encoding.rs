@@ -102,7 +102,7 @@ pub fn srgb_decode(encoded: f64) -> f64 {
 /// Stores linear pixels with a transfer function, as fast as two table look-ups and as exactly as the function itself.
 #[derive(Debug)]
 pub struct Encoder {
-    /// The least intensity that is stored as each level; one that no intensity reaches at the end.
+    /// The least intensity that is stored as each level; at the end, one that no intensity reaches.
     least: [f32; 257],
     /// The level of the lowest intensity in each part: parts are the floats of the same upper bits.
     guess: [u8; Encoder::PARTS + 1],
@@ -116,38 +116,35 @@ impl Encoder {
     const DARK: f32 = 1.0 / 8192.0;
     const PARTS: usize = 13 << (23 - Encoder::BITS);
 
-    /// Makes the encoder of the sRGB transfer function.
-    pub fn srgb() -> Self {
-        let level = |c: f32| quantise(srgb_encode(c));
+    /// Returns the encoder of the sRGB transfer function, which is part of the program.
+    pub fn srgb() -> &'static Self {
+        static SRGB: Encoder = Encoder::of(&LEAST);
+        &SRGB
+    }
+
+    /// Makes an encoder from the bits of the least intensities of levels 1 to 255.
+    const fn of(bits: &[u32; 255]) -> Self {
         let mut least = [f32::INFINITY; 257];
         least[0] = f32::NEG_INFINITY;
-        for (k, c) in least.iter_mut().enumerate().take(256).skip(1) {
-            // The inverse of the function at the lower end of the level, then to the very float.
-            *c = srgb_decode((k as f64 - 0.5) / 255.0) as f32;
-            while level(*c) as usize >= k {
-                *c = c.next_down();
-            }
-            while (level(*c) as usize) < k {
-                *c = c.next_up();
-            }
+        let mut level = 1;
+        while level < 256 {
+            least[level] = f32::from_bits(bits[level - 1]);
+            level += 1;
         }
         let mut guess = [0; Self::PARTS + 1];
-        for (part, guess) in guess.iter_mut().enumerate() {
-            *guess = level(Self::first_of(part));
+        let (mut part, mut level) = (0, 0);
+        while part <= Self::PARTS {
+            while level < 255 && least[level + 1] <= Self::first_of(part) {
+                level += 1;
+            }
+            guess[part] = level as u8;
+            part += 1;
         }
-        let encoder = Encoder { least, guess };
-        debug_assert!(
-            (0..Self::PARTS).all(|part| {
-                let last = Self::first_of(part + 1).next_down();
-                level(last) <= encoder.guess[part].saturating_add(1)
-            }),
-            "no part holds the beginnings of two levels"
-        );
-        encoder
+        Encoder { least, guess }
     }
 
     /// Returns the lowest intensity in a part.
-    fn first_of(part: usize) -> f32 {
+    const fn first_of(part: usize) -> f32 {
         f32::from_bits(Self::DARK.to_bits() + ((part as u32) << Self::BITS))
     }
 
@@ -169,8 +166,46 @@ impl Encoder {
     }
 }
 
+/// The bits of the least intensity that the sRGB transfer function stores as each of levels 1 to 255: searched for and compared by the
+/// test `the_least_intensities_are_those_of_the_function`. Computed when a program starts they would take 2,000 powers.
+#[rustfmt::skip]
+const LEAST: [u32; 255] = [
+    0x391f_22b5, 0x39ee_b40e, 0x3a46_eb62, 0x3a8b_3e5d, 0x3ab3_070c, 0x3ada_cfb7, 0x3b01_4c33, 0x3b15_3089,
+    0x3b29_14e1, 0x3b3c_f936, 0x3b50_f2d2, 0x3b65_fb9a, 0x3b7c_3404, 0x3b89_d05f, 0x3b96_2334, 0x3ba3_14bd,
+    0x3bb0_a732, 0x3bbe_dcb7, 0x3bcd_b76f, 0x3bdd_3967, 0x3bed_64b1, 0x3bfe_3b46, 0x3c07_df92, 0x3c10_f91a,
+    0x3c1a_6b33, 0x3c24_36c7, 0x3c2e_5cc8, 0x3c38_de19, 0x3c43_bba5, 0x3c4e_f647, 0x3c5a_8ee5, 0x3c66_8653,
+    0x3c72_dd74, 0x3c7f_950f, 0x3c86_5704, 0x3c8d_148f, 0x3c94_0397, 0x3c9b_247c, 0x3ca2_77a8, 0x3ca9_fd77,
+    0x3cb1_b654, 0x3cb9_a298, 0x3cc1_c2aa, 0x3cca_16e2, 0x3cd2_9fa6, 0x3cdb_5d4a, 0x3ce4_5034, 0x3ced_78b4,
+    0x3cf6_d730, 0x3d00_35fb, 0x3d05_1bb5, 0x3d0a_1cec, 0x3d0f_39d1, 0x3d14_728a, 0x3d19_c746, 0x3d1f_382b,
+    0x3d24_c568, 0x3d2a_6f21, 0x3d30_3585, 0x3d36_18b7, 0x3d3c_18e5, 0x3d42_3631, 0x3d48_70ca, 0x3d4e_c8d1,
+    0x3d55_3e76, 0x3d5b_d1d3, 0x3d62_831c, 0x3d69_526a, 0x3d70_3ff2, 0x3d77_4bca, 0x3d7e_7627, 0x3d82_df90,
+    0x3d86_9374, 0x3d8a_56cb, 0x3d8e_29ad, 0x3d92_0c27, 0x3d95_fe51, 0x3d9a_0035, 0x3d9e_11ee, 0x3da2_3384,
+    0x3da6_6512, 0x3daa_a6a0, 0x3dae_f849, 0x3db3_5a15, 0x3db7_cc1d, 0x3dbc_4e6a, 0x3dc0_e116, 0x3dc5_8428,
+    0x3dca_37bb, 0x3dce_fbd5, 0x3dd3_d091, 0x3dd8_b5f5, 0x3ddd_ac1b, 0x3de2_b309, 0x3de7_cadb, 0x3dec_f395,
+    0x3df2_2d52, 0x3df7_7817, 0x3dfc_d3fe, 0x3e01_2087, 0x3e03_dfaf, 0x3e06_a77b, 0x3e09_77f7, 0x3e0c_5126,
+    0x3e0f_3315, 0x3e12_1dc5, 0x3e15_1144, 0x3e18_0d95, 0x3e1b_12c3, 0x3e1e_20d1, 0x3e21_37cc, 0x3e24_57b5,
+    0x3e27_809a, 0x3e2a_b27c, 0x3e2d_ed69, 0x3e31_3160, 0x3e34_7e71, 0x3e37_d49b, 0x3e3b_33ed, 0x3e3e_9c66,
+    0x3e42_0e15, 0x3e45_88fa, 0x3e49_0d23, 0x3e4c_9a8f, 0x3e50_314d, 0x3e53_d15c, 0x3e57_7acb, 0x3e5b_2d99,
+    0x3e5e_e9d6, 0x3e62_af7c, 0x3e66_7ea1, 0x3e6a_573c, 0x3e6e_3964, 0x3e72_250f, 0x3e76_1a54, 0x3e7a_192a,
+    0x3e7e_21a6, 0x3e81_19e1, 0x3e83_27c8, 0x3e85_3a85, 0x3e87_5223, 0x3e89_6e9c, 0x3e8b_8ffd, 0x3e8d_b640,
+    0x3e8f_e171, 0x3e92_118a, 0x3e94_4697, 0x3e96_8093, 0x3e98_bf8a, 0x3e9b_0376, 0x3e9d_4c62, 0x3e9f_9a4a,
+    0x3ea1_ed39, 0x3ea4_4529, 0x3ea6_a227, 0x3ea9_042c, 0x3eab_6b45, 0x3ead_d76b, 0x3eb0_48ab, 0x3eb2_beff,
+    0x3eb5_3a72, 0x3eb7_baff, 0x3eba_40b2, 0x3ebc_cb84, 0x3ebf_5b82, 0x3ec1_f0a5, 0x3ec4_8afa, 0x3ec7_2a7b,
+    0x3ec9_cf33, 0x3ecc_791c, 0x3ecf_2843, 0x3ed1_dca0, 0x3ed4_9642, 0x3ed7_551f, 0x3eda_1947, 0x3edc_e2b0,
+    0x3edf_b168, 0x3ee2_8569, 0x3ee5_5ebe, 0x3ee8_3d61, 0x3eeb_215e, 0x3eee_0aae, 0x3ef0_f960, 0x3ef3_ed69,
+    0x3ef6_e6d8, 0x3ef9_e5a6, 0x3efc_e9df, 0x3eff_f37c, 0x3f01_8145, 0x3f03_0b81, 0x3f04_9878, 0x3f06_2826,
+    0x3f07_ba92, 0x3f09_4fb8, 0x3f0a_e79f, 0x3f0c_8243, 0x3f0e_1fab, 0x3f0f_bfd1, 0x3f11_62be, 0x3f13_086d,
+    0x3f14_b0e5, 0x3f16_5c21, 0x3f18_0a29, 0x3f19_baf8, 0x3f1b_6e96, 0x3f1d_24fd, 0x3f1e_de36, 0x3f20_9a3b,
+    0x3f22_5913, 0x3f24_1aba, 0x3f25_df38, 0x3f27_a687, 0x3f29_70af, 0x3f2b_3dab, 0x3f2d_0d83, 0x3f2e_e031,
+    0x3f30_b5bd, 0x3f32_8e22, 0x3f34_6969, 0x3f36_478a, 0x3f38_288f, 0x3f3a_0c71, 0x3f3b_f33a, 0x3f3d_dce3,
+    0x3f3f_c975, 0x3f41_b8e9, 0x3f43_ab48, 0x3f45_a08d, 0x3f47_98bf, 0x3f49_93d9, 0x3f4b_91e3, 0x3f4d_92d7,
+    0x3f4f_96bd, 0x3f51_9d90, 0x3f53_a758, 0x3f55_b40f, 0x3f57_c3be, 0x3f59_d65d, 0x3f5b_ebf7, 0x3f5e_0484,
+    0x3f60_200e, 0x3f62_3e8e, 0x3f64_600c, 0x3f66_8483, 0x3f68_abfb, 0x3f6a_d66e, 0x3f6d_03e5, 0x3f6f_3458,
+    0x3f71_67d2, 0x3f73_9e4b, 0x3f75_d7cc, 0x3f78_144f, 0x3f7a_53dd, 0x3f7c_966f, 0x3f7e_dc10,
+];
+
 /// Stores a line of linear colours, as [`SpanShader`](crate::shading::SpanShader) shades it, with alpha 255: clamped, and with the transfer
-/// function of an encoder, which is made once a program, or linear without one.
+/// function of an encoder, or linear without one.
 pub fn store_line(colours: &[[f32; 3]], encoder: Option<&Encoder>, to: &mut [[u8; 4]]) {
     for (pixel, &[r, g, b]) in to.iter_mut().zip(colours) {
         *pixel = match encoder {
@@ -273,6 +308,34 @@ mod tests {
             last = here;
         }
         assert!(srgb_encode(f32::NAN).is_nan());
+    }
+
+    /// Searched from the inverse of the function at the lower end of each level, to the very float.
+    #[test]
+    fn the_least_intensities_are_those_of_the_function() {
+        let level = |c: f32| usize::from(quantise(srgb_encode(c)));
+        for (k, bits) in (1..).zip(LEAST) {
+            let mut c = srgb_decode((k as f64 - 0.5) / 255.0) as f32;
+            while level(c) >= k {
+                c = c.next_down();
+            }
+            while level(c) < k {
+                c = c.next_up();
+            }
+            assert_eq!(bits, c.to_bits(), "level {k}: {c}");
+        }
+    }
+
+    /// No part holds the beginnings of two levels.
+    #[test]
+    fn a_guess_is_off_by_one_level_at_most() {
+        let encoder = Encoder::srgb();
+        for part in 0..Encoder::PARTS {
+            let last = Encoder::first_of(part + 1).next_down();
+            let [first, last] = [Encoder::first_of(part), last].map(|c| quantise(srgb_encode(c)));
+            assert_eq!(encoder.guess[part], first, "part {part}");
+            assert!(last <= first.saturating_add(1), "part {part}");
+        }
     }
 
     #[test]

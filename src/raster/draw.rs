@@ -207,7 +207,6 @@ impl Variant {
         let refused = || DrawError::Refused(plan.reason().unwrap_or_default());
         let renderer = plan.renderer().ok_or_else(refused)?;
         let encoder = (frame.encoding() == Encoding::Srgb).then(Encoder::srgb);
-        let encoder = encoder.as_ref();
         let drawing = Drawing {
             variant: self,
             frame,

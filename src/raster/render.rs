@@ -204,7 +204,7 @@ impl Variant {
         #[cfg(feature = "simd")]
         if let Some(Renderer::Row(level)) = plan.renderer() {
             let encoder = (frame.encoding() == Encoding::Srgb).then(Encoder::srgb);
-            let surface = Surface::new(frame, Eight::<Rgba>::new(encoder.as_ref()));
+            let surface = Surface::new(frame, Eight::<Rgba>::new(encoder));
             let is_levels = surface.format.is_levels();
             let mut taken = Ok(());
             super::rows::draw(self, frame, level, is_levels, &mut |height, draw| {

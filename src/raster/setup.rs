@@ -1,5 +1,6 @@
-//! The set-up before the first scanline: uniforms once per material, and once per polygon where each sees other light; then vertices, corners or polygons are lit, each once, by the
-//! method's vertex kernel, on all threads. The loop over them is `light` in `shading/kernels.rs`.
+//! The set-up before the first scanline: uniforms are made once per material, and once per polygon where each polygon sees light from
+//! its own place. Then vertices, corners or polygons are lit, each once, by the method's vertex kernel. All of this runs on all threads.
+//! The loop over vertices is `light` in `shading/kernels.rs`.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;
@@ -135,11 +136,7 @@ impl<'a> SetUp<'a> {
         let mut uniforms: Vec<Uniforms> = lightings.map(|l| variant.uniforms(l, scale)).collect();
         let is_by_polygon = is_local && entry.local == Local::PerPolygon;
         if is_by_polygon {
-            let polygons = frame.polygons().iter();
-            let seen =
-                |p: &Polygon| uniforms[p.material as usize].seen_from(frame.mean(p).position);
-            let by_polygon: Vec<Uniforms> = polygons.map(seen).collect();
-            uniforms.splice(..0, by_polygon);
+            uniforms = by_polygon(frame, uniforms);
         }
         let extras = entry.extras(is_local, is_perspective);
         let vertices = (kernels.simd)(level).and_then(|simd| simd.vertices);
@@ -376,23 +373,25 @@ impl<'a> SetUp<'a> {
     /// Lights the corners of each polygon by the light that the polygon sees.
     fn light_corners(&self, is_weighted: bool, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
         let (frame, count) = (self.frame, self.varyings.count);
-        let (mut first, mut corners) = (Vec::new(), Vec::new());
-        for (number, polygon) in (0..).zip(frame.polygons()) {
-            first.push(corners.len() as u32);
-            let vertices = frame.corners(polygon).iter();
-            corners.extend(vertices.map(|&vertex| (number, vertex)));
-        }
+        let (first, corners) = all_corners(frame);
         let item = |i: usize| self.corner(corners[i].0, corners[i].1);
         let mut values = self.lit(memory, corners.len(), &[], &item);
-        for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
-            if frame.clip_corner(vertex).is_some() {
-                to.copy_from_slice(&self.clipped(number, vertex));
-            }
-            if is_weighted {
-                let weight = frame.weight(vertex);
-                to.iter_mut().for_each(|value| *value *= weight);
-            }
-        }
+        for_each_chunk(
+            &mut values[..],
+            CHUNK * count,
+            &|start, values: &mut [f32]| {
+                let corners = &corners[start / count..];
+                for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
+                    if frame.clip_corner(vertex).is_some() {
+                        to.copy_from_slice(&self.clipped(number, vertex));
+                    }
+                    if is_weighted {
+                        let weight = frame.weight(vertex);
+                        to.iter_mut().for_each(|value| *value *= weight);
+                    }
+                }
+            },
+        );
         (values.into(), Per::Corner(first))
     }
 
@@ -493,6 +492,53 @@ impl<'a> SetUp<'a> {
     }
 }
 
+/// Returns the uniforms of each polygon, which sees light and eye from its own place, and then those of the materials.
+fn by_polygon(frame: &Frame, materials: Vec<Uniforms>) -> Vec<Uniforms> {
+    let polygons = frame.polygons();
+    let Some(first) = materials.first() else {
+        return materials;
+    };
+    let mut all = vec![first.bare(); polygons.len()];
+    for_each_chunk(&mut all[..], CHUNK, &|first, part: &mut [Uniforms]| {
+        for (polygon, to) in polygons[first..].iter().zip(part) {
+            let material = &materials[polygon.material as usize];
+            *to = material.seen_from(frame.mean(polygon).position);
+        }
+    });
+    all.extend(materials);
+    all
+}
+
+/// Returns the index of each polygon's first corner among the corners of all polygons, and of each corner its polygon and its vertex.
+fn all_corners(frame: &Frame) -> (Vec<u32>, Vec<(u32, u32)>) {
+    let polygons = frame.polygons();
+    let mut count = 0;
+    let starts = polygons.iter().map(|polygon| {
+        let start = count;
+        count += polygon.count;
+        start
+    });
+    let first: Vec<u32> = starts.collect();
+    let mut corners = vec![(0, 0); count as usize];
+    for_each_chunk(
+        &mut corners[..],
+        CHUNK,
+        &|start, part: &mut [(u32, u32)]| {
+            // The polygon with the first corner of this part, of which some corners may be in the part before.
+            let begun = first.partition_point(|first| *first as usize <= start) - 1;
+            let skipped = start - first[begun] as usize;
+            let all = (begun..polygons.len()).flat_map(|number| {
+                let vertices = frame.corners(&polygons[number]).iter();
+                vertices.map(move |&vertex| (number as u32, vertex))
+            });
+            for (to, corner) in part.iter_mut().zip(all.skip(skipped)) {
+                *to = corner;
+            }
+        },
+    );
+    (first, corners)
+}
+
 /// Stores what a corner that clipping made carries: what lies between the ends of its edge, which are never lit again.
 fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &mut [f32]) {
     let [a, b] = ends;
@@ -525,10 +571,13 @@ pub(super) fn finish(
         between(great_circle, corner, &ends, to);
     }
     if is_weighted && count > 0 {
-        for (varying, vertex) in values.chunks_exact_mut(count).zip(frame.vertices()) {
-            let weight = frame.scaled_weight(vertex);
-            varying.iter_mut().for_each(|value| *value *= weight);
-        }
+        for_each_chunk(values, CHUNK * count, &|first, values: &mut [f32]| {
+            let vertices = &frame.vertices()[first / count..];
+            for (varying, vertex) in values.chunks_exact_mut(count).zip(vertices) {
+                let weight = frame.scaled_weight(vertex);
+                varying.iter_mut().for_each(|value| *value *= weight);
+            }
+        });
     }
 }
 
@@ -541,7 +590,43 @@ pub(super) fn unit(numbers: &[f32]) -> Vec3<f32> {
 mod tests {
     use super::*;
     use crate::mesh::builtin::builtin;
-    use crate::scene::Scene;
+    use crate::scene::{Light, Scene};
+    use alloc::format;
+    use glam::DVec3;
+
+    /// Chunks begin and end within polygons, and there are more polygons than a chunk holds.
+    #[test]
+    fn polygons_and_corners_of_several_chunks_are_those_of_one_loop() {
+        let mesh = builtin("sphere?rings=160&segments=160").expect("a built-in mesh");
+        let mut scene = Scene::of_mesh(mesh);
+        scene.lights = Vec::from([Light::positional(DVec3::new(2.0, 3.0, 4.0), [1.0; 3])]);
+        let frame = scene.frame().expect("a scene in its range");
+        let polygons = frame.polygons();
+        assert!(polygons.len() > CHUNK, "{} polygons", polygons.len());
+        let (first, corners) = all_corners(&frame);
+        let mut expected = Vec::new();
+        for (number, polygon) in (0..).zip(polygons) {
+            assert_eq!(first[number as usize] as usize, expected.len());
+            expected.extend(
+                frame
+                    .corners(polygon)
+                    .iter()
+                    .map(|&vertex| (number, vertex)),
+            );
+        }
+        assert!(corners == expected && corners.len() % CHUNK != 0);
+
+        let variant = Variant::parse("fast-phong").expect("a method");
+        let lightings = frame.lightings().iter();
+        let materials: Vec<Uniforms> = lightings.map(|l| variant.uniforms(l, 1.0)).collect();
+        let all = by_polygon(&frame, materials.clone());
+        assert_eq!(all.len(), polygons.len() + materials.len());
+        for (polygon, found) in polygons.iter().zip(&all) {
+            let material = &materials[polygon.material as usize];
+            let expected = material.seen_from(frame.mean(polygon).position);
+            assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        }
+    }
 
     /// An engine reads the frame's normals in place of varyings where they are the same, and nowhere else.
     #[test]

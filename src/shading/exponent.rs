@@ -54,16 +54,16 @@ impl Exponent {
         }
     }
 
-    /// Returns the entries of a table; none for other functions.
-    pub(super) fn table(self, shininess: f32, faint: f32) -> Vec<f32> {
+    /// Returns the entries of a table; `None` for other functions.
+    pub(super) fn table(self, shininess: f32, faint: f32) -> Option<Vec<f32>> {
         let Exponent::Table { scale, .. } = self else {
-            return Vec::new();
+            return None;
         };
         let (from, n) = (f64::from(faint), f64::from(shininess));
         let size = libm::round(f64::from(scale) * (1.0 - from)) as u32;
         let entry = |i: u32| from + (1.0 - from) * f64::from(i) / f64::from(size);
         let power = |i| libm::pow(entry(i), n) as f32;
-        (0..=size).map(power).collect()
+        Some((0..=size).map(power).collect())
     }
 
     /// True if it is tⁿ with n over 0.
@@ -184,7 +184,7 @@ mod tests {
         for power in functions {
             for n in [1.0f32, 2.0, 7.5, 32.0, 100.0, 1e4, 1e6] {
                 let exponent = Exponent::new(power, n, 0.0);
-                let table = exponent.table(n, 0.0);
+                let table = exponent.table(n, 0.0).unwrap_or_default();
                 for x in [0.0f32, 1e-7, 1e-4, 0.005, 0.01, 0.1] {
                     let value = power_by_call(exponent, 1.0 + x, &table);
                     let rounding = 16.0 * (n + 1.0) * 2f32.powi(-24);

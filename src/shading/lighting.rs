@@ -23,6 +23,7 @@ use super::planes::PerLight;
 use crate::integer::{Material, Rgb888};
 use crate::number::{Num, Vec3, vec3};
 use crate::scene::{Falloff, Lighting, Place, Power, SpecularGate, SpecularModel};
+use crate::sync::Arc;
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -39,8 +40,9 @@ pub struct Uniforms {
     pub model: LightModel,
     /// The lights.
     pub lights: Vec<LightUniforms>,
-    /// The table of [`Power::Table`], in steps of the cosine from the faintest highlight to 1; else empty.
-    powers: Vec<f32>,
+    /// The table of [`Power::Table`], in steps of the cosine from the faintest highlight to 1, which polygons that see the lights from
+    /// their own places share; `None` for other functions.
+    powers: Option<Arc<Vec<f32>>>,
     /// The tables of a method in integers, one a light; else empty.
     pub(super) materials: Vec<Material<Rgb888>>,
 }
@@ -126,7 +128,7 @@ impl Uniforms {
             is_fast: false,
         };
         let exponent = Exponent::new(power, model.shininess, model.faint);
-        let powers = exponent.table(model.shininess, model.faint);
+        let powers = exponent.table(model.shininess, model.faint).map(Arc::new);
         Uniforms::derived(LightModel { exponent, ..model }, lights, powers)
     }
 
@@ -139,6 +141,16 @@ impl Uniforms {
             light.framed = in_frame(frame, vector(light.place));
         }
         self
+    }
+
+    /// Returns the part that all lights share, without lights and tables.
+    pub(crate) fn bare(&self) -> Uniforms {
+        Uniforms {
+            model: self.model,
+            lights: Vec::new(),
+            powers: None,
+            materials: Vec::new(),
+        }
     }
 
     /// Returns the same light as directional lights: as `point` sees it. The lecture assumes so along a polygon (L21 1).
@@ -169,7 +181,7 @@ impl Uniforms {
         Stored {
             model: self.model,
             lights: &self.lights,
-            powers: &self.powers,
+            powers: self.powers.as_ref().map_or(&[], |powers| &powers[..]),
         }
     }
 
@@ -178,7 +190,7 @@ impl Uniforms {
     fn derived(
         mut model: LightModel,
         mut lights: Vec<LightUniforms>,
-        powers: Vec<f32>,
+        powers: Option<Arc<Vec<f32>>>,
     ) -> Uniforms {
         let mut most = magnitude(model.ambient);
         for light in &mut lights {
@@ -429,7 +441,7 @@ impl<'a, F: Num> Lit<'a, F> {
         if has_point && self.general && self.model.eye.is_local() {
             self.view = (vector(self.model.eye).broadcast(self.zero) - point).unit();
         }
-        (self.point, self.has_point) = (point, true);
+        (self.point, self.has_point) = (point, has_point);
         self
     }
 

@@ -2,7 +2,8 @@
 //!
 //! A method says what a vertex carries ([`Shader::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
 //! shaded ([`Shader::shade`]), once, for every arithmetic backend. Kernels and engines do all else: positions of lights,
-//! perspective, clamping, storing, loops. (Duff's method alone steps positions itself.)
+//! perspective, clamping, storing, loops. (The methods in `duff_phong.rs`, `six_point.rs` and `bishop_weimer.rs` see lights at positions
+//! in their own way: they step positions, or quadratics of them, themselves.)
 //!
 //! ```text
 //! vertex ──► Varying ──► edges, spans ──► Walk ──► Pixel ──► shade ──► colour

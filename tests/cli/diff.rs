@@ -203,22 +203,35 @@ fn flip_of_a_comparison_is_that_of_the_rendered_files() {
         .prints("FLIP");
 }
 
-/// The upper left part that both pictures have is compared and mapped, and they differ all the same.
+/// Numbers of a corner would say nothing of the pictures. The map shows the upper left part that both have.
 #[test]
-fn pictures_of_different_size_differ_and_their_common_part_is_mapped() {
+fn pictures_of_different_size_differ_without_numbers_and_their_common_part_is_mapped() {
     let folder = pair();
     folder.write("small.ppm", [&b"P6 4 9 255\n"[..], &[100; 108]].concat());
-    let sizes = "the sizes differ: the reference has 16x12 pixels, the picture 4x9; compared is the \
-                 upper left part, 4x9";
+    let sizes = "the sizes differ: the reference has 16x12 pixels, the picture 4x9";
+    let ended = folder.run("diff a.png small.ppm").differs();
+    let ended = ended.says("the pictures differ in size").prints(sizes);
+    assert_eq!(
+        ended.out.lines().count(),
+        2,
+        "sizes and encodings: {}",
+        ended.out
+    );
+    // Also where that corner is the same to the bit.
     folder
-        .run("diff a.png small.ppm")
-        .differs()
-        .prints(sizes)
-        .says("the pictures differ in size");
+        .run("render builtin:cube --size 16x12 -o one.png")
+        .done();
+    folder
+        .run("render builtin:cube --size 16x13 -o two.png")
+        .done();
+    let ended = folder.run("diff one.png two.png").differs();
+    assert!(!ended.out.contains("max"), "{}", ended.out);
     folder
         .run("diff b.png small.ppm -o map.png --fail-above 255")
         .differs()
-        .prints("the largest difference is at column 3, row 7");
+        .prints(&format!(
+            "{sizes}; the map shows the upper left part that both have, 4x9"
+        ));
     let map = picture(&folder.path("map.png"));
     assert_eq!((map.width(), map.height()), (4, 9));
     assert_ne!(map.get(3, 7)[..3], [0; 3]);
@@ -233,6 +246,9 @@ fn pictures_of_different_size_differ_and_their_common_part_is_mapped() {
         [&serde_json::json!([16, 12]), &serde_json::json!([4, 9])]
     );
     assert_eq!((&json["width"], &json["height"]), (&4.into(), &9.into()));
+    let metrics = json["metrics"].as_object().expect("metrics");
+    assert!(metrics.len() > 5 && metrics.values().all(serde_json::Value::is_null));
+    assert!(json["worst"].is_null());
 }
 
 /// PNG states its encoding, PFM counts as linear: one drawing in both formats is one picture.

@@ -59,7 +59,7 @@ const FLAGS: &[[&str; 4]] = &[
 /// Flags that change no picture, except by rounding of single pixels.
 #[rustfmt::skip]
 const OTHERS: &[&str] = &[
-    "output", "format", "input-format", "simd", "threads", "print-scene", "stats", "watch", "reference", "reference-threshold", "verbose", "quiet", "help",
+    "output", "format", "input-format", "simd", "threads", "print-scene", "stats", "watch", "reference", "reference-threshold", "force", "verbose", "quiet", "help",
 ];
 
 const PAGE: &str = "docs/flags.md";

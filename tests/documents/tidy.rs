@@ -158,6 +158,20 @@ fn the_number_of_methods_is_right_everywhere() {
     }
 }
 
+/// Documents that count the lectures' figures give their right number.
+#[test]
+fn the_number_of_figures_is_right_everywhere() {
+    let number = fastphong::lectures::FIGURES.len().to_string();
+    for (name, after) in [
+        ("README.md", " figures, each with"),
+        ("CHANGELOG.md", " figures with what each"),
+    ] {
+        let text = read(name);
+        let (before, _) = text.split_once(after).expect(name);
+        assert_eq!(before.rsplit(' ').next(), Some(&*number), "{name}");
+    }
+}
+
 /// True if a quoted text is meant as a path of the repository.
 fn is_path(text: &str) -> bool {
     let plain = !text.contains([' ', '*', '<', '$', '…', ':', '(', '{']) && !text.contains("NAME");

@@ -3,12 +3,13 @@
 mod window;
 
 use super::engines::{self, Simd, ThreadFlags, renderer};
+use super::input_name;
 use super::measured::{Methods, methods, warn_of_debug_build};
 use super::name_template::scene_name;
 use super::polygon_counts::warn_of_polygons_left_out;
 use super::scene_flags::SceneFlags;
 use super::watch::Watched;
-use super::{CliError, Log, Outcome};
+use super::{CliError, Log, Outcome, memory};
 use fastphong::raster::Renderer;
 use fastphong::view::{Action, Loaded, Panes, Viewer};
 
@@ -17,6 +18,7 @@ use fastphong::view::{Action, Loaded, Panes, Viewer};
 #[command(after_help = KEYS)]
 pub struct ViewArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    #[arg(value_parser = input_name::parser())]
     input: String,
     /// Methods of the keys 1 to 9, between commas, with parameters as in `fast-phong:steps=1`. The first two are shown at first
     #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = METHODS, value_parser = at_most_nine)]
@@ -105,6 +107,7 @@ impl ViewArgs {
         let resolved = self.scene.resolve_to_show(&mut file)?;
         self.scene.warn(&file, &resolved, log);
         self.scene.note_colours(&file, &resolved, log);
+        memory::check_frame(&resolved.scene)?;
         let camera = file.table().table("camera");
         let gives = |key| camera.is_some_and(|camera| camera.get(key).is_some());
         let loaded = Loaded::new(&resolved.scene, [gives("near"), gives("far")])?;

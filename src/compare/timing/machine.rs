@@ -47,15 +47,6 @@ impl Machine {
         }
     }
 
-    /// Returns the bytes of memory that this program may still ask for, swap included, if the system tells: Linux does, and the
-    /// limit of a container counts.
-    pub fn free_memory() -> Option<u64> {
-        let of = |path: &str| std::fs::read_to_string(path).ok();
-        let free = free_in_meminfo(&of("/proc/meminfo")?)?;
-        let most = of("/sys/fs/cgroup/memory.max").and_then(|text| text.trim().parse().ok());
-        Some(free.min(most.unwrap_or(u64::MAX)))
-    }
-
     /// Writes one line for people.
     pub fn line(&self) -> String {
         format!(
@@ -63,17 +54,6 @@ impl Machine {
             self.cpu, self.os, self.arch, self.rustc, self.profile, self.opt_level, self.version
         )
     }
-}
-
-/// Finds free memory and swap in the text of `/proc/meminfo`, in bytes.
-fn free_in_meminfo(text: &str) -> Option<u64> {
-    let kilobytes = |key: &str| {
-        let value = text.lines().find_map(|line| line.strip_prefix(key))?;
-        let value: u64 = value.split_whitespace().next()?.parse().ok()?;
-        Some(value)
-    };
-    let free = kilobytes("MemAvailable:")? + kilobytes("SwapFree:").unwrap_or(0);
-    Some(1024 * free)
 }
 
 /// Lists the vector extensions of x86-64 and AArch64 that this build may use.
@@ -142,18 +122,6 @@ mod tests {
         assert!(machine.rustc.starts_with("rustc 1."), "{}", machine.rustc);
         assert!(machine.line().contains(&machine.cpu) && machine.line().contains(&machine.rustc));
         assert!(matches!(&*machine.profile, "debug" | "release"));
-    }
-
-    #[test]
-    fn free_memory_is_that_of_the_system() {
-        let text = "MemTotal:  24000000 kB\nMemFree:  1 kB\nMemAvailable:   23000000 kB\nSwapFree:   1000 kB\n";
-        assert_eq!(free_in_meminfo(text), Some(1024 * 23_001_000));
-        assert_eq!(free_in_meminfo("MemAvailable: 5 kB\n"), Some(5 * 1024));
-        for text in ["", "MemTotal: 5 kB\n", "MemAvailable: many kB\n"] {
-            assert_eq!(free_in_meminfo(text), None, "{text}");
-        }
-        let is_there = Machine::free_memory().is_none_or(|bytes| bytes > 1 << 20);
-        assert!(is_there, "a test runs in more than a megabyte");
     }
 
     #[cfg(any(target_os = "linux", target_os = "android"))]

@@ -7,7 +7,7 @@ use image::codecs::bmp::BmpDecoder;
 use image::codecs::tga::TgaDecoder;
 use image::{DynamicImage, ImageDecoder, ImageResult, Limits};
 
-use super::{DecodeError, FilePicture, FilePixels, MAX_PIXELS, checked_size};
+use super::{DecodeError, FilePicture, FilePixels, MAX_PIXELS, checked_size, has_room};
 use crate::picture::Picture8;
 
 /// A format that this file reads.
@@ -49,6 +49,10 @@ impl Bitmap {
         limits.max_alloc = Some(8 * MAX_PIXELS);
         decoder.set_limits(limits).map_err(broken)?;
         let has_alpha = decoder.color_type().has_alpha();
+        // As read, in order, and as kept: whether there is room is asked before, as the crate would end the program.
+        if !has_room::<[[u8; 4]; 3]>(width * height) {
+            return Err(DecodeError::NoMemory { width, height });
+        }
         let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
         let pixels = image.into_rgba8().as_raw().as_chunks().0.to_vec();
         let picture = Picture8::from_pixels(width, height, pixels);

@@ -2,7 +2,7 @@
 //!
 //! | ending | written | loses |
 //! |---|---|---|
-//! | `.png` | red, green, blue, straight alpha in 8 bits; the encoding, if the picture states it | fractions of a grey level |
+//! | `.png` | red, green, blue, straight alpha in 8 bits; the encoding, if the picture states it; the name of this program | fractions of a grey level |
 //! | `.ppm` | red, green, blue in 8 bits (P6) | the same, alpha, and the encoding |
 //! | `.pfm` | red, green, blue as floats (PF) | alpha |
 //!
@@ -216,8 +216,9 @@ impl FilePicture {
                 let stated = png::Stated {
                     encoding: self.encoding,
                     background: self.background,
+                    software: true,
                 };
-                out.write_all(&png::encode(picture, stated).map_err(io::Error::other)?)
+                png::write(picture, stated, out)
             }
             (Format::Ppm, FilePixels::Stored(picture)) => netpbm::write_ppm(picture, out),
             (Format::Pfm, FilePixels::Linear(picture)) => netpbm::write_pfm(picture, out),
@@ -386,6 +387,15 @@ fn reserved<P>(width: usize, height: usize) -> Result<Vec<P>, DecodeError> {
         Ok(()) => Ok(pixels),
         Err(_) => Err(DecodeError::NoMemory { width, height }),
     }
+}
+
+/// True if the system gives memory for `count` values at once.
+fn has_room<T>(count: usize) -> bool {
+    let mut values = Vec::<T>::new();
+    let is_there = values.try_reserve_exact(count).is_ok();
+    // The compiler would leave out a list that nobody sees.
+    core::hint::black_box(&mut values);
+    is_there
 }
 
 #[cfg(test)]

@@ -147,11 +147,14 @@ impl<'a> Pair<'a> {
     }
 
     fn view(&self, place: usize, encoding: Encoding) -> LevelView<'a> {
+        let (from, to) = (self.encodings[place].encoding, encoding);
+        let whole = || core::array::from_fn(|level| converted(level as f64, from, to));
         LevelView {
             picture: self.pictures[place],
             size: self.common_size(),
-            from: self.encodings[place].encoding,
-            to: encoding,
+            from,
+            to,
+            whole: (from != to).then(whole),
             background: None,
             keeps_alpha: false,
             is_clamped: false,
@@ -200,6 +203,8 @@ pub struct LevelView<'a> {
     background: Option<[f64; 3]>,
     /// True if alpha is left; else it is full.
     keeps_alpha: bool,
+    /// The levels of 8 bits in the encoding of the levels, if that is another.
+    whole: Option<[f64; 256]>,
     /// True if levels are limited to 0..=255; a level that is no number becomes 0.
     is_clamped: bool,
 }
@@ -228,16 +233,12 @@ impl LevelRows for LevelView<'_> {
 
     fn level_row(&self, y: usize, levels: &mut [Levels]) {
         self.picture.stored_levels(y, levels);
-        let changes_encoding = self.from != self.to;
-        // The whole levels of 8 bits, looked up.
-        let whole: Option<[f64; 256]> = changes_encoding
-            .then(|| core::array::from_fn(|level| converted(level as f64, self.from, self.to)));
         for pixel in levels {
             let mut rgb = match self.background {
                 Some(background) => self.flattened(*pixel, background),
                 None => pixel.rgb(),
             };
-            if let Some(whole) = &whole {
+            if let Some(whole) = &self.whole {
                 rgb = rgb.map(|level| match level as u8 {
                     byte if f64::from(byte) == level => whole[usize::from(byte)],
                     _ => converted(level, self.from, self.to),

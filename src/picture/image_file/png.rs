@@ -2,7 +2,7 @@
 
 use std::borrow::ToOwned;
 use std::format;
-use std::io::Cursor;
+use std::io::{self, Cursor, Write};
 use std::string::{String, ToString};
 use std::vec;
 use std::vec::Vec;
@@ -12,7 +12,7 @@ use png::{
     ScaledFloat, SrgbRenderingIntent, Transformations, chunk,
 };
 
-use super::{DecodeError, EncodeError, FilePicture, FilePixels, checked_size, reserved};
+use super::{DecodeError, EncodeError, FilePicture, FilePixels, checked_size, has_room, reserved};
 use crate::picture::{Encoding, Picture, Picture8};
 
 /// The first bytes of every PNG file (ISO/IEC 15948, 5.2).
@@ -35,6 +35,8 @@ pub(super) struct Stated {
     pub encoding: Option<Encoding>,
     /// The background, in grey levels, for `bKGD`.
     pub background: Option<[f64; 3]>,
+    /// True if the file names this program as its software.
+    pub software: bool,
 }
 
 /// Returns the bytes of a PNG file: 8 bits of red, green, blue, straight alpha, as they are stored. It states no encoding, so
@@ -43,16 +45,27 @@ pub(super) struct Stated {
 /// # Errors
 /// If the picture has no pixels, or a side longer than 2³¹ − 1.
 pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
-    encode(picture, Stated::default())
-}
-
-/// Returns the bytes of a PNG file with the chunks that state more about it.
-pub(super) fn encode(picture: &Picture8, stated: Stated) -> Result<Vec<u8>, EncodeError> {
     let (width, height) = (picture.width(), picture.height());
     EncodeError::check(width, height)?;
     let mut bytes = Vec::new();
-    let mut write = || -> Result<(), EncodingError> {
-        let mut encoder = Encoder::new(&mut bytes, width as u32, height as u32);
+    match write(picture, Stated::default(), &mut bytes) {
+        Ok(()) => Ok(bytes),
+        Err(_) => Err(EncodeError { width, height }),
+    }
+}
+
+/// Bytes of compressed pixels in a chunk: a file is written as it is compressed, and is never in memory as a whole.
+const PIECE: usize = 1 << 17;
+
+/// Writes a PNG file with the chunks that state more about it.
+///
+/// # Errors
+/// If the picture does not fit ([`EncodeError`], inside), and those of `out`.
+pub(super) fn write(picture: &Picture8, stated: Stated, out: impl Write) -> io::Result<()> {
+    let (width, height) = (picture.width(), picture.height());
+    EncodeError::check(width, height).map_err(io::Error::other)?;
+    let write = || -> Result<(), EncodingError> {
+        let mut encoder = Encoder::new(out, width as u32, height as u32);
         encoder.set_color(ColorType::Rgba);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Balanced);
@@ -64,17 +77,24 @@ pub(super) fn encode(picture: &Picture8, stated: Stated) -> Result<Vec<u8>, Enco
             }
             None => {}
         }
+        if stated.software {
+            encoder.add_text_chunk("Software".into(), env!("CARGO_PKG_NAME").into())?;
+        }
         let mut writer = encoder.write_header()?;
         if let Some(background) = stated.background {
             // Three samples of two bytes, whatever the depth (11.3.4.1).
             let levels = background.map(|level| [0, (level + 0.5) as u8]);
             writer.write_chunk(chunk::bKGD, levels.as_flattened())?;
         }
-        writer.write_image_data(picture.pixels().as_flattened())?;
+        let mut pixels = writer.stream_writer_with_size(PIECE)?;
+        pixels.write_all(picture.pixels().as_flattened())?;
+        pixels.finish()?;
         writer.finish()
     };
-    write().map_err(|_| EncodeError { width, height })?;
-    Ok(bytes)
+    write().map_err(|error| match error {
+        EncodingError::IoError(error) => error,
+        _ => io::Error::other(EncodeError { width, height }),
+    })
 }
 
 /// Reads the picture in a PNG file of any colour type and depth; of an animation the still picture that stands for it.
@@ -112,6 +132,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
         ..FilePicture::of_pixels(pixels)
     };
     state(&mut picture, &reader, has_gamma_of_zero(bytes));
+    note_orientation(&mut picture, bytes);
     Ok(picture)
 }
 
@@ -140,10 +161,9 @@ fn pixels<const BYTES: usize, S: Copy + Default>(
         true => {
             // Rows come in seven passes, so that all are there only at the end.
             let size = width * height * channels * BYTES;
-            let no_memory = |_| DecodeError::NoMemory { width, height };
-            Vec::<u8>::new()
-                .try_reserve_exact(size)
-                .map_err(no_memory)?;
+            if !has_room::<u8>(size) {
+                return Err(DecodeError::NoMemory { width, height });
+            }
             // Zeroed memory is untouched until rows are written to it: a file that is cut off costs nothing.
             let mut rows = vec![0; size];
             reader.next_frame(&mut rows).map_err(broken)?;
@@ -217,23 +237,80 @@ fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>, has_gamma_of
         .and_then(|samples| background(samples, reader));
 }
 
+/// Walks along the chunks of a file: kind and data, which end where the file does (ISO/IEC 15948, 5.3: length, kind, data, CRC).
+fn chunks(bytes: &[u8]) -> impl Iterator<Item = (&[u8; 4], &[u8])> {
+    let mut rest = bytes.get(SIGNATURE.len()..).unwrap_or_default();
+    core::iter::from_fn(move || {
+        let (length, after) = rest.split_first_chunk::<4>()?;
+        let (kind, data) = after.split_first_chunk::<4>()?;
+        let length = u32::from_be_bytes(*length) as usize;
+        rest = data.get(length.saturating_add(4)..).unwrap_or_default();
+        Some((kind, data.get(..length).unwrap_or(data)))
+    })
+}
+
 /// True if the first `gAMA` is 0, which means nothing (PNG, third edition, 11.3.2.2). The decoder drops it.
 fn has_gamma_of_zero(bytes: &[u8]) -> bool {
-    let mut rest = bytes.get(SIGNATURE.len()..).unwrap_or_default();
-    // A length, a kind, the data and a checksum.
-    while let Some((length, after)) = rest.split_first_chunk::<4>()
-        && let Some((kind, data)) = after.split_first_chunk::<4>()
-    {
-        match kind {
-            b"gAMA" => return data.starts_with(&[0; 4]),
-            b"IDAT" => return false,
-            _ => {}
-        }
-        let whole = (u32::from_be_bytes(*length) as usize).saturating_add(4);
-        rest = data.get(whole..).unwrap_or_default();
-    }
-    false
+    let mut before = chunks(bytes).take_while(|(kind, _)| *kind != b"IDAT");
+    let gamma = before.find(|(kind, _)| *kind == b"gAMA");
+    gamma.is_some_and(|(_, data)| data.starts_with(&[0; 4]))
 }
+
+/// Notes an orientation that Exif states (`eXIf`, PNG, third edition, 11.3.4.9): viewers turn the picture by it, and comparisons do
+/// not.
+fn note_orientation(picture: &mut FilePicture, bytes: &[u8]) {
+    let stated = chunks(bytes).filter(|(kind, _)| *kind == b"eXIf");
+    let Some(orientation) = stated.filter_map(|(_, data)| exif_orientation(data)).next() else {
+        return;
+    };
+    let meaning = match orientation {
+        2 => "mirrored left to right",
+        3 => "turned by 180 degrees",
+        4 => "mirrored top to bottom",
+        5 => "mirrored left to right and turned anticlockwise by 90 degrees",
+        6 => "turned clockwise by 90 degrees",
+        7 => "mirrored left to right and turned clockwise by 90 degrees",
+        8 => "turned anticlockwise by 90 degrees",
+        // 1 is as stored, and others mean nothing.
+        _ => return,
+    };
+    let stated = format!("its Exif orientation {orientation} (to be shown {meaning})");
+    let note = format!("{stated} is passed over: pixels count as they are stored");
+    picture.notes.push(note);
+}
+
+/// Returns the orientation that Exif data state: a TIFF header and a directory of entries of 12 bytes (TIFF 6.0, 2; Exif 2.32, 4.6.4).
+fn exif_orientation(data: &[u8]) -> Option<u32> {
+    // Some writers leave the mark of JPEG before it.
+    let data = data.strip_prefix(b"Exif\0\0").unwrap_or(data);
+    let is_little = match data.get(..4)? {
+        b"II*\0" => true,
+        b"MM\0*" => false,
+        _ => return None,
+    };
+    let number = |at: usize, size: usize| {
+        let bytes = data.get(at..at.checked_add(size)?)?;
+        let append = |number: u32, byte: &u8| number << 8 | u32::from(*byte);
+        Some(match is_little {
+            true => bytes.iter().rev().fold(0, append),
+            false => bytes.iter().fold(0, append),
+        })
+    };
+    let directory = number(4, 4)? as usize;
+    let count = number(directory, 2)? as usize;
+    let entries = (0..count).map(|entry| directory.saturating_add(2 + 12 * entry));
+    let mut entries = entries.take_while(|entry| *entry < data.len());
+    let entry = entries.find(|entry| number(*entry, 2) == Some(ORIENTATION))?;
+    // A SHORT, or from some writers a LONG: either begins where a value of 4 bytes does.
+    match number(entry + 2, 2)? {
+        3 => number(entry + 8, 2),
+        4 => number(entry + 8, 4),
+        _ => None,
+    }
+}
+
+/// The tag of the orientation.
+const ORIENTATION: u32 = 0x0112;
 
 /// Returns the background that `bKGD` states, in grey levels.
 fn background(samples: &[u8], reader: &Reader<Cursor<&[u8]>>) -> Option<[f64; 3]> {

@@ -1052,3 +1052,56 @@ fn bitmaps_of_rasterizers_without_a_library_are_read() {
         "{error}"
     );
 }
+
+/// Exif data in either order of bytes, with and without the mark that JPEG files have before it, and as a SHORT or a LONG.
+#[test]
+fn an_orientation_of_exif_is_told() {
+    let plain = FilePicture::stored(stored()).encode(Format::Png).unwrap();
+    let with = |data: &[u8], at: usize| {
+        let bytes = [&plain[..at], &chunk(b"eXIf", data), &plain[at..]].concat();
+        decode_picture(&bytes).unwrap()
+    };
+    // After IHDR, and before IEND.
+    let places = [33, plain.len() - 12];
+    let little = |kind: u8, value: u8| {
+        // Header, two entries (the first of another tag), no further directory.
+        let head = b"II*\0\x08\0\0\0\x02\0\x0f\x01\x02\0\x01\0\0\0a\0\0\0\x12\x01";
+        [
+            &head[..],
+            &[kind, 0, 1, 0, 0, 0, value, 0, 0, 0, 0, 0, 0, 0],
+        ]
+        .concat()
+    };
+    let big = |value: u8| {
+        let head = b"MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0";
+        [&head[..], &[value, 0, 0, 0, 0, 0, 0]].concat()
+    };
+    let note = "its Exif orientation 6 (to be shown turned clockwise by 90 degrees) is passed over: pixels count as they are stored";
+    let marked = [&b"Exif\0\0"[..], &little(3, 6)].concat();
+    for data in [little(3, 6), little(4, 6), big(6), marked] {
+        for at in places {
+            assert_eq!(with(&data, at).notes, [note], "{data:?} at {at}");
+        }
+    }
+    let orientations = (0..=9).map(|value| with(&big(value), 33).notes.len());
+    assert_eq!(
+        orientations.collect::<Vec<_>>(),
+        [0, 0, 1, 1, 1, 1, 1, 1, 1, 0]
+    );
+    // What is cut off, or is no Exif, states nothing and breaks nothing.
+    let whole = big(6);
+    for end in 0..19 {
+        assert_eq!(with(&whole[..end], 33).notes, [""; 0], "{end} bytes");
+    }
+    let far = [&b"II*\0\xff\xff\xff\xff"[..], &little(3, 6)].concat();
+    assert_eq!(with(&far, 33).notes, [""; 0]);
+}
+
+/// A PNG file names the program, by which this knows its own files again.
+#[test]
+fn a_png_file_names_its_software() {
+    let named = FilePicture::stored(stored()).encode(Format::Png).unwrap();
+    let mark = b"tEXtSoftware\0fastphong";
+    assert!(named.windows(mark.len()).any(|part| part == mark));
+    assert_eq!(decode_picture(&named).unwrap().to_stored(), stored());
+}

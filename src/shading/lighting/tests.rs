@@ -456,3 +456,24 @@ fn highlights_over_1_are_within_their_bound() {
         }
     }
 }
+
+/// A table of a thousand entries for each of a million polygons would take 4 GB.
+#[test]
+fn polygons_that_see_light_from_their_own_places_share_a_table_of_powers() {
+    let lighting = shining(0.5, 20.0, Falloff::InverseSquare);
+    let uniforms = Uniforms::new(&lighting, Power::Table { size: 1024 }, 1.0);
+    let seen = uniforms.seen_from([1.0, 2.0, 3.0]);
+    let [own, shared] = [&uniforms, &seen].map(|uniforms| uniforms.stored().powers);
+    assert_eq!(own.len(), 1025, "entries");
+    assert!(core::ptr::eq(own, shared), "one table");
+}
+
+/// A method whose pixels have no position cannot ask for one.
+#[cfg(debug_assertions)]
+#[test]
+#[should_panic(expected = "a walk has no point")]
+fn a_pixel_without_a_point_has_none() {
+    let uniforms = Uniforms::new(&shining(0.5, 20.0, Falloff::None), Power::default(), 1.0);
+    let lit = Lit::new(uniforms.stored(), 0.0f32, true);
+    lit.at_pixel(vec3([1.0; 3]), false).point();
+}

@@ -1,0 +1,132 @@
+//! Little memory: each command says what it needs before it takes it. Limits of the address space are those that a shell can set.
+#![cfg(target_os = "linux")]
+
+use super::{Ended, Folder};
+use std::process::{Command, Stdio};
+
+/// Runs a command with at most so many kilobytes of address space.
+fn run_within(folder: &Folder, kilobytes: u32, arguments: &str) -> Ended {
+    let tool = env!("CARGO_BIN_EXE_fastphong");
+    let limited = format!("ulimit -v {kilobytes} && exec {tool} {arguments}");
+    let mut command = Command::new("sh");
+    command.args(["-c", &limited]).current_dir(&folder.0);
+    // Each thread takes address space for its stack.
+    let command = command.stdin(Stdio::null()).env("RAYON_NUM_THREADS", "2");
+    Ended::new(arguments, command.output().expect("a shell"))
+}
+
+#[test]
+fn what_does_not_fit_into_a_limit_of_the_shell_is_one_error_in_every_command() {
+    let folder = Folder::new();
+    folder
+        .run("render builtin:cube --size 64x48 -o a.png")
+        .done();
+    let mut mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
+    mesh += &"f 1 2 3\n".repeat(6_000_000);
+    folder.write("large.obj", mesh);
+    let pixels = "expected fewer pixels or samples";
+    for (arguments, said, expected) in [
+        (
+            "render builtin:cube --size 8000x8000 -o o.png",
+            "8000x8000: phong-rsqrt needs about 256.0 MB of memory, and ",
+            pixels,
+        ),
+        (
+            "render builtin:cube --size 8000x8000 -o o.pfm",
+            " 1.0 GB ",
+            pixels,
+        ),
+        (
+            "render builtin:cube --size 8000x8000 --simd scalar -o o.ppm",
+            " 256.0 MB ",
+            pixels,
+        ),
+        (
+            "render builtin:cube --size 8000x8000 -m reference -o o.png",
+            "reference needs about",
+            pixels,
+        ),
+        (
+            "render builtin:cube --size 8000x8000 --aov normal -o o.png",
+            "normal needs about",
+            pixels,
+        ),
+        (
+            "render builtin:cube --size 8000x8000 --engine cs171 -o o.png",
+            "needs about",
+            pixels,
+        ),
+        (
+            "render builtin:cube --size 8000x8000 --engine barycentric -o o.png",
+            "needs about",
+            pixels,
+        ),
+        (
+            "render builtin:cube --size 8000x8000 --reference a.png",
+            "phong-rsqrt needs about",
+            pixels,
+        ),
+        (
+            "compare builtin:cube --size 8000x8000",
+            "comparing needs about",
+            pixels,
+        ),
+        (
+            "bench builtin:cube --size 8000x8000",
+            "comparing needs about",
+            pixels,
+        ),
+        (
+            "bench builtin:cube --size 8000x8000 --frame-times",
+            "needs about",
+            pixels,
+        ),
+        (
+            "report builtin:cube --size 8000x8000",
+            "comparing needs about",
+            pixels,
+        ),
+        (
+            "render builtin:sphere?polygons=5000000 -o o.png",
+            "its meshes need about 1.0 GB",
+            "expected a smaller mesh",
+        ),
+        (
+            "info builtin:sphere?polygons=5000000",
+            "its meshes need about",
+            "expected a smaller mesh",
+        ),
+        (
+            "info large.obj",
+            "its meshes need about 288.0 MB",
+            "expected a smaller mesh",
+        ),
+    ] {
+        run_within(&folder, 250_000, arguments).refused(&[said, " are free: ", expected]);
+    }
+    assert!(!folder.names().iter().any(|name| name.starts_with("o.")));
+}
+
+/// Pictures are written as they are compressed, and rows as they are drawn: no copy of a file is in memory.
+#[test]
+fn what_fits_into_a_limit_of_the_shell_is_drawn() {
+    let folder = Folder::new();
+    for arguments in [
+        "render builtin:cube --size 640x480 -o o.png",
+        "render builtin:cube --size 4000x2000 -o o.ppm",
+        "diff o.png o.png -o map.png",
+        "info teapot",
+        "list scenes",
+    ] {
+        run_within(&folder, 250_000, arguments).done();
+    }
+}
+
+/// Pictures that are read ask for their memory first.
+#[test]
+fn pictures_that_do_not_fit_are_one_error() {
+    let folder = Folder::new();
+    folder.write("large.ppm", "P6 9000 9000 255\n");
+    run_within(&folder, 250_000, "diff large.ppm large.ppm")
+        .refused(&["large.ppm: there is not enough memory for 9000×9000 pixels"]);
+}
