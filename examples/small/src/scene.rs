@@ -83,7 +83,7 @@ impl Random {
 }
 
 fn bits(v: Vector) -> [i32; 3] {
-    v.map(|x| x.to_bits())
+    v.to_array().map(|x| x.to_bits())
 }
 
 /// The side of frames in pixels.
