@@ -1,7 +1,5 @@
 //! 1/√D from a table of 4 KB, with Newton's steps without a division.
 
-use super::vector::product;
-
 /// What D may exceed 1 by, in 30 fractional bits: second differences drift by less up to 90°.
 const ABOVE_ONE: i32 = 1 << 19;
 
@@ -70,6 +68,16 @@ pub(super) fn root_below<const REFINED: bool>(below_one: u32) -> i32 {
     } else {
         r
     }
+}
+
+/// Returns a product that fits 32 bits.
+///
+/// All do that a [`Span`](super::Span) or a [`Canvas`](super::Canvas) leads to: in this crate's own tests a larger one panics. Elsewhere
+/// it wraps, because [`naive`](super::naive) and [`fast`](super::fast) take state of the caller's, which may be anything: such pixels have
+/// wrong colours.
+#[inline(always)]
+pub(super) const fn product(a: i32, b: i32) -> i32 {
+    if cfg!(test) { a * b } else { a.wrapping_mul(b) }
 }
 
 /// Returns J/√D with 31 fractional bits, from J with 30 and 1/√D with 15.

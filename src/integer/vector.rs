@@ -1,6 +1,6 @@
 //! Vectors of 15 fractional bits.
 
-use super::reciprocal_root::root_of;
+use super::reciprocal_root::{product, root_of};
 use fixed::types::I17F15;
 
 /// The largest square of a vector's length, with 30 fractional bits: 1 + 2⁻¹³.
@@ -82,16 +82,6 @@ pub(super) const fn unit_bits(v: Bits) -> Bits {
 pub const fn unit(direction: [i16; 3]) -> Vector {
     let [x, y, z] = direction;
     Vector(narrowed(wide_direction([x as i64, y as i64, z as i64])))
-}
-
-/// Returns a product that fits 32 bits.
-///
-/// All do that a [`Span`](super::Span) or a [`Canvas`](super::Canvas) leads to: in this crate's own tests a larger one panics. Elsewhere
-/// it wraps, because [`naive`](super::naive) and [`fast`](super::fast) take state of the caller's, which may be anything: such pixels have
-/// wrong colours.
-#[inline(always)]
-pub(super) const fn product(a: i32, b: i32) -> i32 {
-    if cfg!(test) { a * b } else { a.wrapping_mul(b) }
 }
 
 /// Returns the dot product of two vectors, with 30 fractional bits.
