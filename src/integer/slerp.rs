@@ -24,9 +24,14 @@ impl Span {
             first: unit_bits(self.first),
             end: unit_bits(self.end),
         };
-        span.in_pieces(line, Self::on_circle, |span, line| {
-            span.waves::<P, H>(line, light);
-        });
+        span.in_pieces(
+            line,
+            Self::on_circle,
+            #[inline(always)]
+            |span, line| {
+                span.waves::<P, H>(line, light);
+            },
+        );
     }
 
     /// Returns the unit normal at a part of the span, on the great circle between its ends: by halves, as the middle

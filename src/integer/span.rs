@@ -60,10 +60,15 @@ impl Span {
         line: &mut [P],
         lights: &[Light<'_, P>; L],
     ) {
-        self.in_pieces(line, Self::between, |span, line| {
-            let n = Reciprocal::of(line.len());
-            naive::<P, H, REFINED, L>(line, span.normals(n), lights);
-        });
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                let n = Reciprocal::of(line.len());
+                naive::<P, H, REFINED, L>(line, span.normals(n), lights);
+            },
+        );
     }
 
     /// Shades a line by fast Phong shading: see [`fast`] for the errors.
@@ -73,11 +78,16 @@ impl Span {
         line: &mut [P],
         lights: &[Light<'_, P>; L],
     ) {
-        self.in_pieces(line, Self::between, |span, line| {
-            let n = Reciprocal::of(line.len());
-            let (j, k) = span.products::<P, H, L>(lights, n);
-            fast::<P, H, REFINED, L>(line, j, k, span.square(n), lights);
-        });
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                let n = Reciprocal::of(line.len());
+                let (j, k) = span.products::<P, H, L>(lights, n);
+                fast::<P, H, REFINED, L>(line, j, k, span.square(n), lights);
+            },
+        );
     }
 
     /// Shades a line by parabolas through both ends and the middle: see [`quadratic`] for the errors.
@@ -89,9 +99,14 @@ impl Span {
         line: &mut [P],
         lights: &[Light<'_, P>; L],
     ) {
-        self.in_pieces(line, Self::between, |span, line| {
-            span.parabolas::<P, H, L>(line, lights);
-        });
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                span.parabolas::<P, H, L>(line, lights);
+            },
+        );
     }
 
     /// Calls `shade` for a line, or for pieces of it if it is too long for the formats. `between` returns the normal at a part of

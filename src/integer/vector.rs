@@ -148,6 +148,7 @@ const fn square([x, y, z]: [i64; 3]) -> u64 {
 
 /// Returns the unit vector of a direction with 30 fractional bits, from components of at most 2³¹ in magnitude; 0 for the
 /// vector 0. Its length is right to 2⁻¹⁵.
+#[inline(never)]
 pub(super) const fn wide_direction([x, y, z]: [i64; 3]) -> [i64; 3] {
     // The highest bit of the largest component becomes bit 30, so that three squares fit 64 bits.
     let most = x.unsigned_abs() | y.unsigned_abs() | z.unsigned_abs();
@@ -167,6 +168,7 @@ pub(super) const fn wide_direction([x, y, z]: [i64; 3]) -> [i64; 3] {
 }
 
 /// Returns a vector divided by its length; 0 for the vector 0.
+#[inline(never)]
 pub(super) const fn normalized(v: Bits) -> Bits {
     let (wide, d) = (widened(v), dot(v, v));
     // Those that are not below 1 need no halving for their root.
