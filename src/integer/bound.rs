@@ -11,7 +11,8 @@ const UNIT: f64 = 1.0 / 32768.0;
 /// It holds for [`naive`](super::naive), [`fast`](super::fast) and, with `is_parabola`,
 /// [`quadratic`](super::quadratic), over spans and triangles whose normals lie within 90° of one
 /// another, and with `is_slerp` for [`Span::slerp`](super::Span::slerp) up to 60°. Colours that several
-/// lights add up to: the sum of their bounds. Gouraud shading is off by its corners' bounds, a field's
+/// lights add up to: the sum of their bounds. Triangles with sides of 32 pixels and more are drawn with corners that may lie 2⁻¹³
+/// of the longest side elsewhere. Gouraud shading is off by its corners' bounds, a field's
 /// last bit and n 2⁻¹⁶.
 #[derive(Clone, Copy, Debug)]
 pub struct ErrorBound {

@@ -1,6 +1,6 @@
 //! The light, the material, spans and globes: all in integers, so that every machine has the same.
 
-use fastphong::fixed::types::{I24F8, U16F16};
+use fastphong::fixed::types::{I17F15, I24F8, U16F16};
 use fastphong::integer::{Light, Material, Pixel, Span, Vector, Vertex, unit};
 
 const fn colour(red: &str, green: &str, blue: &str) -> [U16F16; 3] {
@@ -51,6 +51,12 @@ impl Random {
     fn next(&mut self) -> i32 {
         self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (self.0 >> 19) as i32 - 4096
+    }
+
+    /// Returns a vector of any bits, mostly longer than 1.
+    pub fn vector(&mut self) -> Vector {
+        let shift = self.next() & 15;
+        Vector::new([0; 3].map(|_| I17F15::from_bits(self.next() << shift)))
     }
 
     /// Returns a span of an angle, and its normals. Bright ones lie about the highlight.
