@@ -8,7 +8,7 @@
 //! Needs no feature of the crate: it also runs with `--no-default-features`, as on a machine without an operating system.
 //! `Variant::draw` draws into memory of yours, on SIMD where `Renderer::fastest()` has it, and beside a depth buffer of yours.
 
-use fastphong::frame::{FrameBuilder, SubPixel, Vertex};
+use fastphong::frame::{FrameBuilder, Vertex, sub_pixel};
 use fastphong::glam::{DVec3, Vec3};
 use fastphong::mesh::Material;
 use fastphong::scene::{Light, Lighting};
@@ -33,8 +33,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // the frame's interpolation `Interpolation::Perspective`.
     let mut corner = |normal: Vec3| {
         builder.vertex(Vertex {
-            x: SubPixel::from_num(160.0 + 110.0 * normal.x),
-            y: SubPixel::from_num(120.0 - 110.0 * normal.y),
+            x: sub_pixel(160.0 + 110.0 * normal.x),
+            y: sub_pixel(120.0 - 110.0 * normal.y),
             depth: f64::from(0.5 - 0.4 * normal.z),
             inv_w: 1.0,
             normal: normal.to_array(),

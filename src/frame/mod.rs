@@ -30,7 +30,22 @@ use projection::Scratch;
 
 /// A coordinate on the picture in pixels (of a supersampled frame: in samples), snapped to 1/256: x to the right, y
 /// downward, (0, 0) the outer corner of the first pixel, so that pixel centres lie at ½.
+///
+/// Make it of a float by [`sub_pixel`]: the type's own `from_num` panics or wraps beyond ±2²³ pixels.
 pub type SubPixel = fixed::types::I24F8;
+
+/// Returns a coordinate of so many pixels, to the nearest 1/256, halves to even.
+///
+/// What is beyond the type's range becomes its end, and what is no number its upper end: [`FrameBuilder::finish`] refuses both, as
+/// they lie beyond [`Frame::GUARD`].
+pub fn sub_pixel(pixels: impl Into<f64>) -> SubPixel {
+    let bits = libm::rint(pixels.into() * 256.0);
+    match bits.is_nan() {
+        true => SubPixel::MAX,
+        // The conversion saturates.
+        false => SubPixel::from_bits(bits as i32),
+    }
+}
 
 /// Projected polygons in drawing order, and the light on them.
 ///

@@ -15,18 +15,26 @@ impl Span {
     /// [`naive`](super::naive).
     #[inline(always)]
     pub fn naive_as_printed<P: Pixel>(self, line: &mut [P], light: &Light<'_, P>) {
-        let [mut x, mut y, mut z] = self.normals(Reciprocal::of(line.len()));
-        let lights = &[*light];
-        for pixel in line {
-            let n = [x.next() >> 15, y.next() >> 15, z.next() >> 15]; // 4.2
-            let d = dot(n, n);
-            let r = refined_root(d);
-            let n = [(n[0] * r) >> 15, (n[1] * r) >> 15, (n[2] * r) >> 15]; // N_unit = N / |N|
-            let j = dot(light.toward, n) >> 15;
-            let reflected = |i: usize| ((j * n[i]) >> 14) - light.toward[i]; // R = 2 (L·N) N − L
-            let s = dot([reflected(0), reflected(1), reflected(2)], light.eye) >> 15;
-            *pixel = P::from_fields(shade::<P, Reflection, 1>(lights, |_| (j << 16, TOP - s)));
-        }
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                let [mut x, mut y, mut z] = span.normals(Reciprocal::of(line.len()));
+                let lights = &[*light];
+                for pixel in line {
+                    let n = [x.next() >> 15, y.next() >> 15, z.next() >> 15]; // 4.2
+                    let d = dot(n, n);
+                    let r = refined_root(d);
+                    let n = [(n[0] * r) >> 15, (n[1] * r) >> 15, (n[2] * r) >> 15]; // N_unit = N / |N|
+                    let j = dot(light.toward, n) >> 15;
+                    let reflected = |i: usize| ((j * n[i]) >> 14) - light.toward[i]; // R = 2 (L·N) N − L
+                    let s = dot([reflected(0), reflected(1), reflected(2)], light.eye) >> 15;
+                    *pixel =
+                        P::from_fields(shade::<P, Reflection, 1>(lights, |_| (j << 16, TOP - s)));
+                }
+            },
+        );
     }
 
     /// Shades a line by fast Phong shading as printed (L21 4.2, 4.3): J, K and N by additions,
@@ -37,27 +45,34 @@ impl Span {
     /// at most some 2° a pixel.
     #[inline(always)]
     pub fn fast_as_printed<P: Pixel>(self, line: &mut [P], light: &Light<'_, P>) {
-        let n = Reciprocal::of(line.len());
         let lights = &[*light];
-        let ([mut j], [mut k]) = self.products::<P, Reflection, 1>(lights, n);
-        let [mut x, mut y, mut z] = self.normals(n);
-        let first = dot(self.first, self.first);
-        // d = D / √D, 15 fractional bits.
-        let mut length = ((first >> 15) * refined_root(first)) >> 15;
-        for pixel in line {
-            let n = [x.next() >> 15, y.next() >> 15, z.next() >> 15]; // 4.2
-            let d = dot(n, n) as u32;
-            length = (length + over(d, length as u32) + 1) >> 1; // 4.4
-            let (j, k) = (j.next() >> 15, k.next() >> 15); // 4.3
-            let front = j.max(0);
-            let unit_j = over((front as u32) << 15, length as u32);
-            let product = over(((front * k.max(0)) as u32) << 1, d >> 14); // 4.6
-            let cosines = (
-                if j < 0 { -1 } else { unit_j << 16 },
-                TOP + light.l_v - (product << 1),
-            );
-            *pixel = P::from_fields(shade::<P, Reflection, 1>(lights, |_| cosines));
-        }
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                let n = Reciprocal::of(line.len());
+                let ([mut j], [mut k]) = span.products::<P, Reflection, 1>(lights, n);
+                let [mut x, mut y, mut z] = span.normals(n);
+                let first = dot(span.first, span.first);
+                // d = D / √D, 15 fractional bits.
+                let mut length = ((first >> 15) * refined_root(first)) >> 15;
+                for pixel in line {
+                    let n = [x.next() >> 15, y.next() >> 15, z.next() >> 15]; // 4.2
+                    let d = dot(n, n) as u32;
+                    length = (length + over(d, length as u32) + 1) >> 1; // 4.4
+                    let (j, k) = (j.next() >> 15, k.next() >> 15); // 4.3
+                    let front = j.max(0);
+                    let unit_j = over((front as u32) << 15, length as u32);
+                    let product = over(((front * k.max(0)) as u32) << 1, d >> 14); // 4.6
+                    let cosines = (
+                        if j < 0 { -1 } else { unit_j << 16 },
+                        TOP + light.l_v - (product << 1),
+                    );
+                    *pixel = P::from_fields(shade::<P, Reflection, 1>(lights, |_| cosines));
+                }
+            },
+        );
     }
 }
 

@@ -1,16 +1,18 @@
 //! How far a picture in integers may be from its closed form, from the formats.
 
 use super::pixel::Pixel;
+use super::span::Span;
 
 /// 2⁻¹⁵, the unit of vectors.
 const UNIT: f64 = 1.0 / 32768.0;
 
-/// What a bound on errors depends on: a material under one light, and the longest, widest span.
+/// What a bound on errors depends on: a material under one light, and the longest, widest span between unit normals.
 ///
 /// It holds for [`naive`](super::naive), [`fast`](super::fast) and, with `is_parabola`,
 /// [`quadratic`](super::quadratic), over spans and triangles whose normals lie within 90° of one
 /// another, and with `is_slerp` for [`Span::slerp`](super::Span::slerp) up to 60°. Colours that several
-/// lights add up to: the sum of their bounds. Gouraud shading is off by its corners' bounds, a field's
+/// lights add up to: the sum of their bounds. Triangles with sides of 32 pixels and more are drawn with corners that may lie 2⁻¹³
+/// of the longest side elsewhere. Gouraud shading is off by its corners' bounds, a field's
 /// last bit and n 2⁻¹⁶.
 #[derive(Clone, Copy, Debug)]
 pub struct ErrorBound {
@@ -22,7 +24,7 @@ pub struct ErrorBound {
     pub shininess: u32,
     /// The largest angle between two normals of a span or triangle, in radians.
     pub angle: f64,
-    /// The most pixels of a span.
+    /// The most pixels of a span, whether it is cut into pieces or not.
     pub pixels: usize,
     /// True if 1/√D is refined by a step of Newton's.
     pub is_refined: bool,
@@ -64,7 +66,7 @@ impl ErrorBound {
             return self.wave();
         }
         let least = 0.5 + 0.5 * libm::cos(self.angle);
-        let n = self.pixels as f64;
+        let n = self.steps();
         // D by second differences: two coefficients of 14 bits, 2 sin²(θ/2) and four times that at most,
         // times a mantissa of 2⁻¹⁵, a cut at 2⁻¹⁴ and cuts at 2⁻³⁰ that grow with n².
         let turn = 4.0 * (1.0 - least);
@@ -82,15 +84,23 @@ impl ErrorBound {
     /// the cut of θ² (2⁻¹⁴), a cut of 2⁻³⁰ at each step, and half of what the series of θ² leaves out,
     /// whose next terms are 2x · (8x⁴/1575 + …), each below x/2 of the one before, x = 1 − cos θ.
     fn wave(&self) -> f64 {
-        let (n, x) = (self.pixels as f64, 1.0 - libm::cos(self.angle));
+        let (n, x) = (self.steps(), 1.0 - libm::cos(self.angle));
         let series = x * x * x * x * x * 8.0 / 1575.0 / (1.0 - x / 2.0);
         (4.0 + 2.0 + 1.0) * UNIT + n * n * libm::exp2(-31.0) + series
+    }
+
+    /// The most pixels that are stepped at once.
+    fn steps(&self) -> f64 {
+        self.pixels.min(Span::MAX) as f64
     }
 
     /// J and K before they are divided: both vectors rounded (√3/2 units each), a difference of
     /// 14 bits, a mantissa, and a cut.
     fn product(&self) -> f64 {
-        (1.75 + 0.5 + 1.0 + 1.0) * UNIT
+        // Where a line is cut, its normal is rounded again, and lies up to √2 units aside on 65,536 pixels and more: both
+        // over its length, which is √½ at 90°.
+        let cut = if self.pixels > Span::MAX { 3.25 } else { 0.0 };
+        (1.75 + 0.5 + 1.0 + 1.0 + cut) * UNIT
     }
 
     /// L·N at a pixel.

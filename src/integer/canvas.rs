@@ -17,7 +17,7 @@ pub struct Vertex {
     pub y: I24F8,
     /// The depth, 0 nearest. It is read where the canvas has a depth buffer.
     pub depth: u16,
-    /// The unit normal.
+    /// The normal, of which only the direction counts.
     pub normal: Vector,
 }
 

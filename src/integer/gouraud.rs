@@ -1,18 +1,53 @@
 //! Gouraud shading: colours by two additions a pixel.
 
 use super::pixel::{Pixel, halves};
-use super::reciprocal::Reciprocal;
+use super::reciprocal::{Reciprocal, part};
+use super::span::Span;
 
-/// Shades `line`, of at most 256 pixels, from the colour of its first pixel to that of the pixel
-/// after its last, both in fields: see [`colour`](super::colour).
+/// Shades `line` from the colour of its first pixel to that of the pixel after its last, both in fields: see
+/// [`colour`](super::colour). Other bits than those of the fields are ignored.
 ///
 /// Red and blue share a sum, so that I_next = I + ΔI (L21 3.6) takes two additions for three channels.
 /// Steps are cut toward 0: so no channel leaves the values at its ends, and none carries into another.
-/// The sum is right to n 2⁻¹⁶ of the range, 1 level for 256 pixels.
+/// The sum is right to n 2⁻¹⁶ of the range, 1 level for [`Span::MAX`] pixels. Longer lines are cut into pieces of so many.
 #[inline(always)]
 pub fn gouraud<P: Pixel>(line: &mut [P], first: u32, end: u32) {
-    let n = Reciprocal::of(line.len());
     let (from, to) = (halves(first), halves(end));
+    if line.len() <= Span::MAX {
+        piece(line, from, to);
+    } else {
+        cut(line, from, to);
+    }
+}
+
+/// Shades a long line in pieces between colours in halves.
+#[cold]
+#[inline(never)]
+fn cut<P: Pixel>(line: &mut [P], first: (u32, u32), end: (u32, u32)) {
+    let (pixels, mut from, mut done) = (line.len(), first, 0);
+    for line in line.chunks_mut(Span::MAX) {
+        done += line.len();
+        let part = part(done, pixels);
+        let between = |a: u32, b: u32| {
+            let (a, b) = (i64::from(a), i64::from(b));
+            (a + (((b - a) * part) >> 16)) as u32
+        };
+        let to = if done < pixels {
+            let red = between(first.0 >> 16, end.0 >> 16);
+            let blue = between(first.0 & 0xFFFF, end.0 & 0xFFFF);
+            (red << 16 | blue, between(first.1, end.1))
+        } else {
+            end
+        };
+        piece(line, from, to);
+        from = to;
+    }
+}
+
+/// Shades a line of at most [`Span::MAX`] pixels between colours in halves.
+#[inline(always)]
+fn piece<P: Pixel>(line: &mut [P], from: (u32, u32), to: (u32, u32)) {
+    let n = Reciprocal::of(line.len());
     let red = step(from.0 >> 16, to.0 >> 16, n);
     let blue = step(from.0 & 0xFFFF, to.0 & 0xFFFF, n);
     let green = step(from.1, to.1, n);
@@ -60,7 +95,7 @@ mod tests {
             ([7, 8, 255], [6, 9, 254]),
             ([200, 200, 200], [200, 200, 200]),
         ] {
-            for n in (1..=256).chain([320, 777, 1024]) {
+            for n in (1..=256).chain([257, 320, 777, 1024, 65_535]) {
                 let mut line = std::vec![Rgb888([0; 3]); n];
                 gouraud(&mut line, level(first), level(end));
                 assert_eq!(line[0].0.map(u32::from), first);
@@ -70,8 +105,8 @@ mod tests {
                         let exact = from + (to - from) * i as f64 / n as f64;
                         let found = f64::from(pixel.0[c]);
                         assert!(found >= from.min(to) && found <= from.max(to));
-                        // Rounding, and n units of 16 bits.
-                        let limit = 0.51 + n as f64 / 256.0;
+                        // Rounding, and as many units of 16 bits as pixels are stepped at once.
+                        let limit = 0.52 + n.min(256) as f64 / 256.0;
                         assert!(
                             (found - exact).abs() <= limit,
                             "{n}, {i}: {found}, not {exact}"

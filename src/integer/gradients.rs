@@ -124,7 +124,7 @@ impl Gradients {
     }
 
     /// Returns x/area per pixel with 30 fractional bits, from x of 15 in the sides' units, at most 2³⁰;
-    /// or `None` if it is `limit` or more.
+    /// or `None` if it is `limit` or more, or the triangle too thin to tell.
     ///
     /// 1/area is `inverse` 2^−(15 + bits). In two halves the product with `inverse` takes 32 bits; on
     /// a Cortex-M0 a product of 64 bits takes 63 instructions.
@@ -139,6 +139,10 @@ impl Gradients {
             (quotient.unsigned_abs() < limit as u32).then_some(quotient)
         } else {
             let up = shift.unsigned_abs();
+            // What the product cuts grows to 2^`up`, and over a side of 2^(5 + `coarse`) pixels to 2⁻¹⁵ at the most.
+            if up + self.coarse > 10 {
+                return None;
+            }
             (product.unsigned_abs() < limit as u32 >> up).then_some(product << up)
         }
     }

@@ -2,7 +2,7 @@
 
 use super::material::{Material, SCALE, TOP};
 use super::pixel::{Pixel, half, saturate};
-use super::vector::{Bits, Vector, bits, dot, normalized};
+use super::vector::{Bits, Vector, dot, normalized, unit_bits};
 
 /// A directional light, with the eye at infinity and a material in the light's colour.
 #[derive(Debug)]
@@ -27,21 +27,15 @@ impl<P> Clone for Light<'_, P> {
 impl<P> Copy for Light<'_, P> {}
 
 impl<'a, P: Pixel> Light<'a, P> {
-    /// Makes a light from unit vectors: `toward` the light, `eye` toward the eye.
+    /// Makes a light from directions: `toward` the light, `eye` toward the eye. A light from the direction 0 lights nothing.
     ///
     /// All lights of a picture share the eye.
     pub const fn new(toward: Vector, eye: Vector, material: &'a Material<P>) -> Self {
-        let (l, v) = (bits(toward), bits(eye));
-        // (L + V)/2, lengthened until it is at least ½ long.
-        let mut sum = [(l[0] + v[0]) >> 1, (l[1] + v[1]) >> 1, (l[2] + v[2]) >> 1];
-        let mut shifts = 0;
-        while shifts < 15 && dot(sum, sum) < 1 << 28 {
-            sum = [sum[0] << 1, sum[1] << 1, sum[2] << 1];
-            shifts += 1;
-        }
+        let (l, v) = (unit_bits(toward.bits()), unit_bits(eye.bits()));
+        let sum = [(l[0] + v[0]) >> 1, (l[1] + v[1]) >> 1, (l[2] + v[2]) >> 1];
         let toward = scaled(l);
         let l_v = dot(toward, v) >> 15;
-        let halfway = scaled(bits(normalized(sum)));
+        let halfway = scaled(normalized(sum));
         Self {
             toward,
             eye: v,
@@ -54,7 +48,7 @@ impl<'a, P: Pixel> Light<'a, P> {
 }
 
 /// Returns a vector times 255/256.
-const fn scaled(v: Bits) -> Bits {
+pub(super) const fn scaled(v: Bits) -> Bits {
     let half = 1 << 14;
     [
         (v[0] * SCALE + half) >> 15,
@@ -149,6 +143,7 @@ pub(super) fn shade<P: Pixel, H: Highlight, const L: usize>(
     lights: &[Light<'_, P>; L],
     cosines: impl Fn(usize) -> (i32, i32),
 ) -> u32 {
+    const { assert!(L > 0, "a pixel has one light or more") };
     let mut sum = 0;
     let mut i = 0;
     while i < L {

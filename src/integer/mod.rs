@@ -29,7 +29,8 @@
 //! - [`Pixel`] is a format of pixels: [`Rgb565`], [`Rgb565Be`], [`Rgb888`] or your own.
 //! - [`Material`] holds two tables of 512 colours; [`Light`] joins it to directions.
 //! - [`Span`] shades a line between two normals, by any method. [`gouraud`], [`naive`], [`fast`] and
-//!   [`quadratic`] are the loops below it, for state that comes from elsewhere.
+//!   [`quadratic`] are the loops below it, for state that comes from elsewhere: they take any, but cut nothing, and
+//!   where it leaves its ranges colours are wrong.
 //! - [`Canvas`] draws triangles and convex polygons, with 16 bits of depth if you like.
 //!
 //! Methods have up to three parameters: the kind of highlight ([`Reflection`], [`Halfway`],
@@ -40,10 +41,10 @@
 //!
 //! | quantity | type | range | why it cannot overflow |
 //! |---|---|---|---|
-//! | vectors ([`Vector`]) | `I17F15` | length ≤ 1 | a dot product is at most 2³⁰ in 32 bits |
-//! | J, K, N, D and their steps | `I2F30` | −1 to 1 | between its ends, or convex; drift < 2⁻¹¹ |
+//! | vectors ([`Vector`]) | `I17F15` | length ≤ 1 + 2⁻¹⁴ | a dot product is at most 2³⁰ in 32 bits; a longer one is no `Vector` |
+//! | J, K, N, D and their steps | `I2F30` | −1 to 1 | between its ends, or convex; drift < 2⁻¹¹ over [`Span::MAX`] pixels |
 //! | 1/√D | 15 fractional bits | 1 to 2 | the table ends at 2; J/√D ≤ 255/256 as \|J\| ≤ √D 255/256 |
-//! | 1/n | 15 bits and a shift | n ≤ 1,024 | times a difference below 4, in 14 bits: below 2³¹ |
+//! | 1/n | 15 bits and a shift | n ≤ 256 | times a difference below 4, in 14 bits: below 2³¹ |
 //! | colours | fields of 9 or 10 bits and a guard | 0 to 1 | two sums stay below 2; then clamped |
 //!
 //! Sums are those of the types of [`fixed`]. Products are taken of their bits: the types' own products
@@ -54,7 +55,8 @@
 //! Lights and eye are at infinity. Normals are interpolated on the screen, as in the lecture: see
 //! [`Canvas`] for the error that perspective makes. Neighbouring normals lie within 120° of one
 //! another, for [`quadratic`] within some 15° and for [`Span::slerp`] within 90°: beyond that colours
-//! are wrong, but nothing overflows or panics. Spans have at most 1,024 pixels.
+//! are wrong, but nothing overflows or panics. Lines may have any length and vectors any components: see
+//! [`Span::MAX`] and [`Vector`].
 
 mod as_printed;
 #[cfg(feature = "alloc")]

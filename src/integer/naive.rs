@@ -4,7 +4,7 @@ use super::light::{Highlight, Light, shade};
 use super::pixel::Pixel;
 use super::ramp::Ramp;
 use super::reciprocal_root::{below_one, root_below, unit_j, unit_k};
-use super::vector::{Bits, Vector, bits, dot};
+use super::vector::{Bits, Vector, dot, unit_bits};
 
 /// Shades `line` from the normal at its first pixel and the growth of the normal per pixel.
 ///
@@ -25,14 +25,14 @@ pub fn naive<P: Pixel, H: Highlight, const REFINED: bool, const L: usize>(
     }
 }
 
-/// Returns the colour of a normal of length ½ to 1 in fields, for [`gouraud`](super::gouraud): lit
-/// as [`naive`](super::naive) lights a pixel, with one step of Newton's.
+/// Returns the colour of a normal of any length in fields, for [`gouraud`](super::gouraud): lit as [`naive`](super::naive) lights
+/// a pixel, with one step of Newton's.
 #[inline(never)]
 pub fn colour<P: Pixel, H: Highlight, const L: usize>(
     lights: &[Light<'_, P>; L],
     normal: Vector,
 ) -> u32 {
-    light_normal::<P, H, true, L>(lights, bits(normal))
+    light_normal::<P, H, true, L>(lights, unit_bits(normal.bits()))
 }
 
 /// Returns the colour of a normal in fields.

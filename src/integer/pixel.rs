@@ -123,6 +123,11 @@ pub(super) const fn fields<P: Pixel>(channels: [u64; 3]) -> u32 {
 
 /// Returns ½ in all three fields, or 0 where a field has no fraction.
 pub(super) const fn half<P: Pixel>() -> u32 {
+    const {
+        let [red, green, blue] = P::BITS;
+        let is_fit = red <= 9 && green <= 10 && blue <= 9;
+        assert!(is_fit, "at most 9, 10 and 9 bits");
+    }
     let mut sum = 0;
     let mut i = 0;
     while i < 3 {

@@ -4,10 +4,10 @@ use super::light::{Highlight, Light, shade};
 use super::pixel::Pixel;
 use super::reciprocal::Reciprocal;
 use super::span::Span;
-use super::vector::dot;
+use super::vector::{Bits, dot, narrowed, unit_bits, wide_direction, widened};
 
 impl Span {
-    /// Shades a line with normals that turn at a uniform rate between unit normals (L21 4.7, 4.8).
+    /// Shades a line with normals that turn at a uniform rate, whatever their lengths are (L21 4.7, 4.8).
     ///
     /// J(t) = L·slerp(N_1, N_2, t) is a sine wave, so J_next = J + ΔJ and ΔJ_next = ΔJ − α J_next with
     /// α = 2 (1 − cos φ), φ the angle of a pixel: equations 4.9–4.12 in difference form, with one
@@ -20,6 +20,41 @@ impl Span {
     /// colours are wrong.
     #[inline(always)]
     pub fn slerp<P: Pixel, H: Highlight>(self, line: &mut [P], light: &Light<'_, P>) {
+        let span = Self {
+            first: unit_bits(self.first),
+            end: unit_bits(self.end),
+        };
+        span.in_pieces(
+            line,
+            Self::on_circle,
+            #[inline(always)]
+            |span, line| {
+                span.waves::<P, H>(line, light);
+            },
+        );
+    }
+
+    /// Returns the unit normal at a part of the span, on the great circle between its ends: by halves, as the middle
+    /// between two unit vectors has the direction of their sum.
+    fn on_circle(self, part: i64) -> Bits {
+        // 30 fractional bits.
+        let [mut a, mut b] = [self.first, self.end].map(|n| widened(n).map(|x| x << 15));
+        let mut bit = 1 << 15;
+        while bit > 0 {
+            let middle = wide_direction([a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
+            if part & bit == 0 {
+                b = middle;
+            } else {
+                a = middle;
+            }
+            bit >>= 1;
+        }
+        narrowed(a)
+    }
+
+    /// Shades a line of at most [`Span::MAX`] pixels between unit normals.
+    #[inline(always)]
+    fn waves<P: Pixel, H: Highlight>(self, line: &mut [P], light: &Light<'_, P>) {
         let wave = Wave::new(self, line.len());
         let (mut j, mut j_step) = wave.start(self, light.toward);
         let (mut k, mut k_step) = wave.start(self, H::k_of(light));

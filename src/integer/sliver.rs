@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, Vertex};
 use super::pixel::Pixel;
 use super::scan::{Point, scan};
-use super::vector::{Bits, bits};
+use super::vector::{Bits, unit_bits};
 use core::num::NonZeroU32;
 
 impl<P: Pixel> Canvas<'_, P> {
@@ -98,8 +98,12 @@ fn weighed([a, b, c]: [i32; 3], (second, third): (i32, i32)) -> i32 {
     a + (((b - a) * second + (c - a) * third) >> 15)
 }
 
-/// Returns the normals of a triangle.
+/// Returns the unit normals of a triangle.
 #[inline(always)]
 pub(super) fn normals(t: &[Vertex; 3]) -> [Bits; 3] {
-    [bits(t[0].normal), bits(t[1].normal), bits(t[2].normal)]
+    [
+        unit_bits(t[0].normal.bits()),
+        unit_bits(t[1].normal.bits()),
+        unit_bits(t[2].normal.bits()),
+    ]
 }

@@ -1,4 +1,4 @@
-//! A span between two normals, and its set-up for each method.
+//! A span between two normals, its pieces, and its set-up for each method.
 
 use super::fast::fast;
 use super::light::{Highlight, Light};
@@ -7,15 +7,14 @@ use super::naive::naive;
 use super::pixel::Pixel;
 use super::quadratic::{NARROW, quadratic, run};
 use super::ramp::{Quadratic, Ramp};
-use super::reciprocal::Reciprocal;
+use super::reciprocal::{Reciprocal, part};
 use super::reciprocal_root::refined_root;
-use super::vector::{Bits, Vector, bits, dot};
+use super::vector::{Bits, Vector, dot, stretched};
 
 /// A span: the normal at its first pixel, and that at the pixel after its last.
 ///
-/// Each method shades a line of up to 1,024 pixels between the two, set-up included: some 200
-/// instructions, above 256 pixels with a division. Second differences drift by n² 2⁻³⁰: up to 256
-/// pixels that is nothing, at 1,024 it is 2⁻¹⁰ of D.
+/// Each method shades a line of any length between the two, set-up included: some 200 instructions for each
+/// [`Span::MAX`] pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
     pub(super) first: Bits,
@@ -23,13 +22,35 @@ pub struct Span {
 }
 
 impl Span {
-    /// Makes a span from its normals, of length ½ to 1.
+    /// The most pixels that are stepped at once. A longer line is cut into pieces, each between its own two normals, for some 100
+    /// instructions a piece.
+    ///
+    /// Second differences drift by n² 2⁻³⁰: over 256 pixels that is 2⁻¹⁴ of D, an eighth of what its table of roots has room for.
+    pub const MAX: usize = 256;
+
+    /// Makes a span from its normals: those of its pixels lie on the line between them. Only the ratio of their lengths counts.
+    ///
+    /// Where a normal on this line is shorter than half of the longer end, as between unit normals that are more than 120° apart, colours
+    /// are too dark.
     #[inline(always)]
     pub const fn new(first: Vector, end: Vector) -> Self {
-        Self {
-            first: bits(first),
-            end: bits(end),
+        Self::of([first.bits(), end.bits()])
+    }
+
+    /// Makes a span from the bits of its normals.
+    #[inline(always)]
+    const fn of([first, end]: [Bits; 2]) -> Self {
+        let span = Self { first, end };
+        let (square_first, square_end, both) = span.dots();
+        let square_middle = (square_first >> 2) + (square_end >> 2) + (both >> 1);
+        let [a, b, least] = [square_first, square_end, 1 << 28];
+        let longest = if a > b { a } else { b };
+        // Normals shorter than ½ are not in the table of roots: both are made longer if that helps.
+        if (a < least || b < least || square_middle < least) && longest < 1 << 30 {
+            let [first, end] = stretched([first, end], longest);
+            return Self { first, end };
         }
+        span
     }
 
     /// Shades a line by naive Phong shading: see [`naive`] for the errors.
@@ -39,8 +60,15 @@ impl Span {
         line: &mut [P],
         lights: &[Light<'_, P>; L],
     ) {
-        let n = Reciprocal::of(line.len());
-        naive::<P, H, REFINED, L>(line, self.normals(n), lights);
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                let n = Reciprocal::of(line.len());
+                naive::<P, H, REFINED, L>(line, span.normals(n), lights);
+            },
+        );
     }
 
     /// Shades a line by fast Phong shading: see [`fast`] for the errors.
@@ -50,14 +78,87 @@ impl Span {
         line: &mut [P],
         lights: &[Light<'_, P>; L],
     ) {
-        let n = Reciprocal::of(line.len());
-        let (j, k) = self.products::<P, H, L>(lights, n);
-        fast::<P, H, REFINED, L>(line, j, k, self.square(n), lights);
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                let n = Reciprocal::of(line.len());
+                let (j, k) = span.products::<P, H, L>(lights, n);
+                fast::<P, H, REFINED, L>(line, j, k, span.square(n), lights);
+            },
+        );
     }
 
     /// Shades a line by parabolas through both ends and the middle: see [`quadratic`] for the errors.
+    ///
+    /// Each piece of a long line has its own parabolas.
     #[inline(always)]
     pub fn quadratic<P: Pixel, H: Highlight, const L: usize>(
+        self,
+        line: &mut [P],
+        lights: &[Light<'_, P>; L],
+    ) {
+        self.in_pieces(
+            line,
+            Self::between,
+            #[inline(always)]
+            |span, line| {
+                span.parabolas::<P, H, L>(line, lights);
+            },
+        );
+    }
+
+    /// Calls `shade` for a line, or for pieces of it if it is too long for the formats. `between` returns the normal at a part of
+    /// the span, which has 16 fractional bits.
+    #[inline(always)]
+    pub(super) fn in_pieces<P>(
+        self,
+        line: &mut [P],
+        between: impl Fn(Self, i64) -> Bits,
+        mut shade: impl FnMut(Self, &mut [P]),
+    ) {
+        if line.len() <= Self::MAX {
+            shade(self, line);
+        } else {
+            self.cut(line, between, shade);
+        }
+    }
+
+    /// Calls `shade` for the pieces of a long line.
+    #[cold]
+    #[inline(never)]
+    fn cut<P>(
+        self,
+        line: &mut [P],
+        between: impl Fn(Self, i64) -> Bits,
+        mut shade: impl FnMut(Self, &mut [P]),
+    ) {
+        let (pixels, mut first, mut done) = (line.len(), self.first, 0);
+        for piece in line.chunks_mut(Self::MAX) {
+            done += piece.len();
+            let end = if done < pixels {
+                between(self, part(done, pixels))
+            } else {
+                self.end
+            };
+            shade(Self::of([first, end]), piece);
+            first = end;
+        }
+    }
+
+    /// Returns the normal at a part of the span, on the line between its ends.
+    pub(super) fn between(self, part: i64) -> Bits {
+        let at = |i: usize| {
+            let (a, b) = (i64::from(self.first[i]), i64::from(self.end[i]));
+            (a + (((b - a) * part + (1 << 15)) >> 16)) as i32
+        };
+        [at(0), at(1), at(2)]
+    }
+
+    /// Shades a line of at most [`Span::MAX`] pixels by parabolas.
+    #[inline(always)]
+    fn parabolas<P: Pixel, H: Highlight, const L: usize>(
         self,
         line: &mut [P],
         lights: &[Light<'_, P>; L],
@@ -135,7 +236,7 @@ impl Span {
 
     /// Returns N_1·N_1, N_2·N_2 and N_1·N_2 with 30 fractional bits.
     #[inline(always)]
-    pub(super) fn dots(self) -> (i32, i32, i32) {
+    pub(super) const fn dots(self) -> (i32, i32, i32) {
         (
             dot(self.first, self.first),
             dot(self.end, self.end),

@@ -4,7 +4,7 @@ use super::canvas::{Canvas, Vertex};
 use super::fast::fast;
 use super::gouraud::run;
 use super::gradients::{Gradients, Plane};
-use super::light::{Highlight, Light};
+use super::light::{Highlight, Light, scaled};
 use super::naive::{light_normal, naive};
 use super::pixel::{Pixel, halves};
 use super::ramp::{Quadratic, Ramp};
@@ -130,7 +130,13 @@ impl<P: Pixel> Canvas<'_, P> {
     }
 
     fn gouraud_triangle(&mut self, t: [(Vertex, u32); 3]) {
-        let [a, b, c] = t.map(|(_, colour)| halves(colour));
+        // As far from both ends of 16 bits as tables stay, for the roundings of planes and steps.
+        let within = |half: u32| half.clamp(128, 65_408);
+        let [a, b, c] = t.map(|(_, colour)| {
+            let (red_blue, green) = halves(colour);
+            let (red, blue) = (within(red_blue >> 16), within(red_blue & 0xFFFF));
+            (red << 16 | blue, within(green))
+        });
         let red = [a.0 >> 16, b.0 >> 16, c.0 >> 16];
         let blue = [a.0 & 0xFFFF, b.0 & 0xFFFF, c.0 & 0xFFFF];
         let green = [a.1, b.1, c.1];
@@ -153,7 +159,7 @@ impl<P: Pixel> Canvas<'_, P> {
             });
             return;
         };
-        // Rounded steps leave a value by at most ½ a pixel, 64 in a piece of 128 pixels. Tables stay 128
+        // Rounded steps leave a value by at most ½ a pixel, 64 in a piece of 128 pixels, and planes by 20. Corners are 128
         // away from both ends of 16 bits, so no channel carries into another.
         let rounded = |plane: &Plane| ((plane.step + (1 << 13)) >> 14) as u32;
         let steps = (
@@ -185,7 +191,7 @@ impl<P: Pixel> Canvas<'_, P> {
         else {
             return;
         };
-        let n = normals(t);
+        let n = lowered(t);
         let planes = (normal_planes(&g, n), self.depth_plane(&g, depths));
         let (Some([nx, ny, nz]), Some(z)) = planes else {
             self.sliver((points, depths), n, |n| {
@@ -216,7 +222,7 @@ impl<P: Pixel> Canvas<'_, P> {
         else {
             return;
         };
-        let n = normals(t);
+        let n = lowered(t);
         let planes = (
             normal_planes(&g, n),
             product_planes::<P, H, L>(&g, n, lights),
@@ -263,6 +269,17 @@ impl<P: Pixel> Canvas<'_, P> {
             Some(Plane::default())
         }
     }
+}
+
+/// Returns the normals of a triangle times 255/256.
+///
+/// The scale changes no colour, as D has it squared. It leaves D room for what planes and steps are off by, below the 1 + 2⁻¹¹ at which its
+/// table wraps: sides of 32 pixels and more lose bits, which moves a normal by up to 2⁻¹¹ in each component, and over 128 pixels the rounding
+/// of ΔN adds √3 2⁻¹¹ to D.
+#[inline(always)]
+fn lowered(t: &[Vertex; 3]) -> [Bits; 3] {
+    let [a, b, c] = normals(t);
+    [scaled(a), scaled(b), scaled(c)]
 }
 
 /// Returns the planes of N, if none is steep.

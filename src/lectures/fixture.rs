@@ -4,7 +4,7 @@
 //! camera that looks along -z; [`shipped`] loads a scene of the repository.
 
 use super::Result;
-use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::frame::{Frame, FrameBuilder, Vertex, sub_pixel};
 use crate::mesh::builtin::builtin;
 use crate::mesh::{Material, MeshBuilder};
 use crate::picture::encoding::store;
@@ -69,8 +69,8 @@ impl ScreenPolygon {
     /// Adds the polygon to a frame, as its polygon `number`.
     pub fn add(&self, builder: &mut FrameBuilder, material: u32, number: usize) {
         let vertex = |corner: &ScreenCorner| Vertex {
-            x: SubPixel::from_num(corner.position[0]),
-            y: SubPixel::from_num(corner.position[1]),
+            x: sub_pixel(corner.position[0]),
+            y: sub_pixel(corner.position[1]),
             depth: corner.depth,
             inv_w: 1.0,
             normal: corner.normal.as_vec3().to_array(),

@@ -3,7 +3,7 @@
 
 use super::prelude::*;
 use crate::frame::perspective::{Frustum, printed_weight_in_space, weight_in_space};
-use crate::frame::{FrameBuilder, SubPixel, Vertex};
+use crate::frame::{FrameBuilder, Vertex, sub_pixel};
 use crate::raster::{checkerboard, vertex_colours};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -111,8 +111,8 @@ fn strip() -> Result<LinearPicture> {
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
     let corners = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(end, y): (usize, i32)| {
         let number = builder.vertex(Vertex {
-            x: SubPixel::from_num(end * STRIP),
-            y: SubPixel::from_num(y),
+            x: sub_pixel((end * STRIP) as f64),
+            y: sub_pixel(y),
             depth: 0.5,
             inv_w: 1.0 / ENDS[end],
             normal: [0.0, 0.0, 1.0],

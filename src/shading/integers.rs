@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A span is shaded whole, whatever is seen of it, and its visible pixels are copied: so nothing that is fitted over it changes with what
-//! hides parts of it. Spans of over [`MOST`] pixels are shaded in pieces.
+//! hides parts of it. Spans of over [`integer::Span::MAX`] pixels are shaded in pieces.
 //!
 //! [`integer::ErrorBound`] derives the errors against the closed form from the formats. Colours are those of 8 bits: half a level of it is
 //! a part that no other method has.
@@ -28,10 +28,10 @@ use crate::number::{Counts, Num, Real, Vec3, vec3};
 use crate::scene::{Interpolation, Lighting, Place, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 use core::ops::Range;
-use fixed::types::{I17F15, U16F16};
+use fixed::types::U16F16;
 
-/// The pixels of a span that are shaded at once: second differences drift by less than a step of 15 bits.
-const MOST: usize = 256;
+/// The pixels of a span that are shaded at once.
+const MOST: usize = integer::Span::MAX;
 /// The lights of the methods that know several.
 pub(super) const LIGHTS: usize = 4;
 /// The least cosine of the angles between normals and their mean for which [`ErrorBound`] holds: normals are up to 90° apart, and up to
@@ -175,20 +175,10 @@ pub(super) fn refuses(
     None
 }
 
-/// Returns a vector in 15 fractional bits, rounded. A longer one than 1, which the formats have no room for, is made as long as 1, and one
-/// that is no number is 0: a frame's builder takes normals as they are.
+/// Returns a vector in 15 fractional bits, rounded, or 0 if it is no number: a frame's builder takes any finite normal, and lines between such
+/// may overflow.
 pub(super) fn vector(v: Vec3<f32>) -> Vector {
-    let length = Num::sqrt(v.dot(v));
-    // Unit vectors are longer by their roundings, for which there is room.
-    let v = match length > 1.0 + 1.0 / 16384.0 {
-        true => v * (1.0 / length),
-        false => v,
-    };
-    let is_number = v.array().iter().all(|c| c.is_finite());
-    v.array().map(|c| match is_number {
-        true => I17F15::from_num(c),
-        false => I17F15::ZERO,
-    })
+    Vector::from_f32(v.array()).unwrap_or_default()
 }
 
 /// Makes the tables of a material for each light: the first one has the ambient light.
@@ -565,27 +555,10 @@ pub(super) fn counted<M: Shader>(
 mod tests {
     use super::*;
 
-    /// A frame's builder takes any finite normal, and lines between such may overflow: none overflows the formats.
     #[test]
-    fn any_vector_fits_the_formats() {
-        for v in [
-            [5.0, -7.0, 3.0],
-            [1e30, 0.0, -1e30],
-            [f32::MAX; 3],
-            [f32::NAN, 0.0, 1.0],
-            [f32::INFINITY, 0.0, 0.0],
-            [0.0; 3],
-        ] {
-            let square: f64 = (vector(vec3(v)).iter())
-                .map(|c| c.to_num::<f64>().powi(2))
-                .sum();
-            assert!(square <= 1.0001, "{v:?}: {square}");
+    fn normals_that_are_no_numbers_are_zero() {
+        for v in [[f32::NAN, 0.0, 1.0], [f32::INFINITY, 0.0, 0.0]] {
+            assert_eq!(vector(vec3(v)), Vector::default());
         }
-        let unit = vector(vec3([0.6, 0.0, -0.8]));
-        assert_eq!(
-            unit.map(I17F15::to_bits),
-            [19661, 0, -26214],
-            "a unit vector is only rounded"
-        );
     }
 }

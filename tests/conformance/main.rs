@@ -5,6 +5,7 @@ mod accuracy;
 mod adaptive;
 mod agreement;
 mod angular;
+mod any_numbers;
 mod attributes;
 mod auto;
 mod clipping;

@@ -98,14 +98,39 @@ fn measure<P: Pixel>(
     }
 }
 
+/// Shades lines that are cut into pieces, between any vectors, by a method, and prints a line for each length.
+fn long_lines(name: &str, shade: Shade<Rgb565>, lights: &Lights<Rgb565>, memory: &mut [Rgb565]) {
+    for pixels in [257, 1000, 57_600] {
+        let mut random = Random(pixels);
+        let mut sum = NOTHING;
+        for _ in 0..2 {
+            let normals = [random.vector(), random.vector()];
+            let case = Case {
+                span: Span::new(normals[0], normals[1]),
+                normals,
+                colours: normals.map(|n| colour::<_, Reflection, 1>(first(lights), n)),
+            };
+            let Some(line) = memory.get_mut(..pixels as usize) else {
+                continue;
+            };
+            shade(case, line, lights);
+            sum = line
+                .iter()
+                .fold(sum, |sum, pixel| checksum(sum, u32::from(pixel.0)));
+        }
+        write_count();
+        let line = Line::new().text("long ").text(name).text(" ");
+        line.number(pixels).text(" ").number(sum).print();
+    }
+}
+
 static GLOBE: Memory<Globe> = Memory::new(Globe::new());
 static FRAME: Memory<[Rgb565; SIDE * SIDE]> = Memory::new([Rgb565(0); SIDE * SIDE]);
 static COLOURS: Memory<[u32; 1490]> = Memory::new([0; 1490]);
 
 /// Draws frames of globes by each method.
-fn frames(light: &[Light<'_, Rgb565>; 1]) {
-    let (Some(globe), Some(frame), Some(colours)) = (GLOBE.take(), FRAME.take(), COLOURS.take())
-    else {
+fn frames(light: &[Light<'_, Rgb565>; 1], frame: &mut [Rgb565]) {
+    let (Some(globe), Some(colours)) = (GLOBE.take(), COLOURS.take()) else {
         return;
     };
     type Draw = fn(&mut Canvas<'_, Rgb565>, &[Vertex; 3], &[Light<'_, Rgb565>; 1]) -> bool;
@@ -175,6 +200,9 @@ fn frames(light: &[Light<'_, Rgb565>; 1]) {
 }
 
 fn all() {
+    let Some(frame) = FRAME.take() else {
+        return;
+    };
     let rgb565 = lights(&CLAY, &MORE);
     let methods = methods! { Rgb565:
         "gouraud" gouraud_span |s, p, _l| {
@@ -204,6 +232,7 @@ fn all() {
     };
     for (name, shade) in methods {
         measure(name, shade, &rgb565, Rgb565(0), |p| u32::from(p.0));
+        long_lines(name, shade, &rgb565, frame);
     }
     let methods = methods! { Rgb565Be:
         "fast-be" fast |s, p, l| s.span.fast::<_, Reflection, false, 1>(p, first(l));
@@ -231,7 +260,7 @@ fn all() {
     for (name, shade) in soft::METHODS {
         measure(name, shade, &rgb565, Rgb565(0), |p| u32::from(p.0));
     }
-    frames(first(&rgb565));
+    frames(first(&rgb565), frame);
     end(true)
 }
 

@@ -2,6 +2,7 @@
 # `as=tables` as the tables of docs/small.md.
 #
 # Lines: "span-error METHOD 5° 15° 30° 60°", "frame-error METHOD TRIANGLES WORST RMS",
+# "long METHOD PIXELS SUM …", which is left out here,
 # "span METHOD PIXELS ANGLE SUM ARM CYCLES RISCV -", "frame METHOD TRIANGLES PIXELS SUM ARM CYCLES RISCV -".
 $1 == "span-error" { errors[$2] = $3 ", " $4 ", " $5 ", " $6; next }
 $1 == "frame-error" { worst[$2, $3] = $4; rms[$2, $3] = $5; next }

@@ -1,6 +1,6 @@
 //! The light, the material, spans and globes: all in integers, so that every machine has the same.
 
-use fastphong::fixed::types::{I24F8, U16F16};
+use fastphong::fixed::types::{I17F15, I24F8, U16F16};
 use fastphong::integer::{Light, Material, Pixel, Span, Vector, Vertex, unit};
 
 const fn colour(red: &str, green: &str, blue: &str) -> [U16F16; 3] {
@@ -53,6 +53,12 @@ impl Random {
         (self.0 >> 19) as i32 - 4096
     }
 
+    /// Returns a vector of any bits, mostly longer than 1.
+    pub fn vector(&mut self) -> Vector {
+        let shift = self.next() & 15;
+        Vector::new([0; 3].map(|_| I17F15::from_bits(self.next() << shift)))
+    }
+
     /// Returns a span of an angle, and its normals. Bright ones lie about the highlight.
     pub fn span(&mut self, (_, cos, sin): (u32, i32, i32), is_bright: bool) -> (Span, [Vector; 2]) {
         let middle = if is_bright {
@@ -83,7 +89,7 @@ impl Random {
 }
 
 fn bits(v: Vector) -> [i32; 3] {
-    v.map(|x| x.to_bits())
+    v.to_array().map(|x| x.to_bits())
 }
 
 /// The side of frames in pixels.

@@ -18,7 +18,7 @@ pub const METHODS: [(&str, Shade<Rgb565>); 3] = [
 ];
 
 fn vector(v: Vector) -> V {
-    v.map(|x| x.to_bits() as f32 / 32768.0)
+    v.to_array().map(|x| x.to_bits() as f32 / 32768.0)
 }
 fn dot(a: V, b: V) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

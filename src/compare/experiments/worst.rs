@@ -4,7 +4,7 @@
 //! a corner's normal or a light moved by less and less. It is restarted, as hills are many. Every restart has its own random numbers, so that
 //! it finds the same on every machine, in whatever order restarts run.
 
-use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::frame::{Frame, FrameBuilder, Vertex, sub_pixel};
 use crate::mesh::Material;
 use crate::raster::{Plan, Renderer};
 use crate::reference::{self, Model};
@@ -89,7 +89,7 @@ impl WorstCase {
         });
         let places = [[0, 0], [SIDE, 0], [0, SIDE]];
         let corners = [0, 1, 2].map(|i| {
-            let [x, y] = places[i].map(SubPixel::from_num);
+            let [x, y] = places[i].map(sub_pixel);
             builder.vertex(Vertex {
                 x,
                 y,

@@ -1,7 +1,7 @@
 //! The view: from a position in the world to clip space, to the planes that it is beyond, to pixel coordinates.
 
 use super::clip::Plane;
-use crate::frame::{DepthRange, Frame, FrameError, ScreenVertex, SubPixel};
+use crate::frame::{DepthRange, Frame, FrameError, ScreenVertex, SubPixel, sub_pixel};
 use crate::scene::{
     Camera, Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
 };
@@ -196,9 +196,7 @@ impl<'a> View<'a> {
     pub fn snap(&self, clip: DVec4) -> [SubPixel; 2] {
         let column = (clip.x / clip.w * 0.5 + 0.5) * f64::from(self.width);
         let row = (0.5 - clip.y / clip.w * 0.5) * f64::from(self.height);
-        // To the nearest, halves to even; positions inside the guard band are far from the ends of the type.
-        let nearest = |pixels: f64| SubPixel::from_bits(libm::rint(pixels * 256.0) as i32);
-        [nearest(column), nearest(row)]
+        [sub_pixel(column), sub_pixel(row)]
     }
 }
 

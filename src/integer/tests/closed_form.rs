@@ -14,10 +14,10 @@ pub(super) fn normalized(v: V) -> V {
 }
 /// The nearest vector that the room can hold, and the same in `f64`.
 pub(super) fn vector(v: V) -> Vector {
-    v.map(|x| I17F15::from_bits((x * 32768.0).round() as i32))
+    Vector::new(v.map(|x| I17F15::from_bits((x * 32768.0).round() as i32)))
 }
 pub(super) fn float(v: Vector) -> V {
-    v.map(f64::from)
+    v.to_array().map(f64::from)
 }
 
 /// A pixel that keeps the fields: what RGB565 is cut from.

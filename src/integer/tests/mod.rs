@@ -4,6 +4,7 @@ mod closed_form;
 mod errors;
 mod extremes;
 mod frames;
+mod large_triangles;
 mod sweeps;
 
 pub(super) use closed_form::Random;
