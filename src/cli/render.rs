@@ -125,6 +125,7 @@ impl RenderArgs {
             log.duration("loaded", started);
         });
         if self.print_scene {
+            file.overlay(resolved.chosen.clone());
             input::make_paths_relative_to_current_folder(&mut file);
             progress.aside(|| {
                 if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {

@@ -86,7 +86,7 @@ static FLAGS: &[Flag] = flags! {
     "alpha" "ALPHA" ["image.alpha"]
     /// Encoding of stored pictures in 8 bits
     "encoding" "NAME" ["image.encoding"]
-    /// Cull polygons seen from this side
+    /// Cull polygons seen from this side [default: the scene's, else back; none for a mesh file whose winding tells no outside]
     "cull" "SIDE" ["cull"]
     /// Hidden surfaces: a depth buffer, the painter's algorithm (sorted from back to front), or the order of drawing
     "visibility" "METHOD" ["visibility"]
@@ -98,7 +98,7 @@ static FLAGS: &[Flag] = flags! {
     "painter-key" "KEY" ["painter_key"]
     /// Clipping: by planes, or by CS171's test of each pixel
     "clipping" "METHOD" ["clipping"]
-    /// Light polygons seen from behind with negated normals (with `--cull none`)
+    /// Light polygons seen from behind with negated normals (with `--cull none`) [default: the scene's, else off; on for a mesh file whose winding tells no outside]
     "two-sided" "" ["two_sided"]
     /// Supersampling: samples along each side of a pixel, 1, 2, 4 or 8, each with its own depth and colour
     "samples" "N" ["image.samples"]

@@ -23,6 +23,7 @@ mod studio;
 mod tables;
 mod view;
 mod watch;
+mod winding;
 
 use fastphong::picture::Picture8;
 use fastphong::raster::Renderer;

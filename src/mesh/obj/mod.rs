@@ -181,6 +181,7 @@ fn parse_limited(
 
     let positions: Vec<DVec3> = vectors(&parsed.positions).collect();
     let mut builder = MeshBuilder::from_f64(&positions);
+    builder.read_from_file();
     builder.reserve(scan.polygons, scan.corners);
     let mut rest = &parsed.indices[..];
     for &sides in &parsed.face_arities {

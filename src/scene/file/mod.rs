@@ -9,6 +9,7 @@ mod lights;
 mod normals;
 pub mod resolve;
 pub mod schema;
+mod sides;
 #[cfg(test)]
 mod tests;
 pub mod value;
