@@ -119,8 +119,9 @@ impl RenderArgs {
         }
         progress.aside(|| {
             self.scene.warn(&file, &resolved, log);
-            if self.aov != Some(Aov::Colours) {
-                self.scene.note_colours(&file, &resolved, log);
+            match self.aov {
+                Some(Aov::Colours) => self.scene.note_no_colours(&file, &resolved, log),
+                _ => self.scene.note_colours(&file, &resolved, log),
             }
             log.duration("loaded", started);
         });

@@ -348,6 +348,21 @@ impl SceneFlags {
         }
     }
 
+    /// Says which meshes have no colours that `--aov colours` could show.
+    pub fn note_no_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
+        let objects = resolved.scene.objects.iter().zip(file.meshes());
+        let mut told = Vec::new();
+        for (_, mesh) in objects.filter(|(object, _)| object.mesh.colours().is_empty()) {
+            if !told.contains(&mesh) {
+                let shown = shown(mesh);
+                log.note(&format!(
+                    "{shown}: has no vertex colours: it is white in --aov colours"
+                ));
+                told.push(mesh);
+            }
+        }
+    }
+
     /// Says what is odd about a scene, and where its vertex normals are from.
     pub fn warn(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         for warning in &resolved.warnings {

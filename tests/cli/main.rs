@@ -9,6 +9,7 @@ mod engines;
 mod figure;
 mod files;
 mod flags;
+mod formats;
 mod geometry;
 mod input;
 mod name_template;

@@ -1,6 +1,7 @@
 //! The errors of reading an OBJ file.
 
 use super::super::{MeshError, PolygonMesh};
+use super::corner::WrittenCorner;
 use core::fmt;
 use std::format;
 use std::path::PathBuf;
@@ -55,12 +56,13 @@ pub enum ObjProblem {
         face: usize,
     },
     /// A corner is none of `v`, `v/vt`, `v//vn`, `v/vt/vn`.
-    #[error("`{0}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers")]
+    #[error("`{0}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers{slash}",
+        slash = slash_hint(.0))]
     BadCorner(String),
-    /// A corner names a position or normal that the file does not have.
+    /// A corner names a position that the file does not have.
     #[error(fmt = index_out_of_range)]
     IndexOutOfRange {
-        /// `position` or `normal`.
+        /// `position`.
         what: &'static str,
         /// The index as written: counted from 1, or backwards from -1.
         index: i64,
@@ -99,11 +101,19 @@ pub enum VectorProblem {
     },
 }
 
+/// Returns a hint for a corner that would be one if its backslashes were slashes.
+fn slash_hint(corner: &str) -> &'static str {
+    match WrittenCorner::read(&corner.replace('\\', "/")) {
+        Ok(_) => " with `/` between them, not `\\`",
+        Err(_) => "",
+    }
+}
+
 /// Returns a hint for numbers whose decimals follow a comma, and for those past the range of an `f32`.
 fn hint(found: &str) -> &'static str {
     let is_number = |text: &str| text.parse().is_ok_and(f64::is_finite);
     match is_number(found) {
-        true => ", at most 3.4e38",
+        true => ", at most 3.4e38, and in a scene 1e15",
         false if found.contains(',') && is_number(&found.replacen(',', ".", 1)) => {
             " with a decimal point"
         }

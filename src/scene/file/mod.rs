@@ -18,6 +18,8 @@ mod visibility;
 
 use super::Scene;
 use crate::mesh::Material;
+use crate::mesh::obj::content::foreign;
+use crate::mesh::obj::{cause, gzip};
 use diagnostics::{Origin, SceneError, SourceText};
 use glam::DVec3;
 use schema::SCENE;
@@ -92,7 +94,12 @@ impl SceneFile {
             let title = format!("cannot read the scene `{}`: {reason}", path.display());
             SceneError::new(Origin::Program, title, expected)
         };
-        let bytes = read(path).map_err(|error| failed(error.to_string(), ""))?;
+        let bytes = read(path).map_err(|error| failed(cause(path, error).to_string(), ""))?;
+        let bytes = gzip::unpacked(&bytes).map_err(|error| failed(error.to_string(), ""))?;
+        if let Some(what) = foreign(&bytes) {
+            return Err(failed(format!("it is {what}"), "expected TOML in UTF-8"));
+        }
+        let bytes = bytes.into_owned();
         let text = String::from_utf8(bytes).map_err(|error| {
             let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
             let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
