@@ -35,7 +35,7 @@ fn a_mesh_or_a_scene_is_read_under_any_name() {
         ("mesh.obj.gz", packed(TRIANGLE)),
         ("misnamed.obj", packed(TRIANGLE)),
         ("scene.toml", scene.into()),
-        ("scene.txt", scene.into()),
+        ("scene.txt", format!("\u{feff}{scene}\0").into()),
         ("scene.toml.gz", packed(scene)),
         ("packed.toml", packed(scene)),
         ("other.toml", b"[[object]]\nmesh = \"c.obj.txt\"\n".to_vec()),

@@ -6,6 +6,7 @@ use crate::support::floats_on;
 use fastphong::compare::metrics::compare;
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
+use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::scene::{Camera, Culling, Light, Projection, Scene};
 use fastphong::shading::Variant;
@@ -153,6 +154,48 @@ fn methods_are_within_their_bounds() {
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
             let bound = entry.variant().bound(&case.frame);
             assert!(max <= bound, "{}: {max} over {bound}", entry.info.name);
+        }
+    }
+}
+
+/// Returns the surface with its normals, every other polygon of it wound the other way.
+fn half_turned(mesh: &PolygonMesh) -> PolygonMesh {
+    let mut builder = MeshBuilder::new(mesh.positions().to_vec());
+    for (number, polygon) in mesh.polygons().enumerate() {
+        let mut corners = polygon.to_vec();
+        if number % 2 == 0 {
+            corners.reverse();
+        }
+        builder.polygon(&corners);
+    }
+    let given = mesh.given_normals().expect("normals by formula");
+    assert!(given.corners.is_none(), "one a position");
+    builder.normals(given.clone());
+    builder.finish().expect("a mesh")
+}
+
+/// Where the winding contradicts the normals that a mesh gives, these say where the front is: for whole polygons and for those
+/// that are cut.
+#[test]
+fn polygons_wound_against_their_own_normals_are_lit_by_these() {
+    let by_given = |scene: &mut Scene| {
+        scene.culling = Culling::None;
+        scene.objects[0].normals = NormalSource::Given;
+    };
+    let turned = |scene: &mut Scene| {
+        by_given(scene);
+        let mesh = &mut scene.objects[0].mesh;
+        *mesh = Arc::new(half_turned(mesh));
+    };
+    for (ours, turned) in views(by_given).into_iter().zip(views(turned)) {
+        for entry in floats_on(&ours) {
+            let draw = |frame: &Frame| entry.variant().render_linear(frame);
+            let difference = compare(&draw(&ours), &draw(&turned)).expect("equal sizes");
+            // As above: only roundings differ.
+            let bound = 2.0 * entry.variant().bound(&ours);
+            let (name, max) = (entry.info.name, difference.max);
+            assert!(max <= bound, "{name}: {max} over {bound}");
+            assert_eq!(difference.coverage_mismatches, 0);
         }
     }
 }

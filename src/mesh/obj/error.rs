@@ -1,7 +1,6 @@
 //! The errors of reading an OBJ file.
 
 use super::super::{MeshError, PolygonMesh};
-use super::corner::WrittenCorner;
 use core::fmt;
 use std::format;
 use std::path::PathBuf;
@@ -101,11 +100,14 @@ pub enum VectorProblem {
     },
 }
 
-/// Returns a hint for a corner that would be one if its backslashes were slashes.
+/// Returns a hint for a corner whose numbers have backslashes between them.
 fn slash_hint(corner: &str) -> &'static str {
-    match WrittenCorner::read(&corner.replace('\\', "/")) {
-        Ok(_) => " with `/` between them, not `\\`",
-        Err(_) => "",
+    let is_of_numbers = corner
+        .chars()
+        .all(|c| c.is_ascii_digit() || "-/\\".contains(c));
+    match is_of_numbers && corner.contains('\\') {
+        true => " with `/` between them, not `\\`",
+        false => "",
     }
 }
 
@@ -155,6 +157,8 @@ pub(super) fn quote(text: &str) -> String {
         match character {
             // Names hold these as they are.
             '\\' | '"' | '\'' => quoted.push(character),
+            // Not `\0`, which may be a part of a name.
+            '\0' => quoted.push_str("\\u{0}"),
             _ => quoted.extend(character.escape_debug()),
         }
     }

@@ -192,20 +192,7 @@ fn parse_limited(
         return Err(failed(None, problem, Vec::new()));
     }
     let scan = prescan::prescan(&text, limits);
-    let scan = scan.map_err(|refusal| {
-        let has_none = matches!(
-            refusal.problem,
-            ObjProblem::NoPolygons | ObjProblem::OnlyPointsOrLines
-        );
-        // A mesh may have a NUL that does no harm; without a mesh it is what is wrong.
-        match text.find('\0').filter(|_| has_none) {
-            Some(at) => {
-                let line = lines::line_number(&text, at);
-                failed(Some(line), ObjProblem::NotText, Vec::new())
-            }
-            None => failed(refusal.line, refusal.problem, refusal.warnings),
-        }
-    })?;
+    let scan = scan.map_err(|refusal| failed(refusal.line, refusal.problem, refusal.warnings))?;
     let mut warnings = scan.warnings();
     let parsed = parser::parse(&scan)
         .map_err(|why| failed(None, ObjProblem::Parser(why), warnings.clone()))?;

@@ -120,12 +120,15 @@ impl Library {
             ..Library::default()
         };
         for (line, rest) in lines {
-            let mut one_file = name_candidates(rest);
+            let uncommented = name_candidates(rest).last().unwrap_or_default();
+            let names = file_names(uncommented);
+            // Of several paths only the last name would be looked for beside the mesh.
+            let may_be_one = names.len() < 2 || !uncommented.contains(['/', '\\']);
+            let mut one_file = name_candidates(rest).filter(|_| may_be_one);
             if one_file.any(|name| library.try_file(name, *line, load_mtl, warnings)) {
                 continue;
             }
-            let uncommented = name_candidates(rest).last().unwrap_or_default();
-            for name in file_names(uncommented) {
+            for name in names {
                 if !library.try_file(&name, *line, load_mtl, warnings) {
                     library.tell_missing(&name, *line, warnings);
                 }

@@ -7,7 +7,9 @@
 
 use super::corner::{Entries, ObjCorner, WrittenCorner};
 use super::error::{ObjProblem, VectorProblem, quote};
-use super::lines::{FREE_FORM, Statements, is_plain_number, keyword, read_number, without_comment};
+use super::lines::{
+    FREE_FORM, Statements, is_plain_number, keyword, line_number, read_number, without_comment,
+};
 use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -172,6 +174,15 @@ fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Pr
         }
     }
     match scan.polygons {
+        // A text may have a NUL that does no harm. With words that are no statements it is no text.
+        0 if scan.has(Oddity::Unknown) && text.contains('\0') => {
+            let at = text.find('\0').unwrap_or_default();
+            Err(Refusal {
+                line: Some(line_number(text, at)),
+                problem: ObjProblem::NotText,
+                warnings: Vec::new(),
+            })
+        }
         0 if scan.has(Oddity::PointOrLine) => {
             Err(scan.refusal(None, ObjProblem::OnlyPointsOrLines))
         }

@@ -63,8 +63,10 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError`] where the text is not TOML, a key or word is unknown, or a value is of the wrong kind.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
-        // Some editors start a file with a byte-order mark; offsets count without it.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
+        // Some editors start a file with a byte-order mark; offsets count without it. NUL ends a C string that was written whole, and 1A
+        // a text of DOS.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = text.trim_end_matches(['\0', '\x1a']).to_string();
         let path = path.as_ref().into();
         let source = Some(Arc::new(SourceText { path, text }));
         let text = source.as_ref().map_or("", |source| &source.text);

@@ -78,7 +78,7 @@ fn files_without_polygons() {
 fn binary_data() {
     let message = "holds binary data: expected OBJ text with `v` and `f` lines";
     assert_error([0, 255, 3, 10, 200, 7], 1, message);
-    assert_error(format!("{POINTS}l 1 2\0 3\n"), 6, message);
+    assert_error(format!("{POINTS}hello\0 1\n"), 6, message);
     assert_error([0, 0, 0, 0], 0, message);
     // No NUL byte, but no polygon either.
     assert!(parse([0x89, b'P', b'N', b'G', 13, 10, 26, 10, 200]).is_err());

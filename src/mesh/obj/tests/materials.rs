@@ -469,3 +469,49 @@ fn a_nul_in_a_library_refuses_nothing() {
         loaded.warnings
     );
 }
+
+#[test]
+fn one_library_by_two_names_is_read_once_and_several_paths_are_several_files() {
+    let asked = RefCell::new(Vec::new());
+    let ask = |lines: &str| {
+        asked.borrow_mut().clear();
+        let text = format!("{POINTS}{lines}\nusemtl m\nf 1 2 3\n");
+        let loaded = parse_obj("t.obj", text.as_bytes(), |name| {
+            asked.borrow_mut().push(name.to_string());
+            match name.ends_with("b.mtl") {
+                true => Ok(b"Kd 9 9 9\nnewmtl n\n".to_vec()),
+                false => Ok(b"Kd 9 9 9\nnewmtl m\nKd 1 0 0\n".to_vec()),
+            }
+        });
+        let told = loaded.unwrap().warnings.len();
+        (asked.borrow().clone(), told)
+    };
+    let one = "mtllib a.mtl\nmtllib ./a.mtl\nmtllib .\\a.mtl\nmtllib c/../a.mtl\nmtllib .//a.mtl";
+    assert_eq!(ask(one), (vec!["a.mtl".to_string()], 1));
+    let several = ["./a.mtl", "c/b.mtl"].map(String::from).to_vec();
+    assert_eq!(ask("mtllib ./a.mtl c/b.mtl"), (several, 2));
+    let apart = ["/a.mtl", "a.mtl", "../a.mtl"].map(String::from).to_vec();
+    assert_eq!(
+        ask("mtllib /a.mtl\nmtllib a.mtl\nmtllib ../a.mtl"),
+        (apart, 3)
+    );
+}
+
+#[test]
+fn an_equal_material_twice_is_silence() {
+    for (mtl, told) in [
+        ("newmtl m\nKd 1 0 0\nnewmtl m\nKd 1 0 0\n", 0),
+        (
+            "newmtl m\nKd 1 0 0\nnewmtl m\nKd 1.0 0.0 0 # the same\nKa 0.2\n",
+            0,
+        ),
+        ("newmtl m\nKd 1 0 0\nnewmtl m\nKd 1 0 0.5\n", 1),
+        (
+            "newmtl m\nKd 1 0 0\nnewmtl n\nnewmtl m\nKd 1 0 0\nnewmtl m\n",
+            1,
+        ),
+    ] {
+        let loaded = load("usemtl m\nmtllib a.mtl\nf 1 2 3\n", &[("a.mtl", mtl)]);
+        assert_eq!(loaded.warnings.len(), told, "{mtl}: {:?}", loaded.warnings);
+    }
+}
