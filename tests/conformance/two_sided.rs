@@ -6,8 +6,8 @@ use crate::support::floats_on;
 use fastphong::compare::metrics::compare;
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
-use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::mesh::{MeshBuilder, PolygonMesh};
+use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
+use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use fastphong::scene::{Camera, Culling, Light, Projection, Scene};
 use fastphong::shading::Variant;
 use glam::DVec3;
@@ -158,19 +158,24 @@ fn methods_are_within_their_bounds() {
     }
 }
 
-/// Returns the surface with its normals, every other polygon of it wound the other way.
-fn half_turned(mesh: &PolygonMesh) -> PolygonMesh {
+/// Returns the surface with its averaged normals as its own; if asked for, every other polygon of it is wound the other way.
+fn with_own_normals(mesh: &PolygonMesh, is_half_turned: bool) -> PolygonMesh {
+    let normals = vertex_normals(mesh, NormalSource::Averaged);
     let mut builder = MeshBuilder::new(mesh.positions().to_vec());
-    for (number, polygon) in mesh.polygons().enumerate() {
-        let mut corners = polygon.to_vec();
-        if number % 2 == 0 {
+    let mut own = Vec::new();
+    for number in 0..mesh.polygon_count() {
+        let mut corners: Vec<usize> = mesh.corner_range(number).collect();
+        if is_half_turned && number % 2 == 0 {
             corners.reverse();
         }
-        builder.polygon(&corners);
+        let positions: Vec<u32> = corners.iter().map(|&k| mesh.corners()[k]).collect();
+        builder.polygon(&positions);
+        own.extend(corners.iter().map(|&k| normals.corners[k]));
     }
-    let given = mesh.given_normals().expect("normals by formula");
-    assert!(given.corners.is_none(), "one a position");
-    builder.normals(given.clone());
+    builder.normals(GivenNormals {
+        values: normals.values,
+        corners: Some(own),
+    });
     builder.finish().expect("a mesh")
 }
 
@@ -178,16 +183,15 @@ fn half_turned(mesh: &PolygonMesh) -> PolygonMesh {
 /// that are cut.
 #[test]
 fn polygons_wound_against_their_own_normals_are_lit_by_these() {
-    let by_given = |scene: &mut Scene| {
-        scene.culling = Culling::None;
-        scene.objects[0].normals = NormalSource::Given;
+    let seen = |is_half_turned: bool| {
+        views(|scene: &mut Scene| {
+            scene.culling = Culling::None;
+            let object = &mut scene.objects[0];
+            object.normals = NormalSource::Given;
+            object.mesh = Arc::new(with_own_normals(&object.mesh, is_half_turned));
+        })
     };
-    let turned = |scene: &mut Scene| {
-        by_given(scene);
-        let mesh = &mut scene.objects[0].mesh;
-        *mesh = Arc::new(half_turned(mesh));
-    };
-    for (ours, turned) in views(by_given).into_iter().zip(views(turned)) {
+    for (ours, turned) in seen(false).into_iter().zip(seen(true)) {
         for entry in floats_on(&ours) {
             let draw = |frame: &Frame| entry.variant().render_linear(frame);
             let difference = compare(&draw(&ours), &draw(&turned)).expect("equal sizes");
