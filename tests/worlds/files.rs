@@ -83,7 +83,9 @@ impl Sheet {
         let resolved = file.resolve(|_, _| Ok((mesh.clone(), Vec::new())));
         let scene = resolved.map_err(|error| error.render(false))?.scene;
         let frame = scene.frame().map_err(|error| error.to_string())?;
-        let variant = Variant::parse("flat").map_err(|error| error.to_string())?;
+        // Averages would not go over an edge between quads that are wound differently.
+        let method = self.normals.map_or("flat", |_| "naive-phong");
+        let variant = Variant::parse(method).map_err(|error| error.to_string())?;
         Ok(variant.render(&frame))
     }
 }
