@@ -34,6 +34,11 @@ pub fn run(bytes: &[u8]) {
         assert!(is_one_line(warning), "{warning:?}");
         assert!(!warning.contains("gave up"), "{warning:?}");
     }
+    // A C string that was written whole.
+    let with_nul = [obj, b"\n\0"].concat();
+    let again = parse_obj("fuzz.obj", &with_nul, |_| Ok(mtl.to_vec()));
+    let again = again.expect("a NUL at the end refuses nothing");
+    assert_eq!(again.mesh, loaded.mesh);
     let mesh = loaded.mesh;
     assert!(
         mesh.polygon_count() > 0,

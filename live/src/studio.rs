@@ -117,7 +117,7 @@ impl Studio {
     pub fn load(&mut self) -> Result<usize, String> {
         let text = self.told();
         let is_mesh = !text.contains('\n');
-        let file = match is_mesh {
+        let mut file = match is_mesh {
             true => SceneFile::for_mesh(text),
             false => SceneFile::parse(&text, "scene.toml").map_err(|error| error.to_string())?,
         };
@@ -130,6 +130,7 @@ impl Studio {
             known.cloned().ok_or_else(|| ErrorKind::NotFound.into())
         };
         let resolved = resolve_by(&file, &mut read).map_err(|error| error.to_string())?;
+        file.overlay(resolved.chosen);
         self.warnings = resolved.warnings;
         let scene = resolved.scene;
         let polygons = scene

@@ -132,7 +132,9 @@ pub fn will_read_of_scene(path: &Path) {
     let part = match ending {
         _ if ending.eq_ignore_ascii_case("toml") => "the scene",
         _ if ending.eq_ignore_ascii_case("obj") => "the mesh",
-        _ => "the material library",
+        _ if ending.eq_ignore_ascii_case("mtl") => "the material library",
+        // A scene, a mesh or a library, as its bytes say.
+        _ => "a file of the scene",
     };
     will_read(path, part);
 }

@@ -36,12 +36,23 @@ pub fn named(path: &Path, values: [&str; PLACEHOLDERS.len()]) -> Result<PathBuf,
     Ok(name.into())
 }
 
-/// Returns the name of what `input` shows: of a file its name without ending, `stdin` of standard input.
+/// Returns the name of what `input` shows: of a file its name without ending, also without the one that says how it is packed;
+/// `stdin` of standard input.
 pub fn scene_name(input: &str) -> &str {
     if input == STANDARD_INPUT {
         return "stdin";
     }
-    let stem = Path::new(input).file_stem().and_then(|stem| stem.to_str());
-    let stem = stem.filter(|_| !input.starts_with("builtin:"));
-    stem.unwrap_or(input)
+    if input.starts_with("builtin:") {
+        return input;
+    }
+    let stem = |name| Path::new(name).file_stem().and_then(|stem| stem.to_str());
+    match (stem(input), has_ending(input, "gz")) {
+        (Some(packed), true) => stem(packed).unwrap_or(packed),
+        (name, _) => name.unwrap_or(input),
+    }
+}
+
+fn has_ending(name: &str, ending: &str) -> bool {
+    let found = Path::new(name).extension();
+    found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }

@@ -126,12 +126,14 @@ impl RenderArgs {
         }
         progress.aside(|| {
             self.scene.warn(&file, &resolved, log);
-            if self.aov != Some(Aov::Colours) {
-                self.scene.note_colours(&file, &resolved, log);
+            match self.aov {
+                Some(Aov::Colours) => self.scene.note_no_colours(&file, &resolved, log),
+                _ => self.scene.note_colours(&file, &resolved, log),
             }
             log.duration("loaded", started);
         });
         if self.print_scene {
+            file.overlay(resolved.chosen.clone());
             input::make_paths_relative_to_current_folder(&mut file);
             progress.aside(|| {
                 if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {

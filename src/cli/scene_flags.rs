@@ -86,7 +86,7 @@ static FLAGS: &[Flag] = flags! {
     "alpha" "ALPHA" ["image.alpha"]
     /// Encoding of stored pictures in 8 bits
     "encoding" "NAME" ["image.encoding"]
-    /// Cull polygons seen from this side
+    /// Cull polygons seen from this side [default: the scene's, else back; none for a mesh file whose winding tells no outside]
     "cull" "SIDE" ["cull"]
     /// Hidden surfaces: a depth buffer, the painter's algorithm (sorted from back to front), or the order of drawing
     "visibility" "METHOD" ["visibility"]
@@ -98,7 +98,7 @@ static FLAGS: &[Flag] = flags! {
     "painter-key" "KEY" ["painter_key"]
     /// Clipping: by planes, or by CS171's test of each pixel
     "clipping" "METHOD" ["clipping"]
-    /// Light polygons seen from behind with negated normals (with `--cull none`)
+    /// Light polygons seen from behind with negated normals (with `--cull none`) [default: the scene's, else off; on for a mesh file whose winding tells no outside]
     "two-sided" "" ["two_sided"]
     /// Supersampling: samples along each side of a pixel, 1, 2, 4 or 8, each with its own depth and colour
     "samples" "N" ["image.samples"]
@@ -343,6 +343,21 @@ impl SceneFlags {
             if !mesh.starts_with("builtin:") && !told.contains(&mesh) {
                 let has = "has vertex colours, which shading leaves out";
                 log.note(&format!("{}: {has}; --aov colours shows them", shown(mesh)));
+                told.push(mesh);
+            }
+        }
+    }
+
+    /// Says which meshes have no colours that `--aov colours` could show.
+    pub fn note_no_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
+        let objects = resolved.scene.objects.iter().zip(file.meshes());
+        let mut told = Vec::new();
+        for (_, mesh) in objects.filter(|(object, _)| object.mesh.colours().is_empty()) {
+            if !told.contains(&mesh) {
+                let shown = shown(mesh);
+                log.note(&format!(
+                    "{shown}: has no vertex colours: it is white in --aov colours"
+                ));
                 told.push(mesh);
             }
         }

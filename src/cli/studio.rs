@@ -50,6 +50,7 @@ impl SceneFlags {
     /// As [`files::resolve`].
     pub fn resolve_to_show(&self, file: &mut SceneFile) -> Result<Resolved, CliError> {
         let resolved = files::resolve(file)?;
+        file.overlay(resolved.chosen.clone());
         if !is_mesh_alone(file) {
             return Ok(resolved);
         }

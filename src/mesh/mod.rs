@@ -14,6 +14,7 @@ mod origin;
 pub mod shapes;
 pub mod vertex_normals;
 pub mod weld;
+pub(crate) mod winding;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -44,6 +45,7 @@ pub struct PolygonMesh {
     attributes: Vec<[f32; 4]>,
     materials: Vec<Material>,
     polygon_materials: Vec<u32>,
+    was_read: bool,
 }
 
 impl PolygonMesh {
@@ -140,6 +142,11 @@ impl PolygonMesh {
             .get(p)
             .map(|&m| m as usize)
             .filter(|&m| m < self.materials.len())
+    }
+
+    /// True if the mesh was read from a file. Nobody vouches for the winding of its polygons then, as shapes by formula do.
+    pub(crate) fn was_read(&self) -> bool {
+        self.was_read
     }
 
     /// Gives `default` to the polygons without a material.
@@ -305,6 +312,7 @@ impl MeshBuilder {
                 attributes: Vec::new(),
                 materials: Vec::new(),
                 polygon_materials: Vec::new(),
+                was_read: false,
             },
         }
     }
@@ -358,6 +366,13 @@ impl MeshBuilder {
     pub fn materials(&mut self, materials: Vec<Material>, of_polygons: Vec<u32>) -> &mut Self {
         self.mesh.materials = materials;
         self.mesh.polygon_materials = of_polygons;
+        self
+    }
+
+    /// Notes that the mesh is read from a file: see [`PolygonMesh::was_read`].
+    #[cfg(feature = "io")]
+    pub(crate) fn read_from_file(&mut self) -> &mut Self {
+        self.mesh.was_read = true;
         self
     }
 

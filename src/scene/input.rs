@@ -4,9 +4,12 @@
 //! |---|---|
 //! | `path/to/scene.toml` | a scene file |
 //! | `path/to/mesh.obj` | a mesh file, seen as [`SceneFile::for_mesh`] says |
+//! | any other file, device or pipe | one or the other, as its bytes say |
 //! | `builtin:NAME?key=value&key=value` | a built-in mesh, seen likewise |
 //! | `teapot` | the shipped scene of that name: one of [`SCENES`] |
 //! | `-` | a scene file or a mesh file on standard input |
+//!
+//! Files may be packed by gzip, whatever they are called.
 //!
 //! Shipped scenes and the mesh files that they use are part of the program. A mesh among them is named `shipped:vase.obj`
 //! in scene files that do not stand beside it.
@@ -23,13 +26,15 @@ use super::file::resolve::{LoadedMesh, Resolved};
 use super::file::value::{Data, Value};
 use super::file::{BUILTIN, STANDARD_INPUT, SceneFile, shown};
 use crate::mesh::builtin::{BUILTINS, builtin};
-use crate::mesh::obj::{ObjError, load_obj_by, parse_obj};
+use crate::mesh::obj::content::foreign;
+use crate::mesh::obj::{ObjError, ObjProblem, cause, gzip, load_obj_by, parse_obj};
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::vec::Vec;
 use std::{format, fs, io};
 
@@ -66,7 +71,7 @@ static SHIPPED_FILES: &[(&str, &[u8])] = &[
 
 const SHIPPED: &str = "shipped:";
 
-/// The format of a text on standard input.
+/// The format of a text that no name tells: on standard input, or in a file of another ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputFormat {
     /// A mesh file.
@@ -76,8 +81,13 @@ pub enum InputFormat {
 }
 
 impl InputFormat {
-    /// Returns the format of `text`: a scene file begins with a table, or with a key and `=`.
-    fn of(text: &[u8]) -> InputFormat {
+    /// Returns the format of `bytes`, packed or not: a scene file begins with a table, or with a key and `=`. All else is left to the
+    /// reader of meshes, which says what it is instead.
+    fn of(bytes: &[u8]) -> InputFormat {
+        let text = &*gzip::start(bytes, ENOUGH);
+        if foreign(text).is_some() {
+            return InputFormat::Obj;
+        }
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
         let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
         let mut lines = lines.map(<[u8]>::trim_ascii);
@@ -93,23 +103,48 @@ impl InputFormat {
     }
 }
 
-/// Reads a file, or standard input under the name [`STANDARD_INPUT`]. That is read once; after that, what it held is returned
-/// again.
+/// The bytes of a text that show its format.
+const ENOUGH: usize = 1 << 16;
+
+/// The most bytes that are read from a pipe or a device, which may never end.
+const MOST_PIPED: u64 = 1 << 30;
+
+/// Reads a file, or standard input under the name [`STANDARD_INPUT`]. That, a pipe and a device are read once, up to 1 GiB; after
+/// that, what they held is returned again.
 ///
 /// # Errors
-/// Those of the operating system.
+/// Those of the operating system, and when a pipe holds more.
 pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
-    static READ: OnceLock<Result<Vec<u8>, String>> = OnceLock::new();
-    if path.as_os_str() != STANDARD_INPUT {
-        return fs::read(path);
+    static READ: Mutex<BTreeMap<PathBuf, Result<Vec<u8>, String>>> = Mutex::new(BTreeMap::new());
+    let is_input = path.as_os_str() == STANDARD_INPUT;
+    if !is_input {
+        let found = fs::metadata(path)?;
+        if found.is_file() || found.is_dir() {
+            return fs::read(path);
+        }
     }
-    let read = READ.get_or_init(|| {
-        let mut bytes = Vec::new();
-        let read = io::stdin().lock().read_to_end(&mut bytes);
-        read.map_err(|error| error.to_string())?;
-        Ok(bytes)
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = read.entry(path.to_owned()).or_insert_with(|| {
+        let bytes = match is_input {
+            true => read_to_end(io::stdin().lock()),
+            false => fs::File::open(path).and_then(read_to_end),
+        };
+        bytes.map_err(|error| error.to_string())
     });
-    read.clone().map_err(io::Error::other)
+    known.clone().map_err(io::Error::other)
+}
+
+/// Reads all that a pipe holds.
+fn read_to_end(pipe: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    pipe.take(MOST_PIPED + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > MOST_PIPED {
+        true => Err(io::Error::other(format!(
+            "more than {} MiB come from it",
+            MOST_PIPED >> 20
+        ))),
+        false => Ok(bytes),
+    }
 }
 
 impl ShippedScene {
@@ -164,13 +199,50 @@ pub fn load_by(
     if let Some(scene) = ShippedScene::named(input) {
         return scene.load();
     }
-    if !has_known_ending(path) || !path.exists() {
-        return Err(unknown(input, path));
+    let is_piped = match fs::metadata(path) {
+        Err(error) => return Err(missing(input, path, error)),
+        Ok(found) if found.is_dir() => {
+            let expected = "expected a scene file or a mesh file";
+            let problem = format!("{input}: is a directory");
+            return Err(SceneError::new(Origin::Program, problem, expected));
+        }
+        // A file that is already open has no folder either.
+        Ok(found) => !found.is_file() || ["/dev", "/proc"].iter().any(|top| path.starts_with(top)),
+    };
+    let format = match () {
+        _ if has_ending(path, "toml") => InputFormat::Toml,
+        _ if has_ending(path, "obj") => InputFormat::Obj,
+        _ => match read(path) {
+            Ok(bytes) => InputFormat::of(&bytes),
+            Err(error) => {
+                let problem = format!("{input}: cannot be read: {error}");
+                return Err(SceneError::new(Origin::Program, problem, ""));
+            }
+        },
+    };
+    match format {
+        InputFormat::Toml if is_piped => {
+            let bytes = read(path);
+            let name = pipe_name(path);
+            let again = |error: &io::Error| io::Error::other(error.to_string());
+            SceneFile::load_by(Path::new(&name), &mut |_| {
+                bytes.as_ref().map(Vec::clone).map_err(again)
+            })
+        }
+        InputFormat::Toml => SceneFile::load_by(path, read),
+        InputFormat::Obj => Ok(SceneFile::for_mesh(input.to_owned())),
     }
-    if has_ending(path, "toml") {
-        SceneFile::load_by(path, read)
-    } else {
-        Ok(SceneFile::for_mesh(input.to_owned()))
+}
+
+/// Returns what messages call a scene that comes from a pipe or a device. It is in no folder: its meshes are relative to the current one,
+/// as those of standard input are.
+fn pipe_name(path: &Path) -> String {
+    match path.to_str() {
+        Some("/dev/stdin" | "/dev/fd/0" | "/proc/self/fd/0") => shown(STANDARD_INPUT).to_owned(),
+        _ => format!(
+            "pipe {}",
+            path.file_name().unwrap_or_default().to_string_lossy()
+        ),
     }
 }
 
@@ -196,12 +268,13 @@ pub fn load_standard_input(
     }
 }
 
-/// Makes the error for what is not there, or is there and of no kind that is known.
-fn unknown(input: &str, path: &Path) -> SceneError {
-    if path.exists() {
-        let expected = "expected a scene file that ends in .toml or a mesh file that ends in .obj";
-        let problem = "unknown file extension";
-        return SceneError::new(Origin::Program, format!("{input}: {problem}"), expected);
+/// Makes the error for what is not there, or cannot be looked at for another reason.
+fn missing(input: &str, path: &Path, error: io::Error) -> SceneError {
+    use io::ErrorKind::{InvalidInput, NotADirectory, NotFound};
+    let is_link = fs::read_link(path).is_ok();
+    if is_link || !matches!(error.kind(), NotFound | NotADirectory | InvalidInput) {
+        let problem = format!("`{input}` cannot be read: {}", cause(path, error));
+        return SceneError::new(Origin::Program, problem, "");
     }
     let scenes = || SCENES.iter().map(|scene| scene.name);
     // Who writes `scenes/teapto.toml` means `teapot`, and who writes `sphere` the built-in mesh.
@@ -299,17 +372,13 @@ fn load_mesh_by(
         })
     } else {
         let path: PathBuf = folder.join(name);
-        if !has_ending(&path, "obj") {
-            return Err(
-                match is_builtin(name.split('?').next().unwrap_or_default()) {
-                    true => format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?"),
-                    false => format!(
-                        "`{name}` is not a mesh: expected a file that ends in .obj, or {BUILTIN}NAME"
-                    ),
-                },
-            );
+        let loaded = load_obj_by(&path, read);
+        let is_shape = is_builtin(name.split('?').next().unwrap_or_default());
+        if is_shape && matches!(&loaded, Err(error) if is_unreadable(&error.problem)) {
+            let hint = format!("did you mean `{BUILTIN}{name}`?");
+            return Err(format!("`{name}` is not a mesh file; {hint}"));
         }
-        load_obj_by(&path, read)
+        loaded
     };
     let loaded = loaded.map_err(|error| {
         let odd = error.warnings.iter();
@@ -319,6 +388,10 @@ fn load_mesh_by(
     let warnings = loaded.warnings.iter();
     let warnings = warnings.map(|warning| format!("{name}: {warning}"));
     Ok((Arc::new(loaded.mesh), warnings.collect()))
+}
+
+fn is_unreadable(problem: &ObjProblem) -> bool {
+    matches!(problem, ObjProblem::Unreadable(_))
 }
 
 /// Makes the meshes of `file` findable from the current folder, so that the scene may be written down anywhere in it.
@@ -412,6 +485,9 @@ mod tests {
             ("  camera.fit=1\n", InputFormat::Toml),
             ("title = \"a\"\r\n", InputFormat::Toml),
             ("[[object]]", InputFormat::Toml),
+            ("[a\0b\0", InputFormat::Toml),
+            ("[\0a\0b\0", InputFormat::Obj),
+            ("{\"a\"=", InputFormat::Obj),
         ] {
             assert_eq!(InputFormat::of(text.as_bytes()), format, "{text:?}");
         }
@@ -434,7 +510,10 @@ mod tests {
                 "nothing-like-it",
                 "is neither a file nor the name of a shipped scene (expected a scene file .toml, a mesh file .obj,",
             ),
-            ("Cargo.lock", "Cargo.lock: unknown file extension"),
+            (
+                "src",
+                "src: is a directory: expected a scene file or a mesh file",
+            ),
         ] {
             let error = load(input).unwrap_err();
             assert!(error.to_string().contains(said), "{error}");

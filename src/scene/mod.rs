@@ -90,7 +90,8 @@ pub struct Scene {
     pub hidden_surfaces: HiddenSurfaces,
     /// The limits of the view.
     pub clipping: Clipping,
-    /// True if polygons seen from behind, their corners clockwise on the screen, are lit with negated normals.
+    /// True if polygons seen from behind are lit with negated normals: those whose corners run clockwise on the screen, unless
+    /// that contradicts the normals that are given for them. Then these say where the front is.
     pub two_sided: bool,
     /// Samples per pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
     /// their mean in linear light is the pixel. `samples` times a side is at most [`Scene::MAX_SIDE`].

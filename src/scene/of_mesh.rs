@@ -1,7 +1,8 @@
 //! The scene that a mesh alone gets.
 
-use super::{Camera, Fit, Light, Object, Projection, Scene};
+use super::{Camera, Culling, Fit, Light, Object, Projection, Scene};
 use crate::mesh::vertex_normals::NormalSource;
+use crate::mesh::winding::WindingDoubts;
 use crate::mesh::{Material, PolygonMesh};
 use crate::sync::Arc;
 use alloc::vec;
@@ -18,7 +19,8 @@ impl Scene {
     pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
 
     /// Makes a scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
-    /// for polygons that have none, averaged vertex normals (L21 3.1).
+    /// for polygons that have none, averaged vertex normals (L21 3.1). A mesh that was read from a file, and that is open, not wound
+    /// alike everywhere, or wound against its own normals, is drawn and lit on both sides; any other with its back culled.
     ///
     /// The fields are there to be changed; a mesh without polygons gives an empty picture.
     ///
@@ -55,6 +57,7 @@ impl Scene {
             far: 2.0,
         });
         let own = mesh.materials().is_empty().then(Material::default);
+        let two_sided = mesh.was_read() && WindingDoubts::of(&mesh).any();
         Scene {
             width,
             height,
@@ -68,6 +71,11 @@ impl Scene {
                 material: own,
                 normals: NormalSource::Averaged,
             }],
+            culling: match two_sided {
+                true => Culling::None,
+                false => Culling::Back,
+            },
+            two_sided,
             ..Scene::new(camera)
         }
     }
@@ -144,6 +152,28 @@ mod tests {
                 "{method:?}"
             );
         }
+    }
+
+    #[cfg(feature = "io")]
+    #[test]
+    fn an_open_mesh_is_drawn_on_both_sides_if_it_was_read_from_a_file() {
+        use crate::mesh::obj::parse_obj;
+        let sides = |scene: Scene| (scene.culling, scene.two_sided);
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+        let read = |text: &str| {
+            let none = |_: &str| Err(std::io::ErrorKind::NotFound.into());
+            parse_obj("t.obj", text.as_bytes(), none).unwrap().mesh
+        };
+        let open = read(text);
+        let mut builder = MeshBuilder::new(open.positions().to_vec());
+        open.polygons().for_each(|polygon| {
+            builder.polygon(polygon);
+        });
+        let built = builder.finish().unwrap();
+        assert_eq!(sides(Scene::of_mesh(open)), (Culling::None, true));
+        assert_eq!(sides(Scene::of_mesh(built)), (Culling::Back, false));
+        let closed = read(&std::format!("{text}f 2 3 4\n"));
+        assert_eq!(sides(Scene::of_mesh(closed)), (Culling::Back, false));
     }
 
     #[test]

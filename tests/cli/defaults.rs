@@ -91,10 +91,10 @@ fn culled_polygons_are_not_silent() {
     let warning =
         "warning: nothing is drawn: 1 polygon is seen from the culled side; try --cull none";
     folder
-        .run("render back.obj -o back.png")
+        .run("render back.obj -o back.png --cull back")
         .done()
         .says(warning);
-    let compare = "compare back.obj --methods flat --size 32x32 --time-budget 0";
+    let compare = "compare back.obj --methods flat --size 32x32 --time-budget 0 --cull back";
     folder.run(compare).done().says(warning);
     let front = folder.run("render both.obj -o both.png").done();
     assert!(!front.err.contains("warning"), "{}", front.err);

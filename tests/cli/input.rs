@@ -45,7 +45,7 @@ fn missing_inputs() {
     refused(
         &[("mesh.stl", b"solid")],
         "mesh.stl",
-        &["mesh.stl: unknown file extension"],
+        &["mesh.stl: is a text STL file: expected OBJ text with `v` and `f` lines"],
     );
     refused(
         &[],
@@ -189,7 +189,14 @@ fn broken_scene_files() {
     refused(
         &[("scene.toml", b"\xff\xfe\0")],
         "scene.toml",
-        &["cannot read the scene `scene.toml`: line 1 is not text"],
+        &[
+            "cannot read the scene `scene.toml`: it is UTF-16 text (not UTF-8): expected TOML in UTF-8",
+        ],
+    );
+    refused(
+        &[("scene.toml", b"[image]\n\xff\n")],
+        "scene.toml",
+        &["cannot read the scene `scene.toml`: line 2 is not text"],
     );
 }
 
@@ -255,7 +262,9 @@ fn a_mesh_or_a_scene_is_read_from_standard_input() {
             "mesh",
             &format!("render - {flags} -o {{scene}}.png{format}"),
         );
-        assert_eq!(ended.done().err, "stdin.png: 16x12, flat\n");
+        let told = ended.done().err;
+        assert!(told.starts_with("standard input: 3 edges are open"));
+        assert!(told.ends_with("\nstdin.png: 16x12, flat\n"), "{told}");
         folder
             .run(&format!("render named.obj {flags} -o named.png"))
             .done();

@@ -9,6 +9,7 @@ mod engines;
 mod figure;
 mod files;
 mod flags;
+mod formats;
 mod geometry;
 mod input;
 mod memory;
@@ -25,6 +26,7 @@ mod studio;
 mod tables;
 mod view;
 mod watch;
+mod winding;
 
 use fastphong::picture::Picture8;
 use fastphong::raster::Renderer;

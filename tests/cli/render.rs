@@ -103,7 +103,7 @@ fn statistics_count_omitted_polygons() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 2 3\nf 1 3 2\nf 1 5 2\nf 1 3 4\n";
     folder.write("mesh.obj", obj);
     let ended = folder
-        .run("render mesh.obj --view 0,0 --size 64x48 --stats")
+        .run("render mesh.obj --view 0,0 --size 64x48 --stats --cull back")
         .done();
     let counts: Vec<(&str, &str)> = ended
         .out

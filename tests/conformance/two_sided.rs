@@ -6,7 +6,8 @@ use crate::support::floats_on;
 use fastphong::compare::metrics::compare;
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
-use fastphong::mesh::{MeshBuilder, PolygonMesh};
+use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
+use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use fastphong::scene::{Camera, Culling, Light, Projection, Scene};
 use fastphong::shading::Variant;
 use glam::DVec3;
@@ -153,6 +154,52 @@ fn methods_are_within_their_bounds() {
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
             let bound = entry.variant().bound(&case.frame);
             assert!(max <= bound, "{}: {max} over {bound}", entry.info.name);
+        }
+    }
+}
+
+/// Returns the surface with its averaged normals as its own; if asked for, every other polygon of it is wound the other way.
+fn with_own_normals(mesh: &PolygonMesh, is_half_turned: bool) -> PolygonMesh {
+    let normals = vertex_normals(mesh, NormalSource::Averaged);
+    let mut builder = MeshBuilder::new(mesh.positions().to_vec());
+    let mut own = Vec::new();
+    for number in 0..mesh.polygon_count() {
+        let mut corners: Vec<usize> = mesh.corner_range(number).collect();
+        if is_half_turned && number % 2 == 0 {
+            corners.reverse();
+        }
+        let positions: Vec<u32> = corners.iter().map(|&k| mesh.corners()[k]).collect();
+        builder.polygon(&positions);
+        own.extend(corners.iter().map(|&k| normals.corners[k]));
+    }
+    builder.normals(GivenNormals {
+        values: normals.values,
+        corners: Some(own),
+    });
+    builder.finish().expect("a mesh")
+}
+
+/// Where the winding contradicts the normals that a mesh gives, these say where the front is: for whole polygons and for those
+/// that are cut.
+#[test]
+fn polygons_wound_against_their_own_normals_are_lit_by_these() {
+    let seen = |is_half_turned: bool| {
+        views(|scene: &mut Scene| {
+            scene.culling = Culling::None;
+            let object = &mut scene.objects[0];
+            object.normals = NormalSource::Given;
+            object.mesh = Arc::new(with_own_normals(&object.mesh, is_half_turned));
+        })
+    };
+    for (ours, turned) in seen(false).into_iter().zip(seen(true)) {
+        for entry in floats_on(&ours) {
+            let draw = |frame: &Frame| entry.variant().render_linear(frame);
+            let difference = compare(&draw(&ours), &draw(&turned)).expect("equal sizes");
+            // As above: only roundings differ.
+            let bound = 2.0 * entry.variant().bound(&ours);
+            let (name, max) = (entry.info.name, difference.max);
+            assert!(max <= bound, "{name}: {max} over {bound}");
+            assert_eq!(difference.coverage_mismatches, 0);
         }
     }
 }

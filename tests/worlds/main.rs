@@ -9,6 +9,7 @@
 //! and others by `FASTPHONG_WORLDS_SEED=2`. A world in which something does not hold is made as small as it gets and printed
 //! as the files of a scene: make a test of these, whose name says the situation.
 
+mod files;
 mod mesh;
 mod numbers;
 mod properties;

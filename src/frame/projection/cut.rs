@@ -28,7 +28,8 @@ impl Cutting<'_> {
         let object = &geometry.models.objects[geometry.models.object_of(corners[0] as usize)];
         let matrix = self.view.clip_matrix * DMat4::from(object.transform);
         let clip_position = |&v: &u32| matrix * geometry.models.position(v as usize).extend(1.0);
-        let is_behind = eye_side(corners.iter().map(clip_position)) < 0.0;
+        let is_clockwise = eye_side(corners.iter().map(clip_position)) < 0.0;
+        let is_behind = is_clockwise != self.table.is_turned(polygon);
         let side = if self.view.scene.two_sided && is_behind {
             Side::Back
         } else {

@@ -25,6 +25,9 @@ pub(super) struct PolygonTable {
     pub has_normal: Vec<u64>,
     /// The polygons, in ascending order, that have an area but no normal: see [`crate::mesh::newell::areas_cancel`].
     pub cancelling: Vec<u32>,
+    /// The polygons, in ascending order, whose front is where their corners run clockwise: two-sided lighting follows the normals
+    /// that are given for these corners.
+    pub turned: Vec<u32>,
 }
 
 impl PolygonTable {
@@ -37,19 +40,24 @@ impl PolygonTable {
         }
     }
 
-    /// Returns a bit for each of 64 polygons from `first` on that is in [`PolygonTable::cancelling`].
-    #[inline(never)]
-    fn cancelling(&self, first: usize) -> u64 {
-        let after = &self.cancelling[self.cancelling.partition_point(|&p| (p as usize) < first)..];
-        let here = after.iter().map(|&p| p as usize - first);
-        here.take_while(|&k| k < 64)
-            .fold(0, |bits, k| bits | 1 << k)
+    /// True if the front of a polygon is where its corners run clockwise.
+    pub fn is_turned(&self, polygon: usize) -> bool {
+        self.turned.binary_search(&(polygon as u32)).is_ok()
     }
 
     #[inline(always)]
     pub fn material(&self, polygon: usize) -> u32 {
         self.materials.get(polygon).copied().unwrap_or(0)
     }
+}
+
+/// Returns a bit for each of 64 polygons from `first` on that is among `polygons`, in ascending order.
+#[inline(never)]
+fn bits_of(polygons: &[u32], first: usize) -> u64 {
+    let after = &polygons[polygons.partition_point(|&p| (p as usize) < first)..];
+    let here = after.iter().map(|&p| p as usize - first);
+    here.take_while(|&k| k < 64)
+        .fold(0, |bits, k| bits | 1 << k)
 }
 
 /// The visibility of 64 polygons that follow one another: a bit each.
@@ -151,7 +159,7 @@ impl Sight<'_> {
         let no_normal = inside & !has_normal;
         let cancelling = match no_normal {
             0 => 0,
-            _ => no_normal & self.table.cancelling(first),
+            _ => no_normal & bits_of(&self.table.cancelling, first),
         };
         stats.no_area += number(no_normal & !cancelling);
         stats.cancelling += number(cancelling);
@@ -169,7 +177,11 @@ impl Sight<'_> {
         stats.culled += number(whole & culled);
         stats.edge_on += number(whole & !(clockwise | counter_clockwise));
         // y points downward on the picture: what runs clockwise there has an area over 0, and is seen from behind.
-        let back = if self.scene.two_sided { clockwise } else { 0 };
+        let back = match self.scene.two_sided {
+            true if self.table.turned.is_empty() => clockwise,
+            true => clockwise ^ bits_of(&self.table.turned, first),
+            false => 0,
+        };
         VisibilityWord {
             drawn: whole & (clockwise | counter_clockwise) & !culled,
             back,

@@ -3,8 +3,9 @@
 use super::polygons::PolygonTable;
 use crate::frame::{FrameError, Geometry, Models, PlacedModel, Polygon};
 use crate::mesh::newell::{areas_cancel, polygon_normals, unit_normal};
-use crate::mesh::vertex_normals::{CornerNormals, corner_normals};
+use crate::mesh::vertex_normals::{CornerNormals, NormalSource, corner_normals};
 use crate::mesh::weld::number_distinct;
+use crate::mesh::winding::is_against;
 use crate::mesh::{Material, PolygonMesh};
 use crate::number::parallel::{collect, for_each_chunk};
 use crate::scene::{Object, Scene};
@@ -91,6 +92,9 @@ impl Preparation {
         let cancelling = cancelling.map(|p| (first_polygon + p) as u32);
         self.table.cancelling.extend(cancelling);
         self.faces(&source, &normals);
+        if self.geometry.two_sided {
+            self.turn_against_normals(object, &normals, first_polygon);
+        }
         let normals = corner_normals(mesh, object.normals, Some(&normals));
         self.table
             .materials
@@ -144,6 +148,22 @@ impl Preparation {
                 *face = in_world.as_vec3().to_array();
             }
         });
+    }
+
+    /// Turns polygons whose winding contradicts the normals that are given for their corners: these say where the front is.
+    fn turn_against_normals(&mut self, object: &Object, normals: &[DVec3], first: usize) {
+        let mesh = &*object.mesh;
+        let takes_given = matches!(object.normals, NormalSource::Auto | NormalSource::Given);
+        let Some(given) = mesh.given_normals().filter(|_| takes_given) else {
+            return;
+        };
+        let polygons =
+            (0..mesh.polygon_count()).filter(|p| is_against(mesh, given, *p, normals[*p]));
+        for polygon in polygons.map(|p| first + p) {
+            let face = &mut self.geometry.faces[polygon];
+            *face = face.map(|n| -n);
+            self.table.turned.push(polygon as u32);
+        }
     }
 
     /// Adds a vertex for each position, as each has one normal and one material.

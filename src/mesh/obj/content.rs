@@ -1,17 +1,34 @@
-//! What a file that should hold text holds instead, told by its first bytes.
+//! What a file that should hold text holds instead, told by its bytes.
 
 /// The first bytes of files that are met under the names of meshes and of material libraries.
-const SIGNATURES: [(&[u8], &str); 11] = [
+const SIGNATURES: [(&[u8], &str); 27] = [
+    // Before UTF-16, whose mark is the beginning of this one.
+    (b"\xff\xfe\0\0", UTF_32),
+    (b"\0\0\xfe\xff", UTF_32),
     (b"\xff\xfe", UTF_16),
     (b"\xfe\xff", UTF_16),
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"GIF8", "a GIF picture"),
-    (b"\x1f\x8b", "a gzip archive"),
+    (b"\x1f\x8b", "a gzip archive in a gzip archive"),
     (b"PK\x03\x04", "a ZIP archive"),
+    (b"\xfd7zXZ\0", "an xz archive"),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive"),
+    (b"BZh", "a bzip2 archive"),
+    (b"\x28\xb5\x2f\xfd", "a Zstandard archive"),
+    (b"Rar!\x1a\x07", "a RAR archive"),
     (b"%PDF", "a PDF document"),
     (b"glTF", "a binary glTF file"),
-    (b"<?xml", "an XML document"),
+    (b"Kaydara FBX Binary", "a binary FBX file"),
+    (b"; FBX", "a text FBX file"),
+    (b"BLENDER", "a Blender file"),
+    (b"#usda", "a text USD file"),
+    (b"PXR-USDC", "a binary USD file"),
+    (b"#VRML", "a VRML file"),
+    (b"ISO-10303-21", "a STEP file"),
+    (b"xof ", "a DirectX file"),
+    (b"\0\0\xff\xff", COFF),
+    (b"!<arch>\n", "a library of object files"),
     (
         b"version https://git-lfs.github.com",
         "a pointer of Git LFS, not the file (`git lfs pull` fetches it)",
@@ -19,27 +36,180 @@ const SIGNATURES: [(&[u8], &str); 11] = [
 ];
 
 const UTF_16: &str = "UTF-16 text (not UTF-8)";
+const UTF_32: &str = "UTF-32 text (not UTF-8)";
+/// Compilers on Windows write it, under the ending of mesh files.
+const COFF: &str = "a compiled object file (COFF)";
+const TEXT_STL: &str = "a text STL file";
+const BINARY_STL: &str = "a binary STL file";
 
-/// Returns what `bytes` are, if they are plainly no text that OBJ and MTL files could hold.
-pub(super) fn foreign(bytes: &[u8]) -> Option<&'static str> {
+/// Returns what `bytes` are, if they are plainly no text that OBJ, MTL and scene files could hold.
+pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     let known = SIGNATURES
         .iter()
         .find(|(start, _)| bytes.starts_with(start));
     match bytes {
         _ if known.is_some() => known.map(|(_, what)| *what),
-        // The ASCII characters of UTF-16 without a byte-order mark.
+        // The ASCII characters of UTF-32 and UTF-16 without a byte-order mark.
+        [1..=127, 0, 0, 0, 1..=127, 0, 0, 0, ..] | [0, 0, 0, 1..=127, 0, 0, 0, 1..=127, ..] => {
+            Some(UTF_32)
+        }
         [1..=127, 0, 1..=127, 0, ..] | [0, 1..=127, 0, 1..=127, ..] => Some(UTF_16),
-        _ if is_html(bytes) => Some("a page of HTML"),
+        _ if is_binary_stl(bytes) => Some(BINARY_STL),
+        _ if is_3ds(bytes) => Some("a 3DS file"),
+        _ if is_coff(bytes) => Some(COFF),
+        _ if bytes.get(257..262) == Some(b"ustar") => Some("a tar archive"),
+        _ => foreign_text(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
+    }
+}
+
+/// Returns the little-endian number of four bytes from `at` on.
+fn number(bytes: &[u8], at: usize) -> Option<u64> {
+    let four = bytes.get(at..at + 4)?.first_chunk()?;
+    Some(u32::from_le_bytes(*four).into())
+}
+
+/// True if the size of the file is what the number of triangles behind its header says: 50 bytes each.
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    let triangles = number(bytes, 80).filter(|triangles| *triangles > 0);
+    triangles.is_some_and(|triangles| bytes.len() as u64 == 84 + 50 * triangles)
+}
+
+/// True if the first chunk is a whole 3DS file.
+fn is_3ds(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"MM") && number(bytes, 2) == Some(bytes.len() as u64)
+}
+
+/// True if the header is that of a COFF object for x86, ARM or their 64-bit successors: some sections, symbols within the file, and
+/// no header of a program.
+fn is_coff(bytes: &[u8]) -> bool {
+    let is_machine = matches!(
+        bytes,
+        [0x4c, 0x01, ..] | [0x64, 0x86, ..] | [0x64, 0xaa, ..] | [0xc4, 0x01, ..]
+    );
+    is_machine
+        && bytes.get(2..4).is_some_and(|sections| sections != [0, 0])
+        && number(bytes, 8).is_some_and(|symbols| symbols <= bytes.len() as u64)
+        && bytes.get(16..18) == Some(&[0, 0])
+}
+
+/// Returns what the text in `bytes` is, by its first word that is in no comment.
+fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
+    let text = bytes.trim_ascii_start();
+    if text.starts_with(b"<") {
+        return foreign_markup(text);
+    }
+    if text.starts_with(b"{") {
+        let has_asset = text
+            .windows(7)
+            .take(1 << 20)
+            .any(|part| part == b"\"asset\"");
+        return Some(match has_asset {
+            true => "a glTF file (JSON)",
+            false => "a JSON document",
+        });
+    }
+    let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
+    let mut lines = lines.map(<[u8]>::trim_ascii);
+    let line = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"))?;
+    let mut words = line.split(u8::is_ascii_whitespace);
+    let word = words.next().unwrap_or_default();
+    if word.eq_ignore_ascii_case(b"solid") {
+        let is_binary = text.iter().take(84).any(|byte| *byte == 0);
+        return Some(if is_binary { BINARY_STL } else { TEXT_STL });
+    }
+    // With texture coordinates, colours, normals, and a fourth coordinate.
+    let off = word.strip_suffix(b"OFF");
+    match word {
+        b"ply" if words.next().is_none() => Some("a PLY file"),
+        b"COFF" => Some("an OFF file with colours (COFF)"),
+        _ if off.is_some_and(|kind| kind.iter().all(|letter| b"STCN4n".contains(letter))) => {
+            Some("an OFF file")
+        }
         _ => None,
     }
 }
 
-fn is_html(bytes: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let text = bytes.trim_ascii_start();
-    let starts: [&[u8]; 3] = [b"<!doctype html", b"<html", b"<head"];
-    starts.iter().any(|start| {
+/// Returns what a text that begins with `<` is.
+fn foreign_markup(text: &[u8]) -> Option<&'static str> {
+    let begins = |start: &[u8]| {
         let begin = text.get(..start.len());
         begin.is_some_and(|begin| begin.eq_ignore_ascii_case(start))
-    })
+    };
+    let head = &text[..text.len().min(4096)];
+    let holds = |tag: &[u8]| head.windows(tag.len()).any(|part| part == tag);
+    match () {
+        _ if holds(b"<COLLADA") => Some("a COLLADA file"),
+        _ if holds(b"<X3D") => Some("an X3D file"),
+        _ if begins(b"<!doctype html") || begins(b"<html") || begins(b"<head") => {
+            Some("a page of HTML")
+        }
+        _ if begins(b"<?xml") => Some("an XML document"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    #[test]
+    fn formats_are_told_by_their_bytes() {
+        let mut stl = vec![b' '; 80];
+        stl.extend(2u32.to_le_bytes());
+        stl.extend([0; 100]);
+        let mut solid = stl.clone();
+        solid[..5].copy_from_slice(b"solid");
+        let mut coff = vec![0x64, 0x86, 3, 0];
+        coff.extend([0; 60]);
+        let text = "v 0 0 0\n".chars();
+        let utf_32: Vec<u8> = text.flat_map(|c| u32::from(c).to_le_bytes()).collect();
+        let marked = [&b"\xff\xfe\0\0"[..], &utf_32].concat();
+        for (bytes, what) in [
+            (&b"solid cube\n facet normal 0 0 1\n"[..], TEXT_STL),
+            (b"# by hand\r\nSOLID\r\n", TEXT_STL),
+            (&stl, BINARY_STL),
+            (&solid, BINARY_STL),
+            (b"ply\nformat ascii 1.0\n", "a PLY file"),
+            (b"OFF\n8 6 12\n", "an OFF file"),
+            (b"STNOFF 8 6 12\n", "an OFF file"),
+            (b"# OFF\nCOFF\n8 6 12\n", "an OFF file with colours (COFF)"),
+            (
+                b"\xef\xbb\xbf {\"asset\": {\"version\": \"2.0\"}}",
+                "a glTF file (JSON)",
+            ),
+            (b"{}", "a JSON document"),
+            (b"glTF\x02\0\0\0", "a binary glTF file"),
+            (b"Kaydara FBX Binary  \0\x1a\0", "a binary FBX file"),
+            (b"; FBX 7.3.0 project file\n", "a text FBX file"),
+            (&coff, COFF),
+            (b"\0\0\xff\xff\x01\0\x64\x86", COFF),
+            (&utf_32, UTF_32),
+            (&marked, UTF_32),
+            (b"\xff\xfev\0 \0", UTF_16),
+            (b"<?xml version=\"1.0\"?>\n<COLLADA>", "a COLLADA file"),
+        ] {
+            assert_eq!(foreign(bytes), Some(what), "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn texts_that_may_be_meshes_are_none() {
+        for text in [
+            "",
+            "# solid\nv 0 0 0\n",
+            "o solid\n",
+            "off\n",
+            "s off\n",
+            "plyboard\n",
+            "d\u{86}\n",
+            "hello\n",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        ] {
+            assert_eq!(foreign(text.as_bytes()), None, "{text:?}");
+        }
+        // As long as the size that its own letters would say is not.
+        assert_eq!(foreign(&[b'v'; 84]), None);
+    }
 }

@@ -1,4 +1,4 @@
-//! Corners of faces: `v`, `v/vt`, `v//vn` and `v/vt/vn`, and the positions and normals that their indices name.
+//! Corners of faces: `v`, `v/vt`, `v//vn` and `v/vt/vn`, and the positions that their indices name.
 
 use super::error::{ObjProblem, quote};
 use std::vec::Vec;
@@ -40,10 +40,9 @@ impl WrittenCorner {
     }
 }
 
-/// The positions or the normals of a file, as far as it was read.
+/// The positions of a file, as far as it was read.
 #[derive(Default)]
 pub(super) struct Entries {
-    what: &'static str,
     /// The number of entries so far.
     pub count: usize,
     /// Lines that name an entry not read yet, each farther ahead than those before it.
@@ -51,14 +50,6 @@ pub(super) struct Entries {
 }
 
 impl Entries {
-    /// Starts without entries; `what` is one of them in an error.
-    pub(super) fn new(what: &'static str) -> Self {
-        Entries {
-            what,
-            ..Entries::default()
-        }
-    }
-
     /// Returns the entry, counted from 0, that `index` names.
     ///
     /// A positive index may be ahead of its entry: [`Entries::missing`] tells at the end of the file.
@@ -83,8 +74,8 @@ impl Entries {
     }
 
     /// Makes the error for `index`, which names no entry.
-    pub(super) fn out_of_range(&self, index: i64) -> ObjProblem {
-        let (what, count) = (self.what, self.count);
+    fn out_of_range(&self, index: i64) -> ObjProblem {
+        let (what, count) = ("position", self.count);
         ObjProblem::IndexOutOfRange { what, index, count }
     }
 }

@@ -55,12 +55,13 @@ pub enum ObjProblem {
         face: usize,
     },
     /// A corner is none of `v`, `v/vt`, `v//vn`, `v/vt/vn`.
-    #[error("`{0}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers")]
+    #[error("`{0}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers{slash}",
+        slash = slash_hint(.0))]
     BadCorner(String),
-    /// A corner names a position or normal that the file does not have.
+    /// A corner names a position that the file does not have.
     #[error(fmt = index_out_of_range)]
     IndexOutOfRange {
-        /// `position` or `normal`.
+        /// `position`.
         what: &'static str,
         /// The index as written: counted from 1, or backwards from -1.
         index: i64,
@@ -99,11 +100,22 @@ pub enum VectorProblem {
     },
 }
 
+/// Returns a hint for a corner whose numbers have backslashes between them.
+fn slash_hint(corner: &str) -> &'static str {
+    let is_of_numbers = corner
+        .chars()
+        .all(|c| c.is_ascii_digit() || "-/\\".contains(c));
+    match is_of_numbers && corner.contains('\\') {
+        true => " with `/` between them, not `\\`",
+        false => "",
+    }
+}
+
 /// Returns a hint for numbers whose decimals follow a comma, and for those past the range of an `f32`.
 fn hint(found: &str) -> &'static str {
     let is_number = |text: &str| text.parse().is_ok_and(f64::is_finite);
     match is_number(found) {
-        true => ", at most 3.4e38",
+        true => ", at most 3.4e38, and in a scene 1e15",
         false if found.contains(',') && is_number(&found.replacen(',', ".", 1)) => {
             " with a decimal point"
         }
@@ -145,6 +157,8 @@ pub(super) fn quote(text: &str) -> String {
         match character {
             // Names hold these as they are.
             '\\' | '"' | '\'' => quoted.push(character),
+            // Not `\0`, which may be a part of a name.
+            '\0' => quoted.push_str("\\u{0}"),
             _ => quoted.extend(character.escape_debug()),
         }
     }

@@ -3,13 +3,15 @@
 use std::borrow::Cow;
 use std::string::String;
 
-/// Returns the text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails. The byte by which DOS ended
-/// texts is left out.
+/// Returns the text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails. Bytes that end a text are left
+/// out: NUL, as of a C string that was written whole, and the one by which DOS did.
 ///
 /// Latin-1 and not replacement characters: two names that differ stay different, and are found in the other file.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let bytes = bytes.strip_suffix(b"\x1a").unwrap_or(bytes);
+    let is_text = |byte: &u8| !matches!(byte, b'\0' | b'\x1a' | b'\n' | b'\r' | b' ');
+    let end = bytes.iter().rposition(is_text).map_or(0, |last| last + 1);
+    let bytes = &bytes[..end];
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(bytes.iter().map(|&byte| byte as char).collect::<String>()),
@@ -39,7 +41,22 @@ fn is_inside_a_number(arguments: &str, at: usize) -> bool {
         && after.is_some_and(|byte| byte.is_ascii_alphabetic())
 }
 
-/// The statements of free-form curves and surfaces, of which none is read. Their arguments are numbers.
+/// The mark of UTF-8, and the same three bytes read as Latin-1.
+const MARK: char = '\u{feff}';
+const LATIN_MARK: &str = "\u{ef}\u{bb}\u{bf}";
+
+/// Returns a line without what stands for nothing around it: blanks, the NUL that ends a C string, the end of a DOS text, and the
+/// mark of UTF-8 at the start of a file that was appended to another.
+fn bare(line: &str) -> &str {
+    let is_nothing = |c: char| c.is_ascii_whitespace() || matches!(c, '\0' | '\x1a' | MARK);
+    let line = line.trim_matches(is_nothing);
+    match line.strip_prefix(LATIN_MARK) {
+        Some(rest) => bare(rest),
+        None => line,
+    }
+}
+
+/// The statements of free-form curves and surfaces, of which none is read. Their arguments are numbers and some words.
 pub(super) const FREE_FORM: [&str; 23] = [
     "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
     "sp", "end", "con", "bsp", "bzp", "cdc", "cdp", "res", "fm", "ctech", "stech",
@@ -68,10 +85,31 @@ const NUMERIC: [&str; 19] = [
     "sharpness",
 ];
 
+/// The statements of names and of words.
+const WORDS: [&str; 16] = [
+    "o",
+    "g",
+    "mg",
+    "usemtl",
+    "mtllib",
+    "usemap",
+    "maplib",
+    "newmtl",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "call",
+    "csh",
+];
+
 /// Statements one by one: the number of the line where each begins, and its text with continued lines joined.
 ///
-/// CR LF, LF and CR each end a line. A backslash at its end continues a statement of numbers. Other statements hold names:
-/// those of Windows folders end in a backslash, and so do double-byte characters whose last byte is 5C.
+/// CR LF, LF and CR each end a line. A backslash at its end continues a statement of numbers, over blank lines and comments, unless
+/// another statement follows. Other statements hold names: those of Windows folders end in a backslash, and so do double-byte
+/// characters whose last byte is 5C.
 ///
 /// Comments are left in, as `#` may also stand in a name: [`without_comment`] is for the statements of numbers.
 pub(super) struct Statements<'a> {
@@ -79,6 +117,8 @@ pub(super) struct Statements<'a> {
     line: usize,
     /// True if any line may be continued: nearly no file has one.
     backslashes: bool,
+    /// True if there may be more than blanks around a line that stands for nothing: nearly no file has that.
+    has_odd_ends: bool,
 }
 
 impl<'a> Statements<'a> {
@@ -87,6 +127,10 @@ impl<'a> Statements<'a> {
             rest: Some(text),
             line: 0,
             backslashes: text.contains('\\'),
+            // The last character of the mark in Latin-1 stands for it.
+            has_odd_ends: ['\0', '\x1a', MARK, '\u{bf}']
+                .iter()
+                .any(|c| text.contains(*c)),
         }
     }
 
@@ -98,7 +142,26 @@ impl<'a> Statements<'a> {
         let (line, end) = rest.split_at(end.unwrap_or(rest.len()));
         let next = end.strip_prefix("\r\n").or(end.get(1..));
         self.rest = next;
-        Some(line)
+        Some(if self.has_odd_ends { bare(line) } else { line })
+    }
+
+    /// Returns the line that continues a statement: the next one that is neither blank nor a comment. Before a line that begins
+    /// another statement there is none; only directly after the backslash may arguments that are `words` look like one.
+    fn continuation(&mut self, words: bool) -> Option<&'a str> {
+        let mut is_next = true;
+        loop {
+            let before = (self.rest, self.line);
+            let line = self.physical_line()?;
+            let (word, _) = keyword(line);
+            if !word.is_empty() && !word.starts_with('#') {
+                if is_statement(word) && !(words && is_next) {
+                    (self.rest, self.line) = before;
+                    return None;
+                }
+                return Some(line);
+            }
+            is_next = false;
+        }
     }
 }
 
@@ -110,8 +173,16 @@ fn continued(line: &str) -> Option<&str> {
 /// True if the arguments of the statement in `line` are numbers.
 fn is_numeric(line: &str) -> bool {
     let (word, _) = keyword(line);
-    let mut known = FREE_FORM.iter().chain(&NUMERIC);
-    known.any(|known| known.eq_ignore_ascii_case(word))
+    is_among(word, &FREE_FORM) || is_among(word, &NUMERIC)
+}
+
+/// True if `word` begins a statement.
+fn is_statement(word: &str) -> bool {
+    is_among(word, &FREE_FORM) || is_among(word, &NUMERIC) || is_among(word, &WORDS)
+}
+
+fn is_among(word: &str, known: &[&str]) -> bool {
+    known.iter().any(|known| known.eq_ignore_ascii_case(word))
 }
 
 impl<'a> Iterator for Statements<'a> {
@@ -124,8 +195,9 @@ impl<'a> Iterator for Statements<'a> {
         let Some(start) = start.filter(|_| is_numeric(line)) else {
             return Some((number, Cow::Borrowed(line)));
         };
+        let words = is_among(keyword(line).0, &FREE_FORM);
         let mut joined = String::from(start);
-        while let Some(line) = self.physical_line() {
+        while let Some(line) = self.continuation(words) {
             joined.push(' ');
             match continued(line) {
                 Some(part) => joined.push_str(part),

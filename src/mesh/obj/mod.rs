@@ -6,16 +6,18 @@
 //! the file; positions that no face uses are dropped, the others keep the order in which faces first name them.
 //! Numbers are read as `f64`: a mesh far from 0 is rounded relative to [`PolygonMesh::origin`].
 //!
-//! `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of
+//! Files that gzip packed are unpacked. `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of
 //! [`MeshBuilder`]. What cannot be read is an [`ObjError`]; what can be read only in part is a warning.
 
-mod content;
+pub(crate) mod content;
 mod corner;
 mod error;
+pub(crate) mod gzip;
 mod lines;
 mod mtl;
 mod parser;
 mod prescan;
+mod rounding;
 #[cfg(test)]
 mod tests;
 
@@ -72,7 +74,7 @@ pub fn load_obj_by(
     if path.is_dir() {
         return Err(failed(ObjProblem::Directory));
     }
-    let unreadable = |error: io::Error| failed(ObjProblem::Unreadable(error.to_string()));
+    let unreadable = |error| failed(ObjProblem::Unreadable(cause(path, error).to_string()));
     let bytes = read(path).map_err(unreadable)?;
     let directory = path.parent().unwrap_or(Path::new(""));
     let mut in_other_case = Vec::new();
@@ -83,6 +85,17 @@ pub fn load_obj_by(
         loaded.warnings.append(&mut in_other_case);
         loaded
     })
+}
+
+/// Returns why `path` could not be read: `error`, unless it is a link to what is not there.
+pub(crate) fn cause(path: &Path, error: io::Error) -> io::Error {
+    match fs::read_link(path) {
+        Ok(target) if error.kind() == io::ErrorKind::NotFound => io::Error::other(format!(
+            "a link to {}, which is not there",
+            target.display()
+        )),
+        _ => error,
+    }
 }
 
 /// Reads the material library `name` by `read`, looked for from `directory`, and last by its bare file name there, in any case if
@@ -106,8 +119,10 @@ fn read_library(
         };
         read(&directory.join(bare)).or_else(|_| {
             let folders = [path.parent().unwrap_or(directory), directory];
-            let Some(found) = folders.iter().find_map(|folder| in_any_case(folder, bare)) else {
-                return Err(error);
+            let found = folders.iter().find_map(|folder| in_any_case(folder, bare));
+            // A link that leads nowhere is in its folder, too.
+            let Some(found) = found.filter(|found| found.exists()) else {
+                return Err(cause(&path, error));
             };
             let bytes = read(&found).map_err(|_| error)?;
             let (name, found) = (error::quote(name), found.display());
@@ -162,16 +177,19 @@ fn parse_limited(
         problem,
         warnings,
     };
+    let bytes = gzip::unpacked(bytes);
+    let bytes = &*bytes
+        .map_err(|error| failed(None, ObjProblem::Unreadable(error.to_string()), Vec::new()))?;
     if let Some(what) = content::foreign(bytes) {
         return Err(failed(None, ObjProblem::OtherFormat(what), Vec::new()));
     }
     let text = lines::decode(bytes);
-    if let Some(at) = text.find('\0') {
-        let line = lines::line_number(&text, at);
-        return Err(failed(Some(line), ObjProblem::NotText, Vec::new()));
-    }
     if text.trim().is_empty() {
-        return Err(failed(None, ObjProblem::Empty, Vec::new()));
+        let problem = match bytes.contains(&b'\0') {
+            true => ObjProblem::NotText,
+            false => ObjProblem::Empty,
+        };
+        return Err(failed(None, problem, Vec::new()));
     }
     let scan = prescan::prescan(&text, limits);
     let scan = scan.map_err(|refusal| failed(refusal.line, refusal.problem, refusal.warnings))?;
@@ -181,6 +199,7 @@ fn parse_limited(
 
     let positions: Vec<DVec3> = vectors(&parsed.positions).collect();
     let mut builder = MeshBuilder::from_f64(&positions);
+    builder.read_from_file();
     builder.reserve(scan.polygons, scan.corners);
     let mut rest = &parsed.indices[..];
     for &sides in &parsed.face_arities {
@@ -227,44 +246,13 @@ fn parse_limited(
     }
     let mesh = builder.finish();
     let mesh = mesh.map_err(|error| failed(None, ObjProblem::Mesh(error), warnings.clone()))?;
-    let bent = bent_polygons(&mesh, &positions);
-    if bent > 0 {
-        let polygons = if bent == 1 {
-            "polygon is"
-        } else {
-            "polygons are"
-        };
-        warnings.push(format!(
-            "{bent} {polygons} so small, so far from the middle of the mesh, that 32-bit coordinates bend their shape: \
-             expected objects that lie far apart in files of their own"
-        ));
-    }
+    warnings.extend(rounding::told(&mesh, &positions));
     Ok(LoadedObj { mesh, warnings })
 }
 
 /// Returns the vectors whose coordinates stand one after the other in `flat`.
 fn vectors(flat: &[f64]) -> impl Iterator<Item = DVec3> {
     flat.chunks_exact(3).map(DVec3::from_slice)
-}
-
-/// Returns the number of polygons that lose their shape when `positions` are rounded to those of `mesh`: a corner moves by
-/// over a sixteenth of the polygon's extent, which may turn its normal by over 2/16, seven degrees.
-fn bent_polygons(mesh: &PolygonMesh, positions: &[DVec3]) -> usize {
-    let moved: Vec<f64> = mesh
-        .positions()
-        .iter()
-        .zip(positions)
-        .map(|(p, written)| (mesh.origin() + p.as_dvec3() - written).abs().max_element())
-        .collect();
-    let is_bent = |polygon: &&[u32]| {
-        let corners = || polygon.iter().map(|&c| positions[c as usize]);
-        let low = corners().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let extent = (high - low).max_element();
-        let moved = polygon.iter().map(|&c| moved[c as usize]);
-        extent > 0.0 && moved.fold(0.0, f64::max) > extent / 16.0
-    };
-    mesh.polygons().filter(is_bent).count()
 }
 
 /// Returns `normal` with length one, or zero when it has no direction.

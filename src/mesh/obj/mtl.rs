@@ -2,6 +2,7 @@
 
 use super::content::foreign;
 use super::error::quote;
+use super::gzip::unpacked;
 use super::lines::{Statements, decode, keyword, name_candidates, without_comment};
 use crate::mesh::Material;
 use crate::picture::Rgb;
@@ -95,6 +96,8 @@ pub(super) struct Library {
     names: HashMap<String, usize>,
     /// The same by their names up to a comment, for `newmtl red # the lid`.
     uncommented: HashMap<String, usize>,
+    /// The first definition of a name, another one of it in the file that is read, and the place of that.
+    second: Vec<(usize, usize, Place)>,
     /// The names of the files that were read.
     files: Vec<String>,
     /// Statements outside of any definition.
@@ -117,12 +120,15 @@ impl Library {
             ..Library::default()
         };
         for (line, rest) in lines {
-            let mut one_file = name_candidates(rest);
+            let uncommented = name_candidates(rest).last().unwrap_or_default();
+            let names = file_names(uncommented);
+            // Of several paths only the last name would be looked for beside the mesh.
+            let may_be_one = names.len() < 2 || !uncommented.contains(['/', '\\']);
+            let mut one_file = name_candidates(rest).filter(|_| may_be_one);
             if one_file.any(|name| library.try_file(name, *line, load_mtl, warnings)) {
                 continue;
             }
-            let uncommented = name_candidates(rest).last().unwrap_or_default();
-            for name in file_names(uncommented) {
+            for name in names {
                 if !library.try_file(&name, *line, load_mtl, warnings) {
                     library.tell_missing(&name, *line, warnings);
                 }
@@ -139,7 +145,8 @@ impl Library {
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
         warnings: &mut Vec<String>,
     ) -> bool {
-        if let Some(known) = self.tried.get(name) {
+        let file = file_of(name);
+        if let Some(known) = self.tried.get(&file) {
             return known.is_ok();
         }
         let read = load_mtl(name);
@@ -154,14 +161,14 @@ impl Library {
         }
         let is_there = read.is_ok();
         let tried = read.map(|_| ()).map_err(Some);
-        self.tried.insert(name.to_string(), tried);
+        self.tried.insert(file, tried);
         is_there
     }
 
     /// Tells once that the file `name`, which `line` names, could not be read.
     fn tell_missing(&mut self, name: &str, line: usize, warnings: &mut Vec<String>) {
         self.is_complete = false;
-        if let Some(Err(untold)) = self.tried.get_mut(name)
+        if let Some(Err(untold)) = self.tried.get_mut(&file_of(name))
             && let Some(error) = untold.take()
         {
             let name = quote(name);
@@ -176,21 +183,21 @@ impl Library {
     /// # Errors
     /// The reason why there are none.
     fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
+        let bytes = unpacked(bytes).map_err(|error| format!("cannot be read ({error})"))?;
+        let bytes = &*bytes;
         if let Some(what) = foreign(bytes) {
             return Err(format!("is {what}"));
         }
         let text = decode(bytes);
-        if text.contains('\0') {
-            return Err("holds binary data".to_string());
-        }
-        if text.trim().is_empty() {
+        let has_nul = bytes.contains(&b'\0');
+        if text.trim().is_empty() && !has_nul {
             return Err("is empty".to_string());
         }
         let (file, before) = (self.files.len(), self.definitions.len());
         let mut ignored = Vec::new();
         self.files.push(name.to_string());
-        // The definition that statements belong to; none at the start of a file, and after a `newmtl` without a name.
-        let mut open = false;
+        // The definition that statements belong to, if there is one. Those after a `newmtl` without a name go with it.
+        let (mut open, mut is_nameless) = (false, false);
         for (line, statement) in Statements::new(&text) {
             let (word, rest) = keyword(&statement);
             if word.is_empty() || word.starts_with('#') {
@@ -205,14 +212,18 @@ impl Library {
             let why = match (&*word.to_ascii_lowercase(), open) {
                 ("newmtl", _) => {
                     open = !rest.is_empty();
+                    is_nameless = !open;
                     match open {
                         true => {
                             self.define(rest, place);
                             continue;
                         }
-                        false => "is ignored: expected a name",
+                        false => {
+                            "is ignored: expected a name, and so are all statements up to the next one"
+                        }
                     }
                 }
+                (_, false) if is_nameless => continue,
                 (_, false) => "before any `newmtl` is ignored",
                 (word, true) => {
                     let definition = self.definitions.last_mut().expect("a definition is open");
@@ -223,11 +234,22 @@ impl Library {
             ignored.push(Ignored { place, why });
         }
         if self.definitions.len() == before {
-            return Err("has no `newmtl` line with a name".to_string());
+            let why = match has_nul {
+                true => "holds binary data",
+                false => "has no `newmtl` line with a name",
+            };
+            return Err(why.to_string());
         }
         self.definitions[before..]
             .iter_mut()
             .for_each(Definition::finish);
+        for (first, second, place) in self.second.drain(..) {
+            let [one, other] = [first, second].map(|number| self.definitions[number].material());
+            if one != other {
+                let oddities = &mut self.definitions[first].oddities;
+                oddities.push((Oddity::SecondDefinition, place));
+            }
+        }
         self.ignored.append(&mut ignored);
         Ok(())
     }
@@ -237,8 +259,7 @@ impl Library {
         let number = self.definitions.len();
         self.definitions.push(Definition::default());
         if let Some(&first) = self.names.get(name) {
-            let oddities = &mut self.definitions[first].oddities;
-            oddities.push((Oddity::SecondDefinition, place));
+            self.second.push((first, number, place));
             return;
         }
         self.names.insert(name.to_string(), number);
@@ -293,6 +314,23 @@ impl Library {
         }
         warnings
     }
+}
+
+/// Returns what tells the file that `name` names from others: its path without detours, as `./lib.mtl` and `lib.mtl` are one file.
+fn file_of(name: &str) -> String {
+    let mut parts: Vec<&str> = Vec::new();
+    for (number, part) in name.split(['/', '\\']).enumerate() {
+        match part {
+            "." => {}
+            // At the start it is the root.
+            "" if number > 0 => {}
+            ".." if parts.last().is_some_and(|last| !matches!(*last, "" | "..")) => {
+                parts.pop();
+            }
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
 }
 
 /// Returns the file names in an `mtllib` line that is not one file name: each ends with `.mtl`, as names may hold spaces.

@@ -7,7 +7,9 @@
 
 use super::corner::{Entries, ObjCorner, WrittenCorner};
 use super::error::{ObjProblem, VectorProblem, quote};
-use super::lines::{FREE_FORM, Statements, is_plain_number, keyword, read_number, without_comment};
+use super::lines::{
+    FREE_FORM, Statements, is_plain_number, keyword, line_number, read_number, without_comment,
+};
 use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -38,6 +40,8 @@ enum Oddity {
     SmallFace,
     #[error("a corner that repeats the one before it is left out")]
     RepeatedCorner,
+    #[error("polypaint (`#MRGB`, colours in comments) is not read")]
+    Polypaint,
     #[error("the weight w of a position is ignored")]
     Weight,
     #[error("a position is not three finite numbers and is left out")]
@@ -46,6 +50,8 @@ enum Oddity {
     BadNormal,
     #[error("a normal that no face uses is passed over")]
     UnusedNormal,
+    #[error("a corner names a normal that does not exist and counts as without a normal")]
+    NoNormal,
     #[error("a face uses a position that has no colour: the colours of the others are not used")]
     NoColour,
     #[error(
@@ -83,12 +89,15 @@ pub(super) struct Prescan {
     pub libraries: Vec<(usize, String)>,
     limits: MeshLimits,
     positions: Entries,
-    normals: Entries,
+    /// The number of normals so far.
+    normals: usize,
+    /// The number of normals in the file, once that is known: a corner may name one before its line.
+    all_normals: Option<usize>,
+    /// One more than the largest number of a normal that a corner names.
+    named_normals: usize,
     /// The line of each normal; 0 for those that a face names.
     unused_normals: Vec<u32>,
     texture_coordinates: usize,
-    /// The first line that counts normals backwards before there is one, and the error about it.
-    early_normal: Option<(usize, ObjProblem)>,
     /// The number of corners with a normal of their own.
     pub corners_with_normal: usize,
     /// Positions that are not three finite numbers.
@@ -131,11 +140,21 @@ pub(super) struct Refusal {
 /// # Errors
 /// For the first line that is wrong, or the file as a whole.
 pub(super) fn prescan(text: &str, limits: MeshLimits) -> Result<Prescan, Refusal> {
+    let scan = scan(text, limits, None)?;
+    let normals = scan.normals;
+    // Nearly no file names normals that it does not have; one without any may, as for other loaders.
+    match scan.named_normals > normals && normals > 0 {
+        true => self::scan(text, limits, Some(normals)),
+        false => Ok(scan),
+    }
+}
+
+/// Reads all of `text`, which has `all_normals` if they were counted already.
+fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Prescan, Refusal> {
     let mut scan = Prescan {
         text: Vec::with_capacity(text.len()),
         limits,
-        positions: Entries::new("position"),
-        normals: Entries::new("normal"),
+        all_normals,
         ..Prescan::default()
     };
     let mut corners = Vec::new();
@@ -148,13 +167,22 @@ pub(super) fn prescan(text: &str, limits: MeshLimits) -> Result<Prescan, Refusal
         return Err(scan.refusal(Some(line), problem));
     }
     scan.check_colours();
-    for number in 0..scan.unused_normals.len().min(scan.normals.count) {
+    for number in 0..scan.unused_normals.len().min(scan.normals) {
         match scan.unused_normals[number] {
             0 => {}
             line => scan.note(line as usize, Oddity::UnusedNormal),
         }
     }
     match scan.polygons {
+        // A text may have a NUL that does no harm. With words that are no statements it is no text.
+        0 if scan.has(Oddity::Unknown) && text.contains('\0') => {
+            let at = text.find('\0').unwrap_or_default();
+            Err(Refusal {
+                line: Some(line_number(text, at)),
+                problem: ObjProblem::NotText,
+                warnings: Vec::new(),
+            })
+        }
         0 if scan.has(Oddity::PointOrLine) => {
             Err(scan.refusal(None, ObjProblem::OnlyPointsOrLines))
         }
@@ -166,7 +194,7 @@ pub(super) fn prescan(text: &str, limits: MeshLimits) -> Result<Prescan, Refusal
 impl Prescan {
     /// True if any corner has a normal.
     pub(super) fn has_normals(&self) -> bool {
-        self.normals.count > 0 && self.corners_with_normal > 0
+        self.normals > 0 && self.corners_with_normal > 0
     }
 
     /// Returns the colours of the positions that faces use, in the order of the parser's mesh; `None` if they are not all there.
@@ -195,9 +223,7 @@ impl Prescan {
 
     /// Returns the first line that names what the whole file does not have, or that is named and cannot be read, and the
     /// problem.
-    fn wrong_index(&mut self) -> Option<(usize, ObjProblem)> {
-        // As for other loaders, a file without any normal may name them.
-        let undeclared = self.normals.count == 0;
+    fn wrong_index(&self) -> Option<(usize, ObjProblem)> {
         let face = |bad: &BadPosition| {
             let face = self.first_uses.get(bad.index).copied();
             face.filter(|&face| face > 0).map(|face| face as usize)
@@ -206,12 +232,7 @@ impl Prescan {
             let (face, problem) = (face(bad)?, bad.problem.clone());
             Some((bad.line, ObjProblem::BadPosition { problem, face }))
         });
-        let wrong = [
-            bad_position,
-            self.positions.missing(),
-            self.normals.missing().filter(|_| !undeclared),
-            self.early_normal.take().filter(|_| !undeclared),
-        ];
+        let wrong = [bad_position, self.positions.missing()];
         wrong.into_iter().flatten().min_by_key(|(line, _)| *line)
     }
 
@@ -238,9 +259,10 @@ impl Prescan {
     pub(super) fn warnings(&self) -> Vec<String> {
         let matters = |oddity: &Oddity| match oddity {
             Oddity::ColourOutOfRange => !self.has(Oddity::NoColour),
-            Oddity::UndeclaredNormal => self.normals.count == 0,
+            Oddity::UndeclaredNormal => self.normals == 0,
+            Oddity::NoNormal => self.normals > 0,
             Oddity::NoTextureCoordinate => {
-                let is_told = self.normals.count == 0 && self.has(Oddity::UndeclaredNormal);
+                let is_told = self.normals == 0 && self.has(Oddity::UndeclaredNormal);
                 self.texture_coordinates > 0 || !is_told
             }
             _ => true,
@@ -283,7 +305,7 @@ impl Prescan {
         match &*word {
             "v" => self.position(line, rest),
             "vn" => {
-                if self.normals.count == 0 {
+                if self.normals == 0 {
                     self.text.extend_from_slice(b"vn 0 0 0\n");
                 }
                 let mut words = without_comment(rest).split_ascii_whitespace();
@@ -291,8 +313,8 @@ impl Prescan {
                     self.note(line, Oddity::BadNormal);
                 }
                 self.text.push(b'\n');
-                self.normals.count += 1;
-                self.note_normal(self.normals.count - 1, line);
+                self.normals += 1;
+                self.note_normal(self.normals - 1, line);
             }
             "vt" => self.texture_coordinates += 1,
             // Version 2 of the format called a face `fo`.
@@ -312,6 +334,7 @@ impl Prescan {
             "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
             | "shadow_obj" | "trace_obj" => {}
             "call" | "csh" => self.note(line, Oddity::Call),
+            "#mrgb" => self.note(line, Oddity::Polypaint),
             word if word.is_empty() || word.starts_with('#') => {}
             word if FREE_FORM.contains(&word) => self.note(line, Oddity::FreeForm),
             _ => {
@@ -466,7 +489,7 @@ impl Prescan {
     fn note_normal(&mut self, normal: usize, line: usize) {
         if normal >= self.unused_normals.len() {
             // A normal takes two bytes or more: one so far ahead does not come.
-            if normal >= self.text.capacity().max(self.normals.count) {
+            if normal >= self.text.capacity().max(self.normals) {
                 return;
             }
             self.unused_normals.resize(normal + 1, u32::MAX);
@@ -520,19 +543,26 @@ impl Prescan {
             self.note(line, Oddity::NoTextureCoordinate);
         }
         let position = self.positions.resolve(line, written.position)?;
-        if self.normals.count == 0 && written.normal.is_some_and(|index| index != 0) {
+        let normal = written.normal.and_then(|index| self.normal(line, index));
+        Ok(ObjCorner { position, normal })
+    }
+
+    /// Returns the normal, counted from 0, that `index` names; `None` if there is none, which is told.
+    fn normal(&mut self, line: usize, index: i64) -> Option<usize> {
+        if self.normals == 0 {
             self.note(line, Oddity::UndeclaredNormal);
         }
-        let normal = match written.normal {
-            Some(index @ ..0) if self.normals.count == 0 => {
-                let problem = || (line, self.normals.out_of_range(index));
-                self.early_normal.get_or_insert_with(problem);
-                None
-            }
-            Some(index) => Some(self.normals.resolve(line, index)?),
-            None => None,
-        };
-        Ok(ObjCorner { position, normal })
+        let number = usize::try_from(index.unsigned_abs()).ok();
+        let named = number.and_then(|number| match index {
+            ..0 => self.normals.checked_sub(number),
+            _ => number.checked_sub(1),
+        });
+        let named = named.filter(|named| self.all_normals.is_none_or(|all| *named < all));
+        match named {
+            Some(named) => self.named_normals = self.named_normals.max(named.saturating_add(1)),
+            None => self.note(line, Oddity::NoNormal),
+        }
+        named
     }
 }
 

@@ -9,6 +9,7 @@ mod lights;
 mod normals;
 pub mod resolve;
 pub mod schema;
+mod sides;
 #[cfg(test)]
 mod tests;
 pub mod value;
@@ -17,6 +18,8 @@ mod visibility;
 
 use super::Scene;
 use crate::mesh::Material;
+use crate::mesh::obj::content::foreign;
+use crate::mesh::obj::{cause, gzip};
 use diagnostics::{Origin, SceneError, SourceText};
 use glam::DVec3;
 use schema::SCENE;
@@ -60,8 +63,10 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError`] where the text is not TOML, a key or word is unknown, or a value is of the wrong kind.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
-        // Some editors start a file with a byte-order mark; offsets count without it.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
+        // Some editors start a file with a byte-order mark; offsets count without it. NUL ends a C string that was written whole, and 1A
+        // a text of DOS.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = text.trim_end_matches(['\0', '\x1a']).to_string();
         let path = path.as_ref().into();
         let source = Some(Arc::new(SourceText { path, text }));
         let text = source.as_ref().map_or("", |source| &source.text);
@@ -91,7 +96,12 @@ impl SceneFile {
             let title = format!("cannot read the scene `{}`: {reason}", path.display());
             SceneError::new(Origin::Program, title, expected)
         };
-        let bytes = read(path).map_err(|error| failed(error.to_string(), ""))?;
+        let bytes = read(path).map_err(|error| failed(cause(path, error).to_string(), ""))?;
+        let bytes = gzip::unpacked(&bytes).map_err(|error| failed(error.to_string(), ""))?;
+        if let Some(what) = foreign(&bytes) {
+            return Err(failed(format!("it is {what}"), "expected TOML in UTF-8"));
+        }
+        let bytes = bytes.into_owned();
         let text = String::from_utf8(bytes).map_err(|error| {
             let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
             let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;

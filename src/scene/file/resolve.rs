@@ -4,6 +4,7 @@ use super::check::{COORDINATES, Section, is_coordinate, is_position};
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
 use super::normals::{normals, note_unused};
+use super::sides::Sides;
 use super::value::{Data, SceneTable};
 use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
@@ -29,8 +30,12 @@ pub struct Resolved {
     pub scene: Scene,
     /// Things to know before trusting the picture, one sentence each.
     pub warnings: Vec<String>,
-    /// Things that the scene leaves unused on purpose, one sentence each.
+    /// Things that the scene leaves unused on purpose, or leaves open, one sentence each.
     pub notes: Vec<String>,
+    /// Keys that the scene leaves open and its mesh decided. With these [laid over](SceneFile::overlay) it, the scene means the same
+    /// wherever it is written down.
+    #[doc(hidden)]
+    pub chosen: SceneTable,
 }
 
 /// A mesh, and what its loader found odd about it; or why there is none, with a line for each thing that was odd before.
@@ -75,15 +80,21 @@ impl SceneFile {
         let clipping = clipping(&file)?;
         let hidden_surfaces = hidden_surfaces(&file, &mut warnings)?;
         let objects = self.objects(&file, load_mesh, &mut warnings)?;
+        let sides = Sides::new(
+            &file,
+            self.mesh_alone(&file, &objects),
+            &mut warnings,
+            &mut notes,
+        );
         // What a built-in mesh has is right, and nothing that the user stated.
         let from_files = objects.iter().zip(self.meshes());
         for (object, name) in from_files.filter(|(_, name)| !name.starts_with(BUILTIN)) {
             let name = shown(name);
             note_unused(name, &object.mesh, object.normals, &mut notes);
-            let outside = match file.word("cull") {
+            let outside = match sides.culling {
                 Culling::Back => "so that its outside is not drawn",
                 // Its outside is shown, and lit on both sides.
-                Culling::Front | Culling::None if file.is_on("two_sided") => continue,
+                Culling::Front | Culling::None if sides.two_sided => continue,
                 Culling::Front | Culling::None => "so that its outside is lit from within",
             };
             warn_of_inside_out(name, &object.mesh, outside, &mut warnings);
@@ -105,10 +116,10 @@ impl SceneFile {
             shininess_for: file.choice("shininess_for").unwrap_or(specular),
             gate: file.word("specular_gate"),
             interpolation: file.word("interpolation"),
-            culling: file.word("cull"),
+            culling: sides.culling,
             hidden_surfaces,
             clipping,
-            two_sided: file.is_on("two_sided"),
+            two_sided: sides.two_sided,
             samples,
             encoding: image.word("encoding"),
             objects,
@@ -117,6 +128,7 @@ impl SceneFile {
             scene,
             warnings,
             notes,
+            chosen: sides.chosen,
         })
     }
 
@@ -180,6 +192,22 @@ impl SceneFile {
             objects.push(object);
         }
         Ok(objects)
+    }
+
+    /// Returns the name and the mesh of the only object, if that was read from a file and no scene file names it.
+    fn mesh_alone<'a>(
+        &'a self,
+        file: &Section,
+        objects: &'a [Object],
+    ) -> Option<(&'a str, &'a PolygonMesh)> {
+        let mut sections = file.sections("object", "object");
+        let is_named = sections.any(|object| is_named_in_file(&object));
+        match objects {
+            [Object { mesh, .. }] if !is_named && mesh.was_read() => {
+                self.meshes().next().map(|name| (name, &**mesh))
+            }
+            _ => None,
+        }
     }
 
     /// Returns the folder to which the mesh of `object` is relative.
@@ -302,14 +330,9 @@ fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, warnings: &
         1 => format!("1 surface of the file, of {polygons} polygons, is"),
         n => format!("{n} surfaces of the file, of {polygons} polygons, are"),
     };
-    // Given normals may point outward all the same.
-    let averaged = match mesh.given_normals() {
-        Some(_) => " --normals averaged",
-        None => "",
-    };
     let warning = format!(
         "{name}: {which} closed and wound inside out, {outside}: turn the faces around, or try \
-         --cull none --two-sided{averaged}"
+         --cull none --two-sided"
     );
     if !warnings.contains(&warning) {
         warnings.push(warning);

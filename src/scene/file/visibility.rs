@@ -2,9 +2,7 @@
 
 use super::check::Section;
 use super::diagnostics::SceneError;
-use crate::scene::{
-    Clipping, Culling, DepthBits, DepthBuffer, HiddenSurfaces, Interpolation, Scene,
-};
+use crate::scene::{Clipping, DepthBits, DepthBuffer, HiddenSurfaces, Interpolation, Scene};
 use std::format;
 use std::string::String;
 use std::vec::Vec;
@@ -31,12 +29,6 @@ pub(super) fn hidden_surfaces(
             let warning = format!("`{name}` means nothing without visibility = \"{needs}\"");
             warnings.push(warning);
         }
-    }
-    if scene.is_on("two_sided") && scene.word::<Culling>("cull") == Culling::Back {
-        let name = scene.name("two_sided");
-        warnings.push(format!(
-            "`{name}` means nothing with cull = \"back\": what is seen from behind is left out"
-        ));
     }
     Ok(match choice {
         "painter" => HiddenSurfaces::Painter(scene.word("painter_key")),

@@ -67,7 +67,7 @@ fn files_without_polygons() {
     let no_polygon = "has no polygon: expected OBJ text with an `f` line of at least three corners";
     assert_error(POINTS, 0, no_polygon);
     assert_error("# nothing\n", 0, no_polygon);
-    assert_error("solid cube\nfacet normal 0 0 1\n", 0, no_polygon);
+    assert_error("hello cube\nfacet normal 0 0 1\n", 0, no_polygon);
     assert_error_after_points("f 1 2\n", 0, no_polygon);
     let points =
         "has points or lines but no polygon: expected an `f` line of at least three corners";
@@ -78,7 +78,8 @@ fn files_without_polygons() {
 fn binary_data() {
     let message = "holds binary data: expected OBJ text with `v` and `f` lines";
     assert_error([0, 255, 3, 10, 200, 7], 1, message);
-    assert_error_after_points("f 1 2 3\nf 1\0", 7, message);
+    assert_error(format!("{POINTS}hello\0 1\n"), 6, message);
+    assert_error([0, 0, 0, 0], 0, message);
     // No NUL byte, but no polygon either.
     assert!(parse([0x89, b'P', b'N', b'G', 13, 10, 26, 10, 200]).is_err());
 }
@@ -114,7 +115,7 @@ fn a_position_that_is_no_number_refuses_the_file_only_if_a_face_uses_it() {
         let message = format!("`{number}` in `v`: expected a finite number");
         assert_bad_position(&format!("v 0 {number} 0"), &message);
     }
-    let message = "`-1e39` in `v`: expected a finite number, at most 3.4e38";
+    let message = "`-1e39` in `v`: expected a finite number, at most 3.4e38, and in a scene 1e15";
     assert_bad_position("v 0 -1e39 0", message);
     let message = "`1,5` in `v`: expected a finite number with a decimal point";
     assert_bad_position("v 0 1,5 0", message);
@@ -201,7 +202,7 @@ fn files_of_other_formats_are_told_as_such() {
         (utf16("\u{feff}v 0 0 0\n"), "UTF-16 text (not UTF-8)"),
         (utf16("v 0 0 0\n"), "UTF-16 text (not UTF-8)"),
         (b"\x89PNG\r\n\x1a\n".to_vec(), "a PNG picture"),
-        (b"\x1f\x8b\x08".to_vec(), "a gzip archive"),
+        (b"7z\xbc\xaf\x27\x1c".to_vec(), "a 7z archive"),
         (b"\n <!DOCTYPE HTML>\n".to_vec(), "a page of HTML"),
         (b"\xef\xbb\xbf<html>".to_vec(), "a page of HTML"),
         (
@@ -271,29 +272,41 @@ fn indices() {
             "{huge}"
         );
     }
+}
+
+#[test]
+fn a_normal_that_does_not_exist_is_none() {
+    let told = "a corner names a normal that does not exist and counts as without a normal";
+    let own = |loaded: &LoadedObj| {
+        let given = loaded.mesh.given_normals().expect("normals");
+        let corners = given.corners.as_ref().expect("of corners");
+        let normals = corners.iter().map(|&n| given.values[n as usize] == Vec3::Z);
+        normals.collect::<Vec<bool>>()
+    };
     // The parser panics at the second of these in a debug build.
-    assert_error_after_points(
-        "vn 0 0 1\nf 1//1 2//2 3//1\n",
-        7,
-        "normal index 2 is out of range: expected 1 to 1",
+    for (text, line) in [
+        ("vn 0 0 1\nf 1//1 2//2 3//1\n", 7),
+        ("vn 0 0 1\nf 1//1 2//-5 3//1\n", 7),
+        ("vn 0 0 1\nf 1//1 2//0 3//1\n", 7),
+        ("f 1//1 2//-1 3//1\nvn 0 0 1\n", 6),
+        ("f 1//1 2//2 3//1\nvn 0 0 1\n", 6),
+        ("f 1//1 2//9223372036854775807 3//1\nvn 0 0 1\n", 6),
+        ("vn 0 0 1\nf 1//1 2//-9223372036854775808 3//1\n", 7),
+    ] {
+        let loaded = after_points(text);
+        assert_eq!(*warning(&loaded), format!("{told} (line {line})"), "{text}");
+        assert_eq!(own(&loaded), [true, false, true], "{text}");
+    }
+    let loaded = after_points("vn 0 0 1\nf 1//1 2//2 3//3\nf 1//0 2//1 3//4\nvn 0 0 1\n");
+    assert_eq!(
+        *warning(&loaded),
+        format!("{told} (3 times, first in line 7)")
     );
-    assert_error_after_points(
-        "vn 0 0 1\nf 1//-5 2//1 3//1\n",
-        7,
-        "normal index -5 is out of range: expected -1 to -1 at this line",
-    );
-    // Later normals fix neither negative indices nor indices beyond the end. 0 names no normal in
-    // any file.
-    let none =
-        "normal index -1 is out of range: expected a normal to be given first, there is none";
-    assert_error_after_points("f 1//-1 2//1 3//1\nvn 0 0 1\n", 6, none);
-    assert_error_after_points(
-        "f 1//1 2//2 3//1\nvn 0 0 1\n",
-        6,
-        "normal index 2 is out of range: expected 1 to 1",
-    );
-    let zero = "normal index 0: expected 1 or more (or -1 and below, counted backwards)";
-    assert_error_after_points("f 1//0 2//1 3//1\n", 6, zero);
+    assert_eq!(own(&loaded), [true, true, false, false, true, false]);
+    // A file without normals may name any.
+    let loaded = after_points("f 1//0 2//1 3//-1\n");
+    assert!(loaded.mesh.given_normals().is_none());
+    assert!(warning(&loaded).starts_with("a face names normals or texture coordinates"));
 }
 
 #[test]

@@ -566,3 +566,64 @@ fn normals_that_no_face_names_are_told_once() {
         assert_eq!(told(format!("{triangle}{corners}")), [""; 0], "{corners}");
     }
 }
+
+#[test]
+fn a_nul_that_ends_a_line_or_stands_in_a_comment_or_a_name_refuses_nothing() {
+    let plain = after_points("f 1 2 3\n");
+    for text in [
+        "f 1 2 3\n\0",
+        "f 1 2 3\0",
+        "f 1 2 3\n\0\0\n\0",
+        "f 1 2 3\0\r\n",
+        "f 1 2 3\n\x1a\0",
+        "# a comment\0 of C\nf 1 2 3\n",
+        "g a\0b\nf 1 2 3 # c\0d\n",
+        "\0f 1 2 \\\0\n\03\n",
+        "o cube\0\nf 1 2 3\n",
+        "\x1af 1 2 3\n",
+    ] {
+        let loaded = after_points(text);
+        assert_eq!(loaded.mesh, plain.mesh, "{text:?}");
+        assert_eq!(loaded.warnings, Vec::<String>::new(), "{text:?}");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_at_the_start_of_any_line_is_passed_over() {
+    for mark in ["\u{feff}", "\u{feff}\u{feff} "] {
+        let loaded = parse(format!(
+            "{mark}{POINTS}{mark}f 1 2 3\n{mark}\n{mark}f 1 3 4\n{mark}"
+        ));
+        let loaded = loaded.unwrap();
+        assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(loaded.warnings, Vec::<String>::new());
+    }
+    // In Latin-1, which the name is in.
+    let mut bytes = POINTS.as_bytes().to_vec();
+    bytes.extend(b"\xef\xbb\xbfg caf\xe9\n\xef\xbb\xbff 1 2 3\n");
+    let loaded = parse(bytes).unwrap();
+    assert_eq!(polygons(&loaded), [[0, 1, 2]]);
+    assert_eq!(loaded.warnings, Vec::<String>::new());
+}
+
+#[test]
+fn blank_lines_and_comments_do_not_end_a_continued_statement_and_statements_do() {
+    for text in [
+        "f 1 2 \\\n\n3 4\n",
+        "f 1 2 \\\r\n \r\n\t\r\n3 \\\r\n\r\n4\r\n",
+        "f 1 2 \\\n# the rest\n3 4 # all\n",
+        "f 1 2 3 4 \\\n\n",
+        "f 1 2 3 4 \\",
+        "f 1 2 3 4 \\\n\ns 1\n",
+        "f 1 2 3 4 \\\ng left\n",
+    ] {
+        let loaded = after_points(text);
+        assert_eq!(polygons(&loaded), [[0, 1, 2, 3]], "{text:?}");
+        assert_eq!(loaded.warnings, Vec::<String>::new(), "{text:?}");
+    }
+    let loaded = after_points("f 1 2 3 \\\n\nf 1 3 4 \\\nv 0 0 2\nf 1 2 6\n");
+    assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 2, 3], [0, 1, 4]]);
+    // The words of a parameter line may look like statements.
+    let loaded = after_points("parm \\\nv 0 0 1\nparm u 0 \\\n\nv 0 0 3\nf 1 2 6\n");
+    assert_eq!(loaded.mesh.bounds().unwrap().1.z, 3.0);
+}

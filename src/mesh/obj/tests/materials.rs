@@ -129,7 +129,7 @@ fn lines_that_cannot_be_read_are_told_and_ignored() {
     }
     let (found, warnings) = material("Kd 1 0 0\nnewmtl m\nnewmtl\nKd 1 0 0\n");
     assert_eq!(found, Some(PLAIN));
-    assert_eq!(warnings.len(), 3);
+    assert_eq!(warnings.len(), 2);
     assert!(
         warnings[0].starts_with("a.mtl:1: `Kd 1 0 0` before any `newmtl`"),
         "{warnings:?}"
@@ -442,5 +442,76 @@ fn paths_of_libraries() {
     // Reject directories, and devices that never end where they exist.
     for name in ["src", "/dev/zero", "", "..", "no.mtl"] {
         assert!(read(root, name).is_err(), "{name}");
+    }
+}
+
+#[test]
+fn a_nul_in_a_library_refuses_nothing() {
+    let obj = format!("{POINTS}mtllib a.mtl\nusemtl red\nf 1 2 3\n");
+    for mtl in [
+        "newmtl red\nKd 1 0 0\n\0",
+        "# made by\0 C\nnewmtl red\0\nKd 1 0 0\0\n",
+        "\u{feff}newmtl red\n\u{feff}Kd 1 0 0\n",
+        "newmtl red\nKd 1 \\\n\n0 0\n",
+    ] {
+        let loaded = parse_obj("t.obj", obj.as_bytes(), |_| Ok(mtl.into())).unwrap();
+        assert_eq!(loaded.warnings, Vec::<String>::new(), "{mtl:?}");
+        assert_eq!(
+            loaded.mesh.materials()[0].diffuse,
+            [1.0, 0.0, 0.0],
+            "{mtl:?}"
+        );
+    }
+    let loaded = parse_obj("t.obj", obj.as_bytes(), |_| Ok(vec![1, 0, 0, 2, 0])).unwrap();
+    assert!(
+        loaded.warnings[0].contains("holds binary data"),
+        "{:?}",
+        loaded.warnings
+    );
+}
+
+#[test]
+fn one_library_by_two_names_is_read_once_and_several_paths_are_several_files() {
+    let asked = RefCell::new(Vec::new());
+    let ask = |lines: &str| {
+        asked.borrow_mut().clear();
+        let text = format!("{POINTS}{lines}\nusemtl m\nf 1 2 3\n");
+        let loaded = parse_obj("t.obj", text.as_bytes(), |name| {
+            asked.borrow_mut().push(name.to_string());
+            match name.ends_with("b.mtl") {
+                true => Ok(b"Kd 9 9 9\nnewmtl n\n".to_vec()),
+                false => Ok(b"Kd 9 9 9\nnewmtl m\nKd 1 0 0\n".to_vec()),
+            }
+        });
+        let told = loaded.unwrap().warnings.len();
+        (asked.borrow().clone(), told)
+    };
+    let one = "mtllib a.mtl\nmtllib ./a.mtl\nmtllib .\\a.mtl\nmtllib c/../a.mtl\nmtllib .//a.mtl";
+    assert_eq!(ask(one), (vec!["a.mtl".to_string()], 1));
+    let several = ["./a.mtl", "c/b.mtl"].map(String::from).to_vec();
+    assert_eq!(ask("mtllib ./a.mtl c/b.mtl"), (several, 2));
+    let apart = ["/a.mtl", "a.mtl", "../a.mtl"].map(String::from).to_vec();
+    assert_eq!(
+        ask("mtllib /a.mtl\nmtllib a.mtl\nmtllib ../a.mtl"),
+        (apart, 3)
+    );
+}
+
+#[test]
+fn an_equal_material_twice_is_silence() {
+    for (mtl, told) in [
+        ("newmtl m\nKd 1 0 0\nnewmtl m\nKd 1 0 0\n", 0),
+        (
+            "newmtl m\nKd 1 0 0\nnewmtl m\nKd 1.0 0.0 0 # the same\nKa 0.2\n",
+            0,
+        ),
+        ("newmtl m\nKd 1 0 0\nnewmtl m\nKd 1 0 0.5\n", 1),
+        (
+            "newmtl m\nKd 1 0 0\nnewmtl n\nnewmtl m\nKd 1 0 0\nnewmtl m\n",
+            1,
+        ),
+    ] {
+        let loaded = load("usemtl m\nmtllib a.mtl\nf 1 2 3\n", &[("a.mtl", mtl)]);
+        assert_eq!(loaded.warnings.len(), told, "{mtl}: {:?}", loaded.warnings);
     }
 }

@@ -1,0 +1,90 @@
+//! Polygons that lose their shape as their positions are rounded, and why.
+
+use crate::mesh::PolygonMesh;
+use glam::DVec3;
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+/// The part of a polygon's extent by which a corner may move: a sixteenth may turn its normal by over 2/16, seven degrees.
+const MOVED: f64 = 1.0 / 16.0;
+
+/// A mesh that is narrower than this many steps of 64-bit numbers may have lost its shape in the text already.
+const STEPS: f64 = 1024.0;
+
+/// The reason why rounding bends a polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Cause {
+    /// Its coordinates are below those of 32 bits.
+    Small,
+    /// It is far from the point of the mesh that positions count from.
+    FarFromMiddle,
+}
+
+/// Returns a line for each reason why rounding `positions`, as the file has them, to those of `mesh` bends polygons.
+pub(super) fn told(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
+    let mut lines = Vec::new();
+    let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
+    let high = positions
+        .iter()
+        .fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
+    let extent = (high - low).max_element();
+    let distance = low.abs().max(high.abs()).max_element();
+    let step = f64::EPSILON * distance;
+    if extent < STEPS * step {
+        lines.push(format!(
+            "the mesh is {extent:.1e} wide and {distance:.1e} from 0, where 64-bit numbers are up to {step:.1e} apart: expected \
+             a mesh nearer to 0 when it is written"
+        ));
+    }
+    let causes: Vec<Cause> = mesh
+        .polygons()
+        .filter_map(|polygon| cause(mesh, positions, polygon))
+        .collect();
+    let counted = |cause: Cause, why: &str| {
+        let count = causes.iter().filter(|other| **other == cause).count();
+        let polygons = match count {
+            0 => return None,
+            1 => "polygon is",
+            _ => "polygons are",
+        };
+        Some(format!("{count} {polygons} so small{why}"))
+    };
+    lines.extend(
+        [
+            counted(
+                Cause::Small,
+                " that 32-bit coordinates bend their shape: expected a larger unit of length",
+            ),
+            counted(
+                Cause::FarFromMiddle,
+                ", so far from the middle of the mesh, that 32-bit coordinates bend their shape: \
+             expected objects that lie far apart in files of their own",
+            ),
+        ]
+        .into_iter()
+        .flatten(),
+    );
+    lines
+}
+
+/// Returns why rounding bends a polygon, if it does.
+fn cause(mesh: &PolygonMesh, positions: &[DVec3], polygon: &[u32]) -> Option<Cause> {
+    let corners = || polygon.iter().map(|&c| c as usize);
+    let low = corners().fold(DVec3::INFINITY, |low, c| low.min(positions[c]));
+    let high = corners().fold(DVec3::NEG_INFINITY, |high, c| high.max(positions[c]));
+    let extent = (high - low).max_element();
+    let moved = |c: usize| mesh.origin() + mesh.positions()[c].as_dvec3() - positions[c];
+    let moved = corners()
+        .map(|c| moved(c).abs().max_element())
+        .fold(0.0, f64::max);
+    let relative = (low - mesh.origin())
+        .abs()
+        .max((high - mesh.origin()).abs());
+    match extent > 0.0 {
+        true if moved <= MOVED * extent => None,
+        true if relative.max_element() < f64::from(f32::MIN_POSITIVE) => Some(Cause::Small),
+        true => Some(Cause::FarFromMiddle),
+        false => None,
+    }
+}

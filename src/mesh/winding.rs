@@ -1,0 +1,183 @@
+//! Reasons to doubt the winding of a mesh: it then does not tell which side of a polygon is the outside.
+
+use super::newell::{polygon_normal, unit_normal};
+use super::orientation::inside_out;
+use super::weld::weld;
+use super::{GivenNormals, PolygonMesh};
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// The mean cosine between a polygon's normal and those given for its corners, below which they contradict each other. Files
+/// have four decimals of a normal or more, so that one across the polygon is off by 10⁻⁴ at most.
+const AGAINST: f64 = -1e-3;
+
+/// Counts of what makes the winding of a mesh doubtful; all are 0 where it is sound.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct WindingDoubts {
+    /// Edges of one polygon.
+    pub open_edges: usize,
+    /// Edges of more polygons, not as many of which pass them in one direction as in the other.
+    pub uneven_edges: usize,
+    /// Polygons whose winding contradicts the normals that came with the mesh.
+    pub against_normals: usize,
+    /// Surfaces that are closed and wound inside out, if others are not.
+    pub inside_out: usize,
+    /// The polygons of these.
+    pub inside_out_polygons: usize,
+}
+
+impl WindingDoubts {
+    /// Looks for doubts about `mesh`. Positions that coincide exactly are one, and all parts of the mesh together may close it.
+    pub fn of(mesh: &PolygonMesh) -> WindingDoubts {
+        let mut doubts = WindingDoubts::default();
+        doubts.count_edges(mesh);
+        if let Some(given) = mesh.given_normals() {
+            let is_against = |p: &usize| is_against(mesh, given, *p, polygon_normal(mesh, *p));
+            doubts.against_normals = (0..mesh.polygon_count()).filter(is_against).count();
+        }
+        // A mesh that is inside out as a whole is at one with itself.
+        let inside_out = inside_out(mesh);
+        if inside_out.polygons < mesh.polygon_count() {
+            doubts.inside_out = inside_out.surfaces;
+            doubts.inside_out_polygons = inside_out.polygons;
+        }
+        doubts
+    }
+
+    /// True if there is any doubt.
+    pub fn any(&self) -> bool {
+        *self != WindingDoubts::default()
+    }
+
+    fn count_edges(&mut self, mesh: &PolygonMesh) {
+        let (vertex, _) = weld(mesh.positions());
+        // An edge: its ends in ascending order, and true if it is passed in that direction.
+        let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
+        for polygon in mesh.polygons() {
+            for (k, &from) in polygon.iter().enumerate() {
+                let to = polygon[(k + 1) % polygon.len()];
+                let (a, b) = (vertex[from as usize], vertex[to as usize]);
+                if a != b {
+                    edges.push((a.min(b), a.max(b), a < b));
+                }
+            }
+        }
+        edges.sort_unstable();
+        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let ascending = edge.iter().filter(|passed| passed.2).count();
+            match edge.len() {
+                1 => self.open_edges += 1,
+                passes => self.uneven_edges += usize::from(2 * ascending != passes),
+            }
+        }
+    }
+}
+
+/// True if the normals `given` for the corners of polygon `p` point away from `normal`, the polygon's own.
+pub(crate) fn is_against(
+    mesh: &PolygonMesh,
+    given: &GivenNormals,
+    p: usize,
+    normal: DVec3,
+) -> bool {
+    let Some(normal) = unit_normal(normal) else {
+        return false;
+    };
+    let corners = given.corners.as_deref().unwrap_or(mesh.corners());
+    let own = corners[mesh.corner_range(p)].iter();
+    // Corners without a normal add nothing.
+    let cosines = own.map(|&n| normal.dot(given.values[n as usize].as_dvec3()));
+    cosines.sum::<f64>() < AGAINST * mesh.polygon(p).len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshBuilder;
+    use crate::mesh::builtin::builtin;
+    use alloc::vec;
+    use glam::Vec3;
+
+    /// A cube whose polygons are reversed where `reversed` says so, without the first `without` ones.
+    fn cube(reversed: impl Fn(usize) -> bool, without: usize) -> MeshBuilder {
+        let mesh = builtin("cube").expect("a shape");
+        let mut builder = MeshBuilder::new(mesh.positions().to_vec());
+        for (p, polygon) in mesh.polygons().enumerate().skip(without) {
+            let mut polygon = polygon.to_vec();
+            if reversed(p) {
+                polygon.reverse();
+            }
+            builder.polygon(&polygon);
+        }
+        builder
+    }
+
+    fn doubts(builder: MeshBuilder) -> WindingDoubts {
+        WindingDoubts::of(&builder.finish().expect("a mesh"))
+    }
+
+    #[test]
+    fn closed_surfaces_wound_alike_are_not_doubted_inside_out_or_not() {
+        for spec in ["cube", "torus", "gear", "sphere?rings=6&segments=8"] {
+            let mesh = builtin(spec).expect("a shape");
+            assert!(!WindingDoubts::of(&mesh).any(), "{spec}");
+        }
+        assert!(!doubts(cube(|_| true, 0)).any());
+        let nothing = MeshBuilder::new(Vec::new());
+        assert!(!doubts(nothing).any());
+    }
+
+    #[test]
+    fn open_edges_and_edges_passed_twice_in_one_direction_are_counted() {
+        assert_eq!(doubts(cube(|_| false, 1)).open_edges, 4);
+        let one = doubts(cube(|p| p == 2, 0));
+        assert_eq!((one.open_edges, one.uneven_edges), (0, 4));
+    }
+
+    #[test]
+    fn a_sheet_with_a_polygon_for_each_side_is_closed() {
+        let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+        let mut builder = MeshBuilder::new(corners);
+        for polygon in [[0, 1, 2], [1, 3, 2]] {
+            builder.polygon(&polygon);
+            builder.polygon(&[polygon[0], polygon[2], polygon[1]]);
+        }
+        assert!(!doubts(builder).any());
+    }
+
+    #[test]
+    fn polygons_against_their_own_normals_are_counted_and_normals_across_them_are_not() {
+        for (sign, against) in [(1.0, 0), (-1.0, 6)] {
+            let mut builder = cube(|_| false, 0);
+            let positions = builtin("cube").expect("a shape").positions().to_vec();
+            let outward = |p: &Vec3| sign * p.normalize();
+            builder.normals(GivenNormals {
+                values: positions.iter().map(outward).collect(),
+                corners: None,
+            });
+            assert_eq!(doubts(builder).against_normals, against);
+        }
+        let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y]);
+        builder.polygon(&[0, 1, 2]);
+        builder.normals(GivenNormals {
+            values: vec![Vec3::new(1.0, 0.0, -1e-4).normalize(); 3],
+            corners: None,
+        });
+        assert_eq!(doubts(builder).against_normals, 0);
+    }
+
+    #[test]
+    fn one_surface_of_two_that_is_inside_out_is_a_doubt() {
+        let mesh = builtin("cube").expect("a shape");
+        let apart = mesh.positions().iter().map(|p| *p + 5.0 * Vec3::X);
+        let positions = mesh.positions().iter().copied().chain(apart);
+        let mut builder = MeshBuilder::new(positions.collect());
+        for polygon in mesh.polygons() {
+            builder.polygon(polygon);
+            let there: Vec<u32> = polygon.iter().rev().map(|c| c + 8).collect();
+            builder.polygon(&there);
+        }
+        let doubts = doubts(builder);
+        assert_eq!((doubts.inside_out, doubts.inside_out_polygons), (1, 6));
+    }
+}

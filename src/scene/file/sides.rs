@@ -1,0 +1,99 @@
+//! The sides of polygons that are drawn and lit: as a scene file says, or as suits a mesh file that is drawn on its own.
+
+use super::check::Section;
+use super::diagnostics::Origin;
+use super::shown;
+use super::value::{Data, SceneTable};
+use crate::mesh::PolygonMesh;
+use crate::mesh::winding::WindingDoubts;
+use crate::scene::Culling;
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+/// The sides of polygons that are drawn and lit.
+pub(super) struct Sides {
+    pub culling: Culling,
+    pub two_sided: bool,
+    /// The keys that the scene leaves open and its mesh decides.
+    pub chosen: SceneTable,
+}
+
+impl Sides {
+    /// Reads the keys of `scene`. For `alone`, the name and the mesh of a file that no scene file names, keys that are not given
+    /// follow its winding: where that is doubtful, both sides are drawn and lit, and a note says why.
+    pub fn new(
+        scene: &Section,
+        alone: Option<(&str, &PolygonMesh)>,
+        warnings: &mut Vec<String>,
+        notes: &mut Vec<String>,
+    ) -> Sides {
+        let mut sides = Sides {
+            culling: scene.word("cull"),
+            two_sided: scene.is_on("two_sided"),
+            chosen: SceneTable::default(),
+        };
+        let is_open =
+            !scene.has("cull") || (!scene.has("two_sided") && sides.culling != Culling::Back);
+        if let Some((name, mesh)) = alone.filter(|_| is_open) {
+            let doubts = WindingDoubts::of(mesh);
+            if doubts.any() {
+                notes.push(sides.choose(scene, shown(name), &doubts));
+            }
+        }
+        if sides.two_sided && sides.culling == Culling::Back {
+            let name = scene.name("two_sided");
+            warnings.push(format!(
+                "`{name}` means nothing with cull = \"back\": what is seen from behind is left out"
+            ));
+        }
+        sides
+    }
+
+    /// Chooses what `scene` leaves open for a mesh whose winding is in doubt. Returns the note about it.
+    fn choose(&mut self, scene: &Section, name: &str, doubts: &WindingDoubts) -> String {
+        let mut done = "lit on the side that is seen";
+        let set = |table: &mut SceneTable, key, data| table.set(key, data, Origin::Program);
+        if !scene.has("cull") {
+            self.culling = Culling::None;
+            set(&mut self.chosen, "cull", Data::Text("none".into()));
+            done = "drawn and lit on both sides (--cull back draws front sides only)";
+        }
+        if !scene.has("two_sided") {
+            self.two_sided = true;
+            set(&mut self.chosen, "two_sided", Data::Switch(true));
+        }
+        format!("{name}: {}: its polygons are {done}", reasons(doubts))
+    }
+}
+
+/// Says in one line why the winding is in doubt.
+fn reasons(doubts: &WindingDoubts) -> String {
+    let polygons = doubts.inside_out_polygons;
+    let counted = |count: usize, one: &str, more: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {more}")),
+    };
+    let of = format!("of the file, of {polygons} polygons,");
+    let reasons = [
+        counted(doubts.open_edges, "edge is open", "edges are open"),
+        counted(
+            doubts.uneven_edges,
+            "edge lies between polygons wound differently",
+            "edges lie between polygons wound differently",
+        ),
+        counted(
+            doubts.against_normals,
+            "polygon is wound against its own normals",
+            "polygons are wound against their own normals",
+        ),
+        counted(
+            doubts.inside_out,
+            &format!("surface {of} is closed and wound inside out"),
+            &format!("surfaces {of} are closed and wound inside out"),
+        ),
+    ];
+    let reasons: Vec<String> = reasons.into_iter().flatten().collect();
+    reasons.join(", ")
+}
