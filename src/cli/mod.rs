@@ -5,6 +5,7 @@
 
 mod aov;
 mod bench;
+mod clamped;
 mod compare;
 mod diff;
 mod drawing;
@@ -14,6 +15,7 @@ mod experiments;
 mod explain;
 mod figure;
 mod files;
+mod frame_notes;
 mod frame_times;
 mod info;
 mod list;
@@ -21,6 +23,7 @@ pub mod log;
 mod measured;
 mod memory;
 mod mesh_facts;
+mod mesh_hints;
 mod name_template;
 #[cfg(not(feature = "view"))]
 mod no_view;
@@ -38,6 +41,7 @@ mod signals;
 mod span_times;
 mod studio;
 mod text;
+mod unlit;
 mod values;
 #[cfg(feature = "view")]
 mod view;

@@ -3,6 +3,7 @@
 use super::aov::{Aov, KINDS, Subject};
 use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
+use super::frame_notes::{ShownFrame, warn_of_frame};
 use super::name_template::{named, scene_name};
 use super::output::{self, Output, print_beside};
 use super::polygon_counts::{stats_text, warn_of_polygons_left_out};
@@ -142,7 +143,10 @@ impl RenderArgs {
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
             log.duration("projected", started);
-            warn_of_polygons_left_out(&frame, log);
+            match shows {
+                true => warn_of_frame(&ShownFrame::new(&file, &resolved.scene, &frame), log),
+                false => warn_of_polygons_left_out(&frame, log),
+            }
             if self.stats {
                 return print_beside(output.as_ref(), &stats_text(&frame));
             }

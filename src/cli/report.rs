@@ -4,6 +4,7 @@ use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};
 use super::figure::{Figures, distinct, draw_figures, make_folder, page_folder};
 use super::files::{self, Destination};
+use super::frame_notes::{ShownFrame, warn_of_frame};
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
@@ -297,6 +298,7 @@ impl ReportArgs {
         self.check_destinations()?;
         bar.aside(|| self.scene.warn(&file, &resolved, log));
         let frame = resolved.scene.frame()?;
+        bar.aside(|| warn_of_frame(&ShownFrame::new(&file, &resolved.scene, &frame), log));
         drop(resolved);
         let at_once = rayon::current_num_threads().min(self.names()?.len());
         bar.aside(|| memory::check(&frame, &self.timing.methods, at_once, log))?;

@@ -5,6 +5,8 @@ mod material;
 pub use material::Material;
 pub mod builtin;
 mod cap_sums;
+#[doc(hidden)]
+pub mod edges;
 mod fans;
 pub mod newell;
 #[cfg(feature = "io")]
@@ -15,6 +17,7 @@ pub mod shapes;
 pub mod vertex_normals;
 pub mod weld;
 
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 use glam::{DVec3, Vec3};
@@ -39,10 +42,14 @@ pub struct PolygonMesh {
     ends: Vec<u32>,
     parts: Vec<u32>,
     smoothing_groups: Vec<u32>,
+    /// True if the file of the mesh says what is smooth, if only that all of it is.
+    states_smoothing: bool,
     given_normals: Option<GivenNormals>,
     colours: Vec<Vec3>,
     attributes: Vec<[f32; 4]>,
     materials: Vec<Material>,
+    /// The names of materials in their file; empty if they have none.
+    material_names: Vec<String>,
     polygon_materials: Vec<u32>,
 }
 
@@ -114,6 +121,12 @@ impl PolygonMesh {
         !self.smoothing_groups.is_empty()
     }
 
+    /// True if the mesh has smoothing groups, or its file puts all polygons into one of them.
+    #[doc(hidden)]
+    pub fn states_smoothing(&self) -> bool {
+        self.states_smoothing || self.has_smoothing_groups()
+    }
+
     /// Returns the normals that came with the mesh, if any did.
     pub fn given_normals(&self) -> Option<&GivenNormals> {
         self.given_normals.as_ref()
@@ -140,6 +153,12 @@ impl PolygonMesh {
             .get(p)
             .map(|&m| m as usize)
             .filter(|&m| m < self.materials.len())
+    }
+
+    /// Returns the name that the file of the mesh gives a material, if it gives it one.
+    #[doc(hidden)]
+    pub fn material_name(&self, material: usize) -> Option<&str> {
+        self.material_names.get(material).map(String::as_str)
     }
 
     /// Gives `default` to the polygons without a material.
@@ -300,10 +319,12 @@ impl MeshBuilder {
                 ends: Vec::new(),
                 parts: Vec::new(),
                 smoothing_groups: Vec::new(),
+                states_smoothing: false,
                 given_normals: None,
                 colours: Vec::new(),
                 attributes: Vec::new(),
                 materials: Vec::new(),
+                material_names: Vec::new(),
                 polygon_materials: Vec::new(),
             },
         }
@@ -358,6 +379,20 @@ impl MeshBuilder {
     pub fn materials(&mut self, materials: Vec<Material>, of_polygons: Vec<u32>) -> &mut Self {
         self.mesh.materials = materials;
         self.mesh.polygon_materials = of_polygons;
+        self
+    }
+
+    /// Notes that the file of the mesh says what is smooth.
+    #[cfg(feature = "io")]
+    pub(crate) fn stating_smoothing(&mut self, states: bool) -> &mut Self {
+        self.mesh.states_smoothing = states;
+        self
+    }
+
+    /// Adds the names of the materials, in their order.
+    #[cfg(feature = "io")]
+    pub(crate) fn material_names(&mut self, names: Vec<String>) -> &mut Self {
+        self.mesh.material_names = names;
         self
     }
 

@@ -6,6 +6,7 @@ use super::{Report, ScenePictures, answer, tables};
 use crate::compare::comparison::table::significant;
 use crate::compare::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::table::markdown_text;
+use crate::reference::Clamping;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -90,8 +91,15 @@ fn about(scene: &Value) -> String {
         let s = if scene[field] == 1 { "" } else { "s" };
         format!("{} {one}{s}", scene[field])
     };
+    let clamped = match tables::clamped_share(scene) {
+        share if share > Clamping::NOTABLE => format!(
+            " The light is over 1 in {:.0} % of them and is clamped: there errors vanish.",
+            100.0 * share
+        ),
+        _ => String::new(),
+    };
     let facts = format!(
-        "{} × {} pixels, {} in view, {}, {} covered.\n\n",
+        "{} × {} pixels, {} in view, {}, {} covered.{clamped}\n\n",
         scene["width"],
         scene["height"],
         plural("polygons", "polygon"),

@@ -10,6 +10,7 @@ mod figure;
 mod files;
 mod flags;
 mod geometry;
+mod hints;
 mod input;
 mod name_template;
 mod output;

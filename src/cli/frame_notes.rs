@@ -1,0 +1,92 @@
+//! Warnings about a frame, all in one list: what it does not show of its scene, and what looks otherwise than one might expect.
+//!
+//! Commands that draw ask for them once the frame is there. Each kind of warning is a function here or in a file of its own, and
+//! an entry of [`warn_of_frame`].
+
+use super::Log;
+use super::clamped::clamped_text;
+use super::polygon_counts::warn_of_polygons_left_out;
+use super::unlit::unlit_texts;
+use fastphong::frame::Frame;
+use fastphong::scene::file::{SceneFile, shown};
+use fastphong::scene::{Projection, Scene};
+use glam::DVec3;
+
+/// A frame, and the scene that it shows.
+pub struct ShownFrame<'a> {
+    file: &'a SceneFile,
+    pub scene: &'a Scene,
+    pub frame: &'a Frame,
+    /// The number of polygons of all objects before each one.
+    starts: Vec<usize>,
+}
+
+impl<'a> ShownFrame<'a> {
+    /// Looks at `frame`, which shows `scene`, of which `file` has the names.
+    pub fn new(file: &'a SceneFile, scene: &'a Scene, frame: &'a Frame) -> Self {
+        let mut count = 0;
+        let start = |object: &fastphong::scene::Object| {
+            let start = count;
+            count += object.mesh.polygon_count();
+            start
+        };
+        let starts = scene.objects.iter().map(start).collect();
+        ShownFrame {
+            file,
+            scene,
+            frame,
+            starts,
+        }
+    }
+
+    /// Returns the number of the object with a polygon of the scene, and the number of the polygon in its mesh.
+    pub fn place(&self, source: u32) -> (usize, usize) {
+        let source = source as usize;
+        // Of objects that begin at one polygon all but the last one have none.
+        let object = self.starts.partition_point(|start| *start <= source) - 1;
+        (object, source - self.starts[object])
+    }
+
+    /// Returns the name of the mesh of an object.
+    pub fn mesh_name(&self, object: usize) -> &str {
+        shown(self.file.meshes().nth(object).unwrap_or_default())
+    }
+}
+
+/// Warns of all that is odd about a frame.
+pub fn warn_of_frame(shown: &ShownFrame, log: Log) {
+    warn_of_polygons_left_out(shown.frame, log);
+    if log == Log::Quiet {
+        return;
+    }
+    let texts = clamped_text(shown).into_iter();
+    let texts = texts.chain(unlit_texts(shown)).chain(eye_beyond(shown));
+    texts.for_each(|text| log.warning(&text));
+}
+
+/// Says that a local viewer of a parallel view stands on the far side of what is seen.
+fn eye_beyond(shown: &ShownFrame) -> Option<String> {
+    let (scene, frame) = (shown.scene, shown.frame);
+    let is_parallel = matches!(scene.camera.projection, Projection::Orthographic { .. });
+    if !scene.local_viewer || !is_parallel {
+        return None;
+    }
+    let [_, _, forward] = scene.camera.axes();
+    let from_eye = DVec3::from_array(frame.origin()) - scene.camera.eye;
+    let is_beyond = |corner: &u32| {
+        let position = DVec3::from_array(frame.position(*corner).map(f64::from));
+        frame.clip_corner(*corner).is_none() && forward.dot(position + from_eye) < 0.0
+    };
+    let polygons = frame.polygons().iter();
+    let beyond = polygons.filter(|polygon| frame.corners(polygon).iter().any(is_beyond));
+    let all = frame.polygons().len();
+    let which = match beyond.count() {
+        0 => return None,
+        n if n == all => "all that is seen".to_owned(),
+        n => super::text::part_of(n, all, "polygon"),
+    };
+    Some(format!(
+        "the eye stands beyond {which}: a parallel view shows what lies behind its eye too, but --viewer local lights highlights as \
+         seen from there; move --eye back, or leave out --viewer local"
+    ))
+}
