@@ -1,6 +1,6 @@
 //! The part of a picture whose light is over 1 and clamped, and the materials that it is due to.
 
-use super::frame_notes::ShownFrame;
+use super::shown_frame::ShownFrame;
 use fastphong::reference::clamping;
 use fastphong::scene::{Light, Lighting};
 
@@ -109,6 +109,9 @@ fn name(shown: &ShownFrame, material: u32) -> String {
     let own = own.filter(|_| of_object.material.is_none());
     match own.and_then(|own| of_object.mesh.material_name(own)) {
         Some(own) => format!("material `{own}` of {mesh}"),
+        None if shown.scene.objects.len() > 1 => {
+            format!("the material of object {}, {mesh},", object + 1)
+        }
         None => format!("the material of {mesh}"),
     }
 }

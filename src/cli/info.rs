@@ -1,11 +1,11 @@
 //! `fastphong info`: the parts of a scene or a mesh, with their facts.
 
 use super::clamped::clamped_text;
-use super::frame_notes::ShownFrame;
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::mesh_hints::{hints, lies_on_its_side};
 use super::normals::describe;
 use super::scene_flags::SceneFlags;
+use super::shown_frame::ShownFrame;
 use super::text::{counted, grouped, wrapped};
 use super::unlit::unlit_texts;
 use super::{CliError, Log, Outcome, done, files};

@@ -2,9 +2,10 @@
 
 use super::engines::ThreadFlags;
 use super::files::{self, Destination};
-use super::frame_notes::{ShownFrame, warn_of_frame};
+use super::frame_notes::warn_of_frame;
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
+use super::shown_frame::ShownFrame;
 use super::values::number;
 use super::{CliError, Log, memory};
 use fastphong::compare::comparison::{Comparison, Input, compare};

@@ -16,9 +16,6 @@ const ROUNDED: f64 = 1e-6;
 pub fn hints(name: &str, object: &Object) -> Vec<String> {
     let mesh = &*object.mesh;
     let used = NormalUse::of(mesh, object.normals);
-    if used.averaged == 0 {
-        return Vec::new();
-    }
     let counts = EdgeCounts::of(mesh, CREASE, ROUNDED);
     let mut hints = Vec::new();
     // Who asked for averages gets them.
@@ -36,7 +33,7 @@ pub fn hints(name: &str, object: &Object) -> Vec<String> {
             "{name}: {edges} would close if positions that differ by rounding were one: --weld {ROUNDED:e}"
         ));
     }
-    if counts.seams > 0 {
+    if counts.seams > 0 && used.averaged > 0 {
         let edges = counted(counts.seams, "edge", "edges");
         hints.push(format!(
             "{name}: objects (o) of the file meet in {edges} of a smooth surface: normals are not averaged over them, which shows as \

@@ -37,6 +37,7 @@ mod report;
 mod scene_flags;
 mod search;
 mod shell;
+mod shown_frame;
 mod signals;
 mod span_times;
 mod studio;

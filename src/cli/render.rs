@@ -3,13 +3,14 @@
 use super::aov::{Aov, KINDS, Subject};
 use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
-use super::frame_notes::{ShownFrame, warn_of_frame};
+use super::frame_notes::warn_of_frame;
 use super::name_template::{named, scene_name};
 use super::output::{self, Output, print_beside};
 use super::polygon_counts::{stats_text, warn_of_polygons_left_out};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
+use super::shown_frame::ShownFrame;
 use super::text::counted;
 use super::watch::watch;
 use super::{CliError, Log, Outcome, files, memory, values};

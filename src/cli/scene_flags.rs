@@ -8,8 +8,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::schema::{self, ValueKind};
-use fastphong::scene::file::upright::AXES;
+use fastphong::scene::file::schema::{self, AXES, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
 use fastphong::scene::file::{STANDARD_INPUT, SceneFile, shown};
 use fastphong::scene::input::InputFormat;
@@ -42,8 +41,8 @@ static FLAGS: &[Flag] = flags! {
     "eye" "X,Y,Z" ["camera.eye"]
     /// Look at this point [default, with --eye: the origin]
     "target" "X,Y,Z" ["camera.target"]
-    /// Direction that is up in the picture. The name of an axis, as `z` or `-y`, turns the default view, --view and the default
-    /// light with it; three numbers, as `0,0,1`, turn nothing else [default: y]
+    /// Direction that is up: an axis by its name, as `z` or `-y`, turns the default view, --view and the default light with it;
+    /// three numbers, as `0,0,1`, turn the picture only [default: y]
     "up" "AXIS|X,Y,Z" ["camera.up"]
     /// Perspective projection with this vertical field of view
     "fovy" "DEGREES" ["camera.fovy"]

@@ -1,6 +1,6 @@
 //! Lights that light nothing, and pictures that no light reaches.
 
-use super::frame_notes::ShownFrame;
+use super::shown_frame::ShownFrame;
 use super::text::counted;
 use fastphong::mesh::orientation::is_inside_closed_surface;
 use fastphong::scene::{LightTerm, Place};
@@ -126,21 +126,24 @@ fn no_light(shown: &ShownFrame, lit: &LitObjects) -> Option<String> {
     if shown.frame.polygons().is_empty() || lit.is_lit.contains(&true) {
         return None;
     }
-    let why = match lit.lights {
-        0 => "there is no light".to_owned(),
-        1 => {
-            "the light falls on nothing that is seen: all of it faces away, or is black".to_owned()
-        }
-        n => format!(
-            "none of the {n} lights falls on anything that is seen: all of it faces away, or is black"
-        ),
-    };
-    match (lit.has_ambient, lit.lights) {
+    match (lit.lights, lit.has_ambient) {
         // Who asks for ambient light alone gets it.
-        (true, 0) => None,
-        (true, _) => Some(format!("{why}; only ambient light is drawn")),
-        (false, _) => Some(format!(
-            "{why}, and no ambient light: all that is seen is black"
-        )),
+        (0, true) => None,
+        (0, false) => {
+            let why = "there is no light, and no ambient light: all that is seen is black";
+            Some(why.to_owned())
+        }
+        (lights, has_ambient) => {
+            let lights = match lights {
+                1 => "the light adds nothing".to_owned(),
+                n => format!("none of the {n} lights adds anything"),
+            };
+            let why = "surfaces face away from it, or it or they are black";
+            let left = match has_ambient {
+                true => "only ambient light is drawn",
+                false => "there is no ambient light, and all that is seen is black",
+            };
+            Some(format!("{lights} to what is seen: {why}; {left}"))
+        }
     }
 }

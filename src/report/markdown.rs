@@ -4,9 +4,8 @@ use super::document::{label, list, text, title};
 use super::page::{command, machine};
 use super::{Report, ScenePictures, answer, tables};
 use crate::compare::comparison::table::significant;
-use crate::compare::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
+use crate::compare::comparison::{NOTABLE_CLAMPING, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::table::markdown_text;
-use crate::reference::Clamping;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -92,7 +91,7 @@ fn about(scene: &Value) -> String {
         format!("{} {one}{s}", scene[field])
     };
     let clamped = match tables::clamped_share(scene) {
-        share if share > Clamping::NOTABLE => format!(
+        share if share > NOTABLE_CLAMPING => format!(
             " The light is over 1 in {:.0} % of them and is clamped: there errors vanish.",
             100.0 * share
         ),

@@ -2,9 +2,9 @@
 
 use super::answer::overall;
 use super::document::{OPERATIONS, RATES, label, list, number, text, title};
+use crate::compare::comparison::NOTABLE_CLAMPING;
 use crate::compare::comparison::table::{levels, significant};
 use crate::compare::table::Table;
-use crate::reference::Clamping;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -88,7 +88,7 @@ fn small(data: &Value) -> Table {
 
 /// Lists errors and speeds of all methods in one scene.
 pub(super) fn scene(scene: &Value) -> Table {
-    let is_clamped = clamped_share(scene) > Clamping::NOTABLE;
+    let is_clamped = clamped_share(scene) > NOTABLE_CLAMPING;
     let mut head = Vec::from([
         "method",
         "max, levels",

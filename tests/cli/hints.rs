@@ -117,7 +117,7 @@ fn lights_that_light_nothing_are_told_and_why() {
     assert!(!err.contains("light"), "{err}");
     let err = render("builtin:sphere --view 0,0 --light 0,0,-1");
     assert!(
-        err.contains("the light falls on nothing that is seen"),
+        err.contains("the light adds nothing to what is seen: surfaces face away from it"),
         "{err}"
     );
     assert!(!err.contains("inside"), "{err}");
@@ -130,7 +130,7 @@ fn lights_that_light_nothing_are_told_and_why() {
     assert!(err.contains("all that is seen is black"), "{err}");
     let err = render("builtin:sphere --view 0,0 --light 0,0,-1 --ambient 0");
     assert!(
-        err.contains("and no ambient light: all that is seen is black"),
+        err.contains("there is no ambient light, and all that is seen is black"),
         "{err}"
     );
     for fine in [

@@ -57,6 +57,9 @@ pub const BASELINE: &str = "naive-phong";
 /// The definition of [`MethodRow::error`], in one line.
 pub const WHAT_IS_COMPARED: &str = "linear channels before rounding to 8 bits against the f64 reference, where both show the same polygon";
 
+/// The clamped share of what is seen from which on tables tell it.
+pub(crate) const NOTABLE_CLAMPING: f64 = Clamping::NOTABLE;
+
 /// A frame to compare methods on.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {

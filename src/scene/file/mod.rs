@@ -11,8 +11,7 @@ pub mod resolve;
 pub mod schema;
 #[cfg(test)]
 mod tests;
-#[doc(hidden)]
-pub mod upright;
+mod upright;
 pub mod value;
 mod viewpoint;
 mod visibility;

@@ -82,6 +82,10 @@ impl ValueKind {
     }
 }
 
+/// The names of axes, as [`ValueKind::Axis`] takes them.
+#[doc(hidden)]
+pub const AXES: &[&str] = &["x", "y", "z", "-x", "-y", "-z"];
+
 const fn key(name: &'static str, kind: ValueKind) -> Key {
     let needed = false;
     Key { name, kind, needed }

@@ -4,9 +4,6 @@ use super::diagnostics::Origin;
 use super::value::{Data, SceneTable};
 use glam::{DMat3, DVec3};
 
-/// The names of axes, as `camera.up` takes them.
-pub const AXES: &[&str] = &["x", "y", "z", "-x", "-y", "-z"];
-
 /// Returns the rotation of a world whose up is y into one whose up is the axis that `camera` names: none where it names none. The
 /// side toward the viewer of the default view stays toward the viewer, or becomes −y where z is up and y where −z is.
 pub(super) fn turn(camera: Option<&SceneTable>) -> DMat3 {

@@ -1,8 +1,7 @@
 //! Values of a scene file, and where each one was given: read from TOML by the list of keys, and written again.
 
 use super::diagnostics::{Origin, SceneError};
-use super::schema::{Key, SCENE, ValueKind};
-use super::upright::AXES;
+use super::schema::{AXES, Key, SCENE, ValueKind};
 use crate::number::suggest;
 use glam::DVec3;
 use std::borrow::ToOwned;

@@ -1,7 +1,6 @@
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::schema::{Key, SCENE, ValueKind};
-use crate::scene::file::upright::AXES;
+use crate::scene::file::schema::{AXES, Key, SCENE, ValueKind};
 use crate::scene::file::value::{Data, SceneTable};
 use std::format;
 use std::string::String;
