@@ -3,12 +3,21 @@
 use super::shown_frame::ShownFrame;
 use fastphong::reference::clamping;
 use fastphong::scene::{Light, Lighting};
+use std::collections::BTreeSet;
 
 /// The most materials that are named.
 const MOST_NAMED: usize = 3;
 
-/// Says how much of a frame is clamped, and of which materials why; `None` if it is little.
-pub fn clamped_text(shown: &ShownFrame) -> Option<String> {
+/// The least highlight without an end that is told: what a tenth of white adds is seen.
+const LEAST_TOLD: f64 = 0.1;
+
+/// Says how much of a frame is clamped, and of which materials why; or which highlights have no end. `None` if there is little of
+/// either.
+pub fn too_bright_text(shown: &ShownFrame) -> Option<String> {
+    clamped_text(shown).or_else(|| endless_highlight_text(shown))
+}
+
+fn clamped_text(shown: &ShownFrame) -> Option<String> {
     let clamping = clamping(shown.frame);
     if !clamping.is_notable() {
         return None;
@@ -43,6 +52,31 @@ pub fn clamped_text(shown: &ShownFrame) -> Option<String> {
     Some(format!(
         "about {share:.0} % of what is seen is clamped: its light is over 1 in {channels}; {}",
         why.join("; ")
+    ))
+}
+
+/// Names materials that are drawn with a highlight as wide as the light, which is white where it does not pass 1, too.
+fn endless_highlight_text(shown: &ShownFrame) -> Option<String> {
+    let lightings = shown.frame.lightings();
+    let is_endless = |material: &u32| {
+        let lighting = &lightings[*material as usize];
+        lighting.shininess < 1.0 && terms(lighting).2 >= LEAST_TOLD
+    };
+    let drawn = shown
+        .frame
+        .polygons()
+        .iter()
+        .map(|polygon| polygon.material);
+    let materials: BTreeSet<u32> = drawn.filter(is_endless).collect();
+    let names = materials.iter().take(MOST_NAMED);
+    let mut names: Vec<String> = names.map(|material| name(shown, *material)).collect();
+    if materials.len() > MOST_NAMED {
+        names.push(format!("{} more materials", materials.len() - MOST_NAMED));
+    }
+    let shininess = lightings[*materials.first()? as usize].shininess;
+    Some(format!(
+        "an exponent (Ns, shininess) of {shininess} makes a highlight of all that the light reaches: {}",
+        names.join("; ")
     ))
 }
 

@@ -4,7 +4,7 @@
 //! an entry of [`warn_of_frame`].
 
 use super::Log;
-use super::clamped::clamped_text;
+use super::clamped::too_bright_text;
 use super::polygon_counts::warn_of_polygons_left_out;
 use super::shown_frame::ShownFrame;
 use super::unlit::unlit_texts;
@@ -17,7 +17,7 @@ pub fn warn_of_frame(shown: &ShownFrame, log: Log) {
     if log == Log::Quiet {
         return;
     }
-    let texts = clamped_text(shown).into_iter();
+    let texts = too_bright_text(shown).into_iter();
     let texts = texts.chain(unlit_texts(shown)).chain(eye_beyond(shown));
     texts.for_each(|text| log.warning(&text));
 }

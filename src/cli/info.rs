@@ -1,6 +1,6 @@
 //! `fastphong info`: the parts of a scene or a mesh, with their facts.
 
-use super::clamped::clamped_text;
+use super::clamped::too_bright_text;
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::mesh_hints::{hints, lies_on_its_side};
 use super::normals::describe;
@@ -83,7 +83,7 @@ impl InfoArgs {
             objects,
             choices: auto_choices(&frame),
             method: Variant::auto(&frame, Renderer::fastest()),
-            clamped: clamped_text(&shown),
+            too_bright: too_bright_text(&shown),
         };
         done(&match self.json {
             true => format!("{:#}\n", facts.json()),
@@ -104,8 +104,8 @@ struct SceneFacts<'a> {
     choices: Vec<AutoChoice>,
     /// The method that `auto` takes, and why.
     method: (Variant, &'static str),
-    /// How much of the light is clamped, and of which materials why; `None` if little is.
-    clamped: Option<String>,
+    /// How much of the light is clamped, or which highlights have no end, of which materials and why; `None` if little is.
+    too_bright: Option<String>,
 }
 
 impl SceneFacts<'_> {
@@ -131,7 +131,7 @@ impl SceneFacts<'_> {
             "lights": scene.lights.len(),
             "method": { "name": method.to_string(), "reason": why },
             "auto": self.choices.iter().map(AutoChoice::json).collect::<Vec<_>>(),
-            "clamped": self.clamped,
+            "too_bright": self.too_bright,
             "objects": self.objects,
         })
     }
@@ -159,13 +159,13 @@ impl SceneFacts<'_> {
         let polygons = counted(polygons, "polygon", "polygons");
         let choices = self.choices.iter().map(AutoChoice::text);
         let choices = choices.collect::<Vec<_>>().join("\n           ");
-        let clamped = self.clamped.as_ref();
-        let clamped = clamped.map_or_else(String::new, |text| format!("\n  clamped  {text}"));
+        let bright = self.too_bright.as_ref();
+        let bright = bright.map_or_else(String::new, |text| format!("\n  bright   {text}"));
         let facts = format!(
             "  picture  {width} x {height}
   camera   at {eye}, toward {target}; {projection}
   lights   {lights}
-  objects  {count}, {polygons} in all{clamped}
+  objects  {count}, {polygons} in all{bright}
   method   {method} (chosen by auto: {why})
   auto     {choices}
 "

@@ -47,6 +47,26 @@ fn light_that_is_clamped_is_told_with_the_material_and_why() {
     assert!(count("clamped") > count("covered") / 2, "{clamping}");
 }
 
+/// A highlight of exactly 1 everywhere passes nothing that could be clamped, and is a white disc all the same.
+#[test]
+fn a_highlight_without_an_end_is_told_where_nothing_is_clamped() {
+    let folder = Folder::new();
+    flat_highlight(&folder);
+    folder.write("a.mtl", "newmtl shiny thing\nNs 0\nKa 0\nKd 0\nKs 1\n");
+    let told = "an exponent (Ns, shininess) of 0 makes a highlight of all that the light reaches: material `shiny thing` of a.obj";
+    assert!(folder.run("info a.obj").done().out.contains(told));
+    let err = folder
+        .run("render a.obj -o a.png --size 64x48 --light 0,1,1")
+        .done()
+        .err;
+    assert!(err.contains(told) && !err.contains("clamped"), "{err}");
+    let err = folder
+        .run("render a.obj -o a.png --size 64x48 --shininess 20")
+        .done()
+        .err;
+    assert!(!err.contains("exponent"), "{err}");
+}
+
 #[test]
 fn light_that_is_not_clamped_is_not_told() {
     let folder = Folder::new();
