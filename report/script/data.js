@@ -20,7 +20,17 @@ const BARY = "barycentric";
 /* A row of a comparison: errors in grey levels, times in ms. */
 function rowOf(
 	scene,
-	{ variant, engine, error, own, speed, kinds, within_bound: within, other_polygon: other },
+	{
+		variant,
+		engine,
+		error,
+		own,
+		speed,
+		kinds,
+		clamped,
+		within_bound: within,
+		other_polygon: other,
+	},
 ) {
 	const time = key => speed && speed.timing[key] / 1e6;
 	return {
@@ -30,6 +40,7 @@ function rowOf(
 		bary: engine === BARY,
 		within,
 		other,
+		clamped,
 		kinds,
 		max: error.max * 255,
 		rms: error.rms * 255,

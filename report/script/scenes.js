@@ -88,6 +88,7 @@ function scenes([id], query) {
 function sceneFacts(s) {
 	if (s.own) return ["drawn here", `${s.w} × ${s.h}`];
 	const cut = s.triangulation;
+	const clamped = s.clamping ? s.clamping.clamped / (s.clamping.covered || 1) : 0;
 	const reasons = {
 		culled: "facing away",
 		outside: "outside the view",
@@ -110,8 +111,10 @@ function sceneFacts(s) {
 		`${plural(s.polygons, "polygon")} in view`,
 		plural(s.lights, "light"),
 		`${((s.covered_pixels / s.w / s.h) * 100).toFixed(0)} % covered`,
+		clamped > 0.02 &&
+			`light over 1 in ${(clamped * 100).toFixed(0)} % of that: clamped, errors vanish there`,
 		others > 0.1 &&
-			`up to ${num(others)} % of these show another polygon than the reference: their depths are one but for rounding`,
+			`up to ${num(others)} % of that show another polygon than the reference: their depths are one but for rounding`,
 		`${s.w} × ${s.h}`,
 		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct",
 		`${levelName(s.renderer)} code, ${plural(s.renderer.threads, "thread")}`,

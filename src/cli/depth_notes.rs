@@ -11,9 +11,6 @@ const SHARE: f64 = 0.001;
 
 /// Warns of polygons whose depths rounding cannot tell apart, and notes doubled ones.
 pub fn note_depth_ties(frame: &Frame, log: Log) {
-    if log == Log::Quiet {
-        return;
-    }
     let ties = depth_ties(frame);
     if ties.samples as f64 > SHARE * ties.covered as f64 {
         log.warning(&ties_text(frame, ties));

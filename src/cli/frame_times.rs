@@ -70,7 +70,7 @@ pub fn frame_times(
 ) -> Result<(String, String), CliError> {
     let turns = of.inputs.len() * of.renderers.len() * methods.len();
     let mut times: Vec<FrameTime> = Vec::with_capacity(turns);
-    of.each_scene(|name, scene, progress| {
+    of.each_scene(|name, _, scene, progress| {
         let prepared = scene.prepare()?;
         drop(scene);
         for renderer in of.renderers {

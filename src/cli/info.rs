@@ -1,15 +1,19 @@
 //! `fastphong info`: the parts of a scene or a mesh, with their facts.
 
+use super::clamped::too_bright_text;
 use super::input_name;
 use super::mesh_facts::{MeshFacts, PLANAR};
+use super::mesh_hints::{hints, lies_on_its_side};
 use super::normals::describe;
 use super::scene_flags::SceneFlags;
+use super::shown_frame::ShownFrame;
 use super::text::{counted, grouped, wrapped};
+use super::unlit::unlit_texts;
 use super::{CliError, Log, Outcome, done, files, memory};
 use fastphong::frame::Frame;
 use fastphong::raster::{Plan, Renderer};
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::{Object, Projection, Scene};
+use fastphong::scene::file::{SceneFile, shown};
+use fastphong::scene::{Projection, Scene};
 use fastphong::shading::{METHODS, Variant};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -35,6 +39,8 @@ struct ObjectFacts<'a> {
     #[serde(flatten)]
     facts: MeshFacts,
     normals: String,
+    /// What may look otherwise than was meant, and the flag to try; of mesh files.
+    hints: Vec<String>,
 }
 
 impl InfoArgs {
@@ -42,24 +48,37 @@ impl InfoArgs {
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let file = self.scene.load(&self.input)?;
         let resolved = files::resolve(&file)?;
-        self.scene.warn(&file, &resolved, log);
+        self.scene.warn_without_hints(&file, &resolved, log);
         let scene = &resolved.scene;
         // A mesh that several objects share is looked at once.
         let mut known = BTreeMap::new();
-        let mut object = |(object, mesh): (&Object, _)| {
-            let facts = known.entry(Arc::as_ptr(&object.mesh));
-            let facts = facts.or_insert_with(|| MeshFacts::of(&object.mesh)).clone();
+        let objects = scene.objects.iter().zip(file.meshes());
+        let objects = objects.map(|(object, mesh)| {
+            let of_mesh = || {
+                let mut found = Vec::new();
+                if !mesh.starts_with("builtin:") {
+                    found.extend(lies_on_its_side(&object.mesh));
+                    found.extend(hints("it", object));
+                }
+                (MeshFacts::of(&object.mesh), found)
+            };
+            let known = known.entry(Arc::as_ptr(&object.mesh));
+            let (facts, hints) = known.or_insert_with(of_mesh).clone();
             let normals = describe(object);
             ObjectFacts {
                 mesh,
                 facts,
                 normals,
+                hints,
             }
-        };
-        let objects = scene.objects.iter().zip(file.meshes());
-        let objects: Vec<ObjectFacts> = objects.map(&mut object).collect();
+        });
+        let objects: Vec<ObjectFacts> = objects.collect();
         memory::check_frame(scene)?;
         let frame = scene.frame()?;
+        let shown = ShownFrame::new(&file, scene, &frame);
+        unlit_texts(&shown)
+            .iter()
+            .for_each(|text| log.warning(text));
         let facts = SceneFacts {
             input: &self.input,
             file: &file,
@@ -67,6 +86,7 @@ impl InfoArgs {
             objects,
             choices: auto_choices(&frame),
             method: Variant::auto(&frame, Renderer::fastest()),
+            too_bright: too_bright_text(&shown),
         };
         done(&match self.json {
             true => format!("{:#}\n", facts.json()),
@@ -74,6 +94,9 @@ impl InfoArgs {
         })
     }
 }
+
+/// The heading above the scene that the program makes around a mesh.
+const WITHOUT_SCENE: &str = "as it is compared without a scene file";
 
 /// A scene: its file, its objects, and the methods chosen for it.
 struct SceneFacts<'a> {
@@ -84,6 +107,8 @@ struct SceneFacts<'a> {
     choices: Vec<AutoChoice>,
     /// The method that `auto` takes, and why.
     method: (Variant, &'static str),
+    /// How much of the light is clamped, or which highlights have no end, of which materials and why; `None` if little is.
+    too_bright: Option<String>,
 }
 
 impl SceneFacts<'_> {
@@ -109,6 +134,7 @@ impl SceneFacts<'_> {
             "lights": scene.lights.len(),
             "method": { "name": method.to_string(), "reason": why },
             "auto": self.choices.iter().map(AutoChoice::json).collect::<Vec<_>>(),
+            "too_bright": self.too_bright,
             "objects": self.objects,
         })
     }
@@ -136,17 +162,29 @@ impl SceneFacts<'_> {
         let polygons = counted(polygons, "polygon", "polygons");
         let choices = self.choices.iter().map(AutoChoice::text);
         let choices = choices.collect::<Vec<_>>().join("\n           ");
-        let objects: String = self.objects.iter().map(ObjectFacts::text).collect();
-        format!(
-            "{input}{title}
-{description}  picture  {width} x {height}
+        let bright = self.too_bright.as_ref();
+        let bright = bright.map_or_else(String::new, |text| format!("\n  bright   {text}"));
+        let facts = format!(
+            "  picture  {width} x {height}
   camera   at {eye}, toward {target}; {projection}
   lights   {lights}
-  objects  {count}, {polygons} in all
+  objects  {count}, {polygons} in all{bright}
   method   {method} (chosen by auto: {why})
   auto     {choices}
-{objects}"
-        )
+"
+        );
+        let objects = self.objects.iter().map(ObjectFacts::text);
+        match file.path() {
+            // A mesh alone comes first, then the scene that the program made around it.
+            None => {
+                let objects: String = objects.collect();
+                format!("{objects}\n{WITHOUT_SCENE}\n{facts}")
+            }
+            Some(_) => {
+                let objects: String = objects.map(|object| format!("\n{object}")).collect();
+                format!("{input}{title}\n{description}{facts}{objects}")
+            }
+        }
     }
 }
 
@@ -229,10 +267,14 @@ impl ObjectFacts<'_> {
             true => "\n  colours     one a position; render --aov colours shows them",
             false => "",
         };
-        let (mesh, normals, share) = (self.mesh, &self.normals, 100.0 * PLANAR);
+        let hints = self
+            .hints
+            .iter()
+            .map(|hint| format!("  hint        {hint}\n"));
+        let hints: String = hints.collect();
+        let (mesh, normals, share) = (shown(self.mesh), &self.normals, 100.0 * PLANAR);
         format!(
-            "
-{mesh}
+            "{mesh}
   polygons    {polygons}: {sides}
   degenerate  {degenerate} without area{cancelling}{doubled}
   concave     {concave}
@@ -242,7 +284,7 @@ impl ObjectFacts<'_> {
   materials   {materials}{colours}
   normals     {normals}
   memory      {bytes} bytes
-"
+{hints}"
         )
     }
 }

@@ -2,10 +2,11 @@
 
 use super::engines::ThreadFlags;
 use super::files;
+use super::frame_notes::warn_of_frame;
 use super::output::{self, Output};
-use super::polygon_counts::warn_of_polygons_left_out;
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
+use super::shown_frame::ShownFrame;
 use super::values::number;
 use super::{CliError, Log, memory};
 use fastphong::compare::comparison::{Comparison, Input, compare};
@@ -13,6 +14,7 @@ use fastphong::compare::timing::{Machine, TimeLimits};
 use fastphong::number::NameError;
 use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
+use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::SCENES;
 use fastphong::shading::{Entry, Family, METHODS, Standing, Variant};
 use std::collections::HashSet;
@@ -66,13 +68,13 @@ pub struct Measurement<'a> {
 }
 
 impl Measurement<'_> {
-    /// Calls `measure` with each scene and its name. Every input is loaded first, so that a bad one fails at once.
+    /// Calls `measure` with the name of each scene, its file and itself. Every input is loaded first, so that a bad one fails at once.
     ///
     /// # Errors
     /// When an input cannot be loaded, or is to be written to, and those of `measure`.
     pub fn each_scene(
         &self,
-        mut measure: impl FnMut(&str, Scene, &Progress) -> Result<(), CliError>,
+        mut measure: impl FnMut(&str, &SceneFile, Scene, &Progress) -> Result<(), CliError>,
     ) -> Result<(), CliError> {
         warn_of_debug_build(self.log);
         let files = self.inputs.iter().map(|name| self.scene.load(name));
@@ -84,7 +86,7 @@ impl Measurement<'_> {
             output::check(self.outputs)?;
             progress.aside(|| self.scene.warn(file, &resolved, self.log));
             memory::check_frame(&resolved.scene)?;
-            measure(name, resolved.scene, &progress)?;
+            measure(name, file, resolved.scene, &progress)?;
         }
         Ok(())
     }
@@ -113,13 +115,13 @@ impl TimingFlags {
     ) -> Result<Vec<Comparison>, CliError> {
         let turns = (of.inputs.len() * of.renderers.len()) as f32;
         let mut comparisons = Vec::new();
-        of.each_scene(|name, scene, progress| {
+        of.each_scene(|name, file, scene, progress| {
             let frame = scene.frame()?;
-            drop(scene);
             progress.aside(|| {
-                warn_of_polygons_left_out(&frame, of.log);
+                warn_of_frame(&ShownFrame::new(file, &scene, &frame), of.log);
                 memory::check(&frame, &self.methods, 1, of.log)
             })?;
+            drop(scene);
             let input = Input {
                 name: name.to_owned(),
                 frame: &frame,

@@ -1,6 +1,7 @@
 //! Facts about a mesh: counts, closedness, flatness.
 
 use fastphong::mesh::PolygonMesh;
+use fastphong::mesh::edges::Edges;
 use fastphong::mesh::newell::{areas_cancel, polygon_normal, unit_normal};
 use fastphong::mesh::orientation::inside_out;
 use fastphong::mesh::weld::weld;
@@ -65,7 +66,7 @@ pub struct MeshFacts {
 impl MeshFacts {
     /// Finds out the facts about `mesh`.
     pub fn of(mesh: &PolygonMesh) -> MeshFacts {
-        let (vertex, _) = weld(mesh.positions());
+        let (vertex, count) = weld(mesh.positions());
         let used = mesh.corners().iter().map(|&corner| vertex[corner as usize]);
         let inside_out = inside_out(mesh);
         let bounds = mesh.bounds().map(|(low, high)| [low, high]);
@@ -99,7 +100,7 @@ impl MeshFacts {
             facts.concave += usize::from(is_concave(&points, normal));
             facts.not_planar += usize::from(!is_planar(&points, normal));
         }
-        facts.count_edges(mesh, &vertex);
+        facts.count_edges(mesh, &vertex, count);
         facts.count_doubled(mesh, &vertex);
         let odd = facts.open_edges + facts.non_manifold_edges + facts.reversed_edges;
         facts.closed = facts.edges > 0 && odd == 0;
@@ -118,24 +119,12 @@ impl MeshFacts {
     }
 
     /// Counts the edges by the polygons at them.
-    fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
-        // An edge: its ends in ascending order, and true if it is passed in that direction.
-        let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
-        for corners in mesh.polygons() {
-            for (i, &from) in corners.iter().enumerate() {
-                let to = corners[(i + 1) % corners.len()];
-                let (a, b) = (vertex[from as usize], vertex[to as usize]);
-                if a != b {
-                    edges.push((a.min(b), a.max(b), a < b));
-                }
-            }
-        }
-        edges.sort_unstable();
-        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+    fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32], count: usize) {
+        for edge in Edges::new(mesh, vertex, count).iter() {
             self.edges += 1;
             match edge {
                 [_] => self.open_edges += 1,
-                [one, other] => self.reversed_edges += usize::from(one.2 == other.2),
+                [one, other] => self.reversed_edges += usize::from(one.ascends == other.ascends),
                 _ => self.non_manifold_edges += 1,
             }
         }

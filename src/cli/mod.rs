@@ -5,6 +5,7 @@
 
 mod aov;
 mod bench;
+mod clamped;
 mod compare;
 mod depth_notes;
 mod diff;
@@ -15,6 +16,7 @@ mod experiments;
 mod explain;
 mod figure;
 mod files;
+mod frame_notes;
 mod frame_times;
 mod info;
 mod input_name;
@@ -24,6 +26,7 @@ mod marks;
 mod measured;
 mod memory;
 mod mesh_facts;
+mod mesh_hints;
 mod name_template;
 #[cfg(not(feature = "view"))]
 mod no_view;
@@ -37,10 +40,12 @@ mod report;
 mod scene_flags;
 mod search;
 mod shell;
+mod shown_frame;
 mod signals;
 mod span_times;
 mod studio;
 mod text;
+mod unlit;
 mod values;
 #[cfg(feature = "view")]
 mod view;

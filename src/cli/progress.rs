@@ -1,14 +1,17 @@
-//! A progress bar, on a terminal and for work that takes longer than a second.
+//! Progress of work that takes long: a bar on a terminal, a line now and then elsewhere.
 
 use super::Log;
-use super::log::is_dumb;
+use super::log::{is_dumb, to_stderr};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::{Mutex, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The time for which nothing is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// The time between two lines where there is no terminal, and before the first: short work stays silent, as logs of it are kept.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// The steps of the bar.
 const STEPS: u64 = 1000;
 
@@ -16,6 +19,8 @@ const STEPS: u64 = 1000;
 pub struct Progress {
     bar: ProgressBar,
     allowed: bool,
+    /// The time of the last line, or of the beginning; `None` on a terminal and where nothing is said.
+    last_line: Option<Mutex<Instant>>,
 }
 
 impl Progress {
@@ -41,14 +46,29 @@ impl Progress {
         let style =
             ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed}, {eta} left: {msg}");
         bar.set_style(style.expect("a template").progress_chars("=> "));
-        let allowed = log != Log::Quiet && std::io::stderr().is_terminal() && !is_dumb();
-        Progress { bar, allowed }
+        let is_terminal = std::io::stderr().is_terminal() && !is_dumb();
+        let is_told = log != Log::Quiet;
+        Progress {
+            bar,
+            allowed: is_told && is_terminal,
+            last_line: (is_told && !is_terminal).then(|| Mutex::new(Instant::now())),
+        }
     }
 
     /// Moves the bar to `share` (0 to 1) of the work, of which `stage` comes next.
     pub fn at(&self, share: f32, stage: &str) {
         if self.allowed && self.bar.is_hidden() && self.bar.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        if let Some(last) = &self.last_line {
+            let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
+            if last.elapsed() >= BETWEEN_LINES {
+                *last = Instant::now();
+                to_stderr(&format!(
+                    "{:.0} %: {stage}\n",
+                    100.0 * share.clamp(0.0, 1.0)
+                ));
+            }
         }
         let position = share.clamp(0.0, 1.0) * STEPS as f32;
         self.bar.set_position(position as u64);

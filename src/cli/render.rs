@@ -1,9 +1,9 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::{Aov, KINDS, Subject};
-use super::depth_notes::{note_depth_ties, note_screen_interpolation};
 use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
+use super::frame_notes::warn_of_frame;
 use super::input_name;
 use super::name_template::{named, scene_name};
 use super::output::{self, ForceFlag, Output, print_beside};
@@ -11,6 +11,7 @@ use super::polygon_counts::{stats_text, warn_of_polygons_left_out};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
+use super::shown_frame::ShownFrame;
 use super::text::counted;
 use super::watch::watch;
 use super::{CliError, Log, Outcome, files, memory, values};
@@ -158,11 +159,9 @@ impl RenderArgs {
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
             log.duration("projected", started);
-            warn_of_polygons_left_out(&frame, log);
-            note_depth_ties(&frame, log);
-            // Who asked for it knows.
-            if file.table().get("interpolation").is_none() {
-                note_screen_interpolation(&frame, log);
+            match shows {
+                true => warn_of_frame(&ShownFrame::new(&file, &resolved.scene, &frame), log),
+                false => warn_of_polygons_left_out(&frame, log),
             }
             if self.stats {
                 return print_beside(&beside, &stats_text(&frame));

@@ -4,11 +4,13 @@ use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};
 use super::figure::{Figures, distinct, draw_figures};
 use super::files;
+use super::frame_notes::warn_of_frame;
 use super::input_name;
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::output::{self, Contents, ForceFlag, Output, print_beside};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
+use super::shown_frame::ShownFrame;
 use super::{CliError, Log, Outcome, memory};
 use fastphong::compare::comparison::{self, Comparison, Input};
 use fastphong::compare::timing::TimeLimits;
@@ -76,6 +78,9 @@ pub struct ReportArgs {
 
 /// The largest picture on the page, unless flags say otherwise.
 const SHOWN: [i64; 2] = [480, 360];
+
+/// The part of the time of a scene in which its pictures are drawn; then they are packed.
+const PICTURES_PART: f32 = 0.9;
 
 /// Scenes that are timed for the whole of `--time-budget`.
 const TIMED_LONG: usize = 3;
@@ -257,11 +262,19 @@ impl ReportArgs {
             let before: f32 = parts[..stage].iter().sum();
             bar.at((before + part * parts[stage]) / all, next);
         };
+        // Thousandths of scenes.
         let done = AtomicUsize::new(0);
         let draw = |(name, file): (&&str, &SceneFile)| {
-            let drawn = self.draw(name, file, outputs, &bar, log);
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress(0, done as f32 / scenes, &format!("{name}: drawn"));
+            let mut own = 0;
+            let mut add = |part: f32, next: &str| {
+                let step = ((1e3 * part) as usize).saturating_sub(own);
+                let all = done.fetch_add(step, Ordering::Relaxed) + step;
+                own += step;
+                progress(0, all as f32 / 1e3 / scenes, &format!("{name}: {next}"));
+            };
+            add(0.0, "loading");
+            let drawn = self.draw(name, file, outputs, &bar, log, &mut add);
+            add(1.0, "drawn");
             drawn
         };
         let mut document = Document::new(command_line(), Vec::new());
@@ -332,6 +345,7 @@ impl ReportArgs {
         outputs: &Outputs,
         bar: &Progress,
         log: Log,
+        progress: &mut dyn FnMut(f32, &str),
     ) -> Result<DrawnScene, CliError> {
         let mut file = file.clone();
         let resolved = self.scene.resolve_to_show(&mut file)?;
@@ -340,6 +354,7 @@ impl ReportArgs {
         bar.aside(|| self.scene.warn(&file, &resolved, log));
         memory::check_frame(&resolved.scene)?;
         let frame = resolved.scene.frame()?;
+        bar.aside(|| warn_of_frame(&ShownFrame::new(&file, &resolved.scene, &frame), log));
         drop(resolved);
         let at_once = rayon::current_num_threads().min(self.names()?.len());
         bar.aside(|| memory::check(&frame, &self.timing.methods, at_once, log))?;
@@ -348,9 +363,12 @@ impl ReportArgs {
             frame: &frame,
         };
         let (methods, renderer) = (&self.timing.methods, self.drawn.renderer()?);
-        let mut comparison = comparison::draw(&input, methods, renderer, &mut |_, _| {});
+        let mut comparison = comparison::draw(&input, methods, renderer, &mut |part, next| {
+            progress(PICTURES_PART * part, next);
+        });
         comparison.title = file.title().unwrap_or_default().to_owned();
         comparison.description = file.description().unwrap_or_default().to_owned();
+        progress(PICTURES_PART, "packing pictures");
         let pictures = ScenePictures::new(&comparison);
         let pictures = pictures.map_err(|error| format!("{name}: {error}"))?;
         let is_small = frame.polygons().len() <= MOST_POLYGONS;

@@ -1,16 +1,19 @@
 //! Flags that change the scene: each gives values to keys of a scene file. They replace those of the file, and are checked
 //! together with the rest.
 
+use super::mesh_hints::hints;
 use super::normals::describe;
 use super::{CliError, Log, files};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::schema::{self, ValueKind};
+use fastphong::scene::file::schema::{self, AXES, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
 use fastphong::scene::file::{STANDARD_INPUT, SceneFile, shown};
 use fastphong::scene::input::InputFormat;
+use std::collections::HashSet;
+use std::sync::Arc;
 
 /// A flag that gives values to keys of a scene file.
 struct Flag {
@@ -38,8 +41,9 @@ static FLAGS: &[Flag] = flags! {
     "eye" "X,Y,Z" ["camera.eye"]
     /// Look at this point [default, with --eye: the origin]
     "target" "X,Y,Z" ["camera.target"]
-    /// Direction that is up in the picture [default: y]
-    "up" "X,Y,Z" ["camera.up"]
+    /// Direction that is up: an axis by its name, as `z` or `-y`, turns the default view, --view and the default light with it;
+    /// three numbers, as `0,0,1`, turn the picture only [default: y]
+    "up" "AXIS|X,Y,Z" ["camera.up"]
     /// Perspective projection with this vertical field of view
     "fovy" "DEGREES" ["camera.fovy"]
     /// Orthographic projection; half of the visible height, in world units
@@ -106,6 +110,9 @@ static FLAGS: &[Flag] = flags! {
     /// `given` with the mesh; or averaged up to an angle, `crease=30` [default: the scene's, else `auto` for a mesh file and
     /// `averaged` for a built-in mesh]
     "normals" "SOURCE" ["object.normals"]
+    /// Take positions that are nearer than this part of the mesh's size for one, so that normals are averaged over them, 1e-12 to
+    /// 0.1 [default: only equal positions are one]
+    "weld" "PART" ["object.weld"]
 };
 
 /// A key, as in `camera.eye`, and its value.
@@ -175,8 +182,12 @@ fn data(key: &str, text: &str) -> Result<Data, &'static str> {
         (Some(ValueKind::Word(words)), _) if words.contains(&text) => {
             Ok(Data::Text(text.to_owned()))
         }
-        (Some(ValueKind::Triple | ValueKind::OneOrThree), &[x, y, z]) => {
+        (Some(ValueKind::Axis), _) if AXES.contains(&text) => Ok(Data::Text(text.to_owned())),
+        (Some(ValueKind::Triple | ValueKind::OneOrThree | ValueKind::Axis), &[x, y, z]) => {
             Ok(Data::Triple([x, y, z]))
+        }
+        (Some(ValueKind::Axis), _) => {
+            Err("expected an axis (x, y, z, -x, -y or -z) or three numbers x,y,z")
         }
         (Some(ValueKind::Triple), _) => Err("expected three numbers x,y,z"),
         (Some(ValueKind::OneOrThree), &[all]) => Ok(Data::Triple([all; 3])),
@@ -363,8 +374,24 @@ impl SceneFlags {
         }
     }
 
-    /// Says what is odd about a scene, and where its vertex normals are from.
+    /// Says what is odd about a scene, where its vertex normals are from, and what to try with its mesh files.
     pub fn warn(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
+        self.warn_without_hints(file, resolved, log);
+        if log == Log::Quiet {
+            return;
+        }
+        let mut looked_at = HashSet::new();
+        for (object, mesh) in resolved.scene.objects.iter().zip(file.meshes()) {
+            if !mesh.starts_with("builtin:") && looked_at.insert(Arc::as_ptr(&object.mesh)) {
+                hints(shown(mesh), object)
+                    .iter()
+                    .for_each(|hint| log.note(hint));
+            }
+        }
+    }
+
+    /// Says what is odd about a scene, and where its vertex normals are from.
+    pub fn warn_without_hints(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         for warning in &resolved.warnings {
             log.warning(warning);
         }

@@ -80,6 +80,7 @@ impl FrameBuilder {
 
     /// Adds a material with the light on it; returns its number.
     pub fn lighting(&mut self, lighting: Lighting) -> u32 {
+        self.frame.is_local |= lighting.is_local();
         self.frame.lightings.push(lighting);
         (self.frame.lightings.len() - 1) as u32
     }
@@ -273,6 +274,7 @@ impl Frame {
             cut_corners: Vec::new(),
             polygons: Vec::new(),
             lightings: Vec::new(),
+            is_local: false,
             stats: FrameStats::default(),
             scratch: Scratch::default(),
         }

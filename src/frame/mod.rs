@@ -78,6 +78,8 @@ pub struct Frame {
     pub(crate) cut_corners: Vec<u32>,
     pub(crate) polygons: Vec<Polygon>,
     pub(crate) lightings: Vec<Lighting>,
+    /// True if any of them is local: methods ask for each polygon, and there may be many materials.
+    pub(crate) is_local: bool,
     pub(crate) stats: FrameStats,
     pub(crate) scratch: Scratch,
 }
@@ -305,7 +307,7 @@ impl Frame {
 
     /// True if the vectors toward a light or toward the eye differ from point to point.
     pub fn is_local(&self) -> bool {
-        self.lightings.iter().any(Lighting::is_local)
+        self.is_local
     }
 
     /// Returns the vertices that clipping made, in ascending order of their number.

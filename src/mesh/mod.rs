@@ -5,6 +5,8 @@ mod material;
 pub use material::Material;
 pub mod builtin;
 mod cap_sums;
+#[doc(hidden)]
+pub mod edges;
 mod fans;
 pub mod newell;
 #[cfg(feature = "io")]
@@ -16,6 +18,7 @@ pub mod vertex_normals;
 pub mod weld;
 pub(crate) mod winding;
 
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 use glam::{DVec3, Vec3};
@@ -40,10 +43,14 @@ pub struct PolygonMesh {
     ends: Vec<u32>,
     parts: Vec<u32>,
     smoothing_groups: Vec<u32>,
+    /// True if the file of the mesh says what is smooth, if only that all of it is.
+    states_smoothing: bool,
     given_normals: Option<GivenNormals>,
     colours: Vec<Vec3>,
     attributes: Vec<[f32; 4]>,
     materials: Vec<Material>,
+    /// The names of materials in their file; empty if they have none.
+    material_names: Vec<String>,
     polygon_materials: Vec<u32>,
     was_read: bool,
 }
@@ -116,6 +123,12 @@ impl PolygonMesh {
         !self.smoothing_groups.is_empty()
     }
 
+    /// True if the mesh has smoothing groups, or its file puts all polygons into one of them.
+    #[doc(hidden)]
+    pub fn states_smoothing(&self) -> bool {
+        self.states_smoothing || self.has_smoothing_groups()
+    }
+
     /// Returns the normals that came with the mesh, if any did.
     pub fn given_normals(&self) -> Option<&GivenNormals> {
         self.given_normals.as_ref()
@@ -147,6 +160,12 @@ impl PolygonMesh {
     /// True if the mesh was read from a file. Nobody vouches for the winding of its polygons then, as shapes by formula do.
     pub(crate) fn was_read(&self) -> bool {
         self.was_read
+    }
+
+    /// Returns the name that the file of the mesh gives a material, if it gives it one.
+    #[doc(hidden)]
+    pub fn material_name(&self, material: usize) -> Option<&str> {
+        self.material_names.get(material).map(String::as_str)
     }
 
     /// Gives `default` to the polygons without a material.
@@ -307,10 +326,12 @@ impl MeshBuilder {
                 ends: Vec::new(),
                 parts: Vec::new(),
                 smoothing_groups: Vec::new(),
+                states_smoothing: false,
                 given_normals: None,
                 colours: Vec::new(),
                 attributes: Vec::new(),
                 materials: Vec::new(),
+                material_names: Vec::new(),
                 polygon_materials: Vec::new(),
                 was_read: false,
             },
@@ -373,6 +394,20 @@ impl MeshBuilder {
     #[cfg(feature = "io")]
     pub(crate) fn read_from_file(&mut self) -> &mut Self {
         self.mesh.was_read = true;
+        self
+    }
+
+    /// Notes that the file of the mesh says what is smooth.
+    #[cfg(feature = "io")]
+    pub(crate) fn stating_smoothing(&mut self, states: bool) -> &mut Self {
+        self.mesh.states_smoothing = states;
+        self
+    }
+
+    /// Adds the names of the materials, in their order.
+    #[cfg(feature = "io")]
+    pub(crate) fn material_names(&mut self, names: Vec<String>) -> &mut Self {
+        self.mesh.material_names = names;
         self
     }
 

@@ -52,6 +52,19 @@ pub fn inside_out(mesh: &PolygonMesh) -> InsideOut {
     found
 }
 
+/// True if `point`, from the origin of `mesh`, lies inside one of its closed surfaces.
+#[doc(hidden)]
+pub fn is_inside_closed_surface(mesh: &PolygonMesh, point: DVec3) -> bool {
+    let is_within = |[low, high]: [DVec3; 2]| low.cmplt(point).all() && point.cmplt(high).all();
+    let of_mesh = mesh.bounds();
+    if !of_mesh.is_some_and(|(low, high)| is_within([low, high].map(|p| p - mesh.origin()))) {
+        return false;
+    }
+    let surfaces = closed_surfaces(mesh);
+    let mut around = surfaces.iter().filter(|surface| is_within(surface.bounds));
+    around.any(|surface| surface.holds(mesh, point))
+}
+
 /// Returns six times the volume of the cone from 0 over a polygon, whatever its shape.
 fn volume(mesh: &PolygonMesh, polygon: &[u32]) -> f64 {
     let mut corners = polygon.iter().map(|&c| position(mesh, c));
@@ -335,6 +348,31 @@ mod tests {
             (own, lists)
         };
         assert_eq!(count(&touching.each_ref().map(soup), false), 1);
+    }
+
+    #[test]
+    fn points_are_inside_closed_surfaces_and_not_in_their_bounds_alone() {
+        let torus = builtin("torus").expect("a shape");
+        let on_ring = torus.positions()[torus.polygon(0)[0] as usize].as_dvec3();
+        assert!(is_inside_closed_surface(
+            &builtin("cube").expect("a shape"),
+            DVec3::splat(0.1)
+        ));
+        assert!(
+            !is_inside_closed_surface(&torus, DVec3::ZERO),
+            "in the hole"
+        );
+        assert!(!is_inside_closed_surface(&torus, 2.0 * on_ring), "outside");
+        let (positions, polygons) = shape("cube", Vec3::ZERO, false, 1);
+        let mut open = MeshBuilder::new(positions);
+        polygons.iter().for_each(|polygon| {
+            open.polygon(polygon);
+        });
+        let open = open.finish().expect("a mesh");
+        assert!(
+            !is_inside_closed_surface(&open, DVec3::splat(0.1)),
+            "in an open one"
+        );
     }
 
     #[test]

@@ -1,8 +1,10 @@
-//! Finds positions that coincide exactly: the seams of meshes whose files repeat them.
+//! Finds positions that coincide, exactly or nearly: the seams of meshes whose files repeat them.
 
+use super::PolygonMesh;
+use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Returns for each position the number of its first equal among the different ones, and the number of different ones.
 ///
@@ -10,6 +12,58 @@ use glam::Vec3;
 /// time, and `n log n` comparisons where positions were chosen to collide in it.
 pub fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
     number_distinct(positions.len(), |i| key(&positions[i]))
+}
+
+/// Returns the longest side of the box around the polygons of `mesh`; 0 without polygons.
+pub(super) fn size(mesh: &PolygonMesh) -> f64 {
+    mesh.bounds()
+        .map_or(0.0, |(low, high)| (high - low).max_element())
+}
+
+impl PolygonMesh {
+    /// Moves each position to the first one that is nearer than `part` of the size of the mesh, so that both are one vertex.
+    #[doc(hidden)]
+    pub fn weld(&mut self, part: f64) {
+        let distance = part * size(self);
+        let wide: Vec<DVec3> = self.positions.iter().map(|p| p.as_dvec3()).collect();
+        let first = weld_near(&wide, distance);
+        self.positions = first.iter().map(|&i| self.positions[i as usize]).collect();
+    }
+}
+
+/// Returns for each position the index of the first one that is at most `distance` away and is not moved itself: itself, if there
+/// is none before it.
+pub(super) fn weld_near(positions: &[DVec3], distance: f64) -> Vec<u32> {
+    if distance <= 0.0 || positions.is_empty() {
+        return (0..positions.len() as u32).collect();
+    }
+    // Positions that stay lie farther apart than the distance, so that a cell of this side holds few of them.
+    let side = 2.0 * distance;
+    let low = positions.iter().fold(positions[0], |low, &p| low.min(p));
+    let cell = |at: f64, axis: usize| libm::floor((at - low[axis]) / side) as i64;
+    let mut cells: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
+    let mut first = Vec::with_capacity(positions.len());
+    for (i, &p) in positions.iter().enumerate() {
+        let range = |axis: usize| cell(p[axis] - distance, axis)..=cell(p[axis] + distance, axis);
+        let mut found = i as u32;
+        for x in range(0) {
+            for y in range(1) {
+                for z in range(2) {
+                    for &other in cells.get(&[x, y, z]).into_iter().flatten() {
+                        if (positions[other as usize] - p).length() <= distance {
+                            found = found.min(other);
+                        }
+                    }
+                }
+            }
+        }
+        first.push(found);
+        if found == i as u32 {
+            let own = [0, 1, 2].map(|axis| cell(p[axis], axis));
+            cells.entry(own).or_default().push(found);
+        }
+    }
+    first
 }
 
 /// Returns bits that are equal exactly when the positions are: adding 0.0 turns −0.0 into 0.0.
@@ -127,6 +181,28 @@ mod tests {
         ];
         assert_eq!(weld(&p), (vec![0, 1, 0, 2, 1, 0], 3));
         assert_eq!(weld(&[]), (Vec::new(), 0));
+    }
+
+    #[test]
+    fn near_positions_move_to_the_first_one_and_never_along_a_chain() {
+        let at = |x: f64| DVec3::new(x, 1.0, -2.0);
+        let chain = [0.0, 0.9, 1.8, 2.7, 10.0, 9.5, 0.0].map(at);
+        assert_eq!(weld_near(&chain, 1.0), [0, 0, 2, 2, 4, 4, 0]);
+        assert_eq!(weld_near(&chain, 0.0), [0, 1, 2, 3, 4, 5, 6]);
+        assert!(weld_near(&[], 1.0).is_empty());
+        // As comparing each with all before it finds, wherever cells begin.
+        let mut random = crate::number::test_random::Random::new(9);
+        let mut coordinate = || f64::from(random.signed()) * 4.0;
+        let all: Vec<DVec3> = (0..2000)
+            .map(|_| DVec3::new(coordinate(), coordinate(), coordinate()))
+            .collect();
+        let found = weld_near(&all, 0.5);
+        for (i, p) in all.iter().enumerate() {
+            let stays = |other: &usize| found[*other] as usize == *other;
+            let near = |other: &usize| (all[*other] - *p).length() <= 0.5;
+            let first = (0..i).filter(stays).find(near).unwrap_or(i);
+            assert_eq!(found[i] as usize, first);
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Colours and normals: at the vertices, and between them.
 
 use super::coverage::{Crossing, Scanline, SpanPlace, VertexWeights};
-use super::illumination::{illuminate, sum, wide};
+use super::illumination::{sum, wide};
 use super::{ClosedForm, Model};
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::scene::{Interpolation, Power};
@@ -123,8 +123,9 @@ impl<'a> VertexAttributes<'a> {
         }
     }
 
-    /// Returns the colour of the pixel `x` on a scanline of `polygon`; `None` where the polygon does not cover it.
-    pub fn colour(&self, polygon: &Polygon, scanline: &Scanline, x: usize) -> Option<DVec3> {
+    /// Returns the light at the pixel `x` on a scanline of `polygon`, before it is clamped to 0..=1 there; `None` where the
+    /// polygon does not cover it.
+    pub fn light(&self, polygon: &Polygon, scanline: &Scanline, x: usize) -> Option<DVec3> {
         let lighting = &self.frame.lightings()[polygon.material as usize];
         let mean = || self.frame.mean(polygon);
         // Where all is at infinity every point is as good as the mean.
@@ -135,7 +136,7 @@ impl<'a> VertexAttributes<'a> {
                 DVec3::ZERO
             }
         };
-        let at_mean = |n: DVec3| illuminate(lighting, self.power, n, place());
+        let at_mean = |n: DVec3| sum(lighting, self.power, n, place());
         Some(match self.model {
             Model::Flat => {
                 scanline.edges(x)?;
@@ -145,10 +146,10 @@ impl<'a> VertexAttributes<'a> {
                 scanline.edges(x)?;
                 at_mean(unit(wide(mean().normal)))
             }
-            Model::Gouraud => self.interpolated(&self.values, &scanline.weights(x)?),
-            Model::GouraudSeparate => self
-                .interpolated(&self.values, &scanline.weights(x)?)
-                .clamp(DVec3::ZERO, DVec3::ONE),
+            // Gouraud's values were clamped at the vertices.
+            Model::Gouraud | Model::GouraudSeparate => {
+                self.interpolated(&self.values, &scanline.weights(x)?)
+            }
             Model::Phong => {
                 let weights = scanline.weights(x)?;
                 let position = if self.positions.is_empty() {
@@ -156,7 +157,7 @@ impl<'a> VertexAttributes<'a> {
                 } else {
                     self.interpolated(&self.positions, &weights)
                 };
-                illuminate(
+                sum(
                     lighting,
                     self.power,
                     unit(self.interpolated(&self.values, &weights)),

@@ -95,11 +95,6 @@ pub(crate) fn sum(lighting: &Lighting, power: Power, n: DVec3, p: DVec3) -> DVec
     intensity
 }
 
-/// Returns the sum clamped to 0..=1, once, at the end.
-pub(crate) fn illuminate(lighting: &Lighting, power: Power, n: DVec3, p: DVec3) -> DVec3 {
-    sum(lighting, power, n, p).clamp(DVec3::ZERO, DVec3::ONE)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,7 +104,7 @@ mod tests {
     const Z: [f32; 3] = [0.0, 0.0, 1.0];
 
     fn lit(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
-        illuminate(lighting, Power::Squaring, n, p)
+        sum(lighting, Power::Squaring, n, p).clamp(DVec3::ZERO, DVec3::ONE)
     }
 
     fn lighting(lights: Vec<LightTerm>, view: [f32; 3], shininess: f32) -> Lighting {

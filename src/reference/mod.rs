@@ -8,11 +8,13 @@
 //! * `visibility`: the polygon seen at each pixel
 //! * `attributes`: colours and normals at vertices, and between them
 //! * `illumination`: L21 2.1
+//! * `clamping`: the part of the picture whose light is over 1
 //!
 //! Unit vectors of the frame (normals, directions of light and view) are taken as they are given, in `f32`, and not
 //! normalised again.
 
 pub(crate) mod attributes;
+mod clamping;
 pub(crate) mod coverage;
 pub mod cs171;
 pub(crate) mod illumination;
@@ -24,14 +26,17 @@ pub(crate) mod fixtures;
 #[cfg(test)]
 mod tests;
 
+#[doc(hidden)]
+pub use clamping::{Clamping, clamping};
 pub use coverage::is_anything_covered;
 pub use visibility::{Visibility, visibility};
 
-use crate::frame::Frame;
+use crate::frame::{Frame, Polygon};
 use crate::picture::{Alpha, LinearPicture, Picture, Picture8};
 use crate::scene::Power;
 use attributes::VertexAttributes;
 use coverage::Scanline;
+use glam::DVec3;
 
 /// A closed form of shading: the attributes that vary over a polygon, and their interpolation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -171,28 +176,31 @@ pub fn shade(
     visibility: &Visibility,
     form: impl Into<ClosedForm>,
 ) -> ReferencePicture {
+    shade_and_count(frame, visibility, form.into()).0
+}
+
+/// Shades `frame` as [`shade`] does, and counts the samples whose light is clamped.
+pub(crate) fn shade_and_count(
+    frame: &Frame,
+    visibility: &Visibility,
+    form: ClosedForm,
+) -> (ReferencePicture, Clamping) {
     let (width, height) = (visibility.polygons.width(), visibility.polygons.height());
     let [r, g, b] = frame.background().map(f64::from);
     let mut picture = Picture::new(width, height, [r, g, b, 0.0]);
-    let attributes = VertexAttributes::new(frame, form.into());
-    let mut scanline = Scanline::new(frame);
-    for y in 0..height {
-        // Pixels of one polygon side by side share its scanline.
-        let mut cut = Visibility::NONE;
-        for (x, &number) in visibility.polygons.row(y).iter().enumerate() {
-            let Some(polygon) = frame.polygons().get(number as usize) else {
-                continue;
-            };
-            if number != cut {
-                scanline.cut(frame.corners(polygon), y);
-                cut = number;
-            }
-            if let Some(colour) = attributes.colour(polygon, &scanline, x) {
-                picture.row_mut(y)[x] = [colour.x, colour.y, colour.z, 1.0];
-            }
-        }
-    }
-    ReferencePicture {
+    let mut clamping = Clamping::new(frame);
+    for_each_light(
+        frame,
+        &visibility.polygons,
+        1,
+        form,
+        |[x, y], polygon, light| {
+            clamping.add(polygon, light);
+            let colour = light.clamp(DVec3::ZERO, DVec3::ONE);
+            picture.row_mut(y)[x] = [colour.x, colour.y, colour.z, 1.0];
+        },
+    );
+    let shaded = ReferencePicture {
         picture: if frame.samples() == 1 {
             picture
         } else {
@@ -201,5 +209,35 @@ pub fn shade(
         polygons: visibility.polygons.clone(),
         depth: visibility.depth.clone(),
         depth_gap: visibility.depth_gap.clone(),
+    };
+    (shaded, clamping)
+}
+
+/// Calls `with` for each place of a grid over the samples of `frame`, every `step`-th of every `step`-th row, where `polygons` has
+/// the number of one: with the place on the grid, the polygon, and its light before that is clamped.
+fn for_each_light(
+    frame: &Frame,
+    polygons: &Picture<u32>,
+    step: usize,
+    form: ClosedForm,
+    mut with: impl FnMut([usize; 2], &Polygon, DVec3),
+) {
+    let attributes = VertexAttributes::new(frame, form);
+    let mut scanline = Scanline::new(frame);
+    for y in 0..polygons.height() {
+        // Pixels of one polygon side by side share its scanline.
+        let mut cut = Visibility::NONE;
+        for (x, &number) in polygons.row(y).iter().enumerate() {
+            let Some(polygon) = frame.polygons().get(number as usize) else {
+                continue;
+            };
+            if number != cut {
+                scanline.cut(frame.corners(polygon), y * step);
+                cut = number;
+            }
+            if let Some(light) = attributes.light(polygon, &scanline, x * step) {
+                with([x, y], polygon, light);
+            }
+        }
     }
 }

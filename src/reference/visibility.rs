@@ -4,6 +4,7 @@ use super::coverage::{Scanline, VertexWeights, bounding_box};
 use crate::frame::{DepthRange, Frame};
 use crate::picture::Picture;
 use crate::scene::{Clipping, DepthBuffer, DepthSource, HiddenSurfaces};
+use core::ops::Range;
 
 /// The polygon seen at each sample of a frame, whatever its shading: at each pixel, unless it has several samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +102,13 @@ fn kept(frame: &Frame, depth: f64) -> f64 {
 /// Finds the polygon seen at each pixel centre of `frame`: the nearest one that covers it, the first of equally near ones; or
 /// without depth test the last one.
 pub fn visibility(frame: &Frame) -> Visibility {
-    let (width, height) = (frame.width(), frame.height());
+    visibility_on_grid(frame, 1)
+}
+
+/// Finds the polygon seen at each `step`-th pixel centre of each `step`-th row, from the first on, as [`visibility`] does.
+pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
+    let [width, height] = [frame.width(), frame.height()].map(|side| side.div_ceil(step));
+    let on_grid = |pixels: Range<usize>| pixels.start.div_ceil(step)..pixels.end.div_ceil(step);
     let mut visibility = Visibility {
         polygons: Picture::new(width, height, Visibility::NONE),
         depth: Picture::new(width, height, f64::INFINITY),
@@ -112,10 +119,14 @@ pub fn visibility(frame: &Frame) -> Visibility {
     for (number, polygon) in (0..).zip(frame.polygons()) {
         let corners = frame.corners(polygon);
         let (columns, rows) = bounding_box(frame, corners);
+        let (columns, rows) = (on_grid(columns), on_grid(rows));
+        if columns.is_empty() {
+            continue;
+        }
         for y in rows {
-            scanline.cut(corners, y);
+            scanline.cut(corners, y * step);
             for x in columns.clone() {
-                if let Some(weights) = scanline.weights(x) {
+                if let Some(weights) = scanline.weights(x * step) {
                     let z = depth(frame, &weights);
                     if frame.clipping() == Clipping::NdcCube && !(nearest..=farthest).contains(&z) {
                         continue;

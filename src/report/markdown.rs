@@ -4,7 +4,7 @@ use super::document::{label, list, text, title};
 use super::page::{command, machine};
 use super::{Report, ScenePictures, answer, tables};
 use crate::compare::comparison::table::significant;
-use crate::compare::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
+use crate::compare::comparison::{NOTABLE_CLAMPING, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::table::markdown_text;
 use alloc::format;
 use alloc::string::String;
@@ -90,8 +90,15 @@ fn about(scene: &Value) -> String {
         let s = if scene[field] == 1 { "" } else { "s" };
         format!("{} {one}{s}", scene[field])
     };
+    let clamped = match tables::clamped_share(scene) {
+        share if share > NOTABLE_CLAMPING => format!(
+            " The light is over 1 in {:.0} % of them and is clamped: there errors vanish.",
+            100.0 * share
+        ),
+        _ => String::new(),
+    };
     let facts = format!(
-        "{} × {} pixels, {} in view, {}, {} covered.\n\n",
+        "{} × {} pixels, {} in view, {}, {} covered.{clamped}\n\n",
         scene["width"],
         scene["height"],
         plural("polygons", "polygon"),

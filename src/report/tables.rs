@@ -2,6 +2,7 @@
 
 use super::answer::overall;
 use super::document::{OPERATIONS, RATES, label, list, number, text, title};
+use crate::compare::comparison::NOTABLE_CLAMPING;
 use crate::compare::comparison::table::{levels, significant};
 use crate::compare::table::Table;
 use alloc::format;
@@ -87,14 +88,18 @@ fn small(data: &Value) -> Table {
 
 /// Lists errors and speeds of all methods in one scene.
 pub(super) fn scene(scene: &Value) -> Table {
-    let head = [
+    let is_clamped = clamped_share(scene) > NOTABLE_CLAMPING;
+    let mut head = Vec::from([
         "method",
         "max, levels",
         "RMS, levels",
         "other polygon, pixels",
         "time, ms",
         "speed, × naive Phong",
-    ];
+    ]);
+    if is_clamped {
+        head.insert(4, "clamped, pixels");
+    }
     let mut table = Table::new(title(scene), &head);
     for row in list(scene, "/rows")
         .iter()
@@ -104,16 +109,26 @@ pub(super) fn scene(scene: &Value) -> Table {
             "barycentric" => ", barycentric",
             _ => "",
         };
-        table.rows.push(Vec::from([
+        let mut cells = Vec::from([
             label(text(row, "/variant")) + by,
             cell(row, "/error/max", levels),
             cell(row, "/error/rms", levels),
             cell(row, "/other_polygon", |n| n.to_string()),
             cell(row, "/speed/timing/median_ns", |ns| significant(ns / 1e6)),
             ratio(&row["speed"]["ratio_to_naive"]),
-        ]));
+        ]);
+        if is_clamped {
+            cells.insert(4, cell(row, "/clamped", |n| n.to_string()));
+        }
+        table.rows.push(cells);
     }
     table
+}
+
+/// Returns the share of the covered picture whose light is clamped; 0 in documents that do not say.
+pub(super) fn clamped_share(scene: &Value) -> f64 {
+    let count = |field: &str| number(scene, &format!("/clamping/{field}")).unwrap_or(0.0);
+    count("clamped") / count("covered").max(1.0)
 }
 
 /// Writes a ratio with its interval; `=` before it says that the interval holds 1.

@@ -385,9 +385,16 @@ fn the_description_names_every_field() {
     let mut fields = 0;
     while let Some(value) = left.pop() {
         for (field, value) in value.as_object().into_iter().flatten() {
-            let is_named = ["`", "`timing.", "[].", "`findings[].", "`triangulation."]
-                .iter()
-                .any(|before| description.contains(&format!("{before}{field}`")));
+            let is_named = [
+                "`",
+                "`timing.",
+                "[].",
+                "`findings[].",
+                "`triangulation.",
+                "`clamping.",
+            ]
+            .iter()
+            .any(|before| description.contains(&format!("{before}{field}`")));
             // One sentence describes the blocks of figures. Parameters are named by their methods.
             assert!(is_named || field == "timing", "`{field}` is not described");
             fields += 1;

@@ -332,7 +332,7 @@ pub fn resolve_by(
     file: &SceneFile,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<Resolved, SceneError> {
-    file.resolve(|name, folder| load_mesh_by(name, folder, read))
+    file.resolve(|name, folder| load_mesh_by(name, folder, read, file.draws_materials_of(name)))
 }
 
 /// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…`, `-` or an OBJ file, relative to `folder`.
@@ -340,13 +340,15 @@ pub fn resolve_by(
 /// # Errors
 /// What is wrong with which file, in which line, and what was expected: one line, and one for each thing that was odd before.
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
-    load_mesh_by(name, folder, &mut read_input)
+    load_mesh_by(name, folder, &mut read_input, true)
 }
 
+/// Loads a mesh; without `draws_materials` nothing is said of its materials, which others replace.
 fn load_mesh_by(
     name: &str,
     folder: &Path,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+    draws_materials: bool,
 ) -> LoadedMesh {
     if let Some(spec) = name.strip_prefix(BUILTIN) {
         let mesh = builtin(spec).map_err(|error| error.to_string())?;
@@ -385,8 +387,9 @@ fn load_mesh_by(
         odd.fold(error.to_string(), |text, odd| format!("{text}\n{odd}"))
     })?;
     let name = shown(name);
-    let warnings = loaded.warnings.iter();
-    let warnings = warnings.map(|warning| format!("{name}: {warning}"));
+    let is_told = |i: &usize| draws_materials || !loaded.material_warnings.contains(i);
+    let warnings = (0..loaded.warnings.len()).filter(is_told);
+    let warnings = warnings.map(|i| format!("{name}: {}", loaded.warnings[i]));
     Ok((Arc::new(loaded.mesh), warnings.collect()))
 }
 

@@ -435,7 +435,7 @@ fn what_is_not_seen_is_told_for_what_it_is() {
     // From the edge of one of two: nothing to warn of.
     folder.write("two.obj", format!("{triangle}v 0 0 1\nf 1 3 4\n"));
     let ended = folder
-        .run("render two.obj --view 0,0 -o out.png --size 64x48 --cull back")
+        .run("render two.obj --view 0,0 -o out.png --size 64x48 --cull back --normals averaged")
         .done();
     assert_eq!(ended.err, "out.png: 64x48, phong-rsqrt\n");
 }

@@ -11,6 +11,7 @@ mod files;
 mod flags;
 mod formats;
 mod geometry;
+mod hints;
 mod input;
 mod memory;
 mod name_template;

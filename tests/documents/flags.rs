@@ -17,7 +17,8 @@ const FLAGS: &[[&str; 4]] = &[
     ["view", "the camera of the scene", "teapot", "teapot --view 200,50"],
     ["eye", "fitted", "builtin:cube", "builtin:cube --eye 0,1,3"],
     ["target", "the origin", "builtin:cube --eye 2,2,3", "builtin:cube --eye 2,2,3 --target 1,0,0"],
-    ["up", "", "football", "football --up 1,1,0"],
+    // Three numbers and an axis by its name, side by side.
+    ["up", "", "builtin:teapot --resolution 80x60 --up 0,0,1", "builtin:teapot --resolution 80x60 --up z"],
     ["fovy", "orthographic", "corrugated", "corrugated --fovy 70"],
     ["half-height", "fitted", "vase", "vase --half-height 4"],
     ["near", "fitted", "terrain --eye 0,2,4", "terrain --eye 0,2,4 --near 4"],
@@ -50,6 +51,7 @@ const FLAGS: &[[&str; 4]] = &[
     ["clipping", "planes", "terrain --eye 0,0.15,0.3 --fovy 80", "terrain --eye 0,0.15,0.3 --fovy 80 --clipping ndc-cube"],
     ["samples", "1", "football", "football --samples 4"],
     ["normals", "averaged", "football", "football --normals crease=10"],
+    ["weld", "", "vase --resolution 80x60", "vase --resolution 80x60 --weld 0.1"],
     ["method", "", "coarse-sphere", "coarse-sphere --method gouraud"],
     ["engine", "", "two-lights", "two-lights --engine cs171:normals=as-printed"],
     ["aov", "off", "teapot", "teapot --aov normal"],

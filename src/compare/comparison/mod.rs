@@ -39,7 +39,7 @@ use crate::frame::{Frame, FrameStats};
 use crate::picture::encoding::{Displayed, store};
 use crate::picture::{Alpha, Encoding, LinearPicture, Picture8};
 use crate::raster::{Plan, PolygonKind, Renderer, coverage};
-use crate::reference::Model;
+use crate::reference::{Clamping, Model};
 use crate::scene::Interpolation;
 use crate::shading::{self, METHODS, MethodParameter, Variant};
 use alloc::collections::BTreeMap;
@@ -56,6 +56,9 @@ pub const BASELINE: &str = "naive-phong";
 
 /// The definition of [`MethodRow::error`], in one line.
 pub const WHAT_IS_COMPARED: &str = "linear channels before rounding to 8 bits against the f64 reference, where both show the same polygon";
+
+/// The clamped share of what is seen from which on tables tell it.
+pub(crate) const NOTABLE_CLAMPING: f64 = Clamping::NOTABLE;
 
 /// A frame to compare methods on.
 #[derive(Clone, Debug)]
@@ -95,6 +98,8 @@ pub struct Comparison {
     pub covered_pixels: usize,
     /// Pixels of all polygons, hidden ones too.
     pub fragments: usize,
+    /// The part of the Phong reference whose light is over 1 before it is clamped: there errors vanish, whatever a method computes.
+    pub clamping: Clamping,
     /// Counts of the scene's polygons on their way into the frame.
     pub stats: FrameStats,
     /// The renderer that was asked for; each row names the one that drew it.
@@ -201,6 +206,8 @@ pub struct MethodRow {
     /// Pixels at which it shows another polygon than the reference; they are left out of `error`, as their colours tell
     /// of depth and not of shading.
     pub other_polygon: usize,
+    /// Covered pixels of which a channel is 1: where it is clamped, or is that to the last bit.
+    pub clamped: usize,
     /// The polygons that it draws by each of its kinds, if it tells polygons apart.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub kinds: Vec<PolygonKind>,
@@ -335,6 +342,7 @@ pub fn draw(
         not_simple: cut.not_simple,
         covered_pixels: reference.pixels().iter().filter(is_covered).count(),
         fragments: fragments / frame.samples().pow(2),
+        clamping: references.clamping(),
         stats: frame.stats(),
         renderer: DrawnBy::new(renderer),
         requested: renderer,

@@ -7,7 +7,7 @@ use crate::frame::triangulate::Triangulated;
 use crate::picture::encoding::{Displayed, store};
 use crate::picture::{Encoding, LinearPicture, Picture, Picture8};
 use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
-use crate::reference::{self, ClosedForm, Model, Visibility};
+use crate::reference::{self, Clamping, ClosedForm, Model, Visibility};
 use crate::scene::Power;
 use crate::shading::Variant;
 use alloc::borrow::Cow;
@@ -30,6 +30,8 @@ struct ClosedForms<'a> {
     frame: &'a Frame,
     visibility: Visibility,
     pictures: [OnceCell<LinearPicture>; Model::ALL.len()],
+    /// The clamped samples of the Phong reference, known with its picture.
+    clamping: OnceCell<Clamping>,
 }
 
 impl<'a> ClosedForms<'a> {
@@ -38,6 +40,7 @@ impl<'a> ClosedForms<'a> {
             frame,
             visibility: reference::visibility(frame),
             pictures: Default::default(),
+            clamping: OnceCell::new(),
         }
     }
 
@@ -46,7 +49,11 @@ impl<'a> ClosedForms<'a> {
     }
 
     fn shaded(&self, form: ClosedForm) -> LinearPicture {
-        reference::shade(self.frame, &self.visibility, form).to_linear()
+        let (shaded, clamping) = reference::shade_and_count(self.frame, &self.visibility, form);
+        if form == Model::Phong.into() {
+            self.clamping.get_or_init(|| clamping);
+        }
+        shaded.to_linear()
     }
 }
 
@@ -66,6 +73,16 @@ impl<'a> References<'a> {
     /// Returns the Phong reference.
     pub fn phong(&self) -> &LinearPicture {
         self.closed_forms.picture(Model::Phong)
+    }
+
+    /// Returns the clamped samples of the Phong reference.
+    pub fn clamping(&self) -> Clamping {
+        self.phong();
+        self.closed_forms
+            .clamping
+            .get()
+            .cloned()
+            .unwrap_or_default()
     }
 
     /// Draws a variant by `renderer` and compares it.
@@ -134,6 +151,7 @@ impl<'a> References<'a> {
     ) -> MethodRow {
         let error = self.closed_forms.difference(Model::Phong, &linear, shown);
         let own = own.unwrap_or(error);
+        let is_clamped = |pixel: &&[f32; 4]| pixel[3] > 0.0 && pixel[..3].contains(&1.0);
         MethodRow {
             variant: variant.clone(),
             drawn_by,
@@ -143,6 +161,7 @@ impl<'a> References<'a> {
             approximation: variant.approximation(self.closed_forms.frame),
             within_bound: own.max <= bound,
             other_polygon: error.excluded,
+            clamped: linear.pixels().iter().filter(is_clamped).count(),
             kinds: variant.polygon_kinds(self.closed_forms.frame),
             speed: None,
             picture,

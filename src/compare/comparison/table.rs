@@ -4,15 +4,16 @@ use super::{Comparison, DrawnBy, MethodRow, Speed};
 use crate::compare::metrics::Difference;
 use crate::compare::table::Table;
 use crate::compare::timing::Ratio;
+use crate::reference::Clamping;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 /// The columns of a table. All show error and speed, and, if there are any, the pixels that show another polygon than the
-/// reference.
+/// reference, and, if they are many, those that are clamped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableKind {
-    /// Six columns that fit 100 characters: the essence of error and speed. A seventh where pixels show another polygon.
+    /// Six columns that fit 100 characters: the essence of error and speed. Others where pixels show another polygon or are clamped.
     Short,
     /// All of the error, and the essence of the speed.
     Compare,
@@ -34,6 +35,7 @@ const MARKED_METHOD: Column = ("method", |row| {
     Some((METHOD.1)(row)? + mark)
 });
 const OTHER_POLYGON: Column = ("other", |row| Some(row.other_polygon.to_string()));
+const CLAMPED: Column = ("clamped", |row| Some(row.clamped.to_string()));
 const MAX: Column = ("max", |row| Some(levels(row.error.max)));
 const RMS: Column = ("RMS", |row| Some(levels(row.error.rms)));
 const TIME: Column = ("time, ms", |row| row.speed.as_ref().map(time));
@@ -52,6 +54,7 @@ const SHORT: &[Column] = &[
     MAX,
     RMS,
     OTHER_POLYGON,
+    CLAMPED,
     TIME,
     NAIVE,
     BARYCENTRIC,
@@ -75,6 +78,7 @@ const COMPARE: &[Column] = &[
         Some(row.error.over_one_level.to_string())
     }),
     OTHER_POLYGON,
+    CLAMPED,
     TIME,
     PER_PIXEL,
     NAIVE,
@@ -100,6 +104,7 @@ const BENCH: &[Column] = &[
     MAX,
     RMS,
     OTHER_POLYGON,
+    CLAMPED,
 ];
 
 /// The share of covered pixels that show another polygon from which on it is worth a word, in percent.
@@ -122,7 +127,12 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     // There are rarely any: then short tables have no column for them.
     let has_others = comparison.all_rows().any(|row| row.other_polygon > 0);
     let shows_others = has_others || kind == TableKind::Compare;
-    let is_shown = |column: &&Column| shows_others || column.0 != OTHER_POLYGON.0;
+    let shows_clamped = comparison.clamping.is_notable() || kind == TableKind::Compare;
+    let is_shown = |column: &&Column| match column.0 {
+        name if name == OTHER_POLYGON.0 => shows_others,
+        name if name == CLAMPED.0 => shows_clamped,
+        _ => true,
+    };
     let columns: Vec<&Column> = columns.iter().filter(is_shown).collect();
     let heads: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
     let mut table = Table::new(&*comparison.name, &heads);
@@ -151,11 +161,28 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
             cell(row, &&METHOD)
         );
     }
+    if shows_clamped {
+        text += "clamped: covered pixels with a channel at 1, where light is cut off\n";
+    }
     if shows_others {
         text +=
             "other: pixels that show another polygon than the reference, and are not compared\n";
     }
+    if let Some(note) = clamping_note(&comparison.clamping) {
+        text += &format!("warning: {note}\n");
+    }
     text
+}
+
+/// Says that errors mean less where much of the light is clamped; `None` where little is.
+pub(crate) fn clamping_note(clamping: &Clamping) -> Option<String> {
+    clamping.is_notable().then(|| {
+        let share = 100.0 * clamping.share();
+        format!(
+            "the light is over 1 in {share:.1} % of the covered picture and is clamped: there methods draw one colour whatever \
+             they compute, and errors vanish"
+        )
+    })
 }
 
 /// Says which frame was drawn by what, and how to read the table.

@@ -20,7 +20,7 @@ mod winding;
 
 use super::{DepthRange, Frame, FrameError, FrameStats, Geometry, Polygon};
 use crate::mesh::Material;
-use crate::scene::{Camera, Light, Scene};
+use crate::scene::{Camera, Light, Lighting, Scene};
 use crate::sync::Arc;
 use alloc::vec::Vec;
 use cut::Cutting;
@@ -181,6 +181,7 @@ impl PreparedScene {
         let origin = DVec3::from_array(frame.origin);
         self.settings
             .light(&self.materials, origin, &mut frame.lightings);
+        frame.is_local = frame.lightings.iter().any(Lighting::is_local);
         frame.check_settings()?;
         frame.check_lightings()?;
         self.check_positions(origin)?;

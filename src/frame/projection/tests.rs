@@ -453,3 +453,24 @@ fn threads_change_nothing() {
         }
     }
 }
+
+/// A frame knows it without looking at each of its materials, whichever of them it is that is local.
+#[test]
+fn a_frame_is_local_if_a_light_or_the_eye_is() {
+    let mut scene = resolve(&SCENES[0].load().unwrap()).unwrap().scene;
+    scene.lights.truncate(1);
+    let is_local = |scene: &Scene| {
+        let frame = scene.frame().unwrap();
+        let looked_at = frame.lightings().iter().any(|lighting| lighting.is_local());
+        assert_eq!(frame.is_local(), looked_at);
+        frame.is_local()
+    };
+    assert!(!is_local(&scene));
+    scene.local_viewer = true;
+    assert!(is_local(&scene));
+    scene.local_viewer = false;
+    scene
+        .lights
+        .push(crate::scene::Light::positional(DVec3::splat(9.0), [1.0; 3]));
+    assert!(is_local(&scene));
+}

@@ -31,6 +31,7 @@ use prescan::{MeshLimits, Prescan};
 use std::collections::HashMap;
 use std::ffi::OsStr;
 use std::hash::Hash;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::vec::Vec;
@@ -43,6 +44,9 @@ pub struct LoadedObj {
     pub mesh: PolygonMesh,
     /// One line for each kind of thing that was passed over, most with the number of the first line concerned.
     pub warnings: Vec<String>,
+    /// Those of the warnings that say nothing where other materials replace those of the file.
+    #[doc(hidden)]
+    pub material_warnings: Range<usize>,
 }
 
 /// Reads the OBJ file at `path`, and from the same directory the MTL files that it names.
@@ -235,19 +239,28 @@ fn parse_limited(
     builder.parts(groups(&scan.object_runs, HashMap::new(), scan.polygons));
     let off = HashMap::from([(&0, PolygonMesh::FACETED)]);
     builder.smoothing_groups(groups(&scan.smoothing_runs, off, scan.polygons));
+    builder.stating_smoothing(!scan.smoothing_runs.is_empty());
     // Libraries are read even if no face uses a material: who writes files must know all that belong to the mesh.
     let mut told = Vec::new();
     let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut told);
+    let first = warnings.len();
     if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
         warnings.append(&mut told);
-        let (materials, of_polygons) = assign_materials(&scan, &mut library, &mut warnings);
+        let (named, of_polygons) = assign_materials(&scan, &mut library, &mut warnings);
         warnings.extend(library.warnings());
+        let (materials, names) = named.into_iter().unzip();
         builder.materials(materials, of_polygons);
+        builder.material_names(names);
     }
+    let material_warnings = first..warnings.len();
     let mesh = builder.finish();
     let mesh = mesh.map_err(|error| failed(None, ObjProblem::Mesh(error), warnings.clone()))?;
     warnings.extend(rounding::told(&mesh, &positions));
-    Ok(LoadedObj { mesh, warnings })
+    Ok(LoadedObj {
+        mesh,
+        warnings,
+        material_warnings,
+    })
 }
 
 /// Returns the vectors whose coordinates stand one after the other in `flat`.
@@ -287,12 +300,12 @@ fn groups<'a, K: Eq + Hash>(
     }
 }
 
-/// Returns the materials that polygons use, and for each polygon the index of its own, `u32::MAX` for none.
+/// Returns the materials that polygons use with their names, and for each polygon the index of its own, `u32::MAX` for none.
 fn assign_materials(
     scan: &Prescan,
     library: &mut Library,
     warnings: &mut Vec<String>,
-) -> (Vec<Material>, Vec<u32>) {
+) -> (Vec<(Material, String)>, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let mut materials = Vec::new();
     let mut unknown = Vec::new();
@@ -308,7 +321,7 @@ fn assign_materials(
             .entry(name)
             .or_insert_with(|| match library.use_material(name) {
                 Some(material) => {
-                    materials.push(material);
+                    materials.push((material, error::quote(name)));
                     materials.len() as u32 - 1
                 }
                 None => {

@@ -12,6 +12,7 @@ pub mod schema;
 mod sides;
 #[cfg(test)]
 mod tests;
+mod upright;
 pub mod value;
 mod viewpoint;
 mod visibility;
@@ -176,6 +177,12 @@ impl SceneFile {
         objects.filter_map(|object| object.text("mesh"))
     }
 
+    /// True if an object shows the mesh called `mesh` in the materials that it comes with.
+    pub(super) fn draws_materials_of(&self, mesh: &str) -> bool {
+        let mut objects = self.table.tables("object").iter();
+        objects.any(|object| object.text("mesh") == Some(mesh) && object.get("material").is_none())
+    }
+
     /// Returns the objects, to be changed.
     pub fn objects_mut(&mut self) -> &mut [SceneTable] {
         let objects = self.table.entries.get_mut("object");
@@ -187,10 +194,28 @@ impl SceneFile {
 
     /// Replaces what `over` gives, key by key; lights and objects as whole lists.
     ///
+    /// The view and the light that the program chose for a mesh alone are turned where `over` names the axis that is up.
+    ///
     /// In the camera, keys that exclude each other replace each other. Near and far planes that were meant for the camera
     /// below are dropped when its place changes.
     pub fn overlay(&mut self, over: SceneTable) {
         if let Some(camera) = over.table("camera") {
+            if self.source.is_none() && camera.text("up").is_some() {
+                let before = upright::turn(self.table.table("camera"));
+                // The inverse of a rotation is its transpose.
+                let turn = upright::turn(Some(camera)) * before.transpose();
+                upright::turn_default(self.table.table_mut("camera"), turn);
+                if let Some(Data::Tables(lights)) = self
+                    .table
+                    .entries
+                    .get_mut("light")
+                    .map(|value| &mut value.data)
+                {
+                    lights
+                        .iter_mut()
+                        .for_each(|light| upright::turn_default(light, turn));
+                }
+            }
             make_way(self.table.table_mut("camera"), camera);
         }
         self.table.overlay(over);

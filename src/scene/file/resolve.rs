@@ -5,17 +5,19 @@ use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
 use super::normals::{normals, note_unused};
 use super::sides::Sides;
+use super::upright::turn;
 use super::value::{Data, SceneTable};
 use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
 use super::{BUILTIN, SceneFile, shown};
 use crate::mesh::orientation::inside_out;
+use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, PolygonMesh};
 use crate::scene::of_mesh::unit;
 use crate::scene::{Culling, Light, MAX_COORDINATE, Object, Scene};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::format;
 use std::path::{Path, PathBuf};
 use std::string::String;
@@ -88,8 +90,19 @@ impl SceneFile {
         );
         // What a built-in mesh has is right, and nothing that the user stated.
         let from_files = objects.iter().zip(self.meshes());
+        // Objects that share a mesh and take the same normals share what is odd about them.
+        let mut looked_at = BTreeSet::new();
         for (object, name) in from_files.filter(|(_, name)| !name.starts_with(BUILTIN)) {
             let name = shown(name);
+            let normals = match object.normals {
+                NormalSource::Averaged => (0, 0),
+                NormalSource::Auto => (1, 0),
+                NormalSource::Given => (2, 0),
+                NormalSource::Crease(degrees) => (3, degrees.to_bits()),
+            };
+            if !looked_at.insert((Arc::as_ptr(&object.mesh), normals)) {
+                continue;
+            }
             note_unused(name, &object.mesh, object.normals, &mut notes);
             let outside = match sides.culling {
                 Culling::Back => "so that its outside is not drawn",
@@ -141,6 +154,7 @@ impl SceneFile {
     ) -> Result<Vec<Object>, SceneError> {
         let given = file.section("material", "material");
         let default = material(&given, &Material::default())?;
+        let mut over_one = Vec::new();
         if file.table.tables("object").is_empty() {
             let expected = "expected at least one [[object]]";
             let problem = "the scene has no objects";
@@ -154,27 +168,64 @@ impl SceneFile {
                 true => Some(material(&own, &default)?),
                 false => None,
             };
-            Ok((section, placement(&section)?, normals(&section)?, own))
+            let is_part = |v| (1e-12..=0.1).contains(&v);
+            let expected = "a part of the size of the mesh, 1e-12 to 0.1";
+            let weld = section.number("weld", is_part, expected)?;
+            Ok((
+                section,
+                placement(&section)?,
+                (normals(&section)?, weld),
+                own,
+            ))
         });
         let placed = placed.collect::<Result<Vec<_>, _>>()?;
-        let mut meshes: BTreeMap<(PathBuf, &str), Arc<PolygonMesh>> = BTreeMap::new();
+        // Each mesh as it was loaded, and with the default material where polygons had none, once that was needed.
+        type Known = [Option<Arc<PolygonMesh>>; 2];
+        let mut meshes: BTreeMap<(PathBuf, &str), Known> = BTreeMap::new();
         let mut objects = Vec::with_capacity(placed.len());
-        for (section, transform, normals, own) in placed {
+        let mut welded: BTreeMap<_, Arc<PolygonMesh>> = BTreeMap::new();
+        for (section, transform, (normals, weld), own) in placed {
             let spec = section.table.text("mesh").unwrap_or_default();
             let mesh = match meshes.entry((self.mesh_folder(section.table), spec)) {
-                Entry::Occupied(known) => known.get().clone(),
+                Entry::Occupied(known) => known.into_mut(),
                 Entry::Vacant(new) => {
                     let loaded = load_mesh(spec, &new.key().0);
                     let (mesh, odd) = loaded.map_err(|why| mesh_error(&section, spec, &why))?;
                     warnings.extend(odd);
-                    new.insert(mesh).clone()
+                    new.insert([Some(mesh), None])
                 }
             };
-            let own = own.or(mesh.materials().is_empty().then_some(default));
-            let mesh = match own.is_some() || given.table.entries.is_empty() {
-                true => mesh,
-                false => with_default_material(mesh, default),
+            let [Some(loaded), with_default] = mesh else {
+                unreachable!("a mesh is there once it was loaded");
             };
+            let has_default = own.is_none() && lacks_material(loaded);
+            let own = own.or(loaded.materials().is_empty().then_some(default));
+            let mesh = match own.is_some() || given.table.entries.is_empty() {
+                true => loaded.clone(),
+                false => with_default
+                    .get_or_insert_with(|| with_default_material(loaded.clone(), default))
+                    .clone(),
+            };
+            let mesh = match weld {
+                None => mesh,
+                Some(part) => {
+                    let known = welded.entry((Arc::as_ptr(&mesh), part.to_bits()));
+                    let weld = || {
+                        let mut mesh = PolygonMesh::clone(&mesh);
+                        mesh.weld(part);
+                        Arc::new(mesh)
+                    };
+                    known.or_insert_with(weld).clone()
+                }
+            };
+            // What is told is what is drawn: of [material] nothing, where no object shows it.
+            if section.has("material") {
+                let own = section.section("material", "object.material");
+                tell_over_one(&[own, given], &mut over_one);
+            }
+            if has_default {
+                tell_over_one(&[given], &mut over_one);
+            }
             let object = Object {
                 mesh,
                 transform,
@@ -191,6 +242,7 @@ impl SceneFile {
             }
             objects.push(object);
         }
+        warnings.append(&mut over_one);
         Ok(objects)
     }
 
@@ -223,7 +275,8 @@ impl SceneFile {
 /// Returns the lights, or the one that is there when none are given.
 fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
     if !file.has("light") {
-        let usual = unit(DVec3::from_array(Scene::DEFAULT_LIGHT));
+        let usual =
+            turn(file.table.table("camera")) * unit(DVec3::from_array(Scene::DEFAULT_LIGHT));
         return Ok(vec![Light::directional(usual, [1.0; 3])]);
     }
     if let Some(over) = file.sections("light", "light").nth(Scene::MAX_LIGHTS) {
@@ -268,6 +321,31 @@ fn material(section: &Section, default: &Material) -> Result<Material, SceneErro
         specular: coefficient("ks")?.unwrap_or(default.specular),
         shininess: shininess.map_or(default.shininess, |n| n as f32),
     })
+}
+
+/// Adds a warning, once, for each coefficient that is over 1 in a channel: each is that of the first table that gives it.
+fn tell_over_one(tables: &[Section], warnings: &mut Vec<String>) {
+    for key in ["ka", "kd", "ks"] {
+        let Some(section) = tables.iter().find(|section| section.has(key)) else {
+            continue;
+        };
+        let most = section.table.triple(key).map_or(0.0, DVec3::max_element);
+        if most <= 1.0 {
+            continue;
+        }
+        let warning = format!(
+            "`{}` is {most}: a surface that reflects more light than it gets; expected 0 to 1, what is over 1 is clamped at each pixel",
+            section.name(key)
+        );
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    }
+}
+
+/// True if a polygon has no material of its mesh.
+fn lacks_material(mesh: &PolygonMesh) -> bool {
+    (0..mesh.polygon_count()).any(|polygon| mesh.polygon_material(polygon).is_none())
 }
 
 /// Returns the transform from model space to world space.
@@ -341,7 +419,7 @@ fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, warnings: &
 
 /// Returns the mesh with `default` as the material of each polygon that had none.
 fn with_default_material(mut mesh: Arc<PolygonMesh>, default: Material) -> Arc<PolygonMesh> {
-    if (0..mesh.polygon_count()).any(|polygon| mesh.polygon_material(polygon).is_none()) {
+    if lacks_material(&mesh) {
         Arc::make_mut(&mut mesh).set_default_material(default);
     }
     mesh

@@ -36,6 +36,8 @@ pub enum ValueKind {
     Triple,
     /// Three numbers that may be written as one when they are equal: a colour, a coefficient, a scale.
     OneOrThree,
+    /// Three numbers, or an axis by its name.
+    Axis,
     /// Three rows of four numbers.
     Matrix,
     /// One of a few words.
@@ -67,6 +69,9 @@ impl ValueKind {
             ValueKind::Number => "a number",
             ValueKind::Triple => "three numbers [x, y, z]",
             ValueKind::OneOrThree => "one number or three in brackets",
+            ValueKind::Axis => {
+                "three numbers [x, y, z] or an axis: \"x\", \"y\", \"z\", \"-x\", \"-y\" or \"-z\""
+            }
             ValueKind::Matrix => "three rows of four numbers",
             ValueKind::Word(words) => return format!("\"{}\"", words.join("\" or \"")),
             ValueKind::Table(_) => "a table",
@@ -76,6 +81,10 @@ impl ValueKind {
         .into()
     }
 }
+
+/// The names of axes, as [`ValueKind::Axis`] takes them.
+#[doc(hidden)]
+pub const AXES: &[&str] = &["x", "y", "z", "-x", "-y", "-z"];
 
 const fn key(name: &'static str, kind: ValueKind) -> Key {
     let needed = false;
@@ -193,8 +202,10 @@ const CAMERA: &[Key] = &[
     key("eye", ValueKind::Triple),
     // The point in the middle of the picture. Default: the origin.
     key("target", ValueKind::Triple),
-    // The direction that is upward in the picture. Default: y, or away from the viewer in a view along y.
-    key("up", ValueKind::Triple),
+    // The direction that is upward in the picture. Default: y, or away from the viewer in a view along y. An axis by its name, as
+    // `"z"`, is up in the scene: default view and light, `azimuth` and `elevation` are turned with it. Three numbers are upward in
+    // the picture only.
+    key("up", ValueKind::Axis),
     // Orthographic: half of the height that is seen. Default: such that the objects fill 0.8 of the frame.
     key("half_height", ValueKind::Number),
     // Perspective: the vertical field of view in degrees, over 0 and under 180.
@@ -207,7 +218,8 @@ const CAMERA: &[Key] = &[
     key("fit", ValueKind::Number),
     // From the objects toward the eye. Default: a three-quarter view, (0.5, 0.3, 1).
     key("direction", ValueKind::Triple),
-    // Instead of `direction`: degrees around the y axis, from z toward x. Default: 0.
+    // Instead of `direction`: degrees around the y axis, from z toward x. Default: 0. Where up is z by its name: around z, from −y
+    // toward x.
     key("azimuth", ValueKind::Number),
     // Instead of `direction`: degrees above the horizon, −90 to 90. Default: 0.
     key("elevation", ValueKind::Number),
@@ -247,6 +259,8 @@ const OBJECT: &[Key] = &[
     key("normals", NORMALS),
     // Instead of `normals`: average over polygons whose normals differ by at most so many degrees, 0 to 180.
     key("crease", ValueKind::Number),
+    // Positions nearer than this part of the mesh's size are one, 1e-12 to 0.1. Default: only equal ones are.
+    key("weld", ValueKind::Number),
     // Factors, none of them 0; a negative one mirrors.
     key("scale", ValueKind::OneOrThree),
     // A rotation, or a list of them, of which the first is done first.

@@ -1,7 +1,7 @@
 //! Values of a scene file, and where each one was given: read from TOML by the list of keys, and written again.
 
 use super::diagnostics::{Origin, SceneError};
-use super::schema::{Key, SCENE, ValueKind};
+use super::schema::{AXES, Key, SCENE, ValueKind};
 use crate::number::suggest;
 use glam::DVec3;
 use std::borrow::ToOwned;
@@ -251,7 +251,10 @@ fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
         (ValueKind::OneOrThree, DeValue::Integer(_) | DeValue::Float(_)) => {
             Ok(Data::Triple([number(value)?; 3]))
         }
-        (ValueKind::OneOrThree | ValueKind::Triple, DeValue::Array(items)) => {
+        (ValueKind::Axis, DeValue::String(word)) if AXES.contains(&&**word) => {
+            Ok(Data::Text(word.clone().into_owned()))
+        }
+        (ValueKind::OneOrThree | ValueKind::Triple | ValueKind::Axis, DeValue::Array(items)) => {
             list(value, items, &kind.expected(), number).map(Data::Triple)
         }
         (ValueKind::Matrix, DeValue::Array(rows)) => {

@@ -2,9 +2,10 @@
 
 use super::check::{Section, is_coordinate, is_position};
 use super::diagnostics::{Origin, SceneError};
+use super::upright::turn;
 use crate::scene::of_mesh::unit;
 use crate::scene::{Camera, Fit, Projection, Scene};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::format;
 use std::string::String;
 use std::vec::Vec;
@@ -34,10 +35,11 @@ impl<'a> Viewpoint<'a> {
         let is_part = |v| (1e-3..=100.0).contains(&v);
         let fraction = section.number("fit", is_part, "a fraction of the picture, 0.001 to 100")?;
         let (near, far) = planes(&section)?;
-        let (fixed, direction) = stand(&section)?;
+        let turn = turn(Some(section.table));
+        let (fixed, direction) = stand(&section, turn)?;
         let fit = Fit {
             direction,
-            up: up(&section, direction)?,
+            up: up(&section, direction, turn)?,
             fraction: fraction.unwrap_or(Scene::DEFAULT_FIT),
             fovy,
             aspect,
@@ -152,8 +154,9 @@ fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     }
 }
 
-/// Returns eye and target, unless the camera is fitted, and the direction toward the eye.
-fn stand(section: &Section) -> Result<(Option<[DVec3; 2]>, DVec3), SceneError> {
+/// Returns eye and target, unless the camera is fitted, and the direction toward the eye; angles and the default direction are
+/// turned.
+fn stand(section: &Section, turn: DMat3) -> Result<(Option<[DVec3; 2]>, DVec3), SceneError> {
     if let Some(eye) = section.point("eye")? {
         let target = section.point("target")?.unwrap_or(DVec3::ZERO);
         if eye == target {
@@ -171,9 +174,10 @@ fn stand(section: &Section) -> Result<(Option<[DVec3; 2]>, DVec3), SceneError> {
         let (sin_a, cos_a) = libm::sincos(azimuth(section)?);
         let elevation = section.angle("elevation", 90.0)?.unwrap_or(0.0);
         let (sin_e, cos_e) = libm::sincos(elevation);
-        return Ok((None, DVec3::new(cos_e * sin_a, sin_e, cos_e * cos_a)));
+        let direction = DVec3::new(cos_e * sin_a, sin_e, cos_e * cos_a);
+        return Ok((None, turn * direction));
     }
-    let usual = || unit(DVec3::from_array(Scene::DEFAULT_DIRECTION));
+    let usual = || turn * unit(DVec3::from_array(Scene::DEFAULT_DIRECTION));
     let direction = section.direction("direction")?;
     Ok((None, direction.unwrap_or_else(usual)))
 }
@@ -184,18 +188,21 @@ fn azimuth(section: &Section) -> Result<f64, SceneError> {
     Ok(section.angle("azimuth", 36_000.0)?.unwrap_or(0.0))
 }
 
-/// Returns the upward direction: the given one, else y, else, in a view along y, the one of a camera tilted there.
-fn up(section: &Section, toward_eye: DVec3) -> Result<DVec3, SceneError> {
+/// Returns the upward direction: the given one, else that of a turned world, y without a turn; else, in a view along it, the one of a
+/// camera tilted there.
+fn up(section: &Section, toward_eye: DVec3, turn: DMat3) -> Result<DVec3, SceneError> {
+    let upright = turn * DVec3::Y;
     match section.direction("up")? {
         Some(up) if toward_eye.cross(up).length() < LEAST_TILT => {
             let expected = "expected a direction across it";
             Err(section.error("up", "is parallel to the line of sight", expected))
         }
         Some(up) => Ok(up),
-        None if toward_eye.cross(DVec3::Y).length() >= LEAST_TILT => Ok(DVec3::Y),
+        None if toward_eye.cross(upright).length() >= LEAST_TILT => Ok(upright),
         None => {
             let (sin, cos) = libm::sincos(azimuth(section)?);
-            Ok(DVec3::new(-sin, 0.0, -cos) * toward_eye.y.signum())
+            let tilted = DVec3::new(-sin, 0.0, -cos) * toward_eye.dot(upright).signum();
+            Ok(turn * tilted)
         }
     }
 }

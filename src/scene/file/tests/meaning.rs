@@ -606,3 +606,107 @@ fn camera_flags_over_a_file() {
         Projection::Orthographic { half_height: 3.0 }
     );
 }
+
+/// An axis by its name turns all that the program chooses; three numbers turn the picture only.
+#[test]
+fn up_by_name_turns_default_view_and_light_and_up_by_numbers_does_not() {
+    let at_rest = resolve(&with_object("")).scene;
+    let toward = |scene: &Scene| match scene.lights[0].place {
+        Place::Infinite(toward) => toward,
+        Place::Local(at) => panic!("{at}"),
+    };
+    let unit = DVec3::from_array(Scene::DEFAULT_DIRECTION).normalize();
+    for (name, up) in [
+        ("x", DVec3::X),
+        ("y", DVec3::Y),
+        ("z", DVec3::Z),
+        ("-x", -DVec3::X),
+        ("-y", -DVec3::Y),
+        ("-z", -DVec3::Z),
+    ] {
+        let turned = resolve(&with_object(&format!("[camera]\nup = '{name}'"))).scene;
+        let camera = turned.camera;
+        assert_eq!(camera.up, up);
+        assert!((camera.view().dot(up) - unit.y).abs() < 1e-15, "{name}");
+        // Light and view turn together: each lies to the other, and to up, as before.
+        let angle = |scene: &Scene| {
+            let [view, toward] = [scene.camera.view(), toward(scene)];
+            [
+                view.dot(toward),
+                scene.camera.up.dot(toward),
+                scene.camera.up.cross(view).dot(toward),
+            ]
+        };
+        for (a, b) in angle(&turned).into_iter().zip(angle(&at_rest)) {
+            assert!((a - b).abs() < 1e-15, "{name}: {a} {b}");
+        }
+        // A turntable goes around it, from above, too.
+        for (view, expected) in [
+            ("azimuth = 0\nelevation = 90", up),
+            ("elevation = -90", -up),
+        ] {
+            let text = with_object(&format!("[camera]\nup = '{name}'\n{view}"));
+            let camera = resolve(&text).scene.camera;
+            assert!(near(camera.view(), expected), "{name} {view}: {camera:?}");
+            assert!(camera.axes().iter().all(|axis| axis.is_finite()));
+        }
+        let [x, y, z] = up.to_array();
+        let numbers = format!("[camera]\nup = [{x}, {y}, {z}]");
+        let told = resolve(&with_object(&numbers)).scene;
+        assert_eq!((told.camera.up, toward(&told)), (up, toward(&at_rest)));
+        assert!(near(told.camera.view(), at_rest.camera.view()));
+    }
+    // What a scene states stays.
+    let stated = "[camera]\nup = 'z'\ndirection = [1, 1, 1]\n[[light]]\ndirection = [0, 1, 0]";
+    let stated = resolve(&with_object(stated)).scene;
+    assert!(near(stated.camera.view(), DVec3::ONE.normalize()));
+    assert_eq!(toward(&stated), DVec3::Y);
+}
+
+#[test]
+fn positions_that_are_nearly_one_are_welded_where_an_object_asks_for_it() {
+    let mut apart = MeshBuilder::new(vec![
+        Vec3::ZERO,
+        Vec3::X,
+        Vec3::Y,
+        Vec3::new(1.0 + 1e-5, 0.0, 0.0),
+        Vec3::new(0.0, 1.0, 1e-5),
+        Vec3::new(1.0, 1.0, 0.5),
+    ]);
+    apart.polygon(&[0, 1, 2]).polygon(&[3, 5, 4]);
+    let apart = Arc::new(apart.finish().expect("a mesh"));
+    let text = "[[object]]\nmesh = 'a.obj'\nweld = 1e-4\n[[object]]\nmesh = 'a.obj'\n\
+                [[object]]\nmesh = 'a.obj'\nweld = 1e-6\n[[object]]\nmesh = 'a.obj'\nweld = 1e-4\n";
+    let file = SceneFile::parse(text, "scene.toml").expect("valid");
+    let load = |_: &str, _: &std::path::Path| Ok((apart.clone(), Vec::new()));
+    let scene = file.resolve(load).expect("valid").scene;
+    let [welded, same, other, again] = [0, 1, 2, 3].map(|i| &scene.objects[i].mesh);
+    assert_eq!(welded.positions()[3..5], apart.positions()[1..3]);
+    assert_eq!(welded.positions()[5], apart.positions()[5]);
+    assert_eq!(same.positions(), apart.positions());
+    assert_eq!(other.positions(), apart.positions());
+    assert!(Arc::ptr_eq(welded, again), "welded once");
+}
+
+/// Coefficients over 1 are told where something is drawn in them, under the name that the user gave them.
+#[test]
+fn coefficients_over_one_are_told_where_they_are_drawn() {
+    let told = |text: &str| resolve(text).warnings;
+    let starts = |text: &str, name: &str| {
+        let warnings = told(text);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(
+            warnings[0].starts_with(&format!("`{name}` is 255:")),
+            "{warnings:?}"
+        );
+    };
+    starts(&with_object("[material]\nkd = [255, 0, 0]"), "material.kd");
+    let own = "[[object]]\nmesh = 'builtin:cube'\nmaterial = { KEYS }\n";
+    let own = |keys: &str| own.replace("KEYS", keys);
+    starts(&own("ks = 255"), "object.material.ks");
+    // Every object has its own: that of the scene is drawn where they leave it.
+    let scene = "[material]\nka = 255\n";
+    starts(&format!("{scene}{}", own("kd = 0.5")), "material.ka");
+    assert!(told(&format!("{scene}{}", own("ka = 1"))).is_empty());
+    assert!(told(&with_object("[material]\nka = 1\nkd = 1\nks = 1")).is_empty());
+}

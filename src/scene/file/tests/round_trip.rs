@@ -1,6 +1,6 @@
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::schema::{Key, SCENE, ValueKind};
+use crate::scene::file::schema::{AXES, Key, SCENE, ValueKind};
 use crate::scene::file::value::{Data, SceneTable};
 use std::format;
 use std::string::String;
@@ -54,7 +54,12 @@ impl Random {
             ValueKind::OneOrThree if self.next().is_multiple_of(2) => {
                 Data::Triple([self.number(); 3])
             }
-            ValueKind::Triple | ValueKind::OneOrThree => Data::Triple(self.triple()),
+            ValueKind::Axis if self.next().is_multiple_of(2) => {
+                Data::Text(self.choice(AXES).into())
+            }
+            ValueKind::Triple | ValueKind::OneOrThree | ValueKind::Axis => {
+                Data::Triple(self.triple())
+            }
             ValueKind::Matrix => Data::Matrix([0; 3].map(|_| [0; 4].map(|_| self.number()))),
             ValueKind::Word(words) => Data::Text(self.choice(words).into()),
             ValueKind::Table(keys) => Data::Table(self.table(keys)),

@@ -1,0 +1,131 @@
+//! Hints about mesh files: what of a mesh may look otherwise than was meant, and the flag to try.
+
+use super::text::counted;
+use fastphong::mesh::PolygonMesh;
+use fastphong::mesh::edges::EdgeCounts;
+use fastphong::mesh::vertex_normals::{NormalSource, NormalUse};
+use fastphong::scene::Object;
+
+/// The angle in degrees from which on an edge is taken for one that was meant to be sharp.
+const CREASE: f64 = 40.0;
+/// The part of the size of a mesh within which two positions are taken for one that was rounded in two ways: seven digits are what
+/// programs write of a number in 32 bits.
+const ROUNDED: f64 = 1e-6;
+
+/// Returns hints about the normals of an object, whose mesh file is called `name`.
+pub fn hints(name: &str, object: &Object) -> Vec<String> {
+    let mesh = &*object.mesh;
+    let used = NormalUse::of(mesh, object.normals);
+    let counts = EdgeCounts::of(mesh, CREASE, ROUNDED);
+    let mut hints = Vec::new();
+    // Who asked for averages gets them.
+    let is_left_open = object.normals == NormalSource::Auto;
+    if is_left_open && used.given == 0 && !mesh.states_smoothing() && counts.sharp > 0 {
+        let edges = counted(counts.sharp, "edge that turns", "edges that turn");
+        hints.push(format!(
+            "{name}: has neither normals (vn) nor smoothing groups (s): normals are averaged, over {edges} by more than {CREASE} \
+             degrees too; --normals crease={CREASE} keeps these sharp"
+        ));
+    }
+    if counts.closing > 0 {
+        let edges = counted(counts.closing, "open edge", "open edges");
+        hints.push(format!(
+            "{name}: {edges} would close if positions that differ by rounding were one: --weld {ROUNDED:e}"
+        ));
+    }
+    if counts.seams > 0 && used.averaged > 0 {
+        let edges = counted(counts.seams, "edge", "edges");
+        hints.push(format!(
+            "{name}: objects (o) of the file meet in {edges} of a smooth surface: normals are not averaged over them, which shows as \
+             seams; without the `o` lines they are"
+        ));
+    }
+    hints
+}
+
+/// Guesses from the bounds of a mesh that it lies on its side, and says how to raise it.
+pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<String> {
+    /// The part of the size that counts as nothing.
+    const NEAR: f64 = 1e-3;
+    let (low, high) = mesh.bounds()?;
+    let (low, high) = (low.to_array(), high.to_array());
+    let sides = [0, 1, 2].map(|i| high[i] - low[i]);
+    let size = sides.into_iter().fold(0.0, f64::max);
+    let stands = |i: usize| low[i].abs() <= NEAR * size && sides[i] > NEAR * size;
+    let hangs = |i: usize| high[i].abs() <= NEAR * size && sides[i] > NEAR * size;
+    // On both sides of 0, and neither much longer than the other.
+    let is_around = |i: usize| f64::min(-low[i], high[i]) > 0.1 * sides[i];
+    let names = ["x", "y", "z"];
+    for up in [2, 0] {
+        let others = (0..3).filter(|other| *other != up);
+        if others.clone().all(is_around) && (stands(up) || hangs(up)) {
+            let (side, sign) = if stands(up) {
+                ("above", "")
+            } else {
+                ("below", "-")
+            };
+            let name = names[up];
+            return Some(format!(
+                "lies {side} the plane {name} = 0, and around 0 in the others: if {sign}{name} is up, --up {sign}{name}"
+            ));
+        }
+    }
+    let [x, y, z] = sides;
+    if stands(1) {
+        return None;
+    }
+    if z >= 2.0 * x.max(y) {
+        return Some("is longest along z: if it stands along z, --up z".to_owned());
+    }
+    let is_ground = 4.0 * z <= x.min(y) && is_around(0) == is_around(1) && stands(0) == stands(1);
+    is_ground.then(|| "is flat along z: if it is a ground, --up z".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fastphong::mesh::MeshBuilder;
+    use glam::Vec3;
+
+    /// A mesh with these bounds.
+    fn between(low: [f32; 3], high: [f32; 3]) -> PolygonMesh {
+        let corner = |i: usize| {
+            let pick = |axis: usize| {
+                if i >> axis & 1 == 0 {
+                    low[axis]
+                } else {
+                    high[axis]
+                }
+            };
+            Vec3::new(pick(0), pick(1), pick(2))
+        };
+        let mut builder = MeshBuilder::new((0..8).map(corner).collect());
+        builder
+            .polygon(&[0, 1, 7])
+            .polygon(&[0, 2, 7])
+            .polygon(&[0, 4, 7]);
+        builder.finish().expect("a mesh")
+    }
+
+    #[test]
+    fn meshes_that_stand_on_another_plane_than_y_are_told() {
+        let told = |low, high| lies_on_its_side(&between(low, high));
+        let up = |low, high, flag: &str| {
+            let hint = told(low, high).expect("a hint");
+            assert!(hint.ends_with(flag), "{hint}");
+        };
+        up([-2.0, -1.0, 0.0], [2.0, 1.0, 1.5], "--up z");
+        up([-2.0, -1.0, -1.5], [2.0, 1.0, 0.0], "--up -z");
+        up([0.0, -1.0, -1.0], [3.0, 1.0, 1.0], "--up x");
+        up([-1.0, -1.0, -5.0], [1.0, 1.0, 5.0], "--up z");
+        up([0.0, 0.0, -0.2], [8.0, 8.0, 0.3], "--up z");
+        // A tower, a door and a car that stand on y = 0, a ball, a cube beside 0.
+        assert_eq!(told([-1.0, 0.0, -1.0], [1.0, 5.0, 1.0]), None);
+        assert_eq!(told([-0.5, 0.0, -0.05], [0.5, 2.0, 0.05]), None);
+        assert_eq!(told([-1.0, 0.0, -2.0], [1.0, 1.5, 2.0]), None);
+        assert_eq!(told([-1.0; 3], [1.0; 3]), None);
+        assert_eq!(told([0.0; 3], [1.0; 3]), None);
+        let nothing = MeshBuilder::new(Vec::new()).finish().expect("a mesh");
+        assert_eq!(lies_on_its_side(&nothing), None);
+    }
+}
