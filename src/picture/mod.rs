@@ -37,17 +37,21 @@ pub type LinearPicture = Picture<[f32; 4]>;
 
 impl<T: Copy> Picture<T> {
     /// Makes a picture of `width` × `height` pixels, all `fill`.
+    ///
+    /// # Panics
+    /// When there are more of them than memory can hold.
     pub fn new(width: usize, height: usize, fill: T) -> Self {
         Picture {
             width,
             height,
-            pixels: vec![fill; width * height],
+            // Too many to be counted are more than `vec!` allows.
+            pixels: vec![fill; width.saturating_mul(height)],
         }
     }
 
     /// Makes a picture from `pixels`, row by row from the top; `None` unless there are `width` × `height` of them.
     pub fn from_pixels(width: usize, height: usize, pixels: Vec<T>) -> Option<Self> {
-        (pixels.len() == width * height).then_some(Picture {
+        (width.checked_mul(height) == Some(pixels.len())).then_some(Picture {
             width,
             height,
             pixels,

@@ -37,13 +37,13 @@ pub struct Camera {
 impl Camera {
     /// Returns the unit vector `V` toward the eye: one for the whole scene, under perspective too (L21 1).
     pub fn view(&self) -> DVec3 {
-        (self.eye - self.target).normalize()
+        in_range(self.eye - self.target).normalize()
     }
 
     /// Returns right, up and forward unit vectors: a right-handed camera looking along `forward`.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = -self.view();
-        let right = forward.cross(self.up).normalize();
+        let right = forward.cross(in_range(self.up)).normalize();
         [right, right.cross(forward), forward]
     }
 
@@ -76,5 +76,14 @@ impl Camera {
             }
         };
         DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
+    }
+}
+
+/// Returns a vector of the same direction whose square neither overflows nor vanishes: the vector itself, if it has such a square.
+fn in_range(vector: DVec3) -> DVec3 {
+    let size = vector.abs().max_element();
+    match (1e-100..=1e100).contains(&size) {
+        true => vector,
+        false => vector / size,
     }
 }

@@ -74,7 +74,7 @@ impl Scene {
 }
 
 /// Returns the unit vector along `vector`, which is scaled first: squares neither overflow nor vanish.
-pub(super) fn unit(vector: DVec3) -> DVec3 {
+pub(crate) fn unit(vector: DVec3) -> DVec3 {
     (vector / vector.abs().max_element()).normalize()
 }
 
@@ -139,8 +139,8 @@ mod tests {
         };
         for method in METHODS.iter().filter(is_for) {
             assert_eq!(
-                method.variant().render(&a),
-                method.variant().render(&b),
+                method.variant().render(&a).expect("a method for the frame"),
+                method.variant().render(&b).expect("a method for the frame"),
                 "{method:?}"
             );
         }

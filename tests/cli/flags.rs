@@ -232,7 +232,10 @@ fn invalid_flags_are_rejected_by_name() {
             &["`--far` is 1: expected more than near = 5"],
         ),
         ("--light 0,0,0", &["`--light` has no length"]),
-        ("--light 1,0,0,-1", &["`--light` is -1: expected 0 or more"]),
+        (
+            "--light 1,0,0,-1",
+            &["`--light` is -1: expected 0 or more, up to 3.4e38"],
+        ),
         ("--light 1,0", &["expected a direction x,y,z"]),
         ("--light 1,0,0 --no-lights", &["cannot be used with"]),
         ("--light-at 0,0", &["expected a position x,y,z"]),
@@ -242,7 +245,7 @@ fn invalid_flags_are_rejected_by_name() {
         ),
         (
             "--light-at 0,0,5,-1",
-            &["`--light-at` is -1: expected 0 or more"],
+            &["`--light-at` is -1: expected 0 or more, up to 3.4e38"],
         ),
         ("--light-at 0,0,5 --no-lights", &["cannot be used with"]),
         (
@@ -251,11 +254,11 @@ fn invalid_flags_are_rejected_by_name() {
         ),
         (
             "--light-at 0,0,5 --attenuation -2",
-            &["`--attenuation` is -2: expected 0 or more"],
+            &["`--attenuation` is -2: expected 0 or more, up to 3.4e38"],
         ),
         (
             "--light-at 0,0,5 --attenuation NaN",
-            &["`--attenuation` is NaN: expected 0 or more"],
+            &["`--attenuation` is NaN: expected 0 or more, up to 3.4e38"],
         ),
         (
             "--attenuation 1",
@@ -294,11 +297,14 @@ fn invalid_flags_are_rejected_by_name() {
             "--near 3 --far 3",
             &["`--far` is 3: expected more than near = 3"],
         ),
-        ("--ks -1", &["`--ks` is -1: expected 0 or more"]),
+        (
+            "--ks -1",
+            &["`--ks` is -1: expected 0 or more, up to 3.4e38"],
+        ),
         ("--kd 1,2", &["expected one number, or three r,g,b"]),
         (
             "--shininess -2",
-            &["`--shininess` is -2: expected 0 or more"],
+            &["`--shininess` is -2: expected 0 or more, up to 3.4e38"],
         ),
         ("--background 2", &["`--background` is 2: expected 0 to 1"]),
         (

@@ -1,7 +1,7 @@
 //! The view: from a position in the world to clip space, to the planes that it is beyond, to pixel coordinates.
 
 use super::clip::Plane;
-use crate::frame::{Frame, FrameError, ScreenVertex, SubPixel};
+use crate::frame::{Frame, FrameError, ScreenVertex, SubPixel, guard};
 use crate::scene::{
     Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
 };
@@ -50,16 +50,16 @@ impl<'a> View<'a> {
         if ![1, 2, 4, 8].contains(&samples) || !sides.contains(&width) || !sides.contains(&height) {
             return Err(FrameError::Samples { samples });
         }
+        guard::camera(&scene.camera)?;
         let clip_matrix = scene
             .camera
             .clip_matrix(f64::from(scene.width) / f64::from(scene.height));
-        let ordered = scene.camera.near < scene.camera.far;
-        if !clip_matrix.is_finite() || !scene.camera.view().is_finite() || !ordered {
-            return Err(FrameError::Camera);
+        if !clip_matrix.is_finite() {
+            return Err(guard::no_depth(scene.camera.far));
         }
         let (x, y) = (DVec4::X, DVec4::Y);
         let (w_x, w_y) = (DVec4::W * reach(width), DVec4::W * reach(height));
-        let guard = |normal| Plane {
+        let band = |normal| Plane {
             normal,
             in_front: true,
         };
@@ -68,11 +68,11 @@ impl<'a> View<'a> {
                 normal: DVec4::Z,
                 in_front: false,
             },
-            guard(DVec4::W - DVec4::Z),
-            guard(w_x + x),
-            guard(w_x - x),
-            guard(w_y + y),
-            guard(w_y - y),
+            band(DVec4::W - DVec4::Z),
+            band(w_x + x),
+            band(w_x - x),
+            band(w_y + y),
+            band(w_y - y),
         ];
         let per_sample = |buffer: DepthBuffer| buffer.source == DepthSource::PerSample;
         let needs_inv_w = scene.interpolation == Interpolation::Perspective
