@@ -156,7 +156,7 @@ impl Flag {
             _ => return Ok(vec![(key, data(key, text)?)]),
         };
         let expected = match self.name {
-            "resolution" => "WIDTHxHEIGHT, for example 640x480",
+            "resolution" => "WIDTHxHEIGHT, 1 to 16384 each, for example 640x480",
             "view" => "two numbers azimuth,elevation",
             "light" => "a direction x,y,z, with an intensity or a colour r,g,b after it",
             "light-at" => "a position x,y,z, with an intensity or a colour r,g,b after it",

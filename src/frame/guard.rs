@@ -7,7 +7,7 @@
 use super::{FrameError, FrameItem, PlacedModel};
 use crate::mesh::Material;
 use crate::mesh::vertex_normals::NormalSource;
-use crate::scene::of_mesh::unit as unit_of;
+use crate::scene::direction::{self, as_unit, is_unit};
 use crate::scene::ranges::{
     COORDINATE, CREASE, DISTANCE, FOVY, HALF_HEIGHT, NEAR, NumberRange, SIZE, STRENGTH, TILT,
     VOLUME,
@@ -30,13 +30,6 @@ const NOT_ZERO: NumberRange = NumberRange::new(
     f64::INFINITY,
     "a direction: not all numbers 0",
 );
-
-/// Of the square of a unit vector's length: by how much it may differ from 1.
-///
-/// A vector that was divided by its length in `f32` stays as it is, to the bit. Its square came of a product and two sums, 3
-/// roundings of 2⁻²⁴, of which the root leaves half; root, reciprocal and product are 3 more. So the length is off by 4.5 of these,
-/// and its square by 9, which are less than 16.
-const UNIT: f64 = 1.0 / (1 << 20) as f64;
 
 /// Checks a number.
 pub(super) fn number(
@@ -80,26 +73,12 @@ pub(super) fn direction(
     number(item, length, longest, &NOT_ZERO)
 }
 
-/// True if a vector is a unit vector but for rounding.
-fn is_unit(vector: DVec3) -> bool {
-    (vector.length_squared() - 1.0).abs() <= UNIT
-}
-
-/// Returns the unit vector along `vector`: itself where it is one but for rounding, or has no direction.
-pub(super) fn wide_unit(vector: DVec3) -> DVec3 {
-    let has_direction = vector.is_finite() && vector != DVec3::ZERO;
-    match is_unit(vector) || !has_direction {
-        true => vector,
-        false => unit_of(vector),
-    }
-}
-
-/// Returns the unit vector along `vector`, as [`wide_unit`] does.
+/// Returns the unit vector along `vector`: itself, to the bit, where it is one but for rounding, or has no direction.
 pub(crate) fn unit(vector: [f32; 3]) -> [f32; 3] {
     let wide = DVec3::from_array(vector.map(f64::from));
     match is_unit(wide) {
         true => vector,
-        false => wide_unit(wide).as_vec3().to_array(),
+        false => as_unit(wide).as_vec3().to_array(),
     }
 }
 
@@ -122,7 +101,7 @@ pub(super) fn camera(camera: &Camera) -> Checked {
     let different = NumberRange::new(f64::from_bits(1), f64::INFINITY, "two different points");
     let name = "the distance from the eye to the target";
     number(ITEM, name, apart, &different)?;
-    let tilt = camera.view().cross(unit_of(camera.up)).length();
+    let tilt = camera.view().cross(direction::unit(camera.up)).length();
     let name = "the sine of the angle between up and the line of sight";
     number(ITEM, name, tilt, &TILT)?;
     match camera.projection {

@@ -1,5 +1,6 @@
 //! The camera: from world space to clip space, and the one view vector of the scene.
 
+use super::direction::as_unit;
 use glam::{DMat4, DVec3, DVec4};
 
 /// A way to fold depth onto the picture.
@@ -24,7 +25,7 @@ pub struct Camera {
     pub eye: DVec3,
     /// The point in the middle of the picture.
     pub target: DVec3,
-    /// The direction that is upward in the picture; not parallel to the line of sight.
+    /// The direction that is upward in the picture, of any length; not parallel to the line of sight.
     pub up: DVec3,
     /// Orthographic or perspective.
     pub projection: Projection,
@@ -43,7 +44,7 @@ impl Camera {
     /// Returns right, up and forward unit vectors: a right-handed camera looking along `forward`.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = -self.view();
-        let right = forward.cross(in_range(self.up)).normalize();
+        let right = forward.cross(as_unit(self.up)).normalize();
         [right, right.cross(forward), forward]
     }
 

@@ -2,12 +2,13 @@
 
 mod camera;
 mod camera_fit;
+pub(crate) mod direction;
 #[cfg(feature = "io")]
 pub mod file;
 #[cfg(feature = "io")]
 pub mod input;
 mod lighting;
-pub(crate) mod of_mesh;
+mod of_mesh;
 #[doc(hidden)]
 pub mod orbit;
 mod power;

@@ -1,5 +1,6 @@
 //! The scene that a mesh alone gets.
 
+use super::direction::unit;
 use super::{Camera, Fit, Light, Object, Projection, Scene};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, PolygonMesh};
@@ -71,11 +72,6 @@ impl Scene {
             ..Scene::new(camera)
         }
     }
-}
-
-/// Returns the unit vector along `vector`, which is scaled first: squares neither overflow nor vanish.
-pub(crate) fn unit(vector: DVec3) -> DVec3 {
-    (vector / vector.abs().max_element()).normalize()
 }
 
 #[cfg(test)]

@@ -349,3 +349,65 @@ fn invalid_flags_are_rejected_by_name() {
         .run("render builtin:cube -v -q -o out.png")
         .refused(&["cannot be used with"]);
 }
+
+/// What a message says is expected holds: a number in the range that it names is not refused, and the number is shown as it was
+/// typed.
+#[test]
+fn ranges_in_messages_are_true_and_large_numbers_have_exponents() {
+    let folder = Folder::new();
+    for (command, expected) in [
+        (
+            "render builtin:cube --shininess inf -o out.png",
+            "`--shininess` is inf: expected 0 or more, up to 3.4e38",
+        ),
+        (
+            "render builtin:cube --ambient 1e39 -o out.png",
+            "`--ambient` is 1e39: expected 0 or more, up to 3.4e38",
+        ),
+        (
+            "render builtin:cube --light 1,0,0,1e39 -o out.png",
+            "`--light` is 1e39: expected 0 or more, up to 3.4e38",
+        ),
+        (
+            "render builtin:cube --far 1e300 -o out.png",
+            "`--far` is 1e300: expected numbers between -1e16 and 1e16",
+        ),
+        (
+            "render builtin:cube --fovy 30 --near 1e20 -o out.png",
+            "`--near` is 1e20: expected a number over 0 (up to 1e16)",
+        ),
+        (
+            "render builtin:cube --half-height 1e300 -o out.png",
+            "`--half-height` is 1e300: expected a number over 0 (1e-100 to 1e100)",
+        ),
+        (
+            "render builtin:cube --samples 99999999999999999999 -o out.png",
+            "expected a whole number of up to 18 digits",
+        ),
+        (
+            "render builtin:cube --resolution 99999999999999999999x1 -o out.png",
+            "expected WIDTHxHEIGHT, 1 to 16384 each",
+        ),
+        (
+            "render builtin:cube --aov checkerboard --square 1e300 -o out.png",
+            "expected a length in world units: a number over 0 (1e-15 to 1e15)",
+        ),
+        (
+            "compare builtin:cube --time-budget 1e300",
+            "expected seconds: a number from 0 to 1000000",
+        ),
+        (
+            "diff a.png b.png -o map.png --scale 1e300",
+            "expected grey levels: a number over 0 (1e-6 to 1e6)",
+        ),
+    ] {
+        folder.run(command).refused(&[expected]);
+    }
+    for flags in ["--shininess 3.3e38", "--half-height 1e-90 --cull none"] {
+        folder
+            .run(&format!(
+                "render builtin:cube --size 4x4 {flags} -o out.png"
+            ))
+            .done();
+    }
+}

@@ -103,7 +103,7 @@ fn what_flags_refuse_a_scene_refuses_by_the_item_and_the_number() {
                 let vertex = s.objects[0].mesh.positions()[0].as_dvec3();
                 s.lights[1].place = Place::Local(vertex);
             },
-            "light 1 stands at a vertex, (0, 1, 0)",
+            "light 1 stands at a vertex, (0, -1, 0)",
         ),
         (
             |s| s.lights = vec![s.lights[0]; 65],

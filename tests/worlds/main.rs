@@ -147,5 +147,5 @@ fn both_doors_refuse_and_draw_the_same_scenes() {
     println!("{worlds} worlds: {refused} refused, {drawn} drawn, {equal} equal to the bit");
     assert_none(&failures);
     let worlds = worlds as usize;
-    assert!(10 * refused > worlds && 5 * drawn > worlds && 20 * equal > worlds);
+    assert!(10 * refused > worlds && 2 * equal > worlds);
 }

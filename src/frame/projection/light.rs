@@ -1,7 +1,7 @@
 //! The light on a frame's materials.
 
-use crate::frame::guard::wide_unit;
 use crate::mesh::Material;
+use crate::scene::direction::as_unit;
 use crate::scene::{Light, Lighting, Place, Scene};
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -12,7 +12,7 @@ impl Scene {
     fn lights_from(&self, origin: DVec3) -> Vec<Light> {
         let from_origin = |light: &Light| Light {
             place: match light.place {
-                Place::Infinite(to) => Place::Infinite(wide_unit(to)),
+                Place::Infinite(to) => Place::Infinite(as_unit(to)),
                 Place::Local(p) => Place::Local(p - origin),
             },
             ..*light

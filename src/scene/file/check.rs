@@ -6,7 +6,7 @@ use super::value::{Data, SceneTable};
 use crate::number::Written;
 use crate::picture::Rgb;
 use crate::scene::Scene;
-use crate::scene::of_mesh::unit;
+use crate::scene::direction::unit;
 use crate::scene::ranges::{COORDINATE, NumberRange, STRENGTH};
 use glam::DVec3;
 use std::borrow::ToOwned;

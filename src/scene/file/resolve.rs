@@ -11,7 +11,7 @@ use super::{BUILTIN, SceneFile, shown};
 use crate::mesh::orientation::inside_out;
 use crate::mesh::{Material, PolygonMesh};
 use crate::number::Written;
-use crate::scene::of_mesh::unit;
+use crate::scene::direction::unit;
 use crate::scene::ranges::{COORDINATE, NumberRange, PIXEL, SIZE, STRENGTH, VOLUME};
 use crate::scene::{Culling, Light, Object, Scene, volume};
 use glam::{DAffine3, DMat3, DQuat, DVec3};

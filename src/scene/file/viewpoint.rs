@@ -3,7 +3,7 @@
 use super::check::Section;
 use super::diagnostics::{Origin, SceneError};
 use crate::number::Written;
-use crate::scene::of_mesh::unit;
+use crate::scene::direction::unit;
 use crate::scene::ranges::{COORDINATE, DISTANCE, FOVY, HALF_HEIGHT, NEAR, NumberRange, TILT};
 use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::DVec3;
