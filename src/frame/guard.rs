@@ -227,7 +227,7 @@ pub(super) fn object(index: usize, object: &Object) -> Checked {
         "the size that its transform gives to y",
         "the size that its transform gives to z",
     ];
-    numbers(item, names, columns.map(DVec3::length), &SIZE)?;
+    numbers(item, names, columns.map(direction::length), &SIZE)?;
     let name = "the volume that its transform leaves of a cube";
     number(item, name, volume(linear), &VOLUME)?;
     let names = [

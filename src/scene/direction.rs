@@ -1,4 +1,4 @@
-//! Directions: unit vectors along vectors of any length.
+//! Directions and lengths of vectors of any size.
 
 use glam::DVec3;
 
@@ -8,6 +8,14 @@ use glam::DVec3;
 /// of 2⁻²⁴, of which the root leaves half; root, reciprocal and product are 3 more. So the length is off by 4.5 of these, and its
 /// square by 9, which are less than 16.
 const ROUNDING: f64 = 1.0 / (1 << 20) as f64;
+
+/// Returns the length of a vector, whose squares neither overflow nor vanish.
+pub(crate) fn length(vector: DVec3) -> f64 {
+    match vector.abs().max_element() {
+        size if size > 0.0 && size.is_finite() => size * (vector / size).length(),
+        _ => vector.length(),
+    }
+}
 
 /// Returns the unit vector along `vector`, which is scaled first: squares neither overflow nor vanish.
 pub(crate) fn unit(vector: DVec3) -> DVec3 {

@@ -11,7 +11,7 @@ use super::{BUILTIN, SceneFile, shown};
 use crate::mesh::orientation::inside_out;
 use crate::mesh::{Material, PolygonMesh};
 use crate::number::Written;
-use crate::scene::direction::unit;
+use crate::scene::direction::{length, unit};
 use crate::scene::ranges::{COORDINATE, NumberRange, PIXEL, SIZE, STRENGTH, VOLUME};
 use crate::scene::{Culling, Light, Object, Scene, volume};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -285,7 +285,7 @@ fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, Scene
     }
     let column = |i: usize| DVec3::new(rows[0][i], rows[1][i], rows[2][i]);
     let linear = DMat3::from_cols(column(0), column(1), column(2));
-    let sizes = [0, 1, 2].map(|i| column(i).length());
+    let sizes = [0, 1, 2].map(|i| length(column(i)));
     if let Some(size) = sizes
         .into_iter()
         .find(|&size| size > 0.0 && !SIZE.holds(size))
