@@ -102,3 +102,25 @@ impl<T: Copy> Picture<T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_whose_product_overflows_are_no_picture() {
+        let side = 1usize << (usize::BITS / 2);
+        // The product is 0 but for what overflows.
+        assert_eq!(Picture::<u8>::from_pixels(side, side, Vec::new()), None);
+        assert_eq!(Picture::from_pixels(2, 2, vec![0u8; 3]), None);
+        assert!(Picture::from_pixels(2, 2, vec![0u8; 4]).is_some());
+        assert!(Picture::<u8>::from_pixels(0, 3, Vec::new()).is_some());
+    }
+
+    #[test]
+    #[should_panic(expected = "capacity overflow")]
+    fn a_picture_of_more_pixels_than_can_be_counted_is_not_a_small_one() {
+        let side = 1usize << (usize::BITS / 2);
+        Picture::new(side, side, 0u8);
+    }
+}
