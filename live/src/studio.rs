@@ -3,7 +3,7 @@
 use fastphong::frame::{Frame, PreparedScene};
 use fastphong::picture::encoding::store;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
-use fastphong::raster::{DrawError, Renderer, polygon_numbers};
+use fastphong::raster::{DrawError, polygon_numbers};
 use fastphong::reference::{self, Model};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::resolve_by;

@@ -313,7 +313,8 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
         refused(last, [0.0, 0.0, f32::INFINITY], none),
         "polygon 0: z of its normal is inf: expected a finite number"
     );
-    let changes: &[(fn(&mut FrameBuilder), &str)] = &[
+    type Change = fn(&mut FrameBuilder);
+    let changes: &[(Change, &str)] = &[
         (
             |b| {
                 b.background([0.0, f32::NAN, 0.0]);
