@@ -67,14 +67,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Scene::new(camera)
     };
 
-    // A frame: projected, clipped and checked. After this line nothing can fail.
+    // A frame: projected, clipped and checked.
     let frame = scene.frame()?;
 
-    // A picture, by the method named in the first argument.
+    // A picture, by the method named in the first argument. A method that is not for such a frame
+    // says why.
     let method = std::env::args()
         .nth(1)
         .unwrap_or_else(|| "naive-phong".into());
-    let picture = Variant::parse(&method)?.render(&frame);
+    let picture = Variant::parse(&method)?.render(&frame)?;
 
     // A file: a portable pixmap is a header and the bytes. With the feature `io`, `image_file` also
     // writes PNG.

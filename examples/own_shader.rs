@@ -82,11 +82,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     (scene.width, scene.height) = (320, 240);
     let frame = scene.frame()?;
     let built_in = Entry::named("naive-phong").ok_or("no such method")?;
-    let pictures = [&TOON, built_in].map(|entry| {
+    let draw = |entry: &'static Entry| {
         let (variant, counts) = (entry.variant(), entry.variant().operations(1).shade);
         eprintln!("{variant} shades a pixel by {counts:?}");
         variant.render(&frame)
-    });
+    };
+    let pictures = [draw(&TOON)?, draw(built_in)?];
     let mut file = b"P6\n640 240\n255\n".to_vec();
     for pixels in (0..240).flat_map(|y| pictures.each_ref().map(|picture| picture.row(y))) {
         file.extend(pixels.iter().flat_map(|pixel| &pixel[..3]));

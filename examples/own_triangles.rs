@@ -19,8 +19,8 @@ use std::io::Write;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut builder = FrameBuilder::new(320, 240);
 
-    // A material with the light on it: directions and normals are unit vectors of one space, here that of the screen,
-    // with x to the right, y up and z toward the eye.
+    // A material with the light on it: directions and normals are vectors of one space, here that of the screen, with x to
+    // the right, y up and z toward the eye. Those that are no unit vectors become such.
     let light = Light::directional(DVec3::new(-0.4, 0.6, 0.7).normalize(), [0.9; 3]);
     let material = Material {
         shininess: 40.0,
@@ -56,10 +56,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         builder.polygon(&[pole, a, b], facet.to_array(), i as u32);
     }
 
-    // Checked once; from here on nothing fails.
+    // Checked once; from here on nothing fails but a method that is not for such a frame.
     let frame = builder.finish()?;
     let method = std::env::args().nth(1);
-    let picture = Variant::parse(method.as_deref().unwrap_or("phong-rsqrt"))?.render(&frame);
+    let picture = Variant::parse(method.as_deref().unwrap_or("phong-rsqrt"))?.render(&frame)?;
 
     let mut file = format!("P6\n{} {}\n255\n", picture.width(), picture.height()).into_bytes();
     file.extend(picture.pixels().iter().flat_map(|[r, g, b, _]| [r, g, b]));

@@ -19,10 +19,11 @@
 //! // A scene: the mesh, a camera that sees it, a light. All fields are public.
 //! let mut scene = Scene::of_mesh(mesh);
 //! (scene.width, scene.height) = (160, 120);
-//! // A frame: the polygons that the camera sees, projected and clipped. From here on nothing can fail.
+//! // A frame: the polygons that the camera sees, projected, clipped and checked.
 //! let frame = scene.frame()?;
-//! // A picture, by the lecture's fast method with one step of Newton's.
-//! let fast = Variant::parse("fast-phong:steps=1")?.render(&frame);
+//! // A picture, by the lecture's fast method with one step of Newton's. All that can fail from here on is a method that is not for
+//! // such a frame, and says why.
+//! let fast = Variant::parse("fast-phong:steps=1")?.render(&frame)?;
 //! // The reference picture, and the difference from it.
 //! let exact = reference::render(&frame, Model::Phong).to_picture8();
 //! let difference = compare(&exact, &fast)?;

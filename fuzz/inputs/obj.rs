@@ -61,7 +61,9 @@ pub fn run(bytes: &[u8]) {
         for entry in METHODS {
             let variant = entry.variant();
             if variant.plan(&frame, Renderer::LECTURE).renderer().is_some() {
-                variant.render_linear(&frame);
+                variant
+                    .render_linear(&frame)
+                    .expect("a method for the frame");
             }
         }
     }

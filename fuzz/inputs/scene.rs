@@ -62,7 +62,9 @@ pub fn run(bytes: &[u8]) {
             if variant.plan(&frame, renderer).renderer().is_none() {
                 continue; // in integers
             }
-            let picture = variant.render_linear_with(&frame, renderer);
+            let picture = variant
+                .render_linear_with(&frame, renderer)
+                .expect("a method for the frame");
             for pixel in picture.pixels() {
                 let is_colour = pixel.iter().all(|channel| (0.0..=1.0).contains(channel));
                 assert!(is_colour, "{}: {pixel:?}", entry.info.name);

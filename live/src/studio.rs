@@ -3,7 +3,7 @@
 use fastphong::frame::{Frame, PreparedScene};
 use fastphong::picture::encoding::store;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
-use fastphong::raster::{Plan, Renderer, polygon_numbers};
+use fastphong::raster::{DrawError, polygon_numbers};
 use fastphong::reference::{self, Model};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::resolve_by;
@@ -218,10 +218,10 @@ impl Studio {
             exact.to_linear()
         } else {
             let variant = Variant::parse(&name).map_err(|error| error.to_string())?;
-            if let Plan::Refused(why) = variant.plan(frame, Renderer::Span) {
-                return Err(why.into());
-            }
-            variant.render_linear(frame)
+            variant.render_linear(frame).map_err(|error| match error {
+                DrawError::Refused(why) => why.to_string(),
+                other => other.to_string(),
+            })?
         };
         *if is_exact {
             &mut self.exact

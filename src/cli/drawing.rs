@@ -308,14 +308,15 @@ impl RenderJob {
     }
 
     fn drawn(&self, linear: bool) -> FilePicture {
+        const IS_FOR: &str = "another method was refused when the job was made";
         const HAS_METHOD: &str = "a method of the barycentric renderer";
         let frame = &self.frame;
         match &self.content {
             PictureContent::Scanlines(variant, renderer) if linear => {
-                FilePicture::linear(variant.render_linear_with(frame, *renderer))
+                FilePicture::linear(variant.render_linear_with(frame, *renderer).expect(IS_FOR))
             }
             PictureContent::Scanlines(variant, renderer) => {
-                FilePicture::stored(variant.render_with(frame, *renderer))
+                FilePicture::stored(variant.render_with(frame, *renderer).expect(IS_FOR))
             }
             PictureContent::Barycentric(variant, edges) if linear => {
                 let picture = variant.render_barycentric_linear(frame, *edges);

@@ -51,8 +51,9 @@ pub fn methods(text: &str) -> Result<Methods, NameError> {
 
 /// Reads a length of time in seconds.
 pub fn seconds(text: &str) -> Result<Duration, String> {
-    let is_duration = |seconds: &f64| Duration::try_from_secs_f64(*seconds).is_ok();
-    let seconds = number(text, "seconds: a number, 0 or more", is_duration);
+    // A million seconds are 11 days.
+    let is_duration = |seconds: &f64| (0.0..=1e6).contains(seconds);
+    let seconds = number(text, "seconds: a number from 0 to 1000000", is_duration);
     seconds.map(Duration::from_secs_f64)
 }
 

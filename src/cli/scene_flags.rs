@@ -163,7 +163,7 @@ impl Flag {
             _ => return Ok(vec![(key, data(key, text)?)]),
         };
         let expected = match self.name {
-            "resolution" => "WIDTHxHEIGHT, for example 640x480",
+            "resolution" => "WIDTHxHEIGHT, 1 to 16384 each, for example 640x480",
             "view" => "two numbers azimuth,elevation",
             "light" => "a direction x,y,z, with an intensity or a colour r,g,b after it",
             "light-at" => "a position x,y,z, with an intensity or a colour r,g,b after it",
@@ -193,8 +193,19 @@ fn data(key: &str, text: &str) -> Result<Data, &'static str> {
         (Some(ValueKind::OneOrThree), &[all]) => Ok(Data::Triple([all; 3])),
         (Some(ValueKind::OneOrThree), _) => Err("expected one number, or three r,g,b"),
         (Some(ValueKind::Whole), _) => {
-            let whole = text.trim().parse().map(Data::Whole);
-            whole.map_err(|_| "expected a whole number")
+            let text = text.trim();
+            let is_whole = || {
+                text.trim_start_matches(['-', '+'])
+                    .bytes()
+                    .all(|b| b.is_ascii_digit())
+            };
+            match text.parse() {
+                Ok(whole) => Ok(Data::Whole(whole)),
+                Err(_) if !text.is_empty() && is_whole() => {
+                    Err("expected a whole number of up to 18 digits")
+                }
+                Err(_) => Err("expected a whole number"),
+            }
         }
         (Some(ValueKind::Number), &[number]) => Ok(Data::Number(number)),
         _ => Err("expected a number"),

@@ -20,12 +20,14 @@ pub fn grey_levels(text: &str) -> Result<f64, String> {
 
 /// Reads a scale of grey levels: more than 0.
 pub fn scale(text: &str) -> Result<f32, String> {
-    let is_valid = |scale: &f32| *scale > 0.0 && scale.is_finite();
-    number(text, "grey levels: a number over 0", is_valid)
+    let is_valid = |scale: &f32| (1e-6..=1e6).contains(scale);
+    let expected = "grey levels: a number over 0 (1e-6 to 1e6)";
+    number(text, expected, is_valid)
 }
 
-/// Reads a length in world units: more than 0, also as `f32`.
+/// Reads a length in world units: more than 0, and within the range of coordinates, as its reciprocal is.
 pub fn length(text: &str) -> Result<f64, String> {
-    let is_valid = |length: &f64| (*length as f32) > 0.0 && (*length as f32).is_finite();
-    number(text, "a length in world units: a number over 0", is_valid)
+    let is_valid = |length: &f64| (1e-15..=1e15).contains(length);
+    let expected = "a length in world units: a number over 0 (1e-15 to 1e15)";
+    number(text, expected, is_valid)
 }

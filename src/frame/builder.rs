@@ -1,15 +1,15 @@
 //! A builder of frames, which checks them once.
 
+use super::guard::{self, Checked, FINITE, POSITION};
 use super::painter::back_to_front;
 use super::projection::Scratch;
 use super::{
-    ClipCorner, DepthRange, Frame, FrameError, FrameStats, Geometry, Mean, Polygon, ScreenVertex,
-    SubPixel, Vertex,
+    ClipCorner, DepthRange, Frame, FrameError, FrameItem, FrameStats, Geometry, Mean, Polygon,
+    ScreenVertex, Vertex,
 };
 use crate::picture::{Alpha, Encoding, Rgb};
-use crate::scene::{
-    Clipping, Falloff, HiddenSurfaces, Interpolation, LightTerm, Lighting, Place, Scene,
-};
+use crate::scene::ranges::{COORDINATE, DISTANCE, NumberRange, PIXEL};
+use crate::scene::{Clipping, HiddenSurfaces, Interpolation, Lighting, Scene};
 use crate::sync::Arc;
 use alloc::vec::Vec;
 
@@ -19,6 +19,8 @@ use alloc::vec::Vec;
 #[derive(Clone, Debug)]
 pub struct FrameBuilder {
     frame: Frame,
+    /// True for each vertex that was given a position; empty if none was.
+    has_position: Vec<bool>,
 }
 
 impl FrameBuilder {
@@ -27,6 +29,7 @@ impl FrameBuilder {
     pub fn new(width: u32, height: u32) -> Self {
         FrameBuilder {
             frame: Frame::empty(width, height),
+            has_position: Vec::new(),
         }
     }
 
@@ -78,8 +81,9 @@ impl FrameBuilder {
         self
     }
 
-    /// Adds a material with the light on it; returns its number.
-    pub fn lighting(&mut self, lighting: Lighting) -> u32 {
+    /// Adds a material with the light on it; returns its number. Directions of any length become unit vectors.
+    pub fn lighting(&mut self, mut lighting: Lighting) -> u32 {
+        guard::make_unit(&mut lighting);
         self.frame.is_local |= lighting.is_local();
         self.frame.lightings.push(lighting);
         (self.frame.lightings.len() - 1) as u32
@@ -91,7 +95,7 @@ impl FrameBuilder {
         self
     }
 
-    /// Adds a vertex; returns its number.
+    /// Adds a vertex; returns its number. A normal of any length becomes a unit vector.
     pub fn vertex(&mut self, vertex: Vertex) -> u32 {
         let Vertex {
             x,
@@ -105,7 +109,7 @@ impl FrameBuilder {
             .vertices
             .push(ScreenVertex { x, y, depth, inv_w });
         let geometry = self.geometry();
-        geometry.normals.push(normal);
+        geometry.normals.push(guard::unit(normal));
         geometry.materials.push(material);
         (self.frame.vertices.len() - 1) as u32
     }
@@ -115,14 +119,18 @@ impl FrameBuilder {
         Arc::make_mut(&mut self.frame.geometry)
     }
 
-    /// Sets the position of a vertex, needed if a light or the eye is at a position. See [`Frame::position`].
+    /// Sets the position of a vertex: one for every vertex, or for none, if no light and no eye is at a position. Clip corners need
+    /// none. See [`Frame::position`].
     ///
     /// # Panics
     /// When there is no such vertex.
     pub fn position(&mut self, vertex: u32, position: [f32; 3]) -> &mut Self {
         let geometry = self.geometry();
-        geometry.positions.resize(geometry.normals.len(), [0.0; 3]);
+        let count = geometry.normals.len();
+        geometry.positions.resize(count, [0.0; 3]);
         geometry.positions[vertex as usize] = position;
+        self.has_position.resize(count, false);
+        self.has_position[vertex as usize] = true;
         self
     }
 
@@ -156,8 +164,13 @@ impl FrameBuilder {
         self.mean(mean)
     }
 
-    /// Sets the mean of the corners of the next polygon.
-    pub fn mean(&mut self, mean: Mean) -> &mut Self {
+    /// Sets the mean of the corners of the next polygon. A normal that is longer than 1, as no mean of unit vectors is, becomes a
+    /// unit vector.
+    pub fn mean(&mut self, mut mean: Mean) -> &mut Self {
+        let square: f32 = mean.normal.iter().map(|n| n * n).sum();
+        if square > 1.0 {
+            mean.normal = guard::unit(mean.normal);
+        }
         self.frame
             .means
             .push((self.frame.geometry.corners.len() as u32, mean));
@@ -166,12 +179,13 @@ impl FrameBuilder {
 
     /// Declares that a vertex lies between two others; vertices must be named in ascending order.
     pub fn clip_corner(&mut self, corner: ClipCorner) -> &mut Self {
-        self.frame.clip_corners.push(corner);
+        let face = guard::unit(corner.face);
+        self.frame.clip_corners.push(ClipCorner { face, ..corner });
         self
     }
 
-    /// Adds a polygon in drawing order: the vertex numbers of its corners in either winding, its unit normal for flat shading,
-    /// and any number to tell it by ([`Polygon::source`]). It has the material of its first corner.
+    /// Adds a polygon in drawing order: the vertex numbers of its corners in either winding, its normal for flat shading, which
+    /// becomes a unit vector, and any number to tell it by ([`Polygon::source`]). It has the material of its first corner.
     pub fn polygon(&mut self, corners: &[u32], normal: [f32; 3], source: u32) -> &mut Self {
         let geometry = self.geometry();
         let material = corners
@@ -183,7 +197,7 @@ impl FrameBuilder {
             corners.len() as u32,
             geometry.faces.len() as u32,
         );
-        geometry.faces.push(normal);
+        geometry.faces.push(guard::unit(normal));
         geometry.corners.extend_from_slice(corners);
         self.frame.polygons.push(Polygon {
             first,
@@ -198,47 +212,30 @@ impl FrameBuilder {
     /// Checks and returns the frame; under the painter's algorithm its polygons are sorted from back to front.
     ///
     /// # Errors
-    /// [`FrameError`] when a size, a number of lights, a coordinate or an index is outside its range.
+    /// [`FrameError`] for the first size, count, number or index that is outside its range, a normal or a direction of length 0 or not
+    /// finite, and a vertex without a position where one is needed: it names the item and the number.
     pub fn finish(self) -> Result<Frame, FrameError> {
-        let mut frame = self.frame;
+        let FrameBuilder {
+            mut frame,
+            has_position,
+        } = self;
         frame.check_settings()?;
-        let geometry = &frame.geometry;
-        if geometry.corners.len() > u32::MAX as usize
+        if frame.geometry.corners.len() > u32::MAX as usize
             || frame.vertices.len() > u32::MAX as usize
             || frame.polygons.len() > Polygon::FLIPPED as usize
         {
             return Err(FrameError::TooLarge);
         }
         frame.check_lightings()?;
-        fn not_finite<const N: usize>(all: &[[f32; N]]) -> Option<usize> {
-            all.iter().position(|v| !v.iter().all(|c| c.is_finite()))
+        frame.check_clip_corners()?;
+        for index in 0..frame.vertices.len() {
+            frame.check_vertex(index)?;
         }
-        let attributes = || not_finite(&geometry.attributes);
-        if let Some(index) = not_finite(&geometry.positions).or_else(attributes) {
-            return Err(FrameError::Vertex { index });
+        check_positions(&frame, &has_position)?;
+        for (index, polygon) in frame.polygons.iter().enumerate() {
+            frame.check_polygon(index, polygon)?;
         }
-        if let Some(index) = (0..frame.vertices.len()).find(|&v| !frame.vertex_is_valid(v)) {
-            return Err(FrameError::Vertex { index });
-        }
-        if let Some(index) = frame
-            .polygons
-            .iter()
-            .position(|p| !frame.polygon_is_valid(p))
-        {
-            return Err(FrameError::Polygon { index });
-        }
-        let mut previous = None;
-        for (index, corner) in frame.clip_corners.iter().enumerate() {
-            let valid = corner.a < corner.vertex
-                && corner.b < corner.vertex
-                && (corner.vertex as usize) < frame.vertices.len()
-                && previous.is_none_or(|p| p < corner.vertex)
-                && (0.0..=1.0).contains(&corner.t);
-            if !valid {
-                return Err(FrameError::Polygon { index });
-            }
-            previous = Some(corner.vertex);
-        }
+        frame.check_means()?;
         let weights = || frame.vertices.iter().map(|v| v.inv_w).filter(|w| *w > 0.0);
         let [least, largest] = [
             weights().fold(f64::INFINITY, f64::min),
@@ -302,13 +299,18 @@ impl Frame {
         if self.clipping == Clipping::NdcCube && self.interpolation == Interpolation::Perspective {
             return Err(FrameError::Unclipped);
         }
-        if !self.depth_range.is_valid() || !self.origin.iter().all(|c| c.is_finite()) {
-            return Err(FrameError::Camera);
-        }
-        Ok(())
+        let names = [
+            "red of the background",
+            "green of the background",
+            "blue of the background",
+        ];
+        guard::numbers(FrameItem::Picture, names, self.background, &PIXEL)?;
+        self.depth_range.check()?;
+        let names = ["x of the origin", "y of the origin", "z of the origin"];
+        guard::numbers(FrameItem::Scene, names, self.origin, &COORDINATE)
     }
 
-    /// True if every material has the same number of lights, and all numbers of them make sense.
+    /// Checks that every material has the same number of lights, and all their numbers.
     pub(crate) fn check_lightings(&self) -> Result<(), FrameError> {
         let lights = self.light_count();
         for lighting in &self.lightings {
@@ -318,14 +320,8 @@ impl Frame {
                 });
             }
         }
-        match self
-            .lightings
-            .iter()
-            .position(|lighting| !is_valid(lighting))
-        {
-            Some(index) => Err(FrameError::Lighting { index }),
-            None => Ok(()),
-        }
+        let mut all = self.lightings.iter().enumerate();
+        all.try_for_each(|(material, lighting)| guard::lighting(material, lighting))
     }
 
     /// Sorts the polygons from back to front, under the painter's algorithm.
@@ -336,43 +332,128 @@ impl Frame {
         }
     }
 
-    fn vertex_is_valid(&self, vertex: usize) -> bool {
-        let guard = SubPixel::from_num(Frame::GUARD);
-        let inside = |c: SubPixel| -guard <= c && c <= guard;
-        let v = self.vertex(vertex as u32);
-        inside(v.x)
-            && inside(v.y)
-            && v.depth.is_finite()
-            && v.inv_w.is_finite()
-            && (v.inv_w > 0.0 || self.clipping == Clipping::NdcCube)
-            && v.normal.iter().all(|n| n.is_finite())
-            && (v.material as usize) < self.lightings.len()
+    fn check_clip_corners(&self) -> Checked {
+        let mut previous = None;
+        for (index, corner) in self.clip_corners.iter().enumerate() {
+            let is_valid = corner.a < corner.vertex
+                && corner.b < corner.vertex
+                && (corner.vertex as usize) < self.vertices.len()
+                && previous.is_none_or(|p| p < corner.vertex);
+            if !is_valid {
+                return Err(FrameError::ClipCorner { index });
+            }
+            previous = Some(corner.vertex);
+            let item = FrameItem::ClipCorner(index);
+            guard::number(item, "its parameter", corner.t, &PIXEL)?;
+            guard::direction(item, NORMAL, corner.face)?;
+        }
+        Ok(())
     }
 
-    fn polygon_is_valid(&self, polygon: &Polygon) -> bool {
-        polygon.count >= 3
+    fn check_vertex(&self, index: usize) -> Checked {
+        let item = FrameItem::Vertex(index);
+        let vertex = self.vertex(index as u32);
+        guard::number(item, "its column", vertex.x, &GUARD)?;
+        guard::number(item, "its row", vertex.y, &GUARD)?;
+        let (depth, weight) = match self.clipping {
+            Clipping::Planes => (&depths(self.depth_range), &WEIGHT),
+            Clipping::NdcCube => (&FINITE, &FINITE),
+        };
+        guard::number(item, "its depth", vertex.depth, depth)?;
+        guard::number(item, "its near/w", vertex.inv_w, weight)?;
+        if self.clip_corner(index as u32).is_none() {
+            guard::direction(item, NORMAL, vertex.normal)?;
+        }
+        let geometry = &self.geometry;
+        if let Some(position) = geometry.positions.get(index) {
+            guard::numbers(item, POSITION, *position, &DISTANCE)?;
+        }
+        if let Some(attributes) = geometry.attributes.get(index) {
+            guard::numbers(item, ["an attribute"; 4], *attributes, &FINITE)?;
+        }
+        let materials = NumberRange::new(
+            0.0,
+            self.lightings.len() as f64 - 1.0,
+            "the number of a material that was added",
+        );
+        guard::number(item, "its material", vertex.material, &materials)
+    }
+
+    fn check_polygon(&self, index: usize, polygon: &Polygon) -> Checked {
+        let is_valid = polygon.count >= 3
             && (polygon.material as usize) < self.lightings.len()
-            && self.polygon_normal(polygon).iter().all(|n| n.is_finite())
             && self.corners(polygon).iter().all(|&v| {
                 (v as usize) < self.vertices.len() && self.material(v) == polygon.material
-            })
+            });
+        if !is_valid {
+            return Err(FrameError::Polygon { index });
+        }
+        let item = FrameItem::Polygon(index);
+        guard::direction(item, NORMAL, self.polygon_normal(polygon))
+    }
+
+    fn check_means(&self) -> Checked {
+        let names = ["x of its mean", "y of its mean", "z of its mean"];
+        for (first, mean) in &self.means {
+            let index = self.polygons.partition_point(|p| p.first < *first);
+            let item = FrameItem::Polygon(index);
+            guard::numbers(item, names, mean.position, &DISTANCE)?;
+            guard::numbers(item, NORMAL_MEAN, mean.normal, &FINITE)?;
+        }
+        Ok(())
     }
 }
 
-/// True if all numbers of the light on a material are finite, and none negative that must not be.
-fn is_valid(lighting: &Lighting) -> bool {
-    let finite = |v: [f32; 3]| v.iter().all(|c| c.is_finite());
-    let vector = |place: Place<[f32; 3]>| match place {
-        Place::Infinite(v) | Place::Local(v) => v,
+const NORMAL: [&str; 4] = [
+    "x of its normal",
+    "y of its normal",
+    "z of its normal",
+    "the length of its normal",
+];
+const NORMAL_MEAN: [&str; 3] = [
+    "x of its mean normal",
+    "y of its mean normal",
+    "z of its mean normal",
+];
+
+/// Places that a vertex may have on the picture.
+const GUARD: NumberRange = NumberRange::new(
+    -(Frame::GUARD as f64),
+    Frame::GUARD as f64,
+    "pixels from -32768 to 32768",
+);
+const _: () = assert!(Frame::GUARD == 32_768);
+
+/// How far rounding may put a vertex beyond the near or the far plane: a cut is up to 10⁻⁹ of its largest coordinate beyond it
+/// (`View::is_on_picture`), which is up to 2¹⁵ + 1 times w in the guard band.
+const BEYOND: f64 = 1.0 / (1 << 14) as f64;
+const WEIGHT: NumberRange =
+    NumberRange::new(f64::from_bits(1), 1.0 + BEYOND, "a number over 0, up to 1");
+
+/// Returns the depths between the near and the far plane.
+fn depths(range: DepthRange) -> NumberRange {
+    let [near, far] = range.depths();
+    match range {
+        DepthRange::Orthographic { .. } => NumberRange::new(near - BEYOND, far + BEYOND, "0 to 1"),
+        DepthRange::Perspective { .. } => NumberRange::new(
+            near * (1.0 + BEYOND),
+            far * (1.0 - BEYOND),
+            "−1/w, from −1/near to −1/far",
+        ),
+    }
+}
+
+/// Checks that no vertex lacks a position where others have theirs, or where a light or the eye is at a position.
+fn check_positions(frame: &Frame, has_position: &[bool]) -> Checked {
+    if !frame.is_local() && has_position.is_empty() {
+        return Ok(());
+    }
+    let lacks = |&index: &usize| {
+        let is_given = has_position.get(index) == Some(&true);
+        !is_given && frame.clip_corner(index as u32).is_none()
     };
-    let is_light = |light: &LightTerm| {
-        let falls =
-            !matches!(light.falloff, Falloff::Attenuation(k) if !(k.is_finite() && k >= 0.0));
-        finite(vector(light.place)) && finite(light.diffuse) && finite(light.specular) && falls
-    };
-    finite(lighting.ambient)
-        && finite(vector(lighting.view))
-        && lighting.shininess.is_finite()
-        && lighting.shininess >= 0.0
-        && lighting.lights.iter().all(is_light)
+    match (0..frame.vertices.len()).find(lacks) {
+        Some(index) => Err(FrameError::Position { index }),
+        None => Ok(()),
+    }
 }

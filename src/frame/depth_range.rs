@@ -1,5 +1,6 @@
 //! The depth range: the distances between which depth goes from 0 to 1.
 
+use super::guard::{self, Checked};
 use crate::scene::{Camera, Projection};
 
 /// The distances along the line of sight at which depth is 0 and 1.
@@ -55,15 +56,11 @@ impl DepthRange {
         }
     }
 
-    /// True if near and far are finite numbers in order, over 0 under perspective.
-    pub(super) fn is_valid(self) -> bool {
+    /// Checks that near and far are in their ranges and in order.
+    pub(super) fn check(self) -> Checked {
         let (near, far) = self.ends();
-        let least = if matches!(self, DepthRange::Perspective { .. }) {
-            0.0
-        } else {
-            f64::NEG_INFINITY
-        };
-        near > least && near < far && far.is_finite()
+        let is_perspective = matches!(self, DepthRange::Perspective { .. });
+        guard::planes([near, far], is_perspective)
     }
 }
 

@@ -1,11 +1,61 @@
 //! The error of frames that cannot be made.
 
 use super::Frame;
+use crate::number::Written;
 use crate::scene::Scene;
 use core::fmt;
 
-/// The reason why a frame could not be made.
+/// The item of a scene or a frame whose number is wrong. Items are counted from 0, in the order in which they were given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameItem {
+    /// The camera, or the depth range that stands for it.
+    Camera,
+    /// The picture: its background.
+    Picture,
+    /// The scene as a whole: its ambient light, the origin of its positions.
+    Scene,
+    /// A light of a scene.
+    Light(usize),
+    /// An object of a scene.
+    Object(usize),
+    /// A material: in a scene counted over all objects, each of which has those of its mesh and a default one.
+    Material(usize),
+    /// A light as it falls on a material.
+    LightOn {
+        /// The light.
+        light: usize,
+        /// The material.
+        material: usize,
+    },
+    /// A vertex.
+    Vertex(usize),
+    /// A polygon.
+    Polygon(usize),
+    /// A clip corner.
+    ClipCorner(usize),
+}
+
+impl fmt::Display for FrameItem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            FrameItem::Camera => f.write_str("the camera"),
+            FrameItem::Picture => f.write_str("the picture"),
+            FrameItem::Scene => f.write_str("the scene"),
+            FrameItem::Light(light) => write!(f, "light {light}"),
+            FrameItem::Object(object) => write!(f, "object {object}"),
+            FrameItem::Material(material) => write!(f, "material {material}"),
+            FrameItem::LightOn { light, material } => {
+                write!(f, "light {light} on material {material}")
+            }
+            FrameItem::Vertex(vertex) => write!(f, "vertex {vertex}"),
+            FrameItem::Polygon(polygon) => write!(f, "polygon {polygon}"),
+            FrameItem::ClipCorner(corner) => write!(f, "clip corner {corner}"),
+        }
+    }
+}
+
+/// The reason why a frame could not be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrameError {
     /// A side of the picture is 0 or over [`Scene::MAX_SIDE`].
     Size {
@@ -27,25 +77,46 @@ pub enum FrameError {
         /// The number asked for.
         found: usize,
     },
-    /// A number of the light on a material is not finite, or an exponent or an attenuation is negative.
-    Lighting {
-        /// The number of the material.
+    /// A number is outside its range, as NaN is outside of every range.
+    Number {
+        /// The item that has it.
+        item: FrameItem,
+        /// Its name, as "red of its colour".
+        name: &'static str,
+        /// The number.
+        value: f64,
+        /// The range, in words.
+        expected: &'static str,
+    },
+    /// A light of a scene stands at a vertex, where the direction toward it is undefined.
+    LightAtVertex {
+        /// The number of the light.
+        light: usize,
+        /// The vertex in world space.
+        point: [f64; 3],
+    },
+    /// A vertex was given no position, but a light or the eye is at a position, or other vertices have theirs.
+    Position {
+        /// The number of the vertex.
         index: usize,
     },
     /// More corners or vertices than 32-bit numbers can name.
     TooLarge,
-    /// A camera that gives no finite picture: eye at the target, up along the view, planes in the wrong order.
-    Camera,
     /// Perspective interpolation where the farthest vertex is over 2⁶⁰ times as far away as the nearest.
     Weights,
-    /// A vertex is outside the guard band, or a number of it is not finite, or its weight is not positive.
+    /// A vertex of a scene has no place on the picture: it is outside the guard band, or its weight is not positive.
     Vertex {
-        /// The number of the element.
+        /// The number of the vertex.
         index: usize,
     },
-    /// A polygon or clip corner names something that does not exist, or a polygon has fewer than three corners.
+    /// A polygon has fewer than three corners, or names a vertex or a material that does not exist, or vertices of two materials.
     Polygon {
-        /// The number of the element.
+        /// The number of the polygon.
+        index: usize,
+    },
+    /// A clip corner names a vertex that does not exist, or does not come before it, or is not in ascending order.
+    ClipCorner {
+        /// The number of the clip corner.
         index: usize,
     },
 }
@@ -75,18 +146,28 @@ impl fmt::Display for FrameError {
                 "{found} lights, where at most {} are possible, the same on every material",
                 Scene::MAX_LIGHTS
             ),
-            FrameError::Lighting { index } => write!(
+            FrameError::Number {
+                item,
+                name,
+                value,
+                expected,
+            } => write!(f, "{item}: {name} is {}: expected {expected}", Short(value)),
+            FrameError::LightAtVertex { light, point } => {
+                let [x, y, z] = point.map(Written);
+                write!(
+                    f,
+                    "light {light} stands at a vertex, ({x}, {y}, {z}): expected a place off the vertices, as there the \
+                     direction toward the light is undefined"
+                )
+            }
+            FrameError::Position { index } => write!(
                 f,
-                "the light on material {index} has a number that is not finite, or a negative exponent or attenuation"
+                "vertex {index} has no position: expected one for every vertex, as a light or the eye is at a position, or \
+                 other vertices have theirs"
             ),
             FrameError::TooLarge => {
                 write!(f, "the scene has more corners than 32-bit numbers can name")
             }
-            FrameError::Camera => write!(
-                f,
-                "the camera gives no picture: the eye must differ from the target, up must not be along the view, and \
-                 near must be less than far (and over 0 under perspective)"
-            ),
             FrameError::Weights => write!(
                 f,
                 "the farthest vertex in view is over 10¹⁸ times as far from the eye as the nearest: expected attributes that \
@@ -102,9 +183,30 @@ impl fmt::Display for FrameError {
             FrameError::Polygon { index } => {
                 write!(
                     f,
-                    "polygon {index} has fewer than three corners, or refers to a vertex or a material that does not exist"
+                    "polygon {index} has fewer than three corners, or refers to a vertex or a material that does not exist, \
+                     or to vertices of two materials"
                 )
             }
+            FrameError::ClipCorner { index } => write!(
+                f,
+                "clip corner {index} refers to a vertex that does not exist, or does not come after both its ends and after \
+                 the clip corner before"
+            ),
+        }
+    }
+}
+
+/// A number that may have been an `f32`, and is then written with the digits that tell it from others of these.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Short(value) = *self;
+        let narrow = value as f32;
+        // From 2²⁴ on the digits of an `f32` are not those of the whole number that it is.
+        match f64::from(narrow) == value && (1e-5..16_777_216.0).contains(&narrow.abs()) {
+            true => write!(f, "{narrow}"),
+            false => Written(value).fmt(f),
         }
     }
 }

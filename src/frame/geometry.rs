@@ -34,11 +34,10 @@ pub(crate) struct Models {
     pub objects: Vec<PlacedModel>,
 }
 
-/// The range of vertices of an object, and its place in the world.
+/// The vertices of an object, which follow those of the object before, and its place in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedModel {
-    /// The first vertex, and the one after the last.
-    pub first: usize,
+    /// The vertex after its last.
     pub end: usize,
     /// Model space to world space.
     pub transform: DAffine3,

@@ -10,6 +10,7 @@ mod depth_range;
 mod elements;
 mod error;
 mod geometry;
+pub(crate) mod guard;
 mod painter;
 pub mod perspective;
 mod projection;
@@ -18,7 +19,7 @@ pub mod triangulate;
 pub use builder::FrameBuilder;
 pub use depth_range::DepthRange;
 pub use elements::{ClipCorner, FrameStats, Mean, Polygon, ScreenVertex, Vertex};
-pub use error::FrameError;
+pub use error::{FrameError, FrameItem};
 pub(crate) use geometry::{Geometry, Models, PlacedModel};
 pub use projection::PreparedScene;
 

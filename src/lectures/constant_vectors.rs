@@ -115,7 +115,7 @@ fn errors(content: &mut FigureContent) -> Result {
         for (rings, polygons) in RINGS.into_iter().zip(polygons) {
             let frame = sphere(rings, distance)?.frame()?;
             let truth = truth(&frame);
-            let difference = compare(&truth, &fast.render_linear(&frame))?;
+            let difference = compare(&truth, &fast.render_linear(&frame)?)?;
             row += &max_and_rms(&difference);
             curve.push((f64::from(polygons), 255.0 * difference.rms));
         }

@@ -5,6 +5,7 @@ use crate::frame::FrameError;
 use crate::mesh::MeshError;
 use crate::mesh::builtin::BuiltinError;
 use crate::number::NameError;
+use crate::raster::DrawError;
 use crate::scene::file::diagnostics::SceneError;
 
 /// The result of a part of a figure.
@@ -24,6 +25,8 @@ pub enum FigureError {
     Frame(#[from] FrameError),
     /// A method has no such name or parameter.
     Method(#[from] NameError),
+    /// A method is not for a frame.
+    Draw(#[from] DrawError),
     /// Pictures that are compared have different sizes.
     Size(#[from] SizeMismatch),
 }

@@ -201,22 +201,22 @@ pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene> {
 /// Draws a frame by a method.
 ///
 /// # Errors
-/// If there is no such method.
+/// If there is no such method, or it is not for the frame.
 pub(super) fn draw(frame: &Frame, method: &str) -> Result<LinearPicture> {
-    Ok(Variant::parse(method)?.render_linear(frame))
+    Ok(Variant::parse(method)?.render_linear(frame)?)
 }
 
 /// Draws a frame by several methods.
 ///
 /// # Errors
-/// If there is no such method.
+/// As [`draw`].
 pub(super) fn draw_each<const N: usize>(
     frame: &Frame,
     methods: [&str; N],
 ) -> Result<[LinearPicture; N]> {
-    let variants = methods.iter().map(|method| Variant::parse(method));
-    let variants = variants.collect::<Result<Vec<_>, _>>()?;
-    Ok(core::array::from_fn(|i| variants[i].render_linear(frame)))
+    let pictures = methods.iter().map(|method| draw(frame, method));
+    let pictures = pictures.collect::<Result<Vec<_>>>()?;
+    Ok(pictures.try_into().expect("a picture by each method"))
 }
 
 /// Draws a frame by the Phong reference.

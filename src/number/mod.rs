@@ -10,7 +10,8 @@
 //! function that is not inlined into a pixel loop loses the instruction set that the loop is compiled for.
 //!
 //! `level.rs` names the instruction sets; `simd.rs` chooses the width of a block for each; `lanes.rs` has the integers and masks of the
-//! row engine. `parallel.rs` spreads loops over threads, `vectorized.rs` over registers. `suggest.rs` words errors about names.
+//! row engine. `parallel.rs` spreads loops over threads, `vectorized.rs` over registers. `suggest.rs` words errors about names,
+//! `written.rs` numbers in messages.
 
 mod counting;
 #[cfg(feature = "simd")]
@@ -30,12 +31,14 @@ pub mod suggest;
 pub(crate) mod test_random;
 mod vec3;
 pub(crate) mod vectorized;
+mod written;
 
 pub use counting::{Counted, Counter, Counts};
 pub use level::Level;
 pub use name_error::NameError;
 pub use vec3::{Vec3, vec3};
 pub(crate) use vectorized::vectorized;
+pub(crate) use written::Written;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 

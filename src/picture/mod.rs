@@ -37,17 +37,21 @@ pub type LinearPicture = Picture<[f32; 4]>;
 
 impl<T: Copy> Picture<T> {
     /// Makes a picture of `width` × `height` pixels, all `fill`.
+    ///
+    /// # Panics
+    /// When there are more of them than memory can hold.
     pub fn new(width: usize, height: usize, fill: T) -> Self {
         Picture {
             width,
             height,
-            pixels: vec![fill; width * height],
+            // Too many to be counted are more than `vec!` allows.
+            pixels: vec![fill; width.saturating_mul(height)],
         }
     }
 
     /// Makes a picture from `pixels`, row by row from the top; `None` unless there are `width` × `height` of them.
     pub fn from_pixels(width: usize, height: usize, pixels: Vec<T>) -> Option<Self> {
-        (pixels.len() == width * height).then_some(Picture {
+        (width.checked_mul(height) == Some(pixels.len())).then_some(Picture {
             width,
             height,
             pixels,
@@ -96,5 +100,27 @@ impl<T: Copy> Picture<T> {
             height: self.height,
             pixels: self.pixels.iter().map(|&t| f(t)).collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_whose_product_overflows_are_no_picture() {
+        let side = 1usize << (usize::BITS / 2);
+        // The product is 0 but for what overflows.
+        assert_eq!(Picture::<u8>::from_pixels(side, side, Vec::new()), None);
+        assert_eq!(Picture::from_pixels(2, 2, vec![0u8; 3]), None);
+        assert!(Picture::from_pixels(2, 2, vec![0u8; 4]).is_some());
+        assert!(Picture::<u8>::from_pixels(0, 3, Vec::new()).is_some());
+    }
+
+    #[test]
+    #[should_panic(expected = "capacity overflow")]
+    fn a_picture_of_more_pixels_than_can_be_counted_is_not_a_small_one() {
+        let side = 1usize << (usize::BITS / 2);
+        Picture::new(side, side, 0u8);
     }
 }

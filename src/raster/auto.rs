@@ -21,7 +21,7 @@ impl Variant {
     /// let frame = Scene::of_mesh(builtin("sphere")?).frame()?;
     /// let (method, why) = Variant::auto(&frame, Renderer::fastest());
     /// println!("{method}: {why}");
-    /// let picture = method.render(&frame);
+    /// let picture = method.render(&frame)?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn auto(frame: &Frame, renderer: Renderer) -> (Variant, &'static str) {

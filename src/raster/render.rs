@@ -22,64 +22,79 @@ use alloc::vec::Vec;
 impl Variant {
     /// Draws `frame` as a stored picture, by the lecture's engine: [`Variant::draw`] into a new picture.
     ///
-    /// # Panics
-    /// When the method is not for such frames ([`Plan::Refused`]), as some of [`METHODS`](crate::shading::METHODS) say of some.
+    /// # Errors
+    /// [`DrawError::Refused`] when the method is not for such frames, as some of [`METHODS`](crate::shading::METHODS) say of some.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
-    /// use fastphong::raster::Renderer;
     /// use fastphong::scene::Scene;
     /// use fastphong::shading::{METHODS, Variant};
     ///
     /// let mut scene = Scene::of_mesh(builtin("sphere")?);
     /// (scene.width, scene.height) = (64, 48);
     /// let frame = scene.frame()?;
-    /// let picture = Variant::parse("gouraud")?.render(&frame);
+    /// let picture = Variant::parse("gouraud")?.render(&frame)?;
     /// assert_eq!(picture.get(32, 24)[3], 255, "the sphere is in the middle");
     /// // Every method that is for the frame covers the same pixels.
-    /// let is_for = |method: &Variant| method.plan(&frame, Renderer::LECTURE).renderer().is_some();
-    /// for method in METHODS.iter().map(|method| method.variant()).filter(is_for) {
-    ///     let other = method.render(&frame);
-    ///     assert!(picture.pixels().iter().zip(other.pixels()).all(|(a, b)| a[3] == b[3]));
+    /// for method in METHODS.iter().map(|method| method.variant()) {
+    ///     match method.render(&frame) {
+    ///         Ok(other) => {
+    ///             assert!(picture.pixels().iter().zip(other.pixels()).all(|(a, b)| a[3] == b[3]));
+    ///         }
+    ///         Err(error) => println!("{method}: {error}"),
+    ///     }
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn render(&self, frame: &Frame) -> Picture8 {
+    pub fn render(&self, frame: &Frame) -> Result<Picture8, DrawError> {
         self.render_with(frame, Renderer::LECTURE)
     }
 
     /// Draws `frame` before rounding, as [`Variant::render`] does: linear channels, in 0..=1.
     ///
-    /// # Panics
-    /// As [`Variant::render`] does.
-    pub fn render_linear(&self, frame: &Frame) -> LinearPicture {
+    /// # Errors
+    /// As [`Variant::render`].
+    pub fn render_linear(&self, frame: &Frame) -> Result<LinearPicture, DrawError> {
         self.render_linear_with(frame, Renderer::LECTURE)
     }
 
     /// Draws as [`Variant::render`], by another renderer.
+    ///
+    /// # Errors
+    /// As [`Variant::render`].
     #[doc(hidden)]
-    pub fn render_with(&self, frame: &Frame, renderer: Renderer) -> Picture8 {
+    pub fn render_with(&self, frame: &Frame, renderer: Renderer) -> Result<Picture8, DrawError> {
         self.render_anew(frame, renderer, [0; 4])
     }
 
     /// Draws as [`Variant::render_linear`], by another renderer.
+    ///
+    /// # Errors
+    /// As [`Variant::render`].
     #[doc(hidden)]
-    pub fn render_linear_with(&self, frame: &Frame, renderer: Renderer) -> LinearPicture {
+    pub fn render_linear_with(
+        &self,
+        frame: &Frame,
+        renderer: Renderer,
+    ) -> Result<LinearPicture, DrawError> {
         self.render_anew(frame, renderer, [0.0; 4])
     }
 
     /// Draws into a new picture.
-    fn render_anew<T: Copy>(&self, frame: &Frame, renderer: Renderer, zero: T) -> Picture<T>
+    fn render_anew<T: Copy>(
+        &self,
+        frame: &Frame,
+        renderer: Renderer,
+        zero: T,
+    ) -> Result<Picture<T>, DrawError>
     where
         for<'a> &'a mut Picture<T>: Into<PictureMut<'a>>,
     {
         // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write to it, each
         // in rows of its own.
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), zero);
-        match self.draw(frame, &mut picture, DrawOptions::by(renderer)) {
-            Ok(_) => picture,
-            Err(error) => panic!("`{self}`: {error}"),
-        }
+        self.draw(frame, &mut picture, DrawOptions::by(renderer))?;
+        Ok(picture)
     }
 
     /// Returns the renderer that draws `frame` with this method where `renderer` is asked for: the span engine, with a reason,
@@ -218,7 +233,7 @@ impl Variant {
         }
         match plan {
             Plan::Refused(reason) => Err(DrawError::Refused(reason)),
-            _ => Ok(take(self.render(frame).pixels())),
+            _ => Ok(take(self.render(frame)?.pixels())),
         }
     }
 

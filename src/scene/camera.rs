@@ -1,5 +1,6 @@
 //! The camera: from world space to clip space, and the one view vector of the scene.
 
+use super::direction::as_unit;
 use glam::{DMat4, DVec3, DVec4};
 
 /// A way to fold depth onto the picture.
@@ -24,7 +25,7 @@ pub struct Camera {
     pub eye: DVec3,
     /// The point in the middle of the picture.
     pub target: DVec3,
-    /// The direction that is upward in the picture; not parallel to the line of sight.
+    /// The direction that is upward in the picture, of any length; not parallel to the line of sight.
     pub up: DVec3,
     /// Orthographic or perspective.
     pub projection: Projection,
@@ -37,13 +38,13 @@ pub struct Camera {
 impl Camera {
     /// Returns the unit vector `V` toward the eye: one for the whole scene, under perspective too (L21 1).
     pub fn view(&self) -> DVec3 {
-        (self.eye - self.target).normalize()
+        in_range(self.eye - self.target).normalize()
     }
 
     /// Returns right, up and forward unit vectors: a right-handed camera looking along `forward`.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = -self.view();
-        let right = forward.cross(self.up).normalize();
+        let right = forward.cross(as_unit(self.up)).normalize();
         [right, right.cross(forward), forward]
     }
 
@@ -98,5 +99,14 @@ impl Camera {
             }
         };
         DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
+    }
+}
+
+/// Returns a vector of the same direction whose square neither overflows nor vanishes: the vector itself, if it has such a square.
+fn in_range(vector: DVec3) -> DVec3 {
+    let size = vector.abs().max_element();
+    match (1e-100..=1e100).contains(&size) {
+        true => vector,
+        false => vector / size,
     }
 }

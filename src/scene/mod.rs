@@ -2,6 +2,7 @@
 
 mod camera;
 mod camera_fit;
+pub(crate) mod direction;
 #[cfg(feature = "io")]
 pub mod file;
 #[cfg(feature = "io")]
@@ -11,6 +12,7 @@ mod of_mesh;
 #[doc(hidden)]
 pub mod orbit;
 mod power;
+pub(crate) mod ranges;
 mod settings;
 
 pub use camera::{Camera, Projection};
@@ -26,13 +28,9 @@ use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, PolygonMesh};
 use crate::picture::{Encoding, Rgb};
 use crate::sync::Arc;
+use alloc::vec;
 use alloc::vec::Vec;
-use glam::{DAffine3, DVec3};
-
-/// The largest coordinate in world space of a scene file: squares of distances (at most 12 times its square) and their
-/// products with coefficients stay far inside the range of an `f32`.
-#[cfg(feature = "io")]
-const MAX_COORDINATE: f64 = 1e15;
+use glam::{DAffine3, DMat3, DVec3};
 
 /// A mesh somewhere in the world.
 #[derive(Clone, Debug)]
@@ -56,6 +54,35 @@ impl Object {
             origin => self.transform * DAffine3::from_translation(origin),
         }
     }
+
+    /// Returns the positions in world space that polygons use, each once.
+    pub(crate) fn world_points(&self) -> impl Iterator<Item = DVec3> {
+        let mesh = &self.mesh;
+        let mut used = vec![false; mesh.positions().len()];
+        for &corner in mesh.corners() {
+            used[corner as usize] = true;
+        }
+        let points = mesh.positions().iter().zip(used);
+        let to_world = self.positions_to_world();
+        points
+            .filter(|(_, used)| *used)
+            .map(move |(p, _)| to_world.transform_point3(p.as_dvec3()))
+    }
+}
+
+/// Returns the volume of a unit cube after `linear`, as a share of what its edges would have at right angles; NaN where one of
+/// them has no length.
+pub(crate) fn volume(linear: DMat3) -> f64 {
+    let edges = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
+    linear.determinant().abs() / edges
+}
+
+/// True if a light at `light` stands at `point` for all that positions in `f32` can tell, where the direction toward it is
+/// undefined. Positions are rounded relative to the eye, and those of a mesh that lies far from 0 relative to that mesh.
+pub(crate) fn stands_at(light: DVec3, point: DVec3, eye: DVec3) -> bool {
+    let from_zero = point.length().max(light.length());
+    let from_eye = (point - eye).length().max((light - eye).length());
+    (point - light).length() <= f64::from(f32::EPSILON) * from_zero.min(from_eye)
 }
 
 /// All that a picture shows.

@@ -1,5 +1,6 @@
 //! The scene that a mesh alone gets.
 
+use super::direction::unit;
 use super::{Camera, Culling, Fit, Light, Object, Projection, Scene};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::winding::WindingDoubts;
@@ -81,11 +82,6 @@ impl Scene {
     }
 }
 
-/// Returns the unit vector along `vector`, which is scaled first: squares neither overflow nor vanish.
-pub(super) fn unit(vector: DVec3) -> DVec3 {
-    (vector / vector.abs().max_element()).normalize()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,8 +143,8 @@ mod tests {
         };
         for method in METHODS.iter().filter(is_for) {
             assert_eq!(
-                method.variant().render(&a),
-                method.variant().render(&b),
+                method.variant().render(&a).expect("a method for the frame"),
+                method.variant().render(&b).expect("a method for the frame"),
                 "{method:?}"
             );
         }

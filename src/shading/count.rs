@@ -245,7 +245,9 @@ mod tests {
                     continue;
                 }
                 let counted = entry.count(bench, &variant);
-                let picture = variant.render_linear_with(&frame, Renderer::LECTURE);
+                let picture = variant
+                    .render_linear_with(&frame, Renderer::LECTURE)
+                    .expect("a method for the frame");
                 let [drawn @ .., _] = picture.get(0, 0);
                 let counted = counted.colour.map(|channel| channel.clamp(0.0, 1.0));
                 assert_eq!(drawn, counted, "{variant} on bench {number}");

@@ -100,7 +100,7 @@ pub use planes::{PerLight, Planes};
 pub use span::{Corner, Corners, Run, Span, SpanPlace};
 pub(crate) use span::{PolygonConstants, RunList, Starts, ramp};
 pub use span_bench::SpanBench;
-pub use span_shader::{SpanShader, SpanVertex};
+pub use span_shader::{SpanShader, SpanShaderError, SpanVertex};
 pub use table::{Entry, METHODS};
 pub use variant::Variant;
 

@@ -1,18 +1,21 @@
-//! Shading for a rasterizer of one's own: a line of pixels from its two ends, by the scalar kernels of any method.
+//! Shading for a rasterizer of your own: a line of pixels from its two ends, by the scalar kernels of any method.
 
 use super::lighting::Uniforms;
 use super::{
     Corners, Extras, Kernels, Local, Perspective, Pixels, PolygonConstants, Run, RunList,
     SpanPlace, UniformsIndex, Variant, Vertices, ramp,
 };
+use crate::frame::{FrameError, guard};
 use crate::scene::{Interpolation, Lighting};
 use alloc::vec;
 use alloc::vec::Vec;
+use core::fmt;
 
 /// A vertex as [`SpanShader::vertex`] lights it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpanVertex {
-    /// The unit normal, in the space of the directions of lights: the polygon's own for flat shading.
+    /// The normal, in the space of the directions of lights: the polygon's own for flat shading. One of another length than 1 is
+    /// made a unit vector. One without a direction is lit by ambient light only.
     pub normal: [f32; 3],
     /// The position in the space of lights and eye at positions; any if there are none.
     pub position: [f32; 3],
@@ -33,6 +36,28 @@ impl SpanVertex {
         }
     }
 }
+
+/// The reason why a [`SpanShader`] could not be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpanShaderError {
+    /// The method is not for such a material, with the reason: see [`Shader::refuses_light`](super::Shader::refuses_light).
+    Refused(&'static str),
+    /// Too many lights, or a number outside its range; the material is number 0.
+    Lighting(FrameError),
+}
+
+impl fmt::Display for SpanShaderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SpanShaderError::Refused(reason) => {
+                write!(f, "the method is not for this material: {reason}")
+            }
+            SpanShaderError::Lighting(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for SpanShaderError {}
 
 /// A method on a material and its lights, for a rasterizer of your own, which keeps edges, pixels and hidden surfaces to itself.
 ///
@@ -61,7 +86,7 @@ impl SpanVertex {
 /// let mut bytes = [[0; 4]; 16];
 /// store_line(&colours, None, &mut bytes);
 /// assert!(bytes[8][0] > bytes[0][0], "the highlight is in the middle");
-/// # Ok::<(), &str>(())
+/// # Ok::<(), fastphong::shading::SpanShaderError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct SpanShader {
@@ -84,15 +109,19 @@ impl SpanShader {
     /// Prepares a method on a material with its lights, whose varyings you interpolate linearly on the screen, or in perspective: then
     /// varyings are multiplied by the weight of their vertex.
     ///
+    /// Directions of any length become unit vectors.
+    ///
     /// # Errors
-    /// The reason why the method is not for such a material: those in integers want lights at infinity, and few.
+    /// [`SpanShaderError`] when the method is not for such a material, as those in integers want lights at infinity, and few; when there
+    /// are too many lights, or a number of the material or its lights is outside its range.
     pub fn new(
         variant: &Variant,
         lighting: &Lighting,
         interpolation: Interpolation,
-    ) -> Result<Self, &'static str> {
+    ) -> Result<Self, SpanShaderError> {
+        let lighting = &guard::lit(lighting, 0).map_err(SpanShaderError::Lighting)?;
         if let Some(reason) = (variant.entry().refuses_light)(lighting, interpolation) {
-            return Err(reason);
+            return Err(SpanShaderError::Refused(reason));
         }
         let (entry, lights) = (variant.entry(), lighting.lights.len());
         let (is_local, is_perspective) = (
@@ -154,11 +183,15 @@ impl SpanShader {
     /// Returns the varyings of a vertex: for methods that light vertices this lights one.
     pub fn vertex(&self, vertex: SpanVertex) -> Vec<f32> {
         let mut to = vec![0.0; self.varyings];
+        let normal = match vertex.normal.iter().all(|n| n.is_finite()) {
+            true => guard::unit(vertex.normal),
+            false => [0.0; 3],
+        };
         let own = self.varyings - self.extras.count();
         let job = Vertices {
             parameters: self.variant.parameters(),
             uniforms: &self.uniforms[1],
-            normals: &[vertex.normal],
+            normals: &[normal],
             points: &[vertex.position],
             attributes: &[vertex.attributes],
         };

@@ -378,7 +378,8 @@ mod tests {
                 Plan::Instead { renderer, reason }
             );
         }
-        let [ours, theirs] = [integer, float].map(|variant| variant.render(&frame));
+        let [ours, theirs] =
+            [integer, float].map(|variant| variant.render(&frame).expect("a method for the frame"));
         let levels = ours.pixels().iter().zip(theirs.pixels());
         let most = levels
             .flat_map(|(a, b)| [0, 1, 2].map(|c| a[c].abs_diff(b[c])))

@@ -351,7 +351,10 @@ mod tests {
             let mut frame = viewer.loaded.frame().expect("a frame");
             frame.set_alpha(Alpha::Flattened);
             for (method, columns) in [("flat", 0..20), ("naive-phong", 44..64)] {
-                let picture = Variant::parse(method).expect("a method").render(&frame);
+                let picture = Variant::parse(method)
+                    .expect("a method")
+                    .render(&frame)
+                    .expect("a method for the frame");
                 for y in 0..SIZE[1] {
                     for x in columns.clone() {
                         let [r, g, b, _] = picture.pixels()[SIZE[0] * y + x];
@@ -364,7 +367,10 @@ mod tests {
             // Alone it is the whole picture, with nothing before it.
             viewer.act(Action::ShowNext, Side::Left);
             let alone = shown(&mut viewer, SIZE);
-            let picture = Variant::parse("flat").expect("a method").render(&frame);
+            let picture = Variant::parse("flat")
+                .expect("a method")
+                .render(&frame)
+                .expect("a method for the frame");
             let colours = picture.pixels().iter();
             let colours = colours.map(|&[r, g, b, _]| u32::from_be_bytes([0, r, g, b]));
             assert!(alone.iter().map(|pixel| pixel & 0xff_ffff).eq(colours));

@@ -105,7 +105,10 @@ fn the_scalar_span_engine_can_be_requested() {
     let frame = scene.frame().unwrap();
     for method in methods_on_sphere() {
         let method = method.info.name;
-        let expected = Variant::parse(method).unwrap().render(&frame);
+        let expected = Variant::parse(method)
+            .unwrap()
+            .render(&frame)
+            .expect("a method for the frame");
         let flags = format!("-m {method} --engine span --simd scalar");
         assert!(sphere(&flags) == expected, "{flags}");
     }

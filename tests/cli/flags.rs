@@ -232,7 +232,10 @@ fn invalid_flags_are_rejected_by_name() {
             &["`--far` is 1: expected more than near = 5"],
         ),
         ("--light 0,0,0", &["`--light` has no length"]),
-        ("--light 1,0,0,-1", &["`--light` is -1: expected 0 or more"]),
+        (
+            "--light 1,0,0,-1",
+            &["`--light` is -1: expected 0 or more, up to 3.4e38"],
+        ),
         ("--light 1,0", &["expected a direction x,y,z"]),
         ("--light 1,0,0 --no-lights", &["cannot be used with"]),
         ("--light-at 0,0", &["expected a position x,y,z"]),
@@ -242,7 +245,7 @@ fn invalid_flags_are_rejected_by_name() {
         ),
         (
             "--light-at 0,0,5,-1",
-            &["`--light-at` is -1: expected 0 or more"],
+            &["`--light-at` is -1: expected 0 or more, up to 3.4e38"],
         ),
         ("--light-at 0,0,5 --no-lights", &["cannot be used with"]),
         (
@@ -251,11 +254,11 @@ fn invalid_flags_are_rejected_by_name() {
         ),
         (
             "--light-at 0,0,5 --attenuation -2",
-            &["`--attenuation` is -2: expected 0 or more"],
+            &["`--attenuation` is -2: expected 0 or more, up to 3.4e38"],
         ),
         (
             "--light-at 0,0,5 --attenuation NaN",
-            &["`--attenuation` is NaN: expected 0 or more"],
+            &["`--attenuation` is NaN: expected 0 or more, up to 3.4e38"],
         ),
         (
             "--attenuation 1",
@@ -294,11 +297,14 @@ fn invalid_flags_are_rejected_by_name() {
             "--near 3 --far 3",
             &["`--far` is 3: expected more than near = 3"],
         ),
-        ("--ks -1", &["`--ks` is -1: expected 0 or more"]),
+        (
+            "--ks -1",
+            &["`--ks` is -1: expected 0 or more, up to 3.4e38"],
+        ),
         ("--kd 1,2", &["expected one number, or three r,g,b"]),
         (
             "--shininess -2",
-            &["`--shininess` is -2: expected 0 or more"],
+            &["`--shininess` is -2: expected 0 or more, up to 3.4e38"],
         ),
         ("--background 2", &["`--background` is 2: expected 0 to 1"]),
         (
@@ -342,4 +348,66 @@ fn invalid_flags_are_rejected_by_name() {
     folder
         .run("render builtin:cube -v -q -o out.png")
         .refused(&["cannot be used with"]);
+}
+
+/// What a message says is expected holds: a number in the range that it names is not refused, and the number is shown as it was
+/// typed.
+#[test]
+fn ranges_in_messages_are_true_and_large_numbers_have_exponents() {
+    let folder = Folder::new();
+    for (command, expected) in [
+        (
+            "render builtin:cube --shininess inf -o out.png",
+            "`--shininess` is inf: expected 0 or more, up to 3.4e38",
+        ),
+        (
+            "render builtin:cube --ambient 1e39 -o out.png",
+            "`--ambient` is 1e39: expected 0 or more, up to 3.4e38",
+        ),
+        (
+            "render builtin:cube --light 1,0,0,1e39 -o out.png",
+            "`--light` is 1e39: expected 0 or more, up to 3.4e38",
+        ),
+        (
+            "render builtin:cube --far 1e300 -o out.png",
+            "`--far` is 1e300: expected numbers between -1e16 and 1e16",
+        ),
+        (
+            "render builtin:cube --fovy 30 --near 1e20 -o out.png",
+            "`--near` is 1e20: expected a number over 0 (up to 1e16)",
+        ),
+        (
+            "render builtin:cube --half-height 1e300 -o out.png",
+            "`--half-height` is 1e300: expected a number over 0 (1e-100 to 1e100)",
+        ),
+        (
+            "render builtin:cube --samples 99999999999999999999 -o out.png",
+            "expected a whole number of up to 18 digits",
+        ),
+        (
+            "render builtin:cube --resolution 99999999999999999999x1 -o out.png",
+            "expected WIDTHxHEIGHT, 1 to 16384 each",
+        ),
+        (
+            "render builtin:cube --aov checkerboard --square 1e300 -o out.png",
+            "expected a length in world units: a number over 0 (1e-15 to 1e15)",
+        ),
+        (
+            "compare builtin:cube --time-budget 1e300",
+            "expected seconds: a number from 0 to 1000000",
+        ),
+        (
+            "diff a.png b.png -o map.png --scale 1e300",
+            "expected grey levels: a number over 0 (1e-6 to 1e6)",
+        ),
+    ] {
+        folder.run(command).refused(&[expected]);
+    }
+    for flags in ["--shininess 3.3e38", "--half-height 1e-90 --cull none"] {
+        folder
+            .run(&format!(
+                "render builtin:cube --size 4x4 {flags} -o out.png"
+            ))
+            .done();
+    }
 }

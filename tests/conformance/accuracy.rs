@@ -400,6 +400,7 @@ fn linear(variant: &str, frame: &Frame) -> LinearPicture {
     Variant::parse(variant)
         .expect("a method")
         .render_linear(frame)
+        .expect("a method for the frame")
 }
 
 fn bound(variant: &str, frame: &Frame) -> f64 {
@@ -621,7 +622,9 @@ fn every_power_is_within_its_bounds() {
                     let truth = shade(form);
                     let bound = variant.bound(&scene.frame);
                     for renderer in distinct(&variant, &scene.frame) {
-                        let ours = variant.render_linear_with(&scene.frame, renderer);
+                        let ours = variant
+                            .render_linear_with(&scene.frame, renderer)
+                            .expect("a method for the frame");
                         let decided = scene.decided();
                         let (max, _) = largest_difference(&truth, &ours, |x, y| decided.get(x, y));
                         nearest = nearest.max(max / bound);

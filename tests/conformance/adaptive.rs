@@ -25,7 +25,9 @@ fn every_scene_is_within_the_promise() {
         for scene in cases(None) {
             let variant = adaptive(levels);
             let (ours, truth) = (
-                variant.render_linear(&scene.frame),
+                variant
+                    .render_linear(&scene.frame)
+                    .expect("a method for the frame"),
                 scene.truth(Model::Phong),
             );
             let mut most = 0.0f64;
@@ -238,7 +240,9 @@ fn measure(setting: Setting, all: &[Genes]) -> Measured {
         *sum = kind.polygons;
     }
     let (ours, truth) = (
-        variant.render_linear(&frame),
+        variant
+            .render_linear(&frame)
+            .expect("a method for the frame"),
         reference::render(&frame, Model::Phong),
     );
     let mut gates = None;

@@ -72,10 +72,19 @@ fn equal_normals_make_all_methods_equal() {
             builder.polygon(&corners, normal, number as u32);
         }
         let frame = builder.finish().expect("a frame");
-        let first = floats()[0].variant().render_linear(&frame);
+        let first = floats()[0]
+            .variant()
+            .render_linear(&frame)
+            .expect("a method for the frame");
         for entry in floats_on(&frame) {
-            let difference =
-                compare(&first, &entry.variant().render_linear(&frame)).expect("equal sizes");
+            let difference = compare(
+                &first,
+                &entry
+                    .variant()
+                    .render_linear(&frame)
+                    .expect("a method for the frame"),
+            )
+            .expect("equal sizes");
             let bound = floats()[0].variant().bound(&frame) + entry.variant().bound(&frame);
             assert!(
                 difference.max <= bound,
@@ -96,7 +105,10 @@ fn any_number_of_lights() {
         let case = Case::new("", sphere(|scene| scene.lights = lights(count)));
         assert_eq!(case.frame.light_count(), count);
         for entry in floats_on(&case.frame) {
-            let ours = entry.variant().render_linear(&case.frame);
+            let ours = entry
+                .variant()
+                .render_linear(&case.frame)
+                .expect("a method for the frame");
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
             let bound = entry.variant().bound(&case.frame);
             assert!(
@@ -124,7 +136,10 @@ fn a_light_behind_makes_no_highlight() {
     let normals = fastphong::raster::normals(&frame);
     let mut compared = 0;
     for entry in floats_on(&frame) {
-        let picture = entry.variant().render_linear(&frame);
+        let picture = entry
+            .variant()
+            .render_linear(&frame)
+            .expect("a method for the frame");
         for (pixel, normal) in picture.pixels().iter().zip(normals.pixels()) {
             let n =
                 DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()) * 2.0 - DVec3::ONE;
@@ -152,6 +167,7 @@ fn no_lights_means_ambient_only() {
         for pixel in entry
             .variant()
             .render_linear(&frame)
+            .expect("a method for the frame")
             .pixels()
             .iter()
             .filter(|t| t[3] > 0.0)
@@ -171,8 +187,14 @@ fn no_lights_means_ambient_only() {
 fn stored_and_linear_pictures_agree() {
     let frame = sphere(|_| ());
     for entry in floats_on(&frame) {
-        let stored = entry.variant().render(&frame);
-        let linear = entry.variant().render_linear(&frame);
+        let stored = entry
+            .variant()
+            .render(&frame)
+            .expect("a method for the frame");
+        let linear = entry
+            .variant()
+            .render_linear(&frame)
+            .expect("a method for the frame");
         let rounded = linear.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
         assert_eq!(stored, rounded, "{}", entry.info.name);
         let mut reused = Picture::new(96, 72, [7u8; 4]);
@@ -183,7 +205,10 @@ fn stored_and_linear_pictures_agree() {
         assert_eq!(stored, reused, "{}", entry.info.name);
         assert_eq!(
             stored,
-            entry.variant().render(&frame),
+            entry
+                .variant()
+                .render(&frame)
+                .expect("a method for the frame"),
             "{}",
             entry.info.name
         );
@@ -205,15 +230,22 @@ fn perspective_interpolation_agrees_with_the_reference() {
     let case = Case::new("", near(Interpolation::Perspective));
     let (space, screen) = (&case.frame, &near(Interpolation::Screen));
     for entry in floats_on(space) {
-        let ours = entry.variant().render_linear(space);
+        let ours = entry
+            .variant()
+            .render_linear(space)
+            .expect("a method for the frame");
         let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
         let bound = entry.variant().bound(space);
         assert!(max <= bound, "{}: {max} over {bound}", entry.info.name);
     }
     let differs = |name: &str| {
         let (a, b) = (
-            variant(name).render_linear(space),
-            variant(name).render_linear(screen),
+            variant(name)
+                .render_linear(space)
+                .expect("a method for the frame"),
+            variant(name)
+                .render_linear(screen)
+                .expect("a method for the frame"),
         );
         compare(&a, &b).expect("equal sizes").max
     };
@@ -242,8 +274,14 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
         else {
             continue;
         };
-        let difference =
-            compare(&theirs, &entry.variant().render_linear(&frame)).expect("equal sizes");
+        let difference = compare(
+            &theirs,
+            &entry
+                .variant()
+                .render_linear(&frame)
+                .expect("a method for the frame"),
+        )
+        .expect("equal sizes");
         // Both are within the bound of their closed form, and the forms are equal on triangles.
         assert!(
             difference.max <= 2.0 * entry.variant().bound(&frame),

@@ -23,7 +23,9 @@ fn check(
             specular,
             ..lighting()
         };
-        let picture = variant.render_linear(&strip_lit(lighting, n1, n2));
+        let picture = variant
+            .render_linear(&strip_lit(lighting, n1, n2))
+            .expect("a method for the frame");
         for row in 0..4 {
             for (column, pixel) in picture.row(row).iter().enumerate() {
                 let t = (column as f64 + 0.5) / f64::from(WIDTH);

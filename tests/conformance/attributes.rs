@@ -315,7 +315,10 @@ fn a_method_reads_the_attributes_that_a_mesh_brings() {
             let frame = with(w);
             assert_eq!(frame.clip_corners().is_empty(), near == 1.0);
             for renderer in renderers() {
-                let picture = QUOTIENTS.variant().render_linear_with(&frame, renderer);
+                let picture = QUOTIENTS
+                    .variant()
+                    .render_linear_with(&frame, renderer)
+                    .expect("a method for the frame");
                 let mut covered = 0;
                 for (found, expected) in picture.pixels().iter().zip(expected.pixels()) {
                     assert_eq!(found[3], expected[3]);

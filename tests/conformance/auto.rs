@@ -26,8 +26,11 @@ fn auto_draws_naive_phongs_picture_to_a_level() {
         };
         for renderer in renderers() {
             let (method, _) = Variant::auto(&case.frame, renderer);
-            let pictures =
-                [&naive, &method].map(|variant| variant.render_with(&case.frame, renderer));
+            let pictures = [&naive, &method].map(|variant| {
+                variant
+                    .render_with(&case.frame, renderer)
+                    .expect("a method for the frame")
+            });
             check(name(renderer), &method, pictures);
         }
         let (method, _) = Variant::auto(&case.frame, Renderer::LECTURE);

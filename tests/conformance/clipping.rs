@@ -127,7 +127,8 @@ fn ground_under_the_eye_has_the_colours_of_the_rays() {
         assert!(frame.stats().clipped > 0);
         let picture = Variant::parse("gouraud")
             .expect("a method")
-            .render_linear(&frame);
+            .render_linear(&frame)
+            .expect("a method for the frame");
         let mut compared = 0;
         for (x, y) in (0..60).flat_map(|y| (0..80).map(move |x| (x, y))) {
             let Some((gx, gz)) = ground_at(&camera, x, y) else {
@@ -218,7 +219,8 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
             frame.stats().clipped,
             Variant::parse("gouraud")
                 .expect("a method")
-                .render_linear(&frame),
+                .render_linear(&frame)
+                .expect("a method for the frame"),
         )
     };
     let ((uncut, whole), (cut, part)) = (draw(100.0), draw(20.0));
@@ -310,7 +312,10 @@ fn extreme_positions_never_panic() {
             scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(scale));
             let frame = scene.frame().expect("a frame");
             for entry in floats_on(&frame) {
-                let picture = entry.variant().render_linear(&frame);
+                let picture = entry
+                    .variant()
+                    .render_linear(&frame)
+                    .expect("a method for the frame");
                 assert!(
                     picture
                         .pixels()

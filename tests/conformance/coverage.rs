@@ -196,7 +196,7 @@ fn the_barycentric_renderer_covers_the_same_pixels() {
     for _ in 0..300 {
         let triangle = random_polygon(&mut random, 48, 40, 3);
         let frame = frame(48, 40, true, &[triangle]);
-        let ours = flat.render(&frame);
+        let ours = flat.render(&frame).expect("a method for the frame");
         let drawn = |edges| {
             flat.render_barycentric(&frame, edges)
                 .expect("flat is one of its methods")
@@ -233,7 +233,13 @@ fn at_equal_depth_the_first_polygon_is_seen() {
             raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
             reference::visibility(&frame).polygons,
         ];
-        assert!(flat.render(&frame).pixels().iter().any(|t| t[3] > 0));
+        assert!(
+            flat.render(&frame)
+                .expect("a method for the frame")
+                .pixels()
+                .iter()
+                .any(|t| t[3] > 0)
+        );
         for number in numbers.iter().flat_map(|picture| picture.pixels()) {
             assert!(
                 [seen, NOTHING].contains(number),

@@ -40,7 +40,9 @@ fn span_ends_are_closed_edge_interpolation() {
         let corners = 4 + random.below(9) as usize;
         let polygon = random_polygon(&mut random, 96, 72, corners);
         let frame = frame(96, 72, true, std::slice::from_ref(&polygon));
-        let picture = gouraud.render_linear(&frame);
+        let picture = gouraud
+            .render_linear(&frame)
+            .expect("a method for the frame");
         raster::coverage(&frame, |_, row, pixels| {
             let crossings = crossings(&polygon, row);
             assert_eq!(crossings.len() % 2, 0);
@@ -94,7 +96,9 @@ fn neighbours_agree_along_their_edge() {
     let left = vec![corner(3, 8, 0.3), upper, lower, corner(6, 88, 0.9)];
     let right = vec![upper, corner(92, 2, 0.3), corner(88, 95, 0.9), lower];
     let frame = frame(96, 96, true, &[left, right]);
-    let picture = gouraud.render_linear(&frame);
+    let picture = gouraud
+        .render_linear(&frame)
+        .expect("a method for the frame");
     let owners = raster::polygon_numbers(&frame);
     for row in 10..85 {
         let border = (1..96)

@@ -129,7 +129,8 @@ fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
     for (n1, n2) in pairs() {
         let picture = Variant::parse(variant)
             .unwrap()
-            .render_linear(&strip(n1, n2));
+            .render_linear(&strip(n1, n2))
+            .expect("a method for the frame");
         for row in 0..4 {
             for column in 0..WIDTH as usize {
                 let t = (column as f64 + 0.5) / f64::from(WIDTH);
@@ -216,7 +217,8 @@ fn the_summary_of_naive_phong_is_not_section_4_1() {
     );
     let picture = Variant::parse("naive-phong")
         .unwrap()
-        .render_linear(&strip(n1, n2));
+        .render_linear(&strip(n1, n2))
+        .expect("a method for the frame");
     let last = f64::from(picture.get(WIDTH as usize - 1, 0)[0]);
     assert!((last - lit(section)).abs() < TOLERANCE);
 }
@@ -267,7 +269,10 @@ fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
             } else {
                 frame_of(&[&[a, b, c, d]])
             };
-            entry.variant().render_linear(&frame)
+            entry
+                .variant()
+                .render_linear(&frame)
+                .expect("a method for the frame")
         };
         largest_difference(&picture(0), &turned_back(&picture(1)))
     };
@@ -305,7 +310,12 @@ fn the_picture_depends_on_the_diagonal() {
     let one = frame_of(&[&[a, b, c], &[a, c, d]]);
     let other = frame_of(&[&[a, b, d], &[b, c, d]]);
     for entry in floats_on(&one).filter(|entry| entry.info.name != "flat") {
-        let draw = |frame: &Frame| entry.variant().render_linear(frame);
+        let draw = |frame: &Frame| {
+            entry
+                .variant()
+                .render_linear(frame)
+                .expect("a method for the frame")
+        };
         assert!(
             largest_difference(&draw(&one), &draw(&other)) > 0.01,
             "{}",

@@ -90,7 +90,13 @@ fn every_mode_agrees_with_the_reference() {
                     let case = Case::new(mode, frame);
                     for entry in exact_on(&case.frame) {
                         let truth = case.truth(entry.info.model);
-                        let error = most(truth, &entry.variant().render_linear(&case.frame));
+                        let error = most(
+                            truth,
+                            &entry
+                                .variant()
+                                .render_linear(&case.frame)
+                                .expect("a method for the frame"),
+                        );
                         let bound = entry.variant().bound(&case.frame);
                         assert!(
                             bound < 3.0 / 255.0,
@@ -171,6 +177,7 @@ fn constant_light_vectors_differ_from_quadratics() {
         Variant::parse(name)
             .expect("a method")
             .render_linear(&frame)
+            .expect("a method for the frame")
     };
     let naive = render("naive-phong");
     let exact = most(&naive, &render("duff-phong"));
@@ -258,8 +265,14 @@ fn a_light_far_away_is_one_at_infinity() {
         // origin. The model amplifies it like any error of a cosine: 4 n k_s + k_d = 52.
         let bound = 52.0 * 2.5e-6 + entry.variant().bound(&far) + entry.variant().bound(&infinite);
         let error = most(
-            &entry.variant().render_linear(&far),
-            &entry.variant().render_linear(&infinite),
+            &entry
+                .variant()
+                .render_linear(&far)
+                .expect("a method for the frame"),
+            &entry
+                .variant()
+                .render_linear(&infinite)
+                .expect("a method for the frame"),
         );
         assert!(error <= bound, "{}: {error} over {bound}", entry.info.name);
     }
@@ -335,7 +348,10 @@ fn degenerate_light_positions_make_no_artefacts() {
     for (name, change) in cases {
         let case = Case::new(name, frame(change));
         for entry in floats_on(&case.frame) {
-            let picture = entry.variant().render_linear(&case.frame);
+            let picture = entry
+                .variant()
+                .render_linear(&case.frame)
+                .expect("a method for the frame");
             // `most` rejects values that are not finite.
             let error = most(case.truth(entry.info.model), &picture);
             let bound = entry.variant().bound(&case.frame);

@@ -15,6 +15,7 @@ mod cs171;
 mod edges;
 mod engines;
 mod figures;
+mod guard;
 mod hidden_surfaces;
 mod lecture;
 mod lights;

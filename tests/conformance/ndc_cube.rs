@@ -215,7 +215,10 @@ fn anything_around_the_eye_gives_a_picture() {
             }
         }
         for entry in floats_on(&frame) {
-            let picture = entry.variant().render_linear(&frame);
+            let picture = entry
+                .variant()
+                .render_linear(&frame)
+                .expect("a method for the frame");
             assert!(
                 picture
                     .pixels()

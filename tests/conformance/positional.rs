@@ -235,7 +235,9 @@ fn pixels_are_lit_by_quadratics() {
                             (triangle.frame(), Variant::parse(name).expect("a method"));
                         let kinds = variant.polygon_kinds(&frame);
                         assert_eq!(kinds[0].polygons, 1, "{name}, {falloff:?}, {weights:?}");
-                        let picture = variant.render_linear(&frame);
+                        let picture = variant
+                            .render_linear(&frame)
+                            .expect("a method for the frame");
                         let mut pixels = 0;
                         for y in 0..SIDE {
                             for (x, pixel) in picture.row(y as usize).iter().enumerate() {
@@ -355,7 +357,9 @@ fn random_triangles_are_within_their_bounds() {
                 let products = triangle.products(triangle.barycentric(place));
                 products[1..].chunks(3).all(|light| light[0].abs() > 1e-5)
             };
-            let ours = variant.render_linear(&frame);
+            let ours = variant
+                .render_linear(&frame)
+                .expect("a method for the frame");
             let (error, _) = largest_difference(&truth, &ours, is_clear);
             let bound = variant.bound(&frame);
             assert!(

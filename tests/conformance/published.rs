@@ -15,7 +15,10 @@ use glam::DVec3;
 fn check(variant: &str, lighting: &Lighting, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
     for (n1, n2) in pairs() {
         let frame = strip_lit(lighting.clone(), n1, n2);
-        let picture = Variant::parse(variant).unwrap().render_linear(&frame);
+        let picture = Variant::parse(variant)
+            .unwrap()
+            .render_linear(&frame)
+            .expect("a method for the frame");
         compare(variant, &picture, |x, _| {
             Some(formula(n1, n2, x / f64::from(WIDTH)))
         });
@@ -152,7 +155,10 @@ fn check_triangle(variant: &str, product: impl Fn(DVec3, [DVec3; 3], [f64; 2]) -
         let normals = turns.map(|(right, up)| leaning(right, up));
         let [a, b, c] = normals;
         let frame = frame_of(&[&[((0.0, 0.0), a), ((w, 0.0), b), ((0.0, w), c)]]);
-        let picture = Variant::parse(variant).unwrap().render_linear(&frame);
+        let picture = Variant::parse(variant)
+            .unwrap()
+            .render_linear(&frame)
+            .expect("a method for the frame");
         compare(variant, &picture, |x, y| {
             let of = |to| product(to, normals, [x / w, y / w]);
             Some(products(of(LIGHT), of(VIEW)))
@@ -246,7 +252,9 @@ fn biquadratic_normals_are_reflected_half_way() {
         };
         compare(
             "biquadratic-normals",
-            &variant.render_linear(&frame),
+            &variant
+                .render_linear(&frame)
+                .expect("a method for the frame"),
             |x, y| {
                 let screen = [1.0 - (x + y) / w, x / w, y / w];
                 let weighted = [0, 1, 2].map(|i| screen[i] * f64::from(weights[i]));

@@ -147,6 +147,7 @@ fn the_comparison_detects_two_levels() {
         fastphong::shading::Variant::parse(name)
             .expect("a method")
             .render(frame)
+            .expect("a method for the frame")
     };
     let naive = picture("naive-phong");
     let mut moved = naive.clone();

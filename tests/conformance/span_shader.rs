@@ -5,7 +5,7 @@ use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::number::vec3;
 use fastphong::scene::{Interpolation, Light, Lighting};
-use fastphong::shading::{Corner, Corners, SpanShader, SpanVertex, Variant};
+use fastphong::shading::{Corner, Corners, SpanShader, SpanShaderError, SpanVertex, Variant};
 use glam::{DVec3, Vec3};
 
 #[allow(dead_code)] // its `main`
@@ -128,7 +128,9 @@ fn spans_are_those_of_the_engine() {
             let rectangle = Rectangle::new(lights, interpolation);
             let frame = rectangle.frame();
             for variant in floats_on(&frame).map(|entry| entry.variant()) {
-                let picture = variant.render_linear(&frame);
+                let picture = variant
+                    .render_linear(&frame)
+                    .expect("a method for the frame");
                 let mut colours = [[0.0; 3]; 48];
                 rectangle.shade(&variant, 8, &mut colours);
                 let mut part = [[0.0; 3]; 20];
@@ -182,7 +184,8 @@ fn a_material_that_a_method_is_not_for_is_refused() {
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &near, DVec3::Z);
     let variant = Variant::parse("integer-fast").expect("a method");
     let refused = SpanShader::new(&variant, &lighting, Interpolation::Screen).err();
-    assert_eq!(refused, Some("in integers, lights and eye are at infinity"));
+    let reason = "in integers, lights and eye are at infinity";
+    assert_eq!(refused, Some(SpanShaderError::Refused(reason)));
 }
 
 /// The example draws three balls without holes: every row of a ball is one run of pixels.

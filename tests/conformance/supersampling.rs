@@ -41,7 +41,9 @@ fn pictures(frame: &Frame) -> [LinearPicture; 3] {
     let gouraud = Variant::parse("gouraud").expect("a method");
     let triangles = triangulated(frame).frame;
     [
-        gouraud.render_linear(frame),
+        gouraud
+            .render_linear(frame)
+            .expect("a method for the frame"),
         gouraud
             .render_barycentric_linear(&triangles, Edges::TopLeft)
             .expect("gouraud is one of its methods"),
@@ -71,7 +73,8 @@ fn a_constant_picture_stays_constant() {
             let frame = frame(6, n, Encoding::Linear, &all, intensity);
             let picture = Variant::parse("flat")
                 .expect("a method")
-                .render_linear(&frame);
+                .render_linear(&frame)
+                .expect("a method for the frame");
             assert_eq!((picture.width(), picture.height()), (6, 6));
             let face = picture.get(0, 0);
             // The face normal of `add` points into the light, the corner normals do not.
@@ -176,7 +179,10 @@ fn samples_are_filtered_before_they_are_encoded() {
     let barycentric = gouraud
         .render_barycentric(&triangulated(&frame).frame, Edges::TopLeft)
         .expect("has gouraud");
-    for picture in [gouraud.render(&frame), barycentric] {
+    for picture in [
+        gouraud.render(&frame).expect("a method for the frame"),
+        barycentric,
+    ] {
         let [r, g, b, alpha] = picture.get(2, 3);
         assert_eq!(
             ([r, g, b], alpha),
@@ -202,8 +208,14 @@ fn every_sample_is_shaded() {
         let large = supersampled("coarse-sphere", (w, h), 1);
         for entry in floats_on(&frame) {
             let (small, large) = (
-                entry.variant().render_linear(&frame),
-                entry.variant().render_linear(&large),
+                entry
+                    .variant()
+                    .render_linear(&frame)
+                    .expect("a method for the frame"),
+                entry
+                    .variant()
+                    .render_linear(&large)
+                    .expect("a method for the frame"),
             );
             for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
                 let mut mean = [0.0f64; 4];
@@ -215,7 +227,10 @@ fn every_sample_is_shaded() {
                 let mean = mean.map(|sum| (sum / (n * n) as f64) as f32);
                 assert_eq!(small.get(x, y), mean, "{} at {x}, {y}", entry.info.name);
             }
-            let stored = entry.variant().render(&frame);
+            let stored = entry
+                .variant()
+                .render(&frame)
+                .expect("a method for the frame");
             assert_eq!(
                 stored,
                 small.map(|pixel| pixel.map(quantise)),
@@ -291,8 +306,12 @@ fn all_targets_hold_straight_alpha() {
     let frame = supersampled("coarse-sphere", (48, 36), 2);
     for renderer in support::renderers::renderers() {
         let naive = Variant::parse("naive-phong").expect("a method");
-        let linear = naive.render_linear_with(&frame, renderer);
-        let stored = naive.render_with(&frame, renderer);
+        let linear = naive
+            .render_linear_with(&frame, renderer)
+            .expect("a method for the frame");
+        let stored = naive
+            .render_with(&frame, renderer)
+            .expect("a method for the frame");
         let mut rows = Vec::new();
         let drawn = naive.render_rows(&frame, renderer, |pixels| {
             rows.extend_from_slice(pixels);
@@ -335,7 +354,10 @@ fn supersampled_methods_are_within_their_bounds() {
         };
         for entry in floats_on(&frame) {
             let truth = reference::shade(&frame, &visible, entry.info.model).to_linear();
-            let ours = entry.variant().render_linear(&frame);
+            let ours = entry
+                .variant()
+                .render_linear(&frame)
+                .expect("a method for the frame");
             let difference = compare_where(&truth, &ours, same).expect("equal sizes");
             // The reference's mean is rounded to f32 once more.
             let bound = entry.variant().bound(&frame) + 1.0 / f64::from(1 << 25);

@@ -829,7 +829,8 @@ fn pictures() -> Vec<u8> {
         let truth = reference::render(&frame, Model::Phong).to_picture8();
         let ours = Variant::parse(name)
             .expect("a method")
-            .render_with(&frame, Renderer::LECTURE);
+            .render_with(&frame, Renderer::LECTURE)
+            .expect("a method for the frame");
         for (row, picture) in [truth, ours].iter().enumerate() {
             let (left, top) = (number % 6 * CELL, (number / 6 * 2 + row) * CELL);
             for y in 0..24 * SCALE {

@@ -86,7 +86,7 @@ impl Sheet {
         // Averages would not go over an edge between quads that are wound differently.
         let method = self.normals.map_or("flat", |_| "naive-phong");
         let variant = Variant::parse(method).map_err(|error| error.to_string())?;
-        Ok(variant.render(&frame))
+        variant.render(&frame).map_err(|error| error.to_string())
     }
 }
 

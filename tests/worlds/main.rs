@@ -9,6 +9,7 @@
 //! and others by `FASTPHONG_WORLDS_SEED=2`. A world in which something does not hold is made as small as it gets and printed
 //! as the files of a scene: make a test of these, whose name says the situation.
 
+mod doors;
 mod files;
 mod mesh;
 mod numbers;
@@ -21,6 +22,7 @@ mod world;
 #[allow(dead_code)]
 mod renderers;
 
+use doors::Outcome;
 use properties::{Tally, check};
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
@@ -125,4 +127,26 @@ fn no_number_in_a_scene_makes_it_panic() {
     println!("{worlds} worlds, {} of them drawn", drawn.get());
     assert_none(&failures);
     assert!(drawn.get() * 5 > worlds, "{} are drawn", drawn.get());
+}
+
+/// What a scene file or a flag may not say, no program can set, and what both say is drawn alike.
+#[test]
+fn both_doors_refuse_and_draw_the_same_scenes() {
+    let worlds = setting("FASTPHONG_WORLDS", WORLDS);
+    let outcomes = RefCell::new(Vec::new());
+    let failures = try_all(&doors::made(), worlds, |(world, changes, lengths)| {
+        if let Ok(scene) = world.scene() {
+            outcomes
+                .borrow_mut()
+                .push(doors::check(scene, &changes, &lengths)?);
+        }
+        Ok(())
+    });
+    let outcomes = outcomes.into_inner();
+    let count = |which| outcomes.iter().filter(|outcome| **outcome == which).count();
+    let [refused, drawn, equal] = [Outcome::Refused, Outcome::Drawn, Outcome::Equal].map(count);
+    println!("{worlds} worlds: {refused} refused, {drawn} drawn, {equal} equal to the bit");
+    assert_none(&failures);
+    let worlds = worlds as usize;
+    assert!(10 * refused > worlds && 2 * equal > worlds);
 }

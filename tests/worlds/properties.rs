@@ -122,7 +122,9 @@ fn numbered(
 fn numbers(numbered: &Frame, renderer: Renderer, walks: bool) -> Picture<u32> {
     let method = Variant::parse(if walks { "slerp-phong" } else { "flat" });
     let method = method.expect("a method");
-    let picture = method.render_linear_with(numbered, renderer);
+    let picture = method
+        .render_linear_with(numbered, renderer)
+        .expect("a method for the frame");
     picture.map(|[red, _, _, alpha]| match alpha {
         0.0 => NOTHING,
         _ => (red * (1 << 24) as f32) as u32 - 1,
@@ -304,7 +306,12 @@ impl<'a> Seen<'a> {
             let options = DrawOptions::by(renderer);
             let drawn = variant.draw(frame, &mut stored, options);
             drawn.expect("a picture of the frame's size");
-            (stored, variant.render_linear_with(frame, renderer))
+            (
+                stored,
+                variant
+                    .render_linear_with(frame, renderer)
+                    .expect("a method for the frame"),
+            )
         };
         let [one, three] = [0, 1].map(|pool| pools()[pool].install(draw));
         let bits = |picture: &LinearPicture| picture.map(|pixel| pixel.map(f32::to_bits));

@@ -35,8 +35,13 @@ pub type Change = (u16, f64);
 /// Returns worlds and changes of some of their numbers.
 #[allow(dead_code)] // a fuzzer has changes of its own
 pub fn changed_worlds() -> BoxedStrategy<(World, Vec<Change>)> {
+    (scene::worlds(), changes()).boxed()
+}
+
+/// Returns changes of some numbers of a scene.
+pub fn changes() -> BoxedStrategy<Vec<Change>> {
     let change = (any::<u16>(), prop::sample::select(&WILD[..]));
-    (scene::worlds(), prop::collection::vec(change, 1..4)).boxed()
+    prop::collection::vec(change, 1..4).boxed()
 }
 
 /// Calls `visit` with every number of a scene but those of its meshes.
@@ -89,8 +94,8 @@ fn visit(scene: &mut Scene, visit: &mut dyn FnMut(&mut f64)) {
     }
 }
 
-/// Draws a scene with some of its numbers replaced, if it is not refused: nothing may panic. Returns true if it was drawn.
-pub fn draw(mut scene: Scene, changes: &[Change]) -> bool {
+/// Returns a scene with some of its numbers replaced.
+pub fn changed(mut scene: Scene, changes: &[Change]) -> Scene {
     let mut count = 0;
     visit(&mut scene, &mut |_| count += 1);
     for &(which, new) in changes {
@@ -102,14 +107,23 @@ pub fn draw(mut scene: Scene, changes: &[Change]) -> bool {
             number += 1;
         });
     }
-    let Ok(frame) = scene.frame() else {
+    scene
+}
+
+/// Draws a scene with some of its numbers replaced, if it is not refused: nothing may panic. Returns true if it was drawn.
+pub fn draw(scene: Scene, changes: &[Change]) -> bool {
+    let Ok(frame) = changed(scene, changes).frame() else {
         return false;
     };
     for entry in METHODS {
         let variant = entry.variant();
         for renderer in distinct(&variant, &frame) {
-            variant.render_with(&frame, renderer);
-            variant.render_linear_with(&frame, renderer);
+            variant
+                .render_with(&frame, renderer)
+                .expect("a method for the frame");
+            variant
+                .render_linear_with(&frame, renderer)
+                .expect("a method for the frame");
         }
         variant.bound(&frame);
     }

@@ -85,15 +85,18 @@ impl<'a> References<'a> {
             .unwrap_or_default()
     }
 
-    /// Draws a variant by `renderer` and compares it.
+    /// Draws a variant that is for the frame by `renderer`, and compares it.
     pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
+        const IS_FOR: &str = "others are left out";
         let forms = &self.closed_forms;
         let planned = variant.plan(forms.frame, renderer).renderer();
         let planned = planned.unwrap_or(renderer);
         let by = DrawnBy::new(planned);
         let shown = &*self.shown(variant, planned);
         let linear = variant.render_linear_with(forms.frame, renderer);
+        let linear = linear.expect(IS_FOR);
         let picture = variant.render_with(forms.frame, renderer);
+        let picture = picture.expect(IS_FOR);
         let own = match variant.closed_form() {
             form if form == Model::Phong.into() => None,
             form => Some(forms.difference(form, &linear, shown)),

@@ -39,7 +39,7 @@ pub(super) fn time(
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
     for MethodRow { variant, .. } in &comparison.rows {
         candidates.push(Box::new(move || {
-            black_box(variant.render_with(black_box(frame), renderer));
+            let _ = black_box(variant.render_with(black_box(frame), renderer));
         }));
     }
     for MethodRow { variant, .. } in &comparison.barycentric {

@@ -26,7 +26,7 @@ use super::timing::Candidate;
 use crate::frame::{Frame, FrameError, PreparedScene};
 use crate::mesh::builtin::{BuiltinError, builtin};
 use crate::picture::Picture8;
-use crate::raster::{DrawOptions, Renderer};
+use crate::raster::{DrawError, DrawOptions, Renderer};
 use crate::scene::Scene;
 use crate::shading::{METHODS, Variant};
 use alloc::boxed::Box;
@@ -45,6 +45,8 @@ pub enum ExperimentError {
     Mesh(#[from] BuiltinError),
     /// There is no picture of that size.
     Frame(#[from] FrameError),
+    /// A method is not for the experiment's frames.
+    Draw(#[from] DrawError),
 }
 
 /// Returns the name of a sphere of about so many triangles, without `builtin:`.

@@ -213,13 +213,13 @@ fn levels_off(
     let mut off = vec![0; variants.len()];
     for corner in corners {
         let drawn = |variant: &Variant| match corner.work {
-            Work::Kernel => span_picture(variant, corner, span),
+            Work::Kernel => Ok(span_picture(variant, corner, span)),
             Work::Frame => variant.render_with(&frame, Renderer::on(level(corner.scalar))),
         };
         if let Some(naive) = variants.iter().find(|variant| is_baseline(variant)) {
-            let naive = drawn(naive);
+            let naive = drawn(naive)?;
             for (off, variant) in off.iter_mut().zip(variants) {
-                *off = farthest(&naive, &drawn(variant)).max(*off);
+                *off = farthest(&naive, &drawn(variant)?).max(*off);
             }
         }
     }

@@ -1,19 +1,21 @@
 //! The light on a frame's materials.
 
 use crate::mesh::Material;
+use crate::scene::direction::as_unit;
 use crate::scene::{Light, Lighting, Place, Scene};
 use alloc::vec::Vec;
 use glam::DVec3;
 
 impl Scene {
-    /// Returns the lights, with positions relative to `origin` as [`Frame::position`] gives those of vertices.
+    /// Returns the lights, with directions as unit vectors, and positions relative to `origin` as [`Frame::position`] gives those of
+    /// vertices.
     fn lights_from(&self, origin: DVec3) -> Vec<Light> {
-        let from_origin = |light: &Light| match light.place {
-            Place::Infinite(_) => *light,
-            Place::Local(p) => Light {
-                place: Place::Local(p - origin),
-                ..*light
+        let from_origin = |light: &Light| Light {
+            place: match light.place {
+                Place::Infinite(to) => Place::Infinite(as_unit(to)),
+                Place::Local(p) => Place::Local(p - origin),
             },
+            ..*light
         };
         self.lights.iter().map(from_origin).collect()
     }

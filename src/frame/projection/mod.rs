@@ -18,7 +18,7 @@ mod vertices;
 mod view;
 mod winding;
 
-use super::{DepthRange, Frame, FrameError, FrameStats, Geometry, Polygon};
+use super::{DepthRange, Frame, FrameError, FrameStats, Geometry, Polygon, guard};
 use crate::mesh::Material;
 use crate::scene::{Camera, Light, Lighting, Scene};
 use crate::sync::Arc;
@@ -43,7 +43,8 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// [`FrameError`] when the picture's size, the camera or the number of lights is outside its range.
+    /// [`FrameError`] when the picture's size, the number of lights or a number of camera, lights, materials or objects is outside its
+    /// range, or no direction: what scene files and flags refuse is refused here.
     pub fn frame(&self) -> Result<Frame, FrameError> {
         self.prepare()?.frame()
     }
@@ -71,11 +72,20 @@ impl Scene {
     /// [`FrameError`] as [`Scene::frame`], for the scene's own camera.
     pub fn prepare(&self) -> Result<PreparedScene, FrameError> {
         View::new(self)?;
+        guard::lights(self)?;
+        let mut objects = self.objects.iter().enumerate();
+        objects.try_for_each(|(index, object)| guard::object(index, object))?;
         let Preparation {
             geometry,
             table,
             materials,
         } = Preparation::new(self)?;
+        guard::materials(&materials)?;
+        let objects = self.objects.iter().zip(&geometry.models.objects);
+        for (index, (object, model)) in objects.enumerate() {
+            guard::positions(index, object, model)?;
+        }
+        guard::lights_off_vertices(self)?;
         // Only the settings of the scene are left.
         let settings = Scene {
             objects: Vec::new(),
@@ -140,7 +150,7 @@ impl PreparedScene {
         self.settings.samples = samples;
     }
 
-    /// Sets the lights.
+    /// Sets the lights. Whether one of them stands at a vertex is not asked any more: the direction toward it is undefined there.
     pub fn set_lights(&mut self, lights: Vec<Light>) {
         self.settings.lights = lights;
     }
@@ -179,12 +189,13 @@ impl PreparedScene {
         let view = View::new(&self.settings)?;
         self.settings(frame, &view);
         let origin = DVec3::from_array(frame.origin);
+        guard::lights(&self.settings)?;
+        guard::materials(&self.materials)?;
         self.settings
             .light(&self.materials, origin, &mut frame.lightings);
         frame.is_local = frame.lightings.iter().any(Lighting::is_local);
         frame.check_settings()?;
         frame.check_lightings()?;
-        self.check_positions(origin)?;
         let Placed {
             is_any_beyond,
             weights: [mut least, mut largest],
@@ -287,26 +298,5 @@ impl PreparedScene {
         let middle = 0.5 * low + 0.5 * high;
         let is_far = (eye - middle).abs().max_element() > FAR * (high - low).max_element();
         if is_far { middle } else { eye }
-    }
-
-    /// True if the positions of all vertices, relative to `origin`, are numbers that an `f32` can hold.
-    fn check_positions(&self, origin: DVec3) -> Result<(), FrameError> {
-        let models = &self.geometry.models;
-        for object in &models.objects {
-            let farthest = object.reach() + object.transform.translation.abs() + origin.abs();
-            if farthest.max_element() < 0.5 * f64::from(f32::MAX) {
-                continue;
-            }
-            let is_finite = |v: &usize| {
-                self.geometry
-                    .position(*v as u32, origin.to_array())
-                    .iter()
-                    .all(|c| c.is_finite())
-            };
-            if let Some(index) = (object.first..object.end).find(|v| !is_finite(v)) {
-                return Err(FrameError::Vertex { index });
-            }
-        }
-        Ok(())
     }
 }

@@ -125,7 +125,6 @@ impl Preparation {
         let extent = DVec3::new(extent(&models.x), extent(&models.y), extent(&models.z));
         let end = models.x.len();
         models.objects.push(PlacedModel {
-            first,
             end,
             transform: object.positions_to_world(),
             extent,

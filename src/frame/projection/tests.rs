@@ -2,7 +2,7 @@
 
 use super::side::eye_side;
 use super::view::{BEYOND_PLANES, View};
-use crate::frame::{Frame, FrameError, FrameStats, Polygon, Vertex};
+use crate::frame::{Frame, FrameError, FrameItem, FrameStats, Polygon, Vertex};
 use crate::mesh::newell::{polygon_normal, unit_normal};
 use crate::mesh::vertex_normals::vertex_normals;
 use crate::scene::input::{SCENES, resolve};
@@ -387,7 +387,9 @@ fn a_camera_that_sees_nothing_leaves_an_empty_frame() {
         eye: scene.camera.target,
         ..scene.camera
     });
-    assert_eq!(prepared.frame_into(&mut frame), Err(FrameError::Camera));
+    let refused = prepared.frame_into(&mut frame);
+    let item = FrameItem::Camera;
+    assert!(matches!(refused, Err(FrameError::Number { item: of, .. }) if of == item));
     assert!(frame.polygons().is_empty() && frame.vertices().is_empty());
     prepared.set_camera(scene.camera);
     prepared.set_size(0, 10);

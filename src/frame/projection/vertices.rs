@@ -218,7 +218,11 @@ impl<'a> Placing<'a> {
         for i in 0..count {
             let clip = DVec4::new(c_x[i], c_y[i], c_z[i], c_w[i]);
             codes[i] = self.view.codes(clip);
-            out[i] = self.view.vertex(clip);
+            // The tolerance of cuts is not for a mesh's own vertices.
+            out[i] = match codes[i] & BEYOND_PLANES {
+                0 => self.view.vertex(clip),
+                _ => self.view.nowhere(),
+            };
             placed.is_any_beyond |= codes[i] != 0;
             if self.view.needs_inv_w && codes[i] & BEYOND_PLANES == 0 {
                 placed.add(Placed {

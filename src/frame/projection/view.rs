@@ -1,7 +1,7 @@
 //! The view: from a position in the world to clip space, to the planes that it is beyond, to pixel coordinates.
 
 use super::clip::Plane;
-use crate::frame::{DepthRange, Frame, FrameError, ScreenVertex, SubPixel, sub_pixel};
+use crate::frame::{DepthRange, Frame, FrameError, ScreenVertex, SubPixel, guard, sub_pixel};
 use crate::scene::{
     Camera, Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
 };
@@ -45,16 +45,16 @@ impl<'a> View<'a> {
         if ![1, 2, 4, 8].contains(&samples) || !sides.contains(&width) || !sides.contains(&height) {
             return Err(FrameError::Samples { samples });
         }
+        guard::camera(&scene.camera)?;
         let clip_matrix = scene
             .camera
             .precise_clip_matrix(f64::from(scene.width) / f64::from(scene.height));
-        let ordered = scene.camera.near < scene.camera.far;
-        if !clip_matrix.is_finite() || !scene.camera.view().is_finite() || !ordered {
-            return Err(FrameError::Camera);
+        if !clip_matrix.is_finite() {
+            return Err(guard::no_depth(scene.camera.far));
         }
         let (x, y) = (DVec4::X, DVec4::Y);
         let (w_x, w_y) = (DVec4::W * reach(width), DVec4::W * reach(height));
-        let guard = |normal| Plane {
+        let band = |normal| Plane {
             normal,
             in_front: true,
             w: None,
@@ -67,7 +67,7 @@ impl<'a> View<'a> {
                     in_front: false,
                     w: None,
                 };
-                (1.0, [plane(DVec4::Z), guard(DVec4::W - DVec4::Z)])
+                (1.0, [plane(DVec4::Z), band(DVec4::W - DVec4::Z)])
             }
             // z goes from 1 down to 0: (f − w)/(f − n) n ≤ w is n ≤ w.
             Projection::Perspective { .. } => {
@@ -83,10 +83,10 @@ impl<'a> View<'a> {
         let planes = [
             near,
             far,
-            guard(w_x + x),
-            guard(w_x - x),
-            guard(w_y + y),
-            guard(w_y - y),
+            band(w_x + x),
+            band(w_x - x),
+            band(w_y + y),
+            band(w_y - y),
         ];
         let per_sample = |buffer: DepthBuffer| buffer.source == DepthSource::PerSample;
         let needs_inv_w = scene.interpolation == Interpolation::Perspective
@@ -135,16 +135,21 @@ impl<'a> View<'a> {
         }
     }
 
+    /// Returns a vertex without pixel coordinates: in the first corner of the picture, as far away as can be, with a weight that
+    /// is none.
+    pub fn nowhere(&self) -> ScreenVertex {
+        ScreenVertex {
+            x: SubPixel::ZERO,
+            y: SubPixel::ZERO,
+            depth: DepthRange::from(&self.scene.camera).depths()[1],
+            inv_w: f64::MIN_POSITIVE,
+        }
+    }
+
     /// Returns the vertex at a position. If it has no pixel coordinates, only its attributes matter.
     pub fn vertex(&self, clip: DVec4) -> ScreenVertex {
         if !self.is_on_picture(clip) {
-            // In the first corner of the picture, as far away as can be, with a weight that is none.
-            return ScreenVertex {
-                x: SubPixel::ZERO,
-                y: SubPixel::ZERO,
-                depth: DepthRange::from(&self.scene.camera).depths()[1],
-                inv_w: f64::MIN_POSITIVE,
-            };
+            return self.nowhere();
         }
         let [x, y] = self.snap(clip);
         let inv_w = if self.needs_inv_w {

@@ -284,7 +284,9 @@ fn polygon_numbers_are_those_of_the_polygons_that_each_method_shows() {
             if variant.plan(&frame, renderer).renderer() != Some(renderer) {
                 continue;
             }
-            let picture = variant.render_linear_with(&frame, renderer);
+            let picture = variant
+                .render_linear_with(&frame, renderer)
+                .expect("a method for the frame");
             let numbers = variant.polygon_numbers(&frame, renderer);
             for (pixel, number) in picture.pixels().iter().zip(numbers.pixels()) {
                 let shown = ((256.0 * pixel[0]).round() as u32).wrapping_sub(1);
@@ -401,7 +403,9 @@ fn colours_beyond_integers_are_white_beside_any_material() {
     let frame = builder.finish().expect("corners inside the guard band");
     for level in levels() {
         let variant = Variant::parse("gouraud-separate").expect("a method");
-        let picture = variant.render_with(&frame, Renderer::Row(level));
+        let picture = variant
+            .render_with(&frame, Renderer::Row(level))
+            .expect("a method for the frame");
         assert_eq!(picture.get(2, 2), [128, 128, 128, 255]);
         assert_eq!(picture.get(18, 2), [255; 4]);
     }

@@ -1,11 +1,13 @@
-//! Ranges of the values of a scene: the one place that decides, for files and flags alike.
+//! Values of a scene file or of flags: checked by `scene/ranges.rs`, with errors that name the key or the flag.
 
 use super::diagnostics::{Origin, SceneError};
 use super::schema::ChoiceWord;
 use super::value::{Data, SceneTable};
+use crate::number::Written;
 use crate::picture::Rgb;
-use crate::scene::of_mesh::unit;
-use crate::scene::{MAX_COORDINATE, Scene};
+use crate::scene::Scene;
+use crate::scene::direction::unit;
+use crate::scene::ranges::{COORDINATE, NumberRange, STRENGTH};
 use glam::DVec3;
 use std::borrow::ToOwned;
 use std::collections::BTreeMap;
@@ -99,8 +101,8 @@ impl<'a> Section<'a> {
         self.pointing_at(other, "the other one is here", error)
     }
 
-    /// Returns a number for which `is_valid` holds; NaN and infinities are refused first.
-    pub fn number(
+    /// Returns a number for which `is_valid` holds.
+    fn number_if(
         &self,
         key: &str,
         is_valid: impl Fn(f64) -> bool,
@@ -109,63 +111,52 @@ impl<'a> Section<'a> {
         let Some(&Data::Number(value)) = self.data(key) else {
             return Ok(None);
         };
-        // A number that is finite in 64 bits need not be so in the 32 bits of the pixel loops.
-        match (value as f32).is_finite() && is_valid(value) {
+        match is_valid(value) {
             true => Ok(Some(value)),
-            false => Err(self.error(key, &format!("is {value}"), format!("expected {expected}"))),
+            false => {
+                let problem = format!("is {}", Written(value));
+                Err(self.error(key, &problem, format!("expected {expected}")))
+            }
         }
     }
 
-    /// Returns a length: a number over 0 whose reciprocal stays within the range of coordinates too.
-    pub fn length(&self, key: &str) -> Result<Option<f64>, SceneError> {
-        let is_length = |value| (1.0 / MAX_COORDINATE..=MAX_COORDINATE).contains(&value);
-        self.number(key, is_length, "a number over 0 (1e-15 to 1e15)")
-    }
-
-    /// Returns a number that is 0 or more.
-    pub fn not_negative(&self, key: &str) -> Result<Option<f64>, SceneError> {
-        self.number(key, |value| value >= 0.0, "0 or more")
-    }
-
-    /// Returns a number within the range of coordinates.
-    pub fn coordinate(&self, key: &str) -> Result<Option<f64>, SceneError> {
-        self.number(key, is_coordinate, COORDINATES)
+    /// Returns a number in its range.
+    pub fn number(&self, key: &str, range: &NumberRange) -> Result<Option<f64>, SceneError> {
+        self.number_if(key, |value| range.holds(value), range.expected)
     }
 
     /// Returns an angle in radians, given as at most `most` degrees in either direction.
     pub fn angle(&self, key: &str, most: f64) -> Result<Option<f64>, SceneError> {
         let expected = format!("degrees between -{most} and {most}");
-        let degrees = self.number(key, |value| value.abs() <= most, &expected)?;
+        let degrees = self.number_if(key, |value| value.abs() <= most, &expected)?;
         Ok(degrees.map(f64::to_radians))
     }
 
-    /// Returns three numbers for each of which `is_valid` holds; an error calls the first that is wrong by its name.
+    /// Returns three numbers in their range; an error calls the first that is wrong by its name.
     fn three(
         &self,
         key: &str,
         names: [&str; 3],
-        is_valid: impl Fn(f64) -> bool,
-        expected: String,
+        range: &NumberRange,
     ) -> Result<Option<DVec3>, SceneError> {
         let values = self.table.triple(key);
         let numbers = names
             .into_iter()
             .zip(values.into_iter().flat_map(|v| v.to_array()));
-        let Some((name, wrong)) = numbers.into_iter().find(|(_, v)| !is_valid(*v)) else {
+        let Some((name, wrong)) = numbers.into_iter().find(|(_, v)| !range.holds(*v)) else {
             return Ok(values);
         };
         let is_one = values.is_some_and(|v| v.to_array().map(f64::to_bits) == [wrong.to_bits(); 3]);
         let problem = match is_one {
-            true => format!("is {wrong}"),
-            false => format!("has {name} = {wrong}"),
+            true => format!("is {}", Written(wrong)),
+            false => format!("has {name} = {}", Written(wrong)),
         };
-        Err(self.error(key, &problem, expected))
+        Err(self.error(key, &problem, format!("expected {}", range.expected)))
     }
 
     /// Returns a point: three numbers within the range of coordinates.
     pub fn point(&self, key: &str) -> Result<Option<DVec3>, SceneError> {
-        let expected = format!("expected {COORDINATES}");
-        self.three(key, ["x", "y", "z"], is_coordinate, expected)
+        self.three(key, ["x", "y", "z"], &COORDINATE)
     }
 
     /// Returns a direction as a unit vector.
@@ -180,14 +171,14 @@ impl<'a> Section<'a> {
         Err(self.error(key, problem, expected))
     }
 
-    /// Returns a colour or a coefficient of each channel: 0 or more, and at most `most`.
-    pub fn channels(&self, key: &str, most: f64) -> Result<Option<Rgb>, SceneError> {
-        let is_valid = |v: f64| (v as f32).is_finite() && (0.0..=most).contains(&v);
-        let expected = match most.is_finite() {
-            true => format!("expected 0 to {most}"),
-            false => "expected 0 or more".to_owned(),
-        };
-        let channels = self.three(key, ["red", "green", "blue"], is_valid, expected)?;
+    /// Returns a number of 0 or more that an `f32` holds.
+    pub fn strength(&self, key: &str) -> Result<Option<f64>, SceneError> {
+        self.number(key, &STRENGTH)
+    }
+
+    /// Returns a colour, or a coefficient of each channel.
+    pub fn channels(&self, key: &str, range: &NumberRange) -> Result<Option<Rgb>, SceneError> {
+        let channels = self.three(key, ["red", "green", "blue"], range)?;
         Ok(channels.map(|values| values.as_vec3().to_array()))
     }
 
@@ -228,16 +219,3 @@ impl<'a> Section<'a> {
         self.data(key) == Some(&Data::Switch(true))
     }
 }
-
-/// True if `value` may be a coordinate: finite, and not over [`MAX_COORDINATE`].
-pub(super) fn is_coordinate(value: f64) -> bool {
-    value.abs() <= MAX_COORDINATE
-}
-
-/// True if all three may be coordinates.
-pub(super) fn is_position(point: DVec3) -> bool {
-    point.to_array().into_iter().all(is_coordinate)
-}
-
-/// The range of coordinates in words; see [`MAX_COORDINATE`].
-pub(super) const COORDINATES: &str = "numbers between -1e15 and 1e15";

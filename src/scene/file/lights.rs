@@ -2,8 +2,10 @@
 
 use super::check::Section;
 use super::diagnostics::SceneError;
+use crate::number::Written;
 use crate::picture::Rgb;
-use crate::scene::{Falloff, Light, Place};
+use crate::scene::ranges::STRENGTH;
+use crate::scene::{Falloff, Light, Place, stands_at};
 use glam::DVec3;
 use std::format;
 
@@ -26,15 +28,16 @@ pub(super) fn light(section: &Section, number: usize) -> Result<Light, SceneErro
 
 /// Returns the colour times the intensity.
 fn colour(section: &Section) -> Result<Rgb, SceneError> {
-    let colour = section.channels("colour", f64::INFINITY)?;
-    let intensity = section.not_negative("intensity")?.unwrap_or(1.0);
+    let colour = section.channels("colour", &STRENGTH)?;
+    let intensity = section.strength("intensity")?.unwrap_or(1.0);
     let colour = colour.unwrap_or([1.0; 3]);
     let colour = colour.map(|channel| (f64::from(channel) * intensity) as f32);
     if colour.iter().all(|channel| channel.is_finite()) {
         return Ok(colour);
     }
-    let expected = "expected a finite product with the colour";
-    Err(section.error("intensity", &format!("is {intensity}"), expected))
+    let expected = "expected a product with the colour of up to 3.4e38";
+    let problem = format!("is {}", Written(intensity));
+    Err(section.error("intensity", &problem, expected))
 }
 
 /// Returns the falloff, which only a light at a position has.
@@ -48,7 +51,7 @@ fn falloff(section: &Section) -> Result<Falloff, SceneError> {
     }
     let why = "expected one of them: `attenuation` is a falloff too";
     section.exclude("attenuation", "falloff", why)?;
-    Ok(match section.not_negative("attenuation")? {
+    Ok(match section.strength("attenuation")? {
         Some(k) => Falloff::Attenuation(k as f32),
         None => section.word("falloff"),
     })
@@ -63,17 +66,11 @@ pub(super) fn check_distance(
     let Some(light) = section.table.triple("position") else {
         return Ok(());
     };
-    // Closer than the rounding of positions in `f32` is the same place. They are rounded relative to the eye, and those of
-    // a mesh that lies far from 0 relative to that mesh.
-    let is_here = |p: &&DVec3| {
-        let from_zero = p.length().max(light.length());
-        let from_eye = (**p - eye).length().max((light - eye).length());
-        (**p - light).length() <= f64::from(f32::EPSILON) * from_zero.min(from_eye)
-    };
-    let Some(p) = points.iter().find(is_here) else {
+    let Some(p) = points.iter().find(|point| stands_at(light, **point, eye)) else {
         return Ok(());
     };
-    let problem = format!("is at a vertex, ({}, {}, {})", p.x, p.y, p.z);
+    let [x, y, z] = p.to_array().map(Written);
+    let problem = format!("is at a vertex, ({x}, {y}, {z})");
     let expected =
         "expected a place off the vertices: there the direction toward the light is undefined";
     Err(section.error("position", &problem, expected))

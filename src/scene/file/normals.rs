@@ -4,6 +4,7 @@ use super::check::Section;
 use super::diagnostics::SceneError;
 use crate::mesh::PolygonMesh;
 use crate::mesh::vertex_normals::{NormalSource, NormalUse};
+use crate::scene::ranges::CREASE;
 use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
@@ -12,8 +13,7 @@ use std::vec::Vec;
 pub(super) fn normals(object: &Section) -> Result<NormalSource, SceneError> {
     let why = "expected one of them: `crease` averages up to an angle";
     object.exclude("crease", "normals", why)?;
-    let is_crease = |v| (0.0..=180.0).contains(&v);
-    let crease = object.number("crease", is_crease, "degrees between 0 and 180")?;
+    let crease = object.number("crease", &CREASE)?;
     Ok(crease.map_or_else(|| object.word("normals"), NormalSource::Crease))
 }
 

@@ -1,6 +1,6 @@
 //! From a scene file to a scene: values are checked, meshes loaded, the camera is fitted.
 
-use super::check::{COORDINATES, Section, is_coordinate, is_position};
+use super::check::Section;
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
 use super::normals::{normals, note_unused};
@@ -13,8 +13,10 @@ use super::{BUILTIN, SceneFile, shown};
 use crate::mesh::orientation::inside_out;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, PolygonMesh};
-use crate::scene::of_mesh::unit;
-use crate::scene::{Culling, Light, MAX_COORDINATE, Object, Scene};
+use crate::number::Written;
+use crate::scene::direction::{length, unit};
+use crate::scene::ranges::{COORDINATE, NumberRange, PIXEL, SIZE, STRENGTH, VOLUME};
+use crate::scene::{Culling, Light, Object, Scene, volume};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -73,8 +75,8 @@ impl SceneFile {
         let (mut warnings, mut notes) = (Vec::new(), Vec::new());
         let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
         let height = image.side("height")?.unwrap_or(Scene::DEFAULT_SIZE.1);
-        let background = image.channels("background", 1.0)?.unwrap_or([0.0; 3]);
-        let ambient = file.channels("ambient", f64::INFINITY)?;
+        let background = image.channels("background", &PIXEL)?.unwrap_or([0.0; 3]);
+        let ambient = file.channels("ambient", &STRENGTH)?;
         let lights = lights(&file)?;
         let aspect = f64::from(width) / f64::from(height);
         let viewpoint = Viewpoint::new(file.section("camera", "camera"), aspect)?;
@@ -112,7 +114,7 @@ impl SceneFile {
             };
             warn_of_inside_out(name, &object.mesh, outside, &mut warnings);
         }
-        let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
+        let points: Vec<DVec3> = objects.iter().flat_map(Object::world_points).collect();
         let camera = viewpoint.camera(points.iter().copied(), &mut warnings)?;
         file.sections("light", "light")
             .try_for_each(|light| check_distance(&light, &points, camera.eye))?;
@@ -168,9 +170,7 @@ impl SceneFile {
                 true => Some(material(&own, &default)?),
                 false => None,
             };
-            let is_part = |v| (1e-12..=0.1).contains(&v);
-            let expected = "a part of the size of the mesh, 1e-12 to 0.1";
-            let weld = section.number("weld", is_part, expected)?;
+            let weld = section.number("weld", &WELD)?;
             Ok((
                 section,
                 placement(&section)?,
@@ -232,7 +232,7 @@ impl SceneFile {
                 material: own,
                 normals,
             };
-            if !world_points(&object).all(is_position) {
+            if !object.world_points().all(|p| COORDINATE.holds_all(p)) {
                 let problem = format!("`{spec}` reaches too far");
                 let expected = "expected coordinates between -1e15 and 1e15 after the transform";
                 return Err(match is_named_in_file(&section) {
@@ -313,8 +313,8 @@ fn mesh_error(object: &Section, mesh: &str, reason: &str) -> SceneError {
 
 /// Returns the coefficients given in a table, those of `default` where none are.
 fn material(section: &Section, default: &Material) -> Result<Material, SceneError> {
-    let coefficient = |key| section.channels(key, f64::INFINITY);
-    let shininess = section.not_negative("shininess")?;
+    let coefficient = |key| section.channels(key, &STRENGTH);
+    let shininess = section.strength("shininess")?;
     Ok(Material {
         ambient: coefficient("ka")?.unwrap_or(default.ambient),
         diffuse: coefficient("kd")?.unwrap_or(default.diffuse),
@@ -348,16 +348,22 @@ fn lacks_material(mesh: &PolygonMesh) -> bool {
     (0..mesh.polygon_count()).any(|polygon| mesh.polygon_material(polygon).is_none())
 }
 
+/// The part of a mesh's size up to which positions are one.
+const WELD: NumberRange =
+    NumberRange::new(1e-12, 0.1, "a part of the size of the mesh, 1e-12 to 0.1");
+
+/// Factors of a scale. Those of [`SIZE`] have room for the rounding of a rotation.
+const SCALE: NumberRange = NumberRange::new(1e-15, 1e15, SIZE.expected);
+
 /// Returns the transform from model space to world space.
 fn placement(object: &Section) -> Result<DAffine3, SceneError> {
     if let Some(Data::Matrix(rows)) = object.table.get("matrix").map(|value| &value.data) {
         return from_matrix(object, rows);
     }
     let scale = object.table.triple("scale").unwrap_or(DVec3::ONE);
-    let sizes = 1.0 / MAX_COORDINATE..=MAX_COORDINATE;
-    let is_wrong = |factor: &f64| !sizes.contains(&factor.abs());
+    let is_wrong = |factor: &f64| !SCALE.holds(factor.abs());
     if let Some(factor) = scale.to_array().into_iter().find(is_wrong) {
-        let problem = format!("has the factor {factor}");
+        let problem = format!("has the factor {}", Written(factor));
         let expected = "expected factors that are not 0, their sizes between 1e-15 and 1e15";
         return Err(object.error("scale", &problem, expected));
     }
@@ -380,15 +386,23 @@ fn placement(object: &Section) -> Result<DAffine3, SceneError> {
 fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, SceneError> {
     let why = "expected `matrix`, or `scale`, `rotate` and `translate`";
     object.exclude("matrix", "scale rotate translate", why)?;
-    if let Some(value) = rows.iter().flatten().find(|v| !is_coordinate(**v)) {
-        let problem = format!("has the entry {value}");
-        return Err(object.error("matrix", &problem, format!("expected {COORDINATES}")));
+    if let Some(value) = rows.iter().flatten().find(|v| !COORDINATE.holds(**v)) {
+        let problem = format!("has the entry {}", Written(*value));
+        let expected = format!("expected {}", COORDINATE.expected);
+        return Err(object.error("matrix", &problem, expected));
     }
     let column = |i: usize| DVec3::new(rows[0][i], rows[1][i], rows[2][i]);
     let linear = DMat3::from_cols(column(0), column(1), column(2));
-    // The volume that a unit cube keeps, measured by its own edges: below this the directions of normals are rounding.
-    let edges = column(0).length() * column(1).length() * column(2).length();
-    if linear.determinant().abs() <= 1e-12 * edges {
+    let sizes = [0, 1, 2].map(|i| length(column(i)));
+    if let Some(size) = sizes
+        .into_iter()
+        .find(|&size| size > 0.0 && !SIZE.holds(size))
+    {
+        let problem = format!("has a column of length {}", Written(size));
+        let expected = format!("expected {}", SIZE.expected);
+        return Err(object.error("matrix", &problem, expected));
+    }
+    if !VOLUME.holds(volume(linear)) {
         let expected = "expected a matrix that can be inverted: columns not in one plane";
         return Err(object.error("matrix", "flattens the object", expected));
     }
@@ -423,18 +437,4 @@ fn with_default_material(mut mesh: Arc<PolygonMesh>, default: Material) -> Arc<P
         Arc::make_mut(&mut mesh).set_default_material(default);
     }
     mesh
-}
-
-/// Returns the positions in world space that the polygons of `object` use, each once.
-fn world_points(object: &Object) -> impl Iterator<Item = DVec3> {
-    let mesh = &object.mesh;
-    let mut used = vec![false; mesh.positions().len()];
-    for &corner in mesh.corners() {
-        used[corner as usize] = true;
-    }
-    let points = mesh.positions().iter().zip(used);
-    let to_world = object.positions_to_world();
-    points
-        .filter(|(_, used)| *used)
-        .map(move |(p, _)| to_world.transform_point3(p.as_dvec3()))
 }

@@ -245,7 +245,11 @@ fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
         (ValueKind::Switch, DeValue::Boolean(switch)) => Ok(Data::Switch(*switch)),
         (ValueKind::Whole, _) => {
             let whole = whole(value.get_ref()).map(Data::Whole);
-            whole.ok_or_else(|| wrong(value, &kind.expected()))
+            let expected = match value.get_ref() {
+                DeValue::Integer(_) => "a whole number of up to 18 digits".to_owned(),
+                _ => kind.expected(),
+            };
+            whole.ok_or_else(|| wrong(value, &expected))
         }
         (ValueKind::Number, _) => number(value).map(Data::Number),
         (ValueKind::OneOrThree, DeValue::Integer(_) | DeValue::Float(_)) => {
@@ -286,6 +290,8 @@ fn whole(value: &DeValue) -> Option<i64> {
 fn number(value: &Spanned<DeValue>) -> Result<f64, SceneError> {
     let number = match value.get_ref() {
         DeValue::Float(float) => float.as_str().parse().ok(),
+        // Also of more digits than a whole number may have.
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
         other => whole(other).map(|whole| whole as f64),
     };
     number.ok_or_else(|| wrong(value, &ValueKind::Number.expected()))

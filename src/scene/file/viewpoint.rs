@@ -1,17 +1,19 @@
 //! From the camera of a scene file to the camera of the scene.
 
-use super::check::{Section, is_coordinate, is_position};
+use super::check::Section;
 use super::diagnostics::{Origin, SceneError};
 use super::upright::turn;
-use crate::scene::of_mesh::unit;
+use crate::number::Written;
+use crate::scene::direction::unit;
+use crate::scene::ranges::{COORDINATE, DISTANCE, FOVY, HALF_HEIGHT, NEAR, NumberRange, TILT};
 use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::{DMat3, DVec3};
 use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// The least sine of the angle between `up` and the line of sight: below it, rounding decides what is up.
-const LEAST_TILT: f64 = 1e-6;
+/// The part of the picture that objects fill.
+const FIT: NumberRange = NumberRange::new(1e-3, 100.0, "a fraction of the picture, 0.001 to 100");
 
 /// A camera whose every value is valid by itself; what depends on the objects is still open.
 pub(super) struct Viewpoint<'a> {
@@ -28,12 +30,9 @@ impl<'a> Viewpoint<'a> {
     /// Reads `[camera]`; `aspect` is the width of the picture over its height.
     pub fn new(section: Section<'a>, aspect: f64) -> Result<Self, SceneError> {
         exclusions(&section)?;
-        let half_height = section.length("half_height")?;
-        let is_angle = |v| (1e-3..=179.999).contains(&v);
-        let expected = "degrees over 0 and under 180 (0.001 to 179.999)";
-        let fovy = section.number("fovy", is_angle, expected)?;
-        let is_part = |v| (1e-3..=100.0).contains(&v);
-        let fraction = section.number("fit", is_part, "a fraction of the picture, 0.001 to 100")?;
+        let half_height = section.number("half_height", &HALF_HEIGHT)?;
+        let fovy = section.number("fovy", &FOVY)?;
+        let fraction = section.number("fit", &FIT)?;
         let (near, far) = planes(&section)?;
         let turn = turn(Some(section.table));
         let (fixed, direction) = stand(&section, turn)?;
@@ -76,11 +75,12 @@ impl<'a> Viewpoint<'a> {
         let Camera { near, far, eye, .. } = camera;
         if near >= far {
             // One of them was given, the other one is where the objects end.
+            let [near, far] = [near, far].map(Written);
             let problem = format!("leaves nothing between near = {near} and far = {far}");
             let key = if self.far.is_some() { "far" } else { "near" };
             return Err(self.section.error(key, &problem, "expected near below far"));
         }
-        if !is_position(eye) {
+        if !COORDINATE.holds_all(eye) {
             let expected = "expected coordinates up to 1e15";
             let problem = "puts the eye too far away";
             return Err(self.section.error("eye", problem, expected));
@@ -138,16 +138,15 @@ fn exclusions(section: &Section) -> Result<(), SceneError> {
 /// Returns the near and far distances that are given.
 fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     let near = if section.has("fovy") {
-        let expected = "a number over 0, as the camera is a perspective one";
-        section.number("near", |v| v > 0.0 && is_coordinate(v), expected)?
+        section.number("near", &NEAR)?
     } else {
-        section.coordinate("near")?
+        section.number("near", &DISTANCE)?
     };
-    let far = section.coordinate("far")?;
+    let far = section.number("far", &DISTANCE)?;
     match (near, far) {
         (Some(near), Some(far)) if far <= near => {
-            let expected = format!("expected more than near = {near}");
-            let error = section.error("far", &format!("is {far}"), expected);
+            let expected = format!("expected more than near = {}", Written(near));
+            let error = section.error("far", &format!("is {}", Written(far)), expected);
             Err(section.pointing_at("near", "near is here", error))
         }
         planes => Ok(planes),
@@ -193,12 +192,12 @@ fn azimuth(section: &Section) -> Result<f64, SceneError> {
 fn up(section: &Section, toward_eye: DVec3, turn: DMat3) -> Result<DVec3, SceneError> {
     let upright = turn * DVec3::Y;
     match section.direction("up")? {
-        Some(up) if toward_eye.cross(up).length() < LEAST_TILT => {
+        Some(up) if !TILT.holds(toward_eye.cross(up).length()) => {
             let expected = "expected a direction across it";
             Err(section.error("up", "is parallel to the line of sight", expected))
         }
         Some(up) => Ok(up),
-        None if toward_eye.cross(upright).length() >= LEAST_TILT => Ok(upright),
+        None if TILT.holds(toward_eye.cross(upright).length()) => Ok(upright),
         None => {
             let (sin, cos) = libm::sincos(azimuth(section)?);
             let tilted = DVec3::new(-sin, 0.0, -cos) * toward_eye.dot(upright).signum();

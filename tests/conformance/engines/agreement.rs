@@ -22,9 +22,18 @@ fn compare(drawing: &Drawing) -> (u8, Option<String>) {
     // Both pictures are within their bounds of one closed form.
     let bound = 2.0 * variant.bound(frame);
     let counts = |x, y| decided.get(x, y);
-    let (max, uncovered) =
-        largest_difference(&variant.render_linear(frame), &drawing.linear(), counts);
-    let (levels, _) = levels_apart(&variant.render(frame), &drawing.stored(), counts);
+    let (max, uncovered) = largest_difference(
+        &variant
+            .render_linear(frame)
+            .expect("a method for the frame"),
+        &drawing.linear(),
+        counts,
+    );
+    let (levels, _) = levels_apart(
+        &variant.render(frame).expect("a method for the frame"),
+        &drawing.stored(),
+        counts,
+    );
     // Values less than a level apart are stored as the same level or as neighbours.
     let allowed = f64::max((255.0 * slope * bound).ceil(), 1.0);
     let is_wrong = max > bound || uncovered > 0 || f64::from(levels) > allowed;

@@ -120,8 +120,12 @@ fn random_polygons_are_covered_as_in_the_lecture() {
         let nearest = frame(width, height, true, &polygons);
         for method in &methods {
             let (seen, drawn) = (
-                method.render_linear(&last),
-                covered(&method.render_linear(&nearest)),
+                method.render_linear(&last).expect("a method for the frame"),
+                covered(
+                    &method
+                        .render_linear(&nearest)
+                        .expect("a method for the frame"),
+                ),
             );
             for renderer in renderers() {
                 let who = || {
@@ -132,13 +136,19 @@ fn random_polygons_are_covered_as_in_the_lecture() {
                     )
                 };
                 assert_eq!(
-                    method.render_linear_with(&last, renderer),
+                    method
+                        .render_linear_with(&last, renderer)
+                        .expect("a method for the frame"),
                     seen,
                     "{}",
                     who()
                 );
                 assert_eq!(
-                    covered(&method.render_linear_with(&nearest, renderer)),
+                    covered(
+                        &method
+                            .render_linear_with(&nearest, renderer)
+                            .expect("a method for the frame")
+                    ),
                     drawn,
                     "{}",
                     who()
@@ -155,12 +165,16 @@ fn shipped_scenes_are_covered_as_in_the_lecture() {
     for case in cases(Some((157, 115))) {
         let (scene, frame) = (&case.name, &case.frame);
         for method in ["flat", "slerp-phong"].map(variant) {
-            let drawn = covered(&method.render_linear(frame));
+            let drawn = covered(&method.render_linear(frame).expect("a method for the frame"));
             assert!(drawn.pixels().iter().any(|&drawn| drawn));
             for renderer in renderers() {
                 for threads in 1..=3 {
                     let ours = on_threads(threads, || {
-                        covered(&method.render_linear_with(frame, renderer))
+                        covered(
+                            &method
+                                .render_linear_with(frame, renderer)
+                                .expect("a method for the frame"),
+                        )
                     });
                     let who = format!(
                         "{} on {scene} by {}, {threads} threads",

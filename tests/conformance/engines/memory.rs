@@ -45,7 +45,9 @@ fn all_formats_hold_the_same_picture_and_leave_what_lies_between_rows() {
     const STRIDE: usize = 61;
     each_way(|who, frame, variant, renderer| {
         let [width, height] = [frame.picture_width(), frame.picture_height()];
-        let expected = variant.render_with(frame, renderer);
+        let expected = variant
+            .render_with(frame, renderer)
+            .expect("a method for the frame");
         // The last row ends with its last pixel.
         let len = STRIDE * (height - 1) + width;
         let (mut rgba, mut bgra) = (vec![[9; 4]; len], vec![[9; 4]; len]);
@@ -60,7 +62,9 @@ fn all_formats_hold_the_same_picture_and_leave_what_lies_between_rows() {
             let options = DrawOptions::by(renderer);
             draw(variant, frame, picture.stride(STRIDE), options);
         }
-        let linear = variant.render_linear_with(frame, renderer);
+        let linear = variant
+            .render_linear_with(frame, renderer)
+            .expect("a method for the frame");
         for place in 0..len {
             let (x, y) = (place % STRIDE, place / STRIDE);
             let found = (rgba[place], bgra[place], argb[place], floats[place]);
@@ -88,6 +92,7 @@ fn a_kept_background_shows_where_nothing_is() {
         draw(variant, frame, &mut picture, kept(renderer));
         let expected = variant
             .render_with(frame, renderer)
+            .expect("a method for the frame")
             .map(|pixel| match pixel {
                 [_, _, _, 0] => before,
                 pixel => pixel,
@@ -111,7 +116,9 @@ fn the_covered_share_of_a_pixel_lies_over_what_was_there() {
             frame.set_alpha(alpha);
             draw(&variant, &frame, &mut picture, kept(renderer));
             frame.set_alpha(Alpha::Flattened);
-            let expected = variant.render_linear_with(&frame, renderer);
+            let expected = variant
+                .render_linear_with(&frame, renderer)
+                .expect("a method for the frame");
             let shares = expected.pixels().iter().map(|pixel| pixel[3]);
             assert!(shares.clone().any(|alpha| 0.0 < alpha && alpha < 1.0));
             assert_eq!(
@@ -124,7 +131,9 @@ fn the_covered_share_of_a_pixel_lies_over_what_was_there() {
         frame.set_alpha(Alpha::Straight);
         let mut picture = LinearPicture::new(48, 36, [0.25, 0.5, 0.75, 0.0]);
         draw(&variant, &frame, &mut picture, kept(renderer));
-        let alone = variant.render_linear_with(&frame, renderer);
+        let alone = variant
+            .render_linear_with(&frame, renderer)
+            .expect("a method for the frame");
         for (found, alone) in picture.pixels().iter().zip(alone.pixels()) {
             match alone[3] {
                 0.0 => assert_eq!(*found, [0.25, 0.5, 0.75, 0.0]),
@@ -152,7 +161,9 @@ fn two_frames_compose_as_one() {
         for method in ["gouraud", "phong-rsqrt", "fast-phong", "slerp-phong"] {
             let variant = Variant::parse(method).expect("a method");
             for renderer in distinct(&variant, &both) {
-                let expected = variant.render_with(&both, renderer);
+                let expected = variant
+                    .render_with(&both, renderer)
+                    .expect("a method for the frame");
                 for (frames, threads) in [([&first, &second], 1), ([&second, &first], 2)] {
                     let mut depths = vec![f32::INFINITY; both.width() * both.height()];
                     let mut picture = Picture8::new(both.width(), both.height(), [7; 4]);
@@ -209,7 +220,9 @@ fn what_lies_in_front_stays() {
             ..kept(renderer)
         };
         draw(variant, frame, &mut picture, options);
-        let whole = variant.render_with(frame, renderer);
+        let whole = variant
+            .render_with(frame, renderer)
+            .expect("a method for the frame");
         let left = frame.picture_width() / 2;
         for (y, x) in (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (y, x)))
         {

@@ -36,7 +36,9 @@ fn streamed_rows_make_the_picture() {
     for (kind, frame) in kinds(21, HEIGHT) {
         for variant in floats_on(&frame).map(|entry| entry.variant()) {
             for renderer in renderers() {
-                let whole = variant.render_with(&frame, renderer);
+                let whole = variant
+                    .render_with(&frame, renderer)
+                    .expect("a method for the frame");
                 for threads in [1, 2] {
                     let (picture, parts) =
                         on_threads(threads, || streamed(&variant, &frame, renderer));

@@ -20,6 +20,7 @@ fn bytes(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, Pic
         stored,
         variant
             .render_linear_with(frame, renderer)
+            .expect("a method for the frame")
             .map(|pixel| pixel.map(f32::to_bits)),
     )
 }
@@ -63,7 +64,11 @@ fn bands_leave_no_seams() {
         (scene.width, scene.height) = (37, height);
         let frame = scene.frame().expect("a frame");
         for variant in floats_on(&frame).map(|entry| entry.variant()) {
-            let drawn = covered(&variant.render_linear(&frame));
+            let drawn = covered(
+                &variant
+                    .render_linear(&frame)
+                    .expect("a method for the frame"),
+            );
             assert!(drawn.pixels().contains(&true));
             for renderer in renderers() {
                 let who = || {

@@ -20,11 +20,13 @@ impl Drawing<'_> {
     pub fn linear(&self) -> LinearPicture {
         self.variant
             .render_linear_with(&self.case.frame, self.renderer)
+            .expect("a method for the frame")
     }
 
     /// Draws it as it is stored.
     pub fn stored(&self) -> Picture8 {
-        self.variant.render_with(&self.case.frame, self.renderer)
+        let picture = self.variant.render_with(&self.case.frame, self.renderer);
+        picture.expect("a method for the frame")
     }
 
     /// True for the scalar span engine, with which the others are compared.

@@ -34,7 +34,7 @@ fn positions_and_attenuations_out_of_range() {
         coordinates,
         None,
     );
-    let at_least_0 = "expected 0 or more";
+    let at_least_0 = "expected 0 or more, up to 3.4e38";
     check(
         &format!("{AT}attenuation = «-0.5»\n"),
         "`light.attenuation` is -0.5",
@@ -258,7 +258,7 @@ fn lights_from_flags() {
     let attenuation = ("attenuation", Data::Number(-1.0), "--attenuation");
     assert_eq!(
         refused(&[at([5.0; 3]), attenuation.clone()]),
-        "error: `--attenuation` is -1: expected 0 or more"
+        "error: `--attenuation` is -1: expected 0 or more, up to 3.4e38"
     );
     let toward = ("direction", Data::Triple([1.0; 3]), "--light");
     assert!(

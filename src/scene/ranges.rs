@@ -1,0 +1,84 @@
+//! Ranges of a scene's numbers: the one list for scene files, for flags and for scenes that a program makes.
+//!
+//! `file/` checks what a user wrote and names the key or the flag; `frame/guard.rs` checks what a frame is made of, whoever made
+//! it. Both ask this list, so that no door lets through what the other one refuses.
+
+use glam::DVec3;
+
+/// A range of numbers with both its ends, and the words for it in messages: "expected `expected`".
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NumberRange {
+    least: f64,
+    most: f64,
+    pub expected: &'static str,
+}
+
+impl NumberRange {
+    pub(crate) const fn new(least: f64, most: f64, expected: &'static str) -> NumberRange {
+        NumberRange {
+            least,
+            most,
+            expected,
+        }
+    }
+
+    /// True if `value` is in the range; NaN is in none.
+    pub(crate) fn holds(&self, value: f64) -> bool {
+        (self.least..=self.most).contains(&value)
+    }
+
+    /// True if all three coordinates are in the range.
+    pub(crate) fn holds_all(&self, point: DVec3) -> bool {
+        point.to_array().into_iter().all(|c| self.holds(c))
+    }
+}
+
+/// Coordinates in world space: squares of distances (at most 12 times their squares) and the products with coefficients stay far
+/// inside the range of an `f32`.
+pub(crate) const COORDINATE: NumberRange =
+    NumberRange::new(-1e15, 1e15, "numbers between -1e15 and 1e15");
+
+/// Distances from the eye, and coordinates that count from it or from another point: at most those between two corners of the
+/// cube of all coordinates, 2√3 · 10¹⁵, and what a fitted camera leaves free behind them.
+pub(crate) const DISTANCE: NumberRange =
+    NumberRange::new(-1e16, 1e16, "numbers between -1e16 and 1e16");
+
+/// The distance of the near plane under perspective.
+pub(crate) const NEAR: NumberRange = NumberRange::new(
+    f64::from_bits(1),
+    1e16,
+    "a number over 0 (up to 1e16), as the camera is a perspective one",
+);
+
+/// Half of the height that an orthographic camera sees: its reciprocal times any coordinate is far inside the range of an `f64`.
+pub(crate) const HALF_HEIGHT: NumberRange =
+    NumberRange::new(1e-100, 1e100, "a number over 0 (1e-100 to 1e100)");
+
+/// The vertical field of view.
+pub(crate) const FOVY: NumberRange = NumberRange::new(
+    1e-3,
+    179.999,
+    "degrees over 0 and under 180 (0.001 to 179.999)",
+);
+
+/// The sine of the angle between up and the line of sight: below it, rounding decides what is up.
+pub(crate) const TILT: NumberRange = NumberRange::new(1e-6, 1.5, "at least 1e-6");
+
+/// Sizes that a transform gives to a unit vector of the model. Rounding may leave a little less of the least and a little more
+/// of the greatest.
+pub(crate) const SIZE: NumberRange = NumberRange::new(0.5e-15, 2e15, "1e-15 to 1e15");
+
+/// The volume that a transform leaves of a unit cube, as a share of that which the same edges have at right angles: below it the
+/// directions of normals are rounding.
+pub(crate) const VOLUME: NumberRange =
+    NumberRange::new(1e-12, 1.5, "over 1e-12: a transform that can be inverted");
+
+/// Colours of pixels.
+pub(crate) const PIXEL: NumberRange = NumberRange::new(0.0, 1.0, "0 to 1");
+
+/// Intensities of light, coefficients of reflection, attenuations and exponents: what an `f32` holds of 0 and more.
+pub(crate) const STRENGTH: NumberRange =
+    NumberRange::new(0.0, f32::MAX as f64, "0 or more, up to 3.4e38");
+
+/// The angle up to which vertex normals are averaged.
+pub(crate) const CREASE: NumberRange = NumberRange::new(0.0, 180.0, "degrees between 0 and 180");
