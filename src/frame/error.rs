@@ -202,11 +202,14 @@ struct Short(f64);
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Short(value) = *self;
-        let narrow = value as f32;
-        // From 2²⁴ on the digits of an `f32` are not those of the whole number that it is.
-        match f64::from(narrow) == value && (1e-5..16_777_216.0).contains(&narrow.abs()) {
-            true => write!(f, "{narrow}"),
-            false => Written(value).fmt(f),
+        let (narrow, size) = (value as f32, value.abs());
+        match f64::from(narrow) == value {
+            // From 2²⁴ on the digits of an `f32` are not those of the whole number that it is.
+            true if (1e-5..16_777_216.0).contains(&size) => write!(f, "{narrow}"),
+            true if size > 0.0 && size.is_finite() && !(1e-5..1e16).contains(&size) => {
+                write!(f, "{narrow:e}")
+            }
+            _ => Written(value).fmt(f),
         }
     }
 }

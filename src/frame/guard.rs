@@ -9,8 +9,8 @@ use crate::mesh::Material;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::scene::direction::{self, as_unit, is_unit};
 use crate::scene::ranges::{
-    COORDINATE, CREASE, DISTANCE, FOVY, HALF_HEIGHT, NEAR, NumberRange, SIZE, STRENGTH, TILT,
-    VOLUME,
+    COORDINATE, CREASE, DISTANCE, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, SIZE, STRENGTH,
+    TILT, VOLUME,
 };
 use crate::scene::{
     Camera, Falloff, Light, LightTerm, Lighting, Object, Place, Projection, Scene, stands_at,
@@ -117,9 +117,9 @@ pub(super) fn camera(camera: &Camera) -> Checked {
 /// Checks the distances of the near and the far plane.
 pub(super) fn planes([near, far]: [f64; 2], is_perspective: bool) -> Checked {
     const ITEM: FrameItem = FrameItem::Camera;
-    let range = if is_perspective { &NEAR } else { &DISTANCE };
+    let range = if is_perspective { &NEAR } else { &PLANE };
     number(ITEM, "the near distance", near, range)?;
-    number(ITEM, "the far distance", far, &DISTANCE)?;
+    number(ITEM, "the far distance", far, &PLANE)?;
     match near < far {
         true => Ok(()),
         false => Err(no_depth(far)),

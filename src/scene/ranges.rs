@@ -38,16 +38,20 @@ impl NumberRange {
 pub(crate) const COORDINATE: NumberRange =
     NumberRange::new(-1e15, 1e15, "numbers between -1e15 and 1e15");
 
-/// Distances from the eye, and coordinates that count from it or from another point: at most those between two corners of the
-/// cube of all coordinates, 2√3 · 10¹⁵, and what a fitted camera leaves free behind them.
+/// Coordinates that count from the eye or from another point: at most those between two corners of the cube of all coordinates,
+/// 2√3 · 10¹⁵. Their squares stay as far inside the range of an `f32`.
 pub(crate) const DISTANCE: NumberRange =
     NumberRange::new(-1e16, 1e16, "numbers between -1e16 and 1e16");
+
+/// Distances of the near and the far plane: farther than all that they can have between them.
+pub(crate) const PLANE: NumberRange =
+    NumberRange::new(-1e20, 1e20, "numbers between -1e20 and 1e20");
 
 /// The distance of the near plane under perspective.
 pub(crate) const NEAR: NumberRange = NumberRange::new(
     f64::from_bits(1),
-    1e16,
-    "a number over 0 (up to 1e16), as the camera is a perspective one",
+    1e20,
+    "a number over 0 (up to 1e20), as the camera is a perspective one",
 );
 
 /// Half of the height that an orthographic camera sees: its reciprocal times any coordinate is far inside the range of an `f64`.

@@ -370,11 +370,11 @@ fn ranges_in_messages_are_true_and_large_numbers_have_exponents() {
         ),
         (
             "render builtin:cube --far 1e300 -o out.png",
-            "`--far` is 1e300: expected numbers between -1e16 and 1e16",
+            "`--far` is 1e300: expected numbers between -1e20 and 1e20",
         ),
         (
-            "render builtin:cube --fovy 30 --near 1e20 -o out.png",
-            "`--near` is 1e20: expected a number over 0 (up to 1e16)",
+            "render builtin:cube --fovy 30 --near 1e30 -o out.png",
+            "`--near` is 1e30: expected a number over 0 (up to 1e20)",
         ),
         (
             "render builtin:cube --half-height 1e300 -o out.png",

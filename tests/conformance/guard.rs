@@ -60,7 +60,7 @@ fn what_flags_refuse_a_scene_refuses_by_the_item_and_the_number() {
         ),
         (
             |s| s.camera.far = 1e300,
-            "the camera: the far distance is 1e300: expected numbers between -1e16 and 1e16",
+            "the camera: the far distance is 1e300: expected numbers between -1e20 and 1e20",
         ),
         (
             |s| s.camera.far = s.camera.near,
@@ -259,7 +259,7 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
         (1.5, "1.5"),
         (-0.25, "-0.25"),
         (f32::NAN, "NaN"),
-        (1e30, "1.0000000150474662e30"),
+        (1e30, "1e30"),
     ] {
         assert_eq!(
             refused(Vertex { depth, ..last }, Z, none),
@@ -276,7 +276,7 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
                 inv_w: 1e30,
                 ..last
             },
-            "vertex 2: its near/w is 1.0000000150474662e30: expected a number over 0, up to 1",
+            "vertex 2: its near/w is 1e30: expected a number over 0, up to 1",
         ),
         (
             Vertex {
@@ -328,7 +328,7 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
                     far: 1.0,
                 });
             },
-            "the camera: the near distance is 0: expected a number over 0 (up to 1e16), as the camera is a perspective one",
+            "the camera: the near distance is 0: expected a number over 0 (up to 1e20), as the camera is a perspective one",
         ),
         (
             |b| {
@@ -343,7 +343,7 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
                     b.position(v, [0.0, 1e30, 0.0]);
                 });
             },
-            "vertex 0: y of its position is 1.0000000150474662e30: expected numbers between -1e16 and 1e16",
+            "vertex 0: y of its position is 1e30: expected numbers between -1e16 and 1e16",
         ),
         (
             |b| {

@@ -5,7 +5,7 @@ use super::diagnostics::{Origin, SceneError};
 use super::upright::turn;
 use crate::number::Written;
 use crate::scene::direction::unit;
-use crate::scene::ranges::{COORDINATE, DISTANCE, FOVY, HALF_HEIGHT, NEAR, NumberRange, TILT};
+use crate::scene::ranges::{COORDINATE, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, TILT};
 use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::{DMat3, DVec3};
 use std::format;
@@ -140,9 +140,9 @@ fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     let near = if section.has("fovy") {
         section.number("near", &NEAR)?
     } else {
-        section.number("near", &DISTANCE)?
+        section.number("near", &PLANE)?
     };
-    let far = section.number("far", &DISTANCE)?;
+    let far = section.number("far", &PLANE)?;
     match (near, far) {
         (Some(near), Some(far)) if far <= near => {
             let expected = format!("expected more than near = {}", Written(near));

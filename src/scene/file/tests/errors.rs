@@ -217,7 +217,7 @@ fn cameras_that_cannot_be() {
     check(
         "[camera]\nfovy = 30\nnear = «0»\n",
         "`camera.near` is 0",
-        "expected a number over 0 (up to 1e16), as the camera is a perspective one",
+        "expected a number over 0 (up to 1e20), as the camera is a perspective one",
         None,
     );
     check(
