@@ -167,3 +167,59 @@ impl Gradients {
         self.offset(self.origin[0], self.origin[1])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::scan::scan;
+    use super::super::tests::Random;
+    use super::*;
+
+    /// A product of little is cut to few bits. Hairs that cover a pixel's centre have planes that are right there, or none.
+    #[test]
+    fn planes_over_hairs_are_right_or_none() {
+        let random = Random::new(51);
+        let mut found = 0;
+        for round in 0..400_000 {
+            let reach = [2000.0, 8000.0, 60_000.0][round % 3];
+            let side = [0; 2].map(|_| ((random.next() - 0.5) * reach) as i32);
+            let along = 1.4 * random.next() - 0.2;
+            let aside = || (random.next() * 5.0) as i32 - 2;
+            let third = side.map(|x| (f64::from(x) * along) as i32 + aside());
+            // A corner, or a point of the long side, lies at a pixel's centre.
+            let part = [0.0, 1.0, random.next()][round % 2 + usize::from(round % 5 == 0)];
+            let centre = side.map(|x| 128 - (f64::from(x) * part) as i32 + 256 * 300);
+            let corner = |p: Point| [centre[0] + p[0], centre[1] + p[1]];
+            let mut corners = [corner([0; 2]), corner(side), corner(third)];
+            let most = 2f64.powf(16.0 * random.next());
+            let mut values = [(); 3].map(|()| ((random.next() - 0.5) * most) as i32);
+            let area = |[a, b, c]: [Point; 3]| {
+                let [x, y] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1]].map(f64::from));
+                x[0] * y[1] - x[1] * y[0]
+            };
+            if area(corners) < 0.0 {
+                corners.swap(1, 2);
+                values.swap(1, 2);
+            }
+            let Some(g) = Gradients::new(corners) else {
+                continue;
+            };
+            let Some(plane) = g.plane(values) else {
+                continue;
+            };
+            scan(corners, (600, 600), |y, first, end| {
+                for x in first..end {
+                    let at = [x, y].map(|x| 256 * x + 128);
+                    let [a, b, c] = corners;
+                    let weights = [[at, b, c], [a, at, c], [a, b, at]].map(area);
+                    let sum: f64 = (0..3).map(|i| weights[i] * f64::from(values[i])).sum();
+                    let exact = sum / area(corners);
+                    let error = f64::from(plane.at(g.place(x, y))) / 32768.0 - exact;
+                    // Moved corners: 16. 1/area and the cut of a product: 3.
+                    assert!(error.abs() < 20.0, "{corners:?} {values:?}: {error}");
+                    found += 1;
+                }
+            });
+        }
+        assert!(found > 1000, "{found}");
+    }
+}

@@ -147,4 +147,20 @@ mod tests {
             assert!(Rgb888::from_fields(material.highlight[HIGHLIGHTS - 1]).0[0] <= 1);
         }
     }
+
+    /// Sums above 1 are clamped, and exponents of any size have a table.
+    #[test]
+    fn materials_of_any_numbers_keep_their_fields() {
+        let ends = [U16F16::ZERO, U16F16::ONE, U16F16::MAX];
+        for shininess in [0, 1, 1000, u32::MAX] {
+            for a in ends {
+                for b in ends {
+                    let material = Material::<Rgb888>::new([a; 3], [b; 3], [b; 3], shininess);
+                    let all = (material.diffuse.iter()).chain(&material.highlight);
+                    let others = 1 << 31 | 1 << 20 | 1 << 10 | 1 << 9;
+                    assert!(all.clone().all(|fields| fields & others == 0));
+                }
+            }
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::super::*;
 use super::closed_form::*;
-use fixed::types::I17F15;
+use fixed::types::{I17F15, U16F16};
 use std::{vec, vec::Vec};
 
 /// Calls every method on a span.
@@ -131,13 +131,26 @@ type Bounded = (
     ErrorBound,
 );
 
+/// Returns red of a unit normal in grey levels, by R·V.
+#[cfg(feature = "alloc")]
+fn shone(n: V, toward: V, eye: V, ambient: f64, bound: &ErrorBound) -> f64 {
+    let (j, k) = (dot(toward, n), dot(eye, n));
+    let cosine = (2.0 * j * k - dot(toward, eye)).max(0.0);
+    let power = cosine.powi(bound.shininess as i32);
+    let lit = match j > 0.0 {
+        true => ambient + bound.diffuse * j + bound.highlight * power,
+        false => ambient,
+    };
+    255.0 * lit.min(1.0)
+}
+
 #[cfg(feature = "alloc")]
 #[test]
-fn lines_of_any_length_are_within_their_bounds() {
+fn lines_of_any_length_and_material_are_within_their_bounds() {
     let bound = ErrorBound {
-        diffuse: DIFFUSE,
-        highlight: HIGHLIGHT,
-        shininess: SHININESS,
+        diffuse: 0.0,
+        highlight: 0.0,
+        shininess: 0,
         angle: 0.0,
         pixels: 0,
         is_refined: false,
@@ -205,14 +218,23 @@ fn lines_of_any_length_are_within_their_bounds() {
                 1 => unit(v.map(|x| (x * 32767.0).round() as i16)),
                 _ => vector(v),
             };
-            let light = Light::new(vector(toward), vector(eye), &UNCUT);
+            // Sums above 1 are clamped, and factors too.
+            let [ambient, diffuse, highlight] =
+                [0.5, 1.2, 1.2].map(|most| U16F16::from_num(most * random.next()));
+            let shininess = 2f64.powf(10.0 * random.next()) as u32;
+            let material = Material::new([ambient; 3], [diffuse; 3], [highlight; 3], shininess);
+            let light = Light::new(vector(toward), vector(eye), &material);
             let mut line = vec![Uncut::default(); pixels];
             shade(Span::new(made(first), made(end)), &mut line, &light);
             let bound = ErrorBound {
+                diffuse: f64::from(diffuse),
+                highlight: f64::from(highlight),
+                shininess,
                 angle: degrees.to_radians(),
                 pixels,
                 ..bound
             };
+            let ambient = f64::from(ambient);
             let (limit, _) = bound.parts::<Uncut>();
             // All pixels of short lines, and those beside the cuts of long ones.
             let all: Vec<usize> = match pixels {
@@ -227,8 +249,7 @@ fn lines_of_any_length_are_within_their_bounds() {
                 if dot(toward, n).abs() < 2e-3 {
                     continue;
                 }
-                let exact = lit(n, &[(toward, eye)], Kind::Reflection);
-                let error = (line[i].red() - exact).abs();
+                let error = (line[i].red() - shone(n, toward, eye, ambient, &bound)).abs();
                 assert!(error <= limit, "{bound:?}, pixel {i}: {error}, not {limit}");
                 tried += 1;
             }
