@@ -6,6 +6,7 @@
 mod aov;
 mod bench;
 mod compare;
+mod contents;
 mod diff;
 mod drawing;
 mod engines;
@@ -19,7 +20,6 @@ mod info;
 mod input_name;
 mod list;
 pub mod log;
-mod marks;
 mod measured;
 mod memory;
 mod mesh_facts;
