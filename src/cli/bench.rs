@@ -1,10 +1,11 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
+use super::contents::Contents;
 use super::engines::{self, ScanlineEngine, Simd, SimdList, ThreadFlags, renderer};
 use super::frame_times::{FrameCount, frame_times};
 use super::input_name;
 use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
-use super::output::{self, Contents, Output};
+use super::output::{self, Output};
 use super::scene_flags::SceneFlags;
 use super::span_times::span_times;
 use super::{CliError, Log, Outcome, done};

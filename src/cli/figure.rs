@@ -1,7 +1,8 @@
 //! `fastphong figure`: figures of the lectures, made anew, as one page.
 
+use super::contents::Contents;
 use super::measured::command_line;
-use super::output::{self, Contents, ForceFlag, Output, print_beside};
+use super::output::{self, ForceFlag, Output, print_beside};
 use super::progress::Progress;
 use super::{CliError, Log, Outcome};
 use fastphong::lectures::{FIGURES, Figure};

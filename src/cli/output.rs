@@ -4,62 +4,16 @@
 //! |---|---|
 //! | `-` | standard output, for one output of a command. Its text then goes to standard error |
 //! | an ending | must be one of the contents' own, if there is one: a page is not called `.png` |
-//! | a name that the command chose | replaces only a file that fastphong made before ([`marks`]), unless `--force` says so |
+//! | a name that the command chose | replaces only a file that fastphong made before ([`contents`](super::contents)), unless `--force` says so |
 //! | a file that is read, or written already | is never written: see [`files`] |
 
+use super::CliError;
+use super::contents::Contents;
 use super::files::{self, Destination};
 use super::log::{to_stderr, to_stdout, to_stdout_by};
-use super::{CliError, marks};
 use fastphong::picture::image_file::{FilePicture, Format};
-use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-
-/// What a file holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Contents {
-    /// A picture in this format.
-    Picture(Format),
-    /// A page in HTML.
-    Page,
-    /// Numbers in JSON.
-    Json,
-    /// Tables in CSV.
-    Csv,
-    /// Text in Markdown.
-    Markdown,
-    /// A page of the manual.
-    Manual,
-}
-
-impl Contents {
-    /// Returns the endings that files of these contents have.
-    fn endings(self) -> &'static [&'static str] {
-        match self {
-            Contents::Picture(Format::Png) => &["png"],
-            Contents::Picture(Format::Ppm) => &["ppm"],
-            Contents::Picture(Format::Pfm) => &["pfm"],
-            Contents::Page => &["html", "htm"],
-            Contents::Json => &["json"],
-            Contents::Csv => &["csv"],
-            Contents::Markdown => &["md"],
-            Contents::Manual => &["1"],
-        }
-    }
-}
-
-impl fmt::Display for Contents {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Contents::Picture(_) => "a picture",
-            Contents::Page => "a page in HTML",
-            Contents::Json => "JSON",
-            Contents::Csv => "CSV",
-            Contents::Markdown => "Markdown",
-            Contents::Manual => "a manual page",
-        })
-    }
-}
 
 /// A file that a command makes, or standard output.
 #[derive(Clone, Debug)]
@@ -199,7 +153,7 @@ impl Output {
         };
         match self.rule {
             Rule::None => Ok(()),
-            Rule::Own if marks::is_free(path, self.contents) => Ok(()),
+            Rule::Own if self.contents.is_own(path) => Ok(()),
             Rule::Own => {
                 let (name, path) = (self.name, path.display());
                 let problem = format!("`{name}` writes {path}, which fastphong did not make");

@@ -1,7 +1,8 @@
 //! `render --reference`: a picture against the one that was accepted before.
 
+use super::contents::Contents;
 use super::drawing::RenderJob;
-use super::output::{Contents, ForceFlag, Output};
+use super::output::{ForceFlag, Output};
 use super::text::{counted, measured};
 use super::{CliError, Outcome, files};
 use fastphong::compare::metrics::{Difference, compare, difference_map};

@@ -1,5 +1,6 @@
 //! `fastphong report`: methods on every scene, as one page.
 
+use super::contents::Contents;
 use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};
 use super::figure::{Figures, distinct, draw_figures};
@@ -7,7 +8,7 @@ use super::files;
 use super::frame_notes::warn_of_frame;
 use super::input_name;
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
-use super::output::{self, Contents, ForceFlag, Output, print_beside};
+use super::output::{self, ForceFlag, Output, print_beside};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
 use super::shown_frame::ShownFrame;

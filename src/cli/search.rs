@@ -1,8 +1,9 @@
 //! `fastphong search`: the worst cases of methods, found on as many machines as one has.
 
+use super::contents::Contents;
 use super::files;
 use super::measured::{Methods, command_line, methods};
-use super::output::{self, Contents, Output};
+use super::output::{self, Output};
 use super::progress::Progress;
 use super::values::number;
 use super::{CliError, Log, Outcome, done};

@@ -1,7 +1,8 @@
 //! `fastphong completions` and `fastphong man`: what a shell and a reader of manuals need, made from the flags themselves.
 
+use super::contents::Contents;
 use super::log::to_stdout_by;
-use super::output::{self, Contents, ForceFlag, Output};
+use super::output::{self, ForceFlag, Output};
 use super::{Cli, CliError, Outcome};
 use clap::{Command, CommandFactory};
 use clap_complete::Shell;

@@ -258,7 +258,7 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
     for (depth, expected) in [
         (1.5, "1.5"),
         (-0.25, "-0.25"),
-        (f32::NAN, "NaN"),
+        (f64::NAN, "NaN"),
         (1e30, "1e30"),
     ] {
         assert_eq!(

@@ -202,7 +202,10 @@ fn polygons_wound_against_their_own_normals_are_lit_by_these() {
     };
     for (ours, turned) in seen(false).into_iter().zip(seen(true)) {
         for entry in floats_on(&ours) {
-            let draw = |frame: &Frame| entry.variant().render_linear(frame);
+            let draw = |frame: &Frame| {
+                let drawn = entry.variant().render_linear(frame);
+                drawn.expect("a method for the frame")
+            };
             let difference = compare(&draw(&ours), &draw(&turned)).expect("equal sizes");
             // As above: only roundings differ.
             let bound = 2.0 * entry.variant().bound(&ours);

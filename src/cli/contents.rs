@@ -1,0 +1,81 @@
+//! What files hold, and the marks by which the program knows files that it made: where it chooses a name, it replaces no others.
+//!
+//! A PNG file has a chunk that names its software, a page its title, Markdown the command that made it, a manual page its own name.
+//! PPM and PFM have no room for a mark: there any picture of the format counts as one's own.
+
+use super::files;
+use fastphong::picture::image_file::Format;
+use std::fmt;
+use std::path::Path;
+
+/// Bytes at the beginning of a file in which its mark stands.
+const BEGINNING: u64 = 1 << 14;
+
+/// Kind and data of the chunk by which a PNG file names its software (ISO/IEC 15948, 11.3.3.3).
+const SOFTWARE: &[u8] = b"tEXtSoftware\0fastphong";
+
+/// What a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contents {
+    /// A picture in this format.
+    Picture(Format),
+    /// A page in HTML.
+    Page,
+    /// Numbers in JSON.
+    Json,
+    /// Tables in CSV.
+    Csv,
+    /// Text in Markdown.
+    Markdown,
+    /// A page of the manual.
+    Manual,
+}
+
+impl Contents {
+    /// Returns the endings that files of these contents have.
+    pub fn endings(self) -> &'static [&'static str] {
+        match self {
+            Contents::Picture(Format::Png) => &["png"],
+            Contents::Picture(Format::Ppm) => &["ppm"],
+            Contents::Picture(Format::Pfm) => &["pfm"],
+            Contents::Page => &["html", "htm"],
+            Contents::Json => &["json"],
+            Contents::Csv => &["csv"],
+            Contents::Markdown => &["md"],
+            Contents::Manual => &["1"],
+        }
+    }
+
+    /// True if nothing is at `path` that would be lost: no file, no plain one, or one with the mark of these contents.
+    pub fn is_own(self, path: &Path) -> bool {
+        files::beginning(path, BEGINNING).is_none_or(|bytes| self.marks(&bytes))
+    }
+
+    /// True if a file that begins with `bytes` has the mark of these contents.
+    fn marks(self, bytes: &[u8]) -> bool {
+        let has = |mark: &[u8]| bytes.windows(mark.len()).any(|part| part == mark);
+        match self {
+            Contents::Picture(Format::Png) => has(SOFTWARE),
+            Contents::Picture(Format::Ppm) => bytes.starts_with(b"P6\n"),
+            Contents::Picture(Format::Pfm) => bytes.starts_with(b"PF\n"),
+            Contents::Page => has(b"<title>fastphong: "),
+            Contents::Markdown => has(b"Made by `fastphong "),
+            Contents::Manual => has(b".TH fastphong"),
+            // No command chooses names for these.
+            Contents::Json | Contents::Csv => false,
+        }
+    }
+}
+
+impl fmt::Display for Contents {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Contents::Picture(_) => "a picture",
+            Contents::Page => "a page in HTML",
+            Contents::Json => "JSON",
+            Contents::Csv => "CSV",
+            Contents::Markdown => "Markdown",
+            Contents::Manual => "a manual page",
+        })
+    }
+}
