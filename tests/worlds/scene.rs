@@ -129,7 +129,7 @@ fn camera() -> BoxedStrategy<String> {
             .prop_map(|(near, depth)| format!("near = {near:?}\nfar = {:?}\n", near + depth)),
         1 => (size(-8.0..-2.0), size(2.0..8.0))
             .prop_map(|(near, far)| format!("near = {near:?}\nfar = {far:?}\n")),
-        1 => (size(-60.0..-2.0), size(2.0..60.0))
+        1 => (size(-60.0..-2.0), size(2.0..15.9))
             .prop_map(|(near, far)| format!("near = {near:?}\nfar = {far:?}\n")),
     ];
     let place = prop_oneof![2 => fitted.boxed(), 1 => standing.boxed()];
