@@ -183,6 +183,10 @@ fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Pr
                 warnings: Vec::new(),
             })
         }
+        0 if scan.unknown_word.eq_ignore_ascii_case("newmtl") => {
+            let what = "a material library, and not the mesh that names it";
+            Err(scan.refusal(None, ObjProblem::OtherFormat(what)))
+        }
         0 if scan.has(Oddity::PointOrLine) => {
             Err(scan.refusal(None, ObjProblem::OnlyPointsOrLines))
         }

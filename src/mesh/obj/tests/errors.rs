@@ -66,6 +66,8 @@ fn files_without_polygons() {
     );
     let no_polygon = "has no polygon: expected OBJ text with an `f` line of at least three corners";
     assert_error(POINTS, 0, no_polygon);
+    let library = "is a material library, and not the mesh that names it: expected OBJ text with `v` and `f` lines";
+    assert_error("# red\nnewmtl red\nKd 1 0 0\n", 0, library);
     assert_error("# nothing\n", 0, no_polygon);
     assert_error("hello cube\nfacet normal 0 0 1\n", 0, no_polygon);
     assert_error_after_points("f 1 2\n", 0, no_polygon);

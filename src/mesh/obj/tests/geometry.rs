@@ -578,7 +578,7 @@ fn a_nul_that_ends_a_line_or_stands_in_a_comment_or_a_name_refuses_nothing() {
         "f 1 2 3\n\x1a\0",
         "# a comment\0 of C\nf 1 2 3\n",
         "g a\0b\nf 1 2 3 # c\0d\n",
-        "\0f 1 2 \\\0\n\03\n",
+        "\0f 1 2 \\\0\n\x003\n",
         "o cube\0\nf 1 2 3\n",
         "\x1af 1 2 3\n",
     ] {
