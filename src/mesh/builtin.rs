@@ -150,13 +150,7 @@ impl core::error::Error for BuiltinError {}
 /// [`BuiltinError`] when the shape or a parameter is not known, a value is not of its kind or out of its range, or the
 /// mesh would be over the limits of [`PolygonMesh`].
 pub fn builtin(spec: &str) -> Result<PolygonMesh, BuiltinError> {
-    let values = parse(spec).map_err(BuiltinError)?;
-    let (count, most) = (values.polygon_count(), PolygonMesh::MAX_POLYGONS);
-    if count > most as u64 {
-        return Err(BuiltinError(format!(
-            "the mesh would have {count} polygons, over the limit of {most}"
-        )));
-    }
+    let values = within_limit(spec)?;
     (values.shape.build)(&values).map_err(|error| BuiltinError(error.to_string()))
 }
 
@@ -166,7 +160,19 @@ pub fn builtin(spec: &str) -> Result<PolygonMesh, BuiltinError> {
 /// As [`builtin`].
 #[doc(hidden)]
 pub fn polygon_count(spec: &str) -> Result<u64, BuiltinError> {
-    Ok(parse(spec).map_err(BuiltinError)?.polygon_count())
+    Ok(within_limit(spec)?.polygon_count())
+}
+
+/// Reads a shape and its parameters, whose mesh is within the limit.
+fn within_limit(spec: &str) -> Result<Values, BuiltinError> {
+    let values = parse(spec).map_err(BuiltinError)?;
+    let (count, most) = (values.polygon_count(), PolygonMesh::MAX_POLYGONS);
+    match count > most as u64 {
+        false => Ok(values),
+        true => Err(BuiltinError(format!(
+            "the mesh would have {count} polygons, over the limit of {most}"
+        ))),
+    }
 }
 
 /// Reads a shape and its parameters, and checks all of them.
