@@ -113,9 +113,9 @@ fn uncertainty(frame: &Frame, polygon: &Polygon, rule: SampleDepth) -> f32 {
     let (mut low, mut high, mut largest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
     for (p, q) in corners().zip(corners().cycle().skip(1)) {
         let (p, q) = (at(p), at(q));
-        for i in 0..3 {
+        for (i, component) in normal.iter_mut().enumerate() {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            normal[i] += (p[j] - q[j]) * (p[k] + q[k]);
+            *component += (p[j] - q[j]) * (p[k] + q[k]);
         }
         (low, high, largest) = (low.min(p[2]), high.max(p[2]), largest.max(p[2].abs()));
     }
