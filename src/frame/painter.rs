@@ -27,10 +27,11 @@ pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
 
 /// Returns the depth by which a polygon is sorted.
 fn key_of(frame: &Frame, polygon: &Polygon, key: PainterKey) -> f64 {
+    // As engines round them: what lies equally far away but for the last bits of an `f64` keeps its order.
     let depths = frame
         .corners(polygon)
         .iter()
-        .map(|&v| frame.vertices()[v as usize].depth);
+        .map(|&v| f64::from(frame.vertices()[v as usize].depth as f32));
     match key {
         PainterKey::Mean => depths.sum::<f64>() / f64::from(polygon.count),
         PainterKey::Farthest => depths.fold(f64::NEG_INFINITY, f64::max),

@@ -385,6 +385,8 @@ pub struct Lit<'a, F> {
     point: Vec3<F>,
     view: Vec3<F>,
     has_point: bool,
+    /// True if it is the light of a walk, which knows nothing of places; false for a vertex, a polygon or a pixel.
+    is_of_walk: bool,
     attributes: [F; 4],
     general: bool,
     zero: F,
@@ -423,6 +425,7 @@ impl<'a, F: Num> Lit<'a, F> {
             point: vec3([zero; 3]),
             view: vector(model.eye).broadcast(zero),
             has_point: false,
+            is_of_walk: true,
             attributes: [zero; 4],
             general,
             zero,
@@ -441,7 +444,7 @@ impl<'a, F: Num> Lit<'a, F> {
         if has_point && self.general && self.model.eye.is_local() {
             self.view = (vector(self.model.eye).broadcast(self.zero) - point).unit();
         }
-        (self.point, self.has_point) = (point, has_point);
+        (self.point, self.has_point, self.is_of_walk) = (point, has_point, false);
         self
     }
 
@@ -472,7 +475,10 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns the position of the point in the world; it means something only if a light or the eye is at a position.
     #[inline(always)]
     pub fn point(&self) -> Vec3<F> {
-        debug_assert!(self.has_point, "a walk has no point");
+        debug_assert!(
+            self.has_point,
+            "a walk has no point, nor has a pixel without positions"
+        );
         self.point
     }
 
@@ -480,7 +486,7 @@ impl<'a, F: Num> Lit<'a, F> {
     #[inline(always)]
     pub fn view(&self) -> Vec3<F> {
         debug_assert!(
-            self.has_point || !self.model.eye.is_local(),
+            !self.is_of_walk || !self.model.eye.is_local(),
             "a walk has no point that an eye at a position could be seen from"
         );
         self.view
@@ -500,7 +506,7 @@ impl<'a, F: Num> Lit<'a, F> {
         let (light, one) = (&self.stored[index], self.zero.broadcast(1.0));
         let is_positional = light.place.is_local();
         debug_assert!(
-            self.has_point || !is_positional,
+            !self.is_of_walk || !is_positional,
             "a walk has no point that a light at a position could be seen from"
         );
         let mut seen = Seen {
