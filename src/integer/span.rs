@@ -111,8 +111,6 @@ impl Span {
 
     /// Calls `shade` for a line, or for pieces of it if it is too long for the formats. `between` returns the normal at a part of
     /// the span, which has 16 fractional bits.
-    ///
-    /// There is one call, so that a pixel loop is compiled once.
     #[inline(always)]
     pub(super) fn in_pieces<P>(
         self,
@@ -120,47 +118,33 @@ impl Span {
         between: impl Fn(Self, i64) -> Bits,
         mut shade: impl FnMut(Self, &mut [P]),
     ) {
-        let (pixels, mut rest, mut span, mut first) = (line.len(), line, self, self.first);
-        loop {
-            let length = rest.len();
-            let (here, others) = rest.split_at_mut(if length < Self::MAX {
-                length
-            } else {
-                Self::MAX
-            });
-            let is_last = others.is_empty();
-            let mut last = span;
-            if !is_last {
-                first = self.cut(
-                    [first, self.end],
-                    part(pixels - others.len(), pixels),
-                    &between,
-                    [&mut span, &mut last],
-                );
-            }
-            shade(span, here);
-            if is_last {
-                return;
-            }
-            (rest, span) = (others, last);
+        if line.len() <= Self::MAX {
+            shade(self, line);
+        } else {
+            self.cut(line, between, shade);
         }
     }
 
-    /// Cuts a piece off a long span at a part of it: `piece` is what lies before, `rest` what is left if nothing more is cut off.
-    /// Returns the normal there. What is left begins with the normal `first`.
+    /// Calls `shade` for the pieces of a long line.
     #[cold]
     #[inline(never)]
-    fn cut(
+    fn cut<P>(
         self,
-        [first, end]: [Bits; 2],
-        part: i64,
-        between: &impl Fn(Self, i64) -> Bits,
-        [piece, rest]: [&mut Self; 2],
-    ) -> Bits {
-        let middle = between(self, part);
-        *piece = Self::of([first, middle]);
-        *rest = Self::of([middle, end]);
-        middle
+        line: &mut [P],
+        between: impl Fn(Self, i64) -> Bits,
+        mut shade: impl FnMut(Self, &mut [P]),
+    ) {
+        let (pixels, mut first, mut done) = (line.len(), self.first, 0);
+        for piece in line.chunks_mut(Self::MAX) {
+            done += piece.len();
+            let end = if done < pixels {
+                between(self, part(done, pixels))
+            } else {
+                self.end
+            };
+            shade(Self::of([first, end]), piece);
+            first = end;
+        }
     }
 
     /// Returns the normal at a part of the span, on the line between its ends.

@@ -24,7 +24,7 @@ const INFO: Info = Info {
     roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
     derivation: "no bound: one step of Newton's from the pixel before follows |N| where a pixel turns little",
     approximation: |_, _, _| Approximation::NONE,
-    fails: "where normals turn by more than some 2 degrees a pixel; it knows one light, at infinity",
+    fails: "where normals turn by more than some 2 degrees a pixel; it knows one light, at infinity, and highlights by R.V only",
     has_power: false,
     parameters: &[],
 };

@@ -23,7 +23,7 @@ const INFO: Info = Info {
     roundings: integers::ROUNDINGS,
     derivation: integers::DERIVATION,
     approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Refined),
-    fails: "where normals turn by more than 90 degrees over a polygon; it knows one light, at infinity",
+    fails: "where normals turn by more than 90 degrees over a polygon; it knows one light, at infinity, and highlights by R.V only",
     has_power: false,
     parameters: &[],
 };

@@ -74,7 +74,8 @@ pub(super) trait Line {
     );
 }
 
-/// Interpolates normals over spans that engines keep: what the methods in integers ask of engines.
+/// Interpolates normals over spans that engines keep: what the methods in integers ask of engines. Those for one light are the
+/// methods as printed, which know highlights by R·V only.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Normals<const LIGHTS: usize>;
 
@@ -90,7 +91,9 @@ impl<const LIGHTS: usize> Shader for Normals<LIGHTS> {
     type Walk<F: Num> = Constant<Vec3<F>>;
 
     fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
-        refuses(lighting, on, LIGHTS)
+        let is_halfway = lighting.specular == SpecularModel::Blinn;
+        refuses(lighting, on, LIGHTS).or((LIGHTS == 1 && is_halfway)
+            .then_some("as printed, its highlights are those of R.V, not of N.H"))
     }
     #[inline(always)]
     fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {

@@ -351,7 +351,7 @@ fn a_frame_used_again_is_sorted_again() {
         let depths = frame
             .corners(polygon)
             .iter()
-            .map(|&v| frame.vertices()[v as usize].depth);
+            .map(|&v| f64::from(frame.vertices()[v as usize].depth as f32));
         depths.sum::<f64>() / f64::from(polygon.count)
     };
     let first = frame.polygons().to_vec();
