@@ -439,6 +439,10 @@ impl Prescan {
         let words = without_comment(rest).split_ascii_whitespace();
         // What is left out in any case may name what is not there: the file may be cut off here.
         if words.clone().nth(2).is_none() {
+            // But `f 1\2\3` is cut off nowhere.
+            if let Some(word) = words.clone().find(|word| word.contains('\\')) {
+                self.corner(line, word)?;
+            }
             self.note(line, Oddity::SmallFace);
             return Ok(());
         }

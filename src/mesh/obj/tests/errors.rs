@@ -375,3 +375,15 @@ fn limits() {
         "t.obj:7: too many corners: expected at most 134217728"
     );
 }
+
+#[test]
+fn backslashes_between_numbers_are_named_in_one_word_as_in_three() {
+    let expected = |word| {
+        format!(
+            "`{word}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers with `/` between them, not `\\`"
+        )
+    };
+    for (face, word) in [("1\\2\\3", "1\\2\\3"), ("1\\1 2\\1 3\\1", "1\\1")] {
+        assert_error_after_points(&format!("f {face}\n"), 6, &expected(word));
+    }
+}
