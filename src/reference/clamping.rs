@@ -73,7 +73,7 @@ impl Clamping {
     }
 }
 
-/// Counts clamped samples of `frame` under Phong's model on a grid over the picture, as sparse as leaves [`ENOUGH`] of them
+/// Counts clamped samples of `frame` under Phong's model on a grid over the picture, as sparse as leaves `ENOUGH` of them
 /// covered: all of a small picture. Nothing is counted where no light is bright enough.
 pub fn clamping(frame: &Frame) -> Clamping {
     if frame

@@ -312,7 +312,7 @@
         check(`${s.id}: title`, document.querySelector("#t-scenes").textContent === s.title);
         check(`${s.id}: a row a method`, document.querySelectorAll("#table tbody tr").length >= Math.min(15, s.list.length));
         for (const b of ["cols", "bary"]) document.getElementById(b).click();
-        check(`${s.id}: more columns and rows`, document.querySelectorAll("#table thead th").length === 13 && (document.querySelector("#table .bary") || !s.barycentric.length || document.querySelector("#table .fold")));
+        check(`${s.id}: more columns and rows`, document.querySelectorAll("#table thead th").length === 14 && (document.querySelector("#table .bary") || !s.barycentric.length || document.querySelector("#table .fold")));
         accessible(`${s.id}: table`);
         for (const b of ["cols", "bary"]) document.getElementById(b).click();
         if (TIMED) check(`${s.id}: speeds have whiskers`, [...document.querySelectorAll("#table .speed")].every(el => el.querySelectorAll(".whisker").length === 3) && document.querySelector(".tablebox .sub").textContent.includes("logarithmic"));
