@@ -191,7 +191,10 @@ function place(points, box, bars) {
 					) +
 					sum(bars.map(d => 1.6 * overlap(q, d))) +
 					sum(done.map(d => 40 * hits(d, leader)));
-				const cost = ring * 22 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
+				const covers = points.filter(
+					o => o !== p && o.x > q[0] - 2 && o.x < q[2] + 2 && o.y > q[1] - 2 && o.y < q[3] + 2,
+				).length;
+				const cost = 1000 * covers + ring * 22 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
 				if (!best || cost < best.cost)
 					best = { cost, x: q[0], y: cy, q, end: tied && [ex, ey], leader };
 			}
