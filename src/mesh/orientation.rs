@@ -1,6 +1,7 @@
 //! Surfaces of a mesh that are closed and wound inside out.
 
 use super::PolygonMesh;
+use super::edges::{EdgeUse, Edges};
 use super::newell::newell;
 use super::weld::weld;
 use alloc::vec;
@@ -88,27 +89,22 @@ struct Surface {
 
 /// Returns the closed surfaces of `mesh` that have a volume.
 fn closed_surfaces(mesh: &PolygonMesh) -> Vec<Surface> {
-    let (vertex, _) = weld(mesh.positions());
-    // An edge: its part, its ends in ascending order, true if it is passed in that direction, and the polygon.
-    let mut edges: Vec<(u32, u32, u32, bool, u32)> = Vec::with_capacity(mesh.corners().len());
-    for (p, polygon) in mesh.polygons().enumerate() {
-        for (k, &from) in polygon.iter().enumerate() {
-            let to = polygon[(k + 1) % polygon.len()];
-            let (from, to) = (vertex[from as usize], vertex[to as usize]);
-            if from != to {
-                let (low, high) = (from.min(to), from.max(to));
-                edges.push((mesh.part(p), low, high, from < to, p as u32));
-            }
-        }
-    }
-    edges.sort_unstable();
+    let (vertex, count) = weld(mesh.positions());
     let mut linked = Groups::new(mesh.polygon_count());
     let mut is_open = vec![false; mesh.polygon_count()];
-    for edge in edges.chunk_by(|a, b| (a.0, a.1, a.2) == (b.0, b.1, b.2)) {
-        let is_closed = matches!(edge, [(.., false, _), (.., true, _)]);
-        for &(.., polygon) in edge {
-            linked.join(edge[0].4, polygon);
-            is_open[polygon as usize] |= !is_closed;
+    let part = |of: &EdgeUse| mesh.part(of.polygon as usize);
+    let mut uses = Vec::new();
+    for edge in Edges::new(mesh, &vertex, count).iter() {
+        uses.clear();
+        uses.extend_from_slice(edge);
+        uses.sort_by_key(part);
+        // Each part has an edge of its own there.
+        for uses in uses.chunk_by(|a, b| part(a) == part(b)) {
+            let is_closed = matches!(uses, [a, b] if a.ascends != b.ascends);
+            for of in uses {
+                linked.join(uses[0].polygon, of.polygon);
+                is_open[of.polygon as usize] |= !is_closed;
+            }
         }
     }
     let mut members: Vec<(u32, u32)> = (0..mesh.polygon_count() as u32)

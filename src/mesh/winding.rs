@@ -1,10 +1,10 @@
 //! Reasons to doubt the winding of a mesh: it then does not tell which side of a polygon is the outside.
 
+use super::edges::Edges;
 use super::newell::{polygon_normal, unit_normal};
 use super::orientation::inside_out;
 use super::weld::weld;
 use super::{GivenNormals, PolygonMesh};
-use alloc::vec::Vec;
 use glam::DVec3;
 
 /// The mean cosine between a polygon's normal and those given for its corners, below which they contradict each other. Files
@@ -50,22 +50,10 @@ impl WindingDoubts {
     }
 
     fn count_edges(&mut self, mesh: &PolygonMesh) {
-        let (vertex, _) = weld(mesh.positions());
-        // An edge: its ends in ascending order, and true if it is passed in that direction.
-        let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
-        for polygon in mesh.polygons() {
-            for (k, &from) in polygon.iter().enumerate() {
-                let to = polygon[(k + 1) % polygon.len()];
-                let (a, b) = (vertex[from as usize], vertex[to as usize]);
-                if a != b {
-                    edges.push((a.min(b), a.max(b), a < b));
-                }
-            }
-        }
-        edges.sort_unstable();
-        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            let ascending = edge.iter().filter(|passed| passed.2).count();
-            match edge.len() {
+        let (vertex, count) = weld(mesh.positions());
+        for uses in Edges::new(mesh, &vertex, count).iter() {
+            let ascending = uses.iter().filter(|of| of.ascends).count();
+            match uses.len() {
                 1 => self.open_edges += 1,
                 passes => self.uneven_edges += usize::from(2 * ascending != passes),
             }
@@ -96,6 +84,7 @@ mod tests {
     use crate::mesh::MeshBuilder;
     use crate::mesh::builtin::builtin;
     use alloc::vec;
+    use alloc::vec::Vec;
     use glam::Vec3;
 
     /// A cube whose polygons are reversed where `reversed` says so, without the first `without` ones.

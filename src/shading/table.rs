@@ -41,7 +41,11 @@ use crate::frame::Frame;
 use crate::scene::{Interpolation, Lighting};
 
 /// All shading methods.
-pub static METHODS: &[Entry] = &[
+pub static METHODS: &[Entry] = &TABLE;
+
+/// The rows of [`METHODS`]. A static with a name: crates that name a method refer to it, where a constant without a name would
+/// be copied into them, and all kernels compiled again.
+static TABLE: [Entry; 38] = [
     Entry::of::<Flat>(),
     Entry {
         info: &FLAT_AVERAGE,
