@@ -34,18 +34,15 @@ impl Shader for Coloured {
         title: "normals and colours, interpolated",
         ..Info::OF_PIXELS
     };
-    const READS_ATTRIBUTES: bool = true;
     // A normal may be too long: it is made a unit vector. A colour may not: in perspective it is divided by its weight.
-    const PERSPECTIVE: Perspective = Perspective::Divides;
+    const NEEDS: Needs = Needs {
+        perspective: Perspective::Divides,
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // N and C
+    type Carries = Self;
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
-        let [r, g, b, _] = lit.attributes();
-        (n, vec3([r, g, b]))
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         span.linear()
@@ -54,6 +51,17 @@ impl Shader for Coloured {
     fn shade<F: Num>(self, lit: &Lit<'_, F>, (n, c): (Vec3<F>, Vec3<F>)) -> Vec3<F> {
         let (dull, bright) = lit.shade_apart(n.unit());
         vec3([dull.x * c.x, dull.y * c.y, dull.z * c.z]) + bright
+    }
+}
+
+impl Carries for Coloured {
+    const FROM: Carried = Carried::Attributes;
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // N and C
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
+        let [r, g, b, _] = lit.attributes();
+        (n, vec3([r, g, b]))
     }
 }
 

@@ -39,9 +39,8 @@ impl Shader for Toon {
         ..Info::OF_PIXELS
     };
     // A vertex carries its normal and nothing else, so it need not be visited.
-    const PASSES_NORMAL: bool = true;
     type Constants<F: Num> = (); // nothing is set up per polygon
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>; // three additions per pixel
 
     #[inline(always)]
@@ -49,10 +48,6 @@ impl Shader for Toon {
         Toon {
             bands: parameters[0].whole().unwrap_or(3),
         }
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {

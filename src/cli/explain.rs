@@ -73,11 +73,11 @@ impl ExplainArgs {
         section("where it fails", &wrapped(info.fails, 2));
         section(
             "perspective",
-            &wrapped(self.method.entry().perspective.sentence(), 2),
+            &wrapped(self.method.entry().needs.perspective.sentence(), 2),
         );
         section(
             "lights at positions",
-            &wrapped(self.method.entry().local.sentence(), 2),
+            &wrapped(self.method.entry().needs.local.sentence(), 2),
         );
         let engines = engines_with(self.method.entry());
         section("engines", &format!("  {engines}\n"));

@@ -130,8 +130,8 @@ fn method_text(method: &Entry) -> String {
     let mut about = vec![
         info.title.to_owned(),
         family(info),
-        format!("perspective: {}", method.perspective.sentence()),
-        format!("positions: {}", method.local.sentence()),
+        format!("perspective: {}", method.needs.perspective.sentence()),
+        format!("positions: {}", method.needs.local.sentence()),
         exactness(info),
         format!("engines: {}", engines_with(method)),
     ];
@@ -205,8 +205,8 @@ pub fn method_json(method: &Entry) -> Value {
         "claimed": info.claimed,
         "model": info.model.name(),
         "roundings": { "start": start, "step": step, "of": stepped(of) },
-        "perspective": method.perspective.sentence(),
-        "local": method.local.sentence(),
+        "perspective": method.needs.perspective.sentence(),
+        "local": method.needs.local.sentence(),
         "barycentric": method.is_barycentric(),
         "parameters": parameters.collect::<Value>(),
     })

@@ -9,8 +9,8 @@ use crate::scene::Interpolation;
 use crate::shading::increments::GreatCircle;
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    Corner, Corners, Extras, Kernels, LitAt, Local, Perspective, Pixels, PolygonConstants, RunList,
-    UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
+    Carried, Corner, Corners, Extras, Kernels, LitAt, Local, Perspective, Pixels, PolygonConstants,
+    RunList, UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
 };
 use alloc::borrow::Cow;
 use alloc::vec;
@@ -134,7 +134,7 @@ impl<'a> SetUp<'a> {
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
         let lightings = frame.lightings().iter();
         let mut uniforms: Vec<Uniforms> = lightings.map(|l| variant.uniforms(l, scale)).collect();
-        let is_by_polygon = is_local && entry.local == Local::PerPolygon;
+        let is_by_polygon = is_local && entry.needs.local == Local::PerPolygon;
         if is_by_polygon {
             uniforms = by_polygon(frame, uniforms);
         }
@@ -142,8 +142,8 @@ impl<'a> SetUp<'a> {
         let vertices = (kernels.simd)(level).and_then(|simd| simd.vertices);
         let [own, ..] = (kernels.counts)(frame.light_count());
         let mut varyings = Varyings::of_vertices(&[][..], own + extras.count());
-        varyings.great_circles = kernels.great_circles;
-        varyings.keeps_ends = kernels.reads_span;
+        varyings.great_circles = kernels.needs.great_circles();
+        varyings.keeps_ends = kernels.needs.reads_span();
         let mut all = SetUp {
             frame,
             kernels,
@@ -155,11 +155,16 @@ impl<'a> SetUp<'a> {
             constants: PolygonConstants::default(),
             light: vertices.unwrap_or(kernels.vertices),
         };
-        let is_weighted =
-            is_perspective && matches!(entry.perspective, Perspective::Free | Perspective::Divides);
-        (all.varyings.values, all.varyings.per) = match entry.lit_at {
-            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(entry.lit_at, memory),
-            _ if is_by_polygon && !kernels.great_circles => all.light_corners(is_weighted, memory),
+        let is_weighted = is_perspective
+            && matches!(
+                entry.needs.perspective,
+                Perspective::Free | Perspective::Divides
+            );
+        (all.varyings.values, all.varyings.per) = match entry.needs.lit_at {
+            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(entry.needs.lit_at, memory),
+            _ if is_by_polygon && !kernels.needs.great_circles() => {
+                all.light_corners(is_weighted, memory)
+            }
             _ => all.light_vertices(is_weighted, memory),
         };
         all.constants = all.set_up_polygons();
@@ -214,7 +219,7 @@ impl<'a> SetUp<'a> {
         whole: &'c mut Vec<Vec3<f32>>,
     ) -> Corners<'c, f32> {
         let frame = self.frame;
-        let has_positions = frame.is_local() || self.kernels.reads_positions;
+        let has_positions = frame.is_local() || self.kernels.needs.positions;
         corners.clear();
         whole.clear();
         for &corner in frame.corners(polygon) {
@@ -304,12 +309,12 @@ impl<'a> SetUp<'a> {
         let has_one_material = frame.lightings().len() == 1;
         let normals = frame.normals_on_screen();
         let alone = normals.filter(|_| self.extras == Extras::default());
-        if let Some(normals) = alone.filter(|_| self.kernels.passes_normal) {
+        if let Some(normals) = alone.filter(|_| self.passes_normals()) {
             return (normals.as_flattened().into(), Per::Vertex);
         }
         // Normals of one material need not be gathered.
-        let ready =
-            alone.filter(|_| has_one_material && !is_local && !self.kernels.reads_attributes);
+        let reads_attributes = self.kernels.carries == Carried::Attributes;
+        let ready = alone.filter(|_| has_one_material && !is_local && !reads_attributes);
         let item = |i: usize| {
             let vertex = i as u32;
             let point = match is_local {
@@ -331,12 +336,17 @@ impl<'a> SetUp<'a> {
         (values.into(), Per::Vertex)
     }
 
+    /// True if the varyings are the frame's normals: where edges follow great circles, those that clipping made are not.
+    fn passes_normals(&self) -> bool {
+        self.kernels.carries == Carried::Normal && !self.varyings.great_circles
+    }
+
     /// Returns the attributes of a vertex, if the method reads them.
     #[inline(always)]
     fn attributes(&self, vertex: u32) -> [f32; 4] {
-        match self.kernels.reads_attributes {
-            true => self.frame.attributes(vertex),
-            false => [0.0; 4],
+        match self.kernels.carries {
+            Carried::Attributes => self.frame.attributes(vertex),
+            _ => [0.0; 4],
         }
     }
 
@@ -482,7 +492,6 @@ impl<'a> SetUp<'a> {
     ) {
         debug_assert_eq!(normals.len(), points.len(), "a position a normal");
         let vertices = Vertices {
-            parameters: self.parameters,
             uniforms: &self.uniforms[uniforms.0 as usize],
             normals,
             points,

@@ -4,8 +4,8 @@ use super::adaptive_plan::{self as plan, Followed};
 use super::increments::{Quadratic, Walk};
 use super::phong_rsqrt::PhongRsqrt;
 use super::{
-    Approximation, Corners, Family, Info, LightModel, Linear, Lit, MethodParameter, Pixel, Planes,
-    Roundings, Shader, Span, Standing, Stepped, Value,
+    Approximation, Corners, Family, Info, LightModel, Linear, Lit, MethodParameter, Normal, Pixel,
+    Planes, Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3, vec3};
@@ -133,14 +133,10 @@ impl<const MANY: bool> Shader for AdaptivePhong<MANY> {
                 eye are at positions",
         ..Info::OF_PIXELS
     };
-    const PASSES_NORMAL: bool = true;
     const KINDS: &'static [&'static str] = &["exact", "linear", "dull", "curved", "root"];
-    const SCALAR_ONLY: Option<&'static str> = Some(
-        "adaptive-phong takes another loop for each polygon, and a block of pixels has one for all",
-    );
     // C by rows; a; the factors; followed lights, each as its number and what is followed of it
     type Constants<F: Num> = (([Vec3<F>; 3], Vec3<F>), Vec3<F>, [(F, (F, F)); plan::MOST]);
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = AdaptiveWalk<F, MANY>;
 
     fn stands_in(frame: &Frame) -> Option<&'static str> {
@@ -189,10 +185,6 @@ impl<const MANY: bool> Shader for AdaptivePhong<MANY> {
             (number(one.light.into()), (parts[0], parts[1]))
         });
         (plan.kind, ((rows, base), factors, followed))
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -5,8 +5,8 @@ use super::quadratic_products::{
     Growth, WIDEST, along, each_of, lagrange, least_length, plain, width,
 };
 use super::{
-    Approximation, Corner, Corners, Family, Info, Linear, Lit, Local, Pixel, Roundings, Shader,
-    Span, Stepped,
+    Approximation, Corner, Corners, Family, Info, Linear, Lit, Needs, Normal, Pixel, Roundings,
+    Shader, Span, Spans, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -87,16 +87,14 @@ impl Shader for BiquadraticNormals {
         fails: "it is another surface: flat faces between unlike normals become waves",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PASSES_NORMAL: bool = true;
+    const NEEDS: Needs = Needs {
+        spans: Spans::Ends,
+        positions: true,
+        ..Needs::PIXELS_BY_POLYGON
+    };
     const KINDS: &'static [&'static str] = &["quadratic", "roots"];
-    const READS_SPAN: bool = true;
-    const READS_POSITIONS: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(
-        "biquadratic-normals steps quadratics of a polygon's own, and the row engine has no spans",
-    );
     type Constants<F: Num> = ([Vec3<F>; 6], [F; 2]); // of 1, x, y, x², xy, y²; from the first corner
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = [Quadratic<F>; 3];
 
     #[inline(always)]
@@ -134,10 +132,6 @@ impl Shader for BiquadraticNormals {
             growth,
         );
         (0, (of, a.place))
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

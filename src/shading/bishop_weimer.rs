@@ -1,6 +1,5 @@
 //! Phong shading by Taylor's quadratic about the middle of a triangle: no root and no division at a pixel (Bishop, Weimer 1986).
 
-use super::duff_phong::DuffPhongLocal;
 use super::lighting::{LightUniforms, toward};
 use super::positional_products::{
     self, OverTriangle, Placed, PositionalProducts, set_light, set_up_placed, set_view,
@@ -10,8 +9,8 @@ use super::quadratic_products::{
     set_up_triangle,
 };
 use super::{
-    Approximation, Corner, Corners, Family, Info, Lit, Pixel, Planes, Roundings, Shader, Span,
-    Stepped,
+    Approximation, Corner, Corners, Family, Info, Lit, Needs, Normal, NormalAndPlace, Pixel,
+    Planes, Roundings, Shader, Span, Spans, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -183,17 +182,16 @@ const BISHOP_WEIMER: Info = Info {
 };
 
 const KINDS: &[&str] = &["quadratic", "roots"];
-const SCALAR_ONLY: &str =
-    "bishop-weimer steps quadratics of a polygon's own, and the row engine has no spans";
 
 impl<const L: usize> Shader for BishopWeimer<L> {
     const INFO: Info = BISHOP_WEIMER;
-    const PASSES_NORMAL: bool = true;
+    const NEEDS: Needs = Needs {
+        spans: Spans::Ends,
+        ..Needs::PIXELS
+    };
     const KINDS: &'static [&'static str] = KINDS;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
     type Constants<F: Num> = OverPolygon<F, L>; // from the middle
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = QuadraticProducts<F, L>;
 
     #[inline(always)]
@@ -227,10 +225,6 @@ impl<const L: usize> Shader for BishopWeimer<L> {
         }
         constants.1 = middle([a, b, c]);
         (0, constants)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -329,11 +323,13 @@ pub struct BishopWeimerLocal<const L: usize>(BishopWeimer<L>);
 impl<const L: usize> Shader for BishopWeimerLocal<L> {
     const INFO: Info = BISHOP_WEIMER;
     const KINDS: &'static [&'static str] = KINDS;
-    const IS_GENERAL: bool = true;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
+    const NEEDS: Needs = Needs {
+        spans: Spans::Ends,
+        general_only: true,
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = OverTriangle<F, L>; // from the middle
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
+    type Carries = NormalAndPlace;
     type Walk<F: Num> = PositionalProducts<F, L>;
 
     #[inline(always)]
@@ -362,10 +358,6 @@ impl<const L: usize> Shader for BishopWeimerLocal<L> {
         }
         constants.1 = middle(corners.map(|(corner, _)| corner));
         (0, constants)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        DuffPhongLocal::<L>.vertex(lit, n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -205,12 +205,12 @@ fn errors(entry: &Entry, frame: &Frame, polygon: &Polygon, spread: PolygonSpread
     let Roundings { start, step, of } = info.roundings;
     let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
     // A rounding where the weight of perspective is largest counts for more where it is smallest.
-    let weights = match entry.perspective {
+    let weights = match entry.needs.perspective {
         Perspective::Free | Perspective::Divides => extent.weights,
         Perspective::Unaffected | Perspective::ScreenOnly => 1.0,
     };
     // True if vectors to places are stepped beside normals.
-    let is_followed = frame.is_local() && entry.local == Local::PerPixel;
+    let is_followed = frame.is_local() && entry.needs.local == Local::PerPixel;
     // Colours may differ by all that they are, weights by 1 − 1/σ of the largest.
     let apart = match of {
         Stepped::Colours | Stepped::Sums => 1.0,
@@ -229,7 +229,7 @@ fn errors(entry: &Entry, frame: &Frame, polygon: &Polygon, spread: PolygonSpread
     };
     let rounding = ROUNDING * weights;
     // The least length that a normal has before it is normalised.
-    let length = match entry.lit_at {
+    let length = match entry.needs.lit_at {
         LitAt::Polygon | LitAt::Vertex => 1.0,
         LitAt::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
         LitAt::Pixel => extent.cosine,

@@ -6,7 +6,8 @@ use super::lighting::Lit;
 use super::planes::each;
 use super::span::RunStart;
 use super::{
-    Corner, Corners, LitAt, Local, Planes, Shader, Span, SpanBench, SpanPlace, Variant, ramp,
+    Carries, Corner, Corners, LitAt, Local, Planes, Shader, Span, SpanBench, SpanPlace, Variant,
+    ramp,
 };
 use crate::number::{Counted, Counter, Counts, Real, vec3};
 use alloc::vec::Vec;
@@ -49,14 +50,14 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     let mut method = M::new(variant.parameters(), &uniforms.model);
     let (face, zero) = (three(SpanBench::FACE), number(0.0));
     let lit = Lit::new(uniforms.stored(), zero, uniforms.model.is_general);
-    let is_polygon = matches!(entry.lit_at, LitAt::Polygon | LitAt::PolygonMean);
+    let is_polygon = matches!(entry.needs.lit_at, LitAt::Polygon | LitAt::PolygonMean);
     let mut counts = OperationCounts::default();
 
     // A loop: as a map of an array it would be compiled three times, for each method.
     let mut corners = [const { Vec::new() }; 3];
     for (i, corner) in corners.iter_mut().enumerate() {
         counter.take();
-        let normal = match entry.lit_at {
+        let normal = match entry.needs.lit_at {
             LitAt::Polygon => face,
             LitAt::PolygonMean => {
                 let [a, b, c] = bench.normals.map(vec3);
@@ -64,7 +65,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
             }
             LitAt::Vertex | LitAt::Pixel => three(bench.normals[i]),
         };
-        let varying = method.vertex(&lit.at(three(bench.points[i])), normal);
+        let varying = M::Carries::vertex(&lit.at(three(bench.points[i])), normal);
         put(varying, corner);
         if extras.point {
             corner.extend(bench.points[i].map(number));
@@ -76,7 +77,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     if !is_polygon {
         counts.vertex = counter.take();
     }
-    if entry.local == Local::PerPolygon && bench.is_local() {
+    if entry.needs.local == Local::PerPolygon && bench.is_local() {
         // Light and eye as the polygon sees them.
         let uniforms = variant.uniforms(&bench.lighting, 1.0);
         let lit = Lit::new(uniforms.stored(), zero, true).at(three(bench.points[0]));
@@ -88,7 +89,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         normal: three(bench.normals[i]),
         place: SpanBench::CORNERS[i].map(number),
         weight: number(1.0),
-        position: (bench.is_local() || M::READS_POSITIONS).then(|| three(bench.points[i])),
+        position: (bench.is_local() || M::NEEDS.positions).then(|| three(bench.points[i])),
     });
     let whole = bench.normals.map(three);
     let polygon = Corners {
@@ -101,7 +102,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     counter.take();
     let (kind, constants) = method.polygon(&lit, &polygon);
     let planned = counter.take();
-    if M::READS_SPAN || !M::KINDS.is_empty() {
+    if M::NEEDS.reads_span() || !M::KINDS.is_empty() {
         counts.polygon = planned;
     }
     method = method.of_kind(kind);
@@ -110,7 +111,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     let [t0, dt] = SpanBench::EDGE.map(number);
     let vector = |numbers: &[_]| vec3([numbers[0], numbers[1], numbers[2]]);
     let ends: [Vec<Counted<'_>>; 2];
-    if M::GREAT_CIRCLES {
+    if M::NEEDS.great_circles() {
         let circle = |from, to| GreatCircle::new(face, [from, to], t0, dt);
         let [left, right] = [a, b].map(|corner| circle(vector(corner), vector(c)));
         counter.take();
@@ -143,7 +144,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
     let pairs = ends[0].iter().zip(&ends[1]);
     let [mut first, mut second] = [Vec::new(), Vec::new()];
     for (a, b) in pairs {
-        let [at, step] = match M::READS_SPAN {
+        let [at, step] = match M::NEEDS.reads_span() {
             true => [*a, *b],
             false if is_polygon => [*a, zero],
             false => ramp(*a, *b, t0, dt),
@@ -157,7 +158,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         numbers: [&first, &second],
         x: 0,
         pixels: SpanBench::PIXELS,
-        place: M::READS_SPAN.then_some(SpanPlace {
+        place: M::NEEDS.reads_span().then_some(SpanPlace {
             y: 0,
             t0,
             dt,

@@ -4,7 +4,8 @@ use super::increments::{Cubic, Quadratic, Walk};
 use super::planes::scaled;
 use super::series_phong::{approximation, of_corners};
 use super::{
-    Corners, Family, Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span, Stepped,
+    Corners, Family, Info, Linear, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span,
+    Stepped,
 };
 use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
@@ -42,13 +43,10 @@ impl<const L: usize> Shader for CubicPhong<L> {
         fails: "where normals turn by more than about 15 degrees over a polygon: a highlight's peak is off by n times the error",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PASSES_NORMAL: bool = true;
+    const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
     const KINDS: &'static [&'static str] = &["cubics", "roots"];
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("cubic-phong has a line for each polygon, and a block of pixels one for all");
     type Constants<F: Num> = [F; 2]; // the line
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = CubicWalk<F, L>;
 
     #[inline(always)]
@@ -66,10 +64,6 @@ impl<const L: usize> Shader for CubicPhong<L> {
             Some([k0, k1, _]) => (0, [zero.broadcast(k0), zero.broadcast(k1)]),
             None => (ROOTS, [zero; 2]),
         }
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

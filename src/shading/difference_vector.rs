@@ -3,8 +3,8 @@
 use super::extent::Extent;
 use super::increments::Quadratic;
 use super::{
-    Approximation, Family, Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span,
-    Stepped,
+    Approximation, Family, Info, Linear, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader,
+    Span, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
@@ -67,13 +67,15 @@ impl<const L: usize> Shader for DifferenceVector<L> {
         fails: "where normals turn by more than 20 degrees over a polygon: its middle is darker",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PASSES_NORMAL: bool = true;
-    const IS_GENERAL: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("difference-vector saves a root a pixel, and eight lanes take theirs at once");
+    const NEEDS: Needs = Needs {
+        general_only: true,
+        scalar_only: Some(
+            "difference-vector saves a root a pixel, and eight lanes take theirs at once",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = (Linear<PerLight<F, L>>, PerLight<Quadratic<F>, L>); // J and E of each light
 
     fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
@@ -84,10 +86,6 @@ impl<const L: usize> Shader for DifferenceVector<L> {
             }
             _ => None,
         }
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

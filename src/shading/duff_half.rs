@@ -2,7 +2,7 @@
 
 use super::increments::Quadratic;
 use super::planes::scaled;
-use super::{Info, Linear, Lit, PerLight, Pixel, Roundings, Shader, Span, Stepped};
+use super::{Carries, Info, Linear, Lit, Needs, PerLight, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::scene::{Interpolation, Lighting, SpecularModel};
@@ -36,20 +36,19 @@ impl<const L: usize> Shader for DuffHalf<L> {
         fails: "as duff-phong; for N.H only, with lights and eye at infinity",
         ..Info::OF_PIXELS
     };
-    const IS_GENERAL: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(
-        "duff-half steps differences from pixel to pixel, and a block of pixels would keep two numbers a light",
-    );
+    const NEEDS: Needs = Needs {
+        general_only: true,
+        scalar_only: Some(
+            "duff-half steps differences from pixel to pixel, and a block of pixels would keep two numbers a light",
+        ),
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = ((PerLight<F, L>, PerLight<F, L>), Vec3<F>); // J and M of each light; N
+    type Carries = Self;
     type Walk<F: Num> = (Linear<(PerLight<F, L>, PerLight<F, L>)>, Quadratic<F>); // J and M of each light; D
 
     fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
         refuses_light(lighting)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (lit.half_products(n), n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -60,5 +59,14 @@ impl<const L: usize> Shader for DuffHalf<L> {
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
         lit.shade_half_products(scaled(products, d.broadcast(1.0) / d.sqrt()))
+    }
+}
+
+impl<const L: usize> Carries for DuffHalf<L> {
+    type Varying<F: Num> = ((PerLight<F, L>, PerLight<F, L>), Vec3<F>); // J and M of each light; N
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+        (lit.half_products(n), n)
     }
 }

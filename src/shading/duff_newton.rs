@@ -3,8 +3,8 @@
 use super::increments::{Quadratic, WarmRsqrt, WarmSteps};
 use super::planes::scaled;
 use super::{
-    Approximation, Info, LightModel, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span,
-    Stepped, Value,
+    Approximation, Info, LightModel, Linear, Lit, Needs, PerLight, Pixel, ProductsAndNormal,
+    Roundings, Shader, Span, Stepped, Value,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -46,11 +46,14 @@ impl<const L: usize> Shader for DuffNewton<L> {
         fails: "on spans of few pixels over a large angle it takes true roots and divisions; each pixel waits for the one before",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("duff-newton follows the pixel before, and a block of pixels has none nearby");
+    const NEEDS: Needs = Needs {
+        scalar_only: Some(
+            "duff-newton follows the pixel before, and a block of pixels has none nearby",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
+    type Carries = ProductsAndNormal<L>;
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, WarmRsqrt<F>); // J of each light, K; r
 
     #[inline(always)]
@@ -58,10 +61,6 @@ impl<const L: usize> Shader for DuffNewton<L> {
         DuffNewton {
             steps: WarmSteps::new(largest_error(model.shininess)),
         }
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (lit.products(n), n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -5,7 +5,8 @@ use super::increments::Quadratic;
 use super::lighting::toward;
 use super::planes::scaled;
 use super::{
-    Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped,
+    Info, Linear, Lit, Local, Needs, NormalAndPlace, PerLight, Pixel, ProductsAndNormal, Roundings,
+    Shader, Span, Standing, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -37,19 +38,18 @@ pub struct DuffPhong<const L: usize, const RSQRT: bool = false>;
 
 impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
     const INFO: Info = if RSQRT { FAST_PHONG_RSQRT } else { DUFF_PHONG };
-    const LOCAL: Local = if RSQRT {
-        Local::PerPolygon
-    } else {
-        Local::PerPixel
+    const NEEDS: Needs = Needs {
+        local: if RSQRT {
+            Local::PerPolygon
+        } else {
+            Local::PerPixel
+        },
+        ..Needs::PIXELS
     };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
+    type Carries = ProductsAndNormal<L>;
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (lit.products(n), n)
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let Linear { at, step } = span.linear();
@@ -115,13 +115,9 @@ impl<const L: usize> DuffPhongLocal<L> {
 impl<const L: usize> Shader for DuffPhongLocal<L> {
     const INFO: Info = DUFF_PHONG;
     type Constants<F: Num> = ();
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
+    type Carries = NormalAndPlace;
     type Walk<F: Num> = LocalWalk<F, L>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (n, lit.point(), n.x.broadcast(1.0))
-    }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         Self::products(lit, span.linear())

@@ -1,6 +1,6 @@
 //! Phong shading in the frame of the eye and the first light: V·N is a component, and L·N has two products.
 
-use super::{Info, Linear, Lit, Local, Pixel, Roundings, Shader, Span, Stepped};
+use super::{Info, Linear, Lit, Needs, Pixel, Roundings, Shader, Span, Stepped, TurnedNormal};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -29,18 +29,16 @@ impl Shader for EyeFramePhong {
         fails: "as naive-phong; with lights or eye at positions each polygon turns its corners anew",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const TURNS_NORMALS: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("eye-frame-phong saves products, and a block of pixels is no faster without them");
+    const NEEDS: Needs = Needs {
+        scalar_only: Some(
+            "eye-frame-phong saves products, and a block of pixels is no faster without them",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N in the frame
+    type Carries = TurnedNormal;
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        lit.framed(n)
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear()

@@ -2,8 +2,8 @@
 
 use super::increments::{Newton, NewtonSteps};
 use super::{
-    Auto, Info, LightModel, Linear, Lit, Local, MethodParameter, PerLight, Pixel, Range, Roundings,
-    Shader, Span, Standing, Stepped, Value,
+    Auto, Info, LightModel, Linear, Lit, MethodParameter, Needs, PerLight, Pixel,
+    ProductsAndNormal, Range, Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -48,9 +48,9 @@ impl<const L: usize> Shader for FastPhong<L> {
         }],
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
+    const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
     type Constants<F: Num> = ();
-    type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
+    type Carries = ProductsAndNormal<L>;
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Newton<F>); // J of each light, K; d, D
 
     #[inline(always)]
@@ -63,10 +63,6 @@ impl<const L: usize> Shader for FastPhong<L> {
     #[inline(always)]
     fn walks_along_runs(self) -> bool {
         !self.steps.is_auto()
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        (lit.products(n), n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

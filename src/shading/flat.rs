@@ -1,7 +1,7 @@
 //! Flat shading: one colour per polygon (L21 2).
 
 use super::{
-    Constant, Family, Info, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span,
+    Colour, Constant, Family, Info, Lit, LitAt, Needs, Perspective, Pixel, Roundings, Shader, Span,
     Standing, Stepped,
 };
 use crate::number::{Num, Vec3};
@@ -28,17 +28,15 @@ impl Shader for Flat {
         fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
         ..Info::OF_PIXELS
     };
-    const LIT_AT: LitAt = LitAt::Polygon;
-    const LOCAL: Local = Local::PerPolygon;
-    const PERSPECTIVE: Perspective = Perspective::Unaffected;
+    const NEEDS: Needs = Needs {
+        lit_at: LitAt::Polygon,
+        perspective: Perspective::Unaffected,
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // the colour
+    type Carries = Colour;
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        lit.clamped(lit.shade(n)) // 2.1
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
         Constant(span.linear().at)

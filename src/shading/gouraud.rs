@@ -1,8 +1,8 @@
 //! Gouraud shading: vertex colours, interpolated linearly (L21 3).
 
 use super::{
-    Family, Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Standing,
-    Stepped,
+    Colour, Family, Info, Linear, Lit, LitAt, Local, Needs, Perspective, Pixel, Roundings, Shader,
+    Span, Standing, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -30,17 +30,16 @@ impl Shader for Gouraud {
         fails: "highlights inside a polygon are lost or smeared; the slope of the intensity still jumps at edges",
         ..Info::OF_PIXELS
     };
-    const LIT_AT: LitAt = LitAt::Vertex;
-    const LOCAL: Local = Local::PerVertex;
-    const PERSPECTIVE: Perspective = Perspective::Divides;
+    const NEEDS: Needs = Needs {
+        lit_at: LitAt::Vertex,
+        local: Local::PerVertex,
+        perspective: Perspective::Divides,
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // the colour I
+    type Carries = Colour;
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        lit.clamped(lit.shade(n)) // 2.1
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear() // 3.5, 3.6

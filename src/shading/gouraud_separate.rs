@@ -1,9 +1,7 @@
 //! Gouraud shading with diffuse and specular light interpolated apart (L21 3; OpenGL's separate specular colour).
 
 use super::gouraud::Gouraud;
-use super::{
-    Family, Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
-};
+use super::{Carries, Family, Info, Linear, Lit, Needs, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -30,17 +28,11 @@ impl Shader for GouraudSeparate {
         fails: "as Gouraud",
         ..Gouraud::INFO
     };
-    const LIT_AT: LitAt = Gouraud::LIT_AT;
-    const LOCAL: Local = Gouraud::LOCAL;
-    const PERSPECTIVE: Perspective = Gouraud::PERSPECTIVE;
+    const NEEDS: Needs = Gouraud::NEEDS;
     type Constants<F: Num> = ();
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // D, S
+    type Carries = Self;
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
-        lit.shade_apart(n) // 2.1
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         span.linear() // 3.5, 3.6
@@ -48,5 +40,14 @@ impl Shader for GouraudSeparate {
     #[inline(always)]
     fn shade<F: Num>(self, _: &Lit<'_, F>, (diffuse, specular): Pixel<Self, F>) -> Vec3<F> {
         diffuse + specular
+    }
+}
+
+impl Carries for GouraudSeparate {
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // D, S
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
+        lit.shade_apart(n) // 2.1
     }
 }

@@ -5,7 +5,8 @@ use super::increments::{Linear, Walk};
 use super::lighting::magnitude;
 use super::quadratic_products::plain;
 use super::{
-    Approximation, Corners, Family, Info, Lit, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Approximation, Carries, Corners, Family, Info, Lit, Needs, Perspective, Pixel, Roundings,
+    Shader, Span, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -117,12 +118,13 @@ impl Shader for HTest {
         fails: "diffuse light is Gouraud's: too dark in the middle of polygons, and with Mach bands",
         ..Info::OF_PIXELS
     };
-    const PERSPECTIVE: Perspective = Perspective::Divides;
+    const NEEDS: Needs = Needs {
+        perspective: Perspective::Divides,
+        ..Needs::PIXELS
+    };
     const KINDS: &'static [&'static str] = &["dull", "shining"];
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("h-test takes another loop for each polygon, and a block of pixels has one for all");
     type Constants<F: Num> = ();
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // ambient and diffuse light, N
+    type Carries = Self;
     type Walk<F: Num> = HTestWalk<F>;
 
     fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
@@ -144,14 +146,6 @@ impl Shader for HTest {
             },
             (),
         )
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        let mut colour = lit.ambient();
-        for light in lit.lights() {
-            colour = lit.add_diffuse(colour, &light, n.dot(light.to).max(0.0));
-        }
-        (colour, n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -181,6 +175,19 @@ impl Shader for HTest {
             colour = lit.add_highlight(colour, &light, l_n.max(0.0), cosine);
         }
         colour
+    }
+}
+
+impl Carries for HTest {
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // ambient and diffuse light, N
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+        let mut colour = lit.ambient();
+        for light in lit.lights() {
+            colour = lit.add_diffuse(colour, &light, n.dot(light.to).max(0.0));
+        }
+        (colour, n)
     }
 }
 

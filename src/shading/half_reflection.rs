@@ -5,8 +5,8 @@ use super::extent::{for_each_end, wide};
 use super::eye_chart::of_angle;
 use super::increments::{Linear, Quadratic, Walk};
 use super::{
-    Approximation, Family, Info, Lit, Local, PerLight, Pixel, Planes, Roundings, Shader, Span,
-    Stepped,
+    Approximation, Family, Info, Lit, Needs, Normal, PerLight, Pixel, Planes, Roundings, Shader,
+    Span, Spans, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3, vec3};
@@ -94,19 +94,17 @@ impl<const L: usize> Shader for HalfReflection<L> {
         fails: "where the ends of a span turn by more than 45 degrees; on triangles the picture depends on how they lie",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(
-        "half-reflection walks along spans, and a block of pixels normalises cheaper than it starts one",
-    );
+    const NEEDS: Needs = Needs {
+        spans: Spans::Ends,
+        scalar_only: Some(
+            "half-reflection walks along spans, and a block of pixels normalises cheaper than it starts one",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = HalfWalk<F, L>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
-    }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> HalfWalk<F, L> {
         let ([a, b], [t0, dt]) = (span.ends(), span.parameter());

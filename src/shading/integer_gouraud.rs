@@ -4,8 +4,8 @@ use super::integers::{self, sum};
 use super::kernels::{Pixels, Vertices};
 use super::lighting::Uniforms;
 use super::{
-    Approximation, Constant, Entry, Family, Info, Kernels, Lit, LitAt, Local, Perspective, Pixel,
-    Shader, Span, Standing,
+    Approximation, Colour, Constant, Entry, Family, Info, Kernels, Lit, LitAt, Local, Needs,
+    Perspective, Pixel, Shader, Span, Spans, Standing,
 };
 use crate::integer::{self, Halfway, Highlight, NoHighlight, Reflection, Rgb888};
 use crate::number::{Num, Vec3, vec3};
@@ -65,21 +65,20 @@ pub(super) const ENTRY: Entry = Entry::integer::<Colours>(&INFO, &KERNELS, |benc
 
 impl Shader for Colours {
     const INFO: Info = Info::OF_PIXELS;
-    const LIT_AT: LitAt = LitAt::Vertex;
-    const LOCAL: Local = Local::PerVertex;
-    const PERSPECTIVE: Perspective = Perspective::ScreenOnly;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(integers::WHY);
+    const NEEDS: Needs = Needs {
+        lit_at: LitAt::Vertex,
+        local: Local::PerVertex,
+        perspective: Perspective::ScreenOnly,
+        spans: Spans::Ends,
+        scalar_only: Some(integers::WHY),
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // the colour
+    type Carries = Colour;
     type Walk<F: Num> = Constant<Vec3<F>>;
 
     fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
         integers::refuses(lighting, on, integers::LIGHTS)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        lit.clamped(lit.shade(n))
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {

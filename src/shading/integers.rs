@@ -17,8 +17,9 @@ use super::kernels::{PixelKernel, Pixels};
 use super::lighting::Uniforms;
 use super::span::{PolygonConstants, Run};
 use super::{
-    Approximation, Constant, Corners, Info, Lit, Local, MethodParameter, Perspective, Pixel,
-    Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Stepped, UniformsIndex, Value, Variant,
+    Approximation, Constant, Corners, Info, Lit, MethodParameter, Needs, Normal, Perspective,
+    Pixel, Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Spans, Stepped, UniformsIndex,
+    Value, Variant,
 };
 use crate::frame::{Frame, Polygon};
 use crate::integer::{
@@ -81,23 +82,20 @@ pub(super) struct Normals<const LIGHTS: usize>;
 
 impl<const LIGHTS: usize> Shader for Normals<LIGHTS> {
     const INFO: Info = Info::OF_PIXELS;
-    const LOCAL: Local = Local::PerPolygon;
-    const PERSPECTIVE: Perspective = Perspective::ScreenOnly;
-    const PASSES_NORMAL: bool = true;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = WHY_SCALAR;
+    const NEEDS: Needs = Needs {
+        perspective: Perspective::ScreenOnly,
+        spans: Spans::Ends,
+        scalar_only: WHY_SCALAR,
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Constant<Vec3<F>>;
 
     fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
         let is_halfway = lighting.specular == SpecularModel::Blinn;
         refuses(lighting, on, LIGHTS).or((LIGHTS == 1 && is_halfway)
             .then_some("as printed, its highlights are those of R.V, not of N.H"))
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
@@ -115,13 +113,12 @@ pub(super) struct Circles;
 
 impl Shader for Circles {
     const INFO: Info = Info::OF_PIXELS;
-    const LOCAL: Local = Local::PerPolygon;
-    const PERSPECTIVE: Perspective = Perspective::ScreenOnly;
-    const GREAT_CIRCLES: bool = true;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = WHY_SCALAR;
+    const NEEDS: Needs = Needs {
+        scalar_only: WHY_SCALAR,
+        ..Needs::GREAT_CIRCLES
+    };
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Constant<Vec3<F>>;
 
     fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
@@ -130,10 +127,6 @@ impl Shader for Circles {
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
         (0, polygon.face)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, _: Span<'_, Self, F>) -> Constant<Vec3<F>> {
@@ -504,10 +497,9 @@ pub(super) fn counted<M: Shader>(
     uniforms.lights.truncate(most);
     let [span, walk, shade] = of(uniforms.lights.len().max(1) as u32);
     let mut list = RunList::new(3);
-    let ends = bench.ends_of_span(M::GREAT_CIRCLES, |normal| {
+    let ends = bench.ends_of_span(M::NEEDS.great_circles(), |normal| {
         let mut varying = [0.0; 3];
         let job = super::Vertices {
-            parameters: variant.parameters(),
             uniforms: &uniforms,
             normals: &[normal],
             points: &[[0.0; 3]],

@@ -4,7 +4,6 @@
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
 #[cfg(feature = "simd")]
-use super::LitAt;
 use super::cell::CellLayout;
 use super::increments::{Linear, Walk};
 #[cfg(feature = "simd")]
@@ -14,7 +13,10 @@ use super::lighting::at_most;
 use super::lighting::{LightModel, Lit, Uniforms};
 use super::planes::{Planes, count, each, scaled};
 use super::span::{RunList, RunStart};
-use super::{Corners, Pixel, PolygonConstants, Run, Shader, Span, Value};
+use super::{
+    Carried, Carries, Corners, LitAt, Needs, Pixel, PolygonConstants, Run, Shader, Span, Value,
+    Varying,
+};
 #[cfg(feature = "simd")]
 use crate::number::simd::{Block, Token, deinterleaved, vectorize};
 use crate::number::{BLOCK, Level, Num, Vec3, vec3};
@@ -89,7 +91,6 @@ impl Extras {
 /// The vertices whose varyings are computed together: they have the same uniforms. SIMD kernels take whole blocks of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertices<'a> {
-    pub parameters: &'a [Value],
     pub uniforms: &'a Uniforms,
     pub normals: &'a [[f32; 3]],
     /// Positions, one a normal; any vectors if nothing is lit from a position.
@@ -138,7 +139,7 @@ impl<'a> Pixels<'a> {
             numbers: self.list.starts.of(number),
             x: run.x,
             pixels: run.pixels,
-            place: M::READS_SPAN.then(|| self.list.places[number]),
+            place: M::NEEDS.reads_span().then(|| self.list.places[number]),
             constants,
         };
         (kind, start)
@@ -155,17 +156,11 @@ pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 pub struct Kernels {
     /// Returns the numbers of a varying, of a pixel and of the constants of a polygon for so many lights.
     pub(crate) counts: fn(usize) -> [usize; 3],
-    pub(crate) great_circles: bool,
+    pub(crate) needs: Needs,
+    pub(crate) carries: Carried,
     pub(crate) kinds: &'static [&'static str],
-    /// True if walks need more of a run than its varyings: [`Shader::READS_SPAN`].
-    pub(crate) reads_span: bool,
-    /// True if polygons are set up from positions everywhere: [`Shader::READS_POSITIONS`].
-    pub(crate) reads_positions: bool,
     /// True if pixels are the varyings themselves.
     pub(crate) linear: bool,
-    pub(crate) passes_normal: bool,
-    pub(crate) turns_normals: bool,
-    pub(crate) reads_attributes: bool,
     /// True if SIMD walks along runs with these parameters: [`Shader::walks_along_runs`].
     pub(crate) walks_along_runs: fn(&[Value], &LightModel) -> bool,
     /// Sets up a polygon, and returns its kind.
@@ -174,8 +169,6 @@ pub struct Kernels {
     pub(crate) vertices: VertexKernel,
     /// Shades runs: the scalar pixel loop.
     pub(crate) pixels: PixelKernel,
-    /// The reason why it has no SIMD kernels, if it has none.
-    pub(crate) scalar_only: Option<&'static str>,
     /// Returns the kernels of an instruction set; `None` for scalar code.
     pub(crate) simd: fn(Level) -> Option<&'static SimdKernels>,
 }
@@ -196,31 +189,19 @@ impl Kernels {
     pub const fn of<M: Shader>() -> Kernels {
         Kernels {
             counts: |lights| {
-                let varyings = count::<M::Varying<f32>>(lights);
+                let varyings = count::<Varying<M, f32>>(lights);
                 let constants = count::<M::Constants<f32>>(lights);
                 [varyings, count::<Pixel<M, f32>>(lights), constants]
             },
-            great_circles: M::GREAT_CIRCLES,
-            kinds: {
-                assert!(
-                    M::KINDS.is_empty() || M::SCALAR_ONLY.is_some(),
-                    "the G-buffer does not keep kinds, so methods of kinds are scalar only"
-                );
-                assert!(M::KINDS.len() <= 5, "at most five kinds");
-                M::KINDS
-            },
-            reads_span: M::READS_SPAN,
-            reads_positions: M::READS_POSITIONS,
+            needs: needs::<M>(),
+            carries: M::Carries::FROM,
+            kinds: M::KINDS,
             linear: <M::Walk<f32> as Walk<f32>>::LINEAR,
-            passes_normal: M::PASSES_NORMAL,
-            turns_normals: M::TURNS_NORMALS,
-            reads_attributes: M::READS_ATTRIBUTES,
             walks_along_runs: |parameters, model| M::new(parameters, model).walks_along_runs(),
             polygon: polygon::<M>,
             vertices: vertices::<M>,
             pixels: pixels::<M>,
-            scalar_only: M::SCALAR_ONLY,
-            simd: match M::SCALAR_ONLY {
+            simd: match needs::<M>().scalar_only {
                 None => by_level::<M>,
                 Some(_) => |_| None,
             },
@@ -234,16 +215,34 @@ impl Kernels {
     pub(super) const fn of_functions<M: Shader>(pixels: PixelKernel, why: &'static str) -> Kernels {
         Kernels {
             pixels,
-            scalar_only: Some(why),
+            needs: Needs {
+                scalar_only: Some(why),
+                ..M::NEEDS
+            },
             simd: |_| None,
             ..Kernels::of::<M>()
         }
     }
 }
 
+/// Returns the needs of a method: one of several kinds is scalar only, as the G-buffer does not keep them.
+const fn needs<M: Shader>() -> Needs {
+    assert!(M::KINDS.len() <= 5, "at most five kinds");
+    let needs = M::NEEDS;
+    Needs {
+        scalar_only: match needs.scalar_only {
+            None if M::KINDS.len() > 1 => Some(
+                "each kind of polygon takes another loop, and a block of pixels has one for all",
+            ),
+            why => why,
+        },
+        ..needs
+    }
+}
+
 /// True if a method may walk along runs, with some parameters.
 const fn may_walk_along_runs<M: Shader>() -> bool {
-    M::READS_SPAN || <M::Walk<f32> as Walk<f32>>::REMEMBERS
+    M::NEEDS.reads_span() || <M::Walk<f32> as Walk<f32>>::REMEMBERS
 }
 
 /// Returns the kernels of a method on an instruction set.
@@ -305,8 +304,7 @@ fn light<M: Shader, F: Num>(
     lanes: impl Fn(F) -> [f32; BLOCK],
 ) {
     let stored = job.uniforms.stored();
-    let method = M::new(job.parameters, &stored.model);
-    let own = count::<M::Varying<f32>>(stored.lights.len());
+    let own = count::<Varying<M, f32>>(stored.lights.len());
     debug_assert!(
         job.normals.len().is_multiple_of(F::WIDTH),
         "vertices are lit in whole blocks"
@@ -323,12 +321,12 @@ fn light<M: Shader, F: Num>(
         let n = gather(normals);
         let mut lit = Lit::new(stored, n.x, general);
         lit = lit.at(if general { gather(points) } else { n });
-        if M::READS_ATTRIBUTES {
+        if matches!(M::Carries::FROM, Carried::Attributes) {
             let all = &job.attributes[block * F::WIDTH..][..F::WIDTH];
             let of = |i: usize| n.x.of_each(|k| n.x.one(all[k][i]));
             lit = lit.with_attributes([of(0), of(1), of(2), of(3)]);
         }
-        let varying = method.vertex(&lit, n);
+        let varying = M::Carries::vertex(&lit, n);
         each(
             varying,
             #[inline(always)]
@@ -345,7 +343,10 @@ fn light<M: Shader, F: Num>(
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = if M::IS_GENERAL || uniforms.model.is_general || job.extras != Extras::default() {
+        out = if M::NEEDS.general_only
+            || uniforms.model.is_general
+            || job.extras != Extras::default()
+        {
             shade_runs::<M>(job, uniforms, true, runs, out)
         } else {
             shade_fast_runs::<M>(job, uniforms, runs, out)
@@ -381,7 +382,7 @@ fn shade_runs<'a, 'b, M: Shader>(
         Extras::default()
     };
     let lights = stored.lights.len();
-    let own = count::<M::Varying<f32>>(lights);
+    let own = count::<Varying<M, f32>>(lights);
     let method = M::new(job.parameters, &stored.model);
     let directional = Lit::new(stored, 0.0, general);
     for (number, run) in runs {
@@ -444,7 +445,7 @@ impl SimdKernels {
     /// Compiles a method: its pixel loop for `S`, all else for `T`, which machines with `S` have too.
     const fn of<M: Shader, T: Token, S: Token>() -> SimdKernels {
         SimdKernels {
-            vertices: match M::LIT_AT {
+            vertices: match M::NEEDS.lit_at {
                 LitAt::Pixel => None,
                 _ => Some(vertex_blocks::<M, T>),
             },
@@ -464,7 +465,7 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
     vectorize(
         simd,
         #[inline(always)]
-        || match job.uniforms.model.is_fast && !M::IS_GENERAL {
+        || match job.uniforms.model.is_fast && !M::NEEDS.general_only {
             true => light::<M, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into()),
             false => light::<M, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into()),
         },
@@ -514,7 +515,7 @@ fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowCo
             let is_bytes = matches!(out, RowColours::Bytes(..));
             let is_fast = job.uniforms.model.is_fast && job.extras == Extras::default();
             match stored.lights {
-                _ if M::IS_GENERAL || !(is_bytes && is_fast) => {
+                _ if M::NEEDS.general_only || !(is_bytes && is_fast) => {
                     shade_blocks::<M, S>(job, stored, true, cells, out)
                 }
                 // One light as a slice of length 1: its loop is unrolled.
@@ -550,7 +551,7 @@ fn shade_blocks<M: Shader, S: Token>(
     let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();
     let planes = match is_walked {
         true => count::<Pixel<M, f32>>(lights),
-        false => count::<M::Varying<f32>>(lights),
+        false => count::<Varying<M, f32>>(lights),
     };
     // From numbers that are known when compiled: so are the places of all that is loaded.
     let cell = CellLayout {
@@ -582,7 +583,7 @@ fn shade_blocks<M: Shader, S: Token>(
             )
         } else {
             let at = each(
-                M::Varying::<S::Block>::filled(lights, depth),
+                Varying::<M, S::Block>::filled(lights, depth),
                 #[inline(always)]
                 |i, number| *number = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
             );

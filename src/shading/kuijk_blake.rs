@@ -5,8 +5,8 @@ use super::increments::{Constant, LARGEST_ANGLE, Linear};
 use super::lighting::LightModel;
 use super::slerp_phong::SlerpPhong;
 use super::{
-    Approximation, Corners, Family, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings,
-    Shader, Span, Stepped, Value,
+    Approximation, Corners, Family, Info, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader,
+    Span, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3};
@@ -128,15 +128,13 @@ impl<const L: usize> Shader for KuijkBlake<L> {
         has_power: false,
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = SlerpPhong::<L>::LOCAL;
-    const PERSPECTIVE: Perspective = SlerpPhong::<L>::PERSPECTIVE;
-    const GREAT_CIRCLES: bool = true;
-    const READS_SPAN: bool = true;
-    const IS_GENERAL: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("kuijk-blake reads tables, which a block of pixels does one by one");
+    const NEEDS: Needs = Needs {
+        general_only: true,
+        scalar_only: Some("kuijk-blake reads tables, which a block of pixels does one by one"),
+        ..SlerpPhong::<L>::NEEDS
+    };
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = (Linear<Pair<F, L>>, Constant<Pair<F, L>>); // angles; p and qⁿ
 
     fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
@@ -160,10 +158,6 @@ impl<const L: usize> Shader for KuijkBlake<L> {
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
         (0, polygon.face)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -1,6 +1,6 @@
 //! Shading methods: one trait, one table, one file per method.
 //!
-//! A method says what a vertex carries ([`Shader::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
+//! A method says what a vertex carries ([`Carries::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
 //! shaded ([`Shader::shade`]), once, for every arithmetic backend. Kernels and engines do all else: positions of lights,
 //! perspective, clamping, storing, loops. (The methods in `duff_phong.rs`, `six_point.rs` and `bishop_weimer.rs` see lights at positions
 //! in their own way: they step positions, or quadratics of them, themselves.)
@@ -20,12 +20,14 @@
 //! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
 
 mod bound;
+mod carries;
 mod cell;
 mod count;
 mod exponent;
 pub(crate) mod extent;
 mod info;
 mod kernels;
+mod needs;
 mod span;
 mod span_bench;
 mod span_shader;
@@ -83,6 +85,9 @@ mod slerp_phong_vector;
 mod stereographic_phong;
 
 pub use bound::{Roundings, Stepped};
+pub use carries::{
+    Carried, Carries, Colour, Normal, NormalAndPlace, ProductsAndNormal, TurnedNormal,
+};
 #[cfg(feature = "simd")]
 pub(crate) use cell::CellLayout;
 pub use count::OperationCounts;
@@ -96,6 +101,7 @@ pub use kernels::{Kernels, UniformsIndex};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
 pub use lighting::{LightModel, Lit, Seen};
+pub use needs::{Needs, Spans};
 pub use planes::{PerLight, Planes};
 pub use span::{Corner, Corners, Run, Span, SpanPlace};
 pub(crate) use span::{PolygonConstants, RunList, Starts, ramp};
@@ -114,38 +120,15 @@ use crate::scene::{Interpolation, Lighting};
 pub trait Shader: Copy + Default + 'static {
     /// The description of the method.
     const INFO: Info;
-    /// The rate at which it evaluates the light model: what engines light, and when. Where that is not the pixel, `shade` may read
-    /// no uniforms but [`LightModel::scale`]: the row engine hands it those of any material.
-    const LIT_AT: LitAt = LitAt::Pixel;
-    /// The points from which it sees lights and eye at positions.
-    const LOCAL: Local = Local::PerPixel;
-    /// The answer to perspective interpolation.
-    const PERSPECTIVE: Perspective = Perspective::Free;
-    /// True if `vertex` returns the normal unchanged: engines then read the frame's normals and skip the vertex pass.
-    const PASSES_NORMAL: bool = false;
-    /// True if `vertex` turns normals into the frame of eye and first light: for others that is not computed, once a polygon where lights
-    /// are at positions.
-    const TURNS_NORMALS: bool = false;
-    /// True if `vertex` reads [`Lit::attributes`].
-    const READS_ATTRIBUTES: bool = false;
-    /// True if its varying is a unit normal that edges carry along great circles (L21 4.7).
-    const GREAT_CIRCLES: bool = false;
-    /// The reason why it is not compiled for SIMD, if it is not.
-    const SCALAR_ONLY: Option<&'static str> = None;
-    /// True if it is for general light alone, by N·H or from positions: no loop is compiled for other light.
-    const IS_GENERAL: bool = false;
-    /// The kinds of polygons that it tells apart, by name: up to 5, or none. Those of [`Shader::SCALAR_ONLY`] methods only, as the
-    /// G-buffer does not keep them: see [`Shader::of_kind`].
+    /// What it needs of engines.
+    const NEEDS: Needs = Needs::PIXELS;
+    /// The kinds of polygons that it tells apart, by name: up to 5, or none. They are scalar only, as the
+    /// G-buffer does not keep kinds: see [`Shader::of_kind`].
     const KINDS: &'static [&'static str] = &[];
-    /// True if `walk` asks a span for its ends or its place: engines then keep these, and walk along runs. The polygon's constants are
-    /// there for methods of kinds, too.
-    const READS_SPAN: bool = false;
-    /// True if `polygon` reads the positions of corners where lights and eye are at infinity, too.
-    const READS_POSITIONS: bool = false;
     /// What is set up once per polygon: numbers, vectors and tuples of them; `()` if nothing is.
     type Constants<F: Num>: Planes<F>;
-    /// The varyings of a vertex, which edges and spans interpolate: numbers, vectors and tuples of them.
-    type Varying<F: Num>: Planes<F>;
+    /// What a vertex carries: `Self` if it is none of those in `carries.rs`.
+    type Carries: Carries;
     /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.
     type Walk<F: Num>: Walk<F>;
 
@@ -184,10 +167,8 @@ pub trait Shader: Copy + Default + 'static {
     /// walk of its own, from varyings that are interpolated over triangles, and remembers nothing.
     #[inline(always)]
     fn walks_along_runs(self) -> bool {
-        Self::READS_SPAN || <Self::Walk<f32> as Walk<f32>>::REMEMBERS
+        Self::NEEDS.reads_span() || <Self::Walk<f32> as Walk<f32>>::REMEMBERS
     }
-    /// Returns the varyings of a vertex with the unit normal `n`; once per polygon for methods that are lit there.
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
     /// Starts a walk. With steps of 0, as a block starts it, it must give what it gives along a run at the same varyings, but for
     /// rounding.
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F>;
@@ -197,3 +178,6 @@ pub trait Shader: Copy + Default + 'static {
 
 /// The input of a pixel to shading: the state of a walk at one pixel.
 pub type Pixel<S, F> = <<S as Shader>::Walk<F> as Walk<F>>::Pixel;
+
+/// The varyings of a method, which edges and spans interpolate.
+pub type Varying<S, F> = <<S as Shader>::Carries as Carries>::Varying<F>;

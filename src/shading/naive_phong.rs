@@ -1,6 +1,6 @@
 //! Naive Phong shading: normals, interpolated and renormalised at every pixel (L21 4.1).
 
-use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Standing, Stepped};
+use super::{Info, Linear, Lit, Normal, Pixel, Roundings, Shader, Span, Standing, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -30,15 +30,10 @@ impl Shader for NaivePhong {
         fails: "where normals cancel inside a span; the slope of the intensity still jumps at edges (Duff 1979)",
         ..Info::OF_PIXELS
     };
-    const PASSES_NORMAL: bool = true;
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear() // 4.1, 4.2

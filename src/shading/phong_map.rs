@@ -3,8 +3,8 @@
 use super::extent::Extent;
 use super::eye_chart::{FromEye, of_angle};
 use super::{
-    Family, Info, Linear, Lit, Local, Perspective, Pixel, Roundings, Shader, Span, Standing,
-    Stepped,
+    Carried, Carries, Family, Info, Linear, Lit, Needs, Perspective, Pixel, Roundings, Shader,
+    Span, Standing, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
@@ -46,21 +46,17 @@ impl Shader for PhongMap {
         fails: "back faces are lit like front faces; between corners far apart normals are turned toward the eye",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PERSPECTIVE: Perspective = Perspective::Divides;
-    const TURNS_NORMALS: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(
-        "phong-map saves no root, and a block of pixels is no faster without the third component",
-    );
+    const NEEDS: Needs = Needs {
+        perspective: Perspective::Divides,
+        scalar_only: Some(
+            "phong-map saves no root, and a block of pixels is no faster without the third component",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = (F, F); // N_x, N_y
+    type Carries = Self;
     type Walk<F: Num> = Linear<(F, F)>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
-        let n = lit.framed(n);
-        (n.x, n.y)
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<(F, F)> {
         span.linear()
@@ -76,5 +72,16 @@ impl Shader for PhongMap {
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, z));
         }
         colour
+    }
+}
+
+impl Carries for PhongMap {
+    const FROM: Carried = Carried::Turned;
+    type Varying<F: Num> = (F, F); // N_x, N_y
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
+        let n = lit.framed(n);
+        (n.x, n.y)
     }
 }

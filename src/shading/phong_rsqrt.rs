@@ -1,6 +1,6 @@
 //! Phong shading from normals with scalars, for processors that shade a block of pixels at a time, row by row.
 
-use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Standing, Stepped};
+use super::{Info, Linear, Lit, Normal, Pixel, Roundings, Shader, Span, Standing, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -26,15 +26,10 @@ impl Shader for PhongRsqrt {
         fails: "as naive-phong",
         ..Info::OF_PIXELS
     };
-    const PASSES_NORMAL: bool = true;
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear() // 4.2

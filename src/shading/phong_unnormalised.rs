@@ -1,8 +1,10 @@
 //! Phong shading without normalising, as CS171 prints it: what goes wrong.
 
 use super::extent::Extent;
-use super::{Approximation, Info, Linear, Lit, Perspective, Pixel, Roundings, Shader, Span};
-use super::{Standing, Stepped};
+use super::{
+    Approximation, Info, Linear, Lit, Needs, Normal, Perspective, Pixel, Roundings, Shader, Span,
+    Standing, Stepped,
+};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -37,18 +39,17 @@ impl Shader for PhongUnnormalised {
         fails: "everywhere between corners: light fades there, and highlights vanish",
         ..Info::OF_PIXELS
     };
-    const PERSPECTIVE: Perspective = Perspective::Divides;
-    const PASSES_NORMAL: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("phong-unnormalised saves roots, which a block of pixels takes for next to nothing");
+    const NEEDS: Needs = Needs {
+        perspective: Perspective::Divides,
+        scalar_only: Some(
+            "phong-unnormalised saves roots, which a block of pixels takes for next to nothing",
+        ),
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear()

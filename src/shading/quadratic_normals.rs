@@ -2,7 +2,9 @@
 
 use super::extent::Extent;
 use super::increments::Quadratic;
-use super::{Approximation, Family, Info, Lit, Local, Pixel, Roundings, Shader, Span, Stepped};
+use super::{
+    Approximation, Family, Info, Lit, Needs, Normal, Pixel, Roundings, Shader, Span, Spans, Stepped,
+};
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -58,20 +60,17 @@ impl Shader for QuadraticNormals {
         fails: "where normals turn by more than 60 degrees along a span; on short spans, which pay three roots",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PASSES_NORMAL: bool = true;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(
-        "quadratic-normals sets up each span by three roots, where eight lanes take one each for eight pixels",
-    );
+    const NEEDS: Needs = Needs {
+        spans: Spans::Ends,
+        scalar_only: Some(
+            "quadratic-normals sets up each span by three roots, where eight lanes take one each for eight pixels",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = [Quadratic<F>; 3];
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
-    }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let [a, b] = span.ends();

@@ -1,7 +1,9 @@
 //! Phong shading by quaternions: each vertex turns the eye's direction into its normal, and the turns are interpolated (Hast 2005).
 
 use super::eye_chart::{Chart, FromEye, of_angle};
-use super::{Family, Info, Linear, Lit, Local, Pixel, Roundings, Shader, Span, Stepped};
+use super::{
+    Carried, Carries, Family, Info, Linear, Lit, Needs, Pixel, Roundings, Shader, Span, Stepped,
+};
 use crate::number::{Num, Vec3, vec3};
 use crate::reference::Model;
 
@@ -43,19 +45,16 @@ impl Shader for QuaternionPhong {
         fails: "where normals face away from the eye: one opposite to it has no least turn",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const TURNS_NORMALS: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("quaternion-phong divides at each pixel, and a block of pixels takes a root for less");
+    const NEEDS: Needs = Needs {
+        scalar_only: Some(
+            "quaternion-phong divides at each pixel, and a block of pixels takes a root for less",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = Vec3<F>; // m
+    type Carries = Self;
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        let n = lit.framed(n);
-        vec3([n.x, n.y, n.z + 1.0]).unit()
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear()
@@ -70,5 +69,16 @@ impl Shader for QuaternionPhong {
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
         }
         colour
+    }
+}
+
+impl Carries for QuaternionPhong {
+    const FROM: Carried = Carried::Turned;
+    type Varying<F: Num> = Vec3<F>; // m
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        let n = lit.framed(n);
+        vec3([n.x, n.y, n.z + 1.0]).unit()
     }
 }

@@ -5,7 +5,7 @@ use super::increments::{Quadratic, Walk};
 use super::planes::scaled;
 use super::quadratic_products::plain;
 use super::{
-    Approximation, Corners, Family, Info, LightModel, Linear, Lit, Local, MethodParameter,
+    Approximation, Corners, Family, Info, LightModel, Linear, Lit, MethodParameter, Needs, Normal,
     PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
@@ -110,13 +110,10 @@ impl<const L: usize> Shader for SeriesPhong<L> {
         fails: "order 1 where normals turn by more than about 15 degrees over a polygon: a highlight's peak is off by n times the error",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PASSES_NORMAL: bool = true;
+    const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
     const KINDS: &'static [&'static str] = &["line", "parabola", "roots"];
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("series-phong has a polynomial for each polygon, and a block of pixels one for all");
     type Constants<F: Num> = [F; 3]; // the polynomial
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = SeriesWalk<F, L>;
 
     #[inline(always)]
@@ -142,10 +139,6 @@ impl<const L: usize> Shader for SeriesPhong<L> {
             Some(factors) => (kind, factors.map(|k| zero.broadcast(k))),
             None => (ROOTS, [zero; 3]),
         }
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

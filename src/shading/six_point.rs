@@ -1,6 +1,5 @@
 //! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
 
-use super::duff_phong::DuffPhongLocal;
 use super::positional_products::{
     self, OverTriangle, Placed, PositionalProducts, set_light, set_up_placed, set_view,
 };
@@ -9,8 +8,8 @@ use super::quadratic_products::{
     width,
 };
 use super::{
-    Approximation, Corner, Corners, Family, Info, LightModel, Lit, MethodParameter, Pixel, Planes,
-    Roundings, Shader, Span, Standing, Stepped, Value,
+    Approximation, Corner, Corners, Family, Info, LightModel, Lit, MethodParameter, Needs, Normal,
+    NormalAndPlace, Pixel, Planes, Roundings, Shader, Span, Spans, Standing, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3};
@@ -129,17 +128,16 @@ const SIX_POINT: Info = Info {
 };
 
 const KINDS: &[&str] = &["quadratic", "roots"];
-const SCALAR_ONLY: &str =
-    "six-point steps quadratics of a polygon's own, and the row engine has no spans";
 
 impl<const L: usize> Shader for SixPoint<L> {
     const INFO: Info = SIX_POINT;
-    const PASSES_NORMAL: bool = true;
+    const NEEDS: Needs = Needs {
+        spans: Spans::Ends,
+        ..Needs::PIXELS
+    };
     const KINDS: &'static [&'static str] = KINDS;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
     type Constants<F: Num> = OverPolygon<F, L>; // from the first corner
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = QuadraticProducts<F, L>;
 
     #[inline(always)]
@@ -169,10 +167,6 @@ impl<const L: usize> Shader for SixPoint<L> {
         let midway = midway([a, b, c], self.is_near).map(products);
         let in_screen = lagrange([fa, fb, fc], midway, growth);
         (0, (in_screen, a.place))
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -242,11 +236,13 @@ pub struct SixPointLocal<const L: usize>(SixPoint<L>);
 impl<const L: usize> Shader for SixPointLocal<L> {
     const INFO: Info = SIX_POINT;
     const KINDS: &'static [&'static str] = KINDS;
-    const IS_GENERAL: bool = true;
-    const READS_SPAN: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(SCALAR_ONLY);
+    const NEEDS: Needs = Needs {
+        spans: Spans::Ends,
+        general_only: true,
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = OverTriangle<F, L>; // from the first corner
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
+    type Carries = NormalAndPlace;
     type Walk<F: Num> = PositionalProducts<F, L>;
 
     #[inline(always)]
@@ -274,10 +270,6 @@ impl<const L: usize> Shader for SixPointLocal<L> {
         }
         constants.1 = corners[0].0.place;
         (0, constants)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        DuffPhongLocal::<L>.vertex(lit, n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -1,10 +1,9 @@
 //! Slerp Phong shading by Chebyshev's recurrence: `J` and `K` by two additions and a product each (Barrera, Hast, Bengtsson 2004).
 
-use super::Stepped;
 use super::increments::{Chebyshev, GreatCircle};
 use super::slerp_phong::SlerpPhong;
 use super::{
-    Corners, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span, Standing,
+    Corners, Info, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped,
 };
 use crate::number::{Num, Real, Vec3};
 
@@ -28,21 +27,14 @@ impl<const L: usize> Shader for SlerpChebyshev<L> {
         fails: "as slerp-phong: the set-up of a span is the same",
         ..SlerpPhong::<1>::INFO
     };
-    const LOCAL: Local = SlerpPhong::<L>::LOCAL;
-    const PERSPECTIVE: Perspective = SlerpPhong::<L>::PERSPECTIVE;
-    const GREAT_CIRCLES: bool = true;
-    const READS_SPAN: bool = true;
+    const NEEDS: Needs = SlerpPhong::<L>::NEEDS;
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Chebyshev<F, (PerLight<F, L>, F)>; // J of each light, K
 
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
         (0, polygon.face)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -3,7 +3,7 @@
 use super::duff_half::refuses_light;
 use super::increments::{Chebyshev, GreatCircle};
 use super::slerp_chebyshev::SlerpChebyshev;
-use super::{Corners, Info, Lit, Local, PerLight, Perspective, Pixel, Shader, Span};
+use super::{Corners, Info, Lit, Needs, Normal, PerLight, Pixel, Shader, Span};
 use crate::number::{Num, Real, Vec3};
 use crate::scene::{Interpolation, Lighting};
 
@@ -24,15 +24,15 @@ impl<const L: usize> Shader for SlerpHalf<L> {
         fails: "as slerp-phong: the set-up of a span is the same; for N.H only, with lights and eye at infinity",
         ..SlerpChebyshev::<1>::INFO
     };
-    const LOCAL: Local = SlerpChebyshev::<L>::LOCAL;
-    const PERSPECTIVE: Perspective = SlerpChebyshev::<L>::PERSPECTIVE;
-    const GREAT_CIRCLES: bool = true;
-    const READS_SPAN: bool = true;
-    const IS_GENERAL: bool = true;
-    const SCALAR_ONLY: Option<&'static str> =
-        Some("slerp-half walks along spans, and a block of pixels would keep two numbers a light");
+    const NEEDS: Needs = Needs {
+        general_only: true,
+        scalar_only: Some(
+            "slerp-half walks along spans, and a block of pixels would keep two numbers a light",
+        ),
+        ..SlerpChebyshev::<L>::NEEDS
+    };
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
-    type Varying<F: Num> = Vec3<F>; // N
+    type Carries = Normal;
     type Walk<F: Num> = Chebyshev<F, (PerLight<F, L>, PerLight<F, L>)>; // J and M of each light
 
     fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
@@ -41,10 +41,6 @@ impl<const L: usize> Shader for SlerpHalf<L> {
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
         (0, polygon.face)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

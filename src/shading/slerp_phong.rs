@@ -2,8 +2,8 @@
 
 use super::increments::GreatCircle;
 use super::{
-    Corners, Family, Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span,
-    Standing, Stepped,
+    Corners, Family, Info, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span, Standing,
+    Stepped,
 };
 use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
@@ -32,21 +32,14 @@ impl<const L: usize> Shader for SlerpPhong<L> {
                 division each; on triangles the picture depends on how they lie; opposite normals have no great circle",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PERSPECTIVE: Perspective = Perspective::ScreenOnly;
-    const GREAT_CIRCLES: bool = true;
-    const READS_SPAN: bool = true;
+    const NEEDS: Needs = Needs::GREAT_CIRCLES;
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
-    type Varying<F: Num> = Vec3<F>;
+    type Carries = Normal;
     type Walk<F: Num> = GreatCircle<F, (PerLight<F, L>, F)>; // J of each light, K
 
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
         (0, polygon.face)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -2,7 +2,7 @@
 
 use super::increments::GreatCircle;
 use super::slerp_phong::SlerpPhong;
-use super::{Corners, Info, Lit, Local, Perspective, Pixel, Shader, Span, Standing};
+use super::{Corners, Info, Lit, Needs, Normal, Pixel, Shader, Span, Standing};
 use crate::number::{Num, Real, Vec3};
 
 /// Slerp Phong shading, vector form: unit normals walk great circles along edges *and* along spans, then eq 2.1 at every pixel,
@@ -22,21 +22,14 @@ impl Shader for SlerpPhongVector {
         fails: "as slerp-phong, at a higher price per pixel",
         ..SlerpPhong::<1>::INFO
     };
-    const LOCAL: Local = SlerpPhong::<1>::LOCAL;
-    const PERSPECTIVE: Perspective = SlerpPhong::<1>::PERSPECTIVE;
-    const GREAT_CIRCLES: bool = true;
-    const READS_SPAN: bool = true;
+    const NEEDS: Needs = SlerpPhong::<1>::NEEDS;
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
-    type Varying<F: Num> = Vec3<F>;
+    type Carries = Normal;
     type Walk<F: Num> = GreatCircle<F>;
 
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
         (0, polygon.face)
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        n
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> GreatCircle<F> {

@@ -2,7 +2,7 @@
 
 use super::increments::Linear;
 use super::planes::{count, each};
-use super::{Planes, Shader, UniformsIndex};
+use super::{Planes, Shader, UniformsIndex, Varying};
 use crate::number::{Num, Vec3};
 use alloc::vec::Vec;
 
@@ -19,7 +19,7 @@ pub struct Run {
     pub pixels: u32,
 }
 
-/// The place of a run on its span: for methods that ask for it ([`Shader::READS_SPAN`]).
+/// The place of a run on its span: for methods that ask for it ([`Needs::spans](super::Needs::spans]).
 #[derive(Clone, Copy, Debug)]
 pub struct SpanPlace<T = f32> {
     /// The scanline.
@@ -129,7 +129,7 @@ pub struct Span<'a, S: Shader, F: Num> {
 
 #[derive(Clone, Copy)]
 enum Start<'a, S: Shader, F: Num> {
-    Block(S::Varying<F>),
+    Block(Varying<S, F>),
     Run(RunStart<'a, F::One>),
 }
 
@@ -152,7 +152,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
     /// Starts a block from the varyings at each of its pixels. `zero` may be any number.
     #[cfg_attr(not(feature = "simd"), expect(dead_code))]
     #[inline(always)]
-    pub(super) fn of_block(lights: usize, at: S::Varying<F>, zero: F) -> Self {
+    pub(super) fn of_block(lights: usize, at: Varying<S, F>, zero: F) -> Self {
         Span {
             start: Start::Block(at),
             lights,
@@ -172,8 +172,8 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
 
     /// Starts a walk that interpolates linearly. A block goes nowhere: its steps are 0, and the walk is its closed form.
     #[inline(always)]
-    pub fn linear(self) -> Linear<S::Varying<F>> {
-        let none = S::Varying::<F>::filled(self.lights, self.zero);
+    pub fn linear(self) -> Linear<Varying<S, F>> {
+        let none = Varying::<S, F>::filled(self.lights, self.zero);
         match self.start {
             Start::Block(at) => Linear { at, step: none },
             Start::Run(run) => Linear {
@@ -205,8 +205,11 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
 
     /// Returns the varyings at both ends of the span, of which the run may be a piece: for methods that read their span.
     #[inline(always)]
-    pub fn ends(&self) -> [S::Varying<F::One>; 2] {
-        let (run, filled) = (self.run(), S::Varying::filled(self.lights, self.one()));
+    pub fn ends(&self) -> [Varying<S, F::One>; 2] {
+        let (run, filled) = (
+            self.run(),
+            Varying::<S, F::One>::filled(self.lights, self.one()),
+        );
         [
             each(
                 filled,
@@ -297,7 +300,7 @@ pub struct Corner<F> {
     pub place: [F; 2],
     /// near/w, the weight of perspective; 1 without.
     pub weight: F,
-    /// The position in the world, where lights or the eye are at positions, or the method reads it ([`Shader::READS_POSITIONS`]).
+    /// The position in the world, where lights or the eye are at positions, or the method reads it ([`Needs::positions`](super::Needs::positions).
     pub position: Option<Vec3<F>>,
 }
 

@@ -114,7 +114,7 @@ impl SpanBench {
     /// Returns the uniforms of a method at `scale`.
     pub(crate) fn uniforms(&self, variant: &Variant, scale: f32) -> Uniforms {
         let uniforms = variant.uniforms(&self.lighting, scale);
-        match variant.entry().local {
+        match variant.entry().needs.local {
             Local::PerPolygon if self.is_local() => uniforms.seen_from([1.0 / 3.0, 1.0 / 3.0, 0.0]),
             _ => uniforms,
         }

@@ -132,10 +132,13 @@ impl SpanShader {
         let extras = entry.extras(is_local, is_perspective);
         let [own, _, constants] = (kernels.counts)(lights);
         let uniforms = variant.uniforms(lighting, 1.0);
-        let is_by_polygon = is_local && entry.local == Local::PerPolygon;
+        let is_by_polygon = is_local && entry.needs.local == Local::PerPolygon;
         Ok(SpanShader {
             is_weighted: is_perspective
-                && matches!(entry.perspective, Perspective::Free | Perspective::Divides),
+                && matches!(
+                    entry.needs.perspective,
+                    Perspective::Free | Perspective::Divides
+                ),
             varyings: own + extras.count(),
             uniforms: [uniforms.clone(), uniforms],
             constants: PolygonConstants {
@@ -189,7 +192,6 @@ impl SpanShader {
         };
         let own = self.varyings - self.extras.count();
         let job = Vertices {
-            parameters: self.variant.parameters(),
             uniforms: &self.uniforms[1],
             normals: &[normal],
             points: &[vertex.position],
@@ -237,7 +239,7 @@ impl SpanShader {
         self.list.clear();
         let [at, step] = self.list.starts.add();
         for i in 0..self.varyings {
-            [at[i], step[i]] = match self.kernels.reads_span {
+            [at[i], step[i]] = match self.kernels.needs.reads_span() {
                 true => [left[i], right[i]],
                 false => ramp(left[i], right[i], t0, dt),
             };
@@ -248,7 +250,7 @@ impl SpanShader {
             x: first,
             pixels: colours.len() as u32,
         });
-        if self.kernels.reads_span {
+        if self.kernels.needs.reads_span() {
             // The first column whose centre is not left of an end; the line that is asked for lies between.
             let centre = |x: f32| libm::ceilf(x - 0.5).max(0.0) as u32;
             let (last, start) = (first + colours.len() as u32, centre(x1).min(first));

@@ -2,7 +2,8 @@
 
 use super::eye_chart::{Chart, FromEye, of_angle};
 use super::{
-    Family, Info, Linear, Lit, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Carried, Carries, Family, Info, Linear, Lit, Needs, Perspective, Pixel, Roundings, Shader,
+    Span, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -39,22 +40,17 @@ impl Shader for StereographicPhong {
         fails: "where normals face away from the eye: a normal opposite to it has no place on the chart",
         ..Info::OF_PIXELS
     };
-    const LOCAL: Local = Local::PerPolygon;
-    const PERSPECTIVE: Perspective = Perspective::Divides;
-    const TURNS_NORMALS: bool = true;
-    const SCALAR_ONLY: Option<&'static str> = Some(
-        "stereographic-phong divides at each pixel, and a block of pixels takes a root for less",
-    );
+    const NEEDS: Needs = Needs {
+        perspective: Perspective::Divides,
+        scalar_only: Some(
+            "stereographic-phong divides at each pixel, and a block of pixels takes a root for less",
+        ),
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = (F, F); // u, v
+    type Carries = Self;
     type Walk<F: Num> = Linear<(F, F)>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
-        let n = lit.framed(n);
-        let scale = n.z.broadcast(1.0) / (n.z + 1.0);
-        (n.x * scale, n.y * scale)
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<(F, F)> {
         span.linear()
@@ -71,5 +67,17 @@ impl Shader for StereographicPhong {
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
         }
         colour
+    }
+}
+
+impl Carries for StereographicPhong {
+    const FROM: Carried = Carried::Turned;
+    type Varying<F: Num> = (F, F); // u, v
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
+        let n = lit.framed(n);
+        let scale = n.z.broadcast(1.0) / (n.z + 1.0);
+        (n.x * scale, n.y * scale)
     }
 }

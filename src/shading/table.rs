@@ -32,10 +32,10 @@ use super::slerp_phong::SlerpPhong;
 use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
 use super::stereographic_phong::StereographicPhong;
-use super::{Extras, Info, Kernels, LitAt, Local, Perspective, Shader, Variant};
 use super::{
-    integer_fast, integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed,
-    integer_quadratic, integer_slerp,
+    Extras, Info, Kernels, LitAt, Local, Needs, Perspective, Shader, Variant, integer_fast,
+    integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed, integer_quadratic,
+    integer_slerp,
 };
 use crate::frame::Frame;
 use crate::scene::{Interpolation, Lighting};
@@ -49,7 +49,10 @@ static TABLE: [Entry; 38] = [
     Entry::of::<Flat>(),
     Entry {
         info: &FLAT_AVERAGE,
-        lit_at: LitAt::PolygonMean,
+        needs: Needs {
+            lit_at: LitAt::PolygonMean,
+            ..Flat::NEEDS
+        },
         ..Entry::of::<Flat>()
     },
     Entry::of::<Gouraud>(),
@@ -118,12 +121,8 @@ type CountSpan = fn(&SpanBench, &Variant) -> CountedSpan;
 pub struct Entry {
     /// The description of the method.
     pub info: &'static Info,
-    /// The rate at which it evaluates the light model.
-    pub lit_at: LitAt,
-    /// The points from which it sees lights and eye at positions.
-    pub local: Local,
-    /// The answer to perspective interpolation.
-    pub perspective: Perspective,
+    /// What it needs of engines.
+    pub needs: Needs,
     /// Returns the reason why it is not for a frame: [`Shader::refuses`].
     pub(crate) refuses: fn(&Frame) -> Option<&'static str>,
     /// Returns the reason why it is not for a material: [`Shader::refuses_light`].
@@ -182,9 +181,7 @@ impl Entry {
         };
         Entry {
             info: &A::INFO,
-            lit_at: A::LIT_AT,
-            local: A::LOCAL,
-            perspective: A::PERSPECTIVE,
+            needs: A::NEEDS,
             refuses: A::refuses,
             refuses_light: A::refuses_light,
             stands_in: A::stands_in,
@@ -242,7 +239,7 @@ impl Entry {
 
     /// Returns the reason why it is drawn by scalar code only, if it is.
     pub fn scalar_only(&self) -> Option<&'static str> {
-        self.directional[0].scalar_only
+        self.directional[0].needs.scalar_only
     }
 
     /// Returns the names of the kinds of polygons that it tells apart: [`Shader::KINDS`].
@@ -252,14 +249,14 @@ impl Entry {
 
     /// True if a pixel depends only on the varyings there; the barycentric renderer draws only such methods.
     pub fn is_barycentric(&self) -> bool {
-        self.directional[0].linear && !self.directional[0].reads_span
+        self.directional[0].linear && !self.needs.reads_span()
     }
 
     /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
     /// position (`is_local`) or not.
     pub(crate) fn extras(&self, is_local: bool, perspective: bool) -> Extras {
-        let point = is_local && self.local == Local::PerPixel && self.positional[0].linear;
-        let divides = self.perspective == Perspective::Divides;
+        let point = is_local && self.needs.local == Local::PerPixel && self.positional[0].linear;
+        let divides = self.needs.perspective == Perspective::Divides;
         Extras {
             point,
             weight: perspective && (divides || point),
@@ -402,7 +399,7 @@ mod tests {
             ..<NaivePhong as Shader>::INFO
         };
         type Constants<F: Num> = ();
-        type Varying<F: Num> = Vec3<F>;
+        type Carries = Normal;
         type Walk<F: Num> = Linear<Vec3<F>>;
 
         fn refuses(frame: &Frame) -> Option<&'static str> {

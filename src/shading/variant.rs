@@ -1,7 +1,7 @@
 //! A method as a user names it.
 
 use super::lighting::Uniforms;
-use super::{Entry, Info, METHODS, Value, integers};
+use super::{Carried, Entry, Info, METHODS, Value, integers};
 use crate::number::NameError;
 use crate::number::suggest::{one_of, unknown};
 use crate::reference::ClosedForm;
@@ -94,7 +94,7 @@ impl Variant {
         if self.entry.is_integer {
             uniforms.materials = integers::materials(lighting);
         }
-        if self.entry.kernels(1, false).turns_normals {
+        if self.entry.kernels(1, false).carries == Carried::Turned {
             uniforms = uniforms.turned();
         }
         uniforms

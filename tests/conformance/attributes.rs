@@ -263,17 +263,14 @@ impl Shader for Quotients {
         name: "quotients",
         ..Info::OF_PIXELS
     };
-    const READS_ATTRIBUTES: bool = true;
-    const PERSPECTIVE: Perspective = Perspective::Divides;
+    const NEEDS: Needs = Needs {
+        perspective: Perspective::Divides,
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = ();
-    type Varying<F: Num> = (Vector<F>, F);
+    type Carries = Self;
     type Walk<F: Num> = Linear<(Vector<F>, F)>;
 
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, _: Vector<F>) -> (Vector<F>, F) {
-        let [x, y, z, w] = lit.attributes();
-        (vec3([x, y, z]), w)
-    }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         span.linear()
@@ -281,6 +278,17 @@ impl Shader for Quotients {
     #[inline(always)]
     fn shade<F: Num>(self, _: &Lit<'_, F>, (v, w): (Vector<F>, F)) -> Vector<F> {
         v * (w.broadcast(1.0) / w)
+    }
+}
+
+impl Carries for Quotients {
+    const FROM: Carried = Carried::Attributes;
+    type Varying<F: Num> = (Vector<F>, F);
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, _: Vector<F>) -> (Vector<F>, F) {
+        let [x, y, z, w] = lit.attributes();
+        (vec3([x, y, z]), w)
     }
 }
 

@@ -77,8 +77,8 @@ fn described(entry: &'static Entry) -> String {
         info.derivation
     );
     say("Error", &error);
-    say("Perspective", entry.perspective.sentence());
-    say("Lights at positions", entry.local.sentence());
+    say("Perspective", entry.needs.perspective.sentence());
+    say("Lights at positions", entry.needs.local.sentence());
     for p in info.parameters {
         let auto = p
             .auto

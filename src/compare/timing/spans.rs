@@ -47,7 +47,6 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
         .enumerate()
     {
         let vertex = Vertices {
-            parameters: variant.parameters(),
             uniforms,
             normals: &bench.normals[k..=k],
             points: &bench.points[k..=k],
@@ -68,7 +67,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
             normal: vec3(bench.normals[i]),
             place: [bench.points[i][0], bench.points[i][1]].map(|at| at * pixels as f32),
             weight: 1.0,
-            position: (bench.is_local() || kernels.reads_positions).then(|| vec3(bench.points[i])),
+            position: (bench.is_local() || kernels.needs.positions).then(|| vec3(bench.points[i])),
         });
         let whole = bench.normals.map(vec3);
         let polygon = Corners {
@@ -91,7 +90,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
     let [first, second] = list.starts.add();
     for i in 0..varyings {
         let ends = [ends[i], ends[varyings + i]];
-        [first[i], second[i]] = match kernels.reads_span {
+        [first[i], second[i]] = match kernels.needs.reads_span() {
             true => ends,
             false => ramp(ends[0], ends[1], 0.5 * dt, dt),
         };
@@ -102,7 +101,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
         x: 0,
         pixels: pixels as u32,
     });
-    if kernels.reads_span {
+    if kernels.needs.reads_span() {
         let t0 = 0.5 * dt;
         list.places.push(SpanPlace {
             y: 0,

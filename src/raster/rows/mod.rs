@@ -241,7 +241,7 @@ impl<'a> RowEngine<'a> {
         let walk = kernels
             .walk
             .filter(|_| setup.uniforms.first().is_some_and(walks_along));
-        let only = only_uniforms(&setup, variant.entry().lit_at);
+        let only = only_uniforms(&setup, variant.entry().needs.lit_at);
         let extras = setup.extras.count();
         let (varyings, extras) = match walk {
             Some(_) => (walked, 0),

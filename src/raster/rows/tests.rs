@@ -366,7 +366,7 @@ fn packed_colours_are_those_of_unpacked_ones() {
             }
             let (plain, _) = drawn_as_levels(&variant, &frame, level, false);
             let (packed, is_packed) = drawn_as_levels(&variant, &frame, level, true);
-            let is_by_polygon = matches!(entry.lit_at, LitAt::Polygon | LitAt::PolygonMean);
+            let is_by_polygon = matches!(entry.needs.lit_at, LitAt::Polygon | LitAt::PolygonMean);
             assert_eq!(is_packed, is_by_polygon, "{variant}");
             assert!(plain.pixels() == packed.pixels(), "{variant} on {level:?}");
             let shown = plain.pixels().iter().filter(|[.., alpha]| *alpha == 255);
