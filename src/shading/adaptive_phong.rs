@@ -4,8 +4,8 @@ use super::adaptive_plan::{self as plan, Followed};
 use super::increments::{Quadratic, Walk};
 use super::phong_rsqrt::PhongRsqrt;
 use super::{
-    Approximation, Corners, Family, Info, LightModel, Linear, Lit, MethodParameter, Normal, Pixel,
-    Planes, Roundings, Shader, Span, Standing, Stepped, Value,
+    Approximation, Chosen, Corners, Family, Info, LightModel, Linear, Lit, Method, MethodParameter,
+    Normal, OneOf, Pixel, Planes, Roundings, Shader, Span, Standing, Stepped, Value,
 };
 use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3, vec3};
@@ -27,7 +27,6 @@ use crate::scene::{Lighting, SpecularGate};
 /// Without `MANY` there is one light at most, which is followed on all curved polygons: C is then no help.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AdaptivePhong<const MANY: bool> {
-    kind: u8,
     levels: f32,
 }
 
@@ -105,7 +104,7 @@ const fn most(many: bool) -> usize {
     if many { plan::MOST } else { 1 }
 }
 
-impl<const MANY: bool> Shader for AdaptivePhong<MANY> {
+impl<const MANY: bool> Method for AdaptivePhong<MANY> {
     const INFO: Info = Info {
         name: "adaptive-phong",
         ids: &["M29"],
@@ -134,31 +133,25 @@ impl<const MANY: bool> Shader for AdaptivePhong<MANY> {
         ..Info::OF_PIXELS
     };
     const KINDS: &'static [&'static str] = &["exact", "linear", "dull", "curved", "root"];
-    // C by rows; a; the factors; followed lights, each as its number and what is followed of it
-    type Constants<F: Num> = (([Vec3<F>; 3], Vec3<F>), Vec3<F>, [(F, (F, F)); plan::MOST]);
-    type Carries = Normal;
-    type Walk<F: Num> = AdaptiveWalk<F, MANY>;
+    type Kinds = (
+        PhongRsqrt,
+        OneColour,
+        Dull,
+        Curved<MANY, false>,
+        Curved<MANY, true>,
+    );
 
     fn stands_in(frame: &Frame) -> Option<&'static str> {
-        (!is_worth_planning(frame)).then_some(PhongRsqrt::INFO.name)
+        (!is_worth_planning(frame)).then_some(<PhongRsqrt as Shader>::INFO.name)
     }
     #[inline(always)]
     fn new(parameters: &[Value], _: &LightModel) -> Self {
         AdaptivePhong {
-            kind: plan::EXACT,
             levels: parameters[0].number().unwrap_or_default() as f32,
         }
     }
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        AdaptivePhong { kind, ..self }
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let plan = plan::plan(self.levels, !MANY, lit, polygon);
         let zero = lit.zero();
         let mut rows = [vec3([zero; 3]); 3];
@@ -184,100 +177,148 @@ impl<const MANY: bool> Shader for AdaptivePhong<MANY> {
             let parts = [one.diffuse, one.highlight].map(|part| number(f32::from(u8::from(part))));
             (number(one.light.into()), (parts[0], parts[1]))
         });
-        (plan.kind, ((rows, base), factors, followed))
+        match plan.kind {
+            plan::EXACT => OneOf::First(()),
+            plan::LINEAR => OneOf::Second((rows, base)),
+            plan::DULL => OneOf::Third((rows, [factors.x, factors.y])),
+            plan::CURVED => OneOf::Fourth((rows, factors, followed)),
+            _ => OneOf::Fifth((rows, factors, followed)),
+        }
     }
+}
+
+/// The product of C, by its rows, with a normal along a run.
+#[inline(always)]
+fn colours<F: Num>(
+    zero: F,
+    rows: [Vec3<F::One>; 3],
+    Linear { at, step }: Linear<Vec3<F>>,
+) -> Linear<Vec3<F>> {
+    let rows = rows.map(|row| all(zero, row));
+    Linear {
+        at: times(rows, at),
+        step: times(rows, step),
+    }
+}
+
+/// Linear in the normal: a + r C.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OneColour;
+
+impl Shader for OneColour {
+    type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>); // r C by rows; a
+    type Carries = Normal;
+    type Walk<F: Num> = Linear<Vec3<F>>;
+
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let (rows, base) = span.constants();
+        let Linear { at, step } = colours(lit.zero(), rows, span.linear());
+        Linear {
+            at: all(lit.zero(), base) + at,
+            step,
+        }
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Vec3<F>) -> Vec3<F> {
+        colour
+    }
+}
+
+/// Dull: a + C r, of a line r of D.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Dull;
+
+impl Shader for Dull {
+    type Constants<F: Num> = ([Vec3<F>; 3], [F; 2]); // C by rows; the line
+    type Carries = Normal;
+    type Walk<F: Num> = (Linear<Vec3<F>>, Quadratic<F>); // C, r
+
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let (rows, factors) = span.constants();
+        let [k0, k1] = factors.map(|k| lit.zero().of_each(|_| k));
         let normal = span.linear();
-        let zero = lit.zero();
-        let mut walk = AdaptiveWalk {
-            kind: self.kind,
-            vector: normal,
-            products: Linear {
-                at: ([zero; plan::MOST], zero),
-                step: ([zero; plan::MOST], zero),
-            },
-            square: Quadratic::zero(zero),
-            normal,
-            first: ([zero; plan::MOST], zero),
-            factors: vec3([zero; 3]),
-            followed: [Followed::default(); plan::MOST],
-            passed: 0,
-            left: plan::STEPS,
-            every: plan::STEPS,
-        };
-        if self.kind == plan::EXACT {
-            return walk;
-        }
-        let ((rows, base), factors, followed) = span.constants();
-        let Linear { at: n, step: dn } = normal;
-        let base = all(zero, base);
-        let rows = [all(zero, rows[0]), all(zero, rows[1]), all(zero, rows[2])];
+        let (n, dn) = (normal.at, normal.step);
+        let along = n.dot(dn);
+        let r = Quadratic::new(k0 + k1 * n.dot(n), k1 * (along + along), k1 * dn.dot(dn));
+        (colours(lit.zero(), rows, normal), r)
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, (colour, r): Pixel<Self, F>) -> Vec3<F> {
+        lit.ambient() + colour * r
+    }
+}
+
+/// Curved: C r, and J r and K r of followed lights, where r is a parabola of D; with `ROOT` it is 1/√D.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Curved<const MANY: bool, const ROOT: bool>;
+
+impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
+    // C by rows; the factors; followed lights, each as its number and what is followed of it
+    type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>, [(F, (F, F)); plan::MOST]);
+    type Carries = Normal;
+    type Walk<F: Num> = CurvedWalk<F, MANY>;
+
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let (rows, factors, followed) = span.constants();
+        let (normal, zero) = (span.linear(), lit.zero());
+        let (n, dn) = (normal.at, normal.step);
         let factors = all(zero, factors);
-        if self.kind == plan::LINEAR {
-            walk.vector = Linear {
-                at: base + times(rows, n),
-                step: times(rows, dn),
-            };
-            return walk;
-        }
-        if MANY || self.kind == plan::DULL {
-            walk.vector = Linear {
-                at: times(rows, n),
-                step: times(rows, dn),
-            };
-        }
-        let (square, along, growth) = (n.dot(n), n.dot(dn), dn.dot(dn));
-        if self.kind == plan::DULL {
-            let k = factors.y;
-            walk.square = Quadratic::new(factors.x + k * square, k * (along + along), k * growth);
-            return walk;
-        }
         let view = lit.view();
-        (walk.products.at.1, walk.products.step.1) = (n.dot(view), dn.dot(view));
-        for (i, one) in followed.into_iter().enumerate().take(most(MANY)) {
-            let (light, (diffuse, highlight)) = one;
-            let is_followed = diffuse.value() > 0.0 || highlight.value() > 0.0;
-            if is_followed {
-                walk.followed[i] = Followed {
+        let mut at = ([zero; plan::MOST], n.dot(view));
+        let mut step = ([zero; plan::MOST], dn.dot(view));
+        let mut lights = [Followed::default(); plan::MOST];
+        for (i, (light, (diffuse, highlight))) in followed.into_iter().enumerate().take(most(MANY))
+        {
+            let (diffuse, highlight) = (diffuse.value() > 0.0, highlight.value() > 0.0);
+            if diffuse || highlight {
+                lights[i] = Followed {
                     light: light.value() as u16,
-                    diffuse: diffuse.value() > 0.0,
-                    highlight: highlight.value() > 0.0,
+                    diffuse,
+                    highlight,
                 };
                 let to = lit.seen(light.value() as usize).to;
-                (walk.products.at.0[i], walk.products.step.0[i]) = (n.dot(to), dn.dot(to));
+                (at.0[i], step.0[i]) = (n.dot(to), dn.dot(to));
             }
         }
-        walk.first = walk.products.at;
-        walk.factors = factors;
-        walk.square = Quadratic::new(square, along + along, growth);
-        if self.kind == plan::ROOT {
+        let (square, along, growth) = (n.dot(n), n.dot(dn), dn.dot(dn));
+        let mut every = plan::STEPS;
+        if ROOT {
             let last = (span.pixels() - 1) as f32;
             let end = square + (along + along + growth * last) * last;
             if is_uneven([square, along, growth], end, factors.x, last) {
-                (walk.left, walk.every) = (1, 1);
+                every = 1;
             }
         }
-        walk
+        CurvedWalk {
+            colour: match MANY {
+                true => colours(zero, rows, normal),
+                false => normal, // not stepped
+            },
+            products: Linear { at, step },
+            square: Quadratic::new(square, along + along, growth),
+            normal,
+            first: at,
+            factors,
+            followed: lights,
+            passed: 0,
+            left: every,
+            every,
+        }
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
-        let ((products, vector), d, (factors, followed)) = pixel;
-        let r = match self.kind {
-            plan::EXACT => return PhongRsqrt.shade(lit, vector),
-            plan::LINEAR => return vector,
-            plan::DULL => d,
-            plan::CURVED => factors.x + d * (factors.y + d * factors.z),
-            _ => d.broadcast(1.0) / d.sqrt(),
+        let (((j, k), sum), d, (factors, followed)) = pixel;
+        let r = match ROOT {
+            false => factors.x + d * (factors.y + d * factors.z),
+            true => d.broadcast(1.0) / d.sqrt(),
         };
         let mut colour = lit.ambient();
-        if MANY || self.kind == plan::DULL {
-            colour = colour + vector * r;
+        if MANY {
+            colour = colour + sum * r;
         }
-        if self.kind == plan::DULL {
-            return colour;
-        }
-        let (j, k) = products;
         let v_n = k * r;
         for (followed, j) in followed.0.into_iter().zip(j).take(most(MANY)) {
             if MANY && !(followed.diffuse || followed.highlight) {
@@ -315,14 +356,13 @@ impl<F: Num> Planes<F> for FollowedLights {
 
 type Products<F> = ([F; plan::MOST], F); // J of each followed light, K
 
-/// What the kinds step along a run.
+/// What curved polygons step along a run.
 #[derive(Clone, Copy, Debug)]
-pub struct AdaptiveWalk<F, const MANY: bool> {
-    kind: u8,
-    /// The normal; or the colour of lights in front, of N or finished.
-    vector: Linear<Vec3<F>>,
+pub struct CurvedWalk<F, const MANY: bool> {
+    /// The colour of lights in front, times N.
+    colour: Linear<Vec3<F>>,
     products: Linear<Products<F>>,
-    /// D, or the line for 1/√D.
+    /// D.
     square: Quadratic<F>,
     /// N along the run, and the products where it starts.
     normal: Linear<Vec3<F>>,
@@ -335,7 +375,7 @@ pub struct AdaptiveWalk<F, const MANY: bool> {
     every: u32,
 }
 
-impl<F: Num, const MANY: bool> AdaptiveWalk<F, MANY> {
+impl<F: Num, const MANY: bool> CurvedWalk<F, MANY> {
     /// Starts differences and products anew, without the roundings of the steps before.
     #[inline(always)]
     fn start_anew(&mut self) {
@@ -350,31 +390,27 @@ impl<F: Num, const MANY: bool> AdaptiveWalk<F, MANY> {
     }
 }
 
-impl<F: Num, const MANY: bool> Walk<F> for AdaptiveWalk<F, MANY> {
+impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
     type Pixel = ((Products<F>, Vec3<F>), F, (Vec3<F>, FollowedLights));
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
-        let is_curved = self.kind == plan::CURVED || self.kind == plan::ROOT;
-        let (mut products, mut d, mut vector) = (self.first, self.factors.x, self.vector.at);
-        if is_curved {
-            if self.left == 0 {
-                self.start_anew();
-            }
-            self.left -= 1;
-            products.1 = self.products.at.1;
-            self.products.at.1 = self.products.at.1 + self.products.step.1;
-            for i in 0..most(MANY) {
-                products.0[i] = self.products.at.0[i];
-                self.products.at.0[i] = self.products.at.0[i] + self.products.step.0[i];
-            }
+        if self.left == 0 {
+            self.start_anew();
         }
-        if MANY || !is_curved {
-            vector = self.vector.next();
+        self.left -= 1;
+        let mut products = self.first;
+        products.1 = self.products.at.1;
+        self.products.at.1 = self.products.at.1 + self.products.step.1;
+        for i in 0..most(MANY) {
+            products.0[i] = self.products.at.0[i];
+            self.products.at.0[i] = self.products.at.0[i] + self.products.step.0[i];
         }
-        if is_curved || self.kind == plan::DULL {
-            d = self.square.next();
-        }
+        let vector = match MANY {
+            true => self.colour.next(),
+            false => self.colour.at,
+        };
+        let d = self.square.next();
         (
             (products, vector),
             d,

@@ -5,8 +5,8 @@ use super::quadratic_products::{
     Growth, WIDEST, along, each_of, lagrange, least_length, plain, width,
 };
 use super::{
-    Approximation, Corner, Corners, Family, Info, Linear, Lit, Needs, Normal, Pixel, Roundings,
-    Shader, Span, Spans, Stepped,
+    Approximation, Chosen, Corner, Corners, Family, Info, Linear, Lit, Method, Needs, Normal,
+    OneOf, Pixel, Roundings, Shader, Span, Spans, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -27,11 +27,7 @@ use crate::reference::Model;
 /// **Its distance from Phong's picture.** N differs from the linear normal by `Σ 4 b_i b_j (N_ij − (N_i + N_j)/2)`, at most 4/3 of the longest of
 /// these vectors, and its direction by at most 2/ℓ times as much, with ℓ the least length of linear normals.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct BiquadraticNormals {
-    kind: u8,
-}
-
-const ROOTS: u8 = 1;
+pub struct BiquadraticNormals;
 
 /// Returns the unit normal half-way along an edge, from unit normals and positions of its ends.
 #[inline(always)]
@@ -71,7 +67,7 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     }
 }
 
-impl Shader for BiquadraticNormals {
+impl Method for BiquadraticNormals {
     const INFO: Info = Info {
         name: "biquadratic-normals",
         ids: &["M23"],
@@ -93,31 +89,20 @@ impl Shader for BiquadraticNormals {
         ..Needs::PIXELS_BY_POLYGON
     };
     const KINDS: &'static [&'static str] = &["quadratic", "roots"];
-    type Constants<F: Num> = ([Vec3<F>; 6], [F; 2]); // of 1, x, y, x², xy, y²; from the first corner
-    type Carries = Normal;
-    type Walk<F: Num> = [Quadratic<F>; 3];
+    type Kinds = (QuadraticOfNormals, Normals);
 
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        BiquadraticNormals { kind }
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let zero = lit.zero();
-        let none = ([vec3([zero; 3]); 6], [zero; 2]);
         let &[a, b, c] = polygon.all else {
-            return (ROOTS, none);
+            return OneOf::Second(());
         };
         let Some(growth) = Growth::of([&a, &b, &c]) else {
-            return (ROOTS, none);
+            return OneOf::Second(());
         };
         let width = width([a, b, c].map(|v| (plain(v.normal), 1.0)));
         if !polygon.is_whole || width > WIDEST {
-            return (ROOTS, none);
+            return OneOf::Second(());
         }
         let at_corner = |v: Corner<R>| v.normal * (v.weight * v.weight);
         let at_edge = |v: Corner<R>, w: Corner<R>| {
@@ -131,27 +116,47 @@ impl Shader for BiquadraticNormals {
             [at_edge(a, b), at_edge(b, c), at_edge(c, a)],
             growth,
         );
-        (0, (of, a.place))
+        OneOf::First((of, a.place))
     }
+}
+
+/// Normals as a quadratic over a triangle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct QuadraticOfNormals;
+
+impl Shader for QuadraticOfNormals {
+    type Constants<F: Num> = ([Vec3<F>; 6], [F; 2]); // of 1, x, y, x², xy, y²; from the first corner
+    type Carries = Normal;
+    type Walk<F: Num> = [Quadratic<F>; 3];
+
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        if self.kind == ROOTS {
-            let Linear { at, step } = span.linear();
-            let linear = |at, step| Quadratic::new(at, step, lit.zero());
-            return [
-                linear(at.x, step.x),
-                linear(at.y, step.y),
-                linear(at.z, step.z),
-            ];
-        }
-        let (of, from) = span.constants();
-        let [x, y] = span.place();
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let ((of, from), [x, y]) = (span.constants(), span.place());
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
         [
             along(each_of(|i| of[i].x), from),
             along(each_of(|i| of[i].y), from),
             along(each_of(|i| of[i].z), from),
         ]
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+        Normals.shade(lit, n)
+    }
+}
+
+/// Normals that grow linearly.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Normals;
+
+impl Shader for Normals {
+    type Constants<F: Num> = ();
+    type Carries = Normal;
+    type Walk<F: Num> = Linear<Vec3<F>>;
+
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        span.linear()
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {

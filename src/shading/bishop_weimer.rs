@@ -1,19 +1,19 @@
 //! Phong shading by Taylor's quadratic about the middle of a triangle: no root and no division at a pixel (Bishop, Weimer 1986).
 
+use super::duff_phong::{DuffOfNormals, DuffPhongLocal};
 use super::lighting::{LightUniforms, toward};
 use super::positional_products::{
-    self, OverTriangle, Placed, PositionalProducts, set_light, set_up_placed, set_view,
+    self, OverTriangle, Placed, QuadraticsLocal, set_light, set_up_placed, set_view,
 };
 use super::quadratic_products::{
-    Growth, OverPolygon, QuadraticProducts, each_of, farthest, narrow_triangle, relative,
-    set_up_triangle,
+    Growth, OverPolygon, Quadratics, each_of, farthest, narrow_triangle, relative, set_up_triangle,
 };
 use super::{
-    Approximation, Corner, Corners, Family, Info, Lit, Needs, Normal, NormalAndPlace, Pixel,
-    Planes, Roundings, Shader, Span, Spans, Stepped,
+    Approximation, Chosen, Corner, Corners, Family, Info, Lit, Method, Needs, OneOf, Planes,
+    Roundings, Spans, Stepped,
 };
 use crate::frame::{Frame, Polygon};
-use crate::number::{Num, Real, Vec3, vec3};
+use crate::number::{Real, Vec3, vec3};
 use crate::reference::Model;
 use crate::scene::{Falloff, Place};
 
@@ -34,12 +34,7 @@ use crate::scene::{Falloff, Place};
 /// ```
 /// as [`SixPoint`](super::six_point::SixPoint) says. Corners themselves are not met: neighbours differ along their edge by as much.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct BishopWeimer<const L: usize> {
-    kind: u8,
-}
-
-/// The kind of polygons without a quadratic.
-const ROOTS: u8 = 1;
+pub struct BishopWeimer<const L: usize>;
 
 /// Bounds the error of Taylor's quadratics on a polygon.
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
@@ -183,30 +178,20 @@ const BISHOP_WEIMER: Info = Info {
 
 const KINDS: &[&str] = &["quadratic", "roots"];
 
-impl<const L: usize> Shader for BishopWeimer<L> {
+impl<const L: usize> Method for BishopWeimer<L> {
     const INFO: Info = BISHOP_WEIMER;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         ..Needs::PIXELS
     };
     const KINDS: &'static [&'static str] = KINDS;
-    type Constants<F: Num> = OverPolygon<F, L>; // from the middle
-    type Carries = Normal;
-    type Walk<F: Num> = QuadraticProducts<F, L>;
+    type Kinds = (Quadratics<L>, DuffOfNormals<L>);
 
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        BishopWeimer { kind }
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
-        let mut constants = Self::Constants::<R>::filled(lit.count(), lit.zero());
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+        let mut constants = OverPolygon::<R, L>::filled(lit.count(), lit.zero());
         let Some(([a, b, c], growth)) = set_up_triangle(polygon) else {
-            return (ROOTS, constants);
+            return OneOf::Second(());
         };
         let [v, vx, vy] = plane([a, b, c].map(|v| v.normal * v.weight), growth);
         let [x, y, xy] = [v.dot(vx), v.dot(vy), vx.dot(vy)];
@@ -224,18 +209,7 @@ impl<const L: usize> Shader for BishopWeimer<L> {
             }
         }
         constants.1 = middle([a, b, c]);
-        (0, constants)
-    }
-    #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        match self.kind {
-            ROOTS => QuadraticProducts::of_normals(lit, span.linear()),
-            _ => QuadraticProducts::over_polygon(lit, span.constants(), span.place()),
-        }
-    }
-    #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
-        lit.shade_products(products)
+        OneOf::First(constants)
     }
 }
 
@@ -318,9 +292,9 @@ impl<R: Real> Vectors<R> {
 /// Taylor's quadratics where a light or the eye is at a position, for up to `L` lights: of L·V and of each light's strength beside J and K,
 /// by derivatives of the vectors toward them. Triangles to which a light or the eye is near take Duff's way.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct BishopWeimerLocal<const L: usize>(BishopWeimer<L>);
+pub struct BishopWeimerLocal<const L: usize>;
 
-impl<const L: usize> Shader for BishopWeimerLocal<L> {
+impl<const L: usize> Method for BishopWeimerLocal<L> {
     const INFO: Info = BISHOP_WEIMER;
     const KINDS: &'static [&'static str] = KINDS;
     const NEEDS: Needs = Needs {
@@ -328,23 +302,13 @@ impl<const L: usize> Shader for BishopWeimerLocal<L> {
         general_only: true,
         ..Needs::PIXELS
     };
-    type Constants<F: Num> = OverTriangle<F, L>; // from the middle
-    type Carries = NormalAndPlace;
-    type Walk<F: Num> = PositionalProducts<F, L>;
+    type Kinds = (QuadraticsLocal<L>, DuffPhongLocal<L>);
 
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        BishopWeimerLocal(BishopWeimer { kind })
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
-        let mut constants = Self::Constants::<R>::filled(lit.count(), lit.zero());
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+        let mut constants = OverTriangle::<R, L>::filled(lit.count(), lit.zero());
         let Some((corners, growth)) = set_up_placed(lit, polygon) else {
-            return (ROOTS, constants);
+            return OneOf::Second(());
         };
         let vectors = Vectors::of(lit, corners, growth);
         set_view(&mut constants.0, vectors.k().0);
@@ -357,17 +321,6 @@ impl<const L: usize> Shader for BishopWeimerLocal<L> {
             );
         }
         constants.1 = middle(corners.map(|(corner, _)| corner));
-        (0, constants)
-    }
-    #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        match self.0.kind {
-            ROOTS => PositionalProducts::of_vectors(lit, span.linear()),
-            _ => PositionalProducts::over_polygon(lit, span.constants(), span.place()),
-        }
-    }
-    #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
-        positional_products::shade(lit, pixel, self.0.kind == ROOTS)
+        OneOf::First(constants)
     }
 }

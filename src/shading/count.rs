@@ -6,8 +6,8 @@ use super::lighting::Lit;
 use super::planes::each;
 use super::span::RunStart;
 use super::{
-    Carries, Corner, Corners, LitAt, Local, Planes, Shader, Span, SpanBench, SpanPlace, Variant,
-    ramp,
+    Carries, CarriesOf, Corner, Corners, Extras, Kinds, LitAt, Local, Method, Planes, Shader, Span,
+    SpanBench, SpanPlace, Variant, Visit, ramp,
 };
 use crate::number::{Counted, Counter, Counts, Real, vec3};
 use alloc::vec::Vec;
@@ -41,13 +41,13 @@ pub(super) struct CountedSpan {
 
 /// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices and edges: by the functions with
 /// which engines start edges and spans, walk and shade.
-pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
+pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
     let counter = Counter::default();
     let number = |x: f32| counter.number(x);
     let three = |v: [f32; 3]| vec3(v.map(number));
     let (entry, extras) = (variant.entry(), bench.extras(variant));
     let uniforms = bench.uniforms(variant, 1.0);
-    let mut method = M::new(variant.parameters(), &uniforms.model);
+    let method = M::new(variant.parameters(), &uniforms.model);
     let (face, zero) = (three(SpanBench::FACE), number(0.0));
     let lit = Lit::new(uniforms.stored(), zero, uniforms.model.is_general);
     let is_polygon = matches!(entry.needs.lit_at, LitAt::Polygon | LitAt::PolygonMean);
@@ -65,7 +65,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
             }
             LitAt::Vertex | LitAt::Pixel => three(bench.normals[i]),
         };
-        let varying = M::Carries::vertex(&lit.at(three(bench.points[i])), normal);
+        let varying = <CarriesOf<M> as Carries>::vertex(&lit.at(three(bench.points[i])), normal);
         put(varying, corner);
         if extras.point {
             corner.extend(bench.points[i].map(number));
@@ -100,12 +100,11 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         mean: (whole[0] + whole[1] + whole[2]) * (1.0 / 3.0),
     };
     counter.take();
-    let (kind, constants) = method.polygon(&lit, &polygon);
+    let chosen = method.polygon(&lit, &polygon);
     let planned = counter.take();
-    if M::NEEDS.reads_span() || !M::KINDS.is_empty() {
+    if M::NEEDS.reads_span() || M::Kinds::COUNT > 1 {
         counts.polygon = planned;
     }
-    method = method.of_kind(kind);
 
     let [a, b, c] = &corners;
     let [t0, dt] = SpanBench::EDGE.map(number);
@@ -153,7 +152,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         second.push(step);
     }
     let mut planned = Vec::new();
-    put(constants, &mut planned);
+    let kind = M::Kinds::put(chosen, |_, number| planned.push(*number));
     let start = RunStart {
         numbers: [&first, &second],
         x: 0,
@@ -167,23 +166,55 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> CountedS
         }),
         constants: &planned,
     };
-    let mut walk = method.walk(&lit, Span::of_run(lit.count(), start, zero));
-    counts.span = counter.take();
-
     let own = first.len() - extras.count();
-    let mut extra = extras.start(own, &start, zero);
-    counter.take();
-    let pixel = walk.next();
-    counts.walk = counter.take();
-    // Position and weight: those that are there.
-    counts.walk.additions += extras.count() as u32;
-    let extra = extra.next();
-    counter.take();
-    let colour = colour(method, lit, extras, (pixel, extra));
-    counts.shade = counter.take();
+    let mut colour = [0.0; 3];
+    let run = CountedRun {
+        counter: &counter,
+        counts: &mut counts,
+        colour: &mut colour,
+        lit,
+        start,
+        own,
+        extras,
+        zero,
+    };
+    method.kinds().visit(kind, run);
     CountedSpan {
         operations: counts,
-        colour: colour.array().map(|channel| channel.value()),
+        colour,
+    }
+}
+
+/// A run of the polygon's kind, as the engines' loop starts it, with one pixel.
+struct CountedRun<'a, 'b> {
+    counter: &'a Counter,
+    counts: &'b mut OperationCounts,
+    colour: &'b mut [f32; 3],
+    lit: Lit<'b, Counted<'a>>,
+    start: RunStart<'b, Counted<'a>>,
+    own: usize,
+    extras: Extras,
+    zero: Counted<'a>,
+}
+
+impl<C: Carries> Visit<C> for CountedRun<'_, '_> {
+    fn visit<S: Shader<Carries = C>>(self, kind: S) {
+        let (counter, counts, lit) = (self.counter, self.counts, self.lit);
+        let span = Span::of_run(lit.count(), self.start, self.zero);
+        let mut walk = kind.walk(&lit, span);
+        counts.span = counter.take();
+
+        let mut extra = self.extras.start(self.own, &self.start, self.zero);
+        counter.take();
+        let pixel = walk.next();
+        counts.walk = counter.take();
+        // Position and weight: those that are there.
+        counts.walk.additions += self.extras.count() as u32;
+        let extra = extra.next();
+        counter.take();
+        let colour = colour(kind, lit, self.extras, (pixel, extra));
+        counts.shade = counter.take();
+        *self.colour = colour.array().map(|channel| channel.value());
     }
 }
 

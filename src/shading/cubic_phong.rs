@@ -1,11 +1,11 @@
 //! Phong shading by additions alone: unit products as cubics along a span.
 
-use super::increments::{Cubic, Quadratic, Walk};
-use super::planes::scaled;
+use super::duff_phong::DuffOfNormals;
+use super::increments::Cubic;
 use super::series_phong::{approximation, of_corners};
 use super::{
-    Corners, Family, Info, Linear, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span,
-    Stepped,
+    Chosen, Corners, Family, Info, Linear, Lit, Method, Needs, Normal, OneOf, PerLight, Pixel,
+    Roundings, Shader, Span, Stepped,
 };
 use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
@@ -18,15 +18,9 @@ use crate::reference::Model;
 /// ```
 /// Polygons without a line take roots.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct CubicPhong<const L: usize> {
-    kind: u8,
-}
+pub struct CubicPhong<const L: usize>;
 
-const ROOTS: u8 = 1;
-
-type Products<F, const L: usize> = (PerLight<F, L>, F); // J of each light, K
-
-impl<const L: usize> Shader for CubicPhong<L> {
+impl<const L: usize> Method for CubicPhong<L> {
     const INFO: Info = Info {
         name: "cubic-phong",
         ids: &["M08"],
@@ -45,77 +39,41 @@ impl<const L: usize> Shader for CubicPhong<L> {
     };
     const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
     const KINDS: &'static [&'static str] = &["cubics", "roots"];
-    type Constants<F: Num> = [F; 2]; // the line
-    type Carries = Normal;
-    type Walk<F: Num> = CubicWalk<F, L>;
+    type Kinds = (Cubics<L>, DuffOfNormals<L>);
 
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        CubicPhong { kind }
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
-        let zero = lit.zero();
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         match of_corners(1, polygon) {
-            Some([k0, k1, _]) => (0, [zero.broadcast(k0), zero.broadcast(k1)]),
-            None => (ROOTS, [zero; 2]),
+            Some([k0, k1, _]) => OneOf::First([k0, k1].map(|k| lit.zero().broadcast(k))),
+            None => OneOf::Second(()),
         }
     }
+}
+
+/// Products of unit normals as cubics.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cubics<const L: usize>;
+
+impl<const L: usize> Shader for Cubics<L> {
+    type Constants<F: Num> = [F; 2]; // the line
+    type Carries = Normal;
+    type Walk<F: Num> = (PerLight<Cubic<F>, L>, Cubic<F>); // J of each light, K
+
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let Linear { at: n, step: dn } = span.linear();
-        let at = lit.products::<L>(n);
-        let step = lit.products::<L>(dn);
-        let zero = lit.zero();
-        let none = Cubic::zero(zero);
-        let mut walk = CubicWalk {
-            cubics: (PerLight::new(lit.count(), none), none),
-            products: Linear { at, step },
-            square: Quadratic::zero(zero),
-            kind: self.kind,
-        };
-        if self.kind == ROOTS {
-            walk.square = Quadratic::square(n, dn);
-            return walk;
-        }
-        let [k0, k1] = span.constants();
-        let (k0, k1) = (zero.of_each(|_| k0), zero.of_each(|_| k1));
+        let ((j, k), (dj, dk)) = (lit.products::<L>(n), lit.products::<L>(dn));
+        let [k0, k1] = span.constants().map(|k| lit.zero().of_each(|_| k));
         let half = n.dot(dn);
         let line = [k0 + k1 * n.dot(n), k1 * (half + half), k1 * dn.dot(dn)];
-        walk.cubics.1 = Cubic::product([at.1, step.1], line);
+        let mut cubics = PerLight::new(lit.count(), Cubic::zero(lit.zero()));
         for i in 0..lit.count() {
-            walk.cubics.0.values[i] = Cubic::product([at.0.values[i], step.0.values[i]], line);
+            cubics.values[i] = Cubic::product([j.values[i], dj.values[i]], line);
         }
-        walk
+        (cubics, Cubic::product([k, dk], line))
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
         lit.shade_products(products)
-    }
-}
-
-/// Products of unit normals as cubics; or of other normals, linear, with their squared length.
-#[derive(Clone, Copy, Debug)]
-pub struct CubicWalk<F, const L: usize> {
-    cubics: (PerLight<Cubic<F>, L>, Cubic<F>),
-    products: Linear<Products<F, L>>,
-    square: Quadratic<F>,
-    kind: u8,
-}
-
-impl<F: Num, const L: usize> Walk<F> for CubicWalk<F, L> {
-    type Pixel = Products<F, L>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Self::Pixel {
-        if self.kind != ROOTS {
-            return self.cubics.next();
-        }
-        let (products, d) = (self.products.next(), self.square.next());
-        scaled(products, d.broadcast(1.0) / d.sqrt())
     }
 }

@@ -5,8 +5,8 @@ use super::increments::Quadratic;
 use super::lighting::toward;
 use super::planes::scaled;
 use super::{
-    Info, Linear, Lit, Local, Needs, NormalAndPlace, PerLight, Pixel, ProductsAndNormal, Roundings,
-    Shader, Span, Standing, Stepped,
+    Info, Linear, Lit, Local, Needs, Normal, NormalAndPlace, PerLight, Pixel, ProductsAndNormal,
+    Roundings, Shader, Span, Standing, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -61,6 +61,37 @@ impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
         let one = d.broadcast(1.0);
         let r = if RSQRT { d.rsqrt() } else { one / d.sqrt() };
         lit.shade_products(scaled(products, r))
+    }
+}
+
+/// The same from normals alone, whose products are set up at the start of a run: what polygons take that have nothing cheaper.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DuffOfNormals<const L: usize>;
+
+impl<const L: usize> DuffOfNormals<L> {
+    /// Starts the products and the square of normals.
+    #[inline(always)]
+    pub(super) fn start<F: Num>(
+        lit: &Lit<'_, F>,
+        Linear { at: n, step: dn }: Linear<Vec3<F>>,
+    ) -> <Self as Shader>::Walk<F> {
+        let (at, step) = (lit.products(n), lit.products(dn));
+        (Linear { at, step }, Quadratic::square(n, dn)) // 4.3
+    }
+}
+
+impl<const L: usize> Shader for DuffOfNormals<L> {
+    type Constants<F: Num> = ();
+    type Carries = Normal;
+    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
+
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        Self::start(lit, span.linear())
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+        DuffPhong::<L>.shade(lit, pixel)
     }
 }
 

@@ -1,12 +1,11 @@
 //! Gouraud's diffuse light everywhere, Phong's highlights where a polygon may have one (Harrison, Mitchell, Watt 1988).
 
 use super::extent::{Extent, for_each_end, wide};
-use super::increments::{Linear, Walk};
 use super::lighting::magnitude;
 use super::quadratic_products::plain;
 use super::{
-    Approximation, Carries, Corners, Family, Info, Lit, Needs, Perspective, Pixel, Roundings,
-    Shader, Span, Stepped,
+    Approximation, Carries, Chosen, Corners, Family, Info, Linear, Lit, Method, Needs, OneOf,
+    Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -28,12 +27,7 @@ use glam::DVec3;
 /// **Its error.** Of a light whose J is p at most and −q at least at the corners the interpolated diffuse term is too dark by J (1/|N| − 1)
 /// ≤ p (1/ℓ − 1) where it is in front, ℓ the least length; and the chord of max(0, J) is p q/(p + q) over it at most.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct HTest {
-    kind: u8,
-}
-
-const DULL: u8 = 0;
-const SHINING: u8 = 1;
+pub struct HTest;
 
 /// Grey levels of 255 that a highlight left out may have.
 const FAINT: f32 = 0.5;
@@ -102,7 +96,7 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     }
 }
 
-impl Shader for HTest {
+impl Method for HTest {
     const INFO: Info = Info {
         name: "h-test",
         ids: &["M20"],
@@ -123,50 +117,60 @@ impl Shader for HTest {
         ..Needs::PIXELS
     };
     const KINDS: &'static [&'static str] = &["dull", "shining"];
-    type Constants<F: Num> = ();
-    type Carries = Self;
-    type Walk<F: Num> = HTestWalk<F>;
+    type Kinds = (Dull, Shining);
 
     fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
         let reason = "whether a highlight may be seen is known of lights and an eye at infinity";
         lighting.is_local().then_some(reason)
     }
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        HTest { kind }
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, ()) {
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let normals = polygon.whole.iter().map(|n| plain(*n));
-        (
-            if may_shine(lit, normals) {
-                SHINING
-            } else {
-                DULL
-            },
-            (),
-        )
+        match may_shine(lit, normals) {
+            true => OneOf::Second(()),
+            false => OneOf::First(()),
+        }
     }
+}
+
+/// Polygons without a highlight: the colour.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Dull;
+
+impl Shader for Dull {
+    type Constants<F: Num> = ();
+    type Carries = HTest;
+    type Walk<F: Num> = Linear<Vec3<F>>;
+
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let Linear { at, step } = span.linear();
-        HTestWalk {
-            colour: Linear {
-                at: at.0,
-                step: step.0,
-            },
-            normal: Linear {
-                at: at.1,
-                step: step.1,
-            },
-            shines: self.kind == SHINING,
+        Linear {
+            at: at.0,
+            step: step.0,
         }
     }
     #[inline(always)]
+    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Vec3<F>) -> Vec3<F> {
+        colour
+    }
+}
+
+/// Polygons with one: the colour and N.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shining;
+
+impl Shader for Shining {
+    type Constants<F: Num> = ();
+    type Carries = HTest;
+    type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;
+
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        span.linear()
+    }
+    #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, (mut colour, n): Pixel<Self, F>) -> Vec3<F> {
-        if self.kind == DULL {
-            return colour;
-        }
         let n = n.unit();
         let v_n = n.dot(lit.view()); // K = V · N
         for light in lit.lights() {
@@ -188,26 +192,5 @@ impl Carries for HTest {
             colour = lit.add_diffuse(colour, &light, n.dot(light.to).max(0.0));
         }
         (colour, n)
-    }
-}
-
-/// A colour; and a normal, which dull polygons leave where it is.
-#[derive(Clone, Copy, Debug)]
-pub struct HTestWalk<F> {
-    colour: Linear<Vec3<F>>,
-    normal: Linear<Vec3<F>>,
-    shines: bool,
-}
-
-impl<F: Num> Walk<F> for HTestWalk<F> {
-    type Pixel = (Vec3<F>, Vec3<F>);
-
-    #[inline(always)]
-    fn next(&mut self) -> Self::Pixel {
-        let normal = match self.shines {
-            true => self.normal.next(),
-            false => self.normal.at,
-        };
-        (self.colour.next(), normal)
     }
 }

@@ -17,9 +17,9 @@ use super::kernels::{PixelKernel, Pixels};
 use super::lighting::Uniforms;
 use super::span::{PolygonConstants, Run};
 use super::{
-    Approximation, Constant, Corners, Info, Lit, MethodParameter, Needs, Normal, Perspective,
-    Pixel, Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Spans, Stepped, UniformsIndex,
-    Value, Variant,
+    Approximation, Constant, Corners, Info, Lit, Method, MethodParameter, Needs, Normal,
+    Perspective, Pixel, Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Spans, Stepped,
+    UniformsIndex, Value, Variant,
 };
 use crate::frame::{Frame, Polygon};
 use crate::integer::{
@@ -125,8 +125,8 @@ impl Shader for Circles {
         refuses(lighting, on, 1)
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
-        (0, polygon.face)
+    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+        polygon.face
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, _: Span<'_, Self, F>) -> Constant<Vec3<F>> {
@@ -478,7 +478,7 @@ pub(super) fn colour(lights: u32, clamped: bool) -> Counts {
 /// Returns the operations of a method with a highlight by R·V: those of the engine on vertices and edges, and those of the method on a
 /// span, which `of` states for a number of lights as the loops stand: for `most` of them, where there are more. The colour is the
 /// kernel's.
-pub(super) fn counted<M: Shader>(
+pub(super) fn counted<M: Method>(
     bench: &SpanBench,
     variant: &Variant,
     kernel: PixelKernel,

@@ -14,8 +14,8 @@ use super::lighting::{LightModel, Lit, Uniforms};
 use super::planes::{Planes, count, each, scaled};
 use super::span::{RunList, RunStart};
 use super::{
-    Carried, Carries, Corners, LitAt, Needs, Pixel, PolygonConstants, Run, Shader, Span, Value,
-    Varying,
+    Carried, Carries, CarriesOf, Corners, Kinds, LitAt, Method, Needs, Pixel, PolygonConstants,
+    Run, Shader, Span, Value, Varying, Visit,
 };
 #[cfg(feature = "simd")]
 use crate::number::simd::{Block, Token, deinterleaved, vectorize};
@@ -133,7 +133,7 @@ impl<'a> Pixels<'a> {
 
     /// Returns the kind of a run's polygon, and the run as a walk starts from it.
     #[inline(always)]
-    fn start<M: Shader>(&self, number: usize, run: &Run) -> (u8, RunStart<'a, f32>) {
+    fn start<M: Method>(&self, number: usize, run: &Run) -> (u8, RunStart<'a, f32>) {
         let (kind, constants) = self.constants.of::<M>(self.lights(), run.polygon);
         let start = RunStart {
             numbers: self.list.starts.of(number),
@@ -184,25 +184,28 @@ pub(crate) struct SimdKernels {
     pub shade: fn(&ShadeRow<'_>, &[f32], &mut RowColours<'_>),
 }
 
+/// The only kind of a method that is compiled for SIMD.
+type First<M> = <<M as Method>::Kinds as Kinds>::First;
+
 impl Kernels {
     /// Compiles a method.
-    pub const fn of<M: Shader>() -> Kernels {
+    pub const fn of<M: Method>() -> Kernels {
         Kernels {
             counts: |lights| {
-                let varyings = count::<Varying<M, f32>>(lights);
-                let constants = count::<M::Constants<f32>>(lights);
-                [varyings, count::<Pixel<M, f32>>(lights), constants]
+                let varyings = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
+                let pixel = count::<Pixel<First<M>, f32>>(lights);
+                [varyings, pixel, M::Kinds::numbers(lights)]
             },
             needs: needs::<M>(),
-            carries: M::Carries::FROM,
+            carries: <CarriesOf<M> as Carries>::FROM,
             kinds: M::KINDS,
-            linear: <M::Walk<f32> as Walk<f32>>::LINEAR,
+            linear: M::Kinds::COUNT == 1 && <<First<M> as Shader>::Walk<f32> as Walk<f32>>::LINEAR,
             walks_along_runs: |parameters, model| M::new(parameters, model).walks_along_runs(),
             polygon: polygon::<M>,
-            vertices: vertices::<M>,
+            vertices: vertices::<CarriesOf<M>>,
             pixels: pixels::<M>,
             simd: match needs::<M>().scalar_only {
-                None => by_level::<M>,
+                None => by_level::<First<M>>,
                 Some(_) => |_| None,
             },
         }
@@ -212,7 +215,7 @@ impl Kernels {
 impl Kernels {
     /// Makes the kernels of a method from those of `M`, which lights its vertices, and a plain function for its pixels: for methods
     /// whose numbers are no [`Num`], as integers are. They are scalar only, for the reason `why`.
-    pub(super) const fn of_functions<M: Shader>(pixels: PixelKernel, why: &'static str) -> Kernels {
+    pub(super) const fn of_functions<M: Method>(pixels: PixelKernel, why: &'static str) -> Kernels {
         Kernels {
             pixels,
             needs: Needs {
@@ -226,12 +229,15 @@ impl Kernels {
 }
 
 /// Returns the needs of a method: one of several kinds is scalar only, as the G-buffer does not keep them.
-const fn needs<M: Shader>() -> Needs {
-    assert!(M::KINDS.len() <= 5, "at most five kinds");
+const fn needs<M: Method>() -> Needs {
+    assert!(
+        M::KINDS.len() == M::Kinds::COUNT || M::KINDS.is_empty() && M::Kinds::COUNT == 1,
+        "each kind has a name"
+    );
     let needs = M::NEEDS;
     Needs {
         scalar_only: match needs.scalar_only {
-            None if M::KINDS.len() > 1 => Some(
+            None if M::Kinds::COUNT > 1 => Some(
                 "each kind of polygon takes another loop, and a block of pixels has one for all",
             ),
             why => why,
@@ -260,43 +266,26 @@ fn by_level<M: Shader>(level: Level) -> Option<&'static SimdKernels> {
 }
 
 /// Sets up a polygon.
-fn polygon<M: Shader>(
+fn polygon<M: Method>(
     parameters: &[Value],
     uniforms: &Uniforms,
     polygon: &Corners<'_, f32>,
     to: &mut [f32],
 ) -> u8 {
     let lit = Lit::new(uniforms.stored(), 0.0, true);
-    let (kind, constants) = M::new(parameters, &uniforms.model).polygon(&lit, polygon);
-    debug_assert!(
-        usize::from(kind) < M::KINDS.len().max(1),
-        "a kind of the method's"
-    );
-    each(constants, |i, number| to[i] = *number);
-    kind
-}
-
-/// Calls `run` with the method for a polygon's kind, which is a literal in each arm: each has a loop of its own.
-#[inline(always)]
-fn by_kind<M: Shader>(method: M, kind: u8, mut run: impl FnMut(M)) {
-    match kind {
-        1 if M::KINDS.len() > 1 => run(method.of_kind(1)),
-        2 if M::KINDS.len() > 2 => run(method.of_kind(2)),
-        3 if M::KINDS.len() > 3 => run(method.of_kind(3)),
-        4 if M::KINDS.len() > 4 => run(method.of_kind(4)),
-        _ => run(method.of_kind(0)),
-    }
+    let chosen = M::new(parameters, &uniforms.model).polygon(&lit, polygon);
+    M::Kinds::put(chosen, |i, number| to[i] = *number)
 }
 
 /// Lights vertices one at a time.
-fn vertices<M: Shader>(job: &Vertices<'_>, out: &mut [f32]) {
-    light::<M, f32>(job, true, out, |all| vec3(all[0]), |x| [x; BLOCK]);
+fn vertices<C: Carries>(job: &Vertices<'_>, out: &mut [f32]) {
+    light::<C, f32>(job, true, out, |all| vec3(all[0]), |x| [x; BLOCK]);
 }
 
 /// Lights vertices, as many at a time as a number holds: `gather` makes a vector of them, `lanes` takes a number apart. Without
 /// `general`, a literal, the model is fast.
 #[inline(always)]
-fn light<M: Shader, F: Num>(
+fn light<C: Carries, F: Num>(
     job: &Vertices<'_>,
     general: bool,
     out: &mut [f32],
@@ -304,7 +293,7 @@ fn light<M: Shader, F: Num>(
     lanes: impl Fn(F) -> [f32; BLOCK],
 ) {
     let stored = job.uniforms.stored();
-    let own = count::<Varying<M, f32>>(stored.lights.len());
+    let own = count::<C::Varying<f32>>(stored.lights.len());
     debug_assert!(
         job.normals.len().is_multiple_of(F::WIDTH),
         "vertices are lit in whole blocks"
@@ -321,12 +310,12 @@ fn light<M: Shader, F: Num>(
         let n = gather(normals);
         let mut lit = Lit::new(stored, n.x, general);
         lit = lit.at(if general { gather(points) } else { n });
-        if matches!(M::Carries::FROM, Carried::Attributes) {
+        if matches!(C::FROM, Carried::Attributes) {
             let all = &job.attributes[block * F::WIDTH..][..F::WIDTH];
             let of = |i: usize| n.x.of_each(|k| n.x.one(all[k][i]));
             lit = lit.with_attributes([of(0), of(1), of(2), of(3)]);
         }
-        let varying = M::Carries::vertex(&lit, n);
+        let varying = C::vertex(&lit, n);
         each(
             varying,
             #[inline(always)]
@@ -341,7 +330,7 @@ fn light<M: Shader, F: Num>(
 }
 
 /// Shades runs one pixel at a time: the lecture's loop.
-fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
+fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
         out = if M::NEEDS.general_only
             || uniforms.model.is_general
@@ -356,7 +345,7 @@ fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
 
 /// Shades runs without extras and general lights: a function of its own, whose loop then has more registers.
 #[inline(never)]
-fn shade_fast_runs<'a, 'b, M: Shader>(
+fn shade_fast_runs<'a, 'b, M: Method>(
     job: &Pixels<'_>,
     uniforms: &Uniforms,
     runs: impl Iterator<Item = (usize, &'a Run)>,
@@ -368,7 +357,7 @@ fn shade_fast_runs<'a, 'b, M: Shader>(
 /// Shades runs of the same uniforms, and returns the pixels after them. Without `general`, a literal, there are no extras and
 /// no general light.
 #[inline(always)]
-fn shade_runs<'a, 'b, M: Shader>(
+fn shade_runs<'a, 'b, M: Method>(
     job: &Pixels<'_>,
     uniforms: &Uniforms,
     general: bool,
@@ -382,7 +371,7 @@ fn shade_runs<'a, 'b, M: Shader>(
         Extras::default()
     };
     let lights = stored.lights.len();
-    let own = count::<Varying<M, f32>>(lights);
+    let own = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
     let method = M::new(job.parameters, &stored.model);
     let directional = Lit::new(stored, 0.0, general);
     for (number, run) in runs {
@@ -390,23 +379,40 @@ fn shade_runs<'a, 'b, M: Shader>(
         let extra = extras.start(own, &start, 0.0);
         let (here, rest) = out.split_at_mut(run.pixels as usize);
         out = rest;
-        by_kind(
-            method,
-            kind,
-            #[inline(always)]
-            |method| {
-                let span = Span::of_run(lights, start, 0.0);
-                let (mut walk, mut extra) = (method.walk(&directional, span), extra);
-                // An iterator counts triples by a division: 3 % of Gouraud's frames.
-                #[expect(clippy::needless_range_loop)]
-                for x in 0..here.len() {
-                    let pixel = (walk.next(), extra.next());
-                    here[x] = colour(method, directional, extras, pixel).array();
-                }
-            },
-        );
+        let run = RunLoop {
+            start,
+            extra,
+            directional,
+            extras,
+            here,
+        };
+        method.kinds().visit(kind, run);
     }
     out
+}
+
+/// The loop over a run's pixels, for the polygon's kind.
+struct RunLoop<'a> {
+    start: RunStart<'a, f32>,
+    extra: Linear<(Vec3<f32>, f32)>,
+    directional: Lit<'a, f32>,
+    extras: Extras,
+    here: &'a mut [[f32; 3]],
+}
+
+impl<C: Carries> Visit<C> for RunLoop<'_> {
+    #[inline(always)]
+    fn visit<S: Shader<Carries = C>>(mut self, kind: S) {
+        let lit = self.directional;
+        let span = Span::of_run(lit.count(), self.start, 0.0);
+        let mut walk = kind.walk(&lit, span);
+        // An iterator counts triples by a division: 3 % of Gouraud's frames.
+        #[expect(clippy::needless_range_loop)]
+        for x in 0..self.here.len() {
+            let pixel = (walk.next(), self.extra.next());
+            self.here[x] = colour(kind, lit, self.extras, pixel).array();
+        }
+    }
 }
 
 /// Returns the colour of a pixel from its state and its extras.
@@ -466,8 +472,12 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
         simd,
         #[inline(always)]
         || match job.uniforms.model.is_fast && !M::NEEDS.general_only {
-            true => light::<M, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into()),
-            false => light::<M, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into()),
+            true => {
+                light::<M::Carries, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into())
+            }
+            false => {
+                light::<M::Carries, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into())
+            }
         },
     );
 }

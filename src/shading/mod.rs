@@ -27,6 +27,7 @@ mod exponent;
 pub(crate) mod extent;
 mod info;
 mod kernels;
+mod kinds;
 mod needs;
 mod span;
 mod span_bench;
@@ -100,6 +101,7 @@ pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices};
 pub use kernels::{Kernels, UniformsIndex};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
+pub use kinds::{CarriesOf, Chosen, Kinds, Method, OneOf, Visit};
 pub use lighting::{LightModel, Lit, Seen};
 pub use needs::{Needs, Spans};
 pub use planes::{PerLight, Planes};
@@ -118,13 +120,10 @@ use crate::scene::{Interpolation, Lighting};
 ///
 /// Fields are parameters; a method without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
 pub trait Shader: Copy + Default + 'static {
-    /// The description of the method.
-    const INFO: Info;
+    /// The description of the method; a kind of polygons of another has none.
+    const INFO: Info = Info::OF_PIXELS;
     /// What it needs of engines.
     const NEEDS: Needs = Needs::PIXELS;
-    /// The kinds of polygons that it tells apart, by name: up to 5, or none. They are scalar only, as the
-    /// G-buffer does not keep kinds: see [`Shader::of_kind`].
-    const KINDS: &'static [&'static str] = &[];
     /// What is set up once per polygon: numbers, vectors and tuples of them; `()` if nothing is.
     type Constants<F: Num>: Planes<F>;
     /// What a vertex carries: `Self` if it is none of those in `carries.rs`.
@@ -152,16 +151,10 @@ pub trait Shader: Copy + Default + 'static {
     fn new(_parameters: &[Value], _model: &LightModel) -> Self {
         Self::default()
     }
-    /// Sets up a polygon: its kind, an index into [`Shader::KINDS`], and its constants. Of the light `lit` tells what the whole polygon
-    /// shares; lights at positions are seen from its mean.
+    /// Sets up a polygon. Of the light `lit` tells what the whole polygon shares; lights at positions are seen from its mean.
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, _: &Corners<'_, R>) -> (u8, Self::Constants<R>) {
-        (0, Self::Constants::<R>::filled(lit.count(), lit.zero()))
-    }
-    /// Returns the method for polygons of a kind: a literal, so that what it decides by is decided before a run's first pixel.
-    #[inline(always)]
-    fn of_kind(self, _kind: u8) -> Self {
-        self
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, _: &Corners<'_, R>) -> Self::Constants<R> {
+        Self::Constants::filled(lit.count(), lit.zero())
     }
     /// True if SIMD walks along runs with these parameters, as a pixel needs the pixels before it or its span. Else each block is a
     /// walk of its own, from varyings that are interpolated over triangles, and remembers nothing.

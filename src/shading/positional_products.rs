@@ -1,11 +1,10 @@
 //! Products of vectors toward lights and eye at positions, as quadratics over a triangle: what methods share that make one per polygon.
 
-use super::duff_phong::{DuffPhongLocal, LightWalk};
-use super::increments::{Linear, Quadratic, Walk};
+use super::increments::Quadratic;
 use super::quadratic_products::{
     Growth, WIDEST, along, each_of, least_length, longest, plain, relative, set_up_triangle,
 };
-use super::{Approximation, Corner, Corners, Lit, PerLight, Shader};
+use super::{Approximation, Corner, Corners, Lit, NormalAndPlace, PerLight, Pixel, Shader, Span};
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::scene::{Falloff, LightTerm, Place};
@@ -193,27 +192,21 @@ pub(super) fn approximation(
     }
 }
 
-/// Products that a run steps, as those of [`DuffPhongLocal`]: quadratics over a polygon are products of vectors of length 1, which need no
-/// lengths, and have strengths in their place.
-#[derive(Clone, Copy, Debug)]
-pub struct PositionalProducts<F, const L: usize> {
-    /// N·N, V·V and 1/w².
-    lengths: Option<[Quadratic<F>; 3]>,
-    /// N·V.
-    view: Quadratic<F>,
-    /// L·L or the strength, L·N and L·V of each light.
-    lights: LightWalk<F, L>,
-    zero: F,
-}
+/// Products as quadratics over a polygon: a kind of polygons, beside [`DuffPhongLocal`](super::duff_phong::DuffPhongLocal).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct QuadraticsLocal<const L: usize>;
 
-impl<F: Num, const L: usize> PositionalProducts<F, L> {
-    /// Starts a run at `place`, where products are quadratics over the polygon.
+/// A quadratic for each light.
+type Each<F, const L: usize> = PerLight<Quadratic<F>, L>;
+
+impl<const L: usize> Shader for QuadraticsLocal<L> {
+    type Constants<F: Num> = OverTriangle<F, L>;
+    type Carries = NormalAndPlace;
+    type Walk<F: Num> = ((Each<F, L>, Each<F, L>), (Each<F, L>, Quadratic<F>)); // as in `Products`
+
     #[inline(always)]
-    pub(super) fn over_polygon(
-        lit: &Lit<'_, F>,
-        (of, from): OverTriangle<F::One, L>,
-        [x, y]: [F; 2],
-    ) -> Self {
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let ((of, from), [x, y]) = (span.constants(), span.place());
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
         let none = PerLight::new(lit.count(), Quadratic::zero(lit.zero()));
         let ((mut strength, mut j), mut l_v) = ((none, none), none);
@@ -222,61 +215,18 @@ impl<F: Num, const L: usize> PositionalProducts<F, L> {
             l_v.values[light] = along(each_of(|i| of[i].0.1.values[light]), from);
             strength.values[light] = along(each_of(|i| of[i].1.0.values[light]), from);
         }
-        PositionalProducts {
-            lengths: None,
-            view: along(each_of(|i| of[i].1.1), from),
-            lights: ((strength, j), l_v),
-            zero: lit.zero(),
-        }
+        ((j, l_v), (strength, along(each_of(|i| of[i].1.1), from)))
     }
-
-    /// Starts a run of normals, positions and weights.
     #[inline(always)]
-    pub(super) fn of_vectors(lit: &Lit<'_, F>, linear: Linear<(Vec3<F>, Vec3<F>, F)>) -> Self {
-        let (((nn, vv), (view, ww)), lights) = DuffPhongLocal::products(lit, linear);
-        PositionalProducts {
-            lengths: Some([nn, vv, ww]),
-            view,
-            lights,
-            zero: lit.zero(),
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, ((j, l_v), (strength, k)): Pixel<Self, F>) -> Vec3<F> {
+        let mut colour = lit.ambient();
+        for index in 0..lit.count() {
+            let falls = lit.stored[index].falloff != Falloff::None;
+            let strength = falls.then_some(strength.values[index]);
+            let light = lit.light_of_strength(index, l_v.values[index], strength);
+            let l_n = j.values[index];
+            colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, k)); // 4.5
         }
+        colour
     }
-}
-
-type Pixel<F, const L: usize> = super::Pixel<DuffPhongLocal<L>, F>;
-
-impl<F: Num, const L: usize> Walk<F> for PositionalProducts<F, L> {
-    type Pixel = Pixel<F, L>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Self::Pixel {
-        let (view, lights) = (self.view.next(), self.lights.next());
-        let [nn, vv, ww] = match &mut self.lengths {
-            Some([nn, vv, ww]) => [nn.next(), vv.next(), ww.next()],
-            None => [self.zero; 3],
-        };
-        (((nn, vv), (view, ww)), lights)
-    }
-}
-
-/// Returns the colour of a surface from quadratics, or from products of vectors whose lengths are divided out.
-#[inline(always)]
-pub(super) fn shade<F: Num, const L: usize>(
-    lit: &Lit<'_, F>,
-    pixel: Pixel<F, L>,
-    has_lengths: bool,
-) -> Vec3<F> {
-    if has_lengths {
-        return DuffPhongLocal::<L>.shade(lit, pixel);
-    }
-    let ((_, (k, _)), ((strength, j), l_v)) = pixel;
-    let mut colour = lit.ambient();
-    for index in 0..lit.count() {
-        let falls = lit.stored[index].falloff != Falloff::None;
-        let strength = falls.then_some(strength.values[index]);
-        let light = lit.light_of_strength(index, l_v.values[index], strength);
-        let l_n = j.values[index];
-        colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, k)); // 4.5
-    }
-    colour
 }

@@ -1,8 +1,8 @@
 //! Products of unit normals as quadratics over a triangle: what methods share that make one per polygon.
 
-use super::increments::{Linear, Quadratic, Walk};
+use super::increments::Quadratic;
 use super::planes::{each, scaled};
-use super::{Corner, Corners, Lit, PerLight, Planes};
+use super::{Corner, Corners, Lit, Normal, PerLight, Pixel, Planes, Shader, Span};
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 
@@ -152,65 +152,28 @@ fn mixed<F: Num, P: Planes<F>, const N: usize>(all: [(P, f32); N]) -> P {
     sum(all.map(|(value, factor)| each(value, |_, x| *x = *x * factor)))
 }
 
-/// Products as quadratics; or those of other normals, linear, with the squared length.
-#[derive(Clone, Copy, Debug)]
-pub struct QuadraticProducts<F, const L: usize> {
-    products: (PerLight<Quadratic<F>, L>, Quadratic<F>),
-    square: Option<Quadratic<F>>,
-}
+/// Products as quadratics over a polygon: a kind of polygons, beside [`DuffOfNormals`](super::duff_phong::DuffOfNormals).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Quadratics<const L: usize>;
 
-impl<F: Num, const L: usize> QuadraticProducts<F, L> {
-    /// Starts a run at `place`, where products are quadratics over the polygon.
+impl<const L: usize> Shader for Quadratics<L> {
+    type Constants<F: Num> = OverPolygon<F, L>;
+    type Carries = Normal;
+    type Walk<F: Num> = (PerLight<Quadratic<F>, L>, Quadratic<F>); // J of each light, K
+
     #[inline(always)]
-    pub(super) fn over_polygon(
-        lit: &Lit<'_, F>,
-        (of, from): OverPolygon<F::One, L>,
-        [x, y]: [F; 2],
-    ) -> Self {
-        let none = Quadratic::zero(lit.zero());
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let ((of, from), [x, y]) = (span.constants(), span.place());
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
-        let mut products = (PerLight::new(lit.count(), none), none);
-        products.1 = along(each_of(|i| of[i].1), from);
+        let mut j = PerLight::new(lit.count(), Quadratic::zero(lit.zero()));
         for i in 0..lit.count() {
-            products.0.values[i] = along(each_of(|k| of[k].0.values[i]), from);
+            j.values[i] = along(each_of(|k| of[k].0.values[i]), from);
         }
-        QuadraticProducts {
-            products,
-            square: None,
-        }
+        (j, along(each_of(|i| of[i].1), from))
     }
-
-    /// Starts a run of normals that are divided by their length.
     #[inline(always)]
-    pub(super) fn of_normals(lit: &Lit<'_, F>, Linear { at, step }: Linear<Vec3<F>>) -> Self {
-        let none = Quadratic::zero(lit.zero());
-        let mut products = (PerLight::new(lit.count(), none), none);
-        let (j, k) = lit.products::<L>(at);
-        let (dj, dk) = lit.products::<L>(step);
-        products.1 = Quadratic::new(k, dk, lit.zero());
-        for i in 0..lit.count() {
-            products.0.values[i] = Quadratic::new(j.values[i], dj.values[i], lit.zero());
-        }
-        QuadraticProducts {
-            products,
-            square: Some(Quadratic::square(at, step)),
-        }
-    }
-}
-
-impl<F: Num, const L: usize> Walk<F> for QuadraticProducts<F, L> {
-    type Pixel = Products<F, L>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Self::Pixel {
-        let products = self.products.next();
-        match &mut self.square {
-            None => products,
-            Some(square) => {
-                let square = square.next();
-                scaled(products, square.broadcast(1.0) / square.sqrt())
-            }
-        }
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
+        lit.shade_products(products)
     }
 }
 

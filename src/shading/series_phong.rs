@@ -1,12 +1,13 @@
 //! Phong shading without a root or a division at a pixel: 1/√(N·N) by a polynomial of N·N (Digital, US patent 5,369,737, 1990).
 
 use super::adaptive_plan::{WIDEST, line, parabola, rounded_up, spread, squares};
-use super::increments::{Quadratic, Walk};
+use super::duff_phong::DuffOfNormals;
 use super::planes::scaled;
 use super::quadratic_products::plain;
 use super::{
-    Approximation, Corners, Family, Info, LightModel, Linear, Lit, MethodParameter, Needs, Normal,
-    PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped, Value,
+    Approximation, Chosen, Constant, Corners, Family, Info, LightModel, Lit, Method,
+    MethodParameter, Needs, Normal, OneOf, Pixel, Roundings, Shader, Span, Standing, Stepped,
+    Value,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -24,13 +25,8 @@ use crate::reference::Model;
 /// is weighted by 1/w, and D is anywhere. Polygons whose D varies by more than a factor of 3, and pieces that clipping cut, take roots.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SeriesPhong<const L: usize> {
-    kind: u8,
     order: u32,
 }
-
-const LINE: u8 = 0;
-const PARABOLA: u8 = 1;
-const ROOTS: u8 = 2;
 
 /// The least square that there is a polynomial for: the coefficients of smaller ones are no numbers of 32 bits.
 const LEAST_SQUARE: f32 = 1e-12;
@@ -82,9 +78,7 @@ fn order(parameters: &[Value]) -> u32 {
     parameters[0].whole().unwrap_or_default()
 }
 
-type Products<F, const L: usize> = (PerLight<F, L>, F); // J of each light, K
-
-impl<const L: usize> Shader for SeriesPhong<L> {
+impl<const L: usize> Method for SeriesPhong<L> {
     const INFO: Info = Info {
         name: "series-phong",
         ids: &["M07", "M07b"],
@@ -112,79 +106,47 @@ impl<const L: usize> Shader for SeriesPhong<L> {
     };
     const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
     const KINDS: &'static [&'static str] = &["line", "parabola", "roots"];
-    type Constants<F: Num> = [F; 3]; // the polynomial
-    type Carries = Normal;
-    type Walk<F: Num> = SeriesWalk<F, L>;
+    type Kinds = (Polynomial<L, 2>, Polynomial<L, 3>, DuffOfNormals<L>);
 
     #[inline(always)]
     fn new(parameters: &[Value], _: &LightModel) -> Self {
         SeriesPhong {
-            kind: ROOTS,
             order: order(parameters),
         }
     }
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        SeriesPhong { kind, ..self }
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
-        let zero = lit.zero();
-        let kind = if self.order == 1 { LINE } else { PARABOLA };
-        match of_corners(self.order, polygon) {
-            Some(factors) => (kind, factors.map(|k| zero.broadcast(k))),
-            None => (ROOTS, [zero; 3]),
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+        let Some(factors) = of_corners(self.order, polygon) else {
+            return OneOf::Third(());
+        };
+        let [k0, k1, k2] = factors.map(|k| lit.zero().broadcast(k));
+        match self.order {
+            1 => OneOf::First([k0, k1]),
+            _ => OneOf::Second([k0, k1, k2]),
         }
     }
+}
+
+/// A polynomial of `K` coefficients for 1/√D, two or three.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Polynomial<const L: usize, const K: usize>;
+
+impl<const L: usize, const K: usize> Shader for Polynomial<L, K> {
+    type Constants<F: Num> = [F; K];
+    type Carries = Normal;
+    type Walk<F: Num> = (<DuffOfNormals<L> as Shader>::Walk<F>, Constant<[F; K]>);
+
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        let Linear { at, step } = span.linear();
-        let [k0, k1, k2] = span.constants();
-        SeriesWalk {
-            products: Linear {
-                at: lit.products(at),
-                step: lit.products(step),
-            },
-            square: Quadratic::square(at, step),
-            factors: [
-                at.x.of_each(|_| k0),
-                at.x.of_each(|_| k1),
-                at.x.of_each(|_| k2),
-            ],
-            kind: self.kind,
-        }
+        let factors = span.constants().map(|k| lit.zero().of_each(|_| k));
+        (DuffOfNormals::start(lit, span.linear()), Constant(factors))
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
-        lit.shade_products(products)
-    }
-}
-
-/// Products of normals, linear; their squared length; and the polynomial of it that stands for 1 over the length.
-#[derive(Clone, Copy, Debug)]
-pub struct SeriesWalk<F, const L: usize> {
-    products: Linear<Products<F, L>>,
-    square: Quadratic<F>,
-    factors: [F; 3],
-    kind: u8,
-}
-
-impl<F: Num, const L: usize> Walk<F> for SeriesWalk<F, L> {
-    type Pixel = Products<F, L>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Self::Pixel {
-        let (products, d) = (self.products.next(), self.square.next());
-        let [k0, k1, k2] = self.factors;
-        let r = match self.kind {
-            LINE => k0 + k1 * d,
-            PARABOLA => k0 + d * (k1 + k2 * d),
-            _ => d.broadcast(1.0) / d.sqrt(),
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, ((products, d), k): Pixel<Self, F>) -> Vec3<F> {
+        let r = match K {
+            2 => k[0] + k[1] * d,
+            _ => k[0] + d * (k[1] + k[K - 1] * d),
         };
-        scaled(products, r)
+        lit.shade_products(scaled(products, r))
     }
 }

@@ -1,18 +1,18 @@
 //! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
 
+use super::duff_phong::{DuffOfNormals, DuffPhongLocal};
 use super::positional_products::{
-    self, OverTriangle, Placed, PositionalProducts, set_light, set_up_placed, set_view,
+    self, OverTriangle, Placed, QuadraticsLocal, set_light, set_up_placed, set_view,
 };
 use super::quadratic_products::{
-    Growth, OverPolygon, QuadraticProducts, lagrange, longest, narrow_triangle, set_up_triangle,
-    width,
+    Growth, Quadratics, lagrange, longest, narrow_triangle, set_up_triangle, width,
 };
 use super::{
-    Approximation, Corner, Corners, Family, Info, LightModel, Lit, MethodParameter, Needs, Normal,
-    NormalAndPlace, Pixel, Planes, Roundings, Shader, Span, Spans, Standing, Stepped, Value,
+    Approximation, Chosen, Corner, Corners, Family, Info, LightModel, Lit, Method, MethodParameter,
+    Needs, OneOf, Planes, Roundings, Spans, Standing, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
-use crate::number::{Num, Real, Vec3};
+use crate::number::{Real, Vec3};
 use crate::reference::Model;
 
 /// Six-point quadratics, for up to `L` lights: `J = L·N` and `K = V·N` of *unit* normals are computed at the corners of a triangle
@@ -48,12 +48,9 @@ use crate::reference::Model;
 /// of corners differ, they are exact.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SixPoint<const L: usize> {
-    kind: u8,
     is_near: bool,
 }
 
-/// The kind of polygons without a quadratic.
-const ROOTS: u8 = 1;
 /// The place of `barrera` among the words of the only parameter.
 const BARRERA: Value = Value::Word(1);
 
@@ -129,55 +126,31 @@ const SIX_POINT: Info = Info {
 
 const KINDS: &[&str] = &["quadratic", "roots"];
 
-impl<const L: usize> Shader for SixPoint<L> {
+impl<const L: usize> Method for SixPoint<L> {
     const INFO: Info = SIX_POINT;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         ..Needs::PIXELS
     };
     const KINDS: &'static [&'static str] = KINDS;
-    type Constants<F: Num> = OverPolygon<F, L>; // from the first corner
-    type Carries = Normal;
-    type Walk<F: Num> = QuadraticProducts<F, L>;
+    type Kinds = (Quadratics<L>, DuffOfNormals<L>);
 
     #[inline(always)]
     fn new(parameters: &[Value], _: &LightModel) -> Self {
         SixPoint {
-            kind: ROOTS,
             is_near: parameters[0] == BARRERA,
         }
     }
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        SixPoint { kind, ..self }
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
-        let zero = polygon.face.x.broadcast(0.0);
-        let none = Self::Constants::<R>::filled(lit.count(), zero);
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let Some(([a, b, c], growth)) = set_up_triangle(polygon) else {
-            return (ROOTS, none);
+            return OneOf::Second(());
         };
         let products = |n| lit.products::<L>(n);
         let [fa, fb, fc] = [a, b, c].map(|corner| products(corner.normal));
         let midway = midway([a, b, c], self.is_near).map(products);
         let in_screen = lagrange([fa, fb, fc], midway, growth);
-        (0, (in_screen, a.place))
-    }
-    #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        match self.kind {
-            ROOTS => QuadraticProducts::of_normals(lit, span.linear()),
-            _ => QuadraticProducts::over_polygon(lit, span.constants(), span.place()),
-        }
-    }
-    #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
-        lit.shade_products(products)
+        OneOf::First((in_screen, a.place))
     }
 }
 
@@ -233,7 +206,7 @@ fn of_light<R: Real>(
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SixPointLocal<const L: usize>(SixPoint<L>);
 
-impl<const L: usize> Shader for SixPointLocal<L> {
+impl<const L: usize> Method for SixPointLocal<L> {
     const INFO: Info = SIX_POINT;
     const KINDS: &'static [&'static str] = KINDS;
     const NEEDS: Needs = Needs {
@@ -241,46 +214,25 @@ impl<const L: usize> Shader for SixPointLocal<L> {
         general_only: true,
         ..Needs::PIXELS
     };
-    type Constants<F: Num> = OverTriangle<F, L>; // from the first corner
-    type Carries = NormalAndPlace;
-    type Walk<F: Num> = PositionalProducts<F, L>;
+    type Kinds = (QuadraticsLocal<L>, DuffPhongLocal<L>);
 
     #[inline(always)]
     fn new(parameters: &[Value], model: &LightModel) -> Self {
         SixPointLocal(SixPoint::new(parameters, model))
     }
     #[inline(always)]
-    fn of_kind(self, kind: u8) -> Self {
-        SixPointLocal(self.0.of_kind(kind))
-    }
-    #[inline(always)]
-    fn polygon<R: Real>(
-        self,
-        lit: &Lit<'_, R>,
-        polygon: &Corners<'_, R>,
-    ) -> (u8, Self::Constants<R>) {
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let Some((corners, growth)) = set_up_placed(lit, polygon) else {
-            return (ROOTS, Planes::filled(lit.count(), lit.zero()));
+            return OneOf::Second(());
         };
         let points = six_points(lit, corners, self.0.is_near);
-        let mut constants = Self::Constants::<R>::filled(lit.count(), lit.zero());
+        let mut constants = OverTriangle::<R, L>::filled(lit.count(), lit.zero());
         set_view(&mut constants.0, of_view(&points, growth));
         for light in 0..lit.count() {
             set_light(&mut constants.0, light, of_light(&points, light, growth));
         }
         constants.1 = corners[0].0.place;
-        (0, constants)
-    }
-    #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        match self.0.kind {
-            ROOTS => PositionalProducts::of_vectors(lit, span.linear()),
-            _ => PositionalProducts::over_polygon(lit, span.constants(), span.place()),
-        }
-    }
-    #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
-        positional_products::shade(lit, pixel, self.0.kind == ROOTS)
+        OneOf::First(constants)
     }
 }
 

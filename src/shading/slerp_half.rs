@@ -39,8 +39,8 @@ impl<const L: usize> Shader for SlerpHalf<L> {
         refuses_light(lighting)
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
-        (0, polygon.face)
+    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+        polygon.face
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -28,8 +28,8 @@ impl Shader for SlerpPhongVector {
     type Walk<F: Num> = GreatCircle<F>;
 
     #[inline(always)]
-    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> (u8, Vec3<R>) {
-        (0, polygon.face)
+    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+        polygon.face
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> GreatCircle<F> {

@@ -1,8 +1,8 @@
 //! Runs and spans: what engines hand to kernels, and what a walk starts from.
 
 use super::increments::Linear;
-use super::planes::{count, each};
-use super::{Planes, Shader, UniformsIndex, Varying};
+use super::planes::each;
+use super::{Kinds, Method, Planes, Shader, UniformsIndex, Varying};
 use crate::number::{Num, Vec3};
 use alloc::vec::Vec;
 
@@ -331,9 +331,9 @@ pub(crate) struct PolygonConstants {
 impl PolygonConstants {
     /// Returns the kind of a polygon and the numbers of its constants.
     #[inline(always)]
-    pub fn of<M: Shader>(&self, lights: usize, polygon: u32) -> (u8, &[f32]) {
-        let (polygon, count) = (polygon as usize, count::<M::Constants<f32>>(lights));
-        let kind = if M::KINDS.is_empty() {
+    pub fn of<M: Method>(&self, lights: usize, polygon: u32) -> (u8, &[f32]) {
+        let (polygon, count) = (polygon as usize, M::Kinds::numbers(lights));
+        let kind = if M::Kinds::COUNT == 1 {
             0
         } else {
             self.kinds[polygon]

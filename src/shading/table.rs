@@ -33,7 +33,7 @@ use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
 use super::stereographic_phong::StereographicPhong;
 use super::{
-    Extras, Info, Kernels, LitAt, Local, Needs, Perspective, Shader, Variant, integer_fast,
+    Extras, Info, Kernels, LitAt, Local, Method, Needs, Perspective, Variant, integer_fast,
     integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed, integer_quadratic,
     integer_slerp,
 };
@@ -139,12 +139,12 @@ pub struct Entry {
 
 impl Entry {
     /// Makes the row of a method, also of one defined outside this crate.
-    pub const fn of<M: Shader>() -> Entry {
+    pub const fn of<M: Method>() -> Entry {
         Entry::by_lights::<M, M, M, M>()
     }
 
     /// Makes the row of a method by kernels of its own; what else engines ask is as `M` answers.
-    pub(super) const fn of_kernels<M: Shader>(
+    pub(super) const fn of_kernels<M: Method>(
         info: &'static Info,
         kernels: &'static Kernels,
     ) -> Entry {
@@ -157,7 +157,7 @@ impl Entry {
     }
 
     /// Makes the row of a method in integers: as [`Entry::of_kernels`], with a function that says what its loops take.
-    pub(super) const fn integer<M: Shader>(
+    pub(super) const fn integer<M: Method>(
         info: &'static Info,
         kernels: &'static Kernels,
         count: CountSpan,
@@ -170,7 +170,7 @@ impl Entry {
     }
 
     /// Makes the row of a method whose varyings hold a number per light: compiled for 1, 4, 8 and 64 of them.
-    pub const fn by_lights<A: Shader, B: Shader, C: Shader, D: Shader>() -> Entry {
+    pub const fn by_lights<A: Method, B: Method, C: Method, D: Method>() -> Entry {
         let all: ByLights = const {
             [
                 &Kernels::of::<A>(),
@@ -194,7 +194,7 @@ impl Entry {
     }
 
     /// Takes other kernels for one light.
-    pub(super) const fn one_light<A: Shader>(self) -> Entry {
+    pub(super) const fn one_light<A: Method>(self) -> Entry {
         let one = const { &Kernels::of::<A>() };
         let [[_, up_to_4, up_to_8, up_to_64], all] = [self.directional, self.positional];
         let [[_, counts_many], counts_positional] = self.count;
@@ -210,7 +210,7 @@ impl Entry {
     }
 
     /// Takes other kernels where a light or the eye is at a position: for 1 light, for 4 and for 64.
-    pub const fn positional<A: Shader, B: Shader, C: Shader>(self) -> Entry {
+    pub const fn positional<A: Method, B: Method, C: Method>(self) -> Entry {
         let [one, few, many] = const {
             [
                 &Kernels::of::<A>(),

@@ -1,0 +1,162 @@
+//! Methods as kernels compile them: of one way to shade, or of one for each kind of polygons.
+
+use super::planes::{count, each};
+use super::{Carries, Corners, Info, LightModel, Lit, Needs, Shader, Value};
+use crate::frame::Frame;
+use crate::number::{Num, Real};
+use crate::scene::{Interpolation, Lighting};
+
+/// A method as kernels compile it. Every [`Shader`] is one, of a single kind. A method that shades polygons of several kinds says how
+/// it chooses: each kind is a [`Shader`] of its own, or another method's, and has its own loop, constants and walk. Such methods are
+/// scalar only, as the G-buffer does not keep kinds.
+pub trait Method: Copy + Default + 'static {
+    /// The description of the method.
+    const INFO: Info;
+    /// What it needs of engines: for all of its kinds.
+    const NEEDS: Needs = Needs::PIXELS;
+    /// The names of its kinds of polygons, in their order; none if there is one only.
+    const KINDS: &'static [&'static str];
+    /// The kinds: a tuple of up to five that carry the same.
+    type Kinds: Kinds;
+
+    /// As [`Shader::refuses`].
+    fn refuses(frame: &Frame) -> Option<&'static str> {
+        let mut all = frame.lightings().iter();
+        all.find_map(|lighting| Self::refuses_light(lighting, frame.interpolation()))
+    }
+    /// As [`Shader::refuses_light`].
+    fn refuses_light(_lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
+        None
+    }
+    /// As [`Shader::stands_in`].
+    fn stands_in(_frame: &Frame) -> Option<&'static str> {
+        None
+    }
+    /// Makes the method: see [`Shader::new`].
+    #[inline(always)]
+    fn new(_parameters: &[Value], _model: &LightModel) -> Self {
+        Self::default()
+    }
+    /// Returns the kinds, if they have parameters.
+    #[inline(always)]
+    fn kinds(self) -> Self::Kinds {
+        Self::Kinds::default()
+    }
+    /// True if SIMD walks along runs with these parameters: see [`Shader::walks_along_runs`].
+    #[inline(always)]
+    fn walks_along_runs(self) -> bool {
+        true
+    }
+    /// Chooses a polygon's kind, and sets up its constants: see [`Shader::polygon`].
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R>;
+}
+
+/// The constants of a polygon's kind.
+pub type Chosen<M, R> = <<M as Method>::Kinds as Kinds>::Constants<R>;
+/// What the vertices of a method carry.
+pub type CarriesOf<M> = <<M as Method>::Kinds as Kinds>::Carries;
+
+impl<S: Shader> Method for S {
+    const INFO: Info = S::INFO;
+    const NEEDS: Needs = S::NEEDS;
+    const KINDS: &'static [&'static str] = &[];
+    type Kinds = (S,);
+
+    fn refuses(frame: &Frame) -> Option<&'static str> {
+        S::refuses(frame)
+    }
+    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
+        S::refuses_light(lighting, on)
+    }
+    fn stands_in(frame: &Frame) -> Option<&'static str> {
+        S::stands_in(frame)
+    }
+    #[inline(always)]
+    fn new(parameters: &[Value], model: &LightModel) -> Self {
+        S::new(parameters, model)
+    }
+    #[inline(always)]
+    fn kinds(self) -> (S,) {
+        (self,)
+    }
+    #[inline(always)]
+    fn walks_along_runs(self) -> bool {
+        S::walks_along_runs(self)
+    }
+    #[inline(always)]
+    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+        OneOf::First(S::polygon(self, lit, polygon))
+    }
+}
+
+/// What is done with a polygon's kind, whichever it is: a closure that is generic.
+pub trait Visit<C: Carries> {
+    /// Does it.
+    fn visit<S: Shader<Carries = C>>(self, kind: S);
+}
+
+/// Kinds of polygons.
+pub trait Kinds: Copy + Default + 'static {
+    /// Their number.
+    const COUNT: usize;
+    /// What vertices carry, for all of them.
+    type Carries: Carries;
+    /// The first of them; the only one, where there is SIMD.
+    type First: Shader<Carries = Self::Carries>;
+    /// The constants of a polygon of one of them.
+    type Constants<F: Num>;
+
+    /// Returns the most numbers that the constants of one have.
+    fn numbers(lights: usize) -> usize;
+    /// Gives the numbers of a polygon's constants in order, and returns its kind.
+    fn put<F: Num>(constants: Self::Constants<F>, to: impl FnMut(usize, &mut F)) -> u8;
+    /// Calls `to` with a kind: each has a loop of its own.
+    fn visit(self, kind: u8, to: impl Visit<Self::Carries>);
+}
+
+/// A value for one of up to five kinds.
+#[derive(Clone, Copy, Debug)]
+#[expect(missing_docs, reason = "their order says all")]
+pub enum OneOf<A, B = (), C = (), D = (), E = ()> {
+    First(A),
+    Second(B),
+    Third(C),
+    Fourth(D),
+    Fifth(E),
+}
+
+macro_rules! kinds {
+    ($count:literal: $first:ident $(, $name:ident $place:tt)*; $($all:ident $variant:ident $number:literal),*) => {
+        impl<$first: Shader $(, $name: Shader<Carries = $first::Carries>)*> Kinds for ($first, $($name,)*) {
+            const COUNT: usize = $count;
+            type Carries = $first::Carries;
+            type First = $first;
+            type Constants<F: Num> = OneOf<$($all::Constants<F>),*>;
+
+            fn numbers(lights: usize) -> usize {
+                [$(count::<$all::Constants<f32>>(lights)),*].into_iter().fold(0, usize::max)
+            }
+            #[inline(always)]
+            fn put<F: Num>(constants: Self::Constants<F>, to: impl FnMut(usize, &mut F)) -> u8 {
+                match constants {
+                    $(OneOf::$variant(one) => { each(one, to); $number })*
+                    #[allow(unreachable_patterns)] // of five
+                    _ => unreachable!("there are no more kinds"),
+                }
+            }
+            #[inline(always)]
+            fn visit(self, kind: u8, to: impl Visit<Self::Carries>) {
+                match kind {
+                    $($place => to.visit(self.$place),)*
+                    _ => to.visit(self.0),
+                }
+            }
+        }
+    };
+}
+
+kinds!(1: A; A First 0);
+kinds!(2: A, B 1; A First 0, B Second 1);
+kinds!(3: A, B 1, C 2; A First 0, B Second 1, C Third 2);
+kinds!(4: A, B 1, C 2, D 3; A First 0, B Second 1, C Third 2, D Fourth 3);
+kinds!(5: A, B 1, C 2, D 3, E 4; A First 0, B Second 1, C Third 2, D Fourth 3, E Fifth 4);
