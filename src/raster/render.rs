@@ -15,7 +15,7 @@ use crate::number::Level;
 use crate::picture::encoding::Encoder;
 use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture, Picture8, PictureMut};
-use crate::shading::Variant;
+use crate::shading::{On, Variant};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -100,7 +100,7 @@ impl Variant {
     /// Returns the renderer that draws `frame` with this method where `renderer` is asked for: the span engine, with a reason,
     /// if the row engine cannot draw it; none if the method is not for such frames.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
-        if let Some(reason) = (self.entry().refuses)(frame) {
+        if let Some(reason) = (self.entry().fit)(On::Frame(frame)).refused() {
             return Plan::Refused(reason);
         }
         let depth = SampleDepth::new(frame);

@@ -4,8 +4,9 @@ use super::adaptive_plan::{self as plan, Followed};
 use super::increments::{Quadratic, Walk};
 use super::phong_rsqrt::PhongRsqrt;
 use super::{
-    Approximation, Chosen, Corners, Family, Info, LightModel, Linear, Lit, Method, MethodParameter,
-    Normal, OneOf, Pixel, Planes, Roundings, Shader, Span, Standing, Stepped, Value,
+    Approximation, Chosen, Corners, Family, Fit, Info, LightModel, Linear, Lit, Method,
+    MethodParameter, Normal, On, OneOf, Pixel, Planes, Roundings, Shader, Span, Standing, Stepped,
+    Value,
 };
 use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3, vec3};
@@ -141,8 +142,13 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
         Curved<MANY, true>,
     );
 
-    fn stands_in(frame: &Frame) -> Option<&'static str> {
-        (!is_worth_planning(frame)).then_some(<PhongRsqrt as Shader>::INFO.name)
+    fn on(on: On<'_>) -> Fit {
+        match on {
+            On::Frame(frame) if !is_worth_planning(frame) => {
+                Fit::LeavesTo(<PhongRsqrt as Shader>::INFO.name)
+            }
+            _ => Fit::Draws,
+        }
     }
     #[inline(always)]
     fn new(parameters: &[Value], _: &LightModel) -> Self {

@@ -229,7 +229,7 @@ mod tests {
     use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
     use crate::raster::Renderer;
     use crate::scene::{Falloff, Interpolation};
-    use crate::shading::METHODS;
+    use crate::shading::{METHODS, On};
 
     /// Returns the triangle of a bench as a frame, on which the span engine draws its span first.
     fn frame(bench: &SpanBench, interpolation: Interpolation) -> Frame {
@@ -273,7 +273,7 @@ mod tests {
             let frame = frame(bench, *interpolation);
             for entry in METHODS {
                 let variant = entry.variant();
-                if (entry.refuses)(&frame).is_some() {
+                if (entry.fit)(On::Frame(&frame)).refused().is_some() {
                     continue;
                 }
                 let counted = entry.count(bench, &variant);

@@ -3,13 +3,13 @@
 use super::extent::Extent;
 use super::increments::Quadratic;
 use super::{
-    Approximation, Family, Info, Linear, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader,
-    Span, Stepped,
+    Approximation, Family, Fit, Info, Linear, Lit, Needs, Normal, On, PerLight, Pixel, Roundings,
+    Shader, Span, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
-use crate::scene::{Interpolation, Lighting, SpecularModel};
+use crate::scene::{Interpolation, SpecularModel};
 
 /// Phong shading whose normals stay as long as interpolation makes them, for up to `L` lights. J = L·N takes one addition a pixel, and the
 /// squared difference of N and H two, as it is a quadratic:
@@ -78,14 +78,14 @@ impl<const L: usize> Shader for DifferenceVector<L> {
     type Carries = Normal;
     type Walk<F: Num> = (Linear<PerLight<F, L>>, PerLight<Quadratic<F>, L>); // J and E of each light
 
-    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
-        match (lighting.specular, on) {
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, how| match (lighting.specular, how) {
             (SpecularModel::Phong, _) => Some("its highlights are those of N.H, not of R.V"),
             (_, Interpolation::Perspective) => {
                 Some("its normals keep the length that perspective changes")
             }
             _ => None,
-        }
+        })
     }
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -2,10 +2,12 @@
 
 use super::increments::Quadratic;
 use super::planes::scaled;
-use super::{Carries, Info, Linear, Lit, Needs, PerLight, Pixel, Roundings, Shader, Span, Stepped};
+use super::{
+    Carries, Fit, Info, Linear, Lit, Needs, On, PerLight, Pixel, Roundings, Shader, Span, Stepped,
+};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
-use crate::scene::{Interpolation, Lighting, SpecularModel};
+use crate::scene::{Lighting, SpecularModel};
 
 /// Duff's forward differences for highlights by the half vector, for up to `L` lights: `J = L·N` and `M = H·N` of each light by one
 /// addition each, `D = N·N` by two, then one root and one division, which serve all lights.
@@ -47,8 +49,8 @@ impl<const L: usize> Shader for DuffHalf<L> {
     type Carries = Self;
     type Walk<F: Num> = (Linear<(PerLight<F, L>, PerLight<F, L>)>, Quadratic<F>); // J and M of each light; D
 
-    fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
-        refuses_light(lighting)
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, _| refuses_light(lighting))
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -4,13 +4,13 @@ use super::extent::{Extent, for_each_end, wide};
 use super::lighting::magnitude;
 use super::quadratic_products::plain;
 use super::{
-    Approximation, Carries, Chosen, Corners, Family, Info, Linear, Lit, Method, Needs, OneOf,
-    Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Approximation, Carries, Chosen, Corners, Family, Fit, Info, Linear, Lit, Method, Needs, On,
+    OneOf, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::reference::Model;
-use crate::scene::{Interpolation, Lighting, Place, SpecularGate, SpecularModel};
+use crate::scene::{Place, SpecularGate, SpecularModel};
 use glam::DVec3;
 
 /// The H-test. Ambient and diffuse light is that of vertices, interpolated as by Gouraud, so that there are no seams; normals are followed
@@ -119,9 +119,9 @@ impl Method for HTest {
     const KINDS: &'static [&'static str] = &["dull", "shining"];
     type Kinds = (Dull, Shining);
 
-    fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
+    fn on(on: On<'_>) -> Fit {
         let reason = "whether a highlight may be seen is known of lights and an eye at infinity";
-        lighting.is_local().then_some(reason)
+        on.each(|lighting, _| lighting.is_local().then_some(reason))
     }
     #[inline(always)]
     fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {

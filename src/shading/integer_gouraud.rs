@@ -4,13 +4,13 @@ use super::integers::{self, sum};
 use super::kernels::{Pixels, Vertices};
 use super::lighting::Uniforms;
 use super::{
-    Approximation, Colour, Constant, Entry, Family, Info, Kernels, Lit, LitAt, Local, Needs,
-    Perspective, Pixel, Shader, Span, Spans, Standing,
+    Approximation, Colour, Constant, Entry, Family, Fit, Info, Kernels, Lit, LitAt, Local, Needs,
+    On, Perspective, Pixel, Shader, Span, Spans, Standing,
 };
 use crate::integer::{self, Halfway, Highlight, NoHighlight, Reflection, Rgb888};
 use crate::number::{Num, Vec3, vec3};
 use crate::reference::Model;
-use crate::scene::{Interpolation, Lighting, SpecularModel};
+use crate::scene::SpecularModel;
 
 /// Gouraud shading in integers: colours by two additions a pixel, red and blue in one ([`crate::integer::gouraud`]). Vertices are lit by the
 /// loop of naive Phong shading.
@@ -77,8 +77,8 @@ impl Shader for Colours {
     type Carries = Colour;
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
-        integers::refuses(lighting, on, integers::LIGHTS)
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, how| integers::refuses(lighting, how, integers::LIGHTS))
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {

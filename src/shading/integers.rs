@@ -17,7 +17,7 @@ use super::kernels::{PixelKernel, Pixels};
 use super::lighting::Uniforms;
 use super::span::{PolygonConstants, Run};
 use super::{
-    Approximation, Constant, Corners, Info, Lit, Method, MethodParameter, Needs, Normal,
+    Approximation, Constant, Corners, Fit, Info, Lit, Method, MethodParameter, Needs, Normal, On,
     Perspective, Pixel, Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Spans, Stepped,
     UniformsIndex, Value, Variant,
 };
@@ -92,10 +92,12 @@ impl<const LIGHTS: usize> Shader for Normals<LIGHTS> {
     type Carries = Normal;
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
-        let is_halfway = lighting.specular == SpecularModel::Blinn;
-        refuses(lighting, on, LIGHTS).or((LIGHTS == 1 && is_halfway)
-            .then_some("as printed, its highlights are those of R.V, not of N.H"))
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, how| {
+            let is_halfway = lighting.specular == SpecularModel::Blinn;
+            refuses(lighting, how, LIGHTS).or((LIGHTS == 1 && is_halfway)
+                .then_some("as printed, its highlights are those of R.V, not of N.H"))
+        })
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
@@ -121,8 +123,8 @@ impl Shader for Circles {
     type Carries = Normal;
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
-        refuses(lighting, on, 1)
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, how| refuses(lighting, how, 1))
     }
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {

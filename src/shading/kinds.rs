@@ -1,10 +1,8 @@
 //! Methods as kernels compile them: of one way to shade, or of one for each kind of polygons.
 
 use super::planes::{count, each};
-use super::{Carries, Corners, Info, LightModel, Lit, Needs, Shader, Value};
-use crate::frame::Frame;
+use super::{Carries, Corners, Fit, Info, LightModel, Lit, Needs, On, Shader, Value};
 use crate::number::{Num, Real};
-use crate::scene::{Interpolation, Lighting};
 
 /// A method as kernels compile it. Every [`Shader`] is one, of a single kind. A method that shades polygons of several kinds says how
 /// it chooses: each kind is a [`Shader`] of its own, or another method's, and has its own loop, constants and walk. Such methods are
@@ -19,18 +17,9 @@ pub trait Method: Copy + Default + 'static {
     /// The kinds: a tuple of up to five that carry the same.
     type Kinds: Kinds;
 
-    /// As [`Shader::refuses`].
-    fn refuses(frame: &Frame) -> Option<&'static str> {
-        let mut all = frame.lightings().iter();
-        all.find_map(|lighting| Self::refuses_light(lighting, frame.interpolation()))
-    }
-    /// As [`Shader::refuses_light`].
-    fn refuses_light(_lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
-        None
-    }
-    /// As [`Shader::stands_in`].
-    fn stands_in(_frame: &Frame) -> Option<&'static str> {
-        None
+    /// Says whether it draws a frame, or spans of a material: see [`Shader::on`].
+    fn on(_: On<'_>) -> Fit {
+        Fit::Draws
     }
     /// Makes the method: see [`Shader::new`].
     #[inline(always)]
@@ -62,14 +51,8 @@ impl<S: Shader> Method for S {
     const KINDS: &'static [&'static str] = &[];
     type Kinds = (S,);
 
-    fn refuses(frame: &Frame) -> Option<&'static str> {
-        S::refuses(frame)
-    }
-    fn refuses_light(lighting: &Lighting, on: Interpolation) -> Option<&'static str> {
-        S::refuses_light(lighting, on)
-    }
-    fn stands_in(frame: &Frame) -> Option<&'static str> {
-        S::stands_in(frame)
+    fn on(on: On<'_>) -> Fit {
+        S::on(on)
     }
     #[inline(always)]
     fn new(parameters: &[Value], model: &LightModel) -> Self {

@@ -5,13 +5,13 @@ use super::increments::{Constant, LARGEST_ANGLE, Linear};
 use super::lighting::LightModel;
 use super::slerp_phong::SlerpPhong;
 use super::{
-    Approximation, Corners, Family, Info, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader,
-    Span, Stepped, Value,
+    Approximation, Corners, Family, Fit, Info, Lit, Needs, Normal, On, PerLight, Pixel, Roundings,
+    Shader, Span, Stepped, Value,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;
-use crate::scene::{Falloff, Interpolation, Lighting, SpecularGate, SpecularModel};
+use crate::scene::{Falloff, SpecularGate, SpecularModel};
 
 /// Angular interpolation for highlights by the half vector, for up to `L` lights. Let m be the normal in the middle of a span, e the
 /// unit vector across it in the plane of the great circle, and φ the angle of the span. Whatever is not in that plane does not matter:
@@ -137,12 +137,14 @@ impl<const L: usize> Shader for KuijkBlake<L> {
     type Carries = Normal;
     type Walk<F: Num> = (Linear<Pair<F, L>>, Constant<Pair<F, L>>); // angles; p and qⁿ
 
-    fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
-        if lighting.specular != SpecularModel::Blinn {
-            return Some("it follows the angle of N.H, and these highlights are R.V");
-        }
-        let is_low = lighting.shininess < 1.0;
-        is_low.then_some("its parabolas are for exponents from 1 on")
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, _| {
+            if lighting.specular != SpecularModel::Blinn {
+                return Some("it follows the angle of N.H, and these highlights are R.V");
+            }
+            let is_low = lighting.shininess < 1.0;
+            is_low.then_some("its parabolas are for exponents from 1 on")
+        })
     }
     #[inline(always)]
     fn new(_: &[Value], model: &LightModel) -> Self {

@@ -25,6 +25,7 @@ mod cell;
 mod count;
 mod exponent;
 pub(crate) mod extent;
+mod fit;
 mod info;
 mod kernels;
 mod kinds;
@@ -92,6 +93,7 @@ pub use carries::{
 #[cfg(feature = "simd")]
 pub(crate) use cell::CellLayout;
 pub use count::OperationCounts;
+pub use fit::{Fit, On};
 pub use increments::{Constant, Linear, Walk};
 pub use info::{
     Approximation, Auto, Family, Info, LitAt, Local, MethodParameter, Perspective, Range, Standing,
@@ -112,9 +114,7 @@ pub use span_shader::{SpanShader, SpanShaderError, SpanVertex};
 pub use table::{Entry, METHODS};
 pub use variant::Variant;
 
-use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3};
-use crate::scene::{Interpolation, Lighting};
 
 /// A shading method: what is computed once per vertex, along a span, and once per pixel.
 ///
@@ -131,20 +131,9 @@ pub trait Shader: Copy + Default + 'static {
     /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.
     type Walk<F: Num>: Walk<F>;
 
-    /// Returns the reason why it is not for a frame, if it is not, as a sentence without its full stop: no renderer draws the frame
-    /// with it then, and comparisons leave it out. It may ask for lights, positions, exponents, and the sides of polygons.
-    fn refuses(frame: &Frame) -> Option<&'static str> {
-        let mut all = frame.lightings().iter();
-        all.find_map(|lighting| Self::refuses_light(lighting, frame.interpolation()))
-    }
-    /// Returns the reason why it is not for a material with its lights, if it is not: then no frame and no span with it is drawn.
-    fn refuses_light(_lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
-        None
-    }
-    /// Returns the name of the method whose kernels draw a frame in its place, if it gains nothing there. That method has no parameters,
-    /// and the same closed form.
-    fn stands_in(_frame: &Frame) -> Option<&'static str> {
-        None
+    /// Says whether it draws a frame, or spans of a material. It may ask for lights, positions, exponents, and the sides of polygons.
+    fn on(_: On<'_>) -> Fit {
+        Fit::Draws
     }
     /// Makes the method for `parameters`, in the order of [`Info::parameters`], on a material.
     #[inline(always)]

@@ -3,9 +3,8 @@
 use super::duff_half::refuses_light;
 use super::increments::{Chebyshev, GreatCircle};
 use super::slerp_chebyshev::SlerpChebyshev;
-use super::{Corners, Info, Lit, Needs, Normal, PerLight, Pixel, Shader, Span};
+use super::{Corners, Fit, Info, Lit, Needs, Normal, On, PerLight, Pixel, Shader, Span};
 use crate::number::{Num, Real, Vec3};
-use crate::scene::{Interpolation, Lighting};
 
 /// Slerp Phong shading for highlights by the half vector, for up to `L` lights: `J = L·N` and `M = H·N` along a great circle
 /// by two additions and a product each, with no root, no division and nothing else at a pixel but the light model.
@@ -35,8 +34,8 @@ impl<const L: usize> Shader for SlerpHalf<L> {
     type Carries = Normal;
     type Walk<F: Num> = Chebyshev<F, (PerLight<F, L>, PerLight<F, L>)>; // J and M of each light
 
-    fn refuses_light(lighting: &Lighting, _: Interpolation) -> Option<&'static str> {
-        refuses_light(lighting)
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, _| refuses_light(lighting))
     }
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {

@@ -2,7 +2,7 @@
 
 use super::increments::GreatCircle;
 use super::lighting::Uniforms;
-use super::{Extras, Local, OperationCounts, Variant, integers, ramp};
+use super::{Extras, Local, On, OperationCounts, Variant, integers, ramp};
 use crate::mesh::Material;
 use crate::number::vec3;
 use crate::scene::{Falloff, Interpolation, Light, Lighting, Place, Power};
@@ -108,7 +108,7 @@ impl SpanBench {
             true => Interpolation::Perspective,
             false => Interpolation::Screen,
         };
-        (variant.entry().refuses_light)(&self.lighting, interpolation)
+        (variant.entry().fit)(On::Spans(&self.lighting, interpolation)).refused()
     }
 
     /// Returns the uniforms of a method at `scale`.

@@ -2,7 +2,7 @@
 
 use super::lighting::Uniforms;
 use super::{
-    Corners, Extras, Kernels, Local, Perspective, Pixels, PolygonConstants, Run, RunList,
+    Corners, Extras, Kernels, Local, On, Perspective, Pixels, PolygonConstants, Run, RunList,
     SpanPlace, UniformsIndex, Variant, Vertices, ramp,
 };
 use crate::frame::{FrameError, guard};
@@ -40,7 +40,7 @@ impl SpanVertex {
 /// The reason why a [`SpanShader`] could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpanShaderError {
-    /// The method is not for such a material, with the reason: see [`Shader::refuses_light`](super::Shader::refuses_light).
+    /// The method is not for such a material, with the reason: see [`Shader::on`](super::Shader::on).
     Refused(&'static str),
     /// Too many lights, or a number outside its range; the material is number 0.
     Lighting(FrameError),
@@ -120,7 +120,7 @@ impl SpanShader {
         interpolation: Interpolation,
     ) -> Result<Self, SpanShaderError> {
         let lighting = &guard::lit(lighting, 0).map_err(SpanShaderError::Lighting)?;
-        if let Some(reason) = (variant.entry().refuses_light)(lighting, interpolation) {
+        if let Some(reason) = (variant.entry().fit)(On::Spans(lighting, interpolation)).refused() {
             return Err(SpanShaderError::Refused(reason));
         }
         let (entry, lights) = (variant.entry(), lighting.lights.len());

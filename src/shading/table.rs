@@ -33,12 +33,11 @@ use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
 use super::stereographic_phong::StereographicPhong;
 use super::{
-    Extras, Info, Kernels, LitAt, Local, Method, Needs, Perspective, Variant, integer_fast,
-    integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed, integer_quadratic,
-    integer_slerp,
+    Extras, Fit, Info, Kernels, LitAt, Local, Method, Needs, On, Perspective, Variant,
+    integer_fast, integer_fast_printed, integer_gouraud, integer_naive, integer_naive_printed,
+    integer_quadratic, integer_slerp,
 };
 use crate::frame::Frame;
-use crate::scene::{Interpolation, Lighting};
 
 /// All shading methods.
 pub static METHODS: &[Entry] = &TABLE;
@@ -123,12 +122,8 @@ pub struct Entry {
     pub info: &'static Info,
     /// What it needs of engines.
     pub needs: Needs,
-    /// Returns the reason why it is not for a frame: [`Shader::refuses`].
-    pub(crate) refuses: fn(&Frame) -> Option<&'static str>,
-    /// Returns the reason why it is not for a material: [`Shader::refuses_light`].
-    pub(super) refuses_light: fn(&Lighting, Interpolation) -> Option<&'static str>,
-    /// Returns the name of the method that draws a frame in its place, if one does: [`Shader::stands_in`].
-    stands_in: fn(&Frame) -> Option<&'static str>,
+    /// Says whether it draws a frame, or spans of a material: [`Shader::on`](super::Shader::on).
+    pub(crate) fit: fn(On<'_>) -> Fit,
     /// True if its loops compute in integers, for processors without a floating-point unit.
     pub is_integer: bool,
     directional: ByLights,
@@ -182,9 +177,7 @@ impl Entry {
         Entry {
             info: &A::INFO,
             needs: A::NEEDS,
-            refuses: A::refuses,
-            refuses_light: A::refuses_light,
-            stands_in: A::stands_in,
+            fit: A::on,
             is_integer: false,
             directional: all,
             positional: all,
@@ -232,9 +225,10 @@ impl Entry {
 
     /// Returns the row whose kernels draw a frame: its own, or the one that stands in for it there.
     pub(crate) fn on(&'static self, frame: &Frame) -> &'static Entry {
-        (self.stands_in)(frame).map_or(self, |name| {
-            Entry::named(name).expect("a method stands in by its name")
-        })
+        match (self.fit)(On::Frame(frame)) {
+            Fit::LeavesTo(name) => Entry::named(name).expect("a method stands in by its name"),
+            _ => self,
+        }
     }
 
     /// Returns the reason why it is drawn by scalar code only, if it is.
@@ -402,11 +396,8 @@ mod tests {
         type Carries = Normal;
         type Walk<F: Num> = Linear<Vec3<F>>;
 
-        fn refuses(frame: &Frame) -> Option<&'static str> {
-            (frame.light_count() > 1).then_some("it knows one light")
-        }
-        fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-            n
+        fn on(on: On<'_>) -> Fit {
+            on.each(|lighting, _| (lighting.lights.len() > 1).then_some("it knows one light"))
         }
         fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
             span.linear()
