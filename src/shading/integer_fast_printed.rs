@@ -1,40 +1,32 @@
 //! Fast Phong shading in integers, as the lecture prints it: three divisions a pixel: an exhibit.
 
 use super::integers::{self, Line, Normals, sum};
-use super::{Approximation, Entry, Family, Info, Kernels, Roundings, Standing, Stepped, Value};
+use super::{Approximation, Family, Info, Roundings, Standing, Stepped, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
-use crate::reference::Model;
+use crate::number::Counts;
 
 /// `Span::fast_as_printed` of [`crate::integer`].
-struct FastPrinted;
+pub(super) struct FastPrinted;
 
-type Shell = Normals<1>;
-
-const INFO: Info = Info {
-    name: "integer-fast-printed",
-    ids: &[],
-    family: Family::Roots,
-    standing: Standing::Exhibit,
-    title: "fast Phong shading in integers, as the lecture prints it: three divisions a pixel",
-    formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  d_next = (d + N.N / d) / 2\n\
+impl Line for FastPrinted {
+    const INFO: Info = Info {
+        name: "integer-fast-printed",
+        family: Family::Roots,
+        standing: Standing::Exhibit,
+        title: "fast Phong shading in integers, as the lecture prints it: three divisions a pixel",
+        formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  d_next = (d + N.N / d) / 2\n\
               I = table(J / d) + table(2 J K / (N.N) - L.V)",
-    source: "L21 4.2, 4.3, eq 4.3, 4.4, 4.6",
-    claimed: "",
-    model: Model::PhongConstant,
-    roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
-    derivation: "no bound: one step of Newton's from the pixel before follows |N| where a pixel turns little",
-    approximation: |_, _, _| Approximation::NONE,
-    fails: "where normals turn by more than some 2 degrees a pixel; it knows one light, at infinity, and highlights by R.V only",
-    has_power: false,
-    parameters: &[],
-};
+        source: "L21 4.2, 4.3, eq 4.3, 4.4, 4.6",
+        roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
+        derivation: "no bound: one step of Newton's from the pixel before follows |N| where a pixel turns little",
+        approximation: |_, _, _| Approximation::NONE,
+        fails: "where normals turn by more than some 2 degrees a pixel; it knows one light, at infinity, and highlights by R.V only",
+        ..integers::INFO
+    };
+    type Shell = Normals<1>;
+    const LIGHTS: usize = 1;
 
-static KERNELS: Kernels =
-    Kernels::of_functions::<Shell>(integers::pixels::<FastPrinted>, integers::WHY);
-
-/// The row of the method table.
-pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench, variant| {
-    integers::counted::<Shell>(bench, variant, integers::pixels::<FastPrinted>, 1, |_| {
+    fn counts(_: u32, _: &[Value]) -> [Counts; 3] {
         [
             sum([
                 (1, integers::RECIPROCAL),
@@ -57,10 +49,7 @@ pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench,
                 (1, integers::colour(1, true)),
             ]),
         ]
-    })
-});
-
-impl Line for FastPrinted {
+    }
     fn shade<H: Highlight, const L: usize>(
         _: &[Value],
         span: Span,

@@ -49,7 +49,7 @@ static KERNELS: Kernels = Kernels {
 };
 
 /// The row of the method table.
-pub(super) const ENTRY: Entry = Entry::integer::<Colours>(&INFO, &KERNELS, |bench, variant| {
+pub(super) const ENTRY: Entry = Entry::integer_of::<Colours>(&INFO, &KERNELS, |bench, variant| {
     integers::counted::<Colours>(bench, variant, pixels, integers::LIGHTS, |_| {
         [
             sum([

@@ -1,39 +1,29 @@
 //! Naive Phong shading in integers, as the lecture prints it: an exhibit.
 
 use super::integers::{self, Form, Line, Normals, sum};
-use super::{Entry, Family, Info, Kernels, Standing, Value};
+use super::{Family, Info, Standing, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
-use crate::reference::Model;
+use crate::number::Counts;
 
 /// `Span::naive_as_printed` of [`crate::integer`].
-struct NaivePrinted;
+pub(super) struct NaivePrinted;
 
-type Shell = Normals<1>;
+impl Line for NaivePrinted {
+    const INFO: Info = Info {
+        name: "integer-naive-printed",
+        family: Family::Roots,
+        standing: Standing::Exhibit,
+        title: "naive Phong shading in integers, as the lecture prints it",
+        formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  I = table(L.N_unit) + table(R.V)",
+        source: "L21 4.1, eq 4.1, 4.2",
+        approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Refined),
+        fails: "where normals turn by more than 90 degrees over a polygon; it knows one light, at infinity, and highlights by R.V only",
+        ..integers::INFO
+    };
+    type Shell = Normals<1>;
+    const LIGHTS: usize = 1;
 
-const INFO: Info = Info {
-    name: "integer-naive-printed",
-    ids: &[],
-    family: Family::Roots,
-    standing: Standing::Exhibit,
-    title: "naive Phong shading in integers, as the lecture prints it",
-    formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  I = table(L.N_unit) + table(R.V)",
-    source: "L21 4.1, eq 4.1, 4.2",
-    claimed: "",
-    model: Model::PhongConstant,
-    roundings: integers::ROUNDINGS,
-    derivation: integers::DERIVATION,
-    approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Refined),
-    fails: "where normals turn by more than 90 degrees over a polygon; it knows one light, at infinity, and highlights by R.V only",
-    has_power: false,
-    parameters: &[],
-};
-
-static KERNELS: Kernels =
-    Kernels::of_functions::<Shell>(integers::pixels::<NaivePrinted>, integers::WHY);
-
-/// The row of the method table.
-pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench, variant| {
-    integers::counted::<Shell>(bench, variant, integers::pixels::<NaivePrinted>, 1, |_| {
+    fn counts(_: u32, _: &[Value]) -> [Counts; 3] {
         [
             sum([
                 (1, integers::RECIPROCAL),
@@ -50,10 +40,7 @@ pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench,
                 (1, integers::colour(1, true)),
             ]),
         ]
-    })
-});
-
-impl Line for NaivePrinted {
+    }
     fn shade<H: Highlight, const L: usize>(
         _: &[Value],
         span: Span,

@@ -1,39 +1,34 @@
 //! Slerp Phong shading in integers.
 
 use super::integers::{self, Circles, Form, Line, sum};
-use super::{Entry, Family, Info, Kernels, Standing, Value};
+use super::kernels::PixelKernel;
+use super::{Family, Info, Value};
 use crate::integer::{Highlight, Light, Rgb888, Span};
+use crate::number::Counts;
 use crate::reference::Model;
 
 /// J and K along great circles by two additions and a product each: `Span::slerp` of [`crate::integer`].
-struct Waves;
+pub(super) struct Waves;
 
-type Shell = Circles;
-
-const INFO: Info = Info {
-    name: "integer-slerp",
-    ids: &[],
-    family: Family::Angles,
-    standing: Standing::Asked,
-    title: "J = L.N and K = V.N along great circles, in integers",
-    formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 2 (1 - cos d), d the angle of a pixel;  K likewise\n\
+impl Line for Waves {
+    const INFO: Info = Info {
+        name: "integer-slerp",
+        family: Family::Angles,
+        title: "J = L.N and K = V.N along great circles, in integers",
+        formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 2 (1 - cos d), d the angle of a pixel;  K likewise\n\
               I = table(J) + table(2 J K - L.V)",
-    source: "L21 4.4, eq 4.7; Barrera, Hast, Bengtsson 2004",
-    claimed: "",
-    model: Model::Slerp,
-    roundings: integers::CIRCLE_ROUNDINGS,
-    derivation: integers::DERIVATION,
-    approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Waves),
-    fails: "where normals turn by more than 90 degrees along a span; it knows one light, at infinity",
-    has_power: false,
-    parameters: &[],
-};
+        source: "L21 4.4, eq 4.7; Barrera, Hast, Bengtsson 2004",
+        model: Model::Slerp,
+        roundings: integers::CIRCLE_ROUNDINGS,
+        approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Waves),
+        fails: "where normals turn by more than 90 degrees along a span; it knows one light, at infinity",
+        ..integers::INFO
+    };
+    type Shell = Circles;
+    const LIGHTS: usize = 1;
+    const PIXELS: PixelKernel = integers::circles::<Self>;
 
-static KERNELS: Kernels = Kernels::of_functions::<Shell>(integers::circles::<Waves>, integers::WHY);
-
-/// The row of the method table.
-pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench, variant| {
-    integers::counted::<Shell>(bench, variant, integers::circles::<Waves>, 1, |_| {
+    fn counts(_: u32, _: &[Value]) -> [Counts; 3] {
         [
             // θ, φ and their sines by series, and the first differences of J and K
             sum([
@@ -49,10 +44,7 @@ pub(super) const ENTRY: Entry = Entry::integer::<Shell>(&INFO, &KERNELS, |bench,
             sum([(4, integers::ADDITION), (2, integers::UNIT_COSINE)]),
             sum([(1, integers::REFLECTION), (1, integers::colour(1, true))]),
         ]
-    })
-});
-
-impl Line for Waves {
+    }
     fn shade<H: Highlight, const L: usize>(
         _: &[Value],
         span: Span,

@@ -26,6 +26,7 @@ use crate::integer::{
     self, ErrorBound, Halfway, Highlight, Light, Material, NoHighlight, Reflection, Rgb888, Vector,
 };
 use crate::number::{Counts, Num, Real, Vec3, vec3};
+use crate::reference::Model;
 use crate::scene::{Interpolation, Lighting, Place, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -64,8 +65,30 @@ pub(super) fn steps(parameters: &[Value]) -> u32 {
     parameters[0].whole().unwrap_or(0)
 }
 
-/// A method's loop over a piece of a span.
-pub(super) trait Line {
+/// A description to begin from.
+pub(super) const INFO: Info = Info {
+    roundings: ROUNDINGS,
+    derivation: DERIVATION,
+    approximation: |frame, polygon, _| approximation(frame, polygon, Form::Table),
+    fails: FAILS,
+    has_power: false,
+    model: Model::PhongConstant,
+    ..Info::OF_PIXELS
+};
+
+/// A method: its loop over a piece of a span.
+pub(super) trait Line: Sized + 'static {
+    /// The description of the method.
+    const INFO: Info;
+    /// What it asks of engines: [`Normals`] or [`Circles`].
+    type Shell: Method;
+    /// The most lights that it knows.
+    const LIGHTS: usize = LIGHTS;
+    /// Shades runs by its loop.
+    const PIXELS: PixelKernel = pixels::<Self>;
+
+    /// Returns the operations of a span's set-up, of a step and of a pixel with so many lights, as the loops stand.
+    fn counts(lights: u32, parameters: &[Value]) -> [Counts; 3];
     /// Shades `line` from the normal at its first pixel to that at the pixel after its last.
     fn shade<H: Highlight, const L: usize>(
         parameters: &[Value],

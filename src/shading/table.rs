@@ -17,6 +17,7 @@ use super::gouraud::Gouraud;
 use super::gouraud_separate::GouraudSeparate;
 use super::h_test::HTest;
 use super::half_reflection::HalfReflection;
+use super::integers::{self, Line};
 use super::kuijk_blake::KuijkBlake;
 use super::naive_phong::NaivePhong;
 use super::phong_map::PhongMap;
@@ -101,12 +102,12 @@ static TABLE: [Entry; 38] = [
     Entry::of::<PhongMap>(),
     Entry::by_lights::<KuijkBlake<1>, KuijkBlake<4>, KuijkBlake<8>, KuijkBlake<64>>(),
     integer_gouraud::ENTRY,
-    integer_naive::ENTRY,
-    integer_fast::ENTRY,
-    integer_quadratic::ENTRY,
-    integer_slerp::ENTRY,
-    integer_naive_printed::ENTRY,
-    integer_fast_printed::ENTRY,
+    Entry::integer::<integer_naive::Naive>(),
+    Entry::integer::<integer_fast::Fast>(),
+    Entry::integer::<integer_quadratic::Parabolas>(),
+    Entry::integer::<integer_slerp::Waves>(),
+    Entry::integer::<integer_naive_printed::NaivePrinted>(),
+    Entry::integer::<integer_fast_printed::FastPrinted>(),
 ];
 
 /// Kernels for 1 light, up to 4, up to 8 and up to 64.
@@ -151,8 +152,18 @@ impl Entry {
         }
     }
 
+    /// Makes the row of a method in integers by its loop.
+    pub(super) const fn integer<L: Line>() -> Entry {
+        let kernels = const { &Kernels::of_functions::<L::Shell>(L::PIXELS, integers::WHY) };
+        Entry::integer_of::<L::Shell>(&L::INFO, kernels, |bench, variant| {
+            integers::counted::<L::Shell>(bench, variant, L::PIXELS, L::LIGHTS, |lights| {
+                L::counts(lights, variant.parameters())
+            })
+        })
+    }
+
     /// Makes the row of a method in integers: as [`Entry::of_kernels`], with a function that says what its loops take.
-    pub(super) const fn integer<M: Method>(
+    pub(super) const fn integer_of<M: Method>(
         info: &'static Info,
         kernels: &'static Kernels,
         count: CountSpan,
