@@ -11,7 +11,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion
 use fastphong::number::{Num, Vec3};
 use fastphong::picture::Picture;
 use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::shading::{Entry, Info, Linear, Lit, Shader, Span};
+use fastphong::shading::{Entry, Info, Linear, Lit, Normal, Shader, Span};
 use std::hint::black_box;
 
 /// A copy of `src/shading/naive_phong.rs`.

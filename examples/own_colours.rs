@@ -14,7 +14,9 @@ use fastphong::mesh::obj::{load_obj, parse_obj};
 use fastphong::number::{Num, Vec3, vec3};
 use fastphong::raster::{DrawOptions, Renderer};
 use fastphong::scene::{Interpolation, Projection, Scene};
-use fastphong::shading::{Entry, Info, Linear, Lit, Perspective, Shader, Span};
+use fastphong::shading::{
+    Carried, Carries, Entry, Info, Linear, Lit, Needs, Perspective, Shader, Span,
+};
 use std::error::Error;
 use std::io::Write;
 

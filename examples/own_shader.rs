@@ -13,7 +13,7 @@
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;
 use fastphong::shading::{
-    Entry, Info, LightModel, Linear, Lit, MethodParameter, Shader, Span, Value,
+    Entry, Info, LightModel, Linear, Lit, MethodParameter, Normal, Shader, Span, Value,
 };
 use std::io::Write;
 

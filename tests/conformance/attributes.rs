@@ -9,7 +9,9 @@ use fastphong::number::{Num, Vec3 as Vector, vec3};
 use fastphong::picture::LinearPicture;
 use fastphong::raster::{Edges, checkerboard, vertex_colours};
 use fastphong::scene::{Camera, Culling, Interpolation, Object, Projection, Scene};
-use fastphong::shading::{Entry, Info, Linear, Lit, Perspective, Shader, Span};
+use fastphong::shading::{
+    Carried, Carries, Entry, Info, Linear, Lit, Needs, Perspective, Shader, Span,
+};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
