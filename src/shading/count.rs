@@ -143,10 +143,9 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     let pairs = ends[0].iter().zip(&ends[1]);
     let [mut first, mut second] = [Vec::new(), Vec::new()];
     for (a, b) in pairs {
-        let [at, step] = match M::NEEDS.reads_span() {
-            true => [*a, *b],
-            false if is_polygon => [*a, zero],
-            false => ramp(*a, *b, t0, dt),
+        let [at, step] = match is_polygon {
+            true => [*a, zero],
+            false => M::NEEDS.start([*a, *b], t0, dt),
         };
         first.push(at);
         second.push(step);

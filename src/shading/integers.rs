@@ -533,21 +533,21 @@ pub(super) fn counted<M: Method>(
         (variant.entry().kernels(1, false).vertices)(&job, &mut varying);
         varying
     });
-    list.starts.push(ends[0], ends[1]);
-    list.runs.push(Run {
+    let run = Run {
         uniforms: UniformsIndex(0),
         polygon: 0,
         x: 0,
         pixels: 1,
-    });
+    };
     let [t0, dt] = SpanBench::SPAN;
-    list.places.push(SpanPlace {
+    let place = SpanPlace {
         y: 0,
         t0,
         dt,
         start: 0,
         pixels: SpanBench::PIXELS,
-    });
+    };
+    list.add(M::NEEDS, run, [&ends[0], &ends[1]], place);
     let job = Pixels {
         parameters: variant.parameters(),
         uniforms: core::slice::from_ref(&uniforms),

@@ -1,6 +1,7 @@
 //! What a method needs of engines: one constant value, by which they and its kernels decide what to compute, keep and compile.
 
-use super::{LitAt, Local, Perspective};
+use super::{LitAt, Local, Perspective, ramp};
+use crate::number::Num;
 
 /// What a method needs of engines; [`Needs::PIXELS`] to begin from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +49,14 @@ impl Needs {
     /// True if engines keep the ends of spans, and their place.
     pub const fn reads_span(self) -> bool {
         !matches!(self.spans, Spans::Pixels)
+    }
+    /// Returns the two numbers that a walk starts a varying from, given those at the ends of its span.
+    #[inline(always)]
+    pub(crate) fn start<F: Num>(self, [a, b]: [F; 2], t0: F, dt: F) -> [F; 2] {
+        match self.reads_span() {
+            true => [a, b],
+            false => ramp(a, b, t0, dt),
+        }
     }
     /// True if edges carry normals along great circles.
     pub const fn great_circles(self) -> bool {

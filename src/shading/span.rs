@@ -2,7 +2,7 @@
 
 use super::increments::Linear;
 use super::planes::each;
-use super::{Kinds, Method, Planes, Shader, UniformsIndex, Varying};
+use super::{Kinds, Method, Needs, Planes, Shader, UniformsIndex, Varying};
 use crate::number::{Num, Vec3};
 use alloc::vec::Vec;
 
@@ -99,6 +99,18 @@ impl RunList {
     pub fn prepare(&mut self, count: usize) {
         self.clear();
         self.starts.count = count;
+    }
+
+    /// Adds a run of a span: what its walk starts from, given the varyings at both ends, and its place if the method asks for it.
+    pub fn add(&mut self, needs: Needs, run: Run, [a, b]: [&[f32]; 2], place: SpanPlace) {
+        let [first, second] = self.starts.add();
+        for i in 0..first.len() {
+            [first[i], second[i]] = needs.start([a[i], b[i]], place.t0, place.dt);
+        }
+        self.runs.push(run);
+        if needs.reads_span() {
+            self.places.push(place);
+        }
     }
 
     pub fn clear(&mut self) {

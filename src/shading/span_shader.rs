@@ -3,7 +3,7 @@
 use super::lighting::Uniforms;
 use super::{
     Corners, Extras, Kernels, Local, On, Perspective, Pixels, PolygonConstants, Run, RunList,
-    SpanPlace, UniformsIndex, Variant, Vertices, ramp,
+    SpanPlace, UniformsIndex, Variant, Vertices,
 };
 use crate::frame::{FrameError, guard};
 use crate::scene::{Interpolation, Lighting};
@@ -237,31 +237,23 @@ impl SpanShader {
         let dt = if x2 > x1 { 1.0 / (x2 - x1) } else { 0.0 };
         let t0 = (first as f32 + 0.5 - x1) * dt;
         self.list.clear();
-        let [at, step] = self.list.starts.add();
-        for i in 0..self.varyings {
-            [at[i], step[i]] = match self.kernels.needs.reads_span() {
-                true => [left[i], right[i]],
-                false => ramp(left[i], right[i], t0, dt),
-            };
-        }
-        self.list.runs.push(Run {
+        // The first column whose centre is not left of an end; the line that is asked for lies between.
+        let centre = |x: f32| libm::ceilf(x - 0.5).max(0.0) as u32;
+        let (last, start) = (first + colours.len() as u32, centre(x1).min(first));
+        let run = Run {
             uniforms: UniformsIndex(0),
             polygon: 0,
             x: first,
             pixels: colours.len() as u32,
-        });
-        if self.kernels.needs.reads_span() {
-            // The first column whose centre is not left of an end; the line that is asked for lies between.
-            let centre = |x: f32| libm::ceilf(x - 0.5).max(0.0) as u32;
-            let (last, start) = (first + colours.len() as u32, centre(x1).min(first));
-            self.list.places.push(SpanPlace {
-                y: row,
-                t0,
-                dt,
-                start,
-                pixels: centre(x2).max(last) - start,
-            });
-        }
+        };
+        let place = SpanPlace {
+            y: row,
+            t0,
+            dt,
+            start,
+            pixels: centre(x2).max(last) - start,
+        };
+        self.list.add(self.kernels.needs, run, [left, right], place);
         let job = Pixels {
             parameters: self.variant.parameters(),
             uniforms: core::slice::from_ref(&self.uniforms[1]),

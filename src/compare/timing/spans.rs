@@ -5,7 +5,7 @@ use crate::number::{Level, vec3};
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
     CellLayout, Corner, Corners, Extras, Kernels, Pixels, PolygonConstants, RowColours, Run,
-    RunList, ShadeRow, SpanBench, SpanPlace, UniformsIndex, Variant, Vertices, ramp,
+    RunList, ShadeRow, SpanBench, SpanPlace, UniformsIndex, Variant, Vertices,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -87,30 +87,21 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
         )];
     }
     let mut list = RunList::new(varyings);
-    let [first, second] = list.starts.add();
-    for i in 0..varyings {
-        let ends = [ends[i], ends[varyings + i]];
-        [first[i], second[i]] = match kernels.needs.reads_span() {
-            true => ends,
-            false => ramp(ends[0], ends[1], 0.5 * dt, dt),
-        };
-    }
-    list.runs.push(Run {
+    let run = Run {
         uniforms: UniformsIndex(0),
         polygon: 0,
         x: 0,
         pixels: pixels as u32,
-    });
-    if kernels.needs.reads_span() {
-        let t0 = 0.5 * dt;
-        list.places.push(SpanPlace {
-            y: 0,
-            t0,
-            dt,
-            start: 0,
-            pixels: pixels as u32,
-        });
-    }
+    };
+    let place = SpanPlace {
+        y: 0,
+        t0: 0.5 * dt,
+        dt,
+        start: 0,
+        pixels: pixels as u32,
+    };
+    let (left, right) = ends[..2 * varyings].split_at(varyings);
+    list.add(kernels.needs, run, [left, right], place);
     Started {
         kernels,
         extras,
