@@ -80,7 +80,7 @@ pub enum DrawError {
     DepthNotTested,
     /// A depth buffer was given for a frame whose own is rounded to so many bits.
     DepthRounded(DepthBits),
-    /// The method is not for such frames, with the reason: see [`Shader::refuses`](crate::shading::Shader::refuses).
+    /// The method is not for such frames, with the reason: see [`Shader::on`](crate::shading::Shader::on).
     Refused(&'static str),
 }
 

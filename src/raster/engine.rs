@@ -105,7 +105,7 @@ pub enum Plan {
         /// The reason, as a sentence without its full stop.
         reason: &'static str,
     },
-    /// The method is not for such frames ([`crate::shading::Shader::refuses`]), with the reason: no renderer draws it.
+    /// The method is not for such frames ([`crate::shading::Shader::on`]), with the reason: no renderer draws it.
     Refused(&'static str),
 }
 

@@ -578,7 +578,7 @@ impl<'a, F: Num> Lit<'a, F> {
     }
 
     /// Returns a vector in the frame of the eye and the first light: z is toward the eye, and the light in the plane of x and z. For
-    /// methods that see lights and eye at infinity, and say so by [`Shader::TURNS_NORMALS`](super::Shader::TURNS_NORMALS).
+    /// methods that see lights and eye at infinity, and say so by [`Carried::Turned`](super::Carried::Turned).
     #[inline(always)]
     pub(super) fn framed(&self, v: Vec3<F>) -> Vec3<F> {
         debug_assert!(
