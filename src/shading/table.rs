@@ -292,6 +292,7 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Normal, Shader};
     use super::*;
     use crate::number::{Level, Num, Vec3};
     use crate::shading::{Linear, Lit, Span};
@@ -346,7 +347,7 @@ mod tests {
 
         const INFO: Info = Info {
             name: "integer-gouraud",
-            ..<Gouraud as Shader>::INFO
+            ..<Gouraud as Method>::INFO
         };
         static KERNELS: Kernels = Kernels::of_functions::<Gouraud>(pixels, "it is integers");
         pub static ENTRY: Entry = Entry::of_kernels::<Gouraud>(&INFO, &KERNELS);
