@@ -57,20 +57,15 @@ pub struct Cubics<const L: usize>;
 impl<const L: usize> Shader for Cubics<L> {
     type Constants<F: Num> = [F; 2]; // the line
     type Carries = Normal;
-    type Walk<F: Num> = (PerLight<Cubic<F>, L>, Cubic<F>); // J of each light, K
+    type Walk<F: Num> = Cubic<(PerLight<F, L>, F)>; // J of each light, K
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let Linear { at: n, step: dn } = span.linear();
-        let ((j, k), (dj, dk)) = (lit.products::<L>(n), lit.products::<L>(dn));
         let [k0, k1] = span.constants().map(|k| lit.zero().of_each(|_| k));
         let half = n.dot(dn);
         let line = [k0 + k1 * n.dot(n), k1 * (half + half), k1 * dn.dot(dn)];
-        let mut cubics = PerLight::new(lit.count(), Cubic::zero(lit.zero()));
-        for i in 0..lit.count() {
-            cubics.values[i] = Cubic::product([j.values[i], dj.values[i]], line);
-        }
-        (cubics, Cubic::product([k, dk], line))
+        Cubic::product([lit.products(n), lit.products(dn)], line)
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {

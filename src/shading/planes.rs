@@ -34,6 +34,16 @@ pub(crate) fn scaled<F: Num, P: Planes<F>>(value: P, factor: F) -> P {
     each(value, |_, number| *number = *number * factor)
 }
 
+/// Returns the sum of some values.
+#[inline(always)]
+pub(crate) fn sum<F: Num, P: Planes<F>, const N: usize>(all: [P; N]) -> P {
+    let mut sum = all[0];
+    for other in &all[1..] {
+        sum.zip(*other, |a, b| a + b);
+    }
+    sum
+}
+
 /// No number.
 impl<F: Num> Planes<F> for () {
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Products of unit normals as quadratics over a triangle: what methods share that make one per polygon.
 
 use super::increments::Quadratic;
-use super::planes::{each, scaled};
+use super::planes::{each, scaled, sum};
 use super::{Corner, Corners, Lit, Normal, PerLight, Pixel, Planes, Shader, Span};
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -134,16 +134,6 @@ pub(super) fn lagrange<R: Real, P: Planes<R>>(
         square(p * q * 2.0, p * s + q * r, r * s * 2.0),
         square(q * q, q * s, s * s),
     ]
-}
-
-/// Returns the sum of some values.
-#[inline(always)]
-fn sum<F: Num, P: Planes<F>, const N: usize>(all: [P; N]) -> P {
-    let mut sum = all[0];
-    for other in &all[1..] {
-        sum.zip(*other, |a, b| a + b);
-    }
-    sum
 }
 
 /// Returns the sum of some values, each times a factor.

@@ -2,6 +2,7 @@
 
 use super::Walk;
 use crate::number::Num;
+use crate::shading::planes::{Planes, each, scaled, sum};
 
 /// A cubic along a span, by forward differences.
 ///
@@ -12,56 +13,57 @@ use crate::number::Num;
 ///
 /// In `f32` each sum is rounded: after k steps F is off by at most `(k |F| + k²/2 |ΔF| + k³/6 |ΔΔF|) 2⁻²⁴`, with the largest values of each.
 /// Over n pixels ΔF is about the slope S over n, and ΔΔF the curvature C over n², so that this is at most `(|F| + S/2 + C/6) k 2⁻²⁴`.
+///
+/// A tuple of values steps together, as [`Linear`](super::Linear) steps it: additions of several cubics then share SIMD registers.
 #[derive(Clone, Copy, Debug)]
-pub struct Cubic<F> {
-    at: F,
-    first: F,
-    second: F,
-    third: F,
+pub struct Cubic<V> {
+    at: V,
+    first: V,
+    second: V,
+    third: V,
 }
 
-impl<F: Num> Cubic<F> {
+impl<V> Cubic<V> {
     /// Makes `a + b k + c k² + d k³` at step k.
     #[inline(always)]
-    pub fn new([a, b, c, d]: [F; 4]) -> Self {
-        let third = d * 6.0;
+    pub fn new<F: Num>([a, b, c, d]: [V; 4]) -> Self
+    where
+        V: Planes<F>,
+    {
+        let third = each(d, |_, d: &mut F| *d = *d * 6.0);
         Cubic {
             at: a,
-            first: b + (c + d),
-            second: c + c + third,
+            first: sum([b, sum([c, d])]),
+            second: sum([c, c, third]),
             third,
-        }
-    }
-
-    /// Makes 0.
-    #[inline(always)]
-    pub fn zero(like: F) -> Self {
-        let zero = like.broadcast(0.0);
-        Cubic {
-            at: zero,
-            first: zero,
-            second: zero,
-            third: zero,
         }
     }
 
     /// Makes the product of `a + b k` and `p + q k + r k²`.
     #[inline(always)]
-    pub fn product([a, b]: [F; 2], [p, q, r]: [F; 3]) -> Self {
-        Self::new([a * p, a * q + b * p, a * r + b * q, b * r])
+    pub fn product<F: Num>([a, b]: [V; 2], [p, q, r]: [F; 3]) -> Self
+    where
+        V: Planes<F>,
+    {
+        Self::new([
+            scaled(a, p),
+            sum([scaled(a, q), scaled(b, p)]),
+            sum([scaled(a, r), scaled(b, q)]),
+            scaled(b, r),
+        ])
     }
 }
 
-impl<F: Num> Walk<F> for Cubic<F> {
-    type Pixel = F;
+impl<F: Num, V: Planes<F>> Walk<F> for Cubic<V> {
+    type Pixel = V;
     const REMEMBERS: bool = false;
 
     #[inline(always)]
-    fn next(&mut self) -> F {
+    fn next(&mut self) -> V {
         let here = self.at;
-        self.at = here + self.first;
-        self.first = self.first + self.second;
-        self.second = self.second + self.third;
+        self.at = sum([here, self.first]);
+        self.first = sum([self.first, self.second]);
+        self.second = sum([self.second, self.third]);
         here
     }
 }
