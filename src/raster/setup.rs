@@ -219,7 +219,6 @@ impl<'a> SetUp<'a> {
         whole: &'c mut Vec<Vec3<f32>>,
     ) -> Corners<'c, f32> {
         let frame = self.frame;
-        let has_positions = frame.is_local() || self.kernels.needs.positions;
         corners.clear();
         whole.clear();
         for &corner in frame.corners(polygon) {
@@ -229,7 +228,7 @@ impl<'a> SetUp<'a> {
                 // Exact: coordinates have at most 24 bits.
                 place: [vertex.x, vertex.y].map(|at| at.to_bits() as f32 * (1.0 / 256.0)),
                 weight: frame.weight(corner),
-                position: has_positions.then(|| vec3(frame.position(corner))),
+                position: vec3(frame.position(corner)),
             });
             self.collect_whole(corner, whole);
         }

@@ -85,15 +85,13 @@ impl Method for BiquadraticNormals {
     };
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
-        positions: true,
         ..Needs::PIXELS_BY_POLYGON
     };
     const KINDS: &'static [&'static str] = &["quadratic", "roots"];
     type Kinds = (QuadraticOfNormals, Normals);
 
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
-        let zero = lit.zero();
+    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let &[a, b, c] = polygon.all else {
             return OneOf::Second(());
         };
@@ -106,8 +104,7 @@ impl Method for BiquadraticNormals {
         }
         let at_corner = |v: Corner<R>| v.normal * (v.weight * v.weight);
         let at_edge = |v: Corner<R>, w: Corner<R>| {
-            let position = |v: Corner<R>| v.position.unwrap_or(vec3([zero; 3]));
-            let normal = midway([v.normal, w.normal], [position(v), position(w)]);
+            let normal = midway([v.normal, w.normal], [v.position, w.position]);
             let apart = v.normal * v.weight - w.normal * w.weight;
             normal * (v.weight * w.weight) + apart * ((v.weight - w.weight) * 0.25)
         };

@@ -6,8 +6,8 @@ use super::lighting::Lit;
 use super::planes::each;
 use super::span::RunStart;
 use super::{
-    Carries, CarriesOf, Corner, Corners, Extras, Kinds, LitAt, Local, Method, Planes, Shader, Span,
-    SpanBench, SpanPlace, Variant, Visit, ramp,
+    Carries, CarriesOf, Extras, Kinds, LitAt, Local, Method, Planes, Shader, Span, SpanBench,
+    SpanPlace, Variant, Visit, ramp,
 };
 use crate::number::{Counted, Counter, Counts, Real, vec3};
 use alloc::vec::Vec;
@@ -85,22 +85,10 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     }
     counts.polygon = counter.take();
 
-    let all = [0, 1, 2].map(|i| Corner {
-        normal: three(bench.normals[i]),
-        place: SpanBench::CORNERS[i].map(number),
-        weight: number(1.0),
-        position: (bench.is_local() || M::NEEDS.positions).then(|| three(bench.points[i])),
-    });
-    let whole = bench.normals.map(three);
-    let polygon = Corners {
-        all: &all,
-        face,
-        is_whole: true,
-        whole: &whole,
-        mean: (whole[0] + whole[1] + whole[2]) * (1.0 / 3.0),
-    };
+    let polygon = bench.polygon(SpanBench::LENGTH, number);
+    let corners_of_polygon = polygon.corners();
     counter.take();
-    let chosen = method.polygon(&lit, &polygon);
+    let chosen = method.polygon(&lit, &corners_of_polygon);
     let planned = counter.take();
     if M::NEEDS.reads_span() || M::Kinds::COUNT > 1 {
         counts.polygon = planned;
@@ -236,7 +224,8 @@ mod tests {
         let material = builder.lighting(bench.lighting.clone());
         builder.interpolation(interpolation);
         let corners = [0, 1, 2].map(|i| {
-            let [x, y] = SpanBench::CORNERS[i].map(SubPixel::from_num);
+            let [x, y] =
+                [0, 1].map(|axis| SubPixel::from_num(bench.points[i][axis] * SpanBench::LENGTH));
             let corner = builder.vertex(Vertex {
                 x,
                 y,

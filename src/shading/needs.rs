@@ -15,8 +15,6 @@ pub struct Needs {
     pub perspective: Perspective,
     /// What of a span its walk starts from.
     pub spans: Spans,
-    /// True if `polygon` reads the positions of corners where lights and eye are at infinity, too.
-    pub positions: bool,
     /// True if it is for general light alone, by N·H or from positions: no loop is compiled for other light.
     pub general_only: bool,
     /// The reason why it is not compiled for SIMD, if it is not. Methods of several kinds of polygons never are, and need not say why.
@@ -30,7 +28,6 @@ impl Needs {
         local: Local::PerPixel,
         perspective: Perspective::Free,
         spans: Spans::Pixels,
-        positions: false,
         general_only: false,
         scalar_only: None,
     };

@@ -52,7 +52,7 @@ pub(super) fn set_up_placed<R: Real>(
     polygon: &Corners<'_, R>,
 ) -> Option<([Placed<R>; 3], Growth<R>)> {
     let ([a, b, c], growth) = set_up_triangle(polygon)?;
-    let corners = [(a, a.position?), (b, b.position?), (c, c.position?)];
+    let corners = [(a, a.position), (b, b.position), (c, c.position)];
     let lights = lit.stored.iter().map(|light| (light.place, light.falloff));
     let seen = Triangle(corners.map(|(v, p)| (plain(v.normal), plain(p), v.weight.value())));
     seen.is_narrow(lit.model.eye, lights)

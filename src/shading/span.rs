@@ -312,8 +312,8 @@ pub struct Corner<F> {
     pub place: [F; 2],
     /// near/w, the weight of perspective; 1 without.
     pub weight: F,
-    /// The position in the world, where lights or the eye are at positions, or the method reads it ([`Needs::positions`](super::Needs::positions).
-    pub position: Option<Vec3<F>>,
+    /// The position in the world.
+    pub position: Vec3<F>,
 }
 
 /// A polygon, as a method sets it up: see [`Shader::polygon`].

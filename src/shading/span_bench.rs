@@ -2,9 +2,9 @@
 
 use super::increments::GreatCircle;
 use super::lighting::Uniforms;
-use super::{Extras, Local, On, OperationCounts, Variant, integers, ramp};
+use super::{Corner, Corners, Extras, Local, On, OperationCounts, Variant, integers, ramp};
 use crate::mesh::Material;
-use crate::number::vec3;
+use crate::number::{Num, Vec3, vec3};
 use crate::scene::{Falloff, Interpolation, Light, Lighting, Place, Power};
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -26,10 +26,10 @@ const COLOUR: [f32; 3] = [0.9, 0.8, 0.7];
 impl SpanBench {
     /// The unit normal of the triangle.
     pub(crate) const FACE: [f32; 3] = [0.0, 0.0, 1.0];
-    /// The corners on the picture, in pixels.
-    pub(super) const CORNERS: [[f32; 2]; 3] = [[0.0, 0.0], [50.0, 0.0], [0.0, 50.0]];
+    /// The width and height of the triangle on the picture, in pixels.
+    pub(super) const LENGTH: f32 = 50.0;
     /// t₀ and Δt of its edges down from the first scanline, whose centres lie at 0.5 pixels.
-    pub(super) const EDGE: [f32; 2] = [0.5 / 50.0, 1.0 / 50.0];
+    pub(super) const EDGE: [f32; 2] = [0.5 / SpanBench::LENGTH, 1.0 / SpanBench::LENGTH];
     /// t₀ and Δt of the span there, which is 49.5 pixels long.
     pub(super) const SPAN: [f32; 2] = [0.5 * (1.0 / 49.5), 1.0 / 49.5];
 
@@ -51,6 +51,22 @@ impl SpanBench {
                 .array(),
             false => [0, 1, 2].map(|i| ramp(from.array()[i], c.array()[i], t0, dt)[0]),
         })
+    }
+
+    /// Makes the triangle, `length` pixels wide and high, of values that `value` makes.
+    pub(crate) fn polygon<F: Num>(&self, length: f32, value: impl Fn(f32) -> F) -> BenchPolygon<F> {
+        let three = |v: [f32; 3]| vec3(v.map(&value));
+        let normals = self.normals.map(three);
+        BenchPolygon {
+            corners: [0, 1, 2].map(|i| Corner {
+                normal: normals[i],
+                place: [0, 1].map(|axis| value(self.points[i][axis] * length)),
+                weight: value(1.0),
+                position: three(self.points[i]),
+            }),
+            normals,
+            face: three(SpanBench::FACE),
+        }
     }
 
     /// Makes a span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1) or four,
@@ -129,6 +145,27 @@ impl SpanBench {
     pub(crate) fn extras(&self, variant: &Variant) -> Extras {
         let entry = variant.entry();
         entry.extras(self.is_local(), self.perspective)
+    }
+}
+
+/// The triangle of a bench.
+pub(crate) struct BenchPolygon<F> {
+    corners: [Corner<F>; 3],
+    normals: [Vec3<F>; 3],
+    face: Vec3<F>,
+}
+
+impl<F: Num> BenchPolygon<F> {
+    /// Returns it as methods set it up.
+    pub fn corners(&self) -> Corners<'_, F> {
+        let [a, b, c] = self.normals;
+        Corners {
+            all: &self.corners,
+            face: self.face,
+            is_whole: true,
+            whole: &self.normals,
+            mean: (a + b + c) * (1.0 / 3.0),
+        }
     }
 }
 

@@ -169,9 +169,8 @@ impl SpanShader {
     pub fn polygon(&mut self, corners: &Corners<'_, f32>) {
         if self.is_by_polygon {
             let mut mean = [0.0; 3];
-            let positions = corners.all.iter().filter_map(|corner| corner.position);
-            for position in positions {
-                for (mean, c) in mean.iter_mut().zip(position.array()) {
+            for corner in corners.all {
+                for (mean, c) in mean.iter_mut().zip(corner.position.array()) {
                     *mean += c / corners.all.len() as f32;
                 }
             }

@@ -71,12 +71,11 @@ impl Rectangle {
     fn shade(&self, variant: &Variant, first: u32, colours: &mut [[f32; 3]]) {
         let mut shader = SpanShader::new(variant, &self.lighting, self.interpolation)
             .expect("a method for any light");
-        let near = self.lighting.is_local();
         let all: [Corner<f32>; 4] = [0, 1, 2, 3].map(|i| Corner {
             normal: vec3(self.vertices[i].normal),
             place: [self.vertices[i].x, self.vertices[i].y].map(|at| at.to_num()),
             weight: self.vertices[i].inv_w as f32,
-            position: near.then(|| vec3(self.positions[i])),
+            position: vec3(self.positions[i]),
         });
         let whole = all.map(|corner| corner.normal);
         let frame = self.frame();

@@ -1,11 +1,11 @@
 //! One span shaded by the kernels of a method alone, without an engine.
 
+use crate::number::Level;
 use crate::number::simd::BLOCK;
-use crate::number::{Level, vec3};
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    CellLayout, Corner, Corners, Extras, Kernels, Pixels, PolygonConstants, RowColours, Run,
-    RunList, ShadeRow, SpanBench, SpanPlace, UniformsIndex, Variant, Vertices,
+    CellLayout, Extras, Kernels, Pixels, PolygonConstants, RowColours, Run, RunList, ShadeRow,
+    SpanBench, SpanPlace, UniformsIndex, Variant, Vertices,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -63,26 +63,12 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
     let dt = 1.0 / pixels as f32;
     let mut constants = PolygonConstants::default();
     if planned > 0 || !kernels.kinds.is_empty() {
-        let all = [0, 1, 2].map(|i| Corner {
-            normal: vec3(bench.normals[i]),
-            place: [bench.points[i][0], bench.points[i][1]].map(|at| at * pixels as f32),
-            weight: 1.0,
-            position: (bench.is_local() || kernels.needs.positions).then(|| vec3(bench.points[i])),
-        });
-        let whole = bench.normals.map(vec3);
-        let polygon = Corners {
-            all: &all,
-            face: vec3(SpanBench::FACE),
-            is_whole: true,
-            whole: &whole,
-            mean: (whole[0] + whole[1] + whole[2]) * (1.0 / 3.0),
-        };
         constants.numbers.resize(planned, 0.0);
         let to = &mut constants.numbers;
         constants.kinds = vec![(kernels.polygon)(
             variant.parameters(),
             uniforms,
-            &polygon,
+            &bench.polygon(pixels as f32, |x| x).corners(),
             to,
         )];
     }
