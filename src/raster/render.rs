@@ -130,7 +130,7 @@ impl Variant {
         }
     }
 
-    /// Returns how many polygons of `frame` the method draws by each of its kinds ([`crate::shading::Method::KINDS`]), in their order;
+    /// Returns how many polygons of `frame` the method draws by each of its kinds ([`crate::shading::Method::Kinds`]), in their order;
     /// nothing for methods that do not tell polygons apart.
     pub fn polygon_kinds(&self, frame: &Frame) -> Vec<PolygonKind> {
         let names = self.entry().kinds();
@@ -151,7 +151,7 @@ impl Variant {
             .collect()
     }
 
-    /// Returns the kind by which the method draws each polygon, as an index into [`crate::shading::Method::KINDS`].
+    /// Returns the kind by which the method draws each polygon, as an index into [`crate::shading::Method::Kinds`].
     #[doc(hidden)]
     pub fn kinds_of_polygons(&self, frame: &Frame) -> Vec<u8> {
         let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());

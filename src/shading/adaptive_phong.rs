@@ -133,7 +133,6 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
                 eye are at positions",
         ..Info::OF_PIXELS
     };
-    const KINDS: &'static [&'static str] = &["exact", "linear", "dull", "curved", "root"];
     type Kinds = (
         PhongRsqrt,
         OneColour,
@@ -212,6 +211,7 @@ fn colours<F: Num>(
 pub struct OneColour;
 
 impl Shader for OneColour {
+    const INFO: Info = Info::of_kind("linear");
     type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>); // r C by rows; a
     type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>;
@@ -236,6 +236,7 @@ impl Shader for OneColour {
 pub struct Dull;
 
 impl Shader for Dull {
+    const INFO: Info = Info::of_kind("dull");
     type Constants<F: Num> = ([Vec3<F>; 3], [F; 2]); // C by rows; the line
     type Carries = Normal;
     type Walk<F: Num> = (Linear<Vec3<F>>, Quadratic<F>); // C, r
@@ -261,6 +262,7 @@ impl Shader for Dull {
 pub struct Curved<const MANY: bool, const ROOT: bool>;
 
 impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
+    const INFO: Info = Info::of_kind(if ROOT { "root" } else { "curved" });
     // C by rows; the factors; followed lights, each as its number and what is followed of it
     type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>, [(F, (F, F)); plan::MOST]);
     type Carries = Normal;

@@ -67,7 +67,7 @@ use super::{Corners, Lit};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::scene::{Place, SpecularGate, SpecularModel};
 
-/// The kinds of polygons, as [`Method::KINDS`](super::Method::KINDS) of adaptive shading names them.
+/// The kinds of polygons, as [`Method::Kinds`](super::Method::Kinds) of adaptive shading names them.
 pub(super) const EXACT: u8 = 0;
 /// The colour is linear in the normal.
 pub(super) const LINEAR: u8 = 1;

@@ -87,7 +87,6 @@ impl Method for BiquadraticNormals {
         spans: Spans::Ends,
         ..Needs::PIXELS_BY_POLYGON
     };
-    const KINDS: &'static [&'static str] = &["quadratic", "roots"];
     type Kinds = (QuadraticOfNormals, Normals);
 
     #[inline(always)]
@@ -122,6 +121,7 @@ impl Method for BiquadraticNormals {
 pub struct QuadraticOfNormals;
 
 impl Shader for QuadraticOfNormals {
+    const INFO: Info = Info::of_kind("quadratic");
     type Constants<F: Num> = ([Vec3<F>; 6], [F; 2]); // of 1, x, y, x², xy, y²; from the first corner
     type Carries = Normal;
     type Walk<F: Num> = [Quadratic<F>; 3];
@@ -147,6 +147,7 @@ impl Shader for QuadraticOfNormals {
 pub struct Normals;
 
 impl Shader for Normals {
+    const INFO: Info = Info::of_kind("linear");
     type Constants<F: Num> = ();
     type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>;

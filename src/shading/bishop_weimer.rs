@@ -176,15 +176,12 @@ const BISHOP_WEIMER: Info = Info {
     ..Info::OF_PIXELS
 };
 
-const KINDS: &[&str] = &["quadratic", "roots"];
-
 impl<const L: usize> Method for BishopWeimer<L> {
     const INFO: Info = BISHOP_WEIMER;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         ..Needs::PIXELS
     };
-    const KINDS: &'static [&'static str] = KINDS;
     type Kinds = (Quadratics<L>, DuffOfNormals<L>);
 
     #[inline(always)]
@@ -296,7 +293,6 @@ pub struct BishopWeimerLocal<const L: usize>;
 
 impl<const L: usize> Method for BishopWeimerLocal<L> {
     const INFO: Info = BISHOP_WEIMER;
-    const KINDS: &'static [&'static str] = KINDS;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         general_only: true,

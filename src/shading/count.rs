@@ -90,7 +90,7 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     counter.take();
     let chosen = method.polygon(&lit, &corners_of_polygon);
     let planned = counter.take();
-    if M::NEEDS.reads_span() || M::Kinds::COUNT > 1 {
+    if M::NEEDS.reads_span() || !M::Kinds::NAMES.is_empty() {
         counts.polygon = planned;
     }
 

@@ -38,7 +38,6 @@ impl<const L: usize> Method for CubicPhong<L> {
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
-    const KINDS: &'static [&'static str] = &["cubics", "roots"];
     type Kinds = (Cubics<L>, DuffOfNormals<L>);
 
     #[inline(always)]
@@ -55,6 +54,7 @@ impl<const L: usize> Method for CubicPhong<L> {
 pub struct Cubics<const L: usize>;
 
 impl<const L: usize> Shader for Cubics<L> {
+    const INFO: Info = Info::of_kind("cubic");
     type Constants<F: Num> = [F; 2]; // the line
     type Carries = Normal;
     type Walk<F: Num> = Cubic<(PerLight<F, L>, F)>; // J of each light, K

@@ -81,6 +81,7 @@ impl<const L: usize> DuffOfNormals<L> {
 }
 
 impl<const L: usize> Shader for DuffOfNormals<L> {
+    const INFO: Info = DUFF_PHONG;
     type Constants<F: Num> = ();
     type Carries = Normal;
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D

@@ -116,7 +116,6 @@ impl Method for HTest {
         perspective: Perspective::Divides,
         ..Needs::PIXELS
     };
-    const KINDS: &'static [&'static str] = &["dull", "shining"];
     type Kinds = (Dull, Shining);
 
     fn on(on: On<'_>) -> Fit {
@@ -138,6 +137,7 @@ impl Method for HTest {
 pub struct Dull;
 
 impl Shader for Dull {
+    const INFO: Info = Info::of_kind("dull");
     type Constants<F: Num> = ();
     type Carries = HTest;
     type Walk<F: Num> = Linear<Vec3<F>>;
@@ -161,6 +161,7 @@ impl Shader for Dull {
 pub struct Shining;
 
 impl Shader for Shining {
+    const INFO: Info = Info::of_kind("shining");
     type Constants<F: Num> = ();
     type Carries = HTest;
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;

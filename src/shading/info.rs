@@ -389,4 +389,12 @@ impl Info {
         fails: "",
         parameters: &[],
     };
+
+    /// Names one of the kinds of polygons of a method: nothing else is asked of a kind.
+    pub const fn of_kind(name: &'static str) -> Info {
+        Info {
+            name,
+            ..Info::OF_PIXELS
+        }
+    }
 }

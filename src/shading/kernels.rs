@@ -198,8 +198,9 @@ impl Kernels {
             },
             needs: needs::<M>(),
             carries: <CarriesOf<M> as Carries>::FROM,
-            kinds: M::KINDS,
-            linear: M::Kinds::COUNT == 1 && <<First<M> as Shader>::Walk<f32> as Walk<f32>>::LINEAR,
+            kinds: M::Kinds::NAMES,
+            linear: M::Kinds::NAMES.is_empty()
+                && <<First<M> as Shader>::Walk<f32> as Walk<f32>>::LINEAR,
             walks_along_runs: |parameters, model| M::new(parameters, model).walks_along_runs(),
             polygon: polygon::<M>,
             vertices: vertices::<CarriesOf<M>>,
@@ -230,14 +231,10 @@ impl Kernels {
 
 /// Returns the needs of a method: one of several kinds is scalar only, as the G-buffer does not keep them.
 const fn needs<M: Method>() -> Needs {
-    assert!(
-        M::KINDS.len() == M::Kinds::COUNT || M::KINDS.is_empty() && M::Kinds::COUNT == 1,
-        "each kind has a name"
-    );
     let needs = M::NEEDS;
     Needs {
         scalar_only: match needs.scalar_only {
-            None if M::Kinds::COUNT > 1 => Some(
+            None if !M::Kinds::NAMES.is_empty() => Some(
                 "each kind of polygon takes another loop, and a block of pixels has one for all",
             ),
             why => why,

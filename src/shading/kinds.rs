@@ -12,8 +12,6 @@ pub trait Method: Copy + Default + 'static {
     const INFO: Info;
     /// What it needs of engines: for all of its kinds.
     const NEEDS: Needs = Needs::PIXELS;
-    /// The names of its kinds of polygons, in their order; none if there is one only.
-    const KINDS: &'static [&'static str];
     /// The kinds: a tuple of up to five that carry the same.
     type Kinds: Kinds;
 
@@ -48,7 +46,6 @@ pub type CarriesOf<M> = <<M as Method>::Kinds as Kinds>::Carries;
 impl<S: Shader> Method for S {
     const INFO: Info = S::INFO;
     const NEEDS: Needs = S::NEEDS;
-    const KINDS: &'static [&'static str] = &[];
     type Kinds = (S,);
 
     fn on(on: On<'_>) -> Fit {
@@ -80,8 +77,8 @@ pub trait Visit<C: Carries> {
 
 /// Kinds of polygons.
 pub trait Kinds: Copy + Default + 'static {
-    /// Their number.
-    const COUNT: usize;
+    /// Their names: those of the methods that they are, or the kinds' own. None if there is only one kind.
+    const NAMES: &'static [&'static str];
     /// What vertices carry, for all of them.
     type Carries: Carries;
     /// The first of them; the only one, where there is SIMD.
@@ -111,7 +108,10 @@ pub enum OneOf<A, B = (), C = (), D = (), E = ()> {
 macro_rules! kinds {
     ($count:literal: $first:ident $(, $name:ident $place:tt)*; $($all:ident $variant:ident $number:literal),*) => {
         impl<$first: Shader $(, $name: Shader<Carries = $first::Carries>)*> Kinds for ($first, $($name,)*) {
-            const COUNT: usize = $count;
+            const NAMES: &'static [&'static str] = match $count {
+                1 => &[],
+                _ => &[$($all::INFO.name),*],
+            };
             type Carries = $first::Carries;
             type First = $first;
             type Constants<F: Num> = OneOf<$($all::Constants<F>),*>;

@@ -120,8 +120,8 @@ use crate::number::{Num, Real, Vec3};
 ///
 /// Fields are parameters; a method without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
 pub trait Shader: Copy + Default + 'static {
-    /// The description of the method; a kind of polygons of another has none.
-    const INFO: Info = Info::OF_PIXELS;
+    /// The description of the method; of one of another method's kinds of polygons the name is enough ([`Info::of_kind`]).
+    const INFO: Info;
     /// What it needs of engines.
     const NEEDS: Needs = Needs::PIXELS;
     /// What is set up once per polygon: numbers, vectors and tuples of them; `()` if nothing is.

@@ -4,7 +4,9 @@ use super::increments::Quadratic;
 use super::quadratic_products::{
     Growth, WIDEST, along, each_of, least_length, longest, plain, relative, set_up_triangle,
 };
-use super::{Approximation, Corner, Corners, Lit, NormalAndPlace, PerLight, Pixel, Shader, Span};
+use super::{
+    Approximation, Corner, Corners, Info, Lit, NormalAndPlace, PerLight, Pixel, Shader, Span,
+};
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::scene::{Falloff, LightTerm, Place};
@@ -200,6 +202,7 @@ pub struct QuadraticsLocal<const L: usize>;
 type Each<F, const L: usize> = PerLight<Quadratic<F>, L>;
 
 impl<const L: usize> Shader for QuadraticsLocal<L> {
+    const INFO: Info = Info::of_kind("quadratic");
     type Constants<F: Num> = OverTriangle<F, L>;
     type Carries = NormalAndPlace;
     type Walk<F: Num> = ((Each<F, L>, Each<F, L>), (Each<F, L>, Quadratic<F>)); // as in `Products`

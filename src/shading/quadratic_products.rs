@@ -2,7 +2,7 @@
 
 use super::increments::Quadratic;
 use super::planes::{each, scaled, sum};
-use super::{Corner, Corners, Lit, Normal, PerLight, Pixel, Planes, Shader, Span};
+use super::{Corner, Corners, Info, Lit, Normal, PerLight, Pixel, Planes, Shader, Span};
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 
@@ -147,6 +147,7 @@ fn mixed<F: Num, P: Planes<F>, const N: usize>(all: [(P, f32); N]) -> P {
 pub struct Quadratics<const L: usize>;
 
 impl<const L: usize> Shader for Quadratics<L> {
+    const INFO: Info = Info::of_kind("quadratic");
     type Constants<F: Num> = OverPolygon<F, L>;
     type Carries = Normal;
     type Walk<F: Num> = (PerLight<Quadratic<F>, L>, Quadratic<F>); // J of each light, K

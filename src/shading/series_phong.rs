@@ -105,7 +105,6 @@ impl<const L: usize> Method for SeriesPhong<L> {
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
-    const KINDS: &'static [&'static str] = &["line", "parabola", "roots"];
     type Kinds = (Polynomial<L, 2>, Polynomial<L, 3>, DuffOfNormals<L>);
 
     #[inline(always)]
@@ -132,6 +131,7 @@ impl<const L: usize> Method for SeriesPhong<L> {
 pub struct Polynomial<const L: usize, const K: usize>;
 
 impl<const L: usize, const K: usize> Shader for Polynomial<L, K> {
+    const INFO: Info = Info::of_kind(if K == 2 { "line" } else { "parabola" });
     type Constants<F: Num> = [F; K];
     type Carries = Normal;
     type Walk<F: Num> = (<DuffOfNormals<L> as Shader>::Walk<F>, Constant<[F; K]>);

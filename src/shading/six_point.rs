@@ -124,15 +124,12 @@ const SIX_POINT: Info = Info {
     ..Info::OF_PIXELS
 };
 
-const KINDS: &[&str] = &["quadratic", "roots"];
-
 impl<const L: usize> Method for SixPoint<L> {
     const INFO: Info = SIX_POINT;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         ..Needs::PIXELS
     };
-    const KINDS: &'static [&'static str] = KINDS;
     type Kinds = (Quadratics<L>, DuffOfNormals<L>);
 
     #[inline(always)]
@@ -208,7 +205,6 @@ pub struct SixPointLocal<const L: usize>(SixPoint<L>);
 
 impl<const L: usize> Method for SixPointLocal<L> {
     const INFO: Info = SIX_POINT;
-    const KINDS: &'static [&'static str] = KINDS;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         general_only: true,

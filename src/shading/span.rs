@@ -345,7 +345,7 @@ impl PolygonConstants {
     #[inline(always)]
     pub fn of<M: Method>(&self, lights: usize, polygon: u32) -> (u8, &[f32]) {
         let (polygon, count) = (polygon as usize, M::Kinds::numbers(lights));
-        let kind = if M::Kinds::COUNT == 1 {
+        let kind = if M::Kinds::NAMES.is_empty() {
             0
         } else {
             self.kinds[polygon]

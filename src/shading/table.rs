@@ -247,7 +247,7 @@ impl Entry {
         self.directional[0].needs.scalar_only
     }
 
-    /// Returns the names of the kinds of polygons that it tells apart: [`Method::KINDS`](super::Method::KINDS).
+    /// Returns the names of the kinds of polygons that it tells apart: [`Method::Kinds`](super::Method::Kinds).
     pub fn kinds(&self) -> &'static [&'static str] {
         self.directional[0].kinds
     }
