@@ -20,7 +20,7 @@ pub enum Carried {
     Normal,
     /// The normal and light.
     Lit,
-    /// The normal in the frame of eye and first light: not computed for others, as it is once a polygon where lights are at positions.
+    /// The normal and light, both in the frame of eye and first light (`eye_frame.rs`), in which z is toward the eye.
     Turned,
     /// [`Lit::attributes`], too.
     Attributes,
@@ -49,8 +49,8 @@ impl Carries for TurnedNormal {
     type Varying<F: Num> = Vec3<F>;
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        lit.framed(n)
+    fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
     }
 }
 

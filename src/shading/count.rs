@@ -1,5 +1,6 @@
 //! Operation counts: a method runs on numbers that count.
 
+use super::eye_frame::carried;
 use super::increments::{GreatCircle, Walk};
 use super::kernels::colour;
 use super::lighting::Lit;
@@ -65,7 +66,8 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
             }
             LitAt::Vertex | LitAt::Pixel => three(bench.normals[i]),
         };
-        let varying = <CarriesOf<M> as Carries>::vertex(&lit.at(three(bench.points[i])), normal);
+        let lit = lit.at(three(bench.points[i]));
+        let varying = carried::<CarriesOf<M>, _>(&uniforms, &lit, normal);
         put(varying, corner);
         if extras.point {
             corner.extend(bench.points[i].map(number));

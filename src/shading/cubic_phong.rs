@@ -65,7 +65,9 @@ impl<const L: usize> Shader for Cubics<L> {
         let [k0, k1] = span.constants().map(|k| lit.zero().of_each(|_| k));
         let half = n.dot(dn);
         let line = [k0 + k1 * n.dot(n), k1 * (half + half), k1 * dn.dot(dn)];
-        Cubic::product([lit.products(n), lit.products(dn)], line)
+        let cubics = Cubic::product([lit.products(n), lit.products(dn)], line);
+        // Where it sees how they start, LLVM packs differences of one light into a register that each pixel takes apart again.
+        core::hint::black_box(cubics)
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {

@@ -1,5 +1,6 @@
 //! Phong shading in the frame of the eye and the first light: V·N is a component, and L·N has two products.
 
+use super::eye_frame;
 use super::{Info, Linear, Lit, Needs, Pixel, Roundings, Shader, Span, Stepped, TurnedNormal};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -49,7 +50,7 @@ impl Shader for EyeFramePhong {
         let v_n = n.z * r; // K = V · N
         let mut colour = lit.ambient();
         for light in lit.lights() {
-            let l_n = light.product_in_frame(n) * r; // J = L · N
+            let l_n = eye_frame::product(&light, n) * r; // J = L · N
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
         }
         colour

@@ -3,8 +3,9 @@
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
-#[cfg(feature = "simd")]
 use super::cell::CellLayout;
+#[cfg(feature = "simd")]
+use super::eye_frame::carried;
 use super::increments::{Linear, Walk};
 #[cfg(feature = "simd")]
 use super::lighting::Stored;
@@ -312,7 +313,7 @@ fn light<C: Carries, F: Num>(
             let of = |i: usize| n.x.of_each(|k| n.x.one(all[k][i]));
             lit = lit.with_attributes([of(0), of(1), of(2), of(3)]);
         }
-        let varying = C::vertex(&lit, n);
+        let varying = carried::<C, F>(job.uniforms, &lit, n);
         each(
             varying,
             #[inline(always)]

@@ -19,13 +19,13 @@
 //! A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
 
 use super::exponent::{Exponent, power_by_call, squared_up_to_7};
+use super::eye_frame::EyeFrame;
 use super::planes::PerLight;
 use crate::integer::{Material, Rgb888};
 use crate::number::{Num, Vec3, vec3};
 use crate::scene::{Falloff, Lighting, Place, Power, SpecularGate, SpecularModel};
 use crate::sync::Arc;
 use alloc::vec::Vec;
-use glam::DVec3;
 
 /// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.
 const LEAST_SQUARE: f32 = 1e-30;
@@ -45,6 +45,8 @@ pub struct Uniforms {
     powers: Option<Arc<Vec<f32>>>,
     /// The tables of a method in integers, one a light; else empty.
     pub(super) materials: Vec<Material<Rgb888>>,
+    /// The frame of eye and first light, for methods that turn normals into it: see [`super::eye_frame`].
+    pub(super) eye_frame: Option<EyeFrame>,
 }
 
 /// The uniforms of a material that all its lights share. Pixel loops copy them: behind a reference they would be loaded again
@@ -56,8 +58,6 @@ pub struct LightModel {
     ambient: Vec3<f32>,
     /// The unit vector toward the eye, or its position.
     pub(super) eye: Place<Vec3<f32>>,
-    /// The frame of eye and first light, for methods that turn normals into it: see [`Lit::framed`].
-    frame: Option<[Vec3<f32>; 3]>,
     /// The cosine that is raised to the exponent.
     pub specular: SpecularModel,
     pub(super) gate: SpecularGate,
@@ -94,8 +94,6 @@ pub struct LightUniforms {
     /// L·V and 1/|L + V| where both are at infinity.
     pub(super) l_v: f32,
     pub(super) half: f32,
-    /// L in the frame of eye and first light.
-    framed: Vec3<f32>,
 }
 
 impl Uniforms {
@@ -111,14 +109,12 @@ impl Uniforms {
             specular: vec3(light.specular) * scale,
             l_v: 0.0,
             half: 0.0,
-            framed: Vec3::default(),
         });
         let lights: Vec<LightUniforms> = lights.collect();
         let model = LightModel {
             scale,
             ambient: vec3(lighting.ambient) * scale,
             eye: lighting.view.map(vec3),
-            frame: None,
             specular: lighting.specular,
             gate: lighting.gate,
             shininess: lighting.shininess,
@@ -132,17 +128,6 @@ impl Uniforms {
         Uniforms::derived(LightModel { exponent, ..model }, lights, powers)
     }
 
-    /// Fills in the frame of eye and first light: see [`Lit::framed`].
-    pub(super) fn turned(mut self) -> Uniforms {
-        let first = self.lights.first().map(|light| vector(light.place));
-        let frame = frame_of(vector(self.model.eye), first);
-        self.model.frame = Some(frame);
-        for light in &mut self.lights {
-            light.framed = in_frame(frame, vector(light.place));
-        }
-        self
-    }
-
     /// Returns the part that all lights share, without lights and tables.
     pub(crate) fn bare(&self) -> Uniforms {
         Uniforms {
@@ -150,6 +135,7 @@ impl Uniforms {
             lights: Vec::new(),
             powers: None,
             materials: Vec::new(),
+            eye_frame: None,
         }
     }
 
@@ -169,7 +155,7 @@ impl Uniforms {
         let eye = Place::Infinite(lit.view);
         let model = LightModel { eye, ..self.model };
         let seen = Uniforms::derived(model, lights.collect(), self.powers.clone());
-        match model.frame {
+        match self.eye_frame {
             Some(_) => seen.turned(),
             None => seen,
         }
@@ -210,35 +196,14 @@ impl Uniforms {
             lights,
             powers,
             materials: Vec::new(),
+            eye_frame: None,
         }
     }
-}
 
-/// Returns three unit vectors at right angles, the last of them `view` and the second at right angles to `light` too; any such if
-/// light and eye are in one line, or there is no light.
-fn frame_of(view: Vec3<f32>, light: Option<Vec3<f32>>) -> [Vec3<f32>; 3] {
-    // In `f64`: a light that is nearly in line with the eye would lose its digits.
-    let wide = |v: Vec3<f32>| DVec3::from_array(v.array().map(f64::from));
-    let z = wide(view).normalize_or(DVec3::Z);
-    let across = |v: DVec3| v - v.dot(z) * z;
-    let toward = light.map_or(DVec3::ZERO, |light| across(wide(light)));
-    let x = if toward.length() > 1e-9 {
-        toward.normalize()
-    } else {
-        z.any_orthonormal_vector()
-    };
-    [x, z.cross(x), z].map(|v| vec3(v.to_array().map(|c| c as f32)))
-}
-
-/// Returns the coordinates of a vector in a frame.
-#[inline(always)]
-fn in_frame<F: Num>(frame: [Vec3<f32>; 3], v: Vec3<F>) -> Vec3<F> {
-    let [x, y, z] = frame;
-    vec3([
-        v.dot(x.broadcast(v.x)),
-        v.dot(y.broadcast(v.x)),
-        v.dot(z.broadcast(v.x)),
-    ])
+    /// True if a light or the eye is at a position.
+    pub(super) fn is_local(&self) -> bool {
+        self.model.eye.is_local() || self.lights.iter().any(|light| light.place.is_local())
+    }
 }
 
 /// Returns a number clamped to 0..=`most`; NaN becomes 0.
@@ -270,7 +235,7 @@ pub(super) fn strength<F: Num>(falloff: Falloff, square: F, unit: F) -> Option<F
 
 /// Returns a direction or a position as the vector that it is.
 #[inline(always)]
-fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
+pub(super) fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
     let (Place::Infinite(v) | Place::Local(v)) = place;
     v
 }
@@ -577,17 +542,6 @@ impl<'a, F: Num> Lit<'a, F> {
         (j, n.dot(self.view())) // K = V · N
     }
 
-    /// Returns a vector in the frame of the eye and the first light: z is toward the eye, and the light in the plane of x and z. For
-    /// methods that see lights and eye at infinity, and say so by [`Carried::Turned`](super::Carried::Turned).
-    #[inline(always)]
-    pub(super) fn framed(&self, v: Vec3<F>) -> Vec3<F> {
-        debug_assert!(
-            self.model.frame.is_some(),
-            "the method does not say that it turns normals"
-        );
-        in_frame(self.model.frame.unwrap_or_default(), v)
-    }
-
     /// Returns the unit vectors L toward a light and H half-way to the eye, of a light and an eye at infinity.
     #[inline(always)]
     pub(super) fn light_and_half(&self, index: usize) -> [Vec3<f32>; 2] {
@@ -787,24 +741,6 @@ impl<F: Num> Seen<'_, F> {
     /// Returns `I_p k_d`.
     pub(super) fn diffuse(&self) -> Vec3<f32> {
         self.light.diffuse
-    }
-
-    /// Returns the light's vector L in the frame of [`Lit::framed`].
-    #[inline(always)]
-    pub(super) fn in_frame(&self, like: F) -> Vec3<F> {
-        self.light.framed.broadcast(like)
-    }
-
-    /// Returns L·v of a vector in the frame of [`Lit::framed`], in which the first light has no y.
-    #[inline(always)]
-    pub(super) fn product_in_frame(&self, v: Vec3<F>) -> F {
-        let to = self.in_frame(v.x);
-        let product = v.z.mul_add(to.z, v.x * to.x);
-        if self.index == 0 {
-            product
-        } else {
-            v.y.mul_add(to.y, product)
-        }
     }
 
     #[inline(always)]

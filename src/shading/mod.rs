@@ -25,6 +25,7 @@ mod cell;
 mod count;
 mod exponent;
 pub(crate) mod extent;
+mod eye_frame;
 mod fit;
 mod info;
 mod kernels;

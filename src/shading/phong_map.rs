@@ -2,6 +2,7 @@
 
 use super::extent::Extent;
 use super::eye_chart::{FromEye, of_angle};
+use super::eye_frame;
 use super::{
     Carried, Carries, Family, Info, Linear, Lit, Needs, Perspective, Pixel, Roundings, Shader,
     Span, Standing, Stepped,
@@ -68,7 +69,7 @@ impl Shader for PhongMap {
         let n = Vec3 { x, y, z };
         let mut colour = lit.ambient();
         for light in lit.lights() {
-            let l_n = light.product_in_frame(n); // J = L · N
+            let l_n = eye_frame::product(&light, n); // J = L · N
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, z));
         }
         colour
@@ -80,8 +81,7 @@ impl Carries for PhongMap {
     type Varying<F: Num> = (F, F); // N_x, N_y
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
-        let n = lit.framed(n);
+    fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
         (n.x, n.y)
     }
 }

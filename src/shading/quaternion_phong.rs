@@ -1,6 +1,7 @@
 //! Phong shading by quaternions: each vertex turns the eye's direction into its normal, and the turns are interpolated (Hast 2005).
 
 use super::eye_chart::{Chart, FromEye, of_angle};
+use super::eye_frame;
 use super::{
     Carried, Carries, Family, Info, Linear, Lit, Needs, Pixel, Roundings, Shader, Span, Stepped,
 };
@@ -65,7 +66,7 @@ impl Shader for QuaternionPhong {
         let v_n = w * m.z - 1.0; // K = V · N
         let mut colour = lit.ambient();
         for light in lit.lights() {
-            let l_n = light.product_in_frame(m).mul_add(w, -light.l_v); // J = L · N
+            let l_n = eye_frame::product(&light, m).mul_add(w, -light.l_v); // J = L · N
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
         }
         colour
@@ -77,8 +78,7 @@ impl Carries for QuaternionPhong {
     type Varying<F: Num> = Vec3<F>; // m
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
-        let n = lit.framed(n);
+    fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
         vec3([n.x, n.y, n.z + 1.0]).unit()
     }
 }

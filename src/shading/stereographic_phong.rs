@@ -61,7 +61,7 @@ impl Shader for StereographicPhong {
         let v_n = w - 1.0; // K = V · N
         let mut colour = lit.ambient();
         for light in lit.lights() {
-            let to = light.in_frame(u);
+            let to = light.to;
             let along = u.mul_add(to.x, v.mul_add(to.y, to.z));
             let l_n = along.mul_add(w, -to.z); // J = L · N
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
@@ -75,8 +75,7 @@ impl Carries for StereographicPhong {
     type Varying<F: Num> = (F, F); // u, v
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
-        let n = lit.framed(n);
+    fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
         let scale = n.z.broadcast(1.0) / (n.z + 1.0);
         (n.x * scale, n.y * scale)
     }
