@@ -63,7 +63,7 @@
 //! for s ≤ 0.1, a diffuse term changes by its angle at most, cosⁿ by at most √(n/e) < √n a radian, and R turns twice as fast as N.
 
 use super::lighting::{LightUniforms, magnitude};
-use super::{Corners, Lit};
+use super::{Corner, Corners, Lit};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::scene::{Place, SpecularGate, SpecularModel};
 
@@ -213,6 +213,9 @@ fn seen<R: Real>(corners: &[Vec3<R>], to: Vec3<f32>, view: Vec3<f32>) -> Seen {
     seen
 }
 
+/// The part of a polygon's error budget, in grey levels, that approximations may take; roundings have the rest.
+const SHARE: f32 = 0.75;
+
 /// Plans a polygon for an error of so many grey levels of 255. If there `is_one` light at most, walks follow its diffuse term, too.
 pub(super) fn plan<R: Real>(
     levels: f32,
@@ -220,139 +223,217 @@ pub(super) fn plan<R: Real>(
     lit: &Lit<'_, R>,
     polygon: &Corners<'_, R>,
 ) -> Plan {
-    let (model, lights) = (lit.model, lit.stored);
-    let exact = Plan::EXACT;
-    let Some(view) = direction(model.eye) else {
-        return exact;
+    let outline = Outline::of(polygon.all);
+    if !outline.is_worth_planning() {
+        return Plan::EXACT;
+    }
+    let spread = spread(polygon.whole.iter().map(|n| plain(*n)));
+    let s = rounded_up(spread);
+    if !(s < 5.0 && outline.weights[0] > 0.0) {
+        return Plan::EXACT;
+    }
+    let Some(light) = Illumination::of(levels, lit, polygon.whole, s) else {
+        return Plan::EXACT;
     };
-    if model.gate != SpecularGate::Gated || !model.exponent.is_power() {
-        return exact;
-    }
-    let (mut light_weight, mut heavy_weight) = (f32::INFINITY, 0.0f32);
-    let [mut left, mut top] = [f32::INFINITY; 2];
-    let [mut right, mut bottom] = [f32::NEG_INFINITY; 2];
-    for corner in polygon.all {
-        let (weight, [x, y]) = (corner.weight.value(), corner.place.map(|at| at.value()));
-        light_weight = f32::min(light_weight, weight);
-        heavy_weight = f32::max(heavy_weight, weight);
-        (left, right) = (f32::min(left, x), f32::max(right, x));
-        (top, bottom) = (f32::min(top, y), f32::max(bottom, y));
-    }
-    let wide = right - left;
-    if wide * (bottom - top) < LEAST_BOX {
-        return exact;
-    }
-    let corners = polygon.whole;
-    let s = spread(corners.iter().map(|n| plain(*n)));
-    let turn = 1.1 * Num::sqrt(s); // see (h)
-    let s = rounded_up(s);
-    if !(s < 5.0 && light_weight > 0.0) {
-        return exact;
-    }
-    let low = f32::max(1.0 - s, 0.0);
-    let to_levels = 255.0 / model.scale;
-    let over_low = 1.0 / Num::sqrt(low); // infinite where normals may cancel
-    let room = 0.75 * levels;
-    let n = model.shininess;
-    let is_halfway = model.specular == SpecularModel::Blinn;
-    let mut plan = exact;
-    // What a relative error of 1/√D is multiplied by; what a turn of the normal is.
-    let (mut diffuse, mut gain, mut steep) = (0.0, 0.0, 0.0);
-    let (mut is_crossed, mut followed) = (false, 0);
-    for (i, light) in lights.iter().enumerate() {
-        let Some(to) = direction(light.place) else {
-            return exact;
+    let plan = Plan {
+        in_front: light.in_front,
+        followed: light.followed,
+        ..Plan::EXACT
+    };
+    let turn = 1.1 * Num::sqrt(spread); // see (h)
+    if light.is_one_colour(turn, levels) && s <= FLATTEST {
+        return Plan {
+            is_one_colour: true,
+            kind: LINEAR,
+            ..plan
         };
-        let seen = seen(corners, to, view);
-        if seen.high <= 0.0 {
-            continue;
-        }
-        let is_crossing = seen.low < 0.0;
-        is_crossed |= is_crossing || seen.low == 0.0;
-        let k_d = magnitude(light.diffuse) * to_levels;
-        let k_s = magnitude(light.specular) * to_levels;
-        diffuse += k_d * f32::min(1.0, seen.high * over_low);
-        let turns = if is_halfway { 1.0 } else { 2.0 };
-        steep += k_d + k_s * turns * Num::sqrt(n);
-        let shines = k_s > 0.0 && {
-            let reach = reach(light, &seen, s, is_halfway).clamp(0.0, 1.0);
-            k_s * model.exponent.of(reach) * lights.len() as f32 > 0.25 * levels
+    }
+    let (range, room) = (squares(s, outline.weights), SHARE * levels);
+    let dull = (light.count == 0).then(|| dull(range, outline.width, light.diffuse, room));
+    if let Some((kind, factors)) = dull.flatten() {
+        return Plan {
+            kind,
+            factors,
+            ..plan
         };
-        if shines {
-            let l_v = light.l_v;
-            let of_cosine = match is_halfway {
-                true => 1.0,
-                false => 2.1 * f32::max(1.0 + l_v, -l_v),
-            };
-            gain += match n >= 1.0 {
-                true => k_s * n * (1.0 + room / k_s) * of_cosine,
-                false => f32::INFINITY, // infinitely steep at 0
-            };
-        }
-        plan.in_front |= u64::from(!is_crossing) << i;
-        if is_crossing || shines {
-            if followed < MOST {
-                plan.followed[followed] = Followed {
-                    light: i as u16,
-                    diffuse: is_crossing,
-                    highlight: shines,
-                };
-            }
-            followed += 1;
-        }
     }
-    if !is_crossed && s <= FLATTEST && (turn == 0.0 || n >= 1.0 && turn * steep <= levels) {
-        plan.is_one_colour = true;
-        plan.kind = LINEAR;
-        return plan;
+    if light.count > MOST {
+        return Plan::EXACT;
     }
-    let range = squares(s, [light_weight, heavy_weight]);
-    let wide = right - left;
-    let is_dull = followed == 0;
-    if is_dull {
-        let [low, high] = range.map(Num::sqrt);
-        let error = (high - low) / (high + low) + ROUNDING * wide;
-        if diffuse * error <= room {
-            plan.kind = LINEAR;
-            plan.factors = [2.0 / (low + high), 0.0, 0.0];
-            return plan;
-        }
-    }
-    let [low, high] = range;
-    let is_narrow = high - low <= WIDEST * (high + low);
-    if is_dull && is_narrow {
-        let (factors, error) = line(range);
-        // Of the line itself the steps are rounded, which is at most 1/√low.
-        if diffuse * (error + 2.0 * ROUNDING * wide * high / low) <= room {
-            (plan.kind, plan.factors) = (DULL, factors);
-            return plan;
-        }
-    }
-    if followed > MOST {
-        return exact;
-    }
+    let Some((kind, factors)) = shining(range, outline.width, light.diffuse + light.gain, room)
+    else {
+        return Plan::EXACT;
+    };
+    let mut plan = Plan {
+        kind,
+        factors,
+        ..plan
+    };
     if is_one {
-        plan.followed[0].diffuse = !lights.is_empty();
+        plan.followed[0].diffuse = !lit.stored.is_empty();
         plan.in_front = 0;
     }
-    let gain = diffuse + gain;
-    let steps = f32::min(wide, STEPS as f32) + SETUP;
+    plan
+}
+
+/// The box of a polygon on the picture, in pixels, and the least and greatest weight of its corners.
+struct Outline {
+    width: f32,
+    height: f32,
+    weights: [f32; 2],
+}
+
+impl Outline {
+    fn of<R: Real>(corners: &[Corner<R>]) -> Outline {
+        let length = |[low, high]: [f32; 2]| high - low;
+        Outline {
+            width: length(range(corners.iter().map(|corner| corner.place[0].value()))),
+            height: length(range(corners.iter().map(|corner| corner.place[1].value()))),
+            weights: range(corners.iter().map(|corner| corner.weight.value())),
+        }
+    }
+
+    fn is_worth_planning(&self) -> bool {
+        self.width * self.height >= LEAST_BOX
+    }
+}
+
+/// Returns the least and the greatest of some values.
+fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
+    values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], x| {
+        [f32::min(low, x), f32::max(high, x)]
+    })
+}
+
+/// The light on a polygon: what its plan has to follow, and by how much errors grow.
+struct Illumination {
+    /// The lights in front of the whole polygon: see [`Plan::in_front`].
+    in_front: u64,
+    /// The lights that are followed one by one: the first [`MOST`] of `count`.
+    followed: [Followed; MOST],
+    count: usize,
+    /// True if a light crosses or touches J = 0.
+    is_crossed: bool,
+    /// The grey levels that a relative error of 1/√D is multiplied by: in diffuse terms, and in highlights.
+    diffuse: f32,
+    gain: f32,
+    /// The grey levels per radian that the normal turns.
+    steep: f32,
+    /// The exponent.
+    shininess: f32,
+}
+
+impl Illumination {
+    /// Returns the light on a polygon whose normals have the spread `s`; `None` where light is not planned for.
+    fn of<R: Real>(
+        levels: f32,
+        lit: &Lit<'_, R>,
+        corners: &[Vec3<R>],
+        s: f32,
+    ) -> Option<Illumination> {
+        let (model, lights) = (lit.model, lit.stored);
+        if model.gate != SpecularGate::Gated || !model.exponent.is_power() {
+            return None;
+        }
+        let view = direction(model.eye)?;
+        let (to_levels, room) = (255.0 / model.scale, SHARE * levels);
+        let over_low = 1.0 / Num::sqrt(f32::max(1.0 - s, 0.0)); // infinite where normals may cancel
+        let n = model.shininess;
+        let is_halfway = model.specular == SpecularModel::Blinn;
+        let mut all = Illumination {
+            in_front: 0,
+            followed: Plan::EXACT.followed,
+            count: 0,
+            is_crossed: false,
+            diffuse: 0.0,
+            gain: 0.0,
+            steep: 0.0,
+            shininess: n,
+        };
+        for (i, light) in lights.iter().enumerate() {
+            let seen = seen(corners, direction(light.place)?, view);
+            if seen.high <= 0.0 {
+                continue;
+            }
+            let is_crossing = seen.low < 0.0;
+            all.is_crossed |= is_crossing || seen.low == 0.0;
+            let k_d = magnitude(light.diffuse) * to_levels;
+            let k_s = magnitude(light.specular) * to_levels;
+            all.diffuse += k_d * f32::min(1.0, seen.high * over_low);
+            let turns = if is_halfway { 1.0 } else { 2.0 };
+            all.steep += k_d + k_s * turns * Num::sqrt(n);
+            let shines = k_s > 0.0 && {
+                let reach = reach(light, &seen, s, is_halfway).clamp(0.0, 1.0);
+                k_s * model.exponent.of(reach) * lights.len() as f32 > 0.25 * levels
+            };
+            if shines {
+                let l_v = light.l_v;
+                let of_cosine = match is_halfway {
+                    true => 1.0,
+                    false => 2.1 * f32::max(1.0 + l_v, -l_v),
+                };
+                all.gain += match n >= 1.0 {
+                    true => k_s * n * (1.0 + room / k_s) * of_cosine,
+                    false => f32::INFINITY, // infinitely steep at 0
+                };
+            }
+            all.in_front |= u64::from(!is_crossing) << i;
+            if is_crossing || shines {
+                if let Some(place) = all.followed.get_mut(all.count) {
+                    *place = Followed {
+                        light: i as u16,
+                        diffuse: is_crossing,
+                        highlight: shines,
+                    };
+                }
+                all.count += 1;
+            }
+        }
+        Some(all)
+    }
+
+    /// True if colours differ by at most `levels` from that of the mean normal, from which normals turn by at most `turn`: see (h).
+    fn is_one_colour(&self, turn: f32, levels: f32) -> bool {
+        let is_steady = turn == 0.0 || self.shininess >= 1.0 && turn * self.steep <= levels;
+        !self.is_crossed && is_steady
+    }
+}
+
+/// Chooses the kind of a polygon without highlights and its factors, if an error of `room` levels has room for one of these kinds.
+/// D lies in `range`; `gain` is what a relative error of 1/√D is multiplied by.
+fn dull(range: [f32; 2], width: f32, gain: f32, room: f32) -> Option<(u8, [f32; 3])> {
+    let [low, high] = range.map(Num::sqrt);
+    let error = (high - low) / (high + low) + ROUNDING * width;
+    if gain * error <= room {
+        return Some((LINEAR, [2.0 / (low + high), 0.0, 0.0]));
+    }
+    let [low, high] = range;
+    let (factors, error) = line(range);
+    // Of the line itself the steps are rounded, which is at most 1/√low.
+    let error = error + 2.0 * ROUNDING * width * high / low;
+    (is_narrow(range) && gain * error <= room).then_some((DULL, factors))
+}
+
+/// Chooses the kind of a polygon with lights that are followed, and its factors, as [`dull`] does.
+fn shining(range: [f32; 2], width: f32, gain: f32, room: f32) -> Option<(u8, [f32; 3])> {
+    let [low, high] = range;
+    let steps = f32::min(width, STEPS as f32) + SETUP;
     let rounding = ROUNDING * steps * high;
-    if is_narrow {
+    if is_narrow(range) {
         for (factors, error) in [line(range), parabola(range)] {
             if gain * (error + rounding / low) <= room {
-                (plan.kind, plan.factors) = (CURVED, factors);
-                return plan;
+                return Some((CURVED, factors));
             }
         }
     }
     // NaN, where a corner has no normal, is exact.
     let share = ROUNDING * steps * gain / room;
-    if share.is_nan() || share >= 0.5 {
-        return exact;
-    }
-    (plan.kind, plan.factors) = (ROOT, [share, 0.0, 0.0]);
-    plan
+    (share < 0.5).then_some((ROOT, [share, 0.0, 0.0]))
+}
+
+/// True if lines and parabolas may be taken for 1/√D on a range: see (d).
+fn is_narrow([low, high]: [f32; 2]) -> bool {
+    high - low <= WIDEST * (high + low)
 }
 
 /// Returns the greatest cosine of a light's highlight on a polygon, or a number over 1 where it is unknown: see (c).
