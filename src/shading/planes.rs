@@ -115,7 +115,7 @@ planes!([A, B] (A, B), { 0: A, 1: B }, |a, b| (a, b));
 planes!([A, B, C] (A, B, C), { 0: A, 1: B, 2: C }, |a, b, c| (a, b, c));
 
 /// For so many lights all numbers are stepped and stored, without a count: they stay in registers.
-const MOST_UNROLLED: usize = 8;
+const MOST_UNROLLED: usize = 4;
 
 /// One value per light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
 #[derive(Clone, Copy, Debug)]

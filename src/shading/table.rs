@@ -40,6 +40,13 @@ use super::{
 };
 use crate::frame::Frame;
 
+/// Makes the row of a method whose varyings hold a value per light.
+macro_rules! lights {
+    ($method:ident $(, $parameter:literal)?) => {
+        Entry::by_lights::<$method<1 $(, $parameter)?>, $method<4 $(, $parameter)?>, $method<64 $(, $parameter)?>>()
+    };
+}
+
 /// All shading methods.
 pub static METHODS: &[Entry] = &TABLE;
 
@@ -58,49 +65,34 @@ static TABLE: [Entry; 38] = [
     Entry::of::<Gouraud>(),
     Entry::of::<GouraudSeparate>(),
     Entry::of::<NaivePhong>(),
-    Entry::by_lights::<FastPhong<1>, FastPhong<4>, FastPhong<8>, FastPhong<64>>(),
-    Entry::by_lights::<
-        DuffPhong<1, true>,
-        DuffPhong<4, true>,
-        DuffPhong<8, true>,
-        DuffPhong<64, true>,
-    >(),
+    lights!(FastPhong),
+    lights!(DuffPhong, true),
     Entry::of::<PhongRsqrt>(),
-    Entry::by_lights::<DuffPhong<1>, DuffPhong<4>, DuffPhong<8>, DuffPhong<64>>()
-        .positional::<DuffPhongLocal<1>, DuffPhongLocal<4>, DuffPhongLocal<64>>(),
-    Entry::by_lights::<DuffNewton<1>, DuffNewton<4>, DuffNewton<8>, DuffNewton<64>>(),
-    Entry::by_lights::<SeriesPhong<1>, SeriesPhong<4>, SeriesPhong<8>, SeriesPhong<64>>(),
-    Entry::by_lights::<CubicPhong<1>, CubicPhong<4>, CubicPhong<8>, CubicPhong<64>>(),
-    Entry::by_lights::<
-        DifferenceVector<1>,
-        DifferenceVector<4>,
-        DifferenceVector<8>,
-        DifferenceVector<64>,
-    >(),
-    Entry::by_lights::<BishopWeimer<1>, BishopWeimer<4>, BishopWeimer<8>, BishopWeimer<64>>()
-        .positional::<BishopWeimerLocal<1>, BishopWeimerLocal<4>, BishopWeimerLocal<64>>(),
-    Entry::by_lights::<SixPoint<1>, SixPoint<4>, SixPoint<8>, SixPoint<64>>()
-        .positional::<SixPointLocal<1>, SixPointLocal<4>, SixPointLocal<64>>(),
+    lights!(DuffPhong).at_positions(lights!(DuffPhongLocal)),
+    lights!(DuffNewton),
+    lights!(SeriesPhong),
+    lights!(CubicPhong),
+    lights!(DifferenceVector),
+    lights!(BishopWeimer).at_positions(lights!(BishopWeimerLocal)),
+    lights!(SixPoint).at_positions(lights!(SixPointLocal)),
     Entry::of::<QuadraticNormals>(),
     Entry::of::<BiquadraticNormals>(),
     Entry::of::<HTest>(),
     Entry::of::<AdaptivePhong<true>>()
         .one_light::<AdaptivePhong<false>>()
-        .positional::<PhongRsqrt, PhongRsqrt, PhongRsqrt>(),
-    Entry::by_lights::<SlerpPhong<1>, SlerpPhong<4>, SlerpPhong<8>, SlerpPhong<64>>(),
-    Entry::by_lights::<SlerpChebyshev<1>, SlerpChebyshev<4>, SlerpChebyshev<8>, SlerpChebyshev<64>>(
-    ),
+        .at_positions(Entry::of::<PhongRsqrt>()),
+    lights!(SlerpPhong),
+    lights!(SlerpChebyshev),
     Entry::of::<SlerpPhongVector>(),
-    Entry::by_lights::<DuffHalf<1>, DuffHalf<4>, DuffHalf<8>, DuffHalf<64>>(),
+    lights!(DuffHalf),
     Entry::of::<EyeFramePhong>(),
     Entry::of::<PhongUnnormalised>(),
-    Entry::by_lights::<SlerpHalf<1>, SlerpHalf<4>, SlerpHalf<8>, SlerpHalf<64>>(),
+    lights!(SlerpHalf),
     Entry::of::<StereographicPhong>(),
     Entry::of::<QuaternionPhong>(),
-    Entry::by_lights::<HalfReflection<1>, HalfReflection<4>, HalfReflection<8>, HalfReflection<64>>(
-    ),
+    lights!(HalfReflection),
     Entry::of::<PhongMap>(),
-    Entry::by_lights::<KuijkBlake<1>, KuijkBlake<4>, KuijkBlake<8>, KuijkBlake<64>>(),
+    lights!(KuijkBlake),
     integer_gouraud::ENTRY,
     Entry::integer::<integer_naive::Naive>(),
     Entry::integer::<integer_fast::Fast>(),
@@ -110,8 +102,8 @@ static TABLE: [Entry; 38] = [
     Entry::integer::<integer_fast_printed::FastPrinted>(),
 ];
 
-/// Kernels for 1 light, up to 4, up to 8 and up to 64.
-type ByLights = [&'static Kernels; 4];
+/// Kernels for 1 light, up to 4 and up to 64.
+type ByLights = [&'static Kernels; 3];
 
 /// Counts the operations of a method on a span.
 type CountSpan = fn(&SpanBench, &Variant) -> CountedSpan;
@@ -136,7 +128,7 @@ pub struct Entry {
 impl Entry {
     /// Makes the row of a method, also of one defined outside this crate.
     pub const fn of<M: Method>() -> Entry {
-        Entry::by_lights::<M, M, M, M>()
+        Entry::by_lights::<M, M, M>()
     }
 
     /// Makes the row of a method by kernels of its own; what else engines ask is as `M` answers.
@@ -146,8 +138,8 @@ impl Entry {
     ) -> Entry {
         Entry {
             info,
-            directional: [kernels; 4],
-            positional: [kernels; 4],
+            directional: [kernels; 3],
+            positional: [kernels; 3],
             ..Entry::of::<M>()
         }
     }
@@ -175,14 +167,13 @@ impl Entry {
         }
     }
 
-    /// Makes the row of a method whose varyings hold a number per light: compiled for 1, 4, 8 and 64 of them.
-    pub const fn by_lights<A: Method, B: Method, C: Method, D: Method>() -> Entry {
+    /// Makes the row of a method whose varyings hold a value per light: compiled for 1, 4 and 64 of them.
+    pub const fn by_lights<A: Method, B: Method, C: Method>() -> Entry {
         let all: ByLights = const {
             [
                 &Kernels::of::<A>(),
                 &Kernels::of::<B>(),
                 &Kernels::of::<C>(),
-                &Kernels::of::<D>(),
             ]
         };
         Entry {
@@ -192,39 +183,29 @@ impl Entry {
             is_integer: false,
             directional: all,
             positional: all,
-            // For up to eight lights as many are stepped, for up to 64 as many as there are: what is counted.
-            count: [[count::<D>; 2]; 2],
+            // Up to four lights are stepped as four, up to 64 as many as there are: these are counted.
+            count: [[count::<C>; 2]; 2],
         }
     }
 
     /// Takes other kernels for one light.
     pub(super) const fn one_light<A: Method>(self) -> Entry {
         let one = const { &Kernels::of::<A>() };
-        let [[_, up_to_4, up_to_8, up_to_64], all] = [self.directional, self.positional];
-        let [[_, counts_many], counts_positional] = self.count;
+        let ([_, few, many], [_, near_few, near_many]) = (self.directional, self.positional);
+        let [[_, counts], [_, near_counts]] = self.count;
         Entry {
-            directional: [one, up_to_4, up_to_8, up_to_64],
-            positional: [one, all[1], all[2], all[3]],
-            count: [
-                [count::<A>, counts_many],
-                [count::<A>, counts_positional[1]],
-            ],
+            directional: [one, few, many],
+            positional: [one, near_few, near_many],
+            count: [[count::<A>, counts], [count::<A>, near_counts]],
             ..self
         }
     }
 
-    /// Takes other kernels where a light or the eye is at a position: for 1 light, for 4 and for 64.
-    pub const fn positional<A: Method, B: Method, C: Method>(self) -> Entry {
-        let [one, few, many] = const {
-            [
-                &Kernels::of::<A>(),
-                &Kernels::of::<B>(),
-                &Kernels::of::<C>(),
-            ]
-        };
+    /// Takes the kernels of another row where a light or the eye is at a position.
+    pub const fn at_positions(self, near: Entry) -> Entry {
         Entry {
-            positional: [one, few, many, many],
-            count: [self.count[0], [count::<C>; 2]],
+            positional: near.positional,
+            count: [self.count[0], near.count[1]],
             ..self
         }
     }
@@ -284,8 +265,7 @@ impl Entry {
         match lights {
             0 | 1 => all[0],
             2..=4 => all[1],
-            5..=8 => all[2],
-            _ => all[3],
+            _ => all[2],
         }
     }
 }
@@ -329,8 +309,8 @@ mod tests {
         assert!(all <= 6 * METHODS.len(), "{all} kernels");
         for entry in METHODS {
             let own = compiled(&[*entry]);
-            let by_lights = !core::ptr::eq(entry.directional[0], entry.directional[3]);
-            let most = if by_lights { 24 } else { 8 };
+            let by_lights = !core::ptr::eq(entry.directional[0], entry.directional[2]);
+            let most = if by_lights { 18 } else { 8 };
             let has_positional = !core::ptr::eq(entry.directional[0], entry.positional[0]);
             assert!(
                 own <= most * (1 + usize::from(has_positional)),
