@@ -3,6 +3,7 @@
 use super::adaptive_plan::{self as plan, Followed};
 use super::increments::{Quadratic, Walk};
 use super::phong_rsqrt::PhongRsqrt;
+use super::planes::planes;
 use super::{
     Approximation, Chosen, Corners, Family, Fit, Info, LightModel, Linear, Lit, Method,
     MethodParameter, Normal, On, OneOf, Pixel, Planes, Roundings, Shader, Span, Standing, Stepped,
@@ -318,17 +319,19 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
-        let (((j, k), sum), d, (factors, followed)) = pixel;
+        let CurvedPixel {
+            j, k, d, factors, ..
+        } = pixel;
         let r = match ROOT {
             false => factors.x + d * (factors.y + d * factors.z),
             true => d.broadcast(1.0) / d.sqrt(),
         };
         let mut colour = lit.ambient();
         if MANY {
-            colour = colour + sum * r;
+            colour = colour + pixel.colour * r;
         }
         let v_n = k * r;
-        for (followed, j) in followed.0.into_iter().zip(j).take(most(MANY)) {
+        for (followed, j) in pixel.followed.0.into_iter().zip(j).take(most(MANY)) {
             if MANY && !(followed.diffuse || followed.highlight) {
                 continue;
             }
@@ -361,6 +364,23 @@ impl<F: Num> Planes<F> for FollowedLights {
     #[inline(always)]
     fn zip(&mut self, _: Self, _: impl Fn(F, F) -> F + Copy) {}
 }
+
+/// A pixel of a curved polygon.
+#[derive(Clone, Copy, Debug)]
+pub struct CurvedPixel<F> {
+    /// J of each followed light, and K.
+    j: [F; plan::MOST],
+    k: F,
+    /// The colour of lights in front, times |N|.
+    colour: Vec3<F>,
+    /// D, and the factors of the parabola for 1/√D.
+    d: F,
+    factors: Vec3<F>,
+    followed: FollowedLights,
+}
+
+planes!([] CurvedPixel<F>, { j: [F; plan::MOST], k: F, colour: Vec3<F>, d: F, factors: Vec3<F>, followed: FollowedLights },
+    |j, k, colour, d, factors, followed| CurvedPixel { j, k, colour, d, factors, followed });
 
 type Products<F> = ([F; plan::MOST], F); // J of each followed light, K
 
@@ -399,7 +419,7 @@ impl<F: Num, const MANY: bool> CurvedWalk<F, MANY> {
 }
 
 impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
-    type Pixel = ((Products<F>, Vec3<F>), F, (Vec3<F>, FollowedLights));
+    type Pixel = CurvedPixel<F>;
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
@@ -407,11 +427,10 @@ impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
             self.start_anew();
         }
         self.left -= 1;
-        let mut products = self.first;
-        products.1 = self.products.at.1;
+        let (mut j, k) = (self.first.0, self.products.at.1);
         self.products.at.1 = self.products.at.1 + self.products.step.1;
         for i in 0..most(MANY) {
-            products.0[i] = self.products.at.0[i];
+            j[i] = self.products.at.0[i];
             self.products.at.0[i] = self.products.at.0[i] + self.products.step.0[i];
         }
         let vector = match MANY {
@@ -419,10 +438,13 @@ impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
             false => self.colour.at,
         };
         let d = self.square.next();
-        (
-            (products, vector),
+        CurvedPixel {
+            j,
+            k,
+            colour: vector,
             d,
-            (self.factors, FollowedLights(self.followed)),
-        )
+            factors: self.factors,
+            followed: FollowedLights(self.followed),
+        }
     }
 }

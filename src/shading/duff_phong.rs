@@ -2,6 +2,7 @@
 
 use super::fast_phong_rsqrt::FAST_PHONG_RSQRT;
 use super::increments::Quadratic;
+use super::increments::products;
 use super::lighting::toward;
 use super::planes::scaled;
 use super::{
@@ -109,13 +110,10 @@ impl<const L: usize> Shader for DuffOfNormals<L> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DuffPhongLocal<const L: usize>;
 
-/// N·N, V·V, N·V and 1/w².
-type Shared<Q> = ((Q, Q), (Q, Q));
-/// L·L, L·N and L·V of each light.
-type Each<Q> = ((Q, Q), Q);
-
-pub(super) type LightWalk<F, const L: usize> = Each<PerLight<Quadratic<F>, L>>;
-type LocalWalk<F, const L: usize> = (Shared<Quadratic<F>>, LightWalk<F, L>);
+products! {
+    /// Products of the vectors N, V and L, and the square of the weight w.
+    LocalProducts { nn, vv, nv, ww } per light { ll, ln, lv }
+}
 
 impl<const L: usize> DuffPhongLocal<L> {
     /// Starts the products of vectors that grow linearly.
@@ -123,24 +121,26 @@ impl<const L: usize> DuffPhongLocal<L> {
     pub(super) fn products<F: Num>(
         lit: &Lit<'_, F>,
         Linear { at, step }: Linear<(Vec3<F>, Vec3<F>, F)>,
-    ) -> LocalWalk<F, L> {
+    ) -> LocalProducts<Quadratic<F>, L> {
         let ((n, p, w), (dn, dp, dw)) = (at, step);
 
         let eye = lit.model.eye;
         let (v, dv) = (toward(eye, p, w), toward(eye, dp, dw));
         let half = w * dw;
-        let (nn, vv) = (Quadratic::square(n, dn), Quadratic::square(v, dv));
-        let nv = Quadratic::product(n, dn, v, dv);
-        let ww = Quadratic::new(w * w, half + half, dw * dw);
-        let none = PerLight::new(lit.stored.len(), nn);
-        let (mut ll, mut ln, mut lv) = (none, none, none);
+        let nn = Quadratic::square(n, dn);
+        let mut products = LocalProducts {
+            vv: Quadratic::square(v, dv),
+            nv: Quadratic::product(n, dn, v, dv),
+            ww: Quadratic::new(w * w, half + half, dw * dw),
+            ..LocalProducts::new(lit.stored.len(), nn)
+        };
         for (i, light) in lit.stored.iter().enumerate() {
             let (l, dl) = (toward(light.place, p, w), toward(light.place, dp, dw));
-            ll.values[i] = Quadratic::square(l, dl);
-            ln.values[i] = Quadratic::product(l, dl, n, dn);
-            lv.values[i] = Quadratic::product(l, dl, v, dv);
+            products.ll.values[i] = Quadratic::square(l, dl);
+            products.ln.values[i] = Quadratic::product(l, dl, n, dn);
+            products.lv.values[i] = Quadratic::product(l, dl, v, dv);
         }
-        (((nn, vv), (nv, ww)), ((ll, ln), lv))
+        products
     }
 }
 
@@ -148,7 +148,7 @@ impl<const L: usize> Shader for DuffPhongLocal<L> {
     const INFO: Info = DUFF_PHONG;
     type Constants<F: Num> = ();
     type Carries = NormalAndPlace;
-    type Walk<F: Num> = LocalWalk<F, L>;
+    type Walk<F: Num> = LocalProducts<Quadratic<F>, L>;
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -156,16 +156,16 @@ impl<const L: usize> Shader for DuffPhongLocal<L> {
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
-        let (((nn, vv), (nv, ww)), ((ll, ln), lv)) = pixel;
-        let one = nn.broadcast(1.0);
-        let (over_n, over_v) = (one / nn.sqrt(), one / vv.sqrt());
-        let v_n = nv * over_n * over_v;
+        let one = pixel.nn.broadcast(1.0);
+        let (over_n, over_v) = (one / pixel.nn.sqrt(), one / pixel.vv.sqrt());
+        let v_n = pixel.nv * over_n * over_v;
         let mut colour = lit.ambient();
         for index in 0..lit.stored.len() {
-            let over_l = one / ll.values[index].sqrt();
-            let l_n = ln.values[index] * (over_n * over_l); // L·N / √(N·N L·L)
-            let l_v = lv.values[index] * (over_v * over_l);
-            let light = lit.light(index, l_v, ll.values[index], ww);
+            let [ll, ln, lv] = [pixel.ll, pixel.ln, pixel.lv].map(|all| all.values[index]);
+            let over_l = one / ll.sqrt();
+            let l_n = ln * (over_n * over_l); // L·N / √(N·N L·L)
+            let l_v = lv * (over_v * over_l);
+            let light = lit.light(index, l_v, ll, pixel.ww);
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n)); // 4.5
         }
         colour

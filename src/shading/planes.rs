@@ -110,6 +110,8 @@ macro_rules! planes {
     };
 }
 
+pub(super) use planes;
+
 planes!([] Vec3<F>, { x: F, y: F, z: F }, |x, y, z| Vec3 { x, y, z });
 planes!([A, B] (A, B), { 0: A, 1: B }, |a, b| (a, b));
 planes!([A, B, C] (A, B, C), { 0: A, 1: B, 2: C }, |a, b, c| (a, b, c));

@@ -1,6 +1,7 @@
 //! Products of vectors toward lights and eye at positions, as quadratics over a triangle: what methods share that make one per polygon.
 
 use super::increments::Quadratic;
+use super::increments::products;
 use super::quadratic_products::{
     Growth, WIDEST, along, each_of, least_length, longest, plain, relative, set_up_triangle,
 };
@@ -11,25 +12,26 @@ use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::scene::{Falloff, LightTerm, Place};
 
-/// J = L·N and L·V of each light, and its strength; K = V·N: products of unit vectors.
-pub(super) type Products<F, const L: usize> =
-    ((PerLight<F, L>, PerLight<F, L>), (PerLight<F, L>, F));
+products! {
+    /// Products of unit vectors: K = V·N; J = L·N and L·V of each light, and its strength.
+    UnitProducts { k } per light { j, l_v, strength }
+}
 
 /// The coefficients of 1, x, y, x², xy, y².
-type Coefficients<F, const L: usize> = [Products<F, L>; 6];
+type Coefficients<F, const L: usize> = [UnitProducts<F, L>; 6];
 
-/// They, and the point of the picture from which x and y are counted.
+/// The coefficients, and the point of the picture from which x and y are counted.
 pub(super) type OverTriangle<F, const L: usize> = (Coefficients<F, L>, [F; 2]);
 
 /// Sets the coefficients of K.
 #[inline(always)]
 pub(super) fn set_view<F: Copy, const L: usize>(to: &mut Coefficients<F, L>, k: [F; 6]) {
     for (of, k) in to.iter_mut().zip(k) {
-        of.1.1 = k;
+        of.k = k;
     }
 }
 
-/// Sets those of J, L·V and the strength of a light.
+/// Sets the coefficients of J, L·V and the strength of a light.
 #[inline(always)]
 pub(super) fn set_light<F: Copy, const L: usize>(
     to: &mut Coefficients<F, L>,
@@ -37,9 +39,9 @@ pub(super) fn set_light<F: Copy, const L: usize>(
     all: [(F, F, F); 6],
 ) {
     for (of, (j, l_v, strength)) in to.iter_mut().zip(all) {
-        of.0.0.values[light] = j;
-        of.0.1.values[light] = l_v;
-        of.1.0.values[light] = strength;
+        of.j.values[light] = j;
+        of.l_v.values[light] = l_v;
+        of.strength.values[light] = strength;
     }
 }
 
@@ -198,37 +200,34 @@ pub(super) fn approximation(
 #[derive(Clone, Copy, Debug, Default)]
 pub struct QuadraticsLocal<const L: usize>;
 
-/// A quadratic for each light.
-type Each<F, const L: usize> = PerLight<Quadratic<F>, L>;
-
 impl<const L: usize> Shader for QuadraticsLocal<L> {
     const INFO: Info = Info::of_kind("quadratic");
     type Constants<F: Num> = OverTriangle<F, L>;
     type Carries = NormalAndPlace;
-    type Walk<F: Num> = ((Each<F, L>, Each<F, L>), (Each<F, L>, Quadratic<F>)); // as in `Products`
+    type Walk<F: Num> = UnitProducts<Quadratic<F>, L>;
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let ((of, from), [x, y]) = (span.constants(), span.place());
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
-        let none = PerLight::new(lit.count(), Quadratic::zero(lit.zero()));
-        let ((mut strength, mut j), mut l_v) = ((none, none), none);
+        let mut walk = UnitProducts::new(lit.count(), Quadratic::zero(lit.zero()));
+        walk.k = along(each_of(|i| of[i].k), from);
         for light in 0..lit.count() {
-            j.values[light] = along(each_of(|i| of[i].0.0.values[light]), from);
-            l_v.values[light] = along(each_of(|i| of[i].0.1.values[light]), from);
-            strength.values[light] = along(each_of(|i| of[i].1.0.values[light]), from);
+            walk.j.values[light] = along(each_of(|i| of[i].j.values[light]), from);
+            walk.l_v.values[light] = along(each_of(|i| of[i].l_v.values[light]), from);
+            walk.strength.values[light] = along(each_of(|i| of[i].strength.values[light]), from);
         }
-        ((j, l_v), (strength, along(each_of(|i| of[i].1.1), from)))
+        walk
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, ((j, l_v), (strength, k)): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
         let mut colour = lit.ambient();
         for index in 0..lit.count() {
             let falls = lit.stored[index].falloff != Falloff::None;
-            let strength = falls.then_some(strength.values[index]);
-            let light = lit.light_of_strength(index, l_v.values[index], strength);
-            let l_n = j.values[index];
-            colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, k)); // 4.5
+            let strength = falls.then_some(pixel.strength.values[index]);
+            let light = lit.light_of_strength(index, pixel.l_v.values[index], strength);
+            let l_n = pixel.j.values[index];
+            colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, pixel.k)); // 4.5
         }
         colour
     }
