@@ -201,12 +201,12 @@ impl<'a> SetUp<'a> {
                 }
             },
         );
-        constants.numbers.reserve_exact(polygons.len() * count);
+        constants.values.reserve_exact(polygons.len() * count);
         for record in records.chunks_exact(stride) {
             if has_kinds {
                 constants.kinds.push(record[0] as u8);
             }
-            constants.numbers.extend_from_slice(&record[1..]);
+            constants.values.extend_from_slice(&record[1..]);
         }
         constants
     }

@@ -178,10 +178,10 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
             }
         }
         let factors = vec3(plan.factors).broadcast(zero);
-        let number = |number: f32| zero.broadcast(number);
+        let value = |value: f32| zero.broadcast(value);
         let followed = plan.followed.map(|one| {
-            let parts = [one.diffuse, one.highlight].map(|part| number(f32::from(u8::from(part))));
-            (number(one.light.into()), (parts[0], parts[1]))
+            let parts = [one.diffuse, one.highlight].map(|part| value(f32::from(u8::from(part))));
+            (value(one.light.into()), (parts[0], parts[1]))
         });
         match plan.kind {
             plan::EXACT => OneOf::First(()),
@@ -264,7 +264,7 @@ pub struct Curved<const MANY: bool, const ROOT: bool>;
 
 impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
     const INFO: Info = Info::of_kind(if ROOT { "root" } else { "curved" });
-    // C by rows; the factors; followed lights, each as its number and what is followed of it
+    // C by rows; the factors; followed lights, each as its index and what is followed of it
     type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>, [(F, (F, F)); plan::MOST]);
     type Carries = Normal;
     type Walk<F: Num> = CurvedWalk<F, MANY>;
@@ -350,7 +350,7 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
     }
 }
 
-/// What a run follows, at each of its pixels: no number that is stepped, so that it has no plane.
+/// The lights that a run follows, at each of its pixels. Nothing of it is stepped, so it takes no room in the G-buffer.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FollowedLights([Followed; plan::MOST]);
 

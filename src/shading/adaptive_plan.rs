@@ -1,4 +1,4 @@
-//! The plan of a polygon for adaptive shading: the cheapest kind of pixel loop whose error stays within a number of grey levels.
+//! The plan of a polygon for adaptive shading: the cheapest kind of pixel loop whose error stays within a limit in grey levels.
 //!
 //! N_i are the unit normals of the corners, m their mean, N = Σ b_i N_i with weights b_i ≥ 0 of sum 1, and s = max |N_i − m|². All bounds
 //! hold for polygons of any number of corners, in whatever way they are interpolated.
@@ -81,7 +81,7 @@ pub(super) const ROOT: u8 = 4;
 /// What a walk follows of a light beside the sum of all lights in front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Followed {
-    /// The number of the light.
+    /// The index of the light.
     pub light: u16,
     /// True if its diffuse term is followed, as L·N changes its sign on the polygon.
     pub diffuse: bool,
@@ -135,7 +135,7 @@ impl Plan {
     };
 }
 
-/// Returns a vector of plain numbers: plans decide, and what they decide by is nothing that the method computes.
+/// Returns a vector of plain `f32`: plans decide, and what they decide by is nothing that the method computes.
 fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
     vec3([v.x.value(), v.y.value(), v.z.value()])
 }
@@ -436,7 +436,7 @@ fn is_narrow([low, high]: [f32; 2]) -> bool {
     high - low <= WIDEST * (high + low)
 }
 
-/// Returns the greatest cosine of a light's highlight on a polygon, or a number over 1 where it is unknown: see (c).
+/// Returns the greatest cosine of a light's highlight on a polygon, or a value over 1 where it is unknown: see (c).
 fn reach(light: &LightUniforms, seen: &Seen, s: f32, is_halfway: bool) -> f32 {
     const ROUNDINGS: f32 = 2e-6;
     let low = f32::max(1.0 - s, f32::MIN_POSITIVE);
@@ -480,8 +480,8 @@ mod tests {
     /// Lines and parabolas for 1/√D are as near as stated on every range that they are taken for, and nearly as far somewhere.
     #[test]
     fn polynomials_are_within_their_errors() {
-        for number in 1..=1000 {
-            let x = f64::from(WIDEST) * f64::from(number) / 1000.0;
+        for step in 1..=1000 {
+            let x = f64::from(WIDEST) * f64::from(step) / 1000.0;
             let range = [1.0 - x, 1.0 + x].map(|d| 0.7 * d as f32);
             for (name, (factors, stated)) in [("line", line(range)), ("parabola", parabola(range))]
             {

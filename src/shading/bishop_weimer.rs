@@ -22,7 +22,7 @@ use crate::scene::{Falloff, Place};
 /// ```text
 /// J/|N| = L·v / √(v·v)  ~  T_0 + T_1 x + T_2 y + T_3 x² + T_4 xy + T_5 y²,     K/|N| likewise
 /// ```
-/// which a run steps by two additions. The coefficients come from numbers that carry their derivatives ([`Jet`]): the printed ones, as they
+/// which a run steps by two additions. The coefficients come from values that carry their derivatives ([`Jet`]): the printed ones, as they
 /// are copied about, are wrong twice. Under perspective v is that of N/w. Polygons of more corners, pieces that clipping cut, slivers,
 /// and triangles whose normals turn by more than about 60° are shaded as by [`DuffPhong`](super::duff_phong::DuffPhong).
 ///
@@ -56,7 +56,7 @@ fn middle<R: Real>([a, b, c]: [Corner<R>; 3]) -> [R; 2] {
     [0, 1].map(|i| (a.place[i] + b.place[i] + c.place[i]) * (1.0 / 3.0))
 }
 
-/// A number as a function of x and y, cut off after the second order: the coefficients of 1, x, y, x², xy, y².
+/// A value as a function of x and y, cut off after the second order: the coefficients of 1, x, y, x², xy, y².
 #[derive(Clone, Copy)]
 struct Jet<R>([R; 6]);
 
@@ -221,7 +221,7 @@ struct Vectors<R> {
     weight: Jet<R>,
 }
 
-// Not inlined: they are the same for any number of lights.
+// Not inlined: they are the same for any count of lights.
 impl<R: Real> Vectors<R> {
     #[inline(never)]
     fn of(lit: &Lit<'_, R>, corners: [Placed<R>; 3], growth: Growth<R>) -> Self {

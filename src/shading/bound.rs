@@ -21,7 +21,7 @@ pub struct Roundings {
     /// Before the first step.
     pub start: f64,
     /// At every step along an edge or a span. Steps add the same rounded increment again and again, so their roundings
-    /// do not average out: they grow with the number of steps.
+    /// do not average out: they grow with the count of steps.
     pub step: f64,
     /// The values that are stepped.
     pub of: Stepped,
@@ -100,7 +100,7 @@ impl Variant {
     /// of the specular terms. R·V is divided by the squared length, which has no such error. A highlight that is weighted with L·N
     /// loses as much as that.
     ///
-    /// Other errors of the method itself, those of a given number of Newton's steps on short spans with large angles among
+    /// Other errors of the method itself, those of a given count of Newton's steps on short spans with large angles among
     /// them, are no part of this, nor is a gate: a highlight ends with a jump where L·N = 0, and where a light lies in the plane
     /// of a polygon the last bit decides whether all of it is there. Where the difference is over this bound, the report says so.
     pub fn bound(&self, frame: &Frame) -> f64 {
@@ -139,8 +139,8 @@ impl Variant {
             .collect();
         let polygons = frame.polygons().iter().enumerate();
         let entry = self.entry().on(frame);
-        polygons.map(move |(number, polygon)| {
-            let (cosine, colour) = errors(entry, frame, polygon, spread.on(number));
+        polygons.map(move |(index, polygon)| {
+            let (cosine, colour) = errors(entry, frame, polygon, spread.on(index));
             let material = &materials[polygon.material as usize];
             let error = (entry.info.approximation)(frame, polygon, self.parameters());
             let cosine = cosine + error.cosine + error.length;

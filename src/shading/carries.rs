@@ -7,7 +7,7 @@ use crate::number::{Num, Vec3};
 pub trait Carries: 'static {
     /// What it is made from: what engines get ready.
     const FROM: Carried = Carried::Lit;
-    /// The varyings: numbers, vectors and tuples of them.
+    /// The varyings: values, vectors and tuples of them.
     type Varying<F: Num>: Planes<F>;
     /// Returns the varyings of a vertex with the unit normal `n`; once per polygon for methods that are lit there.
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;

@@ -1,4 +1,4 @@
-//! The cell of a pixel in the G-buffer: which of its numbers is depth, a varying, an extra, or the number of its uniforms. The row
+//! The cell of a pixel in the G-buffer: which of its values is depth, a varying, an extra, or the index of its uniforms. The row
 //! engine writes cells and kernels read them, both by [`CellLayout`].
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
@@ -6,20 +6,20 @@
 use super::UniformsIndex;
 use crate::number::BLOCK;
 
-/// The layout of a pixel's numbers:
+/// The layout of a pixel's values:
 ///
 /// ```text
 /// depth | varyings | extras | uniforms
 /// ```
 ///
-/// A block of pixels holds [`BLOCK`] values of each number, one number after the other.
+/// A block of pixels holds [`BLOCK`] depths, then as many of each other value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct CellLayout {
-    /// The method's varyings, or the numbers of the pixels that its walk returns.
+    /// The method's varyings, or the values of the pixels that its walk returns.
     pub varyings: usize,
     /// The varyings that the engine adds: [`Extras`](super::Extras).
     pub extras: usize,
-    /// True if pixels have uniforms of their own, whose number stands last.
+    /// True if pixels have uniforms of their own, whose index stands last.
     pub has_uniforms: bool,
 }
 
@@ -27,13 +27,13 @@ impl CellLayout {
     /// The place of depth.
     pub const DEPTH: usize = 0;
 
-    /// Returns the numbers of a pixel.
+    /// Returns how many values a pixel has.
     #[inline(always)]
     pub const fn count(self) -> usize {
         self.uniforms() + self.has_uniforms as usize
     }
 
-    /// Returns the numbers of a block of pixels: the distance from one to the next.
+    /// Returns how many values a block of pixels has: the distance from one block to the next.
     #[inline(always)]
     pub const fn stride(self) -> usize {
         self.count() * BLOCK
@@ -51,13 +51,13 @@ impl CellLayout {
         CellLayout::varying(self.varyings + i)
     }
 
-    /// Returns the place of the number of the uniforms; without [`CellLayout::has_uniforms`] the end of the cell.
+    /// Returns the place of the index of the uniforms; without [`CellLayout::has_uniforms`] the end of the cell.
     #[inline(always)]
     pub const fn uniforms(self) -> usize {
         self.extra(self.extras)
     }
 
-    /// Writes the numbers of a pixel, or of a triangle's corner, one after the other: depth, `varyings` with extras, and the number
+    /// Writes the values of a pixel, or of a triangle's corner, one after the other: depth, `varyings` with extras, and the index
     /// of the uniforms, which is only asked for if it is kept.
     #[inline(always)]
     pub fn write(
@@ -76,16 +76,16 @@ impl CellLayout {
         }
     }
 
-    /// Returns the number of some uniforms as cells hold it. Exact: `Variant::plan` gives the row engine fewer than 2²⁴ polygons.
+    /// Returns the index of some uniforms as cells hold it. Exact: `Variant::plan` gives the row engine fewer than 2²⁴ polygons.
     #[inline(always)]
     pub fn of_uniforms(uniforms: UniformsIndex) -> f32 {
         uniforms.0 as f32
     }
 
-    /// Returns the number of some uniforms from the number that a cell holds.
+    /// Returns the index of some uniforms from the value that a cell holds.
     #[inline(always)]
-    pub fn uniforms_of(number: f32) -> UniformsIndex {
-        UniformsIndex(number as u32)
+    pub fn uniforms_of(value: f32) -> UniformsIndex {
+        UniformsIndex(value as u32)
     }
 }
 
@@ -117,13 +117,13 @@ mod tests {
             assert_eq!(places, all, "{cell:?}");
             assert_eq!(cell.stride(), BLOCK * places.len());
             let carried: Vec<f32> = (0..varyings + extras).map(|i| i as f32).collect();
-            let mut numbers = alloc::vec![-1.0; cell.count()];
-            cell.write(&mut numbers, 0.5, &carried, || UniformsIndex(1 << 23));
-            assert_eq!(numbers[CellLayout::DEPTH], 0.5);
-            assert_eq!(numbers[1..][..carried.len()], carried);
+            let mut values = alloc::vec![-1.0; cell.count()];
+            cell.write(&mut values, 0.5, &carried, || UniformsIndex(1 << 23));
+            assert_eq!(values[CellLayout::DEPTH], 0.5);
+            assert_eq!(values[1..][..carried.len()], carried);
             if has_uniforms {
-                let number = numbers[cell.uniforms()];
-                assert_eq!(CellLayout::uniforms_of(number), UniformsIndex(1 << 23));
+                let value = values[cell.uniforms()];
+                assert_eq!(CellLayout::uniforms_of(value), UniformsIndex(1 << 23));
             }
         }
     }

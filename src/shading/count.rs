@@ -44,12 +44,12 @@ pub(super) struct CountedSpan {
 /// which engines start edges and spans, walk and shade.
 pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
     let counter = Counter::default();
-    let number = |x: f32| counter.number(x);
-    let three = |v: [f32; 3]| vec3(v.map(number));
+    let value = |x: f32| counter.number(x);
+    let three = |v: [f32; 3]| vec3(v.map(value));
     let (entry, extras) = (variant.entry(), bench.extras(variant));
     let uniforms = bench.uniforms(variant, 1.0);
     let method = M::new(variant.parameters(), &uniforms.model);
-    let (face, zero) = (three(SpanBench::FACE), number(0.0));
+    let (face, zero) = (three(SpanBench::FACE), value(0.0));
     let lit = Lit::new(uniforms.stored(), zero, uniforms.model.is_general);
     let is_polygon = matches!(entry.needs.lit_at, LitAt::Polygon | LitAt::PolygonMean);
     let mut counts = OperationCounts::default();
@@ -70,10 +70,10 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
         let varying = carried::<CarriesOf<M>, _>(&uniforms, &lit, normal);
         put(varying, corner);
         if extras.point {
-            corner.extend(bench.points[i].map(number));
+            corner.extend(bench.points[i].map(value));
         }
         if extras.weight {
-            corner.push(number(1.0));
+            corner.push(value(1.0));
         }
     }
     if !is_polygon {
@@ -87,7 +87,7 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     }
     counts.polygon = counter.take();
 
-    let polygon = bench.polygon(SpanBench::LENGTH, number);
+    let polygon = bench.polygon(SpanBench::LENGTH, value);
     let corners_of_polygon = polygon.corners();
     counter.take();
     let chosen = method.polygon(&lit, &corners_of_polygon);
@@ -97,8 +97,8 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     }
 
     let [a, b, c] = &corners;
-    let [t0, dt] = SpanBench::EDGE.map(number);
-    let vector = |numbers: &[_]| vec3([numbers[0], numbers[1], numbers[2]]);
+    let [t0, dt] = SpanBench::EDGE.map(value);
+    let vector = |values: &[_]| vec3([values[0], values[1], values[2]]);
     let ends: [Vec<Counted<'_>>; 2];
     if M::NEEDS.great_circles() {
         let circle = |from, to| GreatCircle::new(face, [from, to], t0, dt);
@@ -129,7 +129,7 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
         (counts.edge, counts.edge_step) = Default::default();
     }
 
-    let [t0, dt] = SpanBench::SPAN.map(number);
+    let [t0, dt] = SpanBench::SPAN.map(value);
     let pairs = ends[0].iter().zip(&ends[1]);
     let [mut first, mut second] = [Vec::new(), Vec::new()];
     for (a, b) in pairs {
@@ -141,9 +141,9 @@ pub(super) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
         second.push(step);
     }
     let mut planned = Vec::new();
-    let kind = M::Kinds::put(chosen, |_, number| planned.push(*number));
+    let kind = M::Kinds::put(chosen, |_, value| planned.push(*value));
     let start = RunStart {
-        numbers: [&first, &second],
+        values: [&first, &second],
         x: 0,
         pixels: SpanBench::PIXELS,
         place: M::NEEDS.reads_span().then_some(SpanPlace {
@@ -207,9 +207,9 @@ impl<C: Carries> Visit<C> for CountedRun<'_, '_> {
     }
 }
 
-/// Puts the numbers of a value at the end of a list.
-fn put<'a, P: Planes<Counted<'a>>>(value: P, list: &mut Vec<Counted<'a>>) {
-    each(value, |_, number| list.push(*number));
+/// Appends values to a list.
+fn put<'a, P: Planes<Counted<'a>>>(group: P, list: &mut Vec<Counted<'a>>) {
+    each(group, |_, value| list.push(*value));
 }
 
 #[cfg(test)]
@@ -259,7 +259,7 @@ mod tests {
                 Interpolation::Perspective,
             ),
         ];
-        for (number, (bench, interpolation)) in benches.iter().enumerate() {
+        for (index, (bench, interpolation)) in benches.iter().enumerate() {
             let frame = frame(bench, *interpolation);
             for entry in METHODS {
                 let variant = entry.variant();
@@ -272,7 +272,7 @@ mod tests {
                     .expect("a method for the frame");
                 let [drawn @ .., _] = picture.get(0, 0);
                 let counted = counted.colour.map(|channel| channel.clamp(0.0, 1.0));
-                assert_eq!(drawn, counted, "{variant} on bench {number}");
+                assert_eq!(drawn, counted, "{variant} on bench {index}");
             }
         }
     }

@@ -27,7 +27,7 @@ pub(super) struct Extent {
     /// No normal between the corners is shorter than c: it is a convex combination N of theirs, and |N| ≥ N·m ≥ c. The ends of a cut
     /// edge count as corners, in place of the one that was made.
     pub cosine: f64,
-    /// The most by which barycentric coordinates grow, in the row engine, from the pixel where a triangle's numbers begin to a
+    /// The most by which barycentric coordinates grow, in the row engine, from the pixel where a triangle's values begin to a
     /// covered one.
     pub growth: f64,
     /// True if the row engine may draw it by barycentric coordinates.
@@ -81,9 +81,9 @@ impl Extent {
     }
 }
 
-/// Returns the least and the greatest number.
-pub(super) fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
-    numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+/// Returns the least and the greatest value.
+pub(super) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     })
 }

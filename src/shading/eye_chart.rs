@@ -170,16 +170,14 @@ mod tests {
             let mut random = Random::new(15);
             let (mut nearest, mut known) = (0.0f64, 0);
             for _ in 0..4000 {
-                let mut number = || f64::from(random.signed());
-                let count = 2 + (number().abs() * 5.0) as usize;
-                let reach = number().abs() * 1.2;
-                let lean = 2.0 * number().abs();
+                let mut value = || f64::from(random.signed());
+                let count = 2 + (value().abs() * 5.0) as usize;
+                let reach = value().abs() * 1.2;
+                let lean = 2.0 * value().abs();
                 let view = DVec3::Z;
                 let middle = DVec3::new(libm::sin(lean), 0.0, libm::cos(lean));
                 let normals: Vec<DVec3> = (0..count)
-                    .map(|_| {
-                        (middle + reach * DVec3::new(number(), number(), number())).normalize()
-                    })
+                    .map(|_| (middle + reach * DVec3::new(value(), value(), value())).normalize())
                     .collect();
                 let mean = normals.iter().sum::<DVec3>().normalize();
                 let c = normals.iter().map(|n| n.dot(mean)).fold(1.0, f64::min);
@@ -193,7 +191,7 @@ mod tests {
                 }
                 known += 1;
                 for _ in 0..20 {
-                    let mut weights: Vec<f64> = (0..count).map(|_| number().abs()).collect();
+                    let mut weights: Vec<f64> = (0..count).map(|_| value().abs()).collect();
                     let sum: f64 = weights.iter().sum();
                     weights.iter_mut().for_each(|weight| *weight /= sum);
                     let all = normals.iter().zip(&weights);

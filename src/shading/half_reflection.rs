@@ -180,11 +180,11 @@ mod tests {
         let mut nearest = 0.0f64;
         let mut tried = 0;
         while tried < 2000 {
-            let mut number = || f64::from(random.signed());
-            let count = 2 + (number().abs() * 5.0) as usize;
-            let reach = number().abs();
+            let mut value = || f64::from(random.signed());
+            let count = 2 + (value().abs() * 5.0) as usize;
+            let reach = value().abs();
             let normals: Vec<DVec3> = (0..count)
-                .map(|_| DVec3::new(reach * number(), reach * number(), 1.0).normalize())
+                .map(|_| DVec3::new(reach * value(), reach * value(), 1.0).normalize())
                 .collect();
             let phi = widest(&normals);
             if !(1e-2..FRAC_PI_2).contains(&phi) {
@@ -193,7 +193,7 @@ mod tests {
             tried += 1;
             let mut mean = || {
                 let sharp = |x: f64| x.abs().powi(4);
-                let weights: Vec<f64> = normals.iter().map(|_| sharp(number())).collect();
+                let weights: Vec<f64> = normals.iter().map(|_| sharp(value())).collect();
                 normals
                     .iter()
                     .zip(weights)

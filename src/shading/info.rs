@@ -356,7 +356,7 @@ pub struct Info {
     pub claimed: &'static str,
     /// The closed form that its picture is measured against.
     pub model: Model,
-    /// The roundings that its numbers gather. [`super::Variant::bound`] derives the largest difference to the closed form from them.
+    /// The roundings that its values gather. [`super::Variant::bound`] derives the largest difference to the closed form from them.
     pub roundings: Roundings,
     /// The reason for so many roundings and no more.
     pub derivation: &'static str,

@@ -139,13 +139,13 @@ fn colour<H: Highlight>(uniforms: &Uniforms, normal: Vec3<f32>) -> u32 {
 /// Shades runs.
 fn pixels(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
     let mut rest = out;
-    for (number, run) in job.list.runs.iter().enumerate() {
+    for (index, run) in job.list.runs.iter().enumerate() {
         let (here, others) = rest.split_at_mut(run.pixels as usize);
         rest = others;
-        let [a, b] = integers::ends(job, number);
+        let [a, b] = integers::ends(job, index);
         integers::shade_run(
             job,
-            number,
+            index,
             here,
             |t| fields(a + (b - a) * t),
             integer::gouraud,

@@ -242,8 +242,8 @@ pub(super) fn lights<const L: usize>(uniforms: &Uniforms) -> [Light<'_, Rgb888>;
 
 /// Shades runs by the loop `M`.
 pub(super) fn pixels<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
-    let along = |number: usize, t: f32| {
-        let [a, b] = ends(job, number);
+    let along = |index: usize, t: f32| {
+        let [a, b] = ends(job, index);
         vector(a + (b - a) * t)
     };
     shade::<M>(job, out, &along);
@@ -251,19 +251,19 @@ pub(super) fn pixels<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
 
 /// Shades runs by the loop `M`, between normals on great circles.
 pub(super) fn circles<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
-    let along = |number: usize, t: f32| {
-        let numbers = &job.constants.numbers;
-        let polygon = job.list.runs[number].polygon as usize;
-        let face = vec3([0, 1, 2].map(|i| numbers[3 * polygon + i]));
-        let circle = GreatCircle::new(face, ends(job, number), t, 0.0);
+    let along = |index: usize, t: f32| {
+        let values = &job.constants.values;
+        let polygon = job.list.runs[index].polygon as usize;
+        let face = vec3([0, 1, 2].map(|i| values[3 * polygon + i]));
+        let circle = GreatCircle::new(face, ends(job, index), t, 0.0);
         vector(circle.normal())
     };
     shade::<M>(job, out, &along);
 }
 
 /// Returns the varyings at both ends of a run's span.
-pub(super) fn ends(job: &Pixels<'_>, number: usize) -> [Vec3<f32>; 2] {
-    let ends = job.list.starts.of(number);
+pub(super) fn ends(job: &Pixels<'_>, index: usize) -> [Vec3<f32>; 2] {
+    let ends = job.list.starts.of(index);
     ends.map(|end| vec3([end[0], end[1], end[2]]))
 }
 
@@ -318,15 +318,15 @@ impl<A: Fn(usize, f32) -> Vector> Group<'_, '_, A> {
 
     fn shade<M: Line, H: Highlight, const L: usize>(self) {
         let (lights, mut rest) = (lights::<L>(self.uniforms), self.out);
-        for number in self.runs {
-            let pixels = self.job.list.runs[number].pixels as usize;
+        for index in self.runs {
+            let pixels = self.job.list.runs[index].pixels as usize;
             let (here, others) = rest.split_at_mut(pixels);
             rest = others;
             shade_run(
                 self.job,
-                number,
+                index,
                 here,
-                |t| (self.along)(number, t),
+                |t| (self.along)(index, t),
                 |line, first, end| {
                     let span = integer::Span::new(first, end);
                     M::shade::<H, L>(self.job.parameters, span, line, &lights);
@@ -340,12 +340,12 @@ impl<A: Fn(usize, f32) -> Vector> Group<'_, '_, A> {
 /// span: at the first pixel of a piece and at the pixel after its last.
 pub(super) fn shade_run<T: Copy>(
     job: &Pixels<'_>,
-    number: usize,
+    index: usize,
     out: &mut [[f32; 3]],
     at: impl Fn(f32) -> T,
     mut draw: impl FnMut(&mut [Rgb888], T, T),
 ) {
-    let (run, place) = (&job.list.runs[number], job.list.places[number]);
+    let (run, place) = (&job.list.runs[index], job.list.places[index]);
     let (all, mut done) = (place.pixels as usize, 0);
     // The pixel of the span that the run begins with.
     let before = (run.x - place.start) as usize;
@@ -501,7 +501,7 @@ pub(super) fn colour(lights: u32, clamped: bool) -> Counts {
 }
 
 /// Returns the operations of a method with a highlight by R·V: those of the engine on vertices and edges, and those of the method on a
-/// span, which `of` states for a number of lights as the loops stand: for `most` of them, where there are more. The colour is the
+/// span, which `of` states for up to `most` lights as the loops stand. The colour is the
 /// kernel's.
 pub(super) fn counted<M: Method>(
     bench: &SpanBench,
@@ -554,7 +554,7 @@ pub(super) fn counted<M: Method>(
         extras: super::Extras::default(),
         constants: &PolygonConstants {
             kinds: Vec::new(),
-            numbers: SpanBench::FACE.to_vec(),
+            values: SpanBench::FACE.to_vec(),
         },
         list: &list,
     };

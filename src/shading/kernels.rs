@@ -24,7 +24,7 @@ use crate::number::{BLOCK, Level, Num, Vec3, vec3};
 #[cfg(feature = "simd")]
 use fearless_simd::*;
 
-/// The number of some uniforms in the list of a method on a frame. It is not the number of a material: under local lights each polygon
+/// The index of some uniforms in the list of a method on a frame. It is not the index of a material: under local lights each polygon
 /// may have uniforms of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UniformsIndex(pub u32);
@@ -39,20 +39,20 @@ pub(crate) struct Extras {
 }
 
 impl Extras {
-    /// Returns the number of their values.
+    /// Returns how many values they have.
     pub fn count(self) -> usize {
         3 * usize::from(self.point) + usize::from(self.weight)
     }
 
-    /// Returns position and weight from their numbers; a missing one is `none`.
+    /// Returns position and weight from their values; a missing one is `none`.
     #[inline(always)]
-    fn of<F: Num>(self, none: F, number: impl Fn(usize) -> F) -> (Vec3<F>, F) {
+    fn of<F: Num>(self, none: F, value: impl Fn(usize) -> F) -> (Vec3<F>, F) {
         let (mut point, mut weight) = (vec3([none; 3]), none);
         if self.point {
-            point = vec3([number(0), number(1), number(2)]);
+            point = vec3([value(0), value(1), value(2)]);
         }
         if self.weight {
-            weight = number(self.count() - 1);
+            weight = value(self.count() - 1);
         }
         (point, weight)
     }
@@ -113,12 +113,12 @@ pub(crate) struct Pixels<'a> {
 }
 
 impl<'a> Pixels<'a> {
-    /// Returns the number of lights.
+    /// Returns the count of lights.
     fn lights(&self) -> usize {
         self.uniforms.first().map_or(0, |all| all.lights.len())
     }
 
-    /// Returns neighbouring runs of the same uniforms together, each with its number.
+    /// Returns neighbouring runs of the same uniforms together, each with its index.
     fn by_uniforms(
         &self,
     ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (usize, &'a Run)>)> {
@@ -134,13 +134,13 @@ impl<'a> Pixels<'a> {
 
     /// Returns the kind of a run's polygon, and the run as a walk starts from it.
     #[inline(always)]
-    fn start<M: Method>(&self, number: usize, run: &Run) -> (u8, RunStart<'a, f32>) {
+    fn start<M: Method>(&self, index: usize, run: &Run) -> (u8, RunStart<'a, f32>) {
         let (kind, constants) = self.constants.of::<M>(self.lights(), run.polygon);
         let start = RunStart {
-            numbers: self.list.starts.of(number),
+            values: self.list.starts.of(index),
             x: run.x,
             pixels: run.pixels,
-            place: M::NEEDS.reads_span().then(|| self.list.places[number]),
+            place: M::NEEDS.reads_span().then(|| self.list.places[index]),
             constants,
         };
         (kind, start)
@@ -152,10 +152,10 @@ pub(crate) type PolygonKernel = fn(&[Value], &Uniforms, &Corners<'_, f32>, &mut 
 pub(crate) type PixelKernel = fn(&Pixels<'_>, &mut [[f32; 3]]);
 pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
-/// A method compiled for one number of lights.
+/// A method compiled for one count of lights.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernels {
-    /// Returns the numbers of a varying, of a pixel and of the constants of a polygon for so many lights.
+    /// Returns how many values a varying, a pixel and a polygon's constants take for this many lights.
     pub(crate) counts: fn(usize) -> [usize; 3],
     pub(crate) needs: Needs,
     pub(crate) carries: Carried,
@@ -195,7 +195,7 @@ impl Kernels {
             counts: |lights| {
                 let varyings = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
                 let pixel = count::<Pixel<First<M>, f32>>(lights);
-                [varyings, pixel, M::Kinds::numbers(lights)]
+                [varyings, pixel, M::Kinds::constants(lights)]
             },
             needs: needs::<M>(),
             carries: <CarriesOf<M> as Carries>::FROM,
@@ -216,7 +216,7 @@ impl Kernels {
 
 impl Kernels {
     /// Makes the kernels of a method from those of `M`, which lights its vertices, and a plain function for its pixels: for methods
-    /// whose numbers are no [`Num`], as integers are. They are scalar only, for the reason `why`.
+    /// that do not compute on a [`Num`], as those in integers. They are scalar only, for the reason `why`.
     pub(super) const fn of_functions<M: Method>(pixels: PixelKernel, why: &'static str) -> Kernels {
         Kernels {
             pixels,
@@ -272,7 +272,7 @@ fn polygon<M: Method>(
 ) -> u8 {
     let lit = Lit::new(uniforms.stored(), 0.0, true);
     let chosen = M::new(parameters, &uniforms.model).polygon(&lit, polygon);
-    M::Kinds::put(chosen, |i, number| to[i] = *number)
+    M::Kinds::put(chosen, |i, value| to[i] = *value)
 }
 
 /// Lights vertices one at a time.
@@ -280,7 +280,7 @@ fn vertices<C: Carries>(job: &Vertices<'_>, out: &mut [f32]) {
     light::<C, f32>(job, true, out, |all| vec3(all[0]), |x| [x; BLOCK]);
 }
 
-/// Lights vertices, as many at a time as a number holds: `gather` makes a vector of them, `lanes` takes a number apart. Without
+/// Lights vertices, as many at a time as `F` has lanes: `gather` makes a vector of them, `lanes` takes a value apart. Without
 /// `general`, a literal, the model is fast.
 #[inline(always)]
 fn light<C: Carries, F: Num>(
@@ -299,7 +299,7 @@ fn light<C: Carries, F: Num>(
     debug_assert_eq!(
         out.len(),
         job.normals.len() * own,
-        "each vertex has a place for all its numbers"
+        "each vertex has room for all its values"
     );
     let points = job.points.chunks_exact(F::WIDTH);
     let vertices = job.normals.chunks_exact(F::WIDTH).zip(points);
@@ -317,8 +317,8 @@ fn light<C: Carries, F: Num>(
         each(
             varying,
             #[inline(always)]
-            |i, number| {
-                let values = lanes(*number);
+            |i, value| {
+                let values = lanes(*value);
                 for k in 0..F::WIDTH {
                     out[k * own + i] = values[k];
                 }
@@ -372,8 +372,8 @@ fn shade_runs<'a, 'b, M: Method>(
     let own = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
     let method = M::new(job.parameters, &stored.model);
     let directional = Lit::new(stored, 0.0, general);
-    for (number, run) in runs {
-        let (kind, start) = job.start::<M>(number, run);
+    for (index, run) in runs {
+        let (kind, start) = job.start::<M>(index, run);
         let extra = extras.start(own, &start, 0.0);
         let (here, rest) = out.split_at_mut(run.pixels as usize);
         out = rest;
@@ -493,8 +493,8 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
             for (uniforms, runs) in job.by_uniforms() {
                 let method = M::new(job.parameters, &uniforms.model);
                 let lit = Lit::new(uniforms.stored(), zero, true);
-                for (number, run) in runs {
-                    let (_, start) = job.start::<M>(number, run);
+                for (index, run) in runs {
+                    let (_, start) = job.start::<M>(index, run);
                     let length = (run.pixels as usize).next_multiple_of(BLOCK);
                     let (here, rest) = core::mem::take(&mut out).split_at_mut(planes * length);
                     out = rest;
@@ -561,7 +561,7 @@ fn shade_blocks<M: Shader, S: Token>(
         true => count::<Pixel<M, f32>>(lights),
         false => count::<Varying<M, f32>>(lights),
     };
-    // From numbers that are known when compiled: so are the places of all that is loaded.
+    // From counts that are known when compiled, so that the places of all loads are, too.
     let cell = CellLayout {
         varyings: planes,
         extras: extras.count(),
@@ -587,13 +587,13 @@ fn shade_blocks<M: Shader, S: Token>(
             each(
                 Pixel::<M, S::Block>::filled(lights, depth),
                 #[inline(always)]
-                |i, number| *number = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
+                |i, value| *value = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
             )
         } else {
             let at = each(
                 Varying::<M, S::Block>::filled(lights, depth),
                 #[inline(always)]
-                |i, number| *number = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
+                |i, value| *value = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
             );
             let start = Span::of_block(lights, at, depth);
             method.walk(&lit, start).next()

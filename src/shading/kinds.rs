@@ -86,9 +86,9 @@ pub trait Kinds: Copy + Default + 'static {
     /// The constants of a polygon of one of them.
     type Constants<F: Num>;
 
-    /// Returns the most numbers that the constants of one have.
-    fn numbers(lights: usize) -> usize;
-    /// Gives the numbers of a polygon's constants in order, and returns its kind.
+    /// Returns how many values the constants of a kind take at most.
+    fn constants(lights: usize) -> usize;
+    /// Passes the values of a polygon's constants to `to` in order, and returns its kind.
     fn put<F: Num>(constants: Self::Constants<F>, to: impl FnMut(usize, &mut F)) -> u8;
     /// Calls `to` with a kind: each has a loop of its own.
     fn visit(self, kind: u8, to: impl Visit<Self::Carries>);
@@ -106,7 +106,7 @@ pub enum OneOf<A, B = (), C = (), D = (), E = ()> {
 }
 
 macro_rules! kinds {
-    ($count:literal: $first:ident $(, $name:ident $place:tt)*; $($all:ident $variant:ident $number:literal),*) => {
+    ($count:literal: $first:ident $(, $name:ident $place:tt)*; $($all:ident $variant:ident $index:literal),*) => {
         impl<$first: Shader $(, $name: Shader<Carries = $first::Carries>)*> Kinds for ($first, $($name,)*) {
             const NAMES: &'static [&'static str] = match $count {
                 1 => &[],
@@ -116,13 +116,13 @@ macro_rules! kinds {
             type First = $first;
             type Constants<F: Num> = OneOf<$($all::Constants<F>),*>;
 
-            fn numbers(lights: usize) -> usize {
+            fn constants(lights: usize) -> usize {
                 [$(count::<$all::Constants<f32>>(lights)),*].into_iter().fold(0, usize::max)
             }
             #[inline(always)]
             fn put<F: Num>(constants: Self::Constants<F>, to: impl FnMut(usize, &mut F)) -> u8 {
                 match constants {
-                    $(OneOf::$variant(one) => { each(one, to); $number })*
+                    $(OneOf::$variant(one) => { each(one, to); $index })*
                     #[allow(unreachable_patterns)] // of five
                     _ => unreachable!("there are no more kinds"),
                 }

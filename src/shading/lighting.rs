@@ -33,7 +33,7 @@ const LEAST_SQUARE: f32 = 1e-30;
 /// The largest rounding of a colour of ½ or more: half a unit in the last place, 2⁻²⁴.
 const FAINT: f32 = 1.0 / (1 << 24) as f32;
 
-/// The light on one material, as kernels read it: plain numbers, made once per material.
+/// The light on one material, as kernels read it: plain values, made once per material.
 #[derive(Clone, Debug)]
 pub struct Uniforms {
     /// The part that all lights share.
@@ -61,7 +61,7 @@ pub struct LightModel {
     /// The cosine that is raised to the exponent.
     pub specular: SpecularModel,
     pub(super) gate: SpecularGate,
-    /// The exponent n, as a number and as it is computed.
+    /// The exponent n, as a value and as it is computed.
     pub shininess: f32,
     pub(super) exponent: Exponent,
     /// Cosines up to this have no highlight: `k_s cos^n ≤ 2⁻²⁴` for the strongest light.
@@ -206,7 +206,7 @@ impl Uniforms {
     }
 }
 
-/// Returns a number clamped to 0..=`most`; NaN becomes 0.
+/// Returns a value clamped to 0..=`most`; NaN becomes 0.
 #[inline(always)]
 pub(super) fn at_most<F: Num>(value: F, most: f32) -> F {
     -(-value.max(0.0)).max(-most)
@@ -360,7 +360,7 @@ pub struct Lit<'a, F> {
 /// A light as a point sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a, F> {
-    /// The number of the light.
+    /// The index of the light.
     pub index: usize,
     /// The unit vector L toward it.
     pub to: Vec3<F>,
@@ -373,7 +373,7 @@ pub struct Seen<'a, F> {
 }
 
 impl<'a, F: Num> Lit<'a, F> {
-    /// Prepares the light as it is before a point is known: only what is at infinity can be asked for. `zero` may be any number.
+    /// Prepares the light as it is before a point is known: only what is at infinity can be asked for. `zero` may be any value.
     /// Pass a constant for `general`: `false` compiles the branch-free loop, which is valid only for models that are not general.
     #[inline(always)]
     pub fn new(stored: Stored<'a>, zero: F, general: bool) -> Self {
@@ -425,13 +425,13 @@ impl<'a, F: Num> Lit<'a, F> {
         self.attributes
     }
 
-    /// Returns 0 as a number of this backend.
+    /// Returns 0 in this backend.
     #[inline(always)]
     pub fn zero(&self) -> F {
         self.zero
     }
 
-    /// Returns the number of lights.
+    /// Returns the count of lights.
     #[inline(always)]
     pub fn count(&self) -> usize {
         self.stored.len()

@@ -125,7 +125,7 @@ pub trait Shader: Copy + Default + 'static {
     const INFO: Info;
     /// What it needs of engines.
     const NEEDS: Needs = Needs::PIXELS;
-    /// What is set up once per polygon: numbers, vectors and tuples of them; `()` if nothing is.
+    /// What is set up once per polygon: values, vectors and tuples of them; `()` if nothing is.
     type Constants<F: Num>: Planes<F>;
     /// What a vertex carries: `Self` if it is none of those in `carries.rs`.
     type Carries: Carries;

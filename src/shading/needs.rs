@@ -47,7 +47,7 @@ impl Needs {
     pub const fn reads_span(self) -> bool {
         !matches!(self.spans, Spans::Pixels)
     }
-    /// Returns the two numbers that a walk starts a varying from, given those at the ends of its span.
+    /// Returns the two values that a walk starts a varying from, given those at the ends of its span.
     #[inline(always)]
     pub(crate) fn start<F: Num>(self, [a, b]: [F; 2], t0: F, dt: F) -> [F; 2] {
         match self.reads_span() {

@@ -7,7 +7,7 @@ use crate::reference::Model;
 /// Naive Phong shading without its vectors: N by three additions per pixel, then `J = L·N`, `K = V·N`, `D = N·N` and the
 /// processor's reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
 ///
-/// It steps three numbers for any number of lights, where fast Phong steps one per light, one for K and two for D. Varyings stay
+/// It steps three values for any count of lights, where fast Phong steps one per light, one for K and two for D. Varyings stay
 /// in memory until a row is shaded: three of them need less, and products are cheaper than memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhongRsqrt;

@@ -78,9 +78,9 @@ mod tests {
         let mut nearest = 0.0f64;
         for _ in 0..2000 {
             let count = 2 + (random.signed().abs() * 5.0) as usize;
-            let mut number = || f64::from(random.signed());
+            let mut value = || f64::from(random.signed());
             let normals: std::vec::Vec<DVec3> = (0..count)
-                .map(|_| DVec3::new(number(), number(), 0.5 + number().abs()).normalize())
+                .map(|_| DVec3::new(value(), value(), 0.5 + value().abs()).normalize())
                 .collect();
             let mean = normals.iter().sum::<DVec3>().normalize();
             let least = normals.iter().map(|n| n.dot(mean)).fold(1.0, f64::min);
@@ -88,7 +88,7 @@ mod tests {
                 let mut all = DVec3::ZERO;
                 let mut weights = 0.0;
                 for n in &normals {
-                    let weight = number().abs();
+                    let weight = value().abs();
                     (all, weights) = (all + weight * *n, weights + weight);
                 }
                 let length = (all / weights).length();

@@ -1,26 +1,26 @@
-//! Values that are made of numbers, one plane of the G-buffer each.
+//! Groups of values: what a vertex, a pixel or a polygon carries. Each value takes one plane of the G-buffer.
 
 use crate::number::{Num, Vec3};
 
-/// A value that is made of numbers: a number, a vector, a tuple of them, or one per light.
+/// A group of values: one value, a vector, a tuple of groups, or one value per light.
 pub trait Planes<F: Num>: Copy {
-    /// Makes a value for `lights` lights of nothing but `number`.
-    fn filled(lights: usize, number: F) -> Self;
-    /// Gives its numbers in order, to be read or changed, with indices from `next` on.
+    /// Makes a group for `lights` lights whose values are all `value`.
+    fn filled(lights: usize, value: F) -> Self;
+    /// Passes its values to `to` in order, to be read or changed, with indices from `next` on.
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F));
-    /// Replaces its numbers by `of` them and those of another value, number by number.
+    /// Replaces each value by `of` it and the value of another group at its place.
     fn zip(&mut self, other: Self, of: impl Fn(F, F) -> F + Copy);
 }
 
-/// Gives each number of `value` with its index to a closure that is inlined: only an argument itself can say that. Returns the
-/// value as the closure leaves it.
+/// Passes each value of a group with its index to a closure that is inlined, which only an argument can ask for. Returns the
+/// group as the closure leaves it.
 #[inline(always)]
 pub(crate) fn each<F: Num, P: Planes<F>>(mut value: P, mut to: impl FnMut(usize, &mut F)) -> P {
     value.each(&mut 0, &mut to);
     value
 }
 
-/// Returns the number of numbers in a value for `lights` lights.
+/// Returns how many values a group has for `lights` lights.
 #[inline(always)]
 pub(crate) fn count<P: Planes<f32>>(lights: usize) -> usize {
     let mut count = 0;
@@ -28,13 +28,13 @@ pub(crate) fn count<P: Planes<f32>>(lights: usize) -> usize {
     count
 }
 
-/// Returns a value times a factor, number by number.
+/// Returns a group times a factor, value by value.
 #[inline(always)]
-pub(crate) fn scaled<F: Num, P: Planes<F>>(value: P, factor: F) -> P {
-    each(value, |_, number| *number = *number * factor)
+pub(crate) fn scaled<F: Num, P: Planes<F>>(group: P, factor: F) -> P {
+    each(group, |_, value| *value = *value * factor)
 }
 
-/// Returns the sum of some values.
+/// Returns the sum of some groups.
 #[inline(always)]
 pub(crate) fn sum<F: Num, P: Planes<F>, const N: usize>(all: [P; N]) -> P {
     let mut sum = all[0];
@@ -44,7 +44,7 @@ pub(crate) fn sum<F: Num, P: Planes<F>, const N: usize>(all: [P; N]) -> P {
     sum
 }
 
-/// No number.
+/// No value.
 impl<F: Num> Planes<F> for () {
     #[inline(always)]
     fn filled(_: usize, _: F) {}
@@ -56,8 +56,8 @@ impl<F: Num> Planes<F> for () {
 
 impl<F: Num, P: Planes<F>, const N: usize> Planes<F> for [P; N] {
     #[inline(always)]
-    fn filled(lights: usize, number: F) -> Self {
-        [P::filled(lights, number); N]
+    fn filled(lights: usize, value: F) -> Self {
+        [P::filled(lights, value); N]
     }
     #[inline(always)]
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
@@ -75,8 +75,8 @@ impl<F: Num, P: Planes<F>, const N: usize> Planes<F> for [P; N] {
 
 impl<F: Num> Planes<F> for F {
     #[inline(always)]
-    fn filled(_: usize, number: F) -> F {
-        number
+    fn filled(_: usize, value: F) -> F {
+        value
     }
     #[inline(always)]
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
@@ -94,9 +94,9 @@ macro_rules! planes {
     ([$($parameter:ident),*] $name:ty, { $($field:tt: $kind:ty),+ }, $make:expr) => {
         impl<F: Num, $($parameter: Planes<F>),*> Planes<F> for $name {
             #[inline(always)]
-            fn filled(lights: usize, number: F) -> Self {
+            fn filled(lights: usize, value: F) -> Self {
                 #[allow(clippy::redundant_closure_call)] // the fields in order
-                ($make)($(<$kind as Planes<F>>::filled(lights, number)),+)
+                ($make)($(<$kind as Planes<F>>::filled(lights, value)),+)
             }
             #[inline(always)]
             fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
@@ -116,7 +116,7 @@ planes!([] Vec3<F>, { x: F, y: F, z: F }, |x, y, z| Vec3 { x, y, z });
 planes!([A, B] (A, B), { 0: A, 1: B }, |a, b| (a, b));
 planes!([A, B, C] (A, B, C), { 0: A, 1: B, 2: C }, |a, b, c| (a, b, c));
 
-/// For so many lights all numbers are stepped and stored, without a count: they stay in registers.
+/// Up to this many lights are all stepped and stored, without a count, so that their values stay in registers.
 const MOST_UNROLLED: usize = 4;
 
 /// One value per light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
@@ -137,7 +137,7 @@ impl<F: Copy, const L: usize> PerLight<F, L> {
         }
     }
 
-    /// Returns the number of values that are stepped and stored.
+    /// Returns how many values are stepped and stored.
     #[inline(always)]
     pub(super) fn len(&self) -> usize {
         if L <= MOST_UNROLLED { L } else { self.count }
@@ -146,8 +146,8 @@ impl<F: Copy, const L: usize> PerLight<F, L> {
 
 impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     #[inline(always)]
-    fn filled(lights: usize, number: F) -> Self {
-        Self::new(lights, number)
+    fn filled(lights: usize, value: F) -> Self {
+        Self::new(lights, value)
     }
     #[inline(always)]
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
@@ -168,22 +168,22 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// Puts a value and takes it back, where there are `lights` lights; returns its numbers.
+    /// Stores a group for `lights` lights and loads it again; returns its values.
     fn put_and_taken<P: Planes<f32>>(lights: usize, value: P) -> Vec<f32> {
         let all = |value: P| {
             let mut all = Vec::new();
             each(value, |_, x: &mut f32| all.push(*x));
             all
         };
-        let numbers = all(value);
-        assert_eq!(count::<P>(lights), numbers.len());
-        let back = each(P::filled(lights, 0.0), |i, x| *x = numbers[i]);
-        assert_eq!(all(back), numbers);
-        let twice: Vec<f32> = numbers.iter().map(|x| x + x).collect();
+        let values = all(value);
+        assert_eq!(count::<P>(lights), values.len());
+        let back = each(P::filled(lights, 0.0), |i, x| *x = values[i]);
+        assert_eq!(all(back), values);
+        let twice: Vec<f32> = values.iter().map(|x| x + x).collect();
         let mut sum = value;
         sum.zip(back, |a, b| a + b);
         assert_eq!(all(sum), twice);
-        numbers
+        values
     }
 
     #[test]

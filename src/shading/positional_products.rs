@@ -49,7 +49,7 @@ pub(super) fn set_light<F: Copy, const L: usize>(
 pub(super) type Placed<R> = (Corner<R>, Vec3<R>);
 
 /// Returns the corners of a polygon as a method sets it up, and their growth, if it is a triangle over which products are quadratics: no
-/// sliver, and no light, eye or normal turns or changes by too much. Not inlined: it is the same for any number of lights.
+/// sliver, and no light, eye or normal turns or changes by too much. Not inlined: it is the same for any count of lights.
 #[inline(never)]
 pub(super) fn set_up_placed<R: Real>(
     lit: &Lit<'_, R>,

@@ -18,13 +18,13 @@ pub(super) const WIDEST: f32 = 1.25;
 /// The most by which barycentric coordinates grow from one side of a triangle's box to the other: more loses too many digits.
 const STEEPEST: f32 = 64.0;
 
-/// Returns the vector of plain numbers: which kind a polygon has is nothing that a method computes.
+/// Returns the vector as plain `f32`: operations that choose a polygon's kind are not counted.
 #[inline(always)]
 pub(super) fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
     vec3([v.x.value(), v.y.value(), v.z.value()])
 }
 
-/// Returns a number that ℓ is not below: of v = Σ b_i N_i w_i the part along the mean direction m of the corners is at least
+/// Returns a value that ℓ is not below: of v = Σ b_i N_i w_i the part along the mean direction m of the corners is at least
 /// min w_i · min N_i·m.
 pub(super) fn least_length(corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let mean = (corners[0].0 + corners[1].0 + corners[2].0).unit();
@@ -45,7 +45,7 @@ pub(super) fn farthest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
     Num::sqrt(square(a).max(square(b)).max(square(c)))
 }
 
-/// Returns a distance `across` three unit vectors times their weights, over ℓ; more than any number where ℓ may be 0.
+/// Returns a distance `across` three unit vectors times their weights, over ℓ; more than any value where ℓ may be 0.
 pub(super) fn relative(across: fn([Vec3<f32>; 3]) -> f32, corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let length = least_length(corners);
     match length > 0.0 {
@@ -174,13 +174,13 @@ pub(super) fn along<F: Num>(
     [c, cx, cy, cxx, cxy, cyy]: [F::One; 6],
     [x, y]: [F; 2],
 ) -> Quadratic<F> {
-    let all = |number: F::One| x.of_each(|_| number);
+    let all = |value: F::One| x.of_each(|_| value);
     let (curve, slope) = (all(cxx), all(cx) + all(cxy) * y);
     let at = all(c) + (all(cy) + all(cyy) * y) * y + (slope + curve * x) * x;
     Quadratic::new(at, slope + curve * x * 2.0, curve)
 }
 
-/// Returns the six numbers that `of` gives.
+/// Returns the six values that `of` gives.
 #[inline(always)]
 pub(super) fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
     [of(0), of(1), of(2), of(3), of(4), of(5)]

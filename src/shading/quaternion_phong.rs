@@ -14,7 +14,7 @@ use crate::reference::Model;
 /// q = (cos θ/2; −m_y, m_x, 0),      m = (N + (0, 0, 1)) / |N + (0, 0, 1)|,   m_z = cos θ/2
 /// ```
 ///
-/// with θ the angle between both. So its three numbers are the vector m half-way between them. They are interpolated, and
+/// with θ the angle between both. So its three values are the vector m half-way between them. They are interpolated, and
 /// q turns (0, 0, 1) into a unit vector whatever the length of q:
 ///
 /// ```text

@@ -182,7 +182,7 @@ fn of_view<R: Real>(points: &[(Lit<'_, R>, Vec3<R>); 6], growth: Growth<R>) -> [
     lagrange([a, b, c], [ab, bc, ca], growth)
 }
 
-/// Returns the quadratics of J, L·V and the strength of a light. Not inlined: it is the same for any number of lights.
+/// Returns the quadratics of J, L·V and the strength of a light. Not inlined: it is the same for any count of lights.
 #[inline(never)]
 fn of_light<R: Real>(
     points: &[(Lit<'_, R>, Vec3<R>); 6],

@@ -15,7 +15,7 @@ pub struct Run {
     pub polygon: u32,
     /// The column of its first pixel.
     pub x: u32,
-    /// The number of its pixels.
+    /// The count of its pixels.
     pub pixels: u32,
 }
 
@@ -31,50 +31,47 @@ pub struct SpanPlace<T = f32> {
     pub dt: T,
     /// The column of the first pixel of the whole span that is in the picture.
     pub start: u32,
-    /// The number of the pixels of the whole span that are in the picture.
+    /// The count of the whole span's pixels that are in the picture.
     pub pixels: u32,
 }
 
-/// The numbers that runs start from, two for each varying and extra: the values at the first pixel and their growth from pixel
+/// The values that runs start from, two for each varying and extra: the values at the first pixel and their growth from pixel
 /// to pixel, or for methods that read their span the values at both of its ends.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Starts {
-    numbers: Vec<f32>,
+    values: Vec<f32>,
     /// The varyings and extras of a run.
     count: usize,
 }
 
 impl Starts {
-    /// Adds a run of as many numbers as the list was made for.
+    /// Adds a run of as many values as the list was made for.
     #[inline(always)]
     pub fn push<const N: usize>(&mut self, first: [f32; N], second: [f32; N]) {
-        debug_assert_eq!(
-            self.count, N,
-            "each run has all numbers that it starts from"
-        );
-        self.numbers
+        debug_assert_eq!(self.count, N, "each run has all values that it starts from");
+        self.values
             .extend_from_slice([first, second].as_flattened());
     }
 
-    /// Adds a run of zeros, and returns its numbers: the first ones of all varyings, then the second ones.
+    /// Adds a run of zeros, and returns its values: the first ones of all varyings, then the second ones.
     #[inline(always)]
     pub fn add(&mut self) -> [&mut [f32]; 2] {
-        let from = self.numbers.len();
-        self.numbers.resize(from + 2 * self.count, 0.0);
-        let (first, second) = self.numbers[from..].split_at_mut(self.count);
+        let from = self.values.len();
+        self.values.resize(from + 2 * self.count, 0.0);
+        let (first, second) = self.values[from..].split_at_mut(self.count);
         [first, second]
     }
 
-    /// Returns the numbers of a run.
+    /// Returns the values of a run.
     #[inline(always)]
     pub fn of(&self, run: usize) -> [&[f32]; 2] {
-        let numbers = &self.numbers[2 * run * self.count..][..2 * self.count];
-        let (first, second) = numbers.split_at(self.count);
+        let values = &self.values[2 * run * self.count..][..2 * self.count];
+        let (first, second) = values.split_at(self.count);
         [first, second]
     }
 
     pub fn clear(&mut self) {
-        self.numbers.clear();
+        self.values.clear();
     }
 }
 
@@ -120,7 +117,7 @@ impl RunList {
     }
 }
 
-/// Starts a linearly interpolated number: its value at `t0` between `a` and `b`, and its growth in a step of `dt`.
+/// Starts a linearly interpolated value: what it is at `t0` between `a` and `b`, and its growth in a step of `dt`.
 ///
 /// ```text
 /// ΔI = (I_2 − I_1) / (y_2 − y_1)  along edges,   ΔI = (I_2 − I_1) / (x_2 − x_1)  along scan lines      (L21 3.5, 4.1)
@@ -148,20 +145,20 @@ enum Start<'a, S: Shader, F: Num> {
 /// A run, as kernels start it.
 #[derive(Clone, Copy)]
 pub(super) struct RunStart<'a, T> {
-    /// The two numbers of each varying: see [`Starts`].
-    pub numbers: [&'a [T]; 2],
+    /// The two values of each varying: see [`Starts`].
+    pub values: [&'a [T]; 2],
     /// The column of the first pixel.
     pub x: u32,
-    /// The number of its pixels.
+    /// The count of its pixels.
     pub pixels: u32,
     /// Its place, if the method asks for it.
     pub place: Option<SpanPlace<T>>,
-    /// The numbers that [`Shader::polygon`] returned for the polygon.
+    /// The values that [`Shader::polygon`] returned for the polygon.
     pub constants: &'a [T],
 }
 
 impl<'a, S: Shader, F: Num> Span<'a, S, F> {
-    /// Starts a block from the varyings at each of its pixels. `zero` may be any number.
+    /// Starts a block from the varyings at each of its pixels. `zero` may be any value.
     #[cfg_attr(not(feature = "simd"), expect(dead_code))]
     #[inline(always)]
     pub(super) fn of_block(lights: usize, at: Varying<S, F>, zero: F) -> Self {
@@ -172,7 +169,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         }
     }
 
-    /// Starts a run. `zero` may be any number.
+    /// Starts a run. `zero` may be any value.
     #[inline(always)]
     pub(super) fn of_run(lights: usize, run: RunStart<'a, F::One>, zero: F) -> Self {
         Span {
@@ -192,22 +189,22 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
                 at: each(
                     none,
                     #[inline(always)]
-                    |i, number| {
+                    |i, value| {
                         let [at, step] = run.ramp(i);
-                        *number = match F::WIDTH {
-                            1 => number.of_each(|_| at),
-                            _ => number.of_each(|k| at + step * k as f32),
+                        *value = match F::WIDTH {
+                            1 => value.of_each(|_| at),
+                            _ => value.of_each(|k| at + step * k as f32),
                         };
                     },
                 ),
                 step: each(
                     none,
                     #[inline(always)]
-                    |i, number| {
+                    |i, value| {
                         let [_, step] = run.ramp(i);
-                        *number = match F::WIDTH {
-                            1 => number.of_each(|_| step),
-                            width => number.of_each(|_| step) * width as f32,
+                        *value = match F::WIDTH {
+                            1 => value.of_each(|_| step),
+                            width => value.of_each(|_| step) * width as f32,
                         };
                     },
                 ),
@@ -226,12 +223,12 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
             each(
                 filled,
                 #[inline(always)]
-                |i, number| *number = run.numbers[0][i],
+                |i, value| *value = run.values[0][i],
             ),
             each(
                 filled,
                 #[inline(always)]
-                |i, number| *number = run.numbers[1][i],
+                |i, value| *value = run.values[1][i],
             ),
         ]
     }
@@ -254,7 +251,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         ]
     }
 
-    /// Returns the number of the run's pixels.
+    /// Returns the count of the run's pixels.
     #[inline(always)]
     pub(super) fn pixels(&self) -> u32 {
         self.run().pixels
@@ -267,7 +264,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         each(
             S::Constants::<F::One>::filled(self.lights, self.one()),
             #[inline(always)]
-            |i, number| *number = run.constants[i],
+            |i, value| *value = run.constants[i],
         )
     }
 
@@ -295,10 +292,10 @@ impl<T: Num> RunStart<'_, T> {
     /// Returns the value of a varying at the first pixel and its growth from pixel to pixel.
     #[inline(always)]
     pub fn ramp(&self, varying: usize) -> [T; 2] {
-        let numbers = [self.numbers[0][varying], self.numbers[1][varying]];
+        let values = [self.values[0][varying], self.values[1][varying]];
         match self.place {
-            None => numbers,
-            Some(SpanPlace { t0, dt, .. }) => ramp(numbers[0], numbers[1], t0, dt),
+            None => values,
+            Some(SpanPlace { t0, dt, .. }) => ramp(values[0], values[1], t0, dt),
         }
     }
 }
@@ -331,30 +328,30 @@ pub struct Corners<'a, F> {
     pub mean: Vec3<F>,
 }
 
-/// What a method set up for each polygon, by its number.
+/// The constants that a method set up for each polygon, by its index.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PolygonConstants {
     /// The kinds.
     pub kinds: Vec<u8>,
-    /// The numbers of each [`Shader::Constants`].
-    pub numbers: Vec<f32>,
+    /// The values of each [`Shader::Constants`].
+    pub values: Vec<f32>,
 }
 
 impl PolygonConstants {
-    /// Returns the kind of a polygon and the numbers of its constants.
+    /// Returns the kind of a polygon and the values of its constants.
     #[inline(always)]
     pub fn of<M: Method>(&self, lights: usize, polygon: u32) -> (u8, &[f32]) {
-        let (polygon, count) = (polygon as usize, M::Kinds::numbers(lights));
+        let (polygon, count) = (polygon as usize, M::Kinds::constants(lights));
         let kind = if M::Kinds::NAMES.is_empty() {
             0
         } else {
             self.kinds[polygon]
         };
-        let numbers = if count == 0 {
+        let values = if count == 0 {
             &[][..]
         } else {
-            &self.numbers[polygon * count..][..count]
+            &self.values[polygon * count..][..count]
         };
-        (kind, numbers)
+        (kind, values)
     }
 }

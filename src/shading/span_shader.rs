@@ -19,7 +19,7 @@ pub struct SpanVertex {
     pub normal: [f32; 3],
     /// The position in the space of lights and eye at positions; any if there are none.
     pub position: [f32; 3],
-    /// Four numbers for methods that read them: [`Lit::attributes`](super::Lit::attributes).
+    /// Four values for methods that read them: [`Lit::attributes`](super::Lit::attributes).
     pub attributes: [f32; 4],
     /// near/w, the weight of perspective; 1 without.
     pub inv_w: f32,
@@ -42,7 +42,7 @@ impl SpanVertex {
 pub enum SpanShaderError {
     /// The method is not for such a material, with the reason: see [`Shader::on`](super::Shader::on).
     Refused(&'static str),
-    /// Too many lights, or a number outside its range; the material is number 0.
+    /// Too many lights, or a value outside its range; the material has index 0.
     Lighting(FrameError),
 }
 
@@ -61,7 +61,7 @@ impl core::error::Error for SpanShaderError {}
 
 /// A method on a material and its lights, for a rasterizer of your own, which keeps edges, pixels and hidden surfaces to itself.
 ///
-/// A vertex becomes a few numbers, its *varyings*: a colour for Gouraud shading, the normal for naive Phong shading, products of the
+/// A vertex becomes a few values, its *varyings*: a colour for Gouraud shading, the normal for naive Phong shading, products of the
 /// normal for fast Phong shading. Carry them along edges as you carry depth, linearly; [`SpanShader::shade`] takes them at both ends of a
 /// line of pixels. `examples/own_rasterizer.rs` is a whole rasterizer.
 ///
@@ -94,7 +94,7 @@ pub struct SpanShader {
     kernels: &'static Kernels,
     extras: Extras,
     is_weighted: bool,
-    /// The numbers of a vertex: the method's, then position and weight.
+    /// The count of a vertex's values: the method's, then position and weight.
     varyings: usize,
     /// As lights are seen from anywhere, and as polygons see them.
     uniforms: [Uniforms; 2],
@@ -113,7 +113,7 @@ impl SpanShader {
     ///
     /// # Errors
     /// [`SpanShaderError`] when the method is not for such a material, as those in integers want lights at infinity, and few; when there
-    /// are too many lights, or a number of the material or its lights is outside its range.
+    /// are too many lights, or a value of the material or its lights is outside its range.
     pub fn new(
         variant: &Variant,
         lighting: &Lighting,
@@ -143,7 +143,7 @@ impl SpanShader {
             uniforms: [uniforms.clone(), uniforms],
             constants: PolygonConstants {
                 kinds: vec![0],
-                numbers: vec![0.0; constants],
+                values: vec![0.0; constants],
             },
             wants_polygon: constants > 0 || !kernels.kinds.is_empty() || is_by_polygon,
             is_by_polygon,
@@ -154,7 +154,7 @@ impl SpanShader {
         })
     }
 
-    /// Returns the number of a vertex's varyings.
+    /// Returns the count of a vertex's varyings.
     pub fn varyings(&self) -> usize {
         self.varyings
     }
@@ -162,7 +162,7 @@ impl SpanShader {
     /// True if [`SpanShader::polygon`] must be called for each polygon, before its vertices: slerp methods, `six-point` and `adaptive-phong`
     /// ask for it, and where a light or the eye is at a position, methods that see it from a polygon's mean.
     pub fn wants_polygons(&self) -> bool {
-        self.is_by_polygon || !self.constants.numbers.is_empty() || !self.kernels.kinds.is_empty()
+        self.is_by_polygon || !self.constants.values.is_empty() || !self.kernels.kinds.is_empty()
     }
 
     /// Sets up a polygon, for methods that want it; does nothing for others.
@@ -176,8 +176,8 @@ impl SpanShader {
             }
             self.uniforms[1] = self.uniforms[0].seen_from(mean);
         }
-        let (parameters, numbers) = (self.variant.parameters(), &mut self.constants.numbers);
-        let kind = (self.kernels.polygon)(parameters, &self.uniforms[1], corners, numbers);
+        let (parameters, values) = (self.variant.parameters(), &mut self.constants.values);
+        let kind = (self.kernels.polygon)(parameters, &self.uniforms[1], corners, values);
         self.constants.kinds = vec![kind];
         self.wants_polygon = false;
     }
@@ -204,7 +204,7 @@ impl SpanShader {
             to[self.varyings - 1] = 1.0;
         }
         if self.is_weighted {
-            to.iter_mut().for_each(|number| *number *= vertex.inv_w);
+            to.iter_mut().for_each(|value| *value *= vertex.inv_w);
         }
         to
     }

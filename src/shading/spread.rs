@@ -75,7 +75,7 @@ impl Spread {
         spread
     }
 
-    /// Returns the spread on a polygon, by its number.
+    /// Returns the spread on a polygon, by its index.
     pub fn on(&self, polygon: usize) -> PolygonSpread {
         let all = self.polygons.get(polygon);
         all.copied().unwrap_or(PolygonSpread::NONE)

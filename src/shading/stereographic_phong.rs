@@ -9,14 +9,14 @@ use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
 /// Stereographic Phong shading: in the frame whose z is toward the eye, a normal is drawn at u = x/(1 + z), v = y/(1 + z), and these two
-/// numbers are interpolated. The way back gives a unit vector,
+/// values are interpolated. The way back gives a unit vector,
 ///
 /// ```text
 /// N = (2 u, 2 v, 1 − u² − v²) / (1 + u² + v²) = (u, v, 1) w − (0, 0, 1),      w = 2 / (1 + u² + v²)
 /// K = V·N = w − 1,      J = L·N = w (L_x u + L_y v + L_z) − L_z
 /// ```
 ///
-/// with one division and no root. One chart serves the whole picture, so that neighbours agree at their edge; two numbers are linear, so
+/// with one division and no root. One chart serves the whole picture, so that neighbours agree at their edge; two values are linear, so
 /// that the picture of a triangle does not depend on how it lies. [`FromEye::angle`] derives how far it is from Phong's.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StereographicPhong;

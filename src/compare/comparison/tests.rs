@@ -374,9 +374,9 @@ fn tables_have_a_row_a_method() {
         let notes = lines.split_off(1 + comparison.rows.len() + comparison.barycentric.len());
         for expected in [
             // Triangles about the poles, quads between them.
-            "six-point: polygons by kind: 12 quadratic, 24 roots",
+            "six-point: polygons by kind: 12 quadratic, 24 duff-phong",
             // Runs of so few pixels are not worth planning.
-            "adaptive-phong: polygons by kind: 36 exact, 0 linear, 0 dull, 0 curved, 0 root",
+            "adaptive-phong: polygons by kind: 36 phong-rsqrt, 0 linear, 0 dull, 0 curved, 0 root",
             "difference-vector is left out: its highlights are those of N.H, not of R.V",
         ] {
             assert!(notes.contains(&expected), "{notes:?}");

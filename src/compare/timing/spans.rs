@@ -63,8 +63,8 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
     let dt = 1.0 / pixels as f32;
     let mut constants = PolygonConstants::default();
     if planned > 0 || !kernels.kinds.is_empty() {
-        constants.numbers.resize(planned, 0.0);
-        let to = &mut constants.numbers;
+        constants.values.resize(planned, 0.0);
+        let to = &mut constants.values;
         constants.kinds = vec![(kernels.polygon)(
             variant.parameters(),
             uniforms,

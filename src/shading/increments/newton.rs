@@ -3,7 +3,7 @@
 use super::{Linear, Walk};
 use crate::number::{Num, Vec3};
 
-/// The number of steps of Newton's method a pixel takes, or a rule to choose it.
+/// The count of steps of Newton's method a pixel takes, or a rule to choose it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NewtonSteps {
     /// 0 (`auto`) takes as few as suffice.
@@ -50,7 +50,7 @@ impl NewtonSteps {
 
     /// Chooses the steps for a span whose normal starts as `n` and grows by `dn` a step; 0 is a true root.
     ///
-    /// One pixel at a time a number that was asked for is taken as it is, as in the lecture. In blocks the guess is a whole
+    /// One pixel at a time a count that was asked for is taken as it is, as in the lecture. In blocks the guess is a whole
     /// block away and fails the sooner: there it gives way to true roots. `auto` takes nothing else in blocks: eight roots take
     /// no longer than the eight divisions of a step.
     #[inline(always)]

@@ -23,8 +23,8 @@ macro_rules! products {
 
         impl<F: Num, const L: usize> $crate::shading::Planes<F> for $name<F, L> {
             #[inline(always)]
-            fn filled(lights: usize, number: F) -> Self {
-                Self::new(lights, number)
+            fn filled(lights: usize, value: F) -> Self {
+                Self::new(lights, value)
             }
             #[inline(always)]
             fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {

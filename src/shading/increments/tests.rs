@@ -309,7 +309,7 @@ fn the_fewest_steps_suffice() {
                     error <= f64::from(allowed) + rounding,
                     "{degrees} over {pixels}: {error:.1e}"
                 );
-                // Two numbers of steps may round to the same result.
+                // Two counts of steps may round to the same result.
                 let same = |steps: &u32| found == lengths(n, *steps, allowed, pixels);
                 let steps = (1..=3).find(same).unwrap_or(4);
                 seen[steps as usize - 1] += 1;
@@ -428,7 +428,7 @@ mod blocks {
     use std::vec;
 
     /// Returns the planes of the pixels that a method with one light walks along, by instruction
-    /// set. The run starts from two numbers of each varying, at `t0` with steps of `dt`. A run before it and one behind it must not affect it.
+    /// set. The run starts from two values of each varying, at `t0` with steps of `dt`. A run before it and one behind it must not affect it.
     fn walked(
         method: &str,
         parameters: &[Value],
@@ -464,7 +464,7 @@ mod blocks {
             extras: Extras::default(),
             constants: &PolygonConstants {
                 kinds: Vec::new(),
-                numbers: vec![0.0, 0.0, 1.0],
+                values: vec![0.0, 0.0, 1.0],
             },
             list: &list,
         };
@@ -494,8 +494,8 @@ mod blocks {
     fn linear_steps_by_blocks() {
         let mut random = Random::new(37);
         for _ in 0..50 {
-            let mut number = || [random.signed(), random.signed() / 512.0];
-            let (j, k, still) = (number(), number(), (vec3([0.0, 0.0, 1.0]), vec3([0.0; 3])));
+            let mut value = || [random.signed(), random.signed() / 512.0];
+            let (j, k, still) = (value(), value(), (vec3([0.0, 0.0, 1.0]), vec3([0.0; 3])));
             for (level, planes) in walked(
                 "fast-phong",
                 &[Value::Whole(1)],
@@ -559,7 +559,7 @@ mod blocks {
         all.map(|(level, mut planes)| (level, planes.swap_remove(2)))
     }
 
-    /// Blocks stay within the allowed error at every angle and number of pixels. A true root is one
+    /// Blocks stay within the allowed error at every angle and count of pixels. A true root is one
     /// rounding from N·N, whose roundings it halves, and N's own are added.
     #[test]
     fn lengths_are_never_far_off() {
