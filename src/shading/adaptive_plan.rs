@@ -285,24 +285,25 @@ struct Outline {
 
 impl Outline {
     fn of<R: Real>(corners: &[Corner<R>]) -> Outline {
-        let length = |[low, high]: [f32; 2]| high - low;
+        let mut ranges = [[f32::INFINITY, f32::NEG_INFINITY]; 3];
+        for corner in corners {
+            let [x, y] = corner.place;
+            for ([low, high], value) in ranges.iter_mut().zip([x, y, corner.weight]) {
+                *low = f32::min(*low, value.value());
+                *high = f32::max(*high, value.value());
+            }
+        }
+        let [x, y, weights] = ranges;
         Outline {
-            width: length(range(corners.iter().map(|corner| corner.place[0].value()))),
-            height: length(range(corners.iter().map(|corner| corner.place[1].value()))),
-            weights: range(corners.iter().map(|corner| corner.weight.value())),
+            width: x[1] - x[0],
+            height: y[1] - y[0],
+            weights,
         }
     }
 
     fn is_worth_planning(&self) -> bool {
         self.width * self.height >= LEAST_BOX
     }
-}
-
-/// Returns the least and the greatest of some values.
-fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
-    values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], x| {
-        [f32::min(low, x), f32::max(high, x)]
-    })
 }
 
 /// The light on a polygon: what its plan has to follow, and by how much errors grow.
