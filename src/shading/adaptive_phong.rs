@@ -3,7 +3,7 @@
 use super::adaptive_plan::{self as plan, Followed};
 use super::increments::{Quadratic, Walk};
 use super::phong_rsqrt::PhongRsqrt;
-use super::planes::planes;
+use super::planes::{planes, scaled};
 use super::{
     Approximation, Chosen, Corners, Family, Fit, Info, LightModel, Linear, Lit, Method,
     MethodParameter, Normal, On, OneOf, Pixel, Planes, Roundings, Shader, Span, Standing, Stepped,
@@ -412,9 +412,9 @@ impl<F: Num, const MANY: bool> CurvedWalk<F, MANY> {
         let k = self.passed as f32;
         let Linear { at, step } = self.normal;
         self.square = Quadratic::square(at + step * k, step);
-        let step = super::planes::scaled(self.products.step, self.factors.x.broadcast(k));
+        let step = scaled(self.products.step, self.factors.x.broadcast(k));
         self.products.at = self.first;
-        super::Planes::zip(&mut self.products.at, step, |first, step| first + step);
+        self.products.at.zip(step, |first, step| first + step);
     }
 }
 

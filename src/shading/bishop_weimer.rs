@@ -3,7 +3,7 @@
 use super::duff_phong::{DuffOfNormals, DuffPhongLocal};
 use super::lighting::{LightUniforms, toward};
 use super::positional_products::{
-    self, OverTriangle, Placed, QuadraticsLocal, set_light, set_up_placed, set_view,
+    self as positional, OverTriangle, Placed, QuadraticsLocal, set_light, set_up_placed, set_view,
 };
 use super::quadratic_products::{
     Growth, OverPolygon, Quadratics, each_of, farthest, narrow_triangle, relative, set_up_triangle,
@@ -42,7 +42,7 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
         return Approximation::NONE;
     };
     if frame.is_local() {
-        return positional_products::approximation(frame, polygon, (farthest, 1.0 / 6.0));
+        return positional::approximation(frame, polygon, (farthest, 1.0 / 6.0));
     }
     Approximation {
         cosine: 0.5 * libm::pow(relative(farthest, corners).into(), 3.0),

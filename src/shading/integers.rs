@@ -17,9 +17,9 @@ use super::kernels::{PixelKernel, Pixels};
 use super::lighting::Uniforms;
 use super::span::{PolygonConstants, Run};
 use super::{
-    Approximation, Constant, Corners, Fit, Info, Lit, Method, MethodParameter, Needs, Normal, On,
-    Perspective, Pixel, Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Spans, Stepped,
-    UniformsIndex, Value, Variant,
+    Approximation, Constant, Corners, Extras, Fit, Info, Lit, Method, MethodParameter, Needs,
+    Normal, On, Perspective, Pixel, Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Spans,
+    Stepped, UniformsIndex, Value, Variant, Vertices,
 };
 use crate::frame::{Frame, Polygon};
 use crate::integer::{
@@ -524,7 +524,7 @@ pub(super) fn counted<M: Method>(
     let mut list = RunList::new(3);
     let ends = bench.ends_of_span(M::NEEDS.great_circles(), |normal| {
         let mut varying = [0.0; 3];
-        let job = super::Vertices {
+        let job = Vertices {
             uniforms: &uniforms,
             normals: &[normal],
             points: &[[0.0; 3]],
@@ -551,7 +551,7 @@ pub(super) fn counted<M: Method>(
     let job = Pixels {
         parameters: variant.parameters(),
         uniforms: core::slice::from_ref(&uniforms),
-        extras: super::Extras::default(),
+        extras: Extras::default(),
         constants: &PolygonConstants {
             kinds: Vec::new(),
             values: SpanBench::FACE.to_vec(),

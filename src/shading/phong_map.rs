@@ -4,8 +4,8 @@ use super::extent::Extent;
 use super::eye_chart::{FromEye, of_angle};
 use super::eye_frame;
 use super::{
-    Carried, Carries, Family, Info, Linear, Lit, Needs, Perspective, Pixel, Roundings, Shader,
-    Span, Standing, Stepped,
+    Approximation, Carried, Carries, Family, Info, Linear, Lit, Needs, Perspective, Pixel,
+    Roundings, Shader, Span, Standing, Stepped,
 };
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
@@ -24,7 +24,7 @@ use crate::reference::Model;
 pub struct PhongMap;
 
 /// Bounds the error of a map on a polygon. At the ball's rim roundings of N_x and N_y count for more: two at each step, and 16 before.
-fn approximation(frame: &Frame, polygon: &Polygon) -> super::Approximation {
+fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let extent = Extent::of(frame, polygon);
     let rounding = (16.0 + 2.0 * extent.steps) * extent.weights / (1u64 << 24) as f64;
     of_angle(FromEye::of(frame, polygon).angle_of_map(rounding))

@@ -2,7 +2,7 @@
 
 use super::duff_phong::{DuffOfNormals, DuffPhongLocal};
 use super::positional_products::{
-    self, OverTriangle, Placed, QuadraticsLocal, set_light, set_up_placed, set_view,
+    self as positional, OverTriangle, Placed, QuadraticsLocal, set_light, set_up_placed, set_view,
 };
 use super::quadratic_products::{
     Growth, Quadratics, lagrange, longest, narrow_triangle, set_up_triangle, width,
@@ -91,7 +91,7 @@ fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Appr
         false => 0.0,
     };
     let mut error = match frame.is_local() {
-        true => positional_products::approximation(frame, polygon, (longest, SHARE)),
+        true => positional::approximation(frame, polygon, (longest, SHARE)),
         false => Approximation {
             cosine: 0.102 * libm::pow(width(corners).into(), 3.0),
             ..Approximation::NONE
