@@ -22,7 +22,7 @@ use crate::reference::Model;
 /// ```
 /// Under perspective b_i is a_i w_i/Σ a_j w_j of those on the screen, a_i. Times (Σ a_j w_j)² all of it is a quadratic on the screen again, and the
 /// factor is lost when N is normalised. Polygons of more corners, pieces that clipping cut, slivers and wide triangles are shaded as by
-/// [`PhongRsqrt`](super::phong_rsqrt::PhongRsqrt), with a true root.
+/// [`PhongRsqrt`](super::phong_rsqrt::PhongRsqrt).
 ///
 /// **Its distance from Phong's picture.** N differs from the linear normal by `Σ 4 b_i b_j (N_ij − (N_i + N_j)/2)`, at most 4/3 of the longest of
 /// these vectors, and its direction by at most 2/ℓ times as much, with ℓ the least length of linear normals.
