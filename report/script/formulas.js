@@ -1,7 +1,7 @@
 /* Formulas as mathematics: MathML from what `fastphong explain` prints. */
 
 const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" };
-const FUNCTIONS = ["sin", "cos", "sqrt", "rsqrt", "min", "max"];
+const FUNCTIONS = ["sin", "cos", "sqrt", "min", "max"];
 
 const SIGNS = { ".": "·", "*": "×", "-": "−", "...": "…" };
 
@@ -76,9 +76,7 @@ function mathematics(tokens, close) {
 			push(
 				t === "sqrt"
 					? root
-					: t === "rsqrt"
-						? html`<mfrac><mn>1</mn>${root}</mfrac>`
-						: group([html`<mi>${t}</mi>`, operator("("), inner, operator(")")]),
+					: group([html`<mi>${t}</mi>`, operator("("), inner, operator(")")]),
 			);
 		} else if (t === "(") {
 			const inner = group([operator("("), mathematics(tokens, ")"), operator(")")]);

@@ -78,8 +78,7 @@ pub trait Num:
     fn broadcast(self, x: f32) -> Self;
     /// Returns the square root.
     fn sqrt(self) -> Self;
-    /// Returns 1/√x for x > 0: by the processor's estimate and one step of Newton's method where it has an estimate (off by
-    /// less than 2⁻²¹ of the value), else by a root and a division.
+    /// Returns 1/√x for x > 0 by a root and a division, which round alike on all processors. Their estimates of 1/√x do not.
     #[inline(always)]
     fn rsqrt(self) -> Self {
         self.broadcast(1.0) / self.sqrt()

@@ -2,7 +2,7 @@
 //! instruction set can make its token.
 
 use super::powf::{exp2, powf};
-use super::{Level, MulAdd, Num, Vec3, vec3};
+use super::{MulAdd, Num, Vec3, vec3};
 use fearless_simd::{
     Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
 };
@@ -60,22 +60,6 @@ mod x86 {
     use core::arch::x86_64::*;
 
     fearless_simd::kernel!(
-        /// Estimates 1/√x to 12 bits.
-        #[inline(always)]
-        pub fn rsqrt8(_token: Avx2, x: __m256) -> __m256 {
-            _mm256_rsqrt_ps(x)
-        }
-    );
-
-    fearless_simd::kernel!(
-        /// Estimates 1/√x to 14 bits.
-        #[inline(always)]
-        pub fn rsqrt16(_token: Avx512, x: __m512) -> __m512 {
-            _mm512_rsqrt14_ps(x)
-        }
-    );
-
-    fearless_simd::kernel!(
         /// Takes the 24 numbers of eight vectors apart: number i of vector k is number 3k + i, in lane (3k + i) mod 8.
         #[inline(always)]
         pub fn deinterleave(_token: Avx2, a: __m256, b: __m256, c: __m256) -> [__m256; 3] {
@@ -112,7 +96,7 @@ mod x86 {
 }
 
 macro_rules! block {
-    ($block:ident, $bits:ident, $width:literal, $estimate:ident, $powf:ident, $exp2:ident) => {
+    ($block:ident, $bits:ident, $width:literal, $powf:ident, $exp2:ident) => {
         impl<S: Simd> MulAdd for $block<S> {
             #[inline(always)]
             fn mul_add(self, factor: Self, summand: Self) -> Self {
@@ -145,18 +129,6 @@ macro_rules! block {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 SimdFloat::sqrt(self)
-            }
-            /// ```text
-            /// y = y_0 (3 − x y_0²) / 2        Newton's method for y = 1/√x
-            /// ```
-            /// The estimate y_0 is off by at most e = 1.5 · 2⁻¹² (Intel's and AMD's manuals), which leaves 1.5 e² = 3.4 · 2⁻²⁴.
-            /// The product in the subtrahend, ½, the difference, 1, and the last product add at most 3 · 2⁻²⁴: below 2⁻²¹ in
-            /// all.
-            #[inline(always)]
-            fn rsqrt(self) -> Self {
-                let y = $estimate(self);
-                let three_halves = Self::splat(self.simd, 1.5);
-                y * SimdFloat::mul_add(-(self * 0.5 * y), y, three_halves)
             }
             #[inline(always)]
             fn powf(self, exponent: f32) -> Self {
@@ -194,61 +166,8 @@ macro_rules! block {
         }
     };
 }
-block!(f32x8, i32x8, 8, estimate_8, powf, exp2);
-block!(f32x16, i32x16, 16, estimate_16, powf_16, exp2_16);
-
-/// Returns 1/√x to the precision of the processor's estimate, or in full.
-#[inline(always)]
-fn estimate_8<S: Simd>(x: f32x8<S>) -> f32x8<S> {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(token) = x.simd.level().as_avx2() {
-        return f32x8::simd_from(x.simd, x86::rsqrt8(token, x.into()));
-    }
-    f32x8::splat(x.simd, 1.0) / SimdFloat::sqrt(x)
-}
-
-#[inline(always)]
-fn estimate_16<S: Simd>(x: f32x16<S>) -> f32x16<S> {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(token) = x.simd.level().as_avx512() {
-        return f32x16::simd_from(x.simd, x86::rsqrt16(token, x.into()));
-    }
-    let (low, high) = x.simd.split_f32x16(x);
-    x.simd.combine_f32x8(estimate_8(low), estimate_8(high))
-}
-
-/// Returns a checksum of 1/√x at `level` over two octaves, `None` where it is no SIMD level of this machine.
-///
-/// Processors estimate roots differently, within the error that their manuals give. On two processors with one checksum, methods
-/// that estimate draw the same pictures.
-#[doc(hidden)]
-pub fn rsqrt_checksum(level: Level) -> Option<u64> {
-    fn of<S: Token>() -> u64 {
-        let simd = S::get();
-        vectorize(simd, || {
-            // Each 256th number from 1 to 4: their estimates depend on no more bits.
-            let inputs = (1f32.to_bits()..4f32.to_bits()).step_by(256);
-            let roots = inputs.map(|bits| {
-                let root = S::Block::splat(simd, f32::from_bits(bits)).rsqrt();
-                root.as_slice()[0].to_bits()
-            });
-            // FNV-1a over words.
-            roots.fold(0xCBF2_9CE4_8422_2325, |hash, bits| {
-                (hash ^ u64::from(bits)).wrapping_mul(0x0100_0000_01B3)
-            })
-        })
-    }
-    match level {
-        _ if !level.is_available() => None,
-        #[cfg(target_arch = "x86_64")]
-        Level::Avx2 => Some(of::<fearless_simd::Avx2>()),
-        #[cfg(target_arch = "x86_64")]
-        Level::Avx512 => Some(of::<fearless_simd::Avx512>()),
-        #[cfg(target_arch = "aarch64")]
-        Level::Neon => Some(of::<fearless_simd::Neon>()),
-        _ => None,
-    }
-}
+block!(f32x8, i32x8, 8, powf, exp2);
+block!(f32x16, i32x16, 16, powf_16, exp2_16);
 
 #[inline(always)]
 fn powf_16<S: Simd>(x: f32x16<S>, n: f32) -> f32x16<S> {

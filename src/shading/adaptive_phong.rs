@@ -123,7 +123,7 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
             0.5,
             [0.05, 16.0],
         )],
-        roundings: Roundings::new(10.0, 2.0, Stepped::Products),
+        roundings: Roundings::new(8.0, 2.0, Stepped::Products),
         derivation: "as the coarser of phong-rsqrt and duff-phong in each term; the error by design, levels/255 of a colour, is derived in \
                      the code, from corners alone",
         approximation: |_, _, parameters| Approximation {

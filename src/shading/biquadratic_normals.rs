@@ -1,6 +1,7 @@
 //! Phong shading of a smoother surface: normals as quadratics over triangles, which follow inflections (van Overveld, Wyvill 1997).
 
 use super::increments::Quadratic;
+use super::phong_rsqrt::PhongRsqrt;
 use super::quadratic_products::{
     Growth, WIDEST, along, each_of, lagrange, least_length, plain, width,
 };
@@ -22,7 +23,7 @@ use crate::reference::Model;
 /// ```
 /// Under perspective b_i is a_i w_i/Σ a_j w_j of those on the screen, a_i. Times (Σ a_j w_j)² all of it is a quadratic on the screen again, and the
 /// factor is lost when N is normalised. Polygons of more corners, pieces that clipping cut, slivers and wide triangles are shaded as by
-/// [`PhongRsqrt`](super::phong_rsqrt::PhongRsqrt), with a true root.
+/// [`PhongRsqrt`](super::phong_rsqrt::PhongRsqrt).
 ///
 /// **Its distance from Phong's picture.** N differs from the linear normal by `Σ 4 b_i b_j (N_ij − (N_i + N_j)/2)`, at most 4/3 of the longest of
 /// these vectors, and its direction by at most 2/ℓ times as much, with ℓ the least length of linear normals.
@@ -87,7 +88,7 @@ impl Method for BiquadraticNormals {
         spans: Spans::Ends,
         ..Needs::PIXELS_BY_POLYGON
     };
-    type Kinds = (QuadraticOfNormals, Normals);
+    type Kinds = (QuadraticOfNormals, PhongRsqrt);
 
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
@@ -138,33 +139,6 @@ impl Shader for QuadraticOfNormals {
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
-        Normals.shade(lit, n)
-    }
-}
-
-/// Normals that grow linearly.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Normals;
-
-impl Shader for Normals {
-    const INFO: Info = Info::of_kind("linear");
-    type Constants<F: Num> = ();
-    type Carries = Normal;
-    type Walk<F: Num> = Linear<Vec3<F>>;
-
-    #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
-        span.linear()
-    }
-    #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
-        let r = n.x.broadcast(1.0) / n.dot(n).sqrt();
-        let v_n = n.dot(lit.view()) * r; // K = V · N
-        let mut colour = lit.ambient();
-        for light in lit.lights() {
-            let l_n = n.dot(light.to) * r; // J = L · N
-            colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
-        }
-        colour
+        PhongRsqrt.shade(lit, n)
     }
 }

@@ -32,15 +32,15 @@ const DUFF_PHONG: Info = Info {
 };
 
 /// Phong shading by forward differences, for up to `L` directional lights: `J = L·N` and `K = V·N` by one addition each,
-/// `D = N·N` by two, then one root and one division. The picture is naive Phong's to rounding. With `RSQRT` the root
-/// is the processor's estimate of 1/√D: see [`FAST_PHONG_RSQRT`]. With SIMD each block computes D from N.
+/// `D = N·N` by two, then one root and one division. The picture is naive Phong's to rounding. With `FAST` lights and eye at
+/// positions are seen from the middle of each polygon: see [`FAST_PHONG_RSQRT`]. With SIMD each block computes D from N.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct DuffPhong<const L: usize, const RSQRT: bool = false>;
+pub struct DuffPhong<const L: usize, const FAST: bool = false>;
 
-impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
-    const INFO: Info = if RSQRT { FAST_PHONG_RSQRT } else { DUFF_PHONG };
+impl<const L: usize, const FAST: bool> Shader for DuffPhong<L, FAST> {
+    const INFO: Info = if FAST { FAST_PHONG_RSQRT } else { DUFF_PHONG };
     const NEEDS: Needs = Needs {
-        local: if RSQRT {
+        local: if FAST {
             Local::PerPolygon
         } else {
             Local::PerPixel
@@ -59,9 +59,7 @@ impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
-        let one = d.broadcast(1.0);
-        let r = if RSQRT { d.rsqrt() } else { one / d.sqrt() };
-        lit.shade_products(scaled(products, r))
+        lit.shade_products(scaled(products, d.rsqrt()))
     }
 }
 

@@ -20,13 +20,13 @@ impl Shader for EyeFramePhong {
     const INFO: Info = Info {
         name: "eye-frame-phong",
         title: "normals in the frame of eye and first light, where V.N is a component and L.N two products",
-        formula: "V = (0, 0, 1), L = (Lx, 0, Lz);  N_next = N + dN;  K = Nz;  J = Lx Nx + Lz Nz;  r = rsqrt(N.N)\n\
+        formula: "V = (0, 0, 1), L = (Lx, 0, Lz);  N_next = N + dN;  K = Nz;  J = Lx Nx + Lz Nz;  r = 1 / sqrt(N.N)\n\
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "ours; L21 4.1-4.3, eq 4.5",
         model: Model::PhongConstant,
-        roundings: Roundings::new(12.0, 0.9, Stepped::Cosines),
-        derivation: "as naive-phong at a step; each coordinate of a turned normal takes 2 roundings, 3.5 in all, and L 1; J takes 1.5, D 2.5 \
-                     of which its root has half, and the estimate of the root is off by 2^-22, which is 4 more",
+        roundings: Roundings::new(10.5, 0.9, Stepped::Cosines),
+        derivation: "as naive-phong at a step; each coordinate of a turned normal takes 2 roundings, 3.5 in all, and L 1; J takes 1.5, D 3 \
+                     of which its root has half, the root and the quotient 1 each, the products with r and R.V half each",
         fails: "as naive-phong; with lights or eye at positions each polygon turns its corners anew",
         ..Info::OF_PIXELS
     };

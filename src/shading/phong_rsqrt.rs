@@ -4,8 +4,8 @@ use super::{Info, Linear, Lit, Normal, Pixel, Roundings, Shader, Span, Standing,
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
-/// Naive Phong shading without its vectors: N by three additions per pixel, then `J = L·N`, `K = V·N`, `D = N·N` and the
-/// processor's reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
+/// Naive Phong shading without its vectors: N by three additions per pixel, then `J = L·N`, `K = V·N`, `D = N·N` and one
+/// reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
 ///
 /// It steps three values for any count of lights, where fast Phong steps one per light, one for K and two for D. Varyings stay
 /// in memory until a row is shaded: three of them need less, and products are cheaper than memory.
@@ -17,12 +17,13 @@ impl Shader for PhongRsqrt {
         name: "phong-rsqrt",
         ids: &["M03b"],
         standing: Standing::Default,
-        title: "normals interpolated; J = L.N, K = V.N, D = N.N and the hardware's reciprocal root at every pixel",
-        formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = rsqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
-        source: "L21 4.1-4.3, eq 4.5, with the root that processors have had since 1999 (SSE rsqrtps)",
+        title: "normals interpolated; J = L.N, K = V.N, D = N.N and 1/sqrt(D) at every pixel",
+        formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = 1 / sqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
+        source: "L21 4.1-4.3, eq 4.5, with one root and one division for all cosines of a pixel",
         model: Model::Phong,
-        roundings: Roundings::new(10.0, 0.9, Stepped::Cosines),
-        derivation: "as naive-phong; J, K and D take 5 roundings each, and the estimate of the root is off by 2^-22, which is 4 more",
+        roundings: Roundings::new(8.0, 0.9, Stepped::Cosines),
+        derivation: "as naive-phong at a step; L takes 1, J and K 2.5, D 3 of which its root has half, the root and the quotient 1 each, the \
+                     products with r and R.V half each",
         fails: "as naive-phong",
         ..Info::OF_PIXELS
     };

@@ -144,9 +144,6 @@ impl Num for Normal {
     fn sqrt(self) -> Normal {
         self.with(0.0, |x, _| Num::sqrt(x))
     }
-    fn rsqrt(self) -> Normal {
-        self.with(0.0, |x, _| Num::rsqrt(x))
-    }
     fn powf(self, exponent: f32) -> Normal {
         self.with(exponent, Num::powf).checked()
     }
