@@ -1,7 +1,8 @@
 //! What files hold, and the marks by which the program knows files that it made: where it chooses a name, it replaces no others.
 //!
 //! A PNG file has a chunk that names its software, a page its title, Markdown the command that made it, a manual page its own name.
-//! PPM and PFM have no room for a mark: there any picture of the format counts as one's own.
+//! PPM and PFM files carry no mark, so that any picture of the format counts as ours: a PFM header has no comments, and the short readers
+//! of PPM that authors of rasterizers write expect none.
 
 use super::files;
 use fastphong::picture::image_file::Format;

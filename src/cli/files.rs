@@ -2,21 +2,22 @@
 //!
 //! Every file is registered before it is read, and every place that is written is looked up among these: before anything is drawn
 //! where the place is known ([`check`]), and in any case when it is written ([`write`]). No other module of the commands opens files
-//! (`tests/documents/tidy.rs`). Files are told apart by identity and not by name, so that links do not hide one.
+//! (`tests/documents/tidy.rs`). Files are told apart by their places and not by name, so that symbolic links do not hide one. A hard
+//! link may: as files are replaced and not written over, the one that is read stays as it is under its other name.
 //!
 //! `--watch` looks at the same list ([`wait_for_change`]): a file that is not there, or was there, is in it like any other.
 
 use super::input_name::{is_stand_in, path_behind};
 use super::{CliError, memory, signals};
 use fastphong::picture::image_file::{
-    FilePicture, ImageFileError, end_of_links, read_picture, write_file_by,
+    FilePicture, ImageFileError, place, read_picture, write_file_by,
 };
 use fastphong::scene::file::diagnostics::SceneError;
 use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
-use fastphong::scene::input::{self, InputFormat, read_input};
+use fastphong::scene::input::{self, InputFormat, has_ending, read_input};
 use std::fmt;
-use std::fs::{self, Metadata};
+use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -35,23 +36,10 @@ struct FileRead {
 /// A file on the disk: two states differ if anything was written to it since, or another file has its name now.
 #[derive(Clone, Debug, PartialEq)]
 struct State {
-    identity: Identity,
+    place: PathBuf,
     size: u64,
     written: Option<SystemTime>,
 }
-
-/// A file, whatever it is called.
-#[cfg(unix)]
-#[derive(Clone, Debug, PartialEq)]
-struct Identity {
-    device: u64,
-    inode: u64,
-}
-
-/// A file, by its name without links.
-#[cfg(not(unix))]
-#[derive(Clone, Debug, PartialEq)]
-struct Identity(PathBuf);
 
 /// A place that a command writes to.
 #[derive(Clone, Copy, Debug)]
@@ -128,11 +116,10 @@ pub fn will_read_stdin(part: &'static str) {
 
 /// Registers a file that a scene is made of, which is going to be read.
 pub fn will_read_of_scene(path: &Path) {
-    let ending = path.extension().unwrap_or_default();
-    let part = match ending {
-        _ if ending.eq_ignore_ascii_case("toml") => "the scene",
-        _ if ending.eq_ignore_ascii_case("obj") => "the mesh",
-        _ if ending.eq_ignore_ascii_case("mtl") => "the material library",
+    let part = match path {
+        path if has_ending(path, "toml") => "the scene",
+        path if has_ending(path, "obj") => "the mesh",
+        path if has_ending(path, "mtl") => "the material library",
         // A scene, a mesh or a library, as its bytes say.
         _ => "a file of the scene",
     };
@@ -158,7 +145,7 @@ pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, Scene
     let file = match input {
         STANDARD_INPUT => input::load_standard_input(format, &mut read_of_scene)?,
         // Under a name that is no file's, which is why only its ending is asked.
-        name if is_stand_in(name) && has_ending(name, "toml") => {
+        name if is_stand_in(name) && has_ending(Path::new(name), "toml") => {
             SceneFile::load_by(Path::new(name), &mut read_of_scene)?
         }
         name if is_stand_in(name) => SceneFile::for_mesh(name),
@@ -169,11 +156,6 @@ pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, Scene
         will_read_of_scene(&path_behind(&folder.join(mesh)));
     }
     Ok(file)
-}
-
-fn has_ending(name: &str, ending: &str) -> bool {
-    let found = Path::new(name).extension();
-    found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
 /// Returns the scene that `file` describes, as [`input::resolve`] does.
@@ -320,41 +302,7 @@ pub fn write(
 
 /// True if both paths lead to one plain file, or would if it were there.
 fn is_one_file(a: &Path, b: &Path) -> bool {
-    match [a, b].map(|path| fs::metadata(path).ok()) {
-        [Some(found), Some(other)] => {
-            let is_plain = found.is_file() && other.is_file();
-            is_plain && Identity::of(a, &found) == Identity::of(b, &other)
-        }
-        [None, None] => place(a) == place(b),
-        _ => false,
-    }
-}
-
-/// Returns the place of a file that is not there: links are followed, as far as there are any.
-fn place(path: &Path) -> PathBuf {
-    let end = end_of_links(path);
-    let folder = end.parent().filter(|folder| *folder != "");
-    let folder = folder.unwrap_or(Path::new(".")).canonicalize();
-    match (folder, end.file_name()) {
-        (Ok(folder), Some(name)) => folder.join(name),
-        _ => end,
-    }
-}
-
-impl Identity {
-    #[cfg(unix)]
-    fn of(_path: &Path, found: &Metadata) -> Identity {
-        use std::os::unix::fs::MetadataExt;
-        Identity {
-            device: found.dev(),
-            inode: found.ino(),
-        }
-    }
-
-    #[cfg(not(unix))]
-    fn of(path: &Path, _found: &Metadata) -> Identity {
-        Identity(path.canonicalize().unwrap_or_else(|_| path.to_owned()))
-    }
+    place(a) == place(b) && fs::metadata(a).map_or(true, |found| found.is_file())
 }
 
 impl State {
@@ -362,7 +310,7 @@ impl State {
     fn of(path: &Path) -> Option<State> {
         let found = fs::metadata(path).ok()?;
         Some(State {
-            identity: Identity::of(path, &found),
+            place: place(path),
             size: found.len(),
             written: found.modified().ok(),
         })

@@ -2,6 +2,7 @@
 
 use super::CliError;
 use fastphong::scene::file::STANDARD_INPUT;
+use fastphong::scene::input::has_ending;
 use std::path::{Path, PathBuf};
 
 /// The facts about a picture that its name may hold.
@@ -46,13 +47,8 @@ pub fn scene_name(input: &str) -> &str {
         return input;
     }
     let stem = |name| Path::new(name).file_stem().and_then(|stem| stem.to_str());
-    match (stem(input), has_ending(input, "gz")) {
+    match (stem(input), has_ending(Path::new(input), "gz")) {
         (Some(packed), true) => stem(packed).unwrap_or(packed),
         (name, _) => name.unwrap_or(input),
     }
-}
-
-fn has_ending(name: &str, ending: &str) -> bool {
-    let found = Path::new(name).extension();
-    found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }

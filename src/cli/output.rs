@@ -12,6 +12,7 @@ use super::contents::Contents;
 use super::files::{self, Destination};
 use super::log::{to_stderr, to_stdout, to_stdout_by};
 use fastphong::picture::image_file::{FilePicture, Format};
+use fastphong::scene::input::has_ending;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
@@ -162,8 +163,8 @@ impl Output {
             }
             Rule::Ending => {
                 let endings = self.contents.endings();
-                let is_own = |found| endings.iter().any(|own| is_ending(found, own));
-                if path.extension().is_none_or(is_own) {
+                let is_own = endings.iter().any(|own| has_ending(path, own));
+                if is_own || path.extension().is_none() {
                     return Ok(());
                 }
                 let (name, path, contents) = (self.name, path.display(), self.contents);
@@ -214,10 +215,6 @@ impl Output {
             None => to_stdout_by(write),
         }
     }
-}
-
-fn is_ending(found: &std::ffi::OsStr, own: &str) -> bool {
-    found.eq_ignore_ascii_case(own)
 }
 
 /// Returns a folder that the flag `name` gives for files.

@@ -1,5 +1,5 @@
-//! Flags that change the scene: each gives values to keys of a scene file. They replace those of the file, and are checked
-//! together with the rest.
+//! Flags that change the scene: each gives a value to a key of a scene file, whose row in the schema says its name and meaning. The
+//! values replace those of the file, and are checked together with the rest.
 
 use super::mesh_hints::hints;
 use super::normals::describe;
@@ -8,169 +8,82 @@ use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::schema::{self, AXES, ValueKind};
+use fastphong::scene::file::schema::{self, AXES, Flag, KEYS, Key, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
 use fastphong::scene::file::{STANDARD_INPUT, SceneFile, shown};
 use fastphong::scene::input::InputFormat;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// A flag that gives values to keys of a scene file.
-struct Flag {
-    name: &'static str,
-    /// Empty for a switch.
-    value_name: &'static str,
-    /// The keys, as in `camera.eye`; where there are two, there is a value for each.
-    keys: &'static [&'static str],
-    help: &'static str,
-}
-
-/// Declares flags: name, value and keys, with the help text above.
-macro_rules! flags {
-    ($($(#[doc = $help:literal])+ $name:literal $value_name:literal [$($key:literal),+])+) => {
-        &[$(Flag { name: $name, value_name: $value_name, keys: &[$($key),+], help: concat!($($help),+) }),+]
-    };
-}
-
-static FLAGS: &[Flag] = flags! {
-    /// Size of the picture, 1x1 to 16384x16384 [default: the scene's, else 640x480]
-    "resolution" "WIDTHxHEIGHT" ["image.width", "image.height"]
-    /// See the scene from this direction, in degrees: 0,0 is from +z, azimuth turns toward +x, elevation toward +y (up)
-    "view" "AZIMUTH,ELEVATION" ["camera.azimuth", "camera.elevation"]
-    /// Put the eye here
-    "eye" "X,Y,Z" ["camera.eye"]
-    /// Look at this point [default, with --eye: the origin]
-    "target" "X,Y,Z" ["camera.target"]
-    /// Direction that is up: an axis by its name, as `z` or `-y`, turns the default view, --view and the default light with it;
-    /// three numbers, as `0,0,1`, turn the picture only [default: y]
-    "up" "AXIS|X,Y,Z" ["camera.up"]
-    /// Perspective projection with this vertical field of view
-    "fovy" "DEGREES" ["camera.fovy"]
-    /// Orthographic projection; half of the visible height, in world units
-    "half-height" "LENGTH" ["camera.half_height"]
-    /// Distance of the near plane
-    "near" "DISTANCE" ["camera.near"]
-    /// Distance of the far plane
-    "far" "DISTANCE" ["camera.far"]
-    /// Fit the camera: objects fill this fraction of the picture, 0.001 to 100; over 1 they reach beyond it
-    "fit" "FRACTION" ["camera.fit"]
-    /// A light from this direction, instead of those of the scene; can be given several times
-    "light" "X,Y,Z[,I|,R,G,B]" ["light.direction"]
-    /// A light at this position, instead of those of the scene; can be given several times
-    "light-at" "X,Y,Z[,I|,R,G,B]" ["light.position"]
-    /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
-    "attenuation" "K" ["light.attenuation"]
-    /// Falloff of the lights given by --light-at, in place of attenuation: 1 / r² or 1 / r
-    "falloff" "LAW" ["light.falloff"]
-    /// No lights: ambient light only
-    "no-lights" "" ["light"]
-    /// Ambient intensity
-    "ambient" "I|R,G,B" ["ambient"]
-    /// Ambient reflection of all objects, in place of the materials of a mesh file
-    "ka" "K|R,G,B" ["material.ka"]
-    /// Diffuse reflection of all objects, in place of the materials of a mesh file
-    "kd" "K|R,G,B" ["material.kd"]
-    /// Specular reflection of all objects, in place of the materials of a mesh file
-    "ks" "K|R,G,B" ["material.ks"]
-    /// Exponent of the highlights of all objects, in place of the materials of a mesh file
-    "shininess" "N" ["material.shininess"]
-    /// Colour where nothing is drawn
-    "background" "C|R,G,B" ["image.background"]
-    /// Interpolation of varyings: linear on the screen, as in the lecture, or in space (perspective-correct)
-    "interpolation" "SPACE" ["interpolation"]
-    /// Position of the eye for highlights: at infinity, as in the lecture, or at the camera
-    "viewer" "WHERE" ["viewer"]
-    /// Cosine of the highlights: phong (R.V) or blinn (N.H)
-    "specular" "MODEL" ["specular"]
-    /// Model that shininess values were chosen for; they are converted if --specular differs
-    "shininess-for" "MODEL" ["shininess_for"]
-    /// Highlights where the light is behind the surface: gated (none), ungated (as the lecture's formula gives) or weighted (times L.N)
-    "specular-gate" "GATE" ["specular_gate"]
-    /// Alpha of a PNG file: the covered share of each pixel, or opaque everywhere
-    "alpha" "ALPHA" ["image.alpha"]
-    /// Encoding of stored pictures in 8 bits
-    "encoding" "NAME" ["image.encoding"]
-    /// Cull polygons seen from this side [default: the scene's, else back; none for a mesh file whose winding tells no outside]
-    "cull" "SIDE" ["cull"]
-    /// Hidden surfaces: a depth buffer, the painter's algorithm (sorted from back to front), or the order of drawing
-    "visibility" "METHOD" ["visibility"]
-    /// Bits of the depth buffer: 16, 24 or 32
-    "depth-bits" "BITS" ["depth_bits"]
-    /// Depth: interpolated between corners, or computed from the distance at each sample
-    "depth" "SOURCE" ["depth"]
-    /// Sorting key of the painter's algorithm: the mean depth of the corners, or that of the farthest one
-    "painter-key" "KEY" ["painter_key"]
-    /// Clipping: by planes, or by CS171's test of each pixel
-    "clipping" "METHOD" ["clipping"]
-    /// Light polygons seen from behind with negated normals (with `--cull none`) [default: the scene's, else off; on for a mesh file whose winding tells no outside]
-    "two-sided" "" ["two_sided"]
-    /// Supersampling: samples along each side of a pixel, 1, 2, 4 or 8, each with its own depth and colour
-    "samples" "N" ["image.samples"]
-    /// Vertex normals: `auto`, as the mesh states them by normals and smoothing groups; `averaged` within smoothing groups;
-    /// `given` with the mesh; or averaged up to an angle, `crease=30` [default: the scene's, else `auto` for a mesh file and
-    /// `averaged` for a built-in mesh]
-    "normals" "SOURCE" ["object.normals"]
-    /// Take positions that are nearer than this part of the mesh's size for one, so that normals are averaged over them, 1e-12 to
-    /// 0.1 [default: only equal positions are one]
-    "weld" "PART" ["object.weld"]
-};
-
 /// A key, as in `camera.eye`, and its value.
 type Setting = (&'static str, Data);
 
-impl Flag {
-    /// Returns the flag as the parser of the command line takes it.
-    fn arg(&'static self) -> Arg {
-        let is_switch = self.value_name.is_empty();
-        let parser: ValueParser = match schema::kind(self.keys[0]) {
-            Some(ValueKind::Word(words)) if self.name != "normals" => {
-                let setting = |word| vec![(self.keys[0], Data::Text(word))];
-                PossibleValuesParser::new(words).map(setting).into()
-            }
-            _ => ValueParser::new(|text: &str| self.parse(text)),
-        };
-        let arg = Arg::new(self.name)
-            .long(self.name)
-            .help(self.help.trim())
-            .help_heading("Scene")
-            .action(ArgAction::Set)
-            .value_parser(parser)
-            .allow_hyphen_values(!is_switch);
-        let arg = match is_switch {
-            true => arg.num_args(0).default_missing_value(""),
-            false => arg.value_name(self.value_name),
-        };
-        match self.name {
-            "resolution" => arg.visible_alias("size"),
-            "light" | "light-at" => arg.action(ArgAction::Append),
-            "attenuation" | "falloff" => arg.requires("light-at"),
-            "no-lights" => arg.conflicts_with_all(["light", "light-at"]),
-            _ => arg,
-        }
-    }
+/// Returns the keys that have flags.
+fn keys_with_flags() -> impl Iterator<Item = (&'static Key, Flag)> {
+    KEYS.iter().filter_map(|key| Some((key, key.flag?)))
+}
 
-    /// Reads the value. Its range is checked where scene files are checked too.
-    fn parse(&self, text: &str) -> Result<Vec<Setting>, String> {
-        let key = self.keys[0];
-        let one = |key, text| Some(vec![(key, data(key, text).ok()?)]);
-        let settings = match (self.name, text.strip_prefix("crease=")) {
-            ("resolution" | "view", _) => text
-                .split_once(['x', 'X', ','])
-                .and_then(|(a, b)| Some([one(key, a)?, one(self.keys[1], b)?].concat())),
-            ("light" | "light-at", _) => light(key, text),
-            ("normals", Some(degrees)) => one("object.crease", degrees),
-            ("normals", None) => one(key, text),
-            _ => return Ok(vec![(key, data(key, text)?)]),
-        };
-        let expected = match self.name {
-            "resolution" => "WIDTHxHEIGHT, 1 to 16384 each, for example 640x480",
-            "view" => "two numbers azimuth,elevation",
-            "light" => "a direction x,y,z, with an intensity or a colour r,g,b after it",
-            "light-at" => "a position x,y,z, with an intensity or a colour r,g,b after it",
-            _ => "`auto`, `averaged`, `given` or `crease=DEGREES`",
-        };
-        settings.ok_or_else(|| format!("expected {expected}"))
+/// Returns the flag of `key` as the parser of the command line takes it.
+fn arg(key: &'static Key, flag: Flag) -> Arg {
+    let is_switch = flag.value_name.is_empty();
+    let parser: ValueParser = match key.kind {
+        ValueKind::Word(words) if flag.name != "normals" => {
+            let setting = |word| vec![(key.path, Data::Text(word))];
+            PossibleValuesParser::new(words).map(setting).into()
+        }
+        _ => ValueParser::new(move |text: &str| parse(flag.name, key.path, text)),
+    };
+    let arg = Arg::new(flag.name)
+        .long(flag.name)
+        .help(flag.meaning)
+        .help_heading("Scene")
+        .action(ArgAction::Set)
+        .value_parser(parser)
+        .allow_hyphen_values(!is_switch);
+    let arg = match is_switch {
+        true => arg.num_args(0).default_missing_value(""),
+        false => arg.value_name(flag.value_name),
+    };
+    match flag.name {
+        "resolution" => arg.visible_alias("size"),
+        "light" | "light-at" => arg.action(ArgAction::Append),
+        "attenuation" | "falloff" => arg.requires("light-at"),
+        "no-lights" => arg.conflicts_with_all(["light", "light-at"]),
+        _ => arg,
     }
+}
+
+/// Reads the value of the flag `name` of `key`. Its range is checked where scene files are checked too.
+fn parse(name: &str, key: &'static str, text: &str) -> Result<Vec<Setting>, String> {
+    let one = |key, text| Some(vec![(key, data(key, text).ok()?)]);
+    let pair = |other| {
+        let (a, b) = text.split_once(['x', 'X', ','])?;
+        Some([one(key, a)?, one(other, b)?].concat())
+    };
+    let (settings, expected) = match name {
+        "resolution" => (
+            pair("image.height"),
+            "WIDTHxHEIGHT, 1 to 16384 each, for example 640x480",
+        ),
+        "view" => (pair("camera.elevation"), "two numbers azimuth,elevation"),
+        "light" => (
+            light(key, text),
+            "a direction x,y,z, with an intensity or a colour r,g,b after it",
+        ),
+        "light-at" => (
+            light(key, text),
+            "a position x,y,z, with an intensity or a colour r,g,b after it",
+        ),
+        "normals" => {
+            let settings = match text.strip_prefix("crease=") {
+                Some(degrees) => one("object.crease", degrees),
+                None => one(key, text),
+            };
+            (settings, "`auto`, `averaged`, `given` or `crease=DEGREES`")
+        }
+        _ => return Ok(vec![(key, data(key, text)?)]),
+    };
+    settings.ok_or_else(|| format!("expected {expected}"))
 }
 
 /// Reads a value of the kind of `key`, its numbers between commas.
@@ -256,7 +169,7 @@ fn input_format_arg() -> Arg {
 impl clap::Args for SceneFlags {
     fn augment_args(command: Command) -> Command {
         let command = command.arg(input_format_arg());
-        command.args(FLAGS.iter().map(Flag::arg))
+        command.args(keys_with_flags().map(|(key, flag)| arg(key, flag)))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -274,7 +187,7 @@ impl clap::FromArgMatches for SceneFlags {
         let mut lights: Vec<SceneTable> = Vec::new();
         // The keys that every light at a position gets.
         let mut near = SceneTable::default();
-        for flag in FLAGS {
+        for (_, flag) in keys_with_flags() {
             let origin = Origin::Flag(format!("--{}", flag.name));
             let given = matches.get_many::<Vec<Setting>>(flag.name);
             for settings in given.into_iter().flatten() {

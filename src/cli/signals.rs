@@ -1,8 +1,7 @@
 //! Signals that end the program: no draft of a file is left behind.
 //!
-//! TERM, Ctrl-C (INT), HUP, QUIT and XCPU remove the drafts and then end the program as they always do, so that whoever waits for
-//! it sees the signal. A file that grows over a limit (XFSZ) is an error like a full disk. KILL, and a machine that stops,
-//! cannot be caught. Systems other than Unix have no such signals.
+//! TERM, Ctrl-C (INT), HUP and QUIT remove the drafts and then end the program as they always do, so that whoever waits for it sees
+//! the signal. KILL, and a machine that stops, cannot be caught. Systems other than Unix have no such signals.
 
 /// Sees to it that a signal that ends the program removes the drafts of files first.
 #[cfg(not(unix))]
@@ -14,20 +13,17 @@ pub use unix::remove_drafts_at_the_end;
 #[cfg(unix)]
 mod unix {
     use fastphong::picture::image_file::remove_drafts;
-    use signal_hook::consts::signal::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, SIGXFSZ};
-    use signal_hook::flag;
+    use signal_hook::consts::signal::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
-    use std::sync::{Arc, Once};
+    use std::sync::Once;
     use std::thread;
 
     /// Sees to it that a signal that ends the program removes the drafts of files first.
     pub fn remove_drafts_at_the_end() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
-            // With any handler the write fails instead.
-            let _ = flag::register(SIGXFSZ, Arc::default());
-            let ends = [SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU];
+            let ends = [SIGTERM, SIGINT, SIGHUP, SIGQUIT];
             let ends = ends.into_iter().filter(|signal| !is_ignored(*signal));
             // Without handlers files are written all the same.
             if let Ok(mut signals) = Signals::new(ends) {

@@ -310,7 +310,8 @@ pub fn has_known_ending(path: &Path) -> bool {
     has_ending(path, "toml") || has_ending(path, "obj")
 }
 
-fn has_ending(path: &Path, ending: &str) -> bool {
+/// True if `path` ends in a point and `ending`, in any case.
+pub fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension()
         .is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }

@@ -6,7 +6,7 @@ use super::quadratic_products::{
     Growth, WIDEST, along, each_of, lagrange, least_length, plain, width,
 };
 use super::{
-    Approximation, Chosen, Corner, Corners, Family, Info, Linear, Lit, Method, Needs, Normal,
+    Approximation, Chosen, Corner, Corners, Family, Info, Lit, Method, Needs, Normal,
     OneOf, Pixel, Roundings, Shader, Span, Spans, Stepped,
 };
 use crate::frame::{Frame, Polygon};

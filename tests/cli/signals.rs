@@ -1,7 +1,7 @@
-//! Signals and limits end the program without leaving drafts of files behind.
+//! Signals end the program without leaving drafts of files behind.
 #![cfg(unix)]
 
-use super::{Ended, Folder, SPHERE, picture};
+use super::{Folder, SPHERE, picture};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -92,24 +92,6 @@ fn a_signal_that_is_ignored_stays_ignored() {
     let status = child.wait().expect("an end");
     assert_eq!(status.signal(), Some(15), "{status}");
     assert!(folder.names().is_empty());
-}
-
-#[test]
-fn a_file_over_the_limit_is_an_error_like_a_full_disk() {
-    let folder = Folder::new();
-    folder.write("out.ppm", "old");
-    let tool = env!("CARGO_BIN_EXE_fastphong");
-    let arguments = "render builtin:cube --size 100x100 -o out.ppm";
-    let mut shell = Command::new("sh");
-    shell
-        .args(["-c", &format!("ulimit -f 8; exec '{tool}' {arguments}")])
-        .current_dir(folder.path(""));
-    let output = shell.output().expect("a shell");
-    Ended::new(arguments, output).refused(&["out.ppm: cannot be written: File too large"]);
-    assert_eq!(
-        (folder.names(), folder.read("out.ppm")),
-        (vec!["out.ppm".to_owned()], b"old".to_vec())
-    );
 }
 
 #[test]

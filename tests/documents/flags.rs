@@ -1,62 +1,31 @@
 //! `docs/flags.md` shows each flag of `fastphong render` with a picture without it and one with it.
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from
-//! [`FLAGS`] and the tool's help. Look at each pair before committing it.
+//! the rows of `src/scene/file/schema.rs` and the tool's help. Look at each pair before committing it.
 
 use crate::markdown::{files, read, root};
 use fastphong::picture::image_file::decode_picture;
+use fastphong::scene::file::schema::KEYS;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Flags that change the picture: name, default if the help gives none, and arguments of `render`
-/// without and with the flag.
+/// Flags of no key of scenes that change the picture: name, default if the help gives none, and arguments of `render` without and
+/// with the flag.
 #[rustfmt::skip]
-const FLAGS: &[[&str; 4]] = &[
-    ["resolution", "", "teapot --resolution 160x120", "teapot --resolution 40x30"],
-    ["view", "the camera of the scene", "teapot", "teapot --view 200,50"],
-    ["eye", "fitted", "builtin:cube", "builtin:cube --eye 0,1,3"],
-    ["target", "the origin", "builtin:cube --eye 2,2,3", "builtin:cube --eye 2,2,3 --target 1,0,0"],
-    // Three numbers and an axis by its name, side by side.
-    ["up", "", "builtin:teapot --resolution 80x60 --up 0,0,1", "builtin:teapot --resolution 80x60 --up z"],
-    ["fovy", "orthographic", "corrugated", "corrugated --fovy 70"],
-    ["half-height", "fitted", "vase", "vase --half-height 4"],
-    ["near", "fitted", "terrain --eye 0,2,4", "terrain --eye 0,2,4 --near 4"],
-    ["far", "fitted", "terrain --eye 0,2,4", "terrain --eye 0,2,4 --far 4"],
-    ["fit", "0.8", "football", "football --fit 0.4"],
-    ["light", "those of the scene", "vase", "vase --light=-1,0.5,0.2"],
-    ["light-at", "those of the scene", "terrain --light 0,1,0", "terrain --light-at 0,0.5,0"],
-    ["attenuation", "none", "terrain --light-at 1,1,1", "terrain --light-at 1,1,1 --attenuation 1"],
-    ["falloff", "none", "terrain --light-at 1,1,1", "terrain --light-at 1,1,1 --falloff inverse-square"],
-    ["no-lights", "off", "vase --ambient 3", "vase --ambient 3 --no-lights"],
-    ["ambient", "1", "vase", "vase --ambient 3"],
-    ["ka", "0.08,0.07,0.06", "teapot", "teapot --ka 0.3"],
-    ["kd", "0.6,0.45,0.3", "teapot", "teapot --kd 0.1,0.3,0.6"],
-    ["ks", "0.4", "fine-sphere", "fine-sphere --ks 0"],
-    ["shininess", "32", "fine-sphere", "fine-sphere --shininess 4"],
-    ["alpha", "coverage", "fine-sphere", "fine-sphere --alpha opaque"],
-    ["background", "0", "teapot", "teapot --background 0.2,0.3,0.5"],
-    ["interpolation", "screen", "perspective --aov checkerboard --interpolation screen", "perspective --aov checkerboard --interpolation perspective"],
-    ["viewer", "infinite", "local-lights --viewer infinite", "local-lights --viewer local"],
-    ["specular", "phong", "fine-sphere --light 1,0.3,-0.5", "fine-sphere --light 1,0.3,-0.5 --specular blinn"],
-    ["shininess-for", "that of --specular", "fine-sphere --specular blinn", "fine-sphere --specular blinn --shininess-for phong"],
-    ["specular-gate", "gated", "fine-sphere --light 1,0.3,-0.8 --shininess 4 --specular blinn", "fine-sphere --light 1,0.3,-0.8 --shininess 4 --specular blinn --specular-gate ungated"],
-    ["encoding", "linear", "football", "football --encoding srgb"],
-    ["cull", "back", "builtin:sphere --eye 0,2,3 --near 3 --ambient 3", "builtin:sphere --eye 0,2,3 --near 3 --ambient 3 --cull none"],
-    ["two-sided", "off", "terrain --view 30,-30 --cull none", "terrain --view 30,-30 --cull none --two-sided"],
-    ["visibility", "z-buffer", "interpenetration", "interpenetration --visibility painter"],
-    ["painter-key", "mean", "interpenetration --visibility painter", "interpenetration --visibility painter --painter-key farthest"],
-    ["depth-bits", "32", "z-fighting --depth-bits 32", "z-fighting --depth-bits 16"],
-    ["depth", "interpolated", "z-fighting --samples 4", "z-fighting --samples 4 --depth per-sample"],
-    ["clipping", "planes", "terrain --eye 0,0.15,0.3 --fovy 80", "terrain --eye 0,0.15,0.3 --fovy 80 --clipping ndc-cube"],
-    ["samples", "1", "football", "football --samples 4"],
-    ["normals", "averaged", "football", "football --normals crease=10"],
-    ["weld", "", "vase --resolution 80x60", "vase --resolution 80x60 --weld 0.1"],
+const FLAGS: [[&str; 4]; 4] = [
     ["method", "", "coarse-sphere", "coarse-sphere --method gouraud"],
     ["engine", "", "two-lights", "two-lights --engine cs171:normals=as-printed"],
     ["aov", "off", "teapot", "teapot --aov normal"],
     ["square", "", "terrain --aov checkerboard", "terrain --aov checkerboard --square 0.25"],
 ];
+
+/// Returns all flags that change the picture: those of the scenes' keys, and [`FLAGS`].
+fn flags() -> impl Iterator<Item = [&'static str; 4]> {
+    let keys = KEYS.iter().filter_map(|key| key.flag);
+    let rows = keys.map(|flag| [flag.name, flag.default, flag.pictures[0], flag.pictures[1]]);
+    rows.chain(FLAGS)
+}
 
 /// Flags that change no picture, except by rounding of single pixels.
 #[rustfmt::skip]
@@ -146,8 +115,8 @@ fn file(command: &str) -> String {
 
 fn page(help: &BTreeMap<String, [String; 2]>) -> String {
     let mut page = HEAD.to_owned();
-    for [flag, default, without, with] in FLAGS {
-        let [sentence, in_help] = &help[*flag];
+    for [flag, default, without, with] in flags() {
+        let [sentence, in_help] = &help[flag];
         let default = if in_help.is_empty() {
             default
         } else {
@@ -169,7 +138,7 @@ fn page(help: &BTreeMap<String, [String; 2]>) -> String {
 
 #[test]
 fn flags_of_render_are_in_the_page() {
-    let shown = FLAGS.iter().map(|row| row[0]);
+    let shown = flags().map(|row| row[0]);
     let known: BTreeSet<&str> = shown.chain(OTHERS.iter().copied()).collect();
     let help = help();
     let in_help: BTreeSet<&str> = help.keys().map(String::as_str).collect();
@@ -186,7 +155,7 @@ fn flags_of_render_are_in_the_page() {
 
 #[test]
 fn flags_have_the_pictures_that_the_tool_draws() {
-    let commands: BTreeSet<&str> = FLAGS.iter().flat_map(|row| [row[2], row[3]]).collect();
+    let commands: BTreeSet<&str> = flags().flat_map(|row| [row[2], row[3]]).collect();
     let drawn: BTreeMap<&str, Vec<u8>> = commands.into_iter().map(|c| (c, draw(c))).collect();
     let picture = |bytes: &[u8]| decode_picture(bytes).expect("a picture").to_stored();
     if std::env::var_os("FASTPHONG_BLESS").is_some() {
@@ -210,7 +179,7 @@ fn flags_have_the_pictures_that_the_tool_draws() {
     let named: BTreeSet<PathBuf> = drawn.keys().map(|c| PathBuf::from(file(c))).collect();
     let stored: BTreeSet<PathBuf> = files(PICTURES, "png").into_iter().collect();
     assert_eq!(stored, named, "a picture for each command and no other");
-    for [flag, _, without, with] in FLAGS {
+    for [flag, _, without, with] in flags() {
         let [without, with] = [without, with].map(|command| picture(&drawn[command]));
         assert!(without != with, "--{flag} makes no difference");
     }

@@ -47,7 +47,7 @@ pub use error::{DecodeError, EncodeError, ImageFileError};
 pub use netpbm::PpmWriter;
 pub use pair::{AlphaUse, LevelView, Pair, UsedEncoding};
 pub use png::encode_png;
-pub use replace::{NoDrafts, end_of_links, remove_drafts, write_file, write_file_by};
+pub use replace::{NoDrafts, place, remove_drafts, write_file, write_file_by};
 
 /// Pixels of the largest picture that is read, 16384 × 16384, which is the largest that is drawn: beyond that a file is more
 /// likely broken, or hostile, than meant.

@@ -95,8 +95,11 @@ fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(ListedDraft, Name
     Ok((ListedDraft(draft.path().to_owned()), draft))
 }
 
-/// Returns the path of the file that is made by writing to `path`, where nothing is yet: links are followed to their end.
-pub fn end_of_links(path: &Path) -> PathBuf {
+/// Returns the place of a file, whatever it is called: links are followed, those too that lead to no file yet.
+pub fn place(path: &Path) -> PathBuf {
+    if let Ok(place) = fs::canonicalize(path) {
+        return place;
+    }
     let mut end = path.to_owned();
     for _ in 0..MOST_LINKS {
         let Ok(target) = fs::read_link(&end) else {
@@ -105,7 +108,15 @@ pub fn end_of_links(path: &Path) -> PathBuf {
         // Relative to the folder of the link; an absolute one takes its place.
         end = end.with_file_name("").join(target);
     }
-    end
+    match (fs::canonicalize(folder(&end)), end.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => end,
+    }
+}
+
+fn folder(path: &Path) -> &Path {
+    let folder = path.parent().filter(|folder| *folder != "");
+    folder.unwrap_or(Path::new("."))
 }
 
 /// Writes beside the place of `path`, then renames.
@@ -128,12 +139,8 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, problem));
         }
     }
-    let place = match old.is_some() {
-        true => fs::canonicalize(path)?,
-        false => end_of_links(path),
-    };
-    let folder = place.parent().filter(|folder| *folder != "");
-    let draft = draft(folder.unwrap_or(Path::new(".")), old.as_ref());
+    let place = place(path);
+    let draft = draft(folder(&place), old.as_ref());
     let problem = "its folder does not exist or takes no files";
     let (_listed, mut draft) = draft.map_err(|error| io::Error::new(error.kind(), problem))?;
     write(draft.as_file_mut())?;

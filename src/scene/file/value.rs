@@ -148,19 +148,19 @@ impl SceneTable {
     }
 
     /// Appends the table as TOML: first the values in it, then its tables, under headers that begin with `path`.
-    pub fn write(&self, keys: &'static [Key], path: &str, out: &mut String) {
-        let given = |key: &'static Key| Some((key, &self.get(key.name)?.data));
-        for (key, data) in keys.iter().filter_map(given) {
+    pub fn write(&self, kind: ValueKind, path: &str, out: &mut String) {
+        let given = |key: &'static Key| Some((key, &self.get(key.name())?.data));
+        for (key, data) in kind.keys().filter_map(given) {
             if let Some(text) = inline(data, key.kind) {
-                *out += &format!("{} = {text}\n", key.name);
+                *out += &format!("{} = {text}\n", key.name());
             }
         }
-        for (key, data) in keys.iter().filter_map(given) {
-            let path = format!("{path}{}", key.name);
+        for (key, data) in kind.keys().filter_map(given) {
+            let path = format!("{path}{}", key.name());
             let mut write = |header: String, table: &SceneTable| {
                 let gap = if out.is_empty() { "" } else { "\n" };
                 *out += &format!("{gap}{header}\n");
-                table.write(key.kind.keys(), &format!("{path}."), out);
+                table.write(key.kind, &format!("{path}."), out);
             };
             match (data, key.kind) {
                 (Data::Table(table), _) => write(format!("[{path}]"), table),
@@ -190,9 +190,9 @@ fn inline(data: &Data, kind: ValueKind) -> Option<String> {
         (Data::Matrix(rows), _) => rows.to_toml_value(),
         (Data::Tables(turns), ValueKind::Turns) => {
             let turn = |turn: &SceneTable| {
-                let keys = kind.keys().iter().filter_map(|key| {
-                    let text = inline(&turn.get(key.name)?.data, key.kind)?;
-                    Some(format!("{} = {text}", key.name))
+                let keys = kind.keys().filter_map(|key| {
+                    let text = inline(&turn.get(key.name())?.data, key.kind)?;
+                    Some(format!("{} = {text}", key.name()))
                 });
                 format!("{{ {} }}", keys.collect::<Vec<_>>().join(", "))
             };
@@ -206,25 +206,21 @@ fn inline(data: &Data, kind: ValueKind) -> Option<String> {
     })
 }
 
-/// Reads a table that may have `keys`.
-fn read_table(
-    table: &DeTable,
-    origin: Origin,
-    keys: &'static [Key],
-) -> Result<SceneTable, SceneError> {
+/// Reads a table of this kind.
+fn read_table(table: &DeTable, origin: Origin, kind: ValueKind) -> Result<SceneTable, SceneError> {
     let mut entries = BTreeMap::new();
     for (name, value) in table {
-        let known = keys.iter().find(|key| key.name == name.get_ref());
+        let known = kind.keys().find(|key| key.name() == name.get_ref());
         let key = known.ok_or_else(|| {
-            let names: Vec<_> = keys.iter().map(|key| key.name).collect();
+            let names: Vec<_> = kind.keys().map(Key::name).collect();
             unknown("key", name.get_ref(), name.span(), &names)
         })?;
         let (data, origin) = (read(value, key.kind)?, Origin::File(value.span()));
-        entries.insert(key.name, Value { data, origin });
+        entries.insert(key.name(), Value { data, origin });
     }
-    let missing = |key: &&Key| key.needed && !entries.contains_key(key.name);
-    if let Some(key) = keys.iter().find(missing) {
-        let title = format!("the key `{}` is missing", key.name);
+    let missing = |key: &&Key| key.needed && !entries.contains_key(key.name());
+    if let Some(key) = kind.keys().find(missing) {
+        let title = format!("the key `{}` is missing", key.name());
         return Err(SceneError::new(origin, title, "in this table"));
     }
     Ok(SceneTable { entries, origin })
@@ -233,8 +229,8 @@ fn read_table(
 /// Reads a value of the kind that its key asks for.
 fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
     let table = |value: &Spanned<DeValue>| match value.get_ref() {
-        DeValue::Table(table) => read_table(table, Origin::File(value.span()), kind.keys()),
-        _ => Err(wrong(value, &ValueKind::Table(&[]).expected())),
+        DeValue::Table(table) => read_table(table, Origin::File(value.span()), kind),
+        _ => Err(wrong(value, &ValueKind::Table("").expected())),
     };
     match (kind, value.get_ref()) {
         (ValueKind::Text, DeValue::String(text)) => Ok(Data::Text(text.clone().into_owned())),

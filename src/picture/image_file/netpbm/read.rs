@@ -5,14 +5,14 @@
 use std::io::{self, BufRead};
 use std::string::String;
 use std::vec::Vec;
-use std::{format, str, vec};
+use std::{fmt, format, str, vec};
 
 use super::super::{
     DecodeError, FilePicture, FilePixels, MAX_PIXELS, ReadProblem, checked_size, reserved,
 };
 use crate::picture::Picture;
 
-/// Longest word of a header or line of PAM's that is looked at: what is no header can have words of any length.
+/// Longest word of a header that is looked at: a file that is none can have words of any length.
 const LONGEST: usize = 200;
 
 /// A format of the family, by its first two bytes.
@@ -77,23 +77,13 @@ pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, R
         Layout::Floats(channels) => return file.floats(channels),
         Layout::Arbitrary => file.arbitrary()?,
         Layout::PlainBits | Layout::RawBits => {
-            let [width, height] = file.size()?;
-            file.integers(Header {
-                width,
-                height,
-                channels: 1,
-                maximum: 1,
-            })?
+            let size = file.size()?;
+            file.integers(size, 1, 1)?
         }
         Layout::Plain(channels) | Layout::Raw(channels) => {
-            let [width, height] = file.size()?;
+            let size = file.size()?;
             let maximum = file.number("the largest sample")?;
-            file.integers(Header {
-                width,
-                height,
-                channels,
-                maximum: file.checked_maximum(maximum)?,
-            })?
+            file.integers(size, channels, maximum)?
         }
     };
     let note = match file.rest()? {
@@ -103,17 +93,6 @@ pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, R
     };
     picture.notes.push(note.into());
     Ok(picture)
-}
-
-/// The facts about a picture of integers.
-#[derive(Clone, Copy)]
-struct Header {
-    width: usize,
-    height: usize,
-    /// Grey; grey and alpha; red, green, blue; those and alpha.
-    channels: usize,
-    /// The sample that stands for full intensity.
-    maximum: u16,
 }
 
 /// A file that is read from its start to its end.
@@ -212,9 +191,7 @@ impl Reader<'_> {
     }
 
     fn not_a_number(&self, what: &str, word: &[u8]) -> ReadProblem {
-        // Only the start of it: what is not a header can be a word of any length.
-        let found = word[..word.len().min(20)].escape_ascii();
-        self.broken(format!("{what} is \"{found}\": expected a number"))
+        self.broken(format!("{what} is \"{}\": expected a number", start(word)))
     }
 
     fn size(&mut self) -> Result<[usize; 2], ReadProblem> {
@@ -223,116 +200,92 @@ impl Reader<'_> {
         Ok(checked_size(self.kind.name, width, height)?)
     }
 
-    fn checked_maximum(&self, maximum: u64) -> Result<u16, ReadProblem> {
-        match u16::try_from(maximum) {
-            Ok(maximum @ 1..) => Ok(maximum),
-            _ => {
-                let problem = format!("the largest sample is {maximum}: expected 1 to 65535");
-                Err(self.broken(problem))
-            }
-        }
-    }
-
     /// Reads the header of a PAM file and its samples.
     fn arbitrary(&mut self) -> Result<FilePicture, ReadProblem> {
         let names = ["WIDTH", "HEIGHT", "DEPTH", "MAXVAL"];
         let mut values = [None; 4];
-        let mut tuple_type = String::new();
-        // What follows the two bytes on the first line is empty.
-        let mut line = self.line()?;
+        let (mut tuple_type, mut type_follows) = (Vec::new(), false);
         loop {
-            let (name, value) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
-            let value = value.trim();
-            match names.iter().position(|known| *known == name) {
-                Some(place) => {
-                    let number = value.parse::<u64>().ok();
-                    let problem = || self.not_a_number(name, value.as_bytes());
-                    values[place] = Some(number.ok_or_else(problem)?);
+            let word = self.word()?;
+            match names.iter().position(|known| known.as_bytes() == word) {
+                Some(place) => values[place] = Some(self.number(names[place])?),
+                None if word == b"ENDHDR" => break,
+                None if word == b"TUPLTYPE" => type_follows = true,
+                None if type_follows => (tuple_type, type_follows) = (word, false),
+                None if word.is_empty() && self.peek()?.is_none() => {
+                    return Err(self.broken("it ends too early: expected a line ENDHDR"));
                 }
-                None if name == "TUPLTYPE" => tuple_type = value.into(),
-                None if name == "ENDHDR" => break,
-                None if name.is_empty() || name.starts_with('#') => {}
                 None => {
-                    let found = name.escape_default();
                     let expected = "WIDTH, HEIGHT, DEPTH, MAXVAL, TUPLTYPE or ENDHDR";
-                    let problem = format!("a line begins with {found}: expected {expected}");
+                    let problem =
+                        format!("a line begins with {}: expected {expected}", start(&word));
                     return Err(self.broken(problem));
                 }
             }
-            line = self.line()?;
         }
-        let mut stated = [0; 4];
+        // Samples begin after the line, which may end in CR LF.
+        while self.last_space != b'\n' {
+            match self.byte()? {
+                Some(byte) => self.last_space = byte,
+                None => break,
+            }
+        }
+        let mut stated = [0u64; 4];
         for ((stated, value), name) in stated.iter_mut().zip(values).zip(names) {
             let missing = || self.broken(format!("its header has no {name}"));
             *stated = value.ok_or_else(missing)?;
         }
         let [width, height, depth, maximum] = stated;
-        let [width, height] = checked_size(self.kind.name, width, height)?;
-        let known = match tuple_type.as_str() {
-            "" => (1..=4).contains(&depth).then_some(depth),
-            "BLACKANDWHITE" | "GRAYSCALE" => Some(1),
-            "BLACKANDWHITE_ALPHA" | "GRAYSCALE_ALPHA" => Some(2),
-            "RGB" => Some(3),
-            "RGB_ALPHA" => Some(4),
+        let size = checked_size(self.kind.name, width, height)?;
+        let known = match &*tuple_type {
+            b"" => (1..=4).contains(&depth).then_some(depth),
+            b"BLACKANDWHITE" | b"GRAYSCALE" => Some(1),
+            b"BLACKANDWHITE_ALPHA" | b"GRAYSCALE_ALPHA" => Some(2),
+            b"RGB" => Some(3),
+            b"RGB_ALPHA" => Some(4),
             _ => None,
         };
         // Samples beyond those that the type names would be passed over: nobody writes them.
         if known != Some(depth) {
-            let found = format!(
-                "{depth} samples a pixel of type `{}`",
-                tuple_type.escape_default()
-            );
+            let found = format!("{depth} samples a pixel of type `{}`", start(&tuple_type));
             let expected = "1 (GRAYSCALE), 2 (GRAYSCALE_ALPHA), 3 (RGB) or 4 (RGB_ALPHA)";
             return Err(self.broken(format!("it has {found}: expected {expected}")));
         }
-        self.integers(Header {
-            width,
-            height,
-            channels: depth as usize,
-            maximum: self.checked_maximum(maximum)?,
-        })
+        self.integers(size, depth as usize, maximum)
     }
 
-    /// Takes the rest of a line of a PAM header, without its end.
-    fn line(&mut self) -> Result<String, ReadProblem> {
-        let mut line = Vec::new();
-        loop {
-            match self.byte()? {
-                Some(b'\n') => break,
-                Some(byte) if line.len() < LONGEST => line.push(byte),
-                Some(_) => return Err(self.broken("a line of its header has no end")),
-                None => return Err(self.broken("it ends too early: expected a line ENDHDR")),
+    /// Reads the samples of a picture of integers: grey; grey and alpha; red, green, blue; or those and alpha. `maximum` stands for
+    /// full intensity.
+    fn integers(
+        &mut self,
+        size: [usize; 2],
+        channels: usize,
+        maximum: u64,
+    ) -> Result<FilePicture, ReadProblem> {
+        let maximum = match u16::try_from(maximum) {
+            Ok(maximum @ 1..) => maximum,
+            _ => {
+                let problem = format!("the largest sample is {maximum}: expected 1 to 65535");
+                return Err(self.broken(problem));
             }
-        }
-        Ok(String::from_utf8_lossy(&line).trim().into())
-    }
-
-    /// Reads the samples of a picture of integers.
-    fn integers(&mut self, header: Header) -> Result<FilePicture, ReadProblem> {
-        let Header {
-            width,
-            height,
-            channels,
-            maximum,
-        } = header;
+        };
         // If the line ends in CR LF, LF is the first sample by the rules, and the last byte is left over: what looks like space
         // there is none.
         self.may_be_shifted = self.last_space == b'\r' && self.peek()? == Some(b'\n');
-        let has_alpha = channels.is_multiple_of(2);
         let pixels = match 255 % maximum {
             // Every sample is a whole number of grey levels.
             0 => {
                 let factor = 255 / maximum;
-                let pixels = self.pixels(header, |sample| (sample * factor) as u8)?;
-                FilePixels::Stored(whole(width, height, pixels))
+                let level = |sample| (sample * factor) as u8;
+                FilePixels::Stored(self.pixels(size, channels, maximum, level)?)
             }
             _ => FilePixels::Deep {
-                picture: whole(width, height, self.pixels(header, |sample| sample)?),
+                picture: self.pixels(size, channels, maximum, |sample| sample)?,
                 maximum,
             },
         };
         Ok(FilePicture {
-            has_alpha,
+            has_alpha: channels.is_multiple_of(2),
             ..FilePicture::of_pixels(pixels)
         })
     }
@@ -340,15 +293,11 @@ impl Reader<'_> {
     /// Reads rows of samples into pixels.
     fn pixels<S: Copy>(
         &mut self,
-        header: Header,
+        [width, height]: [usize; 2],
+        channels: usize,
+        maximum: u16,
         stored: impl Fn(u16) -> S,
-    ) -> Result<Vec<[S; 4]>, ReadProblem> {
-        let Header {
-            width,
-            height,
-            channels,
-            maximum,
-        } = header;
+    ) -> Result<Picture<[S; 4]>, ReadProblem> {
         let full = stored(maximum);
         let mut pixels = reserved(width, height)?;
         let mut row = vec![0u16; width * channels];
@@ -395,7 +344,7 @@ impl Reader<'_> {
                 }
             }));
         }
-        Ok(pixels)
+        Ok(whole(width, height, pixels))
     }
 
     /// Reads a row of `count` bytes, row `y` of `height`.
@@ -523,6 +472,11 @@ impl Reader<'_> {
 fn whole<P: Copy>(width: usize, height: usize, pixels: Vec<P>) -> Picture<P> {
     debug_assert!(pixels.len() as u64 <= MAX_PIXELS, "the size was checked");
     Picture::from_pixels(width, height, pixels).expect("every row was read")
+}
+
+/// Returns the start of a word as messages show it.
+fn start(word: &[u8]) -> impl fmt::Display {
+    word[..word.len().min(20)].escape_ascii()
 }
 
 /// True for the white space of these formats.

@@ -223,7 +223,10 @@ fn words_that_do_not_exist() {
     ] {
         check(text, &format!("unknown word `{word}`"), expected, hint);
     }
-    let keys: Vec<_> = SCENE.iter().map(|key| format!("`{}`", key.name)).collect();
+    let keys: Vec<_> = SCENE
+        .keys()
+        .map(|key| format!("`{}`", key.name()))
+        .collect();
     check(
         "«speclar» = \"blinn\"\n",
         "unknown key `speclar`",

@@ -1,6 +1,6 @@
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::schema::{AXES, Key, SCENE, ValueKind};
+use crate::scene::file::schema::{AXES, SCENE, ValueKind};
 use crate::scene::file::value::{Data, SceneTable};
 use std::format;
 use std::string::String;
@@ -62,23 +62,22 @@ impl Random {
             }
             ValueKind::Matrix => Data::Matrix([0; 3].map(|_| [0; 4].map(|_| self.number()))),
             ValueKind::Word(words) => Data::Text(self.choice(words).into()),
-            ValueKind::Table(keys) => Data::Table(self.table(keys)),
-            ValueKind::Tables(keys) => self.tables(keys),
-            ValueKind::Turns => self.tables(ValueKind::Turns.keys()),
+            ValueKind::Table(_) => Data::Table(self.table(kind)),
+            ValueKind::Tables(_) | ValueKind::Turns => self.tables(kind),
         }
     }
 
-    fn tables(&mut self, keys: &[Key]) -> Data {
+    fn tables(&mut self, kind: ValueKind) -> Data {
         let count = self.next() % 4;
-        Data::Tables((0..count).map(|_| self.table(keys)).collect::<Vec<_>>())
+        Data::Tables((0..count).map(|_| self.table(kind)).collect::<Vec<_>>())
     }
 
     /// Returns a table in which each key is present half of the time.
-    fn table(&mut self, keys: &[Key]) -> SceneTable {
+    fn table(&mut self, kind: ValueKind) -> SceneTable {
         let mut table = SceneTable::default();
-        for key in keys {
+        for key in kind.keys() {
             if key.needed || self.next().is_multiple_of(2) {
-                table.set(key.name, self.data(key.kind), Origin::Program);
+                table.set(key.name(), self.data(key.kind), Origin::Program);
             }
         }
         table
