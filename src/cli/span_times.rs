@@ -5,12 +5,12 @@ use super::Log;
 use super::measured::command_line;
 use super::progress::Progress;
 use fastphong::compare::table::Table;
-use fastphong::compare::timing::Machine;
+use fastphong::compare::timing::{Candidate, Machine, TimeLimits, time_interleaved};
 use fastphong::shading::{SpanBench, Variant};
 use serde::Serialize;
 use serde_json::json;
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The schema of the data: see `docs/bench-json.md`.
 const SCHEMA: &str = "fastphong.spans/1";
@@ -19,8 +19,6 @@ const SCHEMA: &str = "fastphong.spans/1";
 const DEGREES: f32 = 20.0;
 /// Pixels of the spans.
 const LENGTHS: [usize; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
-/// The time that one reading of the clock covers at least.
-const SAMPLE: Duration = Duration::from_micros(50);
 /// Rounds, in each of which every method takes its turn at every length. The least time of all is kept.
 const ROUNDS: usize = 15;
 
@@ -38,31 +36,36 @@ pub fn span_times(methods: &[Variant], log: Log) -> Result<(String, String), Cli
     let progress = Progress::silent_between_moves(log);
     let benches = [1, 4].map(|lights| (lights, SpanBench::new(DEGREES, lights)));
     let mut all = Vec::new();
-    for variant in methods {
-        if let Some(reason) = benches[0].1.refuses(variant) {
-            log.warning(&format!("{variant} is left out: {reason}"));
-        }
-    }
-    let is_for = |variant: &&Variant| benches[0].1.refuses(variant).is_none();
-    let methods: Vec<&Variant> = methods.iter().filter(is_for).collect();
-    for (lights, _) in &benches {
-        all.extend(methods.iter().map(|variant| SpanTimes {
-            method: variant.to_string(),
-            lights: *lights,
-            ns: vec![f64::INFINITY; LENGTHS.len()],
-        }));
-    }
-    let mut out = vec![[0.0; 3]; LENGTHS[LENGTHS.len() - 1]];
-    for round in 0..ROUNDS {
-        progress.at(round as f32 / ROUNDS as f32, "spans");
-        let mut row = all.iter_mut();
-        for (_, bench) in &benches {
-            for (variant, times) in methods.iter().zip(row.by_ref()) {
-                for (length, least) in LENGTHS.into_iter().zip(&mut times.ns) {
-                    *least = least.min(time(variant, bench, &mut out[..length]));
+    let mut spans: Vec<Candidate<'_>> = Vec::new();
+    for (lights, bench) in &benches {
+        for variant in methods {
+            if let Some(reason) = bench.refuses(variant) {
+                if *lights == 1 {
+                    log.warning(&format!("{variant} is left out: {reason}"));
                 }
+                continue;
+            }
+            all.push(SpanTimes {
+                method: variant.to_string(),
+                lights: *lights,
+                ns: Vec::new(),
+            });
+            for length in LENGTHS {
+                let mut out = vec![[0.0; 3]; length];
+                spans.push(Box::new(move || {
+                    variant.shade_span(black_box(bench), black_box(&mut out));
+                }));
             }
         }
+    }
+    let limits = TimeLimits {
+        time_budget: Duration::MAX,
+        rounds: ROUNDS,
+        warm_up_rounds: 1,
+    };
+    let timings = time_interleaved(&mut spans, limits, |part| progress.at(part, "spans"));
+    for (times, timings) in all.iter_mut().zip(timings.chunks(LENGTHS.len())) {
+        times.ns = timings.iter().map(|timing| timing.min_ns).collect();
     }
     let head = json!({
         "schema": SCHEMA, "command_line": command_line(), "machine": Machine::this(),
@@ -70,22 +73,6 @@ pub fn span_times(methods: &[Variant], log: Log) -> Result<(String, String), Cli
     });
     let json = format!("{head:#}\n");
     Ok((table(&all), json))
-}
-
-/// Returns the nanoseconds of a span, the mean of as many as a sample takes.
-fn time(variant: &Variant, bench: &SpanBench, out: &mut [[f32; 3]]) -> f64 {
-    let mut calls = 0u32;
-    let started = Instant::now();
-    loop {
-        for _ in 0..4 {
-            variant.shade_span(black_box(bench), black_box(&mut *out));
-        }
-        calls += 4;
-        let spent = started.elapsed();
-        if spent >= SAMPLE {
-            return spent.as_nanos() as f64 / f64::from(calls);
-        }
-    }
 }
 
 /// Writes nanoseconds a pixel, a row a method.

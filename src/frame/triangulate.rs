@@ -284,7 +284,8 @@ fn are_apart(places: &[Position], triangles: &[[usize; 3]], sign: i64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::fixtures::{Dice, covered, shape};
+    use crate::number::test_random::Random;
+    use crate::reference::fixtures::{covered, shape};
     use alloc::vec;
     use alloc::vec::Vec;
 
@@ -338,8 +339,8 @@ mod tests {
             (3.0, 5.0),
             (1.0, 3.0),
         ];
-        let mut dice = Dice::new(6);
-        let stars = [star(&mut dice, 7), star(&mut dice, 12)];
+        let mut random = Random::new(6);
+        let stars = [star(&mut random, 7), star(&mut random, 12)];
         for polygon in [&pentagon[..], &arrowhead, &touching, &stars[0], &stars[1]] {
             // A first, then all that are equal to it, and in between one that is not.
             let mut turned = vec![polygon.to_vec(), vec![(0.0, 0.0); 4]];
@@ -500,12 +501,12 @@ mod tests {
     }
 
     /// Corners in the directions of their numbers about the middle: star-shaped, of any concavity.
-    fn star(dice: &mut Dice, corners: usize) -> Points {
+    fn star(random: &mut Random, corners: usize) -> Points {
         (0..corners)
             .map(|k| {
                 let angle = core::f64::consts::TAU * k as f64 / corners as f64;
                 // 1/64 pixel is more than enough to keep neighbours apart.
-                let radius = 4.0 + dice.below(27 * 64) as f64 / 64.0;
+                let radius = 4.0 + random.below(27 * 64) as f64 / 64.0;
                 (
                     32.5 + radius * libm::cos(angle),
                     32.5 + radius * libm::sin(angle),
@@ -516,9 +517,9 @@ mod tests {
 
     #[test]
     fn stars_and_combs() {
-        let mut dice = Dice::new(3);
+        let mut random = Random::new(3);
         for corners in 4..60 {
-            let mut polygon = star(&mut dice, corners);
+            let mut polygon = star(&mut random, corners);
             assert_eq!(check(65, &[&polygon]), 0);
             polygon.reverse();
             assert_eq!(check(65, &[&polygon]), 0);
@@ -528,8 +529,8 @@ mod tests {
             let mut comb: Points = vec![(4.0 * teeth as f64, 40.5), (0.5, 40.5)];
             for tooth in 0..teeth {
                 let x = 4.0 * tooth as f64;
-                comb.push((x + 0.5, dice.below(30) as f64 + 0.5));
-                comb.push((x + 2.5, dice.below(30) as f64 + 0.5));
+                comb.push((x + 0.5, random.below(30) as f64 + 0.5));
+                comb.push((x + 2.5, random.below(30) as f64 + 0.5));
                 comb.push((x + 2.5, 39.5));
                 comb.push((x + 3.5, 39.5));
             }
@@ -541,10 +542,10 @@ mod tests {
 
     #[test]
     fn polygons_that_share_a_ragged_edge_tile_the_picture() {
-        let mut dice = Dice::new(4);
+        let mut random = Random::new(4);
         for _ in 0..50 {
             let ragged: Points = (0..=16)
-                .map(|k| (2.0 * k as f64, dice.below(32 * 64) as f64 / 64.0))
+                .map(|k| (2.0 * k as f64, random.below(32 * 64) as f64 / 64.0))
                 .collect();
             let above: Points = [&[(0.0, 0.0)][..], &ragged, &[(32.0, 0.0)]].concat();
             let below: Points = [&[(0.0, 32.0)][..], &ragged, &[(32.0, 32.0)]].concat();
@@ -584,13 +585,12 @@ mod tests {
 
     #[test]
     fn random_polygons_are_cut_right_or_left_out_and_simple_ones_always_cut() {
-        let mut dice = Dice::new(5);
+        let mut random = Random::new(5);
         let (mut simple, mut left_out, mut touching) = (0, 0, 0);
         for round in 0..20_000 {
             // A coarse grid: most corners repeat, touch or line up with others.
-            let corners: Vec<Position> = (0..4 + round % 6)
-                .map(|_| (dice.below(6) * 128 + 128, dice.below(6) * 128 + 128))
-                .collect();
+            let mut place = || random.below(6) as i64 * 128 + 128;
+            let corners: Vec<Position> = (0..4 + round % 6).map(|_| (place(), place())).collect();
             let points: Points = corners
                 .iter()
                 .map(|&(x, y)| (x as f64 / 256.0, y as f64 / 256.0))

@@ -25,6 +25,7 @@ mod scalar;
 #[cfg(feature = "simd")]
 #[doc(hidden)]
 pub mod simd;
+pub(crate) mod split_mix;
 #[doc(hidden)]
 pub mod suggest;
 #[cfg(test)]

@@ -20,9 +20,14 @@ impl Random {
         ((self.next() >> 32) * n) >> 32
     }
 
+    /// Returns a number of 0..1.
+    pub(crate) fn share(&mut self) -> f32 {
+        (self.next() >> 40) as f32 / (1u32 << 24) as f32
+    }
+
     /// Returns a number of −1..1.
     pub(crate) fn signed(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1u32 << 23) as f32 - 1.0
+        2.0 * self.share() - 1.0
     }
 
     /// Returns a unit vector.

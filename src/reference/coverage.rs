@@ -264,7 +264,8 @@ impl<'a> Scanline<'a> {
 mod tests {
     use super::*;
     use crate::frame::Frame;
-    use crate::reference::fixtures::{Dice, covered, drawing, shape};
+    use crate::number::test_random::Random;
+    use crate::reference::fixtures::{covered, drawing, shape};
     use alloc::vec;
 
     #[test]
@@ -306,13 +307,13 @@ mod tests {
 
     #[test]
     fn anything_is_covered_if_any_pixel_is() {
-        let mut dice = Dice::new(11);
+        let mut random = Random::new(11);
         let (mut some, mut none) = (0, 0);
         for round in 0..2000 {
             // From a part of a pixel to the whole picture, all around it.
             let size = [200, 600, 3000][round % 3];
-            let at = [dice.below(1600) - 300, dice.below(1600) - 300];
-            let mut place = |k: usize| (at[k] + dice.below(size)) as f64 / 256.0;
+            let at = [(); 2].map(|()| random.below(1600) as i64 - 300);
+            let mut place = |k: usize| (at[k] + random.below(size) as i64) as f64 / 256.0;
             let corners: Vec<(f64, f64)> =
                 (0..3 + round % 4).map(|_| (place(0), place(1))).collect();
             let frame = shape(4, 4, &[&corners]);
@@ -379,12 +380,12 @@ mod tests {
 
     #[test]
     fn for_triangles_parity_is_the_top_left_rule() {
-        let mut dice = Dice::new(1);
+        let mut random = Random::new(1);
         let (mut inside, mut outside) = (0, 0);
         for _ in 0..2000 {
             // A grid of half pixels: half of all corners, and many edges, lie on pixel centres.
-            let corners: [(i64, i64); 3] =
-                core::array::from_fn(|_| (dice.below(16) * 128, dice.below(16) * 128));
+            let mut place = || random.below(16) as i64 * 128;
+            let corners = [(); 3].map(|()| (place(), place()));
             let frame = shape(
                 7,
                 7,
@@ -461,13 +462,13 @@ mod tests {
 
     #[test]
     fn edges_then_span_is_barycentric_for_triangles_and_not_for_quadrilaterals() {
-        let mut dice = Dice::new(2);
+        let mut random = Random::new(2);
         let mut pixels = 0;
         for _ in 0..500 {
             let corners: [(f64, f64); 3] = core::array::from_fn(|_| {
                 (
-                    dice.below(8192) as f64 / 256.0,
-                    dice.below(8192) as f64 / 256.0,
+                    random.below(8192) as f64 / 256.0,
+                    random.below(8192) as f64 / 256.0,
                 )
             });
             // Barycentric: areas are exact, one rounding a quotient, then 3 products and sums of values up to 1: at

@@ -106,22 +106,3 @@ pub(crate) fn drawing(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Ve
         .map(|y| counts.row(y).iter().map(sign).collect())
         .collect()
 }
-
-/// Random numbers that are the same on every run: xorshift64* (Vigna, *An experimental exploration of Marsaglia's xorshift
-/// generators, scrambled*, 2016).
-pub(crate) struct Dice(u64);
-
-impl Dice {
-    /// Dice of their own for each seed.
-    pub fn new(seed: u64) -> Self {
-        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    /// A number of 0..`end`.
-    pub fn below(&mut self, end: u64) -> i64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % end) as i64
-    }
-}

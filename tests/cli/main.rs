@@ -114,78 +114,58 @@ impl Ended {
     }
 
     /// Asserts exit code 0.
+    #[track_caller]
     fn done(self) -> Ended {
-        assert_eq!(
-            self.code,
-            Some(0),
-            "`{}`: {}{}",
-            self.arguments,
-            self.out,
-            self.err
-        );
-        self
+        self.exits(0)
     }
 
     /// Asserts exit code 1.
+    #[track_caller]
     fn differs(self) -> Ended {
-        assert_eq!(
-            self.code,
-            Some(1),
-            "`{}`: {}{}",
-            self.arguments,
-            self.out,
-            self.err
-        );
+        self.exits(1)
+    }
+
+    #[track_caller]
+    fn exits(self, code: i32) -> Ended {
+        let (arguments, out, err) = (&self.arguments, &self.out, &self.err);
+        assert_eq!(self.code, Some(code), "`{arguments}`: {out}{err}");
         self
     }
 
     /// Asserts exit code 2, an empty standard output, and one error that contains each of `parts`.
+    #[track_caller]
     fn refused(self, parts: &[&str]) -> Ended {
-        assert_eq!(
-            self.code,
-            Some(2),
-            "`{}`: {}{}",
-            self.arguments,
-            self.out,
-            self.err
-        );
-        assert_eq!(self.out, "", "`{}`", self.arguments);
-        assert_eq!(
-            self.err.matches("error: ").count(),
-            1,
-            "`{}`: {}",
-            self.arguments,
-            self.err
-        );
+        let (arguments, out, err) = (&self.arguments, &self.out, &self.err);
+        assert_eq!(self.code, Some(2), "`{arguments}`: {out}{err}");
+        assert_eq!(out, "", "`{arguments}`");
+        assert_eq!(err.matches("error: ").count(), 1, "`{arguments}`: {err}");
         for part in parts {
             assert!(
-                self.err.contains(part),
-                "`{}` does not say `{part}`: {}",
-                self.arguments,
-                self.err
+                err.contains(part),
+                "`{arguments}` does not say `{part}`: {err}"
             );
         }
         self
     }
 
     /// Asserts that standard error contains `part`.
+    #[track_caller]
     fn says(self, part: &str) -> Ended {
+        let (arguments, err) = (&self.arguments, &self.err);
         assert!(
-            self.err.contains(part),
-            "`{}` does not say `{part}`: {}",
-            self.arguments,
-            self.err
+            err.contains(part),
+            "`{arguments}` does not say `{part}`: {err}"
         );
         self
     }
 
     /// Asserts that standard output contains `part`.
+    #[track_caller]
     fn prints(self, part: &str) -> Ended {
+        let (arguments, out) = (&self.arguments, &self.out);
         assert!(
-            self.out.contains(part),
-            "`{}` does not print `{part}`: {}",
-            self.arguments,
-            self.out
+            out.contains(part),
+            "`{arguments}` does not print `{part}`: {out}"
         );
         self
     }

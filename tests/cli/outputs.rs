@@ -3,15 +3,9 @@
 use super::{Ended, Folder, SPHERE};
 use std::process::Stdio;
 
-/// A command without its output, the flag of one, and the ending that its contents have.
-struct Case {
-    command: String,
-    flag: &'static str,
-    ending: &'static str,
-}
-
-/// Returns each output of each command. Every command is quick.
-fn cases(folder: &Folder) -> Vec<Case> {
+/// Returns each output of each command: the command without it, its flag, and the ending that its contents have. Every command is
+/// quick.
+fn cases(folder: &Folder) -> [(String, &'static str, &'static str); 8] {
     folder.run(&format!("render {SPHERE} -o a.png")).done();
     folder
         .run(&format!("render {SPHERE} --kd 0.5 -o b.png"))
@@ -32,12 +26,6 @@ fn cases(folder: &Folder) -> Vec<Case> {
         (bench, "--json", "json"),
         (search.to_owned(), "--json", "json"),
     ]
-    .map(|(command, flag, ending)| Case {
-        command,
-        flag,
-        ending,
-    })
-    .into()
 }
 
 /// Returns the bytes of a file without the name that the document keeps of it, and without times.
@@ -48,12 +36,7 @@ fn beginning(bytes: &[u8]) -> &[u8] {
 #[test]
 fn a_hyphen_is_standard_output_for_every_output() {
     let folder = Folder::new();
-    for Case {
-        command,
-        flag,
-        ending,
-    } in cases(&folder)
-    {
+    for (command, flag, ending) in cases(&folder) {
         let file = format!("out.{ending}");
         folder.run(&format!("{command} {flag} {file}")).done();
         let piped = folder.run(&format!("{command} {flag} -")).done();
@@ -76,12 +59,7 @@ fn an_ending_that_denies_the_contents_is_refused_for_every_output() {
     let folder = Folder::new();
     let cases = cases(&folder);
     let before = folder.names();
-    for Case {
-        command,
-        flag,
-        ending,
-    } in cases
-    {
+    for (command, flag, ending) in cases {
         for other in [
             "html", "json", "csv", "md", "obj", "toml", "txt", "gif", "png",
         ] {
@@ -154,7 +132,7 @@ fn a_document_is_read_from_standard_input_once() {
 fn a_full_device_is_an_error_for_every_output_and_for_help() {
     let folder = Folder::new();
     let outputs = cases(&folder).into_iter();
-    let outputs = outputs.map(|case| format!("{} {} -", case.command, case.flag));
+    let outputs = outputs.map(|(command, flag, _)| format!("{command} {flag} -"));
     let results = [
         "--help",
         "--version",
@@ -240,12 +218,7 @@ fn png_of_others() -> Vec<u8> {
 #[test]
 fn files_that_a_flag_names_are_replaced() {
     let folder = Folder::new();
-    for Case {
-        command,
-        flag,
-        ending,
-    } in cases(&folder)
-    {
+    for (command, flag, ending) in cases(&folder) {
         let file = format!("old.{ending}");
         folder.write(&file, "old");
         folder.run(&format!("{command} {flag} {file}")).done();

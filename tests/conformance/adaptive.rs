@@ -1,5 +1,6 @@
 //! The promise of `adaptive-phong`: linear colours are within `levels` of naive Phong's closed form in `f64`, but for roundings.
 
+use crate::support::Random;
 use crate::support::cases::cases;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::reference::{self, Model};
@@ -51,23 +52,8 @@ fn every_scene_is_within_the_promise() {
     }
 }
 
-/// Random numbers: xorshift64*.
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64) -> Self {
-        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-    /// Returns a number of 0..1.
-    fn share(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 40) as f64 / f64::from(1u32 << 24)
-    }
-    fn genes(&mut self) -> Genes {
-        [(); GENES].map(|()| self.share())
-    }
+fn genes(random: &mut Random) -> Genes {
+    [(); GENES].map(|()| random.share().into())
 }
 
 fn one_of<T: Copy>(share: f64, all: &[T]) -> T {
@@ -90,7 +76,7 @@ struct Setting {
 
 impl Setting {
     fn of(random: &mut Random) -> Self {
-        let mut share = || random.share();
+        let mut share = || f64::from(random.share());
         Setting {
             cell: one_of(share(), &[12, 20, 32, 64]),
             lights: one_of(share(), &[1, 1, 2, 3, 4]),
@@ -290,7 +276,7 @@ fn random_polygons_are_within_the_promise() {
     for seed in first..first + u64::div_ceil(count, COUNT.into()) {
         let mut random = Random::new(seed);
         let setting = Setting::of(&mut random);
-        let all: Vec<Genes> = (0..COUNT).map(|_| random.genes()).collect();
+        let all: Vec<Genes> = (0..COUNT).map(|_| genes(&mut random)).collect();
         let (measured, levels) = (measure(setting, &all), setting.levels);
         for (sum, kind) in kinds.iter_mut().zip(measured.kinds) {
             *sum += kind;
@@ -332,19 +318,20 @@ fn search(random: &mut Random) -> (Setting, [f64; 2]) {
     const GENERATIONS: u32 = 80;
     let setting = Setting {
         cell: 16,
-        levels: one_of(random.share(), &[0.5, 1.0, 4.0]),
+        levels: one_of(random.share().into(), &[0.5, 1.0, 4.0]),
         ..Setting::of(random)
     };
-    let (mut best, mut first) = ((0.0, random.genes()), 0.0);
+    let (mut best, mut first) = ((0.0, genes(random)), 0.0);
     for generation in 0..GENERATIONS {
         let all: Vec<Genes> = (0..COUNT)
             .map(|_| {
                 if generation == 0 {
-                    return random.genes();
+                    return genes(random);
                 }
-                let reach = 0.5 * f64::powf(0.001, random.share());
+                let reach = 0.5 * f64::powf(0.001, random.share().into());
                 best.1.map(|gene: f64| match random.share() < 0.04 {
-                    true => (gene + reach * (2.0 * random.share() - 1.0)).clamp(0.0, 0.999_999),
+                    true => (gene + reach * (2.0 * f64::from(random.share()) - 1.0))
+                        .clamp(0.0, 0.999_999),
                     false => gene,
                 })
             })

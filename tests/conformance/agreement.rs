@@ -2,7 +2,7 @@
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
-use crate::support::{self, Random};
+use crate::support::{self, Random, linear};
 use crate::support::{floats, floats_on};
 use fastphong::compare::metrics::compare;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
@@ -72,19 +72,9 @@ fn equal_normals_make_all_methods_equal() {
             builder.polygon(&corners, normal, number as u32);
         }
         let frame = builder.finish().expect("a frame");
-        let first = floats()[0]
-            .variant()
-            .render_linear(&frame)
-            .expect("a method for the frame");
+        let first = linear(&floats()[0], &frame);
         for entry in floats_on(&frame) {
-            let difference = compare(
-                &first,
-                &entry
-                    .variant()
-                    .render_linear(&frame)
-                    .expect("a method for the frame"),
-            )
-            .expect("equal sizes");
+            let difference = compare(&first, &linear(entry, &frame)).expect("equal sizes");
             let bound = floats()[0].variant().bound(&frame) + entry.variant().bound(&frame);
             assert!(
                 difference.max <= bound,
@@ -105,10 +95,7 @@ fn any_number_of_lights() {
         let case = Case::new("", sphere(|scene| scene.lights = lights(count)));
         assert_eq!(case.frame.light_count(), count);
         for entry in floats_on(&case.frame) {
-            let ours = entry
-                .variant()
-                .render_linear(&case.frame)
-                .expect("a method for the frame");
+            let ours = linear(entry, &case.frame);
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
             let bound = entry.variant().bound(&case.frame);
             assert!(
@@ -136,10 +123,7 @@ fn a_light_behind_makes_no_highlight() {
     let normals = fastphong::raster::normals(&frame);
     let mut compared = 0;
     for entry in floats_on(&frame) {
-        let picture = entry
-            .variant()
-            .render_linear(&frame)
-            .expect("a method for the frame");
+        let picture = linear(entry, &frame);
         for (pixel, normal) in picture.pixels().iter().zip(normals.pixels()) {
             let n =
                 DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()) * 2.0 - DVec3::ONE;
@@ -164,14 +148,7 @@ fn a_light_behind_makes_no_highlight() {
 fn no_lights_means_ambient_only() {
     let frame = sphere(|scene| scene.lights.clear());
     for entry in floats_on(&frame) {
-        for pixel in entry
-            .variant()
-            .render_linear(&frame)
-            .expect("a method for the frame")
-            .pixels()
-            .iter()
-            .filter(|t| t[3] > 0.0)
-        {
+        for pixel in linear(entry, &frame).pixels().iter().filter(|t| t[3] > 0.0) {
             assert_eq!(
                 pixel[..3],
                 Material::default().ambient,
@@ -191,10 +168,7 @@ fn stored_and_linear_pictures_agree() {
             .variant()
             .render(&frame)
             .expect("a method for the frame");
-        let linear = entry
-            .variant()
-            .render_linear(&frame)
-            .expect("a method for the frame");
+        let linear = linear(entry, &frame);
         let rounded = linear.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
         assert_eq!(stored, rounded, "{}", entry.info.name);
         let mut reused = Picture::new(96, 72, [7u8; 4]);
@@ -230,10 +204,7 @@ fn perspective_interpolation_agrees_with_the_reference() {
     let case = Case::new("", near(Interpolation::Perspective));
     let (space, screen) = (&case.frame, &near(Interpolation::Screen));
     for entry in floats_on(space) {
-        let ours = entry
-            .variant()
-            .render_linear(space)
-            .expect("a method for the frame");
+        let ours = linear(entry, space);
         let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
         let bound = entry.variant().bound(space);
         assert!(max <= bound, "{}: {max} over {bound}", entry.info.name);
@@ -274,14 +245,7 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
         else {
             continue;
         };
-        let difference = compare(
-            &theirs,
-            &entry
-                .variant()
-                .render_linear(&frame)
-                .expect("a method for the frame"),
-        )
-        .expect("equal sizes");
+        let difference = compare(&theirs, &linear(entry, &frame)).expect("equal sizes");
         // Both are within the bound of their closed form, and the forms are equal on triangles.
         assert!(
             difference.max <= 2.0 * entry.variant().bound(&frame),

@@ -1,7 +1,7 @@
 //! Clipping of polygons that reach behind the eye, through the near plane, or far outside the
 //! picture.
 
-use crate::support::floats_on;
+use crate::support::{floats_on, linear};
 use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
@@ -312,10 +312,7 @@ fn extreme_positions_never_panic() {
             scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(scale));
             let frame = scene.frame().expect("a frame");
             for entry in floats_on(&frame) {
-                let picture = entry
-                    .variant()
-                    .render_linear(&frame)
-                    .expect("a method for the frame");
+                let picture = linear(entry, &frame);
                 assert!(
                     picture
                         .pixels()

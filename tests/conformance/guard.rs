@@ -192,10 +192,10 @@ fn a_prepared_scene_refuses_what_was_changed_later() {
     );
 }
 
-fn corner(x: i32, y: i32, normal: [f32; 3]) -> Vertex {
+const fn corner(x: i32, y: i32, normal: [f32; 3]) -> Vertex {
     Vertex {
-        x: SubPixel::from_num(x),
-        y: SubPixel::from_num(y),
+        x: SubPixel::from_bits(256 * x),
+        y: SubPixel::from_bits(256 * y),
         depth: 0.5,
         inv_w: 1.0,
         normal,
@@ -204,32 +204,7 @@ fn corner(x: i32, y: i32, normal: [f32; 3]) -> Vertex {
 }
 
 const Z: [f32; 3] = [0.0, 0.0, 1.0];
-const CORNERS: [Vertex; 3] = [
-    Vertex {
-        x: SubPixel::from_bits(256),
-        y: SubPixel::from_bits(256),
-        depth: 0.5,
-        inv_w: 1.0,
-        normal: Z,
-        material: 0,
-    },
-    Vertex {
-        x: SubPixel::from_bits(3840),
-        y: SubPixel::from_bits(256),
-        depth: 0.5,
-        inv_w: 1.0,
-        normal: Z,
-        material: 0,
-    },
-    Vertex {
-        x: SubPixel::from_bits(256),
-        y: SubPixel::from_bits(3840),
-        depth: 0.5,
-        inv_w: 1.0,
-        normal: Z,
-        material: 0,
-    },
-];
+const CORNERS: [Vertex; 3] = [corner(1, 1, Z), corner(15, 1, Z), corner(1, 15, Z)];
 
 /// Builds a triangle with one of its corners, its normal and the rest changed.
 fn built(
@@ -486,7 +461,7 @@ fn directions_and_normals_of_any_length_are_those_of_unit_vectors() {
 fn unit_vectors_keep_their_bits() {
     let mut random = crate::support::Random::new(41);
     for _ in 0..1000 {
-        let [x, y, z] = [0; 3].map(|_| random.unit() - 0.5);
+        let [x, y, z] = [0; 3].map(|_| random.share() - 0.5);
         let normal = Vec3::new(x, y, z).normalize().to_array();
         let frame = built(plain_lighting(), corner(1, 15, normal), normal, |_| ());
         let frame = frame.expect("a frame");

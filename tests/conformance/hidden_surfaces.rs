@@ -180,7 +180,7 @@ fn the_painter_sorts_layers_as_depth_does() {
         let count = 3 + round % 30;
         let polygons: Vec<Vec<Corner>> = (0..count)
             .map(|_| {
-                let depth = random.unit();
+                let depth = random.share();
                 let corners = random_polygon(&mut random, 64, 48, 3);
                 corners
                     .into_iter()
@@ -563,8 +563,8 @@ fn corners_of(shape: Shape, random: &mut Random, size: u64, side: u64) -> Vec<Ve
         Vertex {
             x: SubPixel::from_bits(moved[0]),
             y: SubPixel::from_bits(moved[1]),
-            depth: f64::from(0.1 + 0.8 * random.unit()),
-            inv_w: f64::from(0.2 + 0.8 * random.unit()),
+            depth: f64::from(0.1 + 0.8 * random.share()),
+            inv_w: f64::from(0.2 + 0.8 * random.share()),
             normal: [0.0, 0.0, 1.0],
             material: 0,
         }

@@ -1,7 +1,7 @@
 //! Compares the lecture's formulas, evaluated in `f64` at the pixel centres of one span, with the
 //! methods' pictures. Also tests its statements about triangles, squares and edges.
 
-use crate::support::floats_on;
+use crate::support::{floats_on, linear};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::picture::LinearPicture;
@@ -269,10 +269,7 @@ fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
             } else {
                 frame_of(&[&[a, b, c, d]])
             };
-            entry
-                .variant()
-                .render_linear(&frame)
-                .expect("a method for the frame")
+            linear(entry, &frame)
         };
         largest_difference(&picture(0), &turned_back(&picture(1)))
     };
@@ -310,12 +307,7 @@ fn the_picture_depends_on_the_diagonal() {
     let one = frame_of(&[&[a, b, c], &[a, c, d]]);
     let other = frame_of(&[&[a, b, d], &[b, c, d]]);
     for entry in floats_on(&one).filter(|entry| entry.info.name != "flat") {
-        let draw = |frame: &Frame| {
-            entry
-                .variant()
-                .render_linear(frame)
-                .expect("a method for the frame")
-        };
+        let draw = |frame: &Frame| linear(entry, frame);
         assert!(
             largest_difference(&draw(&one), &draw(&other)) > 0.01,
             "{}",

@@ -4,7 +4,7 @@
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
 use crate::support::drawings::for_each_drawing;
-use crate::support::{exact_on, floats_on};
+use crate::support::{exact_on, floats_on, linear};
 use fastphong::frame::Frame;
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
@@ -90,13 +90,7 @@ fn every_mode_agrees_with_the_reference() {
                     let case = Case::new(mode, frame);
                     for entry in exact_on(&case.frame) {
                         let truth = case.truth(entry.info.model);
-                        let error = most(
-                            truth,
-                            &entry
-                                .variant()
-                                .render_linear(&case.frame)
-                                .expect("a method for the frame"),
-                        );
+                        let error = most(truth, &linear(entry, &case.frame));
                         let bound = entry.variant().bound(&case.frame);
                         assert!(
                             bound < 3.0 / 255.0,
@@ -264,16 +258,7 @@ fn a_light_far_away_is_one_at_infinity() {
         // Light vectors differ by the angle 2.5 / 1e6, because eye and sphere are within 2.5 of the
         // origin. The model amplifies it like any error of a cosine: 4 n k_s + k_d = 52.
         let bound = 52.0 * 2.5e-6 + entry.variant().bound(&far) + entry.variant().bound(&infinite);
-        let error = most(
-            &entry
-                .variant()
-                .render_linear(&far)
-                .expect("a method for the frame"),
-            &entry
-                .variant()
-                .render_linear(&infinite)
-                .expect("a method for the frame"),
-        );
+        let error = most(&linear(entry, &far), &linear(entry, &infinite));
         assert!(error <= bound, "{}: {error} over {bound}", entry.info.name);
     }
 }
@@ -348,10 +333,7 @@ fn degenerate_light_positions_make_no_artefacts() {
     for (name, change) in cases {
         let case = Case::new(name, frame(change));
         for entry in floats_on(&case.frame) {
-            let picture = entry
-                .variant()
-                .render_linear(&case.frame)
-                .expect("a method for the frame");
+            let picture = linear(entry, &case.frame);
             // `most` rejects values that are not finite.
             let error = most(case.truth(entry.info.model), &picture);
             let bound = entry.variant().bound(&case.frame);

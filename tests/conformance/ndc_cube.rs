@@ -1,8 +1,8 @@
 //! CS171's literal per-sample test against the NDC cube, instead of clipping: where it is right,
 //! and how wrong it can be.
 
-use crate::support::Random;
 use crate::support::floats_on;
+use crate::support::{Random, linear};
 use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::raster::{self, Edges, NOTHING};
@@ -173,7 +173,7 @@ fn unprojectable_corners_are_counted() {
 #[test]
 fn anything_around_the_eye_gives_a_picture() {
     let mut random = Random::new(47);
-    let mut place = || (random.unit() - 0.5) * 8.0;
+    let mut place = || (random.share() - 0.5) * 8.0;
     let (mut differing, mut drawn) = (0, 0);
     for round in 0..40 {
         let triangles: Vec<Vec<Vec3>> = (0..12)
@@ -215,10 +215,7 @@ fn anything_around_the_eye_gives_a_picture() {
             }
         }
         for entry in floats_on(&frame) {
-            let picture = entry
-                .variant()
-                .render_linear(&frame)
-                .expect("a method for the frame");
+            let picture = linear(entry, &frame);
             assert!(
                 picture
                     .pixels()

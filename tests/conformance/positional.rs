@@ -268,7 +268,7 @@ fn pixels_are_lit_by_quadratics() {
 
 /// A random triangle, and one to three lights near it and far away.
 fn random_triangle(random: &mut Random) -> Triangle {
-    let mut signed = || 2.0 * f64::from(random.unit()) - 1.0;
+    let mut signed = || 2.0 * f64::from(random.share()) - 1.0;
     let mut vector = || DVec3::from_array([signed(), signed(), signed()]);
     let middle = (vector() + DVec3::Z).normalize_or(DVec3::Z);
     let far = |share: DVec3| 10f64.powf(share.x); // a tenth to ten times the size of the triangle
@@ -294,7 +294,7 @@ fn random_triangle(random: &mut Random) -> Triangle {
     }
     let falloff = [
         Falloff::None,
-        Falloff::Attenuation(random.unit()),
+        Falloff::Attenuation(random.share()),
         Falloff::InverseSquare,
         Falloff::Inverse,
     ];
@@ -304,14 +304,14 @@ fn random_triangle(random: &mut Random) -> Triangle {
             Place::Local(_) => falloff[random.below(4) as usize],
             Place::Infinite(_) => Falloff::None,
         },
-        diffuse: [random.unit(), random.unit(), random.unit()],
-        specular: [random.unit(), random.unit(), random.unit()].map(|c| c * 0.1),
+        diffuse: [random.share(), random.share(), random.share()],
+        specular: [random.share(), random.share(), random.share()].map(|c| c * 0.1),
     });
     let lights = lights.collect();
     Triangle {
         places: [
             [0.0, 0.0],
-            [48.0, 48.0 * f64::from(random.unit())],
+            [48.0, 48.0 * f64::from(random.share())],
             [3.0, 48.0],
         ],
         weights: match random.below(2) {

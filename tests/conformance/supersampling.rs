@@ -2,7 +2,7 @@
 
 use crate::support;
 use crate::support::floats_on;
-use crate::support::{Corner, add, plain_lighting};
+use crate::support::{Corner, add, linear, plain_lighting};
 use fastphong::compare::metrics::compare_where;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{Frame, FrameBuilder, FrameError};
@@ -207,16 +207,7 @@ fn every_sample_is_shaded() {
         let (w, h) = (48 * n as i64, 36 * n as i64);
         let large = supersampled("coarse-sphere", (w, h), 1);
         for entry in floats_on(&frame) {
-            let (small, large) = (
-                entry
-                    .variant()
-                    .render_linear(&frame)
-                    .expect("a method for the frame"),
-                entry
-                    .variant()
-                    .render_linear(&large)
-                    .expect("a method for the frame"),
-            );
+            let (small, large) = (linear(entry, &frame), linear(entry, &large));
             for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
                 let mut mean = [0.0f64; 4];
                 for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
@@ -354,10 +345,7 @@ fn supersampled_methods_are_within_their_bounds() {
         };
         for entry in floats_on(&frame) {
             let truth = reference::shade(&frame, &visible, entry.info.model).to_linear();
-            let ours = entry
-                .variant()
-                .render_linear(&frame)
-                .expect("a method for the frame");
+            let ours = linear(entry, &frame);
             let difference = compare_where(&truth, &ours, same).expect("equal sizes");
             // The reference's mean is rounded to f32 once more.
             let bound = entry.variant().bound(&frame) + 1.0 / f64::from(1 << 25);

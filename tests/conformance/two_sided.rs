@@ -2,7 +2,7 @@
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
-use crate::support::floats_on;
+use crate::support::{floats_on, linear};
 use fastphong::compare::metrics::compare;
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
@@ -75,12 +75,7 @@ fn inside_and_outside_are_lit_alike() {
             "the second view is cut by the near plane"
         );
         for entry in floats_on(&ours) {
-            let draw = |frame: &Frame| {
-                entry
-                    .variant()
-                    .render_linear(frame)
-                    .expect("a method for the frame")
-            };
+            let draw = |frame: &Frame| linear(entry, frame);
             let difference = compare(&draw(&ours), &draw(&exchanged)).expect("equal sizes");
             // Newell's sum and the averages are taken in another order, so normals differ by a
             // rounding. Both pictures are within the bound of the closed form.
@@ -156,10 +151,7 @@ fn the_silhouette_has_two_normals() {
 fn methods_are_within_their_bounds() {
     for case in views(|_| ()).map(|frame| Case::new("", frame)) {
         for entry in floats_on(&case.frame) {
-            let ours = entry
-                .variant()
-                .render_linear(&case.frame)
-                .expect("a method for the frame");
+            let ours = linear(entry, &case.frame);
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
             let bound = entry.variant().bound(&case.frame);
             assert!(max <= bound, "{}: {max} over {bound}", entry.info.name);

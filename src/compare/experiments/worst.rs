@@ -6,6 +6,7 @@
 
 use crate::frame::{Frame, FrameBuilder, Vertex, sub_pixel};
 use crate::mesh::Material;
+use crate::number::split_mix::SplitMix;
 use crate::reference::{self, Model};
 use crate::scene::{Light, Lighting, SpecularModel};
 use crate::shading::Variant;
@@ -50,18 +51,13 @@ const MATERIAL: Material = Material {
     shininess: 32.0,
 };
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
+/// The random numbers of a restart.
+struct Random(SplitMix);
 
 impl Random {
     /// Returns a number in −1..1.
     fn signed(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^= x >> 31;
-        (x >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        (self.0.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
     /// Returns a vector in a cube of −1..1.
@@ -190,7 +186,7 @@ impl WorstCase {
 pub fn climb(variant: &Variant, setting: SearchSetting, restart: u32) -> Option<WorstCase> {
     // Settings differ in bits below those of the restart.
     let bits = (setting.lights as u64) << 24 | (setting.degrees * 64.0) as u64;
-    let mut random = Random(u64::from(restart) << 32 | bits);
+    let mut random = Random(SplitMix(u64::from(restart) << 32 | bits));
     let start = WorstCase::random(&mut random, setting);
     let mut best = [false, true].into_iter().find_map(|halfway| {
         let case = WorstCase {

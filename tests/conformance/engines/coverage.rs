@@ -28,8 +28,8 @@ fn sliver(random: &mut Random, width: i32, height: i32) -> Vec<Corner> {
         .map(|(x, y)| Corner {
             x,
             y,
-            depth: random.unit(),
-            intensity: random.unit(),
+            depth: random.share(),
+            intensity: random.share(),
         })
         .to_vec()
 }
@@ -44,8 +44,8 @@ fn far(random: &mut Random) -> Vec<Corner> {
         Corner {
             x,
             y,
-            depth: random.unit(),
-            intensity: random.unit(),
+            depth: random.share(),
+            intensity: random.share(),
         }
     };
     vec![corner(), corner(), corner()]

@@ -5,12 +5,16 @@ pub mod cases;
 pub mod differences;
 pub mod drawings;
 pub mod renderers;
+#[allow(dead_code, reason = "the crate's own tests need more of it")]
+#[path = "../../../src/number/test_random.rs"]
+mod test_random;
 
 use cases::Size;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::obj::load_obj;
+use fastphong::picture::LinearPicture;
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{HiddenSurfaces, Light, Lighting, Scene};
@@ -18,6 +22,7 @@ use fastphong::shading::{Entry, METHODS};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+pub(crate) use test_random::Random;
 
 /// Returns the methods that compute in floats; those in integers err by design.
 pub fn floats() -> &'static [Entry] {
@@ -39,27 +44,10 @@ pub fn exact_on(frame: &Frame) -> impl Iterator<Item = &'static Entry> + use<'_>
     floats_on(frame).filter(|entry| entry.variant().approximation(frame) < 1.0 / 255.0)
 }
 
-/// A xorshift64* generator (Vigna 2016).
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-    pub fn next(&mut self) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
-    }
-    /// Returns an integer in 0..n.
-    pub fn below(&mut self, n: u64) -> u64 {
-        ((self.next() >> 32) * n) >> 32
-    }
-    /// Returns a number in 0..1.
-    pub fn unit(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1u32 << 24) as f32
-    }
+/// Draws a frame by the span engine, with default parameters.
+pub fn linear(entry: &'static Entry, frame: &Frame) -> LinearPicture {
+    let picture = entry.variant().render_linear(frame);
+    picture.expect("a method for the frame")
 }
 
 /// Returns the names of all shipped scenes.
@@ -192,8 +180,8 @@ pub fn random_polygon(random: &mut Random, width: i32, height: i32, corners: usi
         .map(|(x, y)| Corner {
             x,
             y,
-            depth: random.unit(),
-            intensity: random.unit(),
+            depth: random.share(),
+            intensity: random.share(),
         })
         .collect()
 }

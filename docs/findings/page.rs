@@ -1,0 +1,918 @@
+//! Makes what `docs/findings.md` shows of what `docs/findings/run` measured: tables, sentences, charts and a picture of the worst cases.
+//!
+//! `tests/documents/findings.rs` writes it, and checks that it stands there.
+
+use crate::markdown::read;
+use fastphong::compare::experiments::WorstCase;
+use fastphong::picture::Picture8;
+use fastphong::picture::image_file::encode_png;
+use fastphong::raster::Renderer;
+use fastphong::reference::{self, Model};
+use fastphong::shading::{Entry, Family, METHODS, Standing, Variant};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Degrees between neighbouring normals of the meshes.
+pub const DEGREES: [u32; 4] = [5, 15, 30, 60];
+/// The largest error, in levels, of a picture that passes for Phong's.
+const SAME: f64 = 0.5;
+
+pub fn data(name: &str) -> Value {
+    serde_json::from_str(&read(format!("docs/findings/{name}.json"))).expect("JSON")
+}
+
+pub fn list<'a>(of: &'a Value, key: &str) -> &'a [Value] {
+    of[key].as_array().expect("a list")
+}
+
+fn number(of: &Value) -> f64 {
+    of.as_f64().expect("a number")
+}
+
+pub fn text(of: &Value) -> &str {
+    of.as_str().expect("a text")
+}
+
+/// The numbers of methods, one for each mesh.
+type ByMethod = BTreeMap<String, [f64; 4]>;
+
+/// The files of `bench` that `docs/findings/run` leaves in `target/findings`.
+const TIMES: [&str; 7] = [
+    "scalar-1",
+    "scalar-4",
+    "simd-1",
+    "simd-4",
+    "halfway-1",
+    "positions-1",
+    "positions-4",
+];
+
+/// Takes from them what the page says, to be kept: times of frames as multiples of naive Phong's, medians of rounds in which methods take
+/// turns, naive Phong's own in milliseconds, and the largest errors of the frames in levels, one for each mesh.
+pub fn condensed() -> Value {
+    let of_file = |name: &str| {
+        let document: Value =
+            serde_json::from_str(&read(format!("target/findings/{name}.json"))).expect("JSON");
+        let comparisons = list(&document, "comparisons");
+        assert_eq!(comparisons.len(), DEGREES.len());
+        let mut times = BTreeMap::<&str, Vec<f64>>::new();
+        let mut levels = BTreeMap::<&str, Vec<f64>>::new();
+        let mut naive = Vec::new();
+        for row in comparisons
+            .iter()
+            .flat_map(|comparison| list(comparison, "rows"))
+        {
+            let speed = &row["speed"];
+            let time = match &speed["ratio_to_naive"]["median"] {
+                Value::Null => 1.0,
+                ratio => 1.0 / number(ratio),
+            };
+            let (name, error) = (text(&row["variant"]), &row["error"]["max"]);
+            times.entry(name).or_default().push(time);
+            levels.entry(name).or_default().push(255.0 * number(error));
+            if row["variant"] == "naive-phong" {
+                naive.push(number(&speed["timing"]["median_ns"]) / 1e6);
+            }
+        }
+        serde_json::json!({
+            "command_line": document["command_line"], "machine": document["machine"],
+            "level": comparisons[0]["renderer"]["level"], "naive_ms": naive, "times": times,
+            "levels": levels,
+        })
+    };
+    TIMES
+        .map(|name| (name.to_string(), of_file(name)))
+        .into_iter()
+        .collect()
+}
+
+/// Returns times of frames as multiples of naive Phong's.
+fn times(name: &str) -> ByMethod {
+    measured(name, "times")
+}
+
+/// Returns what was measured on frames.
+fn measured(name: &str, what: &str) -> ByMethod {
+    let document = data("times");
+    let all = document[name][what].as_object().expect("an object");
+    let row = |(method, all): (&String, &Value)| {
+        let all: Vec<f64> = all.as_array().expect("a list").iter().map(number).collect();
+        (method.clone(), all.try_into().expect("a number a mesh"))
+    };
+    all.iter().map(row).collect()
+}
+
+/// Returns the milliseconds of naive Phong's frames, medians.
+fn naive(name: &str) -> Vec<f64> {
+    list(&data("times")[name], "naive_ms")
+        .iter()
+        .map(number)
+        .collect()
+}
+
+/// Returns the largest errors that were found with so many lights, in levels.
+fn errors(lights: u64) -> ByMethod {
+    let document = data("search");
+    let mut all = ByMethod::new();
+    for case in list(&document, "cases") {
+        let place = DEGREES
+            .iter()
+            .position(|d| f64::from(*d) == number(&case["degrees"]));
+        if let (Some(place), true) = (place, case["lights"] == lights) {
+            all.entry(text(&case["method"]).into()).or_insert([0.0; 4])[place] =
+                number(&case["levels"]);
+        }
+    }
+    // Normals are *up to* so many degrees apart: a case of fewer is one of more.
+    for errors in all.values_mut() {
+        for i in 1..errors.len() {
+            errors[i] = errors[i].max(errors[i - 1]);
+        }
+    }
+    all
+}
+
+/// Returns the times on the four meshes of the fastest method that shades nothing at a pixel.
+fn cheapest(times: &ByMethod) -> [f64; 4] {
+    let infos = METHODS.iter().map(|entry| entry.info);
+    let colours = infos.filter(|info| info.family == Family::Colours);
+    let all: Vec<_> = colours.filter_map(|info| times.get(info.name)).collect();
+    [0, 1, 2, 3].map(|mesh| {
+        let times = all.iter().map(|times| times[mesh]);
+        times.fold(f64::INFINITY, f64::min)
+    })
+}
+
+fn mean(ratios: impl Iterator<Item = f64>) -> f64 {
+    let logarithms: Vec<f64> = ratios.map(f64::ln).collect();
+    (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
+}
+
+/// Returns the geometric mean of a method's speed over the four meshes, as a multiple of another's.
+fn speed(times: &ByMethod, method: &str, over: &str) -> f64 {
+    let pairs = times[over].iter().zip(times[method]);
+    mean(pairs.map(|(base, own)| base / own))
+}
+
+/// True for methods that are for use.
+fn is_for_use(name: &str) -> bool {
+    Entry::named(name).is_some_and(|entry| entry.info.standing != Standing::Exhibit)
+}
+
+/// Returns the methods for use that no other beats in both time and error on a mesh, the fastest first.
+fn front(times: &ByMethod, errors: &ByMethod, mesh: usize) -> Vec<String> {
+    let points = times
+        .keys()
+        .filter(|m| is_for_use(m))
+        .filter_map(|m| Some((m.clone(), times[m][mesh], errors.get(m)?[mesh])));
+    let mut points: Vec<_> = points.collect();
+    points.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut least = f64::INFINITY;
+    points.retain(|(_, _, error)| {
+        // A hundredth of a level is no difference.
+        let is_better = *error < 0.9 * least && least > 0.01;
+        if is_better {
+            least = *error;
+        }
+        is_better
+    });
+    points.into_iter().map(|(name, ..)| name).collect()
+}
+
+/// Writes three figures of a number.
+fn short(x: f64) -> String {
+    match x {
+        x if x < 0.01 => "< 0.01".into(),
+        x if x < 10.0 => format!("{x:.2}"),
+        x => format!("{x:.0}"),
+    }
+}
+
+/// Returns the best method by time among those whose errors are below a half level up to 30 degrees.
+fn best(times: &ByMethod, errors: &ByMethod) -> String {
+    let names = times.keys().filter(|m| is_for_use(m));
+    let same = names.filter(|m| {
+        errors
+            .get(*m)
+            .is_some_and(|e| e[..3].iter().all(|e| *e < SAME))
+    });
+    let fastest = same.max_by(|a, b| {
+        let [a, b] = [a, b].map(|m| speed(times, m, "naive-phong"));
+        a.total_cmp(&b)
+    });
+    fastest.expect("some method").clone()
+}
+
+/// Returns cycles a pixel of spans of 32 pixels on a Cortex-M0+, over those of naive Phong in the same integers, and the worst errors.
+fn small() -> [ByMethod; 2] {
+    let document: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let spans = list(&document, "spans");
+    let cycles = |span: &Value| number(&span["m0p_cycles"][1]);
+    let naive = spans
+        .iter()
+        .find(|span| span["method"] == "naive")
+        .map(cycles);
+    let naive = naive.expect("it is measured");
+    let [mut times, mut errors] = [ByMethod::new(), ByMethod::new()];
+    for span in spans {
+        let name = format!("integer-{}", text(&span["method"])).replace("-as-printed", "-printed");
+        let worst: Vec<f64> = list(span, "worst_error").iter().map(number).collect();
+        if let (Some(_), Ok(worst)) = (Entry::named(&name), worst.try_into()) {
+            times.insert(name.clone(), [cycles(span) / naive; 4]);
+            errors.insert(name, worst);
+        }
+    }
+    [times, errors]
+}
+
+/// Returns the methods, the fastest first.
+fn fastest(times: &ByMethod) -> Vec<&str> {
+    let mut names: Vec<_> = times.keys().map(String::as_str).collect();
+    names.sort_by(|a, b| mean(times[*a].into_iter()).total_cmp(&mean(times[*b].into_iter())));
+    names
+}
+
+/// Writes a table.
+fn rows(head: &str, rows: impl IntoIterator<Item = String>) -> String {
+    let rows = rows.into_iter().map(|row| format!("| {row} |\n"));
+    format!("{head}\n{}", rows.collect::<String>())
+}
+
+fn cells(errors: [f64; 4]) -> String {
+    errors.map(short).join(" | ")
+}
+
+/// A row a method in integers.
+fn small_table() -> String {
+    let [times, errors] = small();
+    let row = |name| {
+        let (cells, speed) = (cells(errors[name]), 1.0 / times[name][0]);
+        format!("`{name}` | {cells} | {speed:.2}")
+    };
+    rows(
+        "| method | error at 5° | 15° | 30° | 60° | speed, × naive in integers |\n|---|---:|---:|---:|---:|---:|",
+        fastest(&times).into_iter().map(row),
+    )
+}
+
+/// The three sentences.
+pub fn answer() -> String {
+    let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
+    let (one, four) = (errors(1), errors(4));
+    let small: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let cycles = |name: &str| {
+        let mut spans = list(&small, "spans").iter();
+        let span = spans.find(|span| span["method"] == name).expect("a method");
+        number(&span["m0p_cycles"][1])
+    };
+    let (fast, naive, soft) = (cycles("fast"), cycles("naive"), cycles("soft-naive"));
+    let of_simd = best(&simd, &one);
+    let (of_one, of_four) = (best(&scalar, &one), best(&scalar4, &four));
+    let floor = cheapest(&simd);
+    let gains = (0..4).map(|mesh| simd[&of_simd][mesh] / floor[mesh]);
+    let (least, most) = gains.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), gain| {
+        (least.min(gain), most.max(gain))
+    });
+    let wrong = one[&of_one];
+    let four_lights = match of_one == of_four {
+        true => "and".to_string(),
+        false => format!("and `{of_four}`"),
+    };
+    format!(
+        "- **A CPU renderer with SIMD: `{of_simd}`**, {:.2} times as fast as naive Phong with one light and {:.2} with four. The \
+         cheapest frame without any shading at pixels is {least:.2} to {most:.2} times as fast as that, by mesh: no method with Phong's \
+         picture can gain more.\n\
+         - **Scalar code with a floating-point unit: `{of_one}`** where normals turn by at most 30° over a polygon ({} levels off there, {} at \
+         60°), {:.2} times as fast as naive Phong with one light, {four_lights} {:.2} times with \
+         four. The lecture's `fast-phong` reaches {:.2} and {:.2}, its `slerp-phong` {:.2} and {:.2}.\n\
+         - **No floating-point unit: `integer::Span::fast`**, the lecture's method with tables: {fast:.0} cycles a pixel on a Cortex-M0+, \
+         {:.1} times as fast as naive Phong in the same integers and {:.0} times as fast as in emulated floats.\n",
+        speed(&simd, &of_simd, "naive-phong"),
+        speed(&simd4, &of_simd, "naive-phong"),
+        short(wrong[2]),
+        short(wrong[3]),
+        speed(&scalar, &of_one, "naive-phong"),
+        speed(&scalar4, &of_four, "naive-phong"),
+        speed(&scalar, "fast-phong", "naive-phong"),
+        speed(&scalar4, "fast-phong", "naive-phong"),
+        speed(&scalar, "slerp-phong", "naive-phong"),
+        speed(&scalar4, "slerp-phong", "naive-phong"),
+        naive / fast,
+        soft / fast,
+    )
+}
+
+/// A row a method: its worst errors, and its speeds with one light and with four.
+fn table(machine: &str) -> String {
+    let (one, four) = (
+        times(&format!("{machine}-1")),
+        times(&format!("{machine}-4")),
+    );
+    let errors = errors(1);
+    let on_front: Vec<String> = (0..DEGREES.len())
+        .flat_map(|mesh| front(&one, &errors, mesh))
+        .collect();
+    let row = |name: &&str| {
+        let mark = if on_front.iter().any(|n| n == name) {
+            "●"
+        } else {
+            ""
+        };
+        let [speed, four] = [&one, &four].map(|times| speed(times, name, "naive-phong"));
+        let is_scalar = Entry::named(name).is_some_and(|entry| entry.scalar_only().is_some());
+        let how = if is_scalar && machine == "simd" {
+            ", scalar"
+        } else {
+            ""
+        };
+        let cells = cells(errors[*name]);
+        format!("`{name}`{how} | {mark} | {cells} | {speed:.2} | {four:.2}")
+    };
+    let names = fastest(&one);
+    rows(
+        "| method | front | error at 5° | 15° | 30° | 60° | speed, 1 light | speed, 4 lights |\n|---|:---:|---:|---:|---:|---:|---:|---:|",
+        names
+            .iter()
+            .filter(|name| errors.contains_key(**name))
+            .map(row),
+    )
+}
+
+/// A row a method on frames with highlights of N·H: those that are for no other, and two that are.
+fn halfway_table() -> String {
+    let (times, errors) = (times("halfway-1"), errors(1));
+    let row = |name| {
+        let (cells, speed) = (cells(errors[name]), speed(&times, name, "naive-phong"));
+        format!("`{name}` | {cells} | {speed:.2}")
+    };
+    rows(
+        "| method | error at 5° | 15° | 30° | 60° | speed |\n|---|---:|---:|---:|---:|---:|",
+        fastest(&times).into_iter().map(row),
+    )
+}
+
+/// A row a method on frames with lights and eye at positions: errors of these frames, and speeds mesh by mesh.
+fn positions_table() -> String {
+    let [one, four] = ["positions-1", "positions-4"].map(times);
+    let levels = measured("positions-1", "levels");
+    let row = |name| {
+        let speeds = one[name].map(|time| format!("{:.2}", 1.0 / time));
+        let four = speed(&four, name, "naive-phong");
+        let (errors, speeds) = (cells(levels[name]), speeds.join(" | "));
+        format!("`{name}` | {errors} | {speeds} | {four:.2}")
+    };
+    rows(
+        "| method | error at 5° | 15° | 30° | 60° | speed at 5° | 15° | 30° | 60° | 4 lights |\n\
+         |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
+        fastest(&one).into_iter().map(row),
+    )
+}
+
+/// The length from which each method of the scalar front is faster than each other, with so many lights.
+fn break_even(lights: u64) -> String {
+    let (times, errors) = (times(&format!("scalar-{lights}")), errors(lights));
+    let document = data("spans");
+    let lengths: Vec<f64> = list(&document, "lengths").iter().map(number).collect();
+    let mut names = front(&times, &errors, 1);
+    for name in [
+        "naive-phong",
+        "phong-rsqrt",
+        "fast-phong",
+        "duff-phong",
+        "slerp-phong",
+    ] {
+        if !names.iter().any(|n| n == name) {
+            names.push(name.into());
+        }
+    }
+    let ns = |name: &str| -> Vec<f64> {
+        let mut spans = list(&document, "spans").iter();
+        let span = spans.find(|s| s["method"] == name && s["lights"] == lights);
+        list(span.expect("a method"), "ns")
+            .iter()
+            .map(number)
+            .collect()
+    };
+    let mut text = format!("| faster than | `{}` |\n|---|", names.join("` | `"));
+    text += &"---:|".repeat(names.len());
+    for row in &names {
+        let cells = names.iter().map(|column| {
+            let pairs: Vec<(f64, f64)> = ns(row).into_iter().zip(ns(column)).collect();
+            // From the last length at which it is slower on.
+            match pairs.iter().rposition(|(own, other)| own >= other) {
+                _ if row == column => String::new(),
+                None => "always".into(),
+                Some(last) if last + 1 == lengths.len() => "never".into(),
+                Some(last) => {
+                    // Linear between the two lengths.
+                    let [(a0, b0), (a1, b1)] = [pairs[last], pairs[last + 1]];
+                    let [before, after] = [a0 - b0, b1 - a1];
+                    let t = before / (before + after);
+                    let length = lengths[last] + t * (lengths[last + 1] - lengths[last]);
+                    format!("{:.0}", length.ceil())
+                }
+            }
+        });
+        write!(
+            text,
+            "\n| `{row}` | {} |",
+            cells.collect::<Vec<_>>().join(" | ")
+        )
+        .expect("a text");
+    }
+    text + "\n"
+}
+
+/// What a frame costs without shading, and what a method can gain at most.
+fn floor() -> String {
+    let machines = [("SIMD", "simd-1"), ("scalar", "scalar-1")].map(|(machine, file)| {
+        let (times, naive) = (times(file), naive(file));
+        let row = |mesh: usize| {
+            let (floor, rsqrt) = (cheapest(&times)[mesh], times["phong-rsqrt"][mesh]);
+            let ms = [floor, 1.0, rsqrt].map(|time| format!("{:.2}", time * naive[mesh]));
+            let (ms, most, over) = (ms.join(" | "), 1.0 / floor, rsqrt / floor);
+            format!(
+                "{machine} | {}° | {ms} | {most:.2} | {over:.2}",
+                DEGREES[mesh]
+            )
+        };
+        [0, 1, 2, 3].map(row)
+    });
+    rows(
+        "| machine | mesh | nothing at pixels, ms | naive Phong, ms | `phong-rsqrt`, ms | most over naive Phong | most over `phong-rsqrt` |\n|---|---:|---:|---:|---:|---:|---:|",
+        machines.into_iter().flatten(),
+    )
+}
+
+/// What was claimed, and what was measured.
+fn claims() -> String {
+    let scalar = times("scalar-1");
+    let over = |method: &str, other: &str| speed(&scalar, method, other);
+    let errors = errors(1);
+    let verdict = |holds: bool| if holds { "holds" } else { "does not hold" };
+    let times_of = |x: f64| format!("{x:.2} times");
+    let mut found: Vec<[String; 4]> = Vec::new();
+    let mut row = |claim: &str, source: &str, measured: String, holds: bool| {
+        found.push([claim.into(), source.into(), measured, verdict(holds).into()]);
+    };
+    let gain = over("fast-phong", "naive-phong");
+    row(
+        "fast Phong is faster than naive Phong",
+        "L21 4.2, 4.3",
+        format!("{} as fast, scalar", times_of(gain)),
+        gain > 1.0,
+    );
+    for (lights, times) in [("one light", &scalar), ("four lights", &times("scalar-4"))] {
+        let slerp = speed(times, "slerp-phong", "fast-phong");
+        row(
+            &format!("slerp Phong is faster still, with {lights}"),
+            "L21 4.4",
+            format!("{} as fast as fast Phong, scalar", times_of(slerp)),
+            slerp > 1.0,
+        );
+    }
+    let phong = 1.0 / over("naive-phong", "gouraud");
+    row(
+        "Phong shading is considerably slower than Gouraud",
+        "L21 4.1",
+        format!("Gouraud {} as fast, scalar", times_of(phong)),
+        phong > 1.5,
+    );
+    let worst = errors["duff-phong"][2];
+    row(
+        "forward differences give naive Phong's picture",
+        "Duff 1979",
+        format!("{} levels off at 30°", short(worst)),
+        worst < 0.1,
+    );
+    let bishop = over("bishop-weimer", "gouraud");
+    row(
+        "Taylor's quadratics: five additions a pixel, about half of Gouraud's speed",
+        "Bishop, Weimer 1986; Hearn, Baker",
+        format!("{} as fast as Gouraud, scalar", times_of(bishop)),
+        (0.4..=0.6).contains(&bishop),
+    );
+    let seams = errors["bishop-weimer"][1];
+    row(
+        "their error is not seen",
+        "Bishop, Weimer 1986",
+        format!("{} levels at 15°", short(seams)),
+        seams < 1.0,
+    );
+    let (bw, six) = (errors["bishop-weimer"][1], errors["six-point"][1]);
+    row(
+        "quadratics through six points are nearer than Taylor's",
+        "Seiler 1998",
+        format!("{} levels against {} at 15°", short(six), short(bw)),
+        six < bw,
+    );
+    let polygon = |name: &str| {
+        let counts = Variant::parse(name)
+            .expect("a method")
+            .operations(1)
+            .polygon;
+        counts.roots
+    };
+    row(
+        "midpoints without roots make their set-up cheap",
+        "Barrera, Hast, Bengtsson 2006",
+        format!(
+            "{} roots a triangle in place of {}",
+            polygon("six-point:midpoints=barrera"),
+            polygon("six-point")
+        ),
+        polygon("six-point:midpoints=barrera") < polygon("six-point"),
+    );
+    let chebyshev = over("slerp-chebyshev", "gouraud");
+    row(
+        "equal angles by Chebyshev's recurrence come close to Gouraud",
+        "Barrera, Hast, Bengtsson 2004",
+        format!("{} of Gouraud's speed, scalar", short(chebyshev)),
+        chebyshev > 0.8,
+    );
+    let series = errors["series-phong"];
+    row(
+        "a series of N·N stands for its root",
+        "US patent 5,369,737",
+        format!(
+            "second order: {} levels at 15°, {} at 30°",
+            short(series[1]),
+            short(series[2])
+        ),
+        series[1] < 1.0,
+    );
+    let lyon = errors["difference-vector"][1];
+    row(
+        "highlights by difference vectors need no unit normals",
+        "Lyon 1993",
+        format!(
+            "{} levels at 5°, {} at 15°",
+            short(errors["difference-vector"][0]),
+            short(lyon)
+        ),
+        lyon < 1.0,
+    );
+    let h_test = over("h-test", "naive-phong");
+    row(
+        "Phong's highlights only where there are some are cheaper",
+        "Harrison, Mitchell, Watt 1988",
+        format!("{} as fast as naive Phong, scalar", times_of(h_test)),
+        h_test > 1.0,
+    );
+    let at_pixels = |name: &str| {
+        let all = Variant::parse(name).expect("a method").operations(1);
+        (all.walk, all.shade)
+    };
+    let (walk, _) = at_pixels("naive-phong");
+    row(
+        "three additions a pixel step the normal",
+        "L21 4.1",
+        format!(
+            "{} additions, {} multiplications",
+            walk.additions, walk.multiplications
+        ),
+        (walk.additions, walk.multiplications) == (3, 0),
+    );
+    let (walk, _) = at_pixels("slerp-phong");
+    row(
+        "four additions and eight multiplications a pixel step the sines",
+        "L21 4.9-4.12",
+        format!(
+            "{} and {}, of which J and K are 2 and 4",
+            walk.additions, walk.multiplications
+        ),
+        (walk.additions, walk.multiplications) == (4 + 2, 8 + 4),
+    );
+    let (walk, shade) = at_pixels("duff-phong");
+    row(
+        "three additions, a division and a root a pixel for diffuse light",
+        "Duff 1979, after Bishop, Weimer 1986",
+        format!(
+            "{} additions with K of the highlight, {} division, {} root",
+            walk.additions, shade.divisions, shade.roots
+        ),
+        (walk.additions, shade.divisions, shade.roots) == (4, 1, 1),
+    );
+    let (walk, shade) = at_pixels("bishop-weimer");
+    row(
+        "two additions a pixel for L.N, two for the highlight's cosine, a fifth that sums them, and a table's entry",
+        "Bishop, Weimer 1986",
+        format!(
+            "{} additions for both cosines; sums, clamps, power and three channels take {} additions and {} multiplications without a table",
+            walk.additions, shade.additions, shade.multiplications
+        ),
+        walk.additions == 4,
+    );
+    let (walk, shade) = at_pixels("kuijk-blake");
+    row(
+        "two additions a pixel, for angles",
+        "Kuijk, Blake 1989",
+        format!(
+            "{} additions; {} entry of a table, and {} additions and {} multiplications for parabolas and three channels",
+            walk.additions, shade.lookups, shade.additions, shade.multiplications
+        ),
+        (walk.additions, walk.multiplications) == (2, 0),
+    );
+    let slower = over("gouraud", "naive-phong");
+    row(
+        "Phong shading takes six to seven times as long as Gouraud",
+        "Hearn, Baker",
+        format!("{} as long, whole frames, scalar", times_of(slower)),
+        (6.0..=7.0).contains(&slower),
+    );
+    for (method, claim, source) in [
+        (
+            "quadratic-normals",
+            "quadratics make normalisation unnecessary",
+            "Hast, Barrera, Bengtsson 2002",
+        ),
+        (
+            "half-reflection",
+            "reflection at a vector of any length gives unit normals",
+            "Hast, Barrera, Bengtsson 2001",
+        ),
+    ] {
+        let (walk, shade) = at_pixels(method);
+        let error = errors[method];
+        row(
+            claim,
+            source,
+            format!(
+                "{} roots a pixel; {} levels at 15°, {} at 30°",
+                walk.roots + shade.roots,
+                short(error[1]),
+                short(error[2])
+            ),
+            error[1] < 1.0,
+        );
+    }
+    let adaptive = over("adaptive-phong", "phong-rsqrt");
+    row(
+        "an order chosen for each polygon is cheaper than a root at each pixel",
+        "US patent 5,253,339; Cho, Neumann, Woo 1996",
+        format!(
+            "{} as fast as `phong-rsqrt`, within {} levels",
+            times_of(adaptive),
+            short(errors["adaptive-phong"][3])
+        ),
+        adaptive > 1.0,
+    );
+    rows(
+        "| claim | source | measured | verdict |\n|---|---|---|---|",
+        found.iter().map(|row| row.join(" | ")),
+    )
+}
+
+/// Returns the places of labels, in the order of their height: none above another, and none below `bottom`.
+fn apart(mut places: Vec<(f64, usize)>, bottom: f64) -> BTreeMap<usize, f64> {
+    const LEAST: f64 = 10.0;
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for i in 1..places.len() {
+        places[i].0 = places[i].0.max(places[i - 1].0 + LEAST);
+    }
+    let mut limit = bottom;
+    for (place, _) in places.iter_mut().rev() {
+        *place = place.min(limit);
+        limit = *place - LEAST;
+    }
+    places
+        .into_iter()
+        .map(|(place, index)| (index, place))
+        .collect()
+}
+
+/// Draws error against time on the four meshes, with the front.
+fn chart(title: &str, baseline: &str, times: &ByMethod, errors: &ByMethod) -> String {
+    const PANEL: [f64; 2] = [330.0, 320.0];
+    const INNER: [f64; 4] = [44.0, 36.0, 318.0, 284.0]; // left, top, right, bottom
+    let named = [
+        "flat",
+        "gouraud",
+        "naive-phong",
+        "fast-phong",
+        "slerp-phong",
+        "phong-rsqrt",
+        "duff-phong",
+    ];
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"10\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"8\" y=\"14\" font-size=\"12\" font-weight=\"bold\">{title}</text>\n",
+        4.0 * PANEL[0],
+        PANEL[1]
+    );
+    let level = |error: f64| error.clamp(0.005, 255.0).log10();
+    let (low, high) = (0.005f64.log10(), 255f64.log10());
+    for (mesh, degrees) in DEGREES.iter().enumerate() {
+        let left = mesh as f64 * PANEL[0];
+        let naive = times[baseline][mesh];
+        let all: Vec<(&String, f64, f64)> = times
+            .iter()
+            .filter(|(m, _)| is_for_use(m))
+            .filter_map(|(m, t)| Some((m, t[mesh] / naive, errors.get(m)?[mesh])))
+            .collect();
+        let most = all.iter().map(|(_, t, _)| *t).fold(1.0, f64::max).min(1.6);
+        let x = |t: f64| left + INNER[0] + (INNER[2] - INNER[0]) * (t / most).min(1.0);
+        let y = |e: f64| INNER[3] - (INNER[3] - INNER[1]) * (level(e) - low) / (high - low);
+        writeln!(
+            svg,
+            "<text x=\"{}\" y=\"30\">{degrees}° between normals</text>",
+            left + INNER[0]
+        )
+        .expect("a text");
+        for error in [0.01, 0.1, 0.5, 1.0, 10.0, 100.0] {
+            let (at, dash) = (y(error), if error == SAME { "4 3" } else { "0" });
+            let colour = if error == SAME { "#b00" } else { "#ddd" };
+            writeln!(
+                svg,
+                "<path d=\"M{} {at:.1}H{}\" stroke=\"{colour}\" stroke-dasharray=\"{dash}\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#555\">{error}</text>",
+                left + INNER[0],
+                left + INNER[2],
+                left + INNER[0] - 4.0,
+                at + 3.0
+            )
+            .expect("a text");
+        }
+        for part in [0.0, 0.5, 1.0, 1.5] {
+            if part <= most {
+                writeln!(
+                    svg,
+                    "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\" fill=\"#555\">{part}</text>",
+                    x(part),
+                    INNER[3] + 14.0
+                )
+                .expect("a text");
+            }
+        }
+        let front = front(times, errors, mesh);
+        let on_front = |m: &str| front.iter().any(|f| f == m);
+        let line: Vec<String> = front
+            .iter()
+            .map(|m| format!("{:.1} {:.1}", x(times[m][mesh] / naive), y(errors[m][mesh])))
+            .collect();
+        writeln!(
+            svg,
+            "<path d=\"M{}\" fill=\"none\" stroke=\"#06c\" stroke-width=\"1.5\"/>",
+            line.join("L")
+        )
+        .expect("a text");
+        let labelled: Vec<usize> = (0..all.len())
+            .filter(|&i| {
+                on_front(all[i].0)
+                    || named.contains(&all[i].0.as_str())
+                    || all[i].0.starts_with("integer")
+            })
+            .collect();
+        let places = apart(
+            labelled.iter().map(|&i| (y(all[i].2), i)).collect(),
+            INNER[3] - 3.0,
+        );
+        for (i, (name, time, error)) in all.iter().enumerate() {
+            let (fill, radius) = if on_front(name) {
+                ("#06c", 4.0)
+            } else {
+                ("#999", 3.0)
+            };
+            let (cx, cy) = (x(*time), y(*error));
+            writeln!(svg, "<circle cx=\"{cx:.1}\" cy=\"{cy:.1}\" r=\"{radius}\" fill=\"{fill}\"><title>{name}: {} of naive Phong, {} levels</title></circle>", short(*time), short(*error).replace('<', "&lt;")).expect("a text");
+            if let Some(at) = places.get(&i) {
+                let (anchor, dx) = if cx > left + 230.0 {
+                    ("end", -6.0)
+                } else {
+                    ("start", 6.0)
+                };
+                writeln!(svg, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" fill=\"{fill}\">{name}</text>", cx + dx, at + 3.0).expect("a text");
+            }
+        }
+    }
+    writeln!(svg, "<text x=\"{}\" y=\"315\" fill=\"#555\">time over naive Phong's: left is faster, what takes longer than shown stands at the edge; upward: largest error found, grey levels (dashed: half a level); blue: the front, nothing is both faster and nearer</text>\n</svg>", INNER[0]).expect("a text");
+    svg
+}
+
+/// Reads the case of a method.
+fn case(method: &str, degrees: u32) -> Option<WorstCase> {
+    let document = data("search");
+    let mut cases = list(&document, "cases").iter();
+    let found = cases.find(|case| {
+        case["method"] == method
+            && number(&case["degrees"]) == f64::from(degrees)
+            && case["lights"] == 1
+    });
+    Some(serde_json::from_value(found?.clone()).expect("a case"))
+}
+
+/// The methods whose worst cases are shown.
+fn shown() -> Vec<&'static str> {
+    let names = METHODS.iter().filter(|entry| !entry.is_integer);
+    let names = names.map(|entry| entry.info.name);
+    names
+        .filter(|name| case(name, 30).is_some_and(|case| case.levels > SAME))
+        .collect()
+}
+
+/// Draws the worst cases at 30 degrees: the reference above, the method below, six to a row.
+fn pictures() -> Vec<u8> {
+    const SCALE: usize = 5;
+    const CELL: usize = 24 * SCALE + 8;
+    let names = shown();
+    let rows = names.len().div_ceil(6);
+    let mut sheet = Picture8::new(6 * CELL, rows * 2 * CELL, [255; 4]);
+    for (number, name) in names.iter().enumerate() {
+        let case = case(name, 30).expect("it is shown");
+        let frame = case.frame();
+        let truth = reference::render(&frame, Model::Phong).to_picture8();
+        let ours = Variant::parse(name)
+            .expect("a method")
+            .render_with(&frame, Renderer::LECTURE)
+            .expect("a method for the frame");
+        for (row, picture) in [truth, ours].iter().enumerate() {
+            let (left, top) = (number % 6 * CELL, (number / 6 * 2 + row) * CELL);
+            for y in 0..24 * SCALE {
+                for x in 0..24 * SCALE {
+                    let pixel = picture.get(x / SCALE, y / SCALE);
+                    if pixel[3] > 0 {
+                        sheet.row_mut(top + y)[left + x] = pixel;
+                    }
+                }
+            }
+        }
+    }
+    encode_png(&sheet).expect("a picture")
+}
+
+/// A row a method: its worst errors with one light and with four.
+fn worst() -> String {
+    let (one, four) = (errors(1), errors(4));
+    let row = |entry: &Entry| {
+        let name = entry.info.name;
+        let (one, four) = (cells(*one.get(name)?), cells(*four.get(name)?));
+        Some(format!("`{name}` | {one} | {four}"))
+    };
+    let table = rows(
+        "| method | 5° | 15° | 30° | 60° | 5°, 4 lights | 15° | 30° | 60° |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|",
+        METHODS.iter().filter_map(row),
+    );
+    let shown = shown().join("`, `");
+    format!("{table}\nBelow, 30°, one light; in each pair the reference is above: `{shown}`.\n")
+}
+
+fn machine() -> String {
+    let document = data("times");
+    let machine = &document["scalar-1"]["machine"];
+    let level = &document["simd-1"]["level"];
+    format!(
+        "Measured by `docs/findings/run` on {} ({} in SIMD), {}; frames of spheres at 640 × 480 on one thread, from projected frame to \
+         stored picture, medians of rounds in which methods take turns; errors by `fastphong \
+         search`, {} restarts.\n",
+        text(&machine["cpu"]),
+        text(level),
+        text(&machine["rustc"]),
+        data("search")["restarts"]
+    )
+}
+
+/// Returns the page, with what stands between `<!-- made: NAME -->` and `<!-- end -->` made anew.
+pub fn page(mut page: String) -> String {
+    let blocks: [(&str, &dyn Fn() -> String); 12] = [
+        ("answer", &answer),
+        ("machine", &machine),
+        ("simd", &|| table("simd")),
+        ("scalar", &|| table("scalar")),
+        ("halfway", &halfway_table),
+        ("positions", &positions_table),
+        ("break-even", &|| break_even(1)),
+        ("break-even-4", &|| break_even(4)),
+        ("small", &small_table),
+        ("floor", &floor),
+        ("worst", &worst),
+        ("claims", &claims),
+    ];
+    for (name, make) in blocks {
+        let mark = format!("<!-- made: {name} -->\n");
+        let from = page.find(&mark).unwrap_or_else(|| panic!("no {mark}")) + mark.len();
+        let length = page[from..].find("<!-- end -->").expect("an end");
+        page.replace_range(from..from + length, &format!("\n{}\n", make()));
+    }
+    page
+}
+
+/// Returns the charts and the picture by the names of their files.
+pub fn images() -> Vec<(String, Vec<u8>)> {
+    let mut images = Vec::new();
+    for (machine, lights, title) in [
+        ("simd", 1, "SIMD, one light"),
+        ("simd", 4, "SIMD, four lights"),
+        ("scalar", 1, "scalar, one light"),
+        ("scalar", 4, "scalar, four lights"),
+    ] {
+        let name = format!("{machine}-{lights}");
+        let chart = chart(title, "naive-phong", &times(&name), &errors(lights));
+        images.push((format!("{name}.svg"), chart.into_bytes()));
+    }
+    let [times, errors] = small();
+    let title = "Cortex-M0+, integers, one light";
+    let chart = chart(title, "integer-naive", &times, &errors);
+    images.push(("small.svg".into(), chart.into_bytes()));
+    images.push(("worst.png".into(), pictures()));
+    images
+}
