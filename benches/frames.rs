@@ -48,7 +48,7 @@ fn frames(c: &mut Criterion) {
                     )
                 });
             });
-            if variant.entry().is_barycentric() {
+            if variant.row().is_barycentric() {
                 group.bench_function(BenchmarkId::new("barycentric", &variant), |b| {
                     b.iter(|| variant.render_barycentric(black_box(&triangles), Edges::TopLeft));
                 });

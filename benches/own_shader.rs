@@ -11,10 +11,10 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion
 use fastphong::number::{Num, Vec3};
 use fastphong::picture::Picture;
 use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::shading::{Entry, Info, Linear, Lit, Normal, Shader, Span};
+use fastphong::shading::{Info, Linear, Lit, MethodRow, Normal, Shader, Span};
 use std::hint::black_box;
 
-/// A copy of `src/shading/naive_phong.rs`.
+/// A copy of `src/shading/methods/roots/naive_phong.rs`.
 #[derive(Clone, Copy, Default)]
 struct Outside;
 
@@ -38,7 +38,7 @@ impl Shader for Outside {
     }
 }
 
-static OUTSIDE: Entry = Entry::of::<Outside>();
+static OUTSIDE: MethodRow = MethodRow::of::<Outside>();
 
 fn own_shader(c: &mut Criterion) {
     rayon::ThreadPoolBuilder::new()
@@ -46,7 +46,7 @@ fn own_shader(c: &mut Criterion) {
         .use_current_thread()
         .build_global()
         .expect("no pool before");
-    let inside = Entry::named("naive-phong").expect("a method of the table");
+    let inside = MethodRow::named("naive-phong").expect("a method of the table");
     for (name, mesh) in scenes::SCENES {
         let frame = scenes::scene(mesh).frame().expect("a valid scene");
         let mut group = c.benchmark_group(format!("own_shader/{name}"));

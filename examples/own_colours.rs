@@ -15,7 +15,7 @@ use fastphong::number::{Num, Vec3, vec3};
 use fastphong::raster::{DrawOptions, Renderer};
 use fastphong::scene::{Interpolation, Projection, Scene};
 use fastphong::shading::{
-    Carried, Carries, Entry, Info, Linear, Lit, Needs, Perspective, Shader, Span,
+    Carried, Carries, Info, Linear, Lit, MethodRow, Needs, Perspective, Shader, Span,
 };
 use std::error::Error;
 use std::io::Write;
@@ -28,7 +28,7 @@ use std::io::Write;
 #[derive(Clone, Copy, Default)]
 struct Coloured;
 
-static COLOURED: Entry = Entry::of::<Coloured>();
+static COLOURED: MethodRow = MethodRow::of::<Coloured>();
 
 impl Shader for Coloured {
     const INFO: Info = Info {

@@ -11,7 +11,7 @@ use fastphong::glam::{DVec3, Vec3};
 use fastphong::mesh::Material;
 use fastphong::picture::encoding::store_line;
 use fastphong::scene::{Interpolation, Light, Lighting};
-use fastphong::shading::{Entry, SpanShader, SpanVertex, methods};
+use fastphong::shading::{MethodRow, SpanShader, SpanVertex, methods};
 use std::io::Write;
 
 const WIDTH: usize = 480;
@@ -124,7 +124,8 @@ pub fn picture() -> Vec<[u8; 4]> {
     };
     let light = Light::directional(DVec3::new(-0.4, 0.6, 0.7).normalize(), [0.9; 3]);
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
-    let all: [&'static Entry; 3] = [methods::GOURAUD, methods::PHONG_RSQRT, methods::DUFF_PHONG];
+    let all: [&'static MethodRow; 3] =
+        [methods::GOURAUD, methods::PHONG_RSQRT, methods::DUFF_PHONG];
     for (column, method) in all.into_iter().enumerate() {
         let mut shader = SpanShader::new(&method.variant(), &lighting, Interpolation::Screen)
             .expect("a method for any light");

@@ -13,7 +13,7 @@
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;
 use fastphong::shading::{
-    Entry, Info, LightModel, Linear, Lit, MethodParameter, Normal, Shader, Span, Value,
+    Info, LightModel, Linear, Lit, MethodParameter, MethodRow, Normal, Shader, Span, Value,
 };
 use std::io::Write;
 
@@ -28,7 +28,7 @@ struct Toon {
     bands: u32,
 }
 
-static TOON: Entry = Entry::of::<Toon>();
+static TOON: MethodRow = MethodRow::of::<Toon>();
 
 impl Shader for Toon {
     const INFO: Info = Info {
@@ -76,8 +76,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut scene = input::resolve(&input::load("builtin:torus")?)?.scene;
     (scene.width, scene.height) = (320, 240);
     let frame = scene.frame()?;
-    let built_in = Entry::named("naive-phong").ok_or("no such method")?;
-    let draw = |entry: &'static Entry| {
+    let built_in = MethodRow::named("naive-phong").ok_or("no such method")?;
+    let draw = |entry: &'static MethodRow| {
         let (variant, counts) = (entry.variant(), entry.variant().operations(1).shade);
         eprintln!("{variant} shades a pixel by {counts:?}");
         variant.render(&frame)

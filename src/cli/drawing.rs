@@ -15,7 +15,7 @@ use fastphong::picture::{Alpha, Encoding, Picture};
 use fastphong::raster::{Edges, Plan, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
-use fastphong::shading::{Entry, METHODS, Variant};
+use fastphong::shading::{METHODS, MethodRow, Variant};
 use std::fmt;
 use std::io::{self, Write};
 
@@ -55,7 +55,7 @@ pub fn method(text: &str) -> Result<AskedMethod, String> {
     match Variant::parse(text) {
         Ok(variant) => Ok(Some(Method::Variant(variant))),
         Err(_) if text == AUTO => Ok(None),
-        Err(error) if Entry::named(name).is_some() => Err(error.to_string()),
+        Err(error) if MethodRow::named(name).is_some() => Err(error.to_string()),
         Err(_) => Err(unknown("method", name, names.chain([AUTO, REFERENCE]))),
     }
 }

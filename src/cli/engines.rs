@@ -6,7 +6,7 @@ use fastphong::number::suggest::{one_of, unknown};
 use fastphong::number::{Level, NameError};
 use fastphong::raster::{Edges, Engine, Renderer};
 use fastphong::reference::cs171::Shading;
-use fastphong::shading::{Entry, Info, METHODS};
+use fastphong::shading::{Info, METHODS, MethodRow};
 use serde_json::{Value, json};
 
 /// An engine that a user can ask for, with its parameters.
@@ -71,7 +71,7 @@ impl EngineInfo {
         methods.map(|method| method.info.name)
     }
 
-    fn has(&self, method: &Entry) -> bool {
+    fn has(&self, method: &MethodRow) -> bool {
         match self.name {
             "barycentric" => method.is_barycentric(),
             "cs171" => cs171_shading(method.info).is_some(),
@@ -88,7 +88,7 @@ impl EngineInfo {
 }
 
 /// Lists the names of the engines that have a method.
-pub fn engines_with(method: &Entry) -> String {
+pub fn engines_with(method: &MethodRow) -> String {
     let engines = ENGINES.iter().filter(|engine| engine.has(method));
     let names: Vec<&str> = engines.map(|engine| engine.name).collect();
     names.join(", ")

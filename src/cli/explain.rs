@@ -56,7 +56,7 @@ impl ExplainArgs {
             let s = if lights == 1 { "" } else { "s" };
             let there = " and eye at positions";
             let eye = if at_positions { there } else { "" };
-            let how = match self.method.entry().is_integer {
+            let how = match self.method.row().is_integer {
                 true => "spans and pixels as their loops stand",
                 false => "as counted",
             };
@@ -73,13 +73,13 @@ impl ExplainArgs {
         section("where it fails", &wrapped(info.fails, 2));
         section(
             "perspective",
-            &wrapped(self.method.entry().needs.perspective.sentence(), 2),
+            &wrapped(self.method.row().needs.perspective.sentence(), 2),
         );
         section(
             "lights at positions",
-            &wrapped(self.method.entry().needs.local.sentence(), 2),
+            &wrapped(self.method.row().needs.local.sentence(), 2),
         );
-        let engines = engines_with(self.method.entry());
+        let engines = engines_with(self.method.row());
         section("engines", &format!("  {engines}\n"));
         let mut parameters = String::new();
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
@@ -126,7 +126,7 @@ impl ExplainArgs {
     /// Returns the explanation as data.
     fn json(&self) -> Result<Value, CliError> {
         let info = self.method.info();
-        let mut json = method_json(self.method.entry());
+        let mut json = method_json(self.method.row());
         let by_lights = |at_positions: bool| -> Value {
             let cases = self.cases().filter(|(_, there)| *there == at_positions);
             cases

@@ -10,7 +10,7 @@ use fastphong::lectures::{FIGURES, Figure};
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::{SCENES, ShippedScene};
-use fastphong::shading::{Entry, Info, METHODS, Range, Roundings, Standing, Stepped};
+use fastphong::shading::{Info, METHODS, MethodRow, Range, Roundings, Standing, Stepped};
 use serde_json::{Value, json};
 
 /// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
@@ -96,7 +96,7 @@ fn text(subject: Subject, all: bool) -> Result<String, CliError> {
 }
 
 /// Returns the default methods, or all.
-fn listed(all: bool) -> impl Iterator<Item = &'static Entry> {
+fn listed(all: bool) -> impl Iterator<Item = &'static MethodRow> {
     (METHODS.iter()).filter(move |entry| all || entry.info.standing == Standing::Default)
 }
 
@@ -125,7 +125,7 @@ fn word(value: impl std::fmt::Debug) -> String {
     format!("{value:?}").to_lowercase()
 }
 
-fn method_text(method: &Entry) -> String {
+fn method_text(method: &MethodRow) -> String {
     let info = method.info;
     let mut about = vec![
         info.title.to_owned(),
@@ -185,7 +185,7 @@ fn range_json(range: Range) -> Value {
 }
 
 /// Describes a method as data, without its texts of more than one line.
-pub fn method_json(method: &Entry) -> Value {
+pub fn method_json(method: &MethodRow) -> Value {
     let info = method.info;
     let parameters = info.parameters.iter().map(|p| {
         json!({

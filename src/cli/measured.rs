@@ -16,7 +16,7 @@ use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::SCENES;
-use fastphong::shading::{Entry, Family, METHODS, Standing, Variant};
+use fastphong::shading::{Family, METHODS, MethodRow, Standing, Variant};
 use std::collections::HashSet;
 use std::time::Duration;
 
@@ -26,9 +26,9 @@ pub type Methods = Vec<Variant>;
 /// Reads methods between commas, each once, and families of them: the default ones, all, those in floats or in integers, exhibits, and
 /// what [`Family`] names.
 pub fn methods(text: &str) -> Result<Methods, NameError> {
-    let those = |is_meant: &dyn Fn(&Entry) -> bool| -> Methods {
+    let those = |is_meant: &dyn Fn(&MethodRow) -> bool| -> Methods {
         let entries = METHODS.iter().filter(|entry| is_meant(entry));
-        entries.map(Entry::variant).collect()
+        entries.map(MethodRow::variant).collect()
     };
     let mut methods = Methods::new();
     for name in text.split(',') {

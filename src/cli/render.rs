@@ -257,7 +257,7 @@ impl RenderArgs {
             Some(_) if aov != Aov::Kind => {
                 Err(format!("--aov {} cannot be used with --method", aov.name()).into())
             }
-            Some(Method::Variant(variant)) if !variant.entry().kinds().is_empty() => {
+            Some(Method::Variant(variant)) if !variant.row().kinds().is_empty() => {
                 Ok(variant.clone())
             }
             Some(method) => {

@@ -2,7 +2,7 @@
 //! (L21 4.2).
 
 use super::prelude::*;
-use crate::shading::increments::{Newton, NewtonSteps};
+use crate::shading::walks::{Newton, NewtonSteps};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newton",

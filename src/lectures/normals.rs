@@ -4,7 +4,7 @@
 use super::prelude::*;
 use crate::mesh::builtin::builtin;
 use crate::scene::Culling;
-use crate::shading::increments::Quadratic;
+use crate::shading::walks::Quadratic;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "normals",

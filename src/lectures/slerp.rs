@@ -4,7 +4,7 @@ use super::prelude::*;
 use crate::number::Counter;
 use crate::raster::normals;
 use crate::reference::{self, Model};
-use crate::shading::increments::{GreatCircle, Sines};
+use crate::shading::walks::{GreatCircle, Sines};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "slerp",

@@ -100,7 +100,7 @@ impl Variant {
     /// Returns the renderer that draws `frame` with this method where `renderer` is asked for: the span engine, with a reason,
     /// if the row engine cannot draw it; none if the method is not for such frames.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
-        if let Some(reason) = (self.entry().fit)(On::Frame(frame)).refused() {
+        if let Some(reason) = (self.row().fit)(On::Frame(frame)).refused() {
             return Plan::Refused(reason);
         }
         let depth = SampleDepth::new(frame);
@@ -108,7 +108,7 @@ impl Variant {
             Renderer::Row(level) if level == Level::Scalar || !level.is_available() => {
                 Some("the row engine needs SIMD instructions that this machine does not have")
             }
-            Renderer::Row(_) if self.entry().scalar_only().is_some() => self.entry().scalar_only(),
+            Renderer::Row(_) if self.row().scalar_only().is_some() => self.row().scalar_only(),
             Renderer::Row(_) if !depth.is_interpolated() => {
                 Some("the row engine interpolates depth and does not compute it per sample")
             }
@@ -133,7 +133,7 @@ impl Variant {
     /// Returns how many polygons of `frame` the method draws by each of its kinds ([`crate::shading::Method::Kinds`]), in their order;
     /// nothing for methods that do not tell polygons apart.
     pub fn polygon_kinds(&self, frame: &Frame) -> Vec<PolygonKind> {
-        let names = self.entry().kinds();
+        let names = self.row().kinds();
         if names.is_empty() {
             return Vec::new();
         }
@@ -264,7 +264,7 @@ impl Variant {
         edges: Edges,
         zero: F::Pixel,
     ) -> Option<Picture<F::Pixel>> {
-        if !self.entry().is_barycentric() {
+        if !self.row().is_barycentric() {
             return None;
         }
         let frame = surface.frame;

@@ -6,8 +6,8 @@ use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;
 use crate::number::{BLOCK, Level, Vec3, vec3};
 use crate::scene::Interpolation;
-use crate::shading::increments::GreatCircle;
-use crate::shading::lighting::Uniforms;
+use crate::shading::light::Uniforms;
+use crate::shading::walks::GreatCircle;
 use crate::shading::{
     Carried, Corner, Corners, Extras, Kernels, LitAt, Local, Perspective, Pixels, PolygonConstants,
     RunList, UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
@@ -129,7 +129,7 @@ impl<'a> SetUp<'a> {
         scale: f32,
         memory: Vec<f32>,
     ) -> Self {
-        let (entry, is_local) = (variant.entry().on(frame), frame.is_local());
+        let (entry, is_local) = (variant.row().on(frame), frame.is_local());
         let kernels = entry.kernels(frame.light_count(), is_local);
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
         let lightings = frame.lightings().iter();

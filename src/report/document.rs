@@ -218,8 +218,8 @@ impl MethodData {
             formula: info.formula,
             source: info.source,
             fails: info.fails,
-            perspective: variant.entry().needs.perspective.sentence(),
-            local: variant.entry().needs.local.sentence(),
+            perspective: variant.row().needs.perspective.sentence(),
+            local: variant.row().needs.local.sentence(),
             operations: [1, 4].map(operations).into(),
         }
     }

@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
     use crate::raster::{Plan, Renderer};
-    use crate::shading::{Entry, METHODS};
+    use crate::shading::{METHODS, MethodRow};
     #[cfg(feature = "io")]
     use crate::{mesh::builtin::builtin, scene::file::SceneFile};
     use alloc::vec::Vec;
@@ -137,7 +137,7 @@ mod tests {
             Scene::of_mesh(mesh).frame().unwrap(),
             from_file.scene.frame().unwrap(),
         );
-        let is_for = |method: &&'static Entry| {
+        let is_for = |method: &&'static MethodRow| {
             let plan = method.variant().plan(&a, Renderer::LECTURE);
             !matches!(plan, Plan::Refused(_))
         };

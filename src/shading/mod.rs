@@ -19,101 +19,47 @@
 //!
 //! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
 
-mod bound;
-mod carries;
-mod cell;
-mod count;
-mod exponent;
-pub(crate) mod extent;
-mod eye_frame;
+pub(crate) mod bounds;
+mod description;
 mod fit;
-mod info;
 mod kernels;
-mod kinds;
+mod method;
+mod method_table;
 mod needs;
-mod span;
-mod span_bench;
 mod span_shader;
-mod spread;
-mod table;
 mod variant;
 
-pub mod increments;
-pub mod lighting;
+pub mod light;
 pub mod methods;
+pub mod walks;
 
-mod adaptive_phong;
-mod adaptive_plan;
-mod biquadratic_normals;
-mod bishop_weimer;
-mod cubic_phong;
-mod difference_vector;
-mod duff_half;
-mod duff_newton;
-mod duff_phong;
-mod eye_chart;
-mod eye_frame_phong;
-mod fast_phong;
-mod fast_phong_rsqrt;
-mod flat;
-mod flat_average;
-mod gouraud;
-mod gouraud_separate;
-mod h_test;
-mod half_reflection;
-mod integer_fast;
-mod integer_fast_printed;
-mod integer_gouraud;
-mod integer_naive;
-mod integer_naive_printed;
-mod integer_quadratic;
-mod integer_slerp;
-mod integers;
-mod kuijk_blake;
-mod naive_phong;
-mod phong_map;
-mod phong_rsqrt;
-mod phong_unnormalised;
-mod planes;
-mod positional_products;
-mod quadratic_normals;
-mod quadratic_products;
-mod quaternion_phong;
-mod series_phong;
-mod six_point;
-mod slerp_chebyshev;
-mod slerp_half;
-mod slerp_phong;
-mod slerp_phong_vector;
-mod stereographic_phong;
-
-pub use bound::{Roundings, Stepped};
-pub use carries::{
-    Carried, Carries, Colour, Normal, NormalAndPlace, ProductsAndNormal, TurnedNormal,
-};
-#[cfg(feature = "simd")]
-pub(crate) use cell::CellLayout;
-pub use count::OperationCounts;
-pub use fit::{Fit, On};
-pub use increments::{Constant, Linear, Walk};
-pub use info::{
+pub use bounds::{Roundings, Stepped};
+pub use description::{
     Approximation, Auto, Family, Info, LitAt, Local, MethodParameter, Perspective, Range, Standing,
     Value,
 };
+pub use fit::{Fit, On};
+#[cfg(feature = "simd")]
+pub(crate) use kernels::gbuffer_cell::CellLayout;
+pub use kernels::operation_counts::OperationCounts;
+pub use kernels::runs::{Corner, Corners, Run, Span, SpanPlace};
+pub(crate) use kernels::runs::{PolygonConstants, RunList, Starts, ramp};
+pub use kernels::sample_span::SpanBench;
 pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices};
 pub use kernels::{Kernels, UniformsIndex};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
-pub use kinds::{CarriesOf, Chosen, Kinds, Method, OneOf, Visit};
-pub use lighting::{LightModel, Lit, Seen};
+pub use light::{LightModel, Lit, Seen};
+pub use method::{CarriesOf, Chosen, Kinds, Method, OneOf, Visit};
+pub use method_table::{METHODS, MethodRow};
 pub use needs::{Needs, Spans};
-pub use planes::{PerLight, Planes};
-pub use span::{Corner, Corners, Run, Span, SpanPlace};
-pub(crate) use span::{PolygonConstants, RunList, Starts, ramp};
-pub use span_bench::SpanBench;
 pub use span_shader::{SpanShader, SpanShaderError, SpanVertex};
-pub use table::{Entry, METHODS};
 pub use variant::Variant;
+pub use walks::values::{PerLight, Values};
+pub use walks::vertices::{
+    Carried, Carries, Colour, Normal, NormalAndPlace, ProductsAndNormal, TurnedNormal,
+};
+pub use walks::{Constant, Linear, Walk};
 
 use crate::number::{Num, Real, Vec3};
 
@@ -126,7 +72,7 @@ pub trait Shader: Copy + Default + 'static {
     /// What it needs of engines.
     const NEEDS: Needs = Needs::PIXELS;
     /// What is set up once per polygon: values, vectors and tuples of them; `()` if nothing is.
-    type Constants<F: Num>: Planes<F>;
+    type Constants<F: Num>: Values<F>;
     /// What a vertex carries: `Self` if it is none of those in `carries.rs`.
     type Carries: Carries;
     /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.

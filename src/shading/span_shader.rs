@@ -1,6 +1,6 @@
 //! Shading for a rasterizer of your own: a line of pixels from its two ends, by the scalar kernels of any method.
 
-use super::lighting::Uniforms;
+use super::light::Uniforms;
 use super::{
     Corners, Extras, Kernels, Local, On, Perspective, Pixels, PolygonConstants, Run, RunList,
     SpanPlace, UniformsIndex, Variant, Vertices,
@@ -120,10 +120,10 @@ impl SpanShader {
         interpolation: Interpolation,
     ) -> Result<Self, SpanShaderError> {
         let lighting = &guard::lit(lighting, 0).map_err(SpanShaderError::Lighting)?;
-        if let Some(reason) = (variant.entry().fit)(On::Spans(lighting, interpolation)).refused() {
+        if let Some(reason) = (variant.row().fit)(On::Spans(lighting, interpolation)).refused() {
             return Err(SpanShaderError::Refused(reason));
         }
-        let (entry, lights) = (variant.entry(), lighting.lights.len());
+        let (entry, lights) = (variant.row(), lighting.lights.len());
         let (is_local, is_perspective) = (
             lighting.is_local(),
             interpolation == Interpolation::Perspective,

@@ -1,11 +1,12 @@
 //! A method as a user names it.
 
-use super::lighting::Uniforms;
-use super::{Carried, Entry, Info, METHODS, Value, integers};
+use super::light::Uniforms;
+use super::{Carried, Info, METHODS, MethodRow, Value};
 use crate::number::NameError;
 use crate::number::suggest::{one_of, unknown};
 use crate::reference::ClosedForm;
 use crate::scene::{Lighting, Power};
+use crate::shading::methods::integers;
 use alloc::format;
 use alloc::vec::Vec;
 use core::fmt;
@@ -13,12 +14,12 @@ use core::fmt;
 /// A method with values for its parameters: what the lecture calls a variant, as in `fast-phong:steps=1`.
 #[derive(Clone, Debug)]
 pub struct Variant {
-    entry: &'static Entry,
+    entry: &'static MethodRow,
     parameters: Vec<Value>,
     power: Power,
 }
 
-impl Entry {
+impl MethodRow {
     /// Returns the method with its default parameters.
     pub fn variant(&'static self) -> Variant {
         let defaults = self.info.parameters.iter().map(|p| p.default);
@@ -39,7 +40,8 @@ impl Variant {
         let mut parts = text.split(':');
         let name = parts.next().unwrap_or_default();
         let names = METHODS.iter().map(|entry| entry.info.name);
-        let entry = Entry::named(name).ok_or_else(|| NameError(unknown("method", name, names)))?;
+        let entry =
+            MethodRow::named(name).ok_or_else(|| NameError(unknown("method", name, names)))?;
         let parameters = entry.info.parameters;
         let mut variant = entry.variant();
         for part in parts {
@@ -69,7 +71,7 @@ impl Variant {
     }
 
     /// Returns its row of the method table.
-    pub fn entry(&self) -> &'static Entry {
+    pub fn row(&self) -> &'static MethodRow {
         self.entry
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Folder, SPHERE};
 use fastphong::number::Level;
-use fastphong::shading::{Entry, METHODS, Standing};
+use fastphong::shading::{METHODS, MethodRow, Standing};
 use serde_json::{Value, json};
 
 /// Returns engine, level and threads of a renderer or of a row.
@@ -230,7 +230,7 @@ fn frame_times_are_one_line_per_method() {
             alone.count() >= 1,
             "{time} does not stand on a line of its own"
         );
-        let method = Entry::named(time["method"].as_str().unwrap()).unwrap();
+        let method = MethodRow::named(time["method"].as_str().unwrap()).unwrap();
         let level = match method.scalar_only() {
             Some(_) => Level::Scalar,
             None => Level::best(),

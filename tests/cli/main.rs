@@ -31,7 +31,7 @@ mod winding;
 
 use fastphong::picture::Picture8;
 use fastphong::raster::Renderer;
-use fastphong::shading::{Entry, METHODS};
+use fastphong::shading::{METHODS, MethodRow};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
@@ -195,7 +195,7 @@ fn sphere(flags: &str) -> Picture8 {
 }
 
 /// Returns the methods that are for the sphere.
-fn methods_on_sphere() -> impl Iterator<Item = &'static Entry> {
+fn methods_on_sphere() -> impl Iterator<Item = &'static MethodRow> {
     let file = fastphong::scene::input::load(SPHERE).expect("a scene file");
     let scene = fastphong::scene::input::resolve(&file)
         .expect("a scene")

@@ -7,7 +7,7 @@ use fastphong::mesh::builtin::BUILTINS;
 use fastphong::number::Level;
 use fastphong::raster::Engine;
 use fastphong::scene::input::SCENES;
-use fastphong::shading::{Entry, Family, METHODS, Standing};
+use fastphong::shading::{Family, METHODS, MethodRow, Standing};
 
 #[test]
 fn lists_have_an_entry_for_everything_in_their_table() {
@@ -179,7 +179,7 @@ fn families_are_no_methods() {
     }
     let words = ["default", "all", "floats", "integers", "exhibits"];
     for word in words.into_iter().chain(Family::ALL.map(Family::name)) {
-        assert!(Entry::named(word).is_none(), "{word}");
+        assert!(MethodRow::named(word).is_none(), "{word}");
     }
 }
 
@@ -379,7 +379,7 @@ fn info_reports_the_choice_of_auto() {
         let is_float = |choice: &serde_json::Value| {
             let name = choice["methods"][0].as_str().unwrap();
             // h-test is not for lights at positions.
-            let is_float = name != "h-test" && !Entry::named(name).unwrap().is_integer;
+            let is_float = name != "h-test" && !MethodRow::named(name).unwrap().is_integer;
             is_float && !choice["engine"].is_null()
         };
         all.as_array_mut().unwrap().retain(is_float);
@@ -404,7 +404,7 @@ fn info_reports_the_choice_of_auto() {
     // The others, one by one, say why they are scalar.
     for choice in &far.as_array().unwrap()[1..] {
         let name = choice["methods"][0].as_str().unwrap();
-        let why = Entry::named(name).unwrap().scalar_only();
+        let why = MethodRow::named(name).unwrap().scalar_only();
         assert_eq!(
             (choice["engine"].as_str(), choice["reason"].as_str()),
             (Some("span"), why)

@@ -15,7 +15,7 @@ use fastphong::scene::{
     DepthBuffer, Falloff, HiddenSurfaces, LightTerm, Lighting, Place, Power, SpecularGate,
     SpecularModel,
 };
-use fastphong::shading::{Entry, Info, Range, Variant};
+use fastphong::shading::{Info, MethodRow, Range, Variant};
 use glam::{DQuat, DVec3, EulerRot};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -128,8 +128,8 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
     }
     for (method, (share, scene)) in nearest {
         println!("{method:20} reaches {share:.2} of its bound on {scene}");
-        let has_bound =
-            Entry::named(method).is_some_and(|entry| entry.info.roundings.start < f64::INFINITY);
+        let has_bound = MethodRow::named(method)
+            .is_some_and(|entry| entry.info.roundings.start < f64::INFINITY);
         if share < 0.1 && has_bound {
             failures.push(format!(
                 "{method}: its bound is over ten times the error of every scene"

@@ -10,7 +10,7 @@ use fastphong::picture::LinearPicture;
 use fastphong::raster::{Edges, checkerboard, vertex_colours};
 use fastphong::scene::{Camera, Culling, Interpolation, Object, Projection, Scene};
 use fastphong::shading::{
-    Carried, Carries, Entry, Info, Linear, Lit, Needs, Perspective, Shader, Span,
+    Carried, Carries, Info, Linear, Lit, MethodRow, Needs, Perspective, Shader, Span,
 };
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -258,7 +258,7 @@ fn colours_are_one_a_position_or_none() {
 #[derive(Clone, Copy, Default)]
 struct Quotients;
 
-static QUOTIENTS: Entry = Entry::of::<Quotients>();
+static QUOTIENTS: MethodRow = MethodRow::of::<Quotients>();
 
 impl Shader for Quotients {
     const INFO: Info = Info {

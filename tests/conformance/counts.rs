@@ -6,7 +6,7 @@
 
 use crate::support::floats;
 use fastphong::number::Counts;
-use fastphong::shading::{Entry, OperationCounts, Variant};
+use fastphong::shading::{MethodRow, OperationCounts, Variant};
 
 /// The numbers of additions, multiplications, divisions, roots, comparisons and trigonometric
 /// functions.
@@ -676,7 +676,7 @@ fn slerp_steps_by_four_additions_and_eight_multiplications() {
 /// the same.
 #[test]
 fn cost_grows_with_the_lights() {
-    let pixel = |entry: &'static Entry, lights| {
+    let pixel = |entry: &'static MethodRow, lights| {
         let counts = entry.variant().operations(lights);
         counts.walk.multiplications + counts.shade.multiplications
     };

@@ -6,7 +6,7 @@ use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::picture::LinearPicture;
 use fastphong::scene::{Light, Lighting};
-use fastphong::shading::{Entry, Variant};
+use fastphong::shading::{MethodRow, Variant};
 use glam::{DVec3, Vec3};
 
 /// Width of the pictures in this module.
@@ -261,7 +261,7 @@ fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
         leaning(0.0, 30.0),
         leaning(20.0, -20.0),
     ];
-    let turned_difference = |entry: &'static Entry, triangles: bool| {
+    let turned_difference = |entry: &'static MethodRow, triangles: bool| {
         let picture = |turns: usize| {
             let [a, b, c, d] = square(turns, normals);
             let frame = if triangles {

@@ -57,7 +57,7 @@ fn products(j: f64, k: f64) -> f64 {
     intensity(j, 2.0 * j * k - LIGHT.dot(VIEW))
 }
 
-/// 1/√D by the polynomial of `order` for a strip of these normals: see `src/shading/adaptive_plan.rs` (d).
+/// 1/√D by the polynomial of `order` for a strip of these normals: see `src/shading/methods/hybrids/adaptive_plan.rs` (d).
 fn polynomial(order: u32, n1: DVec3, n2: DVec3, d: f64) -> f64 {
     let low = 1.0 - (n1 - n2).length_squared() / 4.0;
     let (middle, x) = ((1.0 + low) / 2.0, (1.0 - low) / (1.0 + low));

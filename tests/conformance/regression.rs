@@ -15,7 +15,7 @@ use fastphong::picture::encoding::store as store_levels;
 use fastphong::picture::image_file::{encode_png, read_picture, write_file};
 use fastphong::raster::{Plan, Renderer};
 use fastphong::reference::Model;
-use fastphong::shading::{Entry, METHODS};
+use fastphong::shading::{METHODS, MethodRow};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -95,7 +95,7 @@ fn pictures_are_the_blessed_ones() {
             let picture = store_levels(case.truth(model), case.frame.encoding());
             failures.extend(check(&format!("{}/{file}", case.name), &picture));
         }
-        let is_drawn = |entry: &&'static Entry| {
+        let is_drawn = |entry: &&'static MethodRow| {
             let plan = entry.variant().plan(&case.frame, Renderer::LECTURE);
             !matches!(plan, Plan::Refused(_))
         };

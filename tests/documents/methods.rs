@@ -5,14 +5,14 @@
 
 use crate::markdown::read;
 use fastphong::number::Counts;
-use fastphong::shading::{Entry, METHODS};
+use fastphong::shading::{METHODS, MethodRow};
 use std::fmt::Write;
 
 const FILE: &str = "docs/methods.md";
 const BY_HAND: &str = "<!-- by hand -->\n";
 
 /// Formats a method's operations with one and with four lights: one number if both agree, without rates that have no operations.
-fn operations(entry: &'static Entry) -> String {
+fn operations(entry: &'static MethodRow) -> String {
     let (one, four) = (entry.variant().operations(1), entry.variant().operations(4));
     let cells = |a: Counts, b: Counts| {
         let kinds: [fn(&Counts) -> u32; 8] = [
@@ -54,7 +54,7 @@ fn operations(entry: &'static Entry) -> String {
 }
 
 /// Returns what the code says of a method.
-fn described(entry: &'static Entry) -> String {
+fn described(entry: &'static MethodRow) -> String {
     let info = entry.info;
     let mut text = format!("\n{}.\n\n```text\n{}\n```\n\n", info.title, info.formula);
     let mut say = |head: &str, what: &str| {
@@ -122,7 +122,7 @@ fn methods_are_described_as_the_code_does() {
         .filter_map(|line| line.strip_prefix("## `")?.strip_suffix('`'));
     for name in headings {
         assert!(
-            Entry::named(name).is_some(),
+            MethodRow::named(name).is_some(),
             "{FILE} describes `{name}`, which does not exist"
         );
     }

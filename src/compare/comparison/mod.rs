@@ -448,7 +448,7 @@ pub(crate) fn is_baseline(variant: &Variant) -> bool {
 
 /// Returns the name of the method that the barycentric renderer draws for a comparison with `variant`.
 fn counterpart(variant: &Variant) -> &'static str {
-    match variant.entry().is_barycentric() {
+    match variant.row().is_barycentric() {
         true => variant.info().name,
         false => BASELINE,
     }

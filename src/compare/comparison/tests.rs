@@ -7,7 +7,7 @@ use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::reference::{self, Model};
 use crate::scene::{Camera, Fit, Light, Lighting, Object, Scene};
-use crate::shading::increments::NewtonSteps;
+use crate::shading::walks::NewtonSteps;
 use alloc::borrow::ToOwned;
 use alloc::{format, vec};
 use core::time::Duration;

@@ -2,7 +2,7 @@
 
 use crate::number::Level;
 use crate::number::simd::BLOCK;
-use crate::shading::lighting::Uniforms;
+use crate::shading::light::Uniforms;
 use crate::shading::{
     CellLayout, Extras, Kernels, Pixels, PolygonConstants, RowColours, Run, RunList, ShadeRow,
     SpanBench, SpanPlace, UniformsIndex, Variant, Vertices,
@@ -37,7 +37,7 @@ impl Started {
 /// Lights both vertices of a span of `pixels` pixels, and sets it up.
 fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usize) -> Started {
     let lights = uniforms.lights.len();
-    let kernels = variant.entry().kernels(lights, bench.is_local());
+    let kernels = variant.row().kernels(lights, bench.is_local());
     let extras = bench.extras(variant);
     let [own, _, planned] = (kernels.counts)(lights);
     let varyings = own + extras.count();
@@ -111,7 +111,7 @@ impl SpanRow {
         assert!(pixels.is_multiple_of(2 * BLOCK), "whole blocks");
         let uniforms = bench.uniforms(variant, 255.0);
         let lights = uniforms.lights.len();
-        let kernels = variant.entry().kernels(lights, bench.is_local());
+        let kernels = variant.row().kernels(lights, bench.is_local());
         let [varyings, planes, _] = (kernels.counts)(lights);
         let planes = planes.max(varyings) + bench.extras(variant).count();
         SpanRow {

@@ -60,8 +60,8 @@ use crate::number::parallel::for_each_chunk;
 use crate::number::simd::{BLOCK, Token, vectorize};
 use crate::picture::Picture;
 use crate::picture::encoding::quantise;
-use crate::shading::extent::TILE_HEIGHT as HEIGHT;
-use crate::shading::lighting::Uniforms;
+use crate::shading::bounds::polygon_ranges::TILE_HEIGHT as HEIGHT;
+use crate::shading::light::Uniforms;
 use crate::shading::{CellLayout, LitAt, SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -241,7 +241,7 @@ impl<'a> RowEngine<'a> {
         let walk = kernels
             .walk
             .filter(|_| setup.uniforms.first().is_some_and(walks_along));
-        let only = only_uniforms(&setup, variant.entry().needs.lit_at);
+        let only = only_uniforms(&setup, variant.row().needs.lit_at);
         let extras = setup.extras.count();
         let (varyings, extras) = match walk {
             Some(_) => (walked, 0),

@@ -6,7 +6,7 @@ use super::tile::{Tile, Writer};
 use super::triangles::{BATCH, Batch, CoveragePath, Ints, bits};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
-use crate::shading::extent::{TINY_HEIGHT, TINY_WIDTH};
+use crate::shading::bounds::polygon_ranges::{TINY_HEIGHT, TINY_WIDTH};
 use fearless_simd::{Simd, SimdFloat};
 
 /// Pixels of a box.

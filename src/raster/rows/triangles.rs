@@ -14,7 +14,7 @@ use crate::raster::bins::Listed;
 use crate::raster::depth::SampleDepth;
 use crate::raster::setup::{Per, SetUp};
 use crate::shading::CellLayout;
-use crate::shading::extent::{STEEPEST, TINY_HEIGHT, TINY_WIDTH};
+use crate::shading::bounds::polygon_ranges::{STEEPEST, TINY_HEIGHT, TINY_WIDTH};
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 

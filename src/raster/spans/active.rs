@@ -6,7 +6,7 @@ use crate::frame::{Frame, ScreenVertex, SubPixel};
 use crate::number::{Vec3, vec3};
 use crate::raster::depth::SampleDepth;
 use crate::raster::setup::{Per, Varyings, unit};
-use crate::shading::increments::{GreatCircle, Walk};
+use crate::shading::walks::{GreatCircle, Walk};
 use crate::shading::{Run, RunList, SpanPlace, Starts, UniformsIndex, ramp};
 use alloc::vec::Vec;
 use core::cmp::Ordering;

@@ -18,21 +18,21 @@ use fastphong::picture::LinearPicture;
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{HiddenSurfaces, Light, Lighting, Scene};
-use fastphong::shading::{Entry, METHODS};
+use fastphong::shading::{METHODS, MethodRow};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 pub(crate) use test_random::Random;
 
 /// Returns the methods that compute in floats; those in integers err by design.
-pub fn floats() -> &'static [Entry] {
+pub fn floats() -> &'static [MethodRow] {
     let all = METHODS.iter().position(|entry| entry.is_integer);
     &METHODS[..all.unwrap_or(METHODS.len())]
 }
 
 /// Returns those of them that are for a frame.
-pub fn floats_on(frame: &Frame) -> impl Iterator<Item = &'static Entry> + use<'_> {
-    let is_for = move |entry: &&'static Entry| {
+pub fn floats_on(frame: &Frame) -> impl Iterator<Item = &'static MethodRow> + use<'_> {
+    let is_for = move |entry: &&'static MethodRow| {
         let plan = entry.variant().plan(frame, Renderer::LECTURE);
         !matches!(plan, Plan::Refused(_))
     };
@@ -40,12 +40,12 @@ pub fn floats_on(frame: &Frame) -> impl Iterator<Item = &'static Entry> + use<'_
 }
 
 /// Returns those of them whose errors by design on a frame are below a grey level, so that their bounds hide no fault.
-pub fn exact_on(frame: &Frame) -> impl Iterator<Item = &'static Entry> + use<'_> {
+pub fn exact_on(frame: &Frame) -> impl Iterator<Item = &'static MethodRow> + use<'_> {
     floats_on(frame).filter(|entry| entry.variant().approximation(frame) < 1.0 / 255.0)
 }
 
 /// Draws a frame by the span engine, with default parameters.
-pub fn linear(entry: &'static Entry, frame: &Frame) -> LinearPicture {
+pub fn linear(entry: &'static MethodRow, frame: &Frame) -> LinearPicture {
     let picture = entry.variant().render_linear(frame);
     picture.expect("a method for the frame")
 }

@@ -1,0 +1,631 @@
+//! Kernels: a method as a table of plain functions, with the loops over its vertices, runs and pixels in them. Engines call these and
+//! are not compiled for each method.
+
+#![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
+
+pub(in crate::shading) mod gbuffer_cell;
+pub(in crate::shading) mod operation_counts;
+pub(in crate::shading) mod runs;
+pub(in crate::shading) mod sample_span;
+
+#[cfg(feature = "simd")]
+use crate::number::simd::{Block, Token, deinterleaved, vectorize};
+use crate::number::{BLOCK, Level, Num, Vec3, vec3};
+use crate::shading::kernels::gbuffer_cell::CellLayout;
+use crate::shading::kernels::runs::{RunList, RunStart};
+#[cfg(feature = "simd")]
+use crate::shading::light::Stored;
+#[cfg(feature = "simd")]
+use crate::shading::light::at_most;
+#[cfg(feature = "simd")]
+use crate::shading::light::eye_frame::carried;
+use crate::shading::light::{LightModel, Lit, Uniforms};
+use crate::shading::walks::values::{Values, count, each, scaled};
+use crate::shading::walks::{Linear, Walk};
+use crate::shading::{
+    Carried, Carries, CarriesOf, Corners, Kinds, LitAt, Method, Needs, Pixel, PolygonConstants,
+    Run, Shader, Span, Value, Varying, Visit,
+};
+#[cfg(feature = "simd")]
+use fearless_simd::*;
+
+/// The index of some uniforms in the list of a method on a frame. It is not the index of a material: under local lights each polygon
+/// may have uniforms of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UniformsIndex(pub u32);
+
+/// The varyings that kernels add to those of a method, in this order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Extras {
+    /// The position of the point, where lights are seen from each pixel.
+    pub point: bool,
+    /// The weight of perspective, 1/w, where varyings must be divided by it.
+    pub weight: bool,
+}
+
+impl Extras {
+    /// Returns how many values they have.
+    pub fn count(self) -> usize {
+        3 * usize::from(self.point) + usize::from(self.weight)
+    }
+
+    /// Returns position and weight from their values; a missing one is `none`.
+    #[inline(always)]
+    fn of<F: Num>(self, none: F, value: impl Fn(usize) -> F) -> (Vec3<F>, F) {
+        let (mut point, mut weight) = (vec3([none; 3]), none);
+        if self.point {
+            point = vec3([value(0), value(1), value(2)]);
+        }
+        if self.weight {
+            weight = value(self.count() - 1);
+        }
+        (point, weight)
+    }
+
+    /// Starts the walk of position and weight, which stand behind `own` varyings of the method.
+    #[inline(always)]
+    pub(in crate::shading) fn start<F: Num<One = F>>(
+        self,
+        own: usize,
+        run: &RunStart<'_, F>,
+        zero: F,
+    ) -> Linear<(Vec3<F>, F)> {
+        Linear {
+            at: self.of(zero, |i| run.ramp(own + i)[0]),
+            step: self.of(zero, |i| run.ramp(own + i)[1]),
+        }
+    }
+
+    /// Divides the varyings of a pixel and its position by the weight of perspective, if there is one.
+    #[inline(always)]
+    pub(in crate::shading) fn divided<F: Num, P: Values<F>>(
+        self,
+        pixel: P,
+        (mut point, weight): (Vec3<F>, F),
+    ) -> (P, Vec3<F>) {
+        if !self.weight {
+            return (pixel, point);
+        }
+        let w = weight.broadcast(1.0) / weight;
+        if self.point {
+            point = point * w;
+        }
+        (scaled(pixel, w), point)
+    }
+}
+
+/// The vertices whose varyings are computed together: they have the same uniforms. SIMD kernels take whole blocks of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vertices<'a> {
+    pub uniforms: &'a Uniforms,
+    pub normals: &'a [[f32; 3]],
+    /// Positions, one a normal; any vectors if nothing is lit from a position.
+    pub points: &'a [[f32; 3]],
+    /// Attributes, one a normal; none if the method does not read them.
+    pub attributes: &'a [[f32; 4]],
+}
+
+/// Runs of pixels that are shaded, or walked along, together.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pixels<'a> {
+    pub parameters: &'a [Value],
+    /// The uniforms, indexed by [`Run::uniforms`].
+    pub uniforms: &'a [Uniforms],
+    pub extras: Extras,
+    pub constants: &'a PolygonConstants,
+    /// The runs, whose pixels stand one after the other.
+    pub list: &'a RunList,
+}
+
+impl<'a> Pixels<'a> {
+    /// Returns the count of lights.
+    fn lights(&self) -> usize {
+        self.uniforms.first().map_or(0, |all| all.lights.len())
+    }
+
+    /// Returns neighbouring runs of the same uniforms together, each with its index.
+    fn by_uniforms(
+        &self,
+    ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (usize, &'a Run)>)> {
+        let (uniforms, mut first) = (self.uniforms, 0);
+        let groups = self.list.runs.chunk_by(|a, b| a.uniforms == b.uniforms);
+        groups.map(move |runs| {
+            let here = first..first + runs.len();
+            first = here.end;
+            let uniforms = &uniforms[runs[0].uniforms.0 as usize];
+            (uniforms, here.zip(runs))
+        })
+    }
+
+    /// Returns the kind of a run's polygon, and the run as a walk starts from it.
+    #[inline(always)]
+    fn start<M: Method>(&self, index: usize, run: &Run) -> (u8, RunStart<'a, f32>) {
+        let (kind, constants) = self.constants.of::<M>(self.lights(), run.polygon);
+        let start = RunStart {
+            values: self.list.starts.of(index),
+            x: run.x,
+            pixels: run.pixels,
+            place: M::NEEDS.reads_span().then(|| self.list.places[index]),
+            constants,
+        };
+        (kind, start)
+    }
+}
+
+pub(crate) type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
+pub(crate) type PolygonKernel = fn(&[Value], &Uniforms, &Corners<'_, f32>, &mut [f32]) -> u8;
+pub(crate) type PixelKernel = fn(&Pixels<'_>, &mut [[f32; 3]]);
+pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
+
+/// A method compiled for one count of lights.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernels {
+    /// Returns how many values a varying, a pixel and a polygon's constants take for this many lights.
+    pub(crate) counts: fn(usize) -> [usize; 3],
+    pub(crate) needs: Needs,
+    pub(crate) carries: Carried,
+    pub(crate) kinds: &'static [&'static str],
+    /// True if pixels are the varyings themselves.
+    pub(crate) linear: bool,
+    /// True if SIMD walks along runs with these parameters: [`Shader::walks_along_runs`].
+    pub(crate) walks_along_runs: fn(&[Value], &LightModel) -> bool,
+    /// Sets up a polygon, and returns its kind.
+    pub(crate) polygon: PolygonKernel,
+    /// Computes the varyings of vertices from normals and positions.
+    pub(crate) vertices: VertexKernel,
+    /// Shades runs: the scalar pixel loop.
+    pub(crate) pixels: PixelKernel,
+    /// Returns the kernels of an instruction set; `None` for scalar code.
+    pub(crate) simd: fn(Level) -> Option<&'static SimdKernels>,
+}
+
+/// The kernels of a method on one instruction set.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SimdKernels {
+    /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
+    pub vertices: Option<VertexKernel>,
+    /// Walks along runs, for methods that remember the pixel before: writes each run plane by plane, in whole blocks.
+    pub walk: Option<WalkKernel>,
+    /// Shades one row of the G-buffer: pixels that were walked, or varyings.
+    pub shade: fn(&ShadeRow<'_>, &[f32], &mut RowColours<'_>),
+}
+
+/// The only kind of a method that is compiled for SIMD.
+type First<M> = <<M as Method>::Kinds as Kinds>::First;
+
+impl Kernels {
+    /// Compiles a method.
+    pub const fn of<M: Method>() -> Kernels {
+        Kernels {
+            counts: |lights| {
+                let varyings = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
+                let pixel = count::<Pixel<First<M>, f32>>(lights);
+                [varyings, pixel, M::Kinds::constants(lights)]
+            },
+            needs: needs::<M>(),
+            carries: <CarriesOf<M> as Carries>::FROM,
+            kinds: M::Kinds::NAMES,
+            linear: M::Kinds::NAMES.is_empty()
+                && <<First<M> as Shader>::Walk<f32> as Walk<f32>>::LINEAR,
+            walks_along_runs: |parameters, model| M::new(parameters, model).walks_along_runs(),
+            polygon: polygon::<M>,
+            vertices: vertices::<CarriesOf<M>>,
+            pixels: pixels::<M>,
+            simd: match needs::<M>().scalar_only {
+                None => by_level::<First<M>>,
+                Some(_) => |_| None,
+            },
+        }
+    }
+}
+
+impl Kernels {
+    /// Makes the kernels of a method from those of `M`, which lights its vertices, and a plain function for its pixels: for methods
+    /// that do not compute on a [`Num`], as those in integers. They are scalar only, for the reason `why`.
+    pub(in crate::shading) const fn of_functions<M: Method>(
+        pixels: PixelKernel,
+        why: &'static str,
+    ) -> Kernels {
+        Kernels {
+            pixels,
+            needs: Needs {
+                scalar_only: Some(why),
+                ..M::NEEDS
+            },
+            simd: |_| None,
+            ..Kernels::of::<M>()
+        }
+    }
+}
+
+/// Returns the needs of a method: one of several kinds is scalar only, as the G-buffer does not keep them.
+const fn needs<M: Method>() -> Needs {
+    let needs = M::NEEDS;
+    Needs {
+        scalar_only: match needs.scalar_only {
+            None if !M::Kinds::NAMES.is_empty() => Some(
+                "each kind of polygon takes another loop, and a block of pixels has one for all",
+            ),
+            why => why,
+        },
+        ..needs
+    }
+}
+
+/// True if a method may walk along runs, with some parameters.
+const fn may_walk_along_runs<M: Shader>() -> bool {
+    M::NEEDS.reads_span() || <M::Walk<f32> as Walk<f32>>::REMEMBERS
+}
+
+/// Returns the kernels of a method on an instruction set.
+#[cfg_attr(not(feature = "simd"), expect(clippy::extra_unused_type_parameters))]
+fn by_level<M: Shader>(level: Level) -> Option<&'static SimdKernels> {
+    match level {
+        #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+        Level::Avx2 => Some(const { &SimdKernels::of::<M, Avx2, Avx2>() }),
+        #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+        Level::Avx512 => Some(const { &SimdKernels::of::<M, Avx2, Avx512>() }),
+        #[cfg(all(feature = "simd", target_arch = "aarch64"))]
+        Level::Neon => Some(const { &SimdKernels::of::<M, Neon, Neon>() }),
+        _ => None,
+    }
+}
+
+/// Sets up a polygon.
+fn polygon<M: Method>(
+    parameters: &[Value],
+    uniforms: &Uniforms,
+    polygon: &Corners<'_, f32>,
+    to: &mut [f32],
+) -> u8 {
+    let lit = Lit::new(uniforms.stored(), 0.0, true);
+    let chosen = M::new(parameters, &uniforms.model).polygon(&lit, polygon);
+    M::Kinds::put(chosen, |i, value| to[i] = *value)
+}
+
+/// Lights vertices one at a time.
+fn vertices<C: Carries>(job: &Vertices<'_>, out: &mut [f32]) {
+    light::<C, f32>(job, true, out, |all| vec3(all[0]), |x| [x; BLOCK]);
+}
+
+/// Lights vertices, as many at a time as `F` has lanes: `gather` makes a vector of them, `lanes` takes a value apart. Without
+/// `general`, a literal, the model is fast.
+#[inline(always)]
+fn light<C: Carries, F: Num>(
+    job: &Vertices<'_>,
+    general: bool,
+    out: &mut [f32],
+    gather: impl Fn(&[[f32; 3]]) -> Vec3<F>,
+    lanes: impl Fn(F) -> [f32; BLOCK],
+) {
+    let stored = job.uniforms.stored();
+    let own = count::<C::Varying<f32>>(stored.lights.len());
+    debug_assert!(
+        job.normals.len().is_multiple_of(F::WIDTH),
+        "vertices are lit in whole blocks"
+    );
+    debug_assert_eq!(
+        out.len(),
+        job.normals.len() * own,
+        "each vertex has room for all its values"
+    );
+    let points = job.points.chunks_exact(F::WIDTH);
+    let vertices = job.normals.chunks_exact(F::WIDTH).zip(points);
+    let out = out.chunks_exact_mut((F::WIDTH * own).max(1));
+    for (block, ((normals, points), out)) in vertices.zip(out).enumerate() {
+        let n = gather(normals);
+        let mut lit = Lit::new(stored, n.x, general);
+        lit = lit.at(if general { gather(points) } else { n });
+        if matches!(C::FROM, Carried::Attributes) {
+            let all = &job.attributes[block * F::WIDTH..][..F::WIDTH];
+            let of = |i: usize| n.x.of_each(|k| n.x.one(all[k][i]));
+            lit = lit.with_attributes([of(0), of(1), of(2), of(3)]);
+        }
+        let varying = carried::<C, F>(job.uniforms, &lit, n);
+        each(
+            varying,
+            #[inline(always)]
+            |i, value| {
+                let values = lanes(*value);
+                for k in 0..F::WIDTH {
+                    out[k * own + i] = values[k];
+                }
+            },
+        );
+    }
+}
+
+/// Shades runs one pixel at a time: the lecture's loop.
+fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
+    for (uniforms, runs) in job.by_uniforms() {
+        out = if M::NEEDS.general_only
+            || uniforms.model.is_general
+            || job.extras != Extras::default()
+        {
+            shade_runs::<M>(job, uniforms, true, runs, out)
+        } else {
+            shade_fast_runs::<M>(job, uniforms, runs, out)
+        };
+    }
+}
+
+/// Shades runs without extras and general lights: a function of its own, whose loop then has more registers.
+#[inline(never)]
+fn shade_fast_runs<'a, 'b, M: Method>(
+    job: &Pixels<'_>,
+    uniforms: &Uniforms,
+    runs: impl Iterator<Item = (usize, &'a Run)>,
+    out: &'b mut [[f32; 3]],
+) -> &'b mut [[f32; 3]] {
+    shade_runs::<M>(job, uniforms, false, runs, out)
+}
+
+/// Shades runs of the same uniforms, and returns the pixels after them. Without `general`, a literal, there are no extras and
+/// no general light.
+#[inline(always)]
+fn shade_runs<'a, 'b, M: Method>(
+    job: &Pixels<'_>,
+    uniforms: &Uniforms,
+    general: bool,
+    runs: impl Iterator<Item = (usize, &'a Run)>,
+    mut out: &'b mut [[f32; 3]],
+) -> &'b mut [[f32; 3]] {
+    let stored = uniforms.stored();
+    let extras = if general {
+        job.extras
+    } else {
+        Extras::default()
+    };
+    let lights = stored.lights.len();
+    let own = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
+    let method = M::new(job.parameters, &stored.model);
+    let directional = Lit::new(stored, 0.0, general);
+    for (index, run) in runs {
+        let (kind, start) = job.start::<M>(index, run);
+        let extra = extras.start(own, &start, 0.0);
+        let (here, rest) = out.split_at_mut(run.pixels as usize);
+        out = rest;
+        let run = RunLoop {
+            start,
+            extra,
+            directional,
+            extras,
+            here,
+        };
+        method.kinds().visit(kind, run);
+    }
+    out
+}
+
+/// The loop over a run's pixels, for the polygon's kind.
+struct RunLoop<'a> {
+    start: RunStart<'a, f32>,
+    extra: Linear<(Vec3<f32>, f32)>,
+    directional: Lit<'a, f32>,
+    extras: Extras,
+    here: &'a mut [[f32; 3]],
+}
+
+impl<C: Carries> Visit<C> for RunLoop<'_> {
+    #[inline(always)]
+    fn visit<S: Shader<Carries = C>>(mut self, kind: S) {
+        let lit = self.directional;
+        let span = Span::of_run(lit.count(), self.start, 0.0);
+        let mut walk = kind.walk(&lit, span);
+        // An iterator counts triples by a division: 3 % of Gouraud's frames.
+        #[expect(clippy::needless_range_loop)]
+        for x in 0..self.here.len() {
+            let pixel = (walk.next(), self.extra.next());
+            self.here[x] = colour(kind, lit, self.extras, pixel).array();
+        }
+    }
+}
+
+/// Returns the colour of a pixel from its state and its extras.
+#[inline(always)]
+pub(in crate::shading) fn colour<M: Shader, F: Num>(
+    method: M,
+    lit: Lit<'_, F>,
+    extras: Extras,
+    (pixel, extra): (Pixel<M, F>, (Vec3<F>, F)),
+) -> Vec3<F> {
+    let (pixel, point) = extras.divided(pixel, extra);
+    method.shade(&lit.at_pixel(point, extras.point), pixel)
+}
+
+/// A row of the G-buffer to be shaded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadeRow<'a> {
+    pub parameters: &'a [Value],
+    pub uniforms: &'a Uniforms,
+    pub extras: Extras,
+    /// The layout of the G-buffer.
+    pub cell: CellLayout,
+}
+
+/// The memory for the colours of a row, block by block.
+#[derive(Debug)]
+pub enum RowColours<'a> {
+    /// Bytes, and the background of pixels that nothing covers.
+    Bytes(&'a mut [[u8; 4]], [u8; 4]),
+    /// Red, green and blue: linear, not clamped; left as they are in blocks that nothing covers.
+    Linear([&'a mut [f32]; 3]),
+}
+
+#[cfg(feature = "simd")]
+impl SimdKernels {
+    /// Compiles a method: its pixel loop for `S`, all else for `T`, which machines with `S` have too.
+    const fn of<M: Shader, T: Token, S: Token>() -> SimdKernels {
+        SimdKernels {
+            vertices: match M::NEEDS.lit_at {
+                LitAt::Pixel => None,
+                _ => Some(vertex_blocks::<M, T>),
+            },
+            walk: match may_walk_along_runs::<M>() {
+                true => Some(walk::<M, T>),
+                false => None,
+            },
+            shade: shade::<M, S>,
+        }
+    }
+}
+
+/// Lights vertices eight at a time.
+#[cfg(feature = "simd")]
+fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
+    let simd = S::get();
+    vectorize(
+        simd,
+        #[inline(always)]
+        || match job.uniforms.model.is_fast && !M::NEEDS.general_only {
+            true => {
+                light::<M::Carries, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into())
+            }
+            false => {
+                light::<M::Carries, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into())
+            }
+        },
+    );
+}
+
+/// Walks along runs, a block at a time.
+#[cfg(feature = "simd")]
+fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
+    let (simd, lights) = (S::get(), job.lights());
+    let planes = count::<Pixel<M, f32>>(lights);
+    vectorize(
+        simd,
+        #[inline(always)]
+        move || {
+            let zero = f32x8::splat(simd, 0.0);
+            for (uniforms, runs) in job.by_uniforms() {
+                let method = M::new(job.parameters, &uniforms.model);
+                let lit = Lit::new(uniforms.stored(), zero, true);
+                for (index, run) in runs {
+                    let (_, start) = job.start::<M>(index, run);
+                    let length = (run.pixels as usize).next_multiple_of(BLOCK);
+                    let (here, rest) = core::mem::take(&mut out).split_at_mut(planes * length);
+                    out = rest;
+                    let mut walk = method.walk(&lit, Span::of_run(lights, start, zero));
+                    for x in (0..length).step_by(BLOCK) {
+                        each(
+                            walk.next(),
+                            #[inline(always)]
+                            |i, block| block.store_slice(&mut here[i * length + x..][..BLOCK]),
+                        );
+                    }
+                }
+            }
+        },
+    );
+}
+
+/// Shades a row of the G-buffer: whole [`Token::Block`]s of its cells.
+#[cfg(feature = "simd")]
+fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowColours<'_>) {
+    let stored = job.uniforms.stored();
+    vectorize(
+        S::get(),
+        #[inline(always)]
+        || {
+            let is_bytes = matches!(out, RowColours::Bytes(..));
+            let is_fast = job.uniforms.model.is_fast && job.extras == Extras::default();
+            match stored.lights {
+                _ if M::NEEDS.general_only || !(is_bytes && is_fast) => {
+                    shade_blocks::<M, S>(job, stored, true, cells, out)
+                }
+                // One light as a slice of length 1: its loop is unrolled.
+                [one] => {
+                    let lights = &[*one];
+                    shade_blocks::<M, S>(job, Stored { lights, ..stored }, false, cells, out)
+                }
+                _ => shade_blocks::<M, S>(job, stored, false, cells, out),
+            }
+        },
+    );
+}
+
+/// Shades a row, a block at a time. Without `general`, a literal, there are no extras, and the model is fast. Cells hold pixels that
+/// were walked to, or varyings, each the start of a walk of one block.
+#[cfg(feature = "simd")]
+#[inline(always)]
+fn shade_blocks<M: Shader, S: Token>(
+    job: &ShadeRow<'_>,
+    stored: Stored<'_>,
+    general: bool,
+    row: &[f32],
+    out: &mut RowColours<'_>,
+) {
+    let (simd, lights) = (S::get(), stored.lights.len());
+    let extras = if general {
+        job.extras
+    } else {
+        Extras::default()
+    };
+    let method = M::new(job.parameters, &stored.model);
+    // Known when compiled, but for methods that may choose.
+    let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();
+    let planes = match is_walked {
+        true => count::<Pixel<M, f32>>(lights),
+        false => count::<Varying<M, f32>>(lights),
+    };
+    // From counts that are known when compiled, so that the places of all loads are, too.
+    let cell = CellLayout {
+        varyings: planes,
+        extras: extras.count(),
+        ..job.cell
+    };
+    debug_assert_eq!(cell, job.cell, "the engine's layout is the method's");
+    let (stride, len) = (cell.stride(), BLOCK * cell.uniforms());
+    let second = (S::Block::CELLS - 1) * stride;
+    let mut first = 0;
+    for pair in row.chunks_exact(S::Block::CELLS * stride) {
+        let here = first..first + S::Block::WIDTH;
+        first = here.end;
+        let cells = [&pair[..len], &pair[second..second + len]];
+        let depth = S::Block::load(simd, cells, BLOCK * CellLayout::DEPTH);
+        if !(-depth).any_over(f32::NEG_INFINITY) {
+            if let RowColours::Bytes(to, background) = out {
+                to[here].fill(*background);
+            }
+            continue;
+        }
+        let lit = Lit::new(stored, depth, general);
+        let pixel = if is_walked {
+            each(
+                Pixel::<M, S::Block>::filled(lights, depth),
+                #[inline(always)]
+                |i, value| *value = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
+            )
+        } else {
+            let at = each(
+                Varying::<M, S::Block>::filled(lights, depth),
+                #[inline(always)]
+                |i, value| *value = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
+            );
+            let start = Span::of_block(lights, at, depth);
+            method.walk(&lit, start).next()
+        };
+        let extra = extras.of(
+            depth,
+            #[inline(always)]
+            |i| S::Block::load(simd, cells, BLOCK * cell.extra(i)),
+        );
+        let mut colour = colour(method, lit, extras, (pixel, extra)).array();
+        match out {
+            RowColours::Bytes(to, background) => {
+                if general {
+                    // What an integer does not hold is converted to the least one: clamped first.
+                    let [r, g, b] = colour;
+                    colour = [at_most(r, 255.0), at_most(g, 255.0), at_most(b, 255.0)];
+                }
+                S::Block::pack(colour, depth, *background, &mut to[here]);
+            }
+            RowColours::Linear([r, g, b]) => {
+                colour[0].store_slice(&mut r[here.clone()]);
+                colour[1].store_slice(&mut g[here.clone()]);
+                colour[2].store_slice(&mut b[here]);
+            }
+        }
+    }
+}

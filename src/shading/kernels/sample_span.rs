@@ -1,0 +1,185 @@
+//! A single span: the subject on which operations are counted and kernels timed.
+
+use crate::mesh::Material;
+use crate::number::{Num, Vec3, vec3};
+use crate::scene::{Falloff, Interpolation, Light, Lighting, Place, Power};
+use crate::shading::light::Uniforms;
+use crate::shading::methods::integers;
+use crate::shading::walks::GreatCircle;
+use crate::shading::{Corner, Corners, Extras, Local, On, OperationCounts, Variant, ramp};
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// A span between two unit normals, lit by some lights.
+#[derive(Clone, Debug)]
+pub struct SpanBench {
+    pub(in crate::shading) lighting: Lighting,
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
+    pub(crate) uniforms: Uniforms,
+    /// The unit normals of a triangle whose first two corners are the ends of the span, and their positions.
+    pub(crate) normals: [[f32; 3]; 3],
+    pub(crate) points: [[f32; 3]; 3],
+    perspective: bool,
+}
+
+const COLOUR: [f32; 3] = [0.9, 0.8, 0.7];
+
+impl SpanBench {
+    /// The unit normal of the triangle.
+    pub(crate) const FACE: [f32; 3] = [0.0, 0.0, 1.0];
+    /// The width and height of the triangle on the picture, in pixels.
+    pub(in crate::shading) const LENGTH: f32 = 50.0;
+    /// t₀ and Δt of its edges down from the first scanline, whose centres lie at 0.5 pixels.
+    pub(in crate::shading) const EDGE: [f32; 2] =
+        [0.5 / SpanBench::LENGTH, 1.0 / SpanBench::LENGTH];
+    /// t₀ and Δt of the span there, which is 49.5 pixels long.
+    pub(in crate::shading) const SPAN: [f32; 2] = [0.5 * (1.0 / 49.5), 1.0 / 49.5];
+
+    /// Its pixels: their centres are left of 49.5.
+    pub(in crate::shading) const PIXELS: u32 = 49;
+
+    /// Returns the varyings at both ends of the span, from those of the corners by `vertex`: unit normals go along great circles if
+    /// they are `on_circles`.
+    pub(in crate::shading) fn ends_of_span(
+        &self,
+        on_circles: bool,
+        vertex: impl Fn([f32; 3]) -> [f32; 3],
+    ) -> [[f32; 3]; 2] {
+        let [a, b, c] = self.normals.map(vertex).map(vec3);
+        let [t0, dt] = SpanBench::EDGE;
+        [a, b].map(|from| match on_circles {
+            true => GreatCircle::new(vec3(SpanBench::FACE), [from, c], t0, dt)
+                .normal()
+                .array(),
+            false => [0, 1, 2].map(|i| ramp(from.array()[i], c.array()[i], t0, dt)[0]),
+        })
+    }
+
+    /// Makes the triangle, `length` pixels wide and high, of values that `value` makes.
+    pub(crate) fn polygon<F: Num>(&self, length: f32, value: impl Fn(f32) -> F) -> BenchPolygon<F> {
+        let three = |v: [f32; 3]| vec3(v.map(&value));
+        let normals = self.normals.map(three);
+        BenchPolygon {
+            corners: [0, 1, 2].map(|i| Corner {
+                normal: normals[i],
+                place: [0, 1].map(|axis| value(self.points[i][axis] * length)),
+                weight: value(1.0),
+                position: three(self.points[i]),
+            }),
+            normals,
+            face: three(SpanBench::FACE),
+        }
+    }
+
+    /// Makes a span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1) or four,
+    /// and the default material.
+    pub fn new(degrees: f32, lights: usize) -> Self {
+        SpanBench::lit(degrees, if lights <= 1 { 1 } else { 4 }, None, false)
+    }
+
+    /// Makes a span with one light (`lights` ≤ 1) or two, and the eye, at positions a few of its lengths away; lights grow
+    /// weaker by `falloff`, and varyings are linear on the screen or, with one light, in space.
+    pub fn local(
+        degrees: f32,
+        lights: usize,
+        falloff: Falloff,
+        interpolation: Interpolation,
+    ) -> Self {
+        let perspective = interpolation == Interpolation::Perspective;
+        let count = if perspective { 1 } else { lights.clamp(1, 2) };
+        SpanBench::lit(degrees, count, Some(falloff), perspective)
+    }
+
+    /// Makes a span with so many lights, of a falloff if they and the eye are at positions.
+    fn lit(degrees: f32, lights: usize, local: Option<Falloff>, perspective: bool) -> Self {
+        let light = |i: usize| {
+            let (sin, cos) = (libm::sin(i as f64), libm::cos(i as f64));
+            let Some(falloff) = local else {
+                let direction = DVec3::new(0.5 * cos, 0.5 * sin, 1.0);
+                return Light::directional(direction.normalize(), COLOUR);
+            };
+            Light {
+                falloff,
+                ..Light::positional(DVec3::new(2.0 * cos, 2.0 * sin, 5.0), COLOUR)
+            }
+        };
+        let lights: Vec<Light> = (0..lights).map(light).collect();
+        let mut lighting = Lighting::new(&Material::default(), [1.0; 3], &lights, DVec3::Z);
+        if local.is_some() {
+            lighting.view = Place::Local([0.0, 0.0, 8.0]);
+        }
+        let (sin, cos) = libm::sincosf(degrees.to_radians() / 2.0);
+        let mut uniforms = Uniforms::new(&lighting, Power::default(), 1.0);
+        uniforms.materials = integers::materials(&lighting);
+        SpanBench {
+            uniforms,
+            lighting,
+            normals: [[-sin, 0.0, cos], [sin, 0.0, cos], [0.0, sin, cos]],
+            points: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            perspective,
+        }
+    }
+
+    /// Returns the reason why a method is not for its light, if it is not.
+    pub fn refuses(&self, variant: &Variant) -> Option<&'static str> {
+        let interpolation = match self.perspective {
+            true => Interpolation::Perspective,
+            false => Interpolation::Screen,
+        };
+        (variant.row().fit)(On::Spans(&self.lighting, interpolation)).refused()
+    }
+
+    /// Returns the uniforms of a method at `scale`.
+    pub(crate) fn uniforms(&self, variant: &Variant, scale: f32) -> Uniforms {
+        let uniforms = variant.uniforms(&self.lighting, scale);
+        match variant.row().needs.local {
+            Local::PerPolygon if self.is_local() => uniforms.seen_from([1.0 / 3.0, 1.0 / 3.0, 0.0]),
+            _ => uniforms,
+        }
+    }
+
+    /// True if a light or the eye is at a position.
+    pub(crate) fn is_local(&self) -> bool {
+        self.lighting.is_local()
+    }
+
+    /// Returns the varyings that kernels add to those of a method.
+    pub(crate) fn extras(&self, variant: &Variant) -> Extras {
+        let entry = variant.row();
+        entry.extras(self.is_local(), self.perspective)
+    }
+}
+
+/// The triangle of a bench.
+pub(crate) struct BenchPolygon<F> {
+    corners: [Corner<F>; 3],
+    normals: [Vec3<F>; 3],
+    face: Vec3<F>,
+}
+
+impl<F: Num> BenchPolygon<F> {
+    /// Returns it as methods set it up.
+    pub fn corners(&self) -> Corners<'_, F> {
+        let [a, b, c] = self.normals;
+        Corners {
+            all: &self.corners,
+            face: self.face,
+            is_whole: true,
+            whole: &self.normals,
+            mean: (a + b + c) * (1.0 / 3.0),
+        }
+    }
+}
+
+impl Variant {
+    /// Returns the operations of each kind that the method takes with one light (`lights` ≤ 1) or four, counted by running it on
+    /// numbers that count. Methods in integers cannot: of their spans and pixels it is what their loops say, one by one.
+    pub fn operations(&self, lights: usize) -> OperationCounts {
+        self.operations_on(&SpanBench::new(20.0, lights))
+    }
+
+    /// Returns the operations of each kind that the method takes on a span.
+    pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
+        self.row().count(bench, self).operations
+    }
+}

@@ -1,0 +1,200 @@
+//! The power functions of highlights, as pixel loops compute them.
+
+use crate::number::Num;
+use crate::scene::Power;
+use alloc::vec::Vec;
+
+/// The power function of a highlight, as it is best computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exponent {
+    /// 1, 2, 4, … 128: by so many squarings.
+    Squarings(u32),
+    /// Any other whole number: by repeated squaring, at most 2 log₂ n multiplications.
+    Whole(u32),
+    /// Any other: by the backend's power function.
+    Fractional(f32),
+    /// e^(−n (1 − t)) = 2^(r (t − 1)), with r = n log₂ e.
+    Exp(f32),
+    /// A table of tⁿ from the cosine `from` on, `scale` steps for a cosine of 1.
+    Table {
+        /// The cosine of the first entry.
+        from: f32,
+        /// The steps for a cosine of 1.
+        scale: f32,
+    },
+    /// Lyon's function, `1 − (1 − t) slope` squared so many times.
+    Lyon {
+        /// n / 2ᵏ.
+        slope: f32,
+        /// k.
+        squarings: u32,
+    },
+    /// Schlick's function of the exponent.
+    Schlick(f32),
+}
+
+impl Exponent {
+    /// Makes a function for a shininess n of 0 or more, whose highlights begin at the cosine `faint`.
+    pub fn new(power: Power, shininess: f32, faint: f32) -> Self {
+        let n = shininess as u32;
+        match power {
+            Power::Exp if n > 0 => Exponent::Exp(shininess * core::f32::consts::LOG2_E),
+            Power::Table { size } if n > 0 => Exponent::Table {
+                from: faint,
+                scale: size as f32 / (1.0 - faint),
+            },
+            Power::Lyon { k } if n > 0 => Exponent::Lyon {
+                slope: shininess / (1 << k) as f32,
+                squarings: k,
+            },
+            Power::Schlick if n > 0 => Exponent::Schlick(shininess),
+            _ if n as f32 != shininess => Exponent::Fractional(shininess),
+            _ if n.is_power_of_two() && n <= 128 => Exponent::Squarings(n.trailing_zeros()),
+            _ => Exponent::Whole(n),
+        }
+    }
+
+    /// Returns the entries of a table; `None` for other functions.
+    pub(in crate::shading) fn table(self, shininess: f32, faint: f32) -> Option<Vec<f32>> {
+        let Exponent::Table { scale, .. } = self else {
+            return None;
+        };
+        let (from, n) = (f64::from(faint), f64::from(shininess));
+        let size = libm::round(f64::from(scale) * (1.0 - from)) as u32;
+        let entry = |i: u32| from + (1.0 - from) * f64::from(i) / f64::from(size);
+        let power = |i| libm::pow(entry(i), n) as f32;
+        Some((0..=size).map(power).collect())
+    }
+
+    /// True if it is tⁿ with n over 0.
+    pub(in crate::shading) fn is_power(self) -> bool {
+        match self {
+            Exponent::Whole(n) => n > 0,
+            Exponent::Squarings(_) => true,
+            Exponent::Fractional(n) => n > 0.0,
+            _ => false,
+        }
+    }
+
+    /// True if the function is not 0 at 0 as all others are.
+    pub(in crate::shading) fn is_lit_at_zero(self) -> bool {
+        match self {
+            Exponent::Whole(0) | Exponent::Exp(_) => true,
+            Exponent::Lyon { slope, .. } => slope < 1.0,
+            _ => false,
+        }
+    }
+
+    /// Returns `base` to this power, from the entries `powers` if it is a table.
+    #[inline(always)]
+    pub(in crate::shading) fn of_or_read<F: Num>(self, base: F, powers: &[f32]) -> F {
+        match self {
+            Exponent::Table { from, scale } => ((base - from).max(0.0) * scale).lookup(powers),
+            other => other.of(base),
+        }
+    }
+
+    /// Returns `base`, 0 or more, to this power; anything to the power 0 is 1. The one power function of all methods, so that
+    /// none is faster by a cheaper one; `Lit::power` calls its squarings directly.
+    #[inline(always)]
+    pub fn of<F: Num>(self, base: F) -> F {
+        match self {
+            Exponent::Squarings(times) => squared_up_to_7(base, times),
+            Exponent::Whole(0) => base.broadcast(1.0),
+            Exponent::Whole(n) => to_whole(base, n),
+            Exponent::Fractional(n) => base.powf(n),
+            Exponent::Exp(rate) => ((base.max(0.0) - 1.0) * rate).exp2(),
+            Exponent::Lyon { slope, squarings } => {
+                let linear = ((base.max(0.0) - 1.0) * slope + 1.0).max(0.0);
+                squared_up_to_7(linear, squarings)
+            }
+            Exponent::Schlick(n) => {
+                let t = -(-base).max(-1.0); // at most 1: there is a pole at n / (n − 1)
+                t / (t * (1.0 - n) + n)
+            }
+            Exponent::Table { .. } => unreachable!("`Lit::power` reads tables"),
+        }
+    }
+}
+
+/// Returns `x` to the power `n` of 1 or more, by squaring.
+#[inline(always)]
+fn to_whole<F: Num>(x: F, n: u32) -> F {
+    debug_assert!(n > 0);
+    let (mut square, mut left) = (x, n);
+    while left & 1 == 0 {
+        square = square * square;
+        left >>= 1;
+    }
+    let mut power = square;
+    while left > 1 {
+        square = square * square;
+        left >>= 1;
+        if left & 1 == 1 {
+            power = power * square;
+        }
+    }
+    power
+}
+
+/// [`Exponent::of_or_read`] as a call. Inlined in a scalar loop, compilers compute all functions at each pixel and then choose: what the
+/// others give is often subnormal, which takes a hundred times as long.
+#[inline(never)]
+pub(in crate::shading) fn power_by_call<F: Num>(exponent: Exponent, base: F, powers: &[f32]) -> F {
+    match exponent {
+        Exponent::Whole(n) if n > 0 => to_whole(base, n), // the usual one, before all others
+        _ => exponent.of_or_read(base, powers),
+    }
+}
+
+/// Returns `x` squared `times` times, of 7 at most. Without a loop: those of 16, 32 and 64 are most of what a highlight costs.
+#[inline(always)]
+pub(in crate::shading) fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
+    if times & 4 != 0 {
+        x = x * x;
+        x = x * x;
+        x = x * x;
+        x = x * x;
+    }
+    if times & 2 != 0 {
+        x = x * x;
+        x = x * x;
+    }
+    if times & 1 != 0 {
+        x = x * x;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cosines that a method approximates may pass 1 by x: no function then passes eⁿˣ, falls below what it is at 1, or ends, but for 16 roundings
+    /// for each of n.
+    #[test]
+    fn powers_of_cosines_over_1_are_little_over_1() {
+        let functions = [
+            Power::Squaring,
+            Power::Exp,
+            Power::Table { size: 16 },
+            Power::Lyon { k: 3 },
+            Power::Schlick,
+        ];
+        for power in functions {
+            for n in [1.0f32, 2.0, 7.5, 32.0, 100.0, 1e4, 1e6] {
+                let exponent = Exponent::new(power, n, 0.0);
+                let table = exponent.table(n, 0.0).unwrap_or_default();
+                for x in [0.0f32, 1e-7, 1e-4, 0.005, 0.01, 0.1] {
+                    let value = power_by_call(exponent, 1.0 + x, &table);
+                    let rounding = 16.0 * (n + 1.0) * 2f32.powi(-24);
+                    let most = libm::expf(n * (x + rounding));
+                    assert!(
+                        (1.0 - rounding..=most).contains(&value),
+                        "{power:?}, n {n}, 1 + {x}: {value}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,429 @@
+//! The method table: add a line here for a new file beside this one.
+
+use crate::frame::Frame;
+use crate::shading::kernels::operation_counts::{CountedSpan, count};
+use crate::shading::kernels::sample_span::SpanBench;
+use crate::shading::methods::angles::half_reflection::HalfReflection;
+use crate::shading::methods::angles::kuijk_blake::KuijkBlake;
+use crate::shading::methods::angles::phong_map::PhongMap;
+use crate::shading::methods::angles::quaternion_phong::QuaternionPhong;
+use crate::shading::methods::angles::slerp_chebyshev::SlerpChebyshev;
+use crate::shading::methods::angles::slerp_phong::SlerpPhong;
+use crate::shading::methods::angles::slerp_phong_vector::SlerpPhongVector;
+use crate::shading::methods::angles::stereographic_phong::StereographicPhong;
+use crate::shading::methods::colours::flat::Flat;
+use crate::shading::methods::colours::flat_average::FLAT_AVERAGE;
+use crate::shading::methods::colours::gouraud::Gouraud;
+use crate::shading::methods::colours::gouraud_separate::GouraudSeparate;
+use crate::shading::methods::highlights::difference_vector::DifferenceVector;
+use crate::shading::methods::highlights::duff_half::DuffHalf;
+use crate::shading::methods::highlights::slerp_half::SlerpHalf;
+use crate::shading::methods::hybrids::adaptive_phong::AdaptivePhong;
+use crate::shading::methods::hybrids::h_test::HTest;
+use crate::shading::methods::integers::{self, Line};
+use crate::shading::methods::quadratics::biquadratic_normals::BiquadraticNormals;
+use crate::shading::methods::quadratics::bishop_weimer::{BishopWeimer, BishopWeimerLocal};
+use crate::shading::methods::quadratics::quadratic_normals::QuadraticNormals;
+use crate::shading::methods::quadratics::six_point::{SixPoint, SixPointLocal};
+use crate::shading::methods::roots::duff_newton::DuffNewton;
+use crate::shading::methods::roots::duff_phong::{DuffPhong, DuffPhongLocal};
+use crate::shading::methods::roots::eye_frame_phong::EyeFramePhong;
+use crate::shading::methods::roots::fast_phong::FastPhong;
+use crate::shading::methods::roots::naive_phong::NaivePhong;
+use crate::shading::methods::roots::phong_rsqrt::PhongRsqrt;
+use crate::shading::methods::roots::phong_unnormalised::PhongUnnormalised;
+use crate::shading::methods::series::cubic_phong::CubicPhong;
+use crate::shading::methods::series::series_phong::SeriesPhong;
+use crate::shading::{
+    Extras, Fit, Info, Kernels, LitAt, Local, Method, Needs, On, Perspective, Variant,
+};
+
+/// Makes the row of a method whose varyings hold a value per light.
+macro_rules! lights {
+    ($method:ident $(, $parameter:literal)?) => {
+        MethodRow::by_lights::<$method<1 $(, $parameter)?>, $method<4 $(, $parameter)?>, $method<64 $(, $parameter)?>>()
+    };
+}
+
+/// All shading methods.
+pub static METHODS: &[MethodRow] = &TABLE;
+
+/// The rows of [`METHODS`]. A static with a name: crates that name a method refer to it, where a constant without a name would
+/// be copied into them, and all kernels compiled again.
+static TABLE: [MethodRow; 38] = [
+    MethodRow::of::<Flat>(),
+    MethodRow {
+        info: &FLAT_AVERAGE,
+        needs: Needs {
+            lit_at: LitAt::PolygonMean,
+            ..Flat::NEEDS
+        },
+        ..MethodRow::of::<Flat>()
+    },
+    MethodRow::of::<Gouraud>(),
+    MethodRow::of::<GouraudSeparate>(),
+    MethodRow::of::<NaivePhong>(),
+    lights!(FastPhong),
+    lights!(DuffPhong, true),
+    MethodRow::of::<PhongRsqrt>(),
+    lights!(DuffPhong).at_positions(lights!(DuffPhongLocal)),
+    lights!(DuffNewton),
+    lights!(SeriesPhong),
+    lights!(CubicPhong),
+    lights!(DifferenceVector),
+    lights!(BishopWeimer).at_positions(lights!(BishopWeimerLocal)),
+    lights!(SixPoint).at_positions(lights!(SixPointLocal)),
+    MethodRow::of::<QuadraticNormals>(),
+    MethodRow::of::<BiquadraticNormals>(),
+    MethodRow::of::<HTest>(),
+    MethodRow::of::<AdaptivePhong<true>>()
+        .one_light::<AdaptivePhong<false>>()
+        .at_positions(MethodRow::of::<PhongRsqrt>()),
+    lights!(SlerpPhong),
+    lights!(SlerpChebyshev),
+    MethodRow::of::<SlerpPhongVector>(),
+    lights!(DuffHalf),
+    MethodRow::of::<EyeFramePhong>(),
+    MethodRow::of::<PhongUnnormalised>(),
+    lights!(SlerpHalf),
+    MethodRow::of::<StereographicPhong>(),
+    MethodRow::of::<QuaternionPhong>(),
+    lights!(HalfReflection),
+    MethodRow::of::<PhongMap>(),
+    lights!(KuijkBlake),
+    integers::gouraud::ENTRY,
+    MethodRow::integer::<integers::naive::Naive>(),
+    MethodRow::integer::<integers::fast::Fast>(),
+    MethodRow::integer::<integers::quadratic::Parabolas>(),
+    MethodRow::integer::<integers::slerp::Waves>(),
+    MethodRow::integer::<integers::naive_printed::NaivePrinted>(),
+    MethodRow::integer::<integers::fast_printed::FastPrinted>(),
+];
+
+/// Kernels for 1 light, up to 4 and up to 64.
+type ByLights = [&'static Kernels; 3];
+
+/// Counts the operations of a method on a span.
+type CountSpan = fn(&SpanBench, &Variant) -> CountedSpan;
+
+/// A row of the method table: the description of a method, and its kernels.
+#[derive(Clone, Copy, Debug)]
+pub struct MethodRow {
+    /// The description of the method.
+    pub info: &'static Info,
+    /// What it needs of engines.
+    pub needs: Needs,
+    /// Says whether it draws a frame, or spans of a material: [`Shader::on`](super::Shader::on).
+    pub(crate) fit: fn(On<'_>) -> Fit,
+    /// True if its loops compute in integers, for processors without a floating-point unit.
+    pub is_integer: bool,
+    directional: ByLights,
+    positional: ByLights,
+    /// The functions that count operations, for one light and for more: without a light or the eye at a position, and with one.
+    count: [[CountSpan; 2]; 2],
+}
+
+impl MethodRow {
+    /// Makes the row of a method, also of one defined outside this crate.
+    pub const fn of<M: Method>() -> MethodRow {
+        MethodRow::by_lights::<M, M, M>()
+    }
+
+    /// Makes the row of a method by kernels of its own; what else engines ask is as `M` answers.
+    pub(in crate::shading) const fn of_kernels<M: Method>(
+        info: &'static Info,
+        kernels: &'static Kernels,
+    ) -> MethodRow {
+        MethodRow {
+            info,
+            directional: [kernels; 3],
+            positional: [kernels; 3],
+            ..MethodRow::of::<M>()
+        }
+    }
+
+    /// Makes the row of a method in integers by its loop.
+    pub(in crate::shading) const fn integer<L: Line>() -> MethodRow {
+        let kernels = const { &Kernels::of_functions::<L::Shell>(L::PIXELS, integers::WHY) };
+        MethodRow::integer_of::<L::Shell>(&L::INFO, kernels, |bench, variant| {
+            integers::counted::<L::Shell>(bench, variant, L::PIXELS, L::LIGHTS, |lights| {
+                L::counts(lights, variant.parameters())
+            })
+        })
+    }
+
+    /// Makes the row of a method in integers: as [`MethodRow::of_kernels`], with a function that says what its loops take.
+    pub(in crate::shading) const fn integer_of<M: Method>(
+        info: &'static Info,
+        kernels: &'static Kernels,
+        count: CountSpan,
+    ) -> MethodRow {
+        MethodRow {
+            is_integer: true,
+            count: [[count; 2]; 2],
+            ..MethodRow::of_kernels::<M>(info, kernels)
+        }
+    }
+
+    /// Makes the row of a method whose varyings hold a value per light: compiled for 1, 4 and 64 of them.
+    pub const fn by_lights<A: Method, B: Method, C: Method>() -> MethodRow {
+        let all: ByLights = const {
+            [
+                &Kernels::of::<A>(),
+                &Kernels::of::<B>(),
+                &Kernels::of::<C>(),
+            ]
+        };
+        MethodRow {
+            info: &A::INFO,
+            needs: A::NEEDS,
+            fit: A::on,
+            is_integer: false,
+            directional: all,
+            positional: all,
+            // Up to four lights are stepped as four, up to 64 as many as there are: these are counted.
+            count: [[count::<C>; 2]; 2],
+        }
+    }
+
+    /// Takes other kernels for one light.
+    pub(in crate::shading) const fn one_light<A: Method>(self) -> MethodRow {
+        let one = const { &Kernels::of::<A>() };
+        let ([_, few, many], [_, near_few, near_many]) = (self.directional, self.positional);
+        let [[_, counts], [_, near_counts]] = self.count;
+        MethodRow {
+            directional: [one, few, many],
+            positional: [one, near_few, near_many],
+            count: [[count::<A>, counts], [count::<A>, near_counts]],
+            ..self
+        }
+    }
+
+    /// Takes the kernels of another row where a light or the eye is at a position.
+    pub const fn at_positions(self, near: MethodRow) -> MethodRow {
+        MethodRow {
+            positional: near.positional,
+            count: [self.count[0], near.count[1]],
+            ..self
+        }
+    }
+
+    /// Returns the row called `name`.
+    pub fn named(name: &str) -> Option<&'static MethodRow> {
+        METHODS.iter().find(|entry| entry.info.name == name)
+    }
+
+    /// Returns the row whose kernels draw a frame: its own, or the one that stands in for it there.
+    pub(crate) fn on(&'static self, frame: &Frame) -> &'static MethodRow {
+        match (self.fit)(On::Frame(frame)) {
+            Fit::LeavesTo(name) => MethodRow::named(name).expect("a method stands in by its name"),
+            _ => self,
+        }
+    }
+
+    /// Returns the reason why it is drawn by scalar code only, if it is.
+    pub fn scalar_only(&self) -> Option<&'static str> {
+        self.directional[0].needs.scalar_only
+    }
+
+    /// Returns the names of the kinds of polygons that it tells apart: [`Method::Kinds`](super::Method::Kinds).
+    pub fn kinds(&self) -> &'static [&'static str] {
+        self.directional[0].kinds
+    }
+
+    /// True if a pixel depends only on the varyings there; the barycentric renderer draws only such methods.
+    pub fn is_barycentric(&self) -> bool {
+        self.directional[0].linear && !self.needs.reads_span()
+    }
+
+    /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
+    /// position (`is_local`) or not.
+    pub(crate) fn extras(&self, is_local: bool, perspective: bool) -> Extras {
+        let point = is_local && self.needs.local == Local::PerPixel && self.positional[0].linear;
+        let divides = self.needs.perspective == Perspective::Divides;
+        Extras {
+            point,
+            weight: perspective && (divides || point),
+        }
+    }
+
+    /// Counts the operations of a variant of the method on a span.
+    pub(in crate::shading) fn count(&self, bench: &SpanBench, variant: &Variant) -> CountedSpan {
+        let by_lights = self.count[usize::from(bench.is_local())];
+        by_lights[usize::from(bench.lighting.lights.len() > 1)](bench, variant)
+    }
+
+    /// Returns the kernels for so many lights, some at positions (`is_local`) or none.
+    pub(crate) fn kernels(&self, lights: usize, is_local: bool) -> &'static Kernels {
+        let all = if is_local {
+            self.positional
+        } else {
+            self.directional
+        };
+        match lights {
+            0 | 1 => all[0],
+            2..=4 => all[1],
+            _ => all[2],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Normal, Shader};
+    use super::*;
+    use crate::number::{Level, Num, Vec3};
+    use crate::shading::{Linear, Lit, Span};
+    use std::collections::BTreeSet;
+
+    /// Returns the functions in the tables of these methods, each once: AVX-512 takes those of AVX2 but for its shading.
+    fn compiled(entries: &[MethodRow]) -> usize {
+        let mut kernels = BTreeSet::new();
+        for entry in entries {
+            kernels.extend(
+                entry
+                    .count
+                    .as_flattened()
+                    .iter()
+                    .map(|count| *count as usize),
+            );
+            for table in [entry.directional, entry.positional].as_flattened() {
+                kernels.extend([table.vertices as usize, table.pixels as usize]);
+                for simd in Level::ALL.into_iter().filter_map(table.simd) {
+                    kernels.insert(simd.shade as usize);
+                    kernels.extend(simd.vertices.map(|vertices| vertices as usize));
+                    kernels.extend(simd.walk.map(|walk| walk as usize));
+                }
+            }
+        }
+        kernels.len()
+    }
+
+    /// Every kernel is compiled code, and all of it is compiled before anything is drawn: a method may cost no more than this.
+    #[test]
+    fn kernels_are_few() {
+        let all = compiled(METHODS);
+        std::println!("{all} kernels");
+        assert!(all <= 6 * METHODS.len(), "{all} kernels");
+        for entry in METHODS {
+            let own = compiled(&[*entry]);
+            let by_lights = !core::ptr::eq(entry.directional[0], entry.directional[2]);
+            let most = if by_lights { 18 } else { 8 };
+            let has_positional = !core::ptr::eq(entry.directional[0], entry.positional[0]);
+            assert!(
+                own <= most * (1 + usize::from(has_positional)),
+                "{}: {own}",
+                entry.info.name
+            );
+        }
+    }
+
+    /// Gouraud shading in integers of 1/65,536 of a level: plain functions in a row of the table.
+    mod integers {
+        use super::super::*;
+        use crate::shading::kernels::Pixels;
+
+        const INFO: Info = Info {
+            name: "integer-gouraud",
+            ..<Gouraud as Method>::INFO
+        };
+        static KERNELS: Kernels = Kernels::of_functions::<Gouraud>(pixels, "it is integers");
+        pub static ENTRY: MethodRow = MethodRow::of_kernels::<Gouraud>(&INFO, &KERNELS);
+
+        fn pixels(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
+            const ONE: f32 = 255.0 * 65_536.0;
+            let mut out = out.iter_mut();
+            for (index, run) in job.list.runs.iter().enumerate() {
+                let [at, step] = job.list.starts.of(index);
+                let fixed = |x: &[f32]| [x[0], x[1], x[2]].map(|x| (x * ONE) as i32);
+                let (mut at, step) = (fixed(at), fixed(step));
+                for pixel in out.by_ref().take(run.pixels as usize) {
+                    *pixel = at.map(|x| (x >> 16) as f32 * (1.0 / 255.0));
+                    at = [0, 1, 2].map(|c| at[c] + step[c]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_of_plain_functions_is_drawn() {
+        use crate::mesh::builtin::builtin;
+        use crate::raster::{Plan, Renderer};
+        use crate::scene::Scene;
+        let frame = Scene::of_mesh(builtin("sphere").unwrap()).frame().unwrap();
+        let [integer, float] = [
+            integers::ENTRY.variant(),
+            Variant::parse("gouraud").unwrap(),
+        ];
+        let fastest = Renderer::fastest();
+        if fastest != Renderer::Span {
+            let (renderer, reason) = (Renderer::Span, "it is integers");
+            assert_eq!(
+                integer.plan(&frame, fastest),
+                Plan::Instead { renderer, reason }
+            );
+        }
+        let [ours, theirs] =
+            [integer, float].map(|variant| variant.render(&frame).expect("a method for the frame"));
+        let levels = ours.pixels().iter().zip(theirs.pixels());
+        let most = levels
+            .flat_map(|(a, b)| [0, 1, 2].map(|c| a[c].abs_diff(b[c])))
+            .max();
+        // Cut down, where the other is rounded; and a step's 1/65,536 a pixel.
+        assert_eq!(most, Some(1));
+    }
+
+    /// Phong shading for frames of one light.
+    #[derive(Clone, Copy, Default)]
+    struct OneLight;
+
+    impl Shader for OneLight {
+        const INFO: Info = Info {
+            name: "one-light",
+            ..<NaivePhong as Shader>::INFO
+        };
+        type Constants<F: Num> = ();
+        type Carries = Normal;
+        type Walk<F: Num> = Linear<Vec3<F>>;
+
+        fn on(on: On<'_>) -> Fit {
+            on.each(|lighting, _| (lighting.lights.len() > 1).then_some("it knows one light"))
+        }
+        fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+            span.linear()
+        }
+        fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+            lit.shade(n.unit())
+        }
+    }
+
+    static ONE_LIGHT: MethodRow = MethodRow::of::<OneLight>();
+
+    #[test]
+    fn a_method_may_refuse_a_frame() {
+        use crate::mesh::builtin::builtin;
+        use crate::picture::Picture8;
+        use crate::raster::{DrawError, DrawOptions, Plan, Renderer};
+        use crate::scene::{Light, Scene};
+        let mut scene = Scene::of_mesh(builtin("sphere").unwrap());
+        let plan = |scene: &Scene| {
+            let frame = scene.frame().unwrap();
+            ONE_LIGHT.variant().plan(&frame, Renderer::Span)
+        };
+        assert_eq!(plan(&scene), Plan::AsAsked(Renderer::Span));
+        scene
+            .lights
+            .push(Light::directional(glam::DVec3::X, [1.0; 3]));
+        let reason = "it knows one light";
+        assert_eq!(plan(&scene), Plan::Refused(reason));
+        let (frame, variant) = (scene.frame().unwrap(), ONE_LIGHT.variant());
+        let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [7; 4]);
+        for renderer in Renderer::available() {
+            let drawn = variant.draw(&frame, &mut picture, DrawOptions::by(renderer));
+            assert_eq!(drawn, Err(DrawError::Refused(reason)));
+            let rows = variant.render_rows(&frame, renderer, |_| Err("drawn"));
+            assert_eq!(rows, Err(DrawError::Refused(reason)));
+        }
+        assert!(picture.pixels().iter().all(|pixel| *pixel == [7; 4]));
+    }
+}

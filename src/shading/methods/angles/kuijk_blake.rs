@@ -1,0 +1,291 @@
+//! Angular interpolation: along a great circle all cosines are those of angles that grow evenly (Kuijk, Blake 1989).
+
+use crate::frame::{Frame, Polygon};
+use crate::number::{Num, Real, Vec3};
+use crate::reference::Model;
+use crate::scene::{Falloff, SpecularGate, SpecularModel};
+use crate::shading::light::LightModel;
+use crate::shading::light::powers::power_by_call;
+use crate::shading::methods::angles::slerp_phong::SlerpPhong;
+use crate::shading::walks::{Constant, LARGEST_ANGLE, Linear};
+use crate::shading::{
+    Approximation, Corners, Family, Fit, Info, Lit, Needs, Normal, On, PerLight, Pixel, Roundings,
+    Shader, Span, Stepped, Value,
+};
+
+/// Angular interpolation for highlights by the half vector, for up to `L` lights. Let m be the normal in the middle of a span, e the
+/// unit vector across it in the plane of the great circle, and φ the angle of the span. Whatever is not in that plane does not matter:
+///
+/// ```text
+/// N = m cos α + e sin α,       α = (t − ½) φ
+/// L·N = p cos(α − ψ),          p cos ψ = L·m,   p sin ψ = L·e;       H·N likewise
+/// ```
+///
+/// So an angle takes one addition a pixel, and the cosine one read of a table, over the square of the angle, of which it is a smooth
+/// function. ψ is at most 180° and α at most 90°: beyond 90° the cosine is not over 0 anywhere.
+///
+/// **Powers of cosines** are three parabolas, with two constants of the exponent n:
+///
+/// ```text
+/// cosⁿ x ≈ 1 − x²/(ab)             |x| < a              a = (n + 5.6)/(n (0.09 n + 5.2))
+///          (|x| − b)²/(b (b − a))  a ≤ |x| < b          b = (n + 65)/(5 n + 31.7)
+///          0                       elsewhere
+///        = ((b − |x|)₊² / b − (a − |x|)₊² / a) / (b − a)
+/// ```
+/// with ₊ for what is over 0: the two parabolas and their slopes agree at a. Kuijk's constants of 1991 are those; in the paper they
+/// are mixed up. The power of p itself is taken once a span. [`fit_error`] says how far they are from the power.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct KuijkBlake<const L: usize> {
+    a: f32,
+    b: f32,
+    /// 1/(a (b − a)) and 1/(b (b − a)).
+    over_a: f32,
+    over_b: f32,
+}
+
+/// The steps of the table of cosines, from 0 to the square of 90°.
+const STEPS: usize = 1024;
+const LARGEST_SQUARE: f64 = core::f64::consts::FRAC_PI_2 * core::f64::consts::FRAC_PI_2;
+/// cos √x. Between two entries a line is off by at most a quarter of 2⁻²²: the second derivative is 1/12 at most.
+static COSINES: [f32; STEPS + 1] = cosines();
+
+/// Ends of a span nearer than this have one normal: it is a few roundings of theirs.
+const LEAST_ANGLE: f32 = 1e-6;
+
+/// Computes the table, by the series of the cosine: its 12 terms leave less than 10⁻¹⁸.
+const fn cosines() -> [f32; STEPS + 1] {
+    let mut table = [0.0; STEPS + 1]; // of 90° too
+    let mut i = 0;
+    while i < STEPS {
+        let x = LARGEST_SQUARE * i as f64 / STEPS as f64;
+        let (mut sum, mut k) = (1.0, 12);
+        while k > 0 {
+            sum = 1.0 - sum * x / ((2 * k) * (2 * k - 1)) as f64;
+            k -= 1;
+        }
+        table[i] = sum as f32;
+        i += 1;
+    }
+    table
+}
+
+/// Returns a and b of an exponent.
+fn constants(n: f64) -> [f64; 2] {
+    [
+        (n + 5.6) / (n * (0.09 * n + 5.2)),
+        (n + 65.0) / (5.0 * n + 31.7),
+    ]
+}
+
+/// Bounds the difference between the parabolas and the power of a cosine, for exponents from 1 on: below 0.056, from 4 to 80 below
+/// 0.0235, then growing with the logarithm of n. A test searches all angles.
+fn fit_error(n: f64) -> f64 {
+    match n {
+        _ if n < 4.0 => 0.056,
+        _ if n < 80.0 => 0.0235,
+        _ => f64::min(1.0, 0.0235 + 0.155 * libm::log(n / 80.0)),
+    }
+}
+
+/// States the error of highlights: that of the parabolas, of all lights in the brightest channel.
+fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
+    let lighting = &frame.lightings()[polygon.material as usize];
+    let lights = &lighting.lights;
+    let sum = |c: usize| lights.iter().map(|l| f64::from(l.specular[c])).sum::<f64>();
+    let most = [0, 1, 2].map(sum).into_iter().fold(0.0, f64::max);
+    // Near such a light nothing is said of its strength.
+    let is_strong = |falloff| matches!(falloff, Falloff::InverseSquare | Falloff::Inverse);
+    let colour = match lights.iter().any(|light| is_strong(light.falloff)) {
+        true => 1.0,
+        false => fit_error(f64::from(lighting.shininess)) * most,
+    };
+    Approximation {
+        colour,
+        ..Approximation::NONE
+    }
+}
+
+type Pair<F, const L: usize> = (PerLight<F, L>, PerLight<F, L>); // of L and of H of each light
+
+impl<const L: usize> Shader for KuijkBlake<L> {
+    const INFO: Info = Info {
+        name: "kuijk-blake",
+        ids: &["M13"],
+        family: Family::Angles,
+        title: "angles along great circles by one addition each, cosines from a table, and their powers by three parabolas",
+        formula: "L.N = p cos x, x_next = x + d, d the angle of a pixel;  N.H = q cos y, y_next = y + d\n\
+                  I = Ia ka + Ip kd p cos x + Ip ks q^n f(y);  f(y) = (max(0, b - |y|)^2 / b - max(0, a - |y|)^2 / a) / (b - a)\n\
+                  a = (n + 5.6) / (n (0.09 n + 5.2));  b = (n + 65) / (5 n + 31.7)",
+        source: "Kuijk, Blake 1989, with the constants of Kuijk 1991",
+        claimed: "two additions a pixel, in the most economic of its two forms",
+        model: Model::Slerp,
+        roundings: Roundings::new(40.0, 2.1, Stepped::GreatCircles),
+        derivation: "angles are rounded by 2^-23 at each step while they are below 4, and those of edges as in slerp-phong; both inverse \
+                     tangents, roots and products of a span take 30, the table 4",
+        approximation: |frame, polygon, _| approximation(frame, polygon),
+        fails: "under exponents over 100, which the parabolas do not follow; on short spans, which pay two inverse tangents, two roots and \
+                a power a light; as slerp-phong, on triangles",
+        has_power: false,
+        ..Info::OF_PIXELS
+    };
+    const NEEDS: Needs = Needs {
+        general_only: true,
+        scalar_only: Some("kuijk-blake reads tables, which a block of pixels does one by one"),
+        ..SlerpPhong::<L>::NEEDS
+    };
+    type Constants<F: Num> = Vec3<F>; // the polygon's normal
+    type Carries = Normal;
+    type Walk<F: Num> = (Linear<Pair<F, L>>, Constant<Pair<F, L>>); // angles; p and qⁿ
+
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, _| {
+            if lighting.specular != SpecularModel::Blinn {
+                return Some("it follows the angle of N.H, and these highlights are R.V");
+            }
+            let is_low = lighting.shininess < 1.0;
+            is_low.then_some("its parabolas are for exponents from 1 on")
+        })
+    }
+    #[inline(always)]
+    fn new(_: &[Value], model: &LightModel) -> Self {
+        let [a, b] = constants(f64::from(model.shininess));
+        let over = 1.0 / (b - a);
+        KuijkBlake {
+            a: a as f32,
+            b: b as f32,
+            over_a: (over / a) as f32,
+            over_b: (over / b) as f32,
+        }
+    }
+    #[inline(always)]
+    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+        polygon.face
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let ([from, to], [t0, dt]) = (span.ends(), span.parameter());
+        let (sum, difference) = (from + to, to - from);
+        let (cos, sin) = (sum.dot(sum).sqrt(), difference.dot(difference).sqrt());
+        let half = sin.atan2(cos); // φ/2
+        let one = cos.broadcast(1.0);
+        let (middle, across, half) = match half.value() * 2.0 > LARGEST_ANGLE {
+            true => (span.constants(), difference * 0.0, half * 0.0),
+            false => {
+                let middle = sum * (one / cos);
+                // Of ends that are nearly the same normal the difference is all rounding, and in any direction, that of the middle too.
+                let across = difference - middle * difference.dot(middle);
+                let length = across.dot(across).sqrt();
+                let over = (one / length.max(LEAST_ANGLE)).gate(length, LEAST_ANGLE);
+                (middle, across * over, half)
+            }
+        };
+        let here = (t0 * 2.0 - 1.0) * half; // α
+        let zero = lit.zero();
+        let step = zero.of_each(|_| dt * half * 2.0);
+        let none = PerLight::new(lit.count(), zero);
+        let (mut at, mut sizes) = ((none, none), (none, none));
+        for index in 0..lit.count() {
+            let [(light, size), (highlight, size_of_highlight)] = lit.light_and_half(index).map(
+                #[inline(always)]
+                |v| {
+                    let v = v.broadcast(one);
+                    let (p_cos, p_sin) = (v.dot(middle), v.dot(across));
+                    let size = (p_cos * p_cos + p_sin * p_sin).sqrt();
+                    (here - p_sin.atan2(p_cos), size) // α − ψ, p
+                },
+            );
+            // No power of a cosine up to the faintest that is seen is subnormal; less is none.
+            let faint = lit.model.faint;
+            let least = size_of_highlight.max(faint);
+            let power = power_by_call(lit.model.exponent, least, &[]).gate(least, faint); // pⁿ
+            at.0.values[index] = zero.of_each(|_| light);
+            at.1.values[index] = zero.of_each(|_| highlight);
+            sizes.0.values[index] = zero.of_each(|_| size);
+            sizes.1.values[index] = zero.of_each(|_| power);
+        }
+        let steps = PerLight::new(lit.count(), step);
+        let angles = Linear {
+            at,
+            step: (steps, steps),
+        };
+        (angles, Constant(sizes))
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+        const SCALE: f32 = (STEPS as f64 / LARGEST_SQUARE) as f32;
+        let ((angles, angles_of_highlights), (sizes, powers)) = pixel;
+        let mut colour = lit.ambient();
+        for light in lit.lights() {
+            let x = angles.values[light.index];
+            let place = -((-(x * x * SCALE)).max(-(STEPS as f32)));
+            let l_n = place.lookup(&COSINES) * sizes.values[light.index];
+            let highlight = self.power(angles_of_highlights.values[light.index]);
+            let highlight = highlight * powers.values[light.index];
+            let specular = match lit.model.gate {
+                SpecularGate::Gated => highlight.gate(l_n, 0.0),
+                SpecularGate::Ungated => highlight,
+                SpecularGate::Weighted => highlight * l_n,
+            };
+            colour = lit.plus(colour, &light, l_n, specular);
+        }
+        colour
+    }
+}
+
+impl<const L: usize> KuijkBlake<L> {
+    /// Returns the power of the cosine of an angle, by three parabolas.
+    #[inline(always)]
+    fn power<F: Num>(self, angle: F) -> F {
+        let angle = angle.max(0.0) + (-angle).max(0.0);
+        let (wide, narrow) = ((-angle + self.b).max(0.0), (-angle + self.a).max(0.0));
+        wide * wide * self.over_b - narrow * narrow * self.over_a
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::FRAC_PI_2;
+
+    /// The table is the cosine to less than its stated error, and 0 at a right angle.
+    #[test]
+    fn the_table_is_the_cosine() {
+        let mut most = 0.0f64;
+        for i in 0..100_000 {
+            let x = LARGEST_SQUARE * f64::from(i) / 1e5;
+            let place = (x / LARGEST_SQUARE * STEPS as f64) as f32;
+            let found = f64::from(Num::lookup(place, &COSINES));
+            most = most.max((found - x.sqrt().cos()).abs());
+        }
+        assert!(most < 4.0 / (1 << 24) as f64, "{most:e}");
+        assert_eq!(Num::lookup(STEPS as f32, &COSINES), 0.0);
+    }
+
+    /// The parabolas are no farther from the power than stated, which is less than five times as much.
+    #[test]
+    fn parabolas_are_as_near_to_the_power_as_stated() {
+        let mut n = 1.0;
+        while n < 1e5 {
+            let [a, b] = constants(n);
+            let over = 1.0 / (b - a);
+            let method = KuijkBlake::<1> {
+                a: a as f32,
+                b: b as f32,
+                over_a: (over / a) as f32,
+                over_b: (over / b) as f32,
+            };
+            let off = |i: i32| {
+                let x = 2.0 * FRAC_PI_2 * f64::from(i) / 10_000.0;
+                let truth = x.cos().max(0.0).powf(n);
+                (f64::from(method.power(x as f32)) - truth).abs()
+            };
+            let most = (0..10_000).map(off).fold(0.0, f64::max);
+            let stated = fit_error(n);
+            assert!(
+                most <= stated && 5.0 * most > stated,
+                "{n}: {most} {stated}"
+            );
+            n *= 1.05;
+        }
+    }
+}

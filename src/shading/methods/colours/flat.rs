@@ -1,0 +1,48 @@
+//! Flat shading: one colour per polygon (L21 2).
+
+use crate::number::{Num, Vec3};
+use crate::reference::Model;
+use crate::shading::{
+    Colour, Constant, Family, Info, Lit, LitAt, Needs, Perspective, Pixel, Roundings, Shader, Span,
+    Standing, Stepped,
+};
+
+/// Flat (uniform) shading: the polygon's own normal, lit once (L21 2.1).
+///
+/// Light and eye at positions are seen from the mean of the polygon's corners.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Flat;
+
+impl Shader for Flat {
+    const INFO: Info = Info {
+        name: "flat",
+        ids: &["M01"],
+        family: Family::Colours,
+        standing: Standing::Default,
+        title: "one colour per polygon, from its own normal",
+        formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
+        source: "L21 2, eq 2.1 (Bouknight 1970)",
+        model: Model::Flat,
+        roundings: Roundings::new(4.0, 0.0, Stepped::Colours),
+        derivation: "nothing is stepped; L.N and R.V take 8 roundings each of at most half of 2^-24",
+        fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
+        ..Info::OF_PIXELS
+    };
+    const NEEDS: Needs = Needs {
+        lit_at: LitAt::Polygon,
+        perspective: Perspective::Unaffected,
+        ..Needs::PIXELS_BY_POLYGON
+    };
+    type Constants<F: Num> = ();
+    type Carries = Colour;
+    type Walk<F: Num> = Constant<Vec3<F>>;
+
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
+        Constant(span.linear().at)
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {
+        colour
+    }
+}

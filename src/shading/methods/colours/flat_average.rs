@@ -1,0 +1,23 @@
+//! Flat shading in the other definition: one colour per polygon, from the mean of its vertices (CS171 3, Algorithm 6).
+
+use crate::reference::Model;
+use crate::shading::methods::colours::flat::Flat;
+use crate::shading::{Info, Roundings, Shader, Standing, Stepped};
+
+/// Flat shading as CS171 defines it: the mean of the vertex normals, at the mean of the vertex positions, lit once by the
+/// kernels of [`Flat`].
+///
+/// The mean is normalised, which Algorithm 6 leaves out: the lighting model is for unit normals.
+pub const FLAT_AVERAGE: Info = Info {
+    name: "flat-average",
+    ids: &[],
+    standing: Standing::Asked,
+    title: "one colour per polygon, from the mean of its vertex normals",
+    formula: "N = (N1 + ... + Nn) / |N1 + ... + Nn|;  P = (P1 + ... + Pn) / n;  I = eq 2.1 of N at P",
+    source: "CS171 3, Algorithm 6",
+    model: Model::FlatAverage,
+    roundings: Roundings::new(8.0, 0.0, Stepped::Colours),
+    derivation: "as flat, and the mean normal takes 4 more roundings until it is a unit vector",
+    fails: "as flat; where the vertex normals cancel there is no mean normal, and ambient light remains",
+    ..Flat::INFO
+};

@@ -1,0 +1,74 @@
+//! Forward differences with N·H: the cosine of a highlight takes one addition, and no product of two others (Duff 1979).
+
+use crate::number::{Num, Vec3};
+use crate::reference::Model;
+use crate::scene::{Lighting, SpecularModel};
+use crate::shading::walks::Quadratic;
+use crate::shading::walks::values::scaled;
+use crate::shading::{
+    Carries, Fit, Info, Linear, Lit, Needs, On, PerLight, Pixel, Roundings, Shader, Span, Stepped,
+};
+
+/// Duff's forward differences for highlights by the half vector, for up to `L` lights: `J = L·N` and `M = H·N` of each light by one
+/// addition each, `D = N·N` by two, then one root and one division, which serve all lights.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DuffHalf<const L: usize>;
+
+/// Returns the reason why a method that follows M = N·H along a span is not for a material, if it is not.
+pub(in crate::shading) fn refuses_light(lighting: &Lighting) -> Option<&'static str> {
+    if lighting.specular != SpecularModel::Blinn {
+        return Some("it follows N.H, and these highlights are R.V");
+    }
+    let reason =
+        "it follows N.H for lights and an eye at infinity, and one of them is at a position";
+    lighting.is_local().then_some(reason)
+}
+
+impl<const L: usize> Shader for DuffHalf<L> {
+    const INFO: Info = Info {
+        name: "duff-half",
+        ids: &["M05h"],
+        title: "L.N and N.H by forward differences: no vector on a span, and no product for a highlight",
+        formula: "J_next = J + dJ;  M_next = M + dM;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\
+                  I = Ia ka + Ip kd J r + Ip ks (M r)^n,  M = N.H",
+        source: "Duff 1979; H as CS171 2",
+        model: Model::Phong,
+        roundings: Roundings::new(8.0, 2.0, Stepped::Products),
+        derivation: "as duff-phong; H is rounded too, by two",
+        fails: "as duff-phong; for N.H only, with lights and eye at infinity",
+        ..Info::OF_PIXELS
+    };
+    const NEEDS: Needs = Needs {
+        general_only: true,
+        scalar_only: Some(
+            "duff-half steps differences from pixel to pixel, and a block of pixels would keep two numbers a light",
+        ),
+        ..Needs::PIXELS
+    };
+    type Constants<F: Num> = ();
+    type Carries = Self;
+    type Walk<F: Num> = (Linear<(PerLight<F, L>, PerLight<F, L>)>, Quadratic<F>); // J and M of each light; D
+
+    fn on(on: On<'_>) -> Fit {
+        on.each(|lighting, _| refuses_light(lighting))
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let Linear { at, step } = span.linear();
+        let ((at, n), (step, dn)) = (at, step);
+        (Linear { at, step }, Quadratic::square(n, dn))
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
+        lit.shade_half_products(scaled(products, d.broadcast(1.0) / d.sqrt()))
+    }
+}
+
+impl<const L: usize> Carries for DuffHalf<L> {
+    type Varying<F: Num> = ((PerLight<F, L>, PerLight<F, L>), Vec3<F>); // J and M of each light; N
+
+    #[inline(always)]
+    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+        (lit.half_products(n), n)
+    }
+}

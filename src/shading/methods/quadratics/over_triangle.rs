@@ -1,0 +1,193 @@
+//! Products of unit normals as quadratics over a triangle: what methods share that make one per polygon.
+
+use crate::frame::{Frame, Polygon};
+use crate::number::{Num, Real, Vec3, vec3};
+use crate::shading::walks::Quadratic;
+use crate::shading::walks::values::{each, scaled, sum};
+use crate::shading::{Corner, Corners, Info, Lit, Normal, PerLight, Pixel, Shader, Span, Values};
+
+/// J of each light, and K.
+pub(in crate::shading) type Products<F, const L: usize> = (PerLight<F, L>, F);
+
+/// The coefficients of 1, x, y, x², xy, y², and the point of the picture from which x and y are counted.
+pub(in crate::shading) type OverPolygon<F, const L: usize> = ([Products<F, L>; 6], [F; 2]);
+
+/// The largest D/ℓ for which there are quadratics, that of three normals 60° apart: D is the longest distance between two of the
+/// weighted normals, ℓ the least length between them.
+pub(in crate::shading) const WIDEST: f32 = 1.25;
+/// The most by which barycentric coordinates grow from one side of a triangle's box to the other: more loses too many digits.
+const STEEPEST: f32 = 64.0;
+
+/// Returns the vector as plain `f32`: operations that choose a polygon's kind are not counted.
+#[inline(always)]
+pub(in crate::shading) fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
+    vec3([v.x.value(), v.y.value(), v.z.value()])
+}
+
+/// Returns a value that ℓ is not below: of v = Σ b_i N_i w_i the part along the mean direction m of the corners is at least
+/// min w_i · min N_i·m.
+pub(in crate::shading) fn least_length(corners: [(Vec3<f32>, f32); 3]) -> f32 {
+    let mean = (corners[0].0 + corners[1].0 + corners[2].0).unit();
+    let least = |of: [f32; 3]| of[0].min(of[1]).min(of[2]);
+    least(corners.map(|(normal, _)| normal.dot(mean))) * least(corners.map(|(_, weight)| weight))
+}
+
+/// Returns D, the longest distance between two of three vectors.
+pub(in crate::shading) fn longest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
+    let square = |d: Vec3<f32>| d.dot(d);
+    Num::sqrt(square(a - b).max(square(b - c)).max(square(c - a)))
+}
+
+/// Returns the longest distance of three vectors from their mean.
+pub(in crate::shading) fn farthest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
+    let middle = (a + b + c) * (1.0 / 3.0);
+    let square = |v: Vec3<f32>| (v - middle).dot(v - middle);
+    Num::sqrt(square(a).max(square(b)).max(square(c)))
+}
+
+/// Returns a distance `across` three unit vectors times their weights, over ℓ; more than any value where ℓ may be 0.
+pub(in crate::shading) fn relative(
+    across: fn([Vec3<f32>; 3]) -> f32,
+    corners: [(Vec3<f32>, f32); 3],
+) -> f32 {
+    let length = least_length(corners);
+    match length > 0.0 {
+        true => across(corners.map(|(unit, weight)| unit * weight)) / length,
+        false => f32::INFINITY,
+    }
+}
+
+/// Returns D/ℓ of three unit normals and their weights.
+pub(in crate::shading) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
+    relative(longest, corners)
+}
+
+/// Returns the unit normals and weights of a polygon of a frame, if it is a whole triangle and not too [wide](WIDEST).
+pub(in crate::shading) fn narrow_triangle(
+    frame: &Frame,
+    polygon: &Polygon,
+) -> Option<[(Vec3<f32>, f32); 3]> {
+    let &[a, b, c] = frame.corners(polygon) else {
+        return None;
+    };
+    let is_whole = [a, b, c].iter().all(|&v| frame.clip_corner(v).is_none());
+    let corners = [a, b, c].map(|v| (vec3(frame.normal(v)), frame.weight(v)));
+    (is_whole && width(corners) <= WIDEST).then_some(corners)
+}
+
+/// Returns the corners of a polygon as a method sets it up, and their growth, if it is such a triangle, and no sliver.
+#[inline(always)]
+pub(in crate::shading) fn set_up_triangle<R: Real>(
+    polygon: &Corners<'_, R>,
+) -> Option<([Corner<R>; 3], Growth<R>)> {
+    let &[a, b, c] = polygon.all else {
+        return None;
+    };
+    let growth = Growth::of([&a, &b, &c])?;
+    let width = width([a, b, c].map(|v| (plain(v.normal), v.weight.value())));
+    (polygon.is_whole && width <= WIDEST).then_some(([a, b, c], growth))
+}
+
+/// The growth of the barycentric coordinates b and c of a triangle: `b = p x + q y`, `c = r x + s y`, from its first corner.
+#[derive(Clone, Copy)]
+pub(in crate::shading) struct Growth<R> {
+    pub p: R,
+    pub q: R,
+    pub r: R,
+    pub s: R,
+}
+
+impl<R: Real> Growth<R> {
+    /// Returns the growth over a triangle; `None` if it has no area, or is so thin that too many digits are lost.
+    #[inline(always)]
+    pub fn of([a, b, c]: [&Corner<R>; 3]) -> Option<Growth<R>> {
+        let from_a = |at: [R; 2]| [at[0] - a.place[0], at[1] - a.place[1]];
+        let ([bx, by], [cx, cy]) = (from_a(b.place), from_a(c.place));
+        let area = bx * cy - by * cx;
+        let over_area = area.broadcast(1.0) / area;
+        let [p, q, r, s] = [cy, -cx, -by, bx].map(|side| side * over_area);
+        let extent = [bx, by, cx, cy].map(|side| side.value().abs());
+        let growth = [p, q, r, s].map(|growth| growth.value().abs());
+        let is_steep = growth.iter().sum::<f32>() * extent.iter().sum::<f32>() > STEEPEST;
+        (area.value() != 0.0 && !is_steep).then_some(Growth { p, q, r, s })
+    }
+}
+
+/// Returns the coefficients of 1, x, y, x², xy, y², from the first corner, of the quadratic through values at three corners A, B, C and
+/// half-way along the edges AB, BC, CA. In the barycentric coordinates b, c of the second and third corner it is
+///
+/// ```text
+/// F = A + b (4 AB − 3 A − B) + c (4 CA − 3 A − C) + b² 2 (A + B − 2 AB) + c² 2 (A + C − 2 CA) + bc 4 (A + BC − AB − CA)
+/// ```
+#[inline(always)]
+pub(in crate::shading) fn lagrange<R: Real, P: Values<R>>(
+    [a, b, c]: [P; 3],
+    [ab, bc, ca]: [P; 3],
+    Growth { p, q, r, s }: Growth<R>,
+) -> [P; 6] {
+    let to_b = mixed([(ab, 4.0), (a, -3.0), (b, -1.0)]);
+    let to_c = mixed([(ca, 4.0), (a, -3.0), (c, -1.0)]);
+    let to_bb = mixed([(a, 2.0), (b, 2.0), (ab, -4.0)]);
+    let to_cc = mixed([(a, 2.0), (c, 2.0), (ca, -4.0)]);
+    let to_bc = mixed([(a, 4.0), (bc, 4.0), (ab, -4.0), (ca, -4.0)]);
+    let linear = |b, c| sum([scaled(to_b, b), scaled(to_c, c)]);
+    let square = |bb, bc, cc| sum([scaled(to_bb, bb), scaled(to_bc, bc), scaled(to_cc, cc)]);
+    [
+        a,
+        linear(p, r),
+        linear(q, s),
+        square(p * p, p * r, r * r),
+        square(p * q * 2.0, p * s + q * r, r * s * 2.0),
+        square(q * q, q * s, s * s),
+    ]
+}
+
+/// Returns the sum of some values, each times a factor.
+#[inline(always)]
+fn mixed<F: Num, P: Values<F>, const N: usize>(all: [(P, f32); N]) -> P {
+    sum(all.map(|(value, factor)| each(value, |_, x| *x = *x * factor)))
+}
+
+/// Products as quadratics over a polygon: a kind of polygons, beside [`DuffOfNormals`](crate::shading::methods::roots::duff_phong::DuffOfNormals).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Quadratics<const L: usize>;
+
+impl<const L: usize> Shader for Quadratics<L> {
+    const INFO: Info = Info::of_kind("quadratic");
+    type Constants<F: Num> = OverPolygon<F, L>;
+    type Carries = Normal;
+    type Walk<F: Num> = (PerLight<Quadratic<F>, L>, Quadratic<F>); // J of each light, K
+
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let ((of, from), [x, y]) = (span.constants(), span.place());
+        let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
+        let mut j = PerLight::new(lit.count(), Quadratic::zero(lit.zero()));
+        for i in 0..lit.count() {
+            j.values[i] = along(each_of(|k| of[k].0.values[i]), from);
+        }
+        (j, along(each_of(|i| of[i].1), from))
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
+        lit.shade_products(products)
+    }
+}
+
+/// Returns a quadratic in x and y along a row.
+#[inline(always)]
+pub(in crate::shading) fn along<F: Num>(
+    [c, cx, cy, cxx, cxy, cyy]: [F::One; 6],
+    [x, y]: [F; 2],
+) -> Quadratic<F> {
+    let all = |value: F::One| x.of_each(|_| value);
+    let (curve, slope) = (all(cxx), all(cx) + all(cxy) * y);
+    let at = all(c) + (all(cy) + all(cyy) * y) * y + (slope + curve * x) * x;
+    Quadratic::new(at, slope + curve * x * 2.0, curve)
+}
+
+/// Returns the six values that `of` gives.
+#[inline(always)]
+pub(in crate::shading) fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
+    [of(0), of(1), of(2), of(3), of(4), of(5)]
+}
