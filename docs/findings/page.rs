@@ -8,7 +8,7 @@ use fastphong::picture::Picture8;
 use fastphong::picture::image_file::encode_png;
 use fastphong::raster::Renderer;
 use fastphong::reference::{self, Model};
-use fastphong::shading::{Entry, Family, METHODS, Standing, Variant};
+use fastphong::shading::{Family, METHODS, MethodRow, Standing, Variant};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -157,7 +157,7 @@ fn speed(times: &ByMethod, method: &str, over: &str) -> f64 {
 
 /// True for methods that are for use.
 fn is_for_use(name: &str) -> bool {
-    Entry::named(name).is_some_and(|entry| entry.info.standing != Standing::Exhibit)
+    MethodRow::named(name).is_some_and(|entry| entry.info.standing != Standing::Exhibit)
 }
 
 /// Returns the methods for use that no other beats in both time and error on a mesh, the fastest first.
@@ -218,7 +218,7 @@ fn small() -> [ByMethod; 2] {
     for span in spans {
         let name = format!("integer-{}", text(&span["method"])).replace("-as-printed", "-printed");
         let worst: Vec<f64> = list(span, "worst_error").iter().map(number).collect();
-        if let (Some(_), Ok(worst)) = (Entry::named(&name), worst.try_into()) {
+        if let (Some(_), Ok(worst)) = (MethodRow::named(&name), worst.try_into()) {
             times.insert(name.clone(), [cycles(span) / naive; 4]);
             errors.insert(name, worst);
         }
@@ -320,7 +320,7 @@ fn table(machine: &str) -> String {
             ""
         };
         let [speed, four] = [&one, &four].map(|times| speed(times, name, "naive-phong"));
-        let is_scalar = Entry::named(name).is_some_and(|entry| entry.scalar_only().is_some());
+        let is_scalar = MethodRow::named(name).is_some_and(|entry| entry.scalar_only().is_some());
         let how = if is_scalar && machine == "simd" {
             ", scalar"
         } else {
@@ -843,7 +843,7 @@ fn pictures() -> Vec<u8> {
 /// A row a method: its worst errors with one light and with four.
 fn worst() -> String {
     let (one, four) = (errors(1), errors(4));
-    let row = |entry: &Entry| {
+    let row = |entry: &MethodRow| {
         let name = entry.info.name;
         let (one, four) = (cells(*one.get(name)?), cells(*four.get(name)?));
         Some(format!("`{name}` | {one} | {four}"))

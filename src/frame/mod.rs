@@ -14,6 +14,7 @@ pub(crate) mod guard;
 mod painter;
 pub mod perspective;
 mod projection;
+pub(crate) mod row_tiles;
 pub mod triangulate;
 
 pub use builder::FrameBuilder;

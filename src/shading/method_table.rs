@@ -130,7 +130,7 @@ impl MethodRow {
     }
 
     /// Makes the row of a method by kernels of its own; what else engines ask is as `M` answers.
-    pub(in crate::shading) const fn of_kernels<M: Method>(
+    pub(crate) const fn of_kernels<M: Method>(
         info: &'static Info,
         kernels: &'static Kernels,
     ) -> MethodRow {
@@ -143,7 +143,7 @@ impl MethodRow {
     }
 
     /// Makes the row of a method in integers by its loop.
-    pub(in crate::shading) const fn integer<L: Line>() -> MethodRow {
+    pub(crate) const fn integer<L: Line>() -> MethodRow {
         let kernels = const { &Kernels::of_functions::<L::Shell>(L::PIXELS, integers::WHY) };
         MethodRow::integer_of::<L::Shell>(&L::INFO, kernels, |bench, variant| {
             integers::counted::<L::Shell>(bench, variant, L::PIXELS, L::LIGHTS, |lights| {
@@ -153,7 +153,7 @@ impl MethodRow {
     }
 
     /// Makes the row of a method in integers: as [`MethodRow::of_kernels`], with a function that says what its loops take.
-    pub(in crate::shading) const fn integer_of<M: Method>(
+    pub(crate) const fn integer_of<M: Method>(
         info: &'static Info,
         kernels: &'static Kernels,
         count: CountSpan,
@@ -187,7 +187,7 @@ impl MethodRow {
     }
 
     /// Takes other kernels for one light.
-    pub(in crate::shading) const fn one_light<A: Method>(self) -> MethodRow {
+    pub(crate) const fn one_light<A: Method>(self) -> MethodRow {
         let one = const { &Kernels::of::<A>() };
         let ([_, few, many], [_, near_few, near_many]) = (self.directional, self.positional);
         let [[_, counts], [_, near_counts]] = self.count;
@@ -248,7 +248,7 @@ impl MethodRow {
     }
 
     /// Counts the operations of a variant of the method on a span.
-    pub(in crate::shading) fn count(&self, bench: &SpanBench, variant: &Variant) -> CountedSpan {
+    pub(crate) fn count(&self, bench: &SpanBench, variant: &Variant) -> CountedSpan {
         let by_lights = self.count[usize::from(bench.is_local())];
         by_lights[usize::from(bench.lighting.lights.len() > 1)](bench, variant)
     }

@@ -19,7 +19,7 @@
 //!
 //! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
 
-pub(crate) mod bounds;
+mod bounds;
 mod description;
 mod fit;
 mod kernels;

@@ -16,7 +16,7 @@ type BlockNumbers<S> = [f32x8<S>; MOST];
 /// there.
 ///
 /// That costs accuracy where a triangle is thin. Barycentric coordinates are in 0..=1 where it is covered and grow by at most
-/// [`STEEPEST`](crate::shading::bounds::polygon_ranges::STEEPEST) a pixel. A covered pixel is at most 15 rows and 15 columns from where numbers begin, so
+/// [`STEEPEST`](crate::frame::row_tiles::STEEPEST) a pixel. A covered pixel is at most 15 rows and 15 columns from where numbers begin, so
 /// that no coordinate is over 121 on the way; 6 roundings of that where they begin, one of each of 17 sums, and 6 of each of 30
 /// steps, are below 3600 · 2⁻²⁴, which is below 2⁻¹² of how far corners are apart. Along a row, from its first block on, it is
 /// less: where a coordinate grows by more than 1 a pixel no two pixels of a row are covered. A triangle that is 2 pixels thick is

@@ -4,9 +4,9 @@
 use super::small::grown;
 use super::tile::{Tile, Writer};
 use super::triangles::{BATCH, Batch, CoveragePath, Ints, bits};
+use crate::frame::row_tiles::{TINY_HEIGHT, TINY_WIDTH};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
-use crate::shading::bounds::polygon_ranges::{TINY_HEIGHT, TINY_WIDTH};
 use fearless_simd::{Simd, SimdFloat};
 
 /// Pixels of a box.

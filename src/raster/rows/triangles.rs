@@ -8,13 +8,13 @@
 
 use super::tile::{MOST, NumberCount};
 use crate::frame::Frame;
+use crate::frame::row_tiles::{STEEPEST, TINY_HEIGHT, TINY_WIDTH};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use crate::raster::bins::Listed;
 use crate::raster::depth::SampleDepth;
 use crate::raster::setup::{Per, SetUp};
 use crate::shading::CellLayout;
-use crate::shading::bounds::polygon_ranges::{STEEPEST, TINY_HEIGHT, TINY_WIDTH};
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 

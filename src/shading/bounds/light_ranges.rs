@@ -15,7 +15,7 @@ use glam::DVec3;
 /// sin⁻¹(ρ/r) of that from its middle. Nor is a place nearer than the least of its distances from the planes through the
 /// corners that are parallel to the polygon, if all are on one side of it: a linear function has its least value at a
 /// corner. So a light above the middle of a large polygon is as near as it is high.
-pub(in crate::shading) struct Spread {
+pub(crate) struct Spread {
     /// That on each polygon; none where all is at infinity.
     polygons: Vec<PolygonSpread>,
     /// The lights as each material sees them.
@@ -24,7 +24,7 @@ pub(in crate::shading) struct Spread {
 
 /// The vectors toward lights and eye on a polygon.
 #[derive(Clone, Copy)]
-pub(in crate::shading) struct PolygonSpread {
+pub(crate) struct PolygonSpread {
     /// The longest over the shortest, the coordinates that they are differences of counted as long: 1 or more.
     pub vectors: f64,
     /// The largest distance between two points over the longest vector there.
@@ -44,7 +44,7 @@ impl PolygonSpread {
 }
 
 /// The lights as the polygons of a material see them.
-pub(in crate::shading) struct SeenLights {
+pub(crate) struct SeenLights {
     /// The greatest strength of each light.
     pub strengths: Vec<f64>,
     /// The least |L + V| of unit vectors, over 0.

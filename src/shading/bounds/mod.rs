@@ -1,6 +1,6 @@
 //! Bounds of the difference between a method and its closed form: counted in roundings, not guessed.
 
-pub(in crate::shading) mod light_ranges;
+pub(crate) mod light_ranges;
 pub(crate) mod polygon_ranges;
 
 use crate::frame::{Frame, Polygon};

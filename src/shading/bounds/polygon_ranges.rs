@@ -1,23 +1,14 @@
 //! Extents of polygons: how far values are stepped over one, and how far they vary on it. Bounds of rounding errors need both.
 
+use crate::frame::row_tiles::{STEEPEST, TILE_HEIGHT, TINY_HEIGHT, TINY_WIDTH};
 use crate::frame::{Frame, Polygon, ScreenVertex, SubPixel};
 use crate::scene::Interpolation;
 #[allow(unused_imports)] // named by the documentation
 use crate::shading::Variant;
 use glam::DVec3;
 
-/// Up to this many pixels wide the row engine draws a triangle pixel by pixel, eight triangles at a time.
-pub(crate) const TINY_WIDTH: i32 = 5;
-/// And up to this many pixels high: its box has no more pixels than a number has bits.
-pub(crate) const TINY_HEIGHT: i32 = 6;
-/// Barycentric coordinates of a triangle that it draws block by block grow by at most this from pixel to pixel: the triangle is not
-/// thinner than a quarter of one.
-pub(crate) const STEEPEST: i32 = 4;
-/// Scanlines of its tiles: enough to amortise the restart of edges, few enough to give every thread work.
-pub(crate) const TILE_HEIGHT: usize = 16;
-
 /// The size of a polygon on the picture, and the variation of its vertex attributes.
-pub(in crate::shading) struct Extent {
+pub(crate) struct Extent {
     /// The most steps from a corner to a pixel: down the rows and across the columns, inside the picture.
     pub steps: f64,
     /// The largest weight of perspective over the smallest; 1 without.
@@ -82,18 +73,18 @@ impl Extent {
 }
 
 /// Returns the least and the greatest value.
-pub(in crate::shading) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     })
 }
 
-pub(in crate::shading) fn wide(v: [f32; 3]) -> DVec3 {
+pub(crate) fn wide(v: [f32; 3]) -> DVec3 {
     DVec3::from_array(v.map(f64::from))
 }
 
 /// Replaces each corner that clipping made by its ends, between which it lies, until all are the scene's own. Calls `visit` with them.
-pub(in crate::shading) fn for_each_end(frame: &Frame, corners: &[u32], visit: &mut dyn FnMut(u32)) {
+pub(crate) fn for_each_end(frame: &Frame, corners: &[u32], visit: &mut dyn FnMut(u32)) {
     for &corner in corners {
         match frame.clip_corner(corner) {
             Some(cut) => for_each_end(frame, &[cut.a, cut.b], visit),

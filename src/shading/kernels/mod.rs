@@ -3,10 +3,10 @@
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
-pub(in crate::shading) mod gbuffer_cell;
-pub(in crate::shading) mod operation_counts;
-pub(in crate::shading) mod runs;
-pub(in crate::shading) mod sample_span;
+pub(crate) mod gbuffer_cell;
+pub(crate) mod operation_counts;
+pub(crate) mod runs;
+pub(crate) mod sample_span;
 
 #[cfg(feature = "simd")]
 use crate::number::simd::{Block, Token, deinterleaved, vectorize};
@@ -64,7 +64,7 @@ impl Extras {
 
     /// Starts the walk of position and weight, which stand behind `own` varyings of the method.
     #[inline(always)]
-    pub(in crate::shading) fn start<F: Num<One = F>>(
+    pub(crate) fn start<F: Num<One = F>>(
         self,
         own: usize,
         run: &RunStart<'_, F>,
@@ -78,7 +78,7 @@ impl Extras {
 
     /// Divides the varyings of a pixel and its position by the weight of perspective, if there is one.
     #[inline(always)]
-    pub(in crate::shading) fn divided<F: Num, P: Values<F>>(
+    pub(crate) fn divided<F: Num, P: Values<F>>(
         self,
         pixel: P,
         (mut point, weight): (Vec3<F>, F),
@@ -222,10 +222,7 @@ impl Kernels {
 impl Kernels {
     /// Makes the kernels of a method from those of `M`, which lights its vertices, and a plain function for its pixels: for methods
     /// that do not compute on a [`Num`], as those in integers. They are scalar only, for the reason `why`.
-    pub(in crate::shading) const fn of_functions<M: Method>(
-        pixels: PixelKernel,
-        why: &'static str,
-    ) -> Kernels {
+    pub(crate) const fn of_functions<M: Method>(pixels: PixelKernel, why: &'static str) -> Kernels {
         Kernels {
             pixels,
             needs: Needs {
@@ -423,7 +420,7 @@ impl<C: Carries> Visit<C> for RunLoop<'_> {
 
 /// Returns the colour of a pixel from its state and its extras.
 #[inline(always)]
-pub(in crate::shading) fn colour<M: Shader, F: Num>(
+pub(crate) fn colour<M: Shader, F: Num>(
     method: M,
     lit: Lit<'_, F>,
     extras: Extras,

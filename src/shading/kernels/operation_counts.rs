@@ -33,7 +33,7 @@ pub struct OperationCounts {
 }
 
 /// What was counted on a span.
-pub(in crate::shading) struct CountedSpan {
+pub(crate) struct CountedSpan {
     pub operations: OperationCounts,
     /// The colour of the first pixel: that of an engine, to the bit.
     #[cfg_attr(not(test), expect(dead_code))]
@@ -42,7 +42,7 @@ pub(in crate::shading) struct CountedSpan {
 
 /// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices and edges: by the functions with
 /// which engines start edges and spans, walk and shade.
-pub(in crate::shading) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
+pub(crate) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
     let counter = Counter::default();
     let value = |x: f32| counter.number(x);
     let three = |v: [f32; 3]| vec3(v.map(value));

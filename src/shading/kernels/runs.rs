@@ -144,7 +144,7 @@ enum Start<'a, S: Shader, F: Num> {
 
 /// A run, as kernels start it.
 #[derive(Clone, Copy)]
-pub(in crate::shading) struct RunStart<'a, T> {
+pub(crate) struct RunStart<'a, T> {
     /// The two values of each varying: see [`Starts`].
     pub values: [&'a [T]; 2],
     /// The column of the first pixel.
@@ -161,7 +161,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
     /// Starts a block from the varyings at each of its pixels. `zero` may be any value.
     #[cfg_attr(not(feature = "simd"), expect(dead_code))]
     #[inline(always)]
-    pub(in crate::shading) fn of_block(lights: usize, at: Varying<S, F>, zero: F) -> Self {
+    pub(crate) fn of_block(lights: usize, at: Varying<S, F>, zero: F) -> Self {
         Span {
             start: Start::Block(at),
             lights,
@@ -171,7 +171,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
 
     /// Starts a run. `zero` may be any value.
     #[inline(always)]
-    pub(in crate::shading) fn of_run(lights: usize, run: RunStart<'a, F::One>, zero: F) -> Self {
+    pub(crate) fn of_run(lights: usize, run: RunStart<'a, F::One>, zero: F) -> Self {
         Span {
             start: Start::Run(run),
             lights,
@@ -253,7 +253,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
 
     /// Returns the count of the run's pixels.
     #[inline(always)]
-    pub(in crate::shading) fn pixels(&self) -> u32 {
+    pub(crate) fn pixels(&self) -> u32 {
         self.run().pixels
     }
 

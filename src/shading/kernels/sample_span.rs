@@ -13,7 +13,7 @@ use glam::DVec3;
 /// A span between two unit normals, lit by some lights.
 #[derive(Clone, Debug)]
 pub struct SpanBench {
-    pub(in crate::shading) lighting: Lighting,
+    pub(crate) lighting: Lighting,
     #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
     pub(crate) uniforms: Uniforms,
     /// The unit normals of a triangle whose first two corners are the ends of the span, and their positions.
@@ -28,19 +28,18 @@ impl SpanBench {
     /// The unit normal of the triangle.
     pub(crate) const FACE: [f32; 3] = [0.0, 0.0, 1.0];
     /// The width and height of the triangle on the picture, in pixels.
-    pub(in crate::shading) const LENGTH: f32 = 50.0;
+    pub(crate) const LENGTH: f32 = 50.0;
     /// t₀ and Δt of its edges down from the first scanline, whose centres lie at 0.5 pixels.
-    pub(in crate::shading) const EDGE: [f32; 2] =
-        [0.5 / SpanBench::LENGTH, 1.0 / SpanBench::LENGTH];
+    pub(crate) const EDGE: [f32; 2] = [0.5 / SpanBench::LENGTH, 1.0 / SpanBench::LENGTH];
     /// t₀ and Δt of the span there, which is 49.5 pixels long.
-    pub(in crate::shading) const SPAN: [f32; 2] = [0.5 * (1.0 / 49.5), 1.0 / 49.5];
+    pub(crate) const SPAN: [f32; 2] = [0.5 * (1.0 / 49.5), 1.0 / 49.5];
 
     /// Its pixels: their centres are left of 49.5.
-    pub(in crate::shading) const PIXELS: u32 = 49;
+    pub(crate) const PIXELS: u32 = 49;
 
     /// Returns the varyings at both ends of the span, from those of the corners by `vertex`: unit normals go along great circles if
     /// they are `on_circles`.
-    pub(in crate::shading) fn ends_of_span(
+    pub(crate) fn ends_of_span(
         &self,
         on_circles: bool,
         vertex: impl Fn([f32; 3]) -> [f32; 3],

@@ -8,12 +8,12 @@ use crate::shading::{Carried, Carries};
 use glam::DVec3;
 
 /// Three unit vectors at right angles: the rows of a rotation.
-pub(in crate::shading) type EyeFrame = [Vec3<f32>; 3];
+pub(crate) type EyeFrame = [Vec3<f32>; 3];
 
 impl Uniforms {
     /// Turns the lights into the frame of eye and first light, and keeps it: vertices are turned into it, too. Lights or an eye at
     /// positions stay where they are: [`Uniforms::seen_from`] turns them as a polygon sees them.
-    pub(in crate::shading) fn turned(mut self) -> Uniforms {
+    pub(crate) fn turned(mut self) -> Uniforms {
         let first = self.lights.first().map(|light| vector(light.place));
         let frame = frame_of(vector(self.model.eye), first);
         self.eye_frame = Some(frame);
@@ -29,7 +29,7 @@ impl Uniforms {
 
 /// Returns what a vertex with the unit normal `n` carries: made from `n` in the eye's frame, if the method asks for it.
 #[inline(always)]
-pub(in crate::shading) fn carried<C: Carries, F: Num>(
+pub(crate) fn carried<C: Carries, F: Num>(
     uniforms: &Uniforms,
     lit: &Lit<'_, F>,
     n: Vec3<F>,
@@ -42,7 +42,7 @@ pub(in crate::shading) fn carried<C: Carries, F: Num>(
 
 /// Returns L·v of a light and a vector in the eye's frame, in which the first light has no y.
 #[inline(always)]
-pub(in crate::shading) fn product<F: Num>(light: &Seen<'_, F>, v: Vec3<F>) -> F {
+pub(crate) fn product<F: Num>(light: &Seen<'_, F>, v: Vec3<F>) -> F {
     let product = v.z.mul_add(light.to.z, v.x * light.to.x);
     match light.index {
         0 => product,

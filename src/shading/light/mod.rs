@@ -18,8 +18,8 @@
 //!
 //! A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
 
-pub(in crate::shading) mod eye_frame;
-pub(in crate::shading) mod powers;
+pub(crate) mod eye_frame;
+pub(crate) mod powers;
 
 use crate::integer::{Material, Rgb888};
 use crate::number::{Num, Vec3, vec3};
@@ -47,9 +47,9 @@ pub struct Uniforms {
     /// their own places share; `None` for other functions.
     powers: Option<Arc<Vec<f32>>>,
     /// The tables of a method in integers, one a light; else empty.
-    pub(in crate::shading) materials: Vec<Material<Rgb888>>,
+    pub(crate) materials: Vec<Material<Rgb888>>,
     /// The frame of eye and first light, for methods that turn normals into it: see [`super::eye_frame`].
-    pub(in crate::shading) eye_frame: Option<EyeFrame>,
+    pub(crate) eye_frame: Option<EyeFrame>,
 }
 
 /// The uniforms of a material that all its lights share. Pixel loops copy them: behind a reference they would be loaded again
@@ -60,15 +60,15 @@ pub struct LightModel {
     pub scale: f32,
     ambient: Vec3<f32>,
     /// The unit vector toward the eye, or its position.
-    pub(in crate::shading) eye: Place<Vec3<f32>>,
+    pub(crate) eye: Place<Vec3<f32>>,
     /// The cosine that is raised to the exponent.
     pub specular: SpecularModel,
-    pub(in crate::shading) gate: SpecularGate,
+    pub(crate) gate: SpecularGate,
     /// The exponent n, as a value and as it is computed.
     pub shininess: f32,
-    pub(in crate::shading) exponent: Exponent,
+    pub(crate) exponent: Exponent,
     /// Cosines up to this have no highlight: `k_s cos^n ≤ 2⁻²⁴` for the strongest light.
-    pub(in crate::shading) faint: f32,
+    pub(crate) faint: f32,
     /// True if anything is asked for beside directional lights, R·V, and highlights that end where L·N = 0.
     pub is_general: bool,
     /// True if blocks may take the fast path: not general, an exponent of a few squarings, no colour of 2³⁰ or more.
@@ -82,21 +82,21 @@ pub struct Stored<'a> {
     pub model: LightModel,
     /// The lights.
     pub lights: &'a [LightUniforms],
-    pub(in crate::shading) powers: &'a [f32],
+    pub(crate) powers: &'a [f32],
 }
 
 /// A light on a material.
 #[derive(Clone, Copy, Debug)]
 pub struct LightUniforms {
     /// The unit vector toward it, or its position.
-    pub(in crate::shading) place: Place<Vec3<f32>>,
+    pub(crate) place: Place<Vec3<f32>>,
     /// None of a light at infinity.
-    pub(in crate::shading) falloff: Falloff,
-    pub(in crate::shading) diffuse: Vec3<f32>,
-    pub(in crate::shading) specular: Vec3<f32>,
+    pub(crate) falloff: Falloff,
+    pub(crate) diffuse: Vec3<f32>,
+    pub(crate) specular: Vec3<f32>,
     /// L·V and 1/|L + V| where both are at infinity.
-    pub(in crate::shading) l_v: f32,
-    pub(in crate::shading) half: f32,
+    pub(crate) l_v: f32,
+    pub(crate) half: f32,
 }
 
 impl Uniforms {
@@ -204,19 +204,19 @@ impl Uniforms {
     }
 
     /// True if a light or the eye is at a position.
-    pub(in crate::shading) fn is_local(&self) -> bool {
+    pub(crate) fn is_local(&self) -> bool {
         self.model.eye.is_local() || self.lights.iter().any(|light| light.place.is_local())
     }
 }
 
 /// Returns a value clamped to 0..=`most`; NaN becomes 0.
 #[inline(always)]
-pub(in crate::shading) fn at_most<F: Num>(value: F, most: f32) -> F {
+pub(crate) fn at_most<F: Num>(value: F, most: f32) -> F {
     -(-value.max(0.0)).max(-most)
 }
 
 /// Returns the largest magnitude of a channel.
-pub(in crate::shading) fn magnitude(v: Vec3<f32>) -> f32 {
+pub(crate) fn magnitude(v: Vec3<f32>) -> f32 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
@@ -226,7 +226,7 @@ const MOST_LEVELS: f32 = 1_073_741_824.0;
 /// Returns how strong a light is at the squared distance `square`; `None` is full strength. `unit` is 1, or the factor in
 /// all squared distances.
 #[inline(always)]
-pub(in crate::shading) fn strength<F: Num>(falloff: Falloff, square: F, unit: F) -> Option<F> {
+pub(crate) fn strength<F: Num>(falloff: Falloff, square: F, unit: F) -> Option<F> {
     let square = square.max(LEAST_SQUARE);
     match falloff {
         Falloff::None => None,
@@ -238,18 +238,14 @@ pub(in crate::shading) fn strength<F: Num>(falloff: Falloff, square: F, unit: F)
 
 /// Returns a direction or a position as the vector that it is.
 #[inline(always)]
-pub(in crate::shading) fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
+pub(crate) fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
     let (Place::Infinite(v) | Place::Local(v)) = place;
     v
 }
 
 /// Returns the vector from `point` toward a place, not normalised; both multiplied by `weight`, as under perspective.
 #[inline(always)]
-pub(in crate::shading) fn toward<F: Num>(
-    place: Place<Vec3<f32>>,
-    point: Vec3<F>,
-    weight: F,
-) -> Vec3<F> {
+pub(crate) fn toward<F: Num>(place: Place<Vec3<f32>>, point: Vec3<F>, weight: F) -> Vec3<F> {
     let to = vector(place).broadcast(weight) * weight;
     if place.is_local() { to - point } else { to }
 }
@@ -313,12 +309,7 @@ const LEAST_POWER: f32 = 2.0 * f32::MIN_POSITIVE;
 /// Of the other functions ([`Power`]) none is steeper than n, and their roundings are: of 2^y, y = n log₂ e (t − 1), 2 of y, which
 /// y 2^y ln 2 < ½ multiplies, and 6 of 2^y itself (`number/powf.rs`); of Lyon's line 3, which 2ᵏ multiplies, and 2ᵏ of the squarings; of
 /// Schlick's quotient 6; of the place in a table 3 of t, which n multiplies, and 4 of its entries and the line between them.
-pub(in crate::shading) fn highlight_error(
-    lighting: &Lighting,
-    power: Power,
-    half: f64,
-    e: f64,
-) -> f64 {
+pub(crate) fn highlight_error(lighting: &Lighting, power: Power, half: f64, e: f64) -> f64 {
     let gain = match lighting.specular {
         SpecularModel::Phong => 4.0,
         SpecularModel::Blinn => 2.0 / half + 1.0 / (half * half),
@@ -356,7 +347,7 @@ pub struct Lit<'a, F> {
     /// The uniforms that all lights share.
     pub model: LightModel,
     /// The lights as they are stored.
-    pub(in crate::shading) stored: &'a [LightUniforms],
+    pub(crate) stored: &'a [LightUniforms],
     powers: &'a [f32],
     /// The point, and the unit vector toward the eye from it: see [`Lit::at`].
     point: Vec3<F>,
@@ -380,7 +371,7 @@ pub struct Seen<'a, F> {
     pub l_v: F,
     /// 1 / |L + V|, where highlights are N·H.
     pub half: F,
-    pub(in crate::shading) strength: Option<F>,
+    pub(crate) strength: Option<F>,
     light: &'a LightUniforms,
 }
 
@@ -417,7 +408,7 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns the light as a pixel sees it; without `has_point` its point means nothing, and no vector toward the eye is made.
     #[inline(always)]
-    pub(in crate::shading) fn at_pixel(mut self, point: Vec3<F>, has_point: bool) -> Self {
+    pub(crate) fn at_pixel(mut self, point: Vec3<F>, has_point: bool) -> Self {
         if has_point && self.general && self.model.eye.is_local() {
             self.view = (vector(self.model.eye).broadcast(self.zero) - point).unit();
         }
@@ -427,7 +418,7 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns the light with the attributes of a vertex.
     #[inline(always)]
-    pub(in crate::shading) fn with_attributes(self, attributes: [F; 4]) -> Self {
+    pub(crate) fn with_attributes(self, attributes: [F; 4]) -> Self {
         Lit { attributes, ..self }
     }
 
@@ -479,7 +470,7 @@ impl<'a, F: Num> Lit<'a, F> {
     }
 
     #[inline(always)]
-    pub(in crate::shading) fn seen(&self, index: usize) -> Seen<'a, F> {
+    pub(crate) fn seen(&self, index: usize) -> Seen<'a, F> {
         let (light, one) = (&self.stored[index], self.zero.broadcast(1.0));
         let is_positional = light.place.is_local();
         debug_assert!(
@@ -520,7 +511,7 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns a light seen along unit vectors whose L·V is `l_v`, and its strength; `None` is full strength.
     #[inline(always)]
-    pub(in crate::shading) fn light_of_strength(
+    pub(crate) fn light_of_strength(
         &self,
         index: usize,
         l_v: F,
@@ -556,7 +547,7 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns the unit vectors L toward a light and H half-way to the eye, of a light and an eye at infinity.
     #[inline(always)]
-    pub(in crate::shading) fn light_and_half(&self, index: usize) -> [Vec3<f32>; 2] {
+    pub(crate) fn light_and_half(&self, index: usize) -> [Vec3<f32>; 2] {
         let light = &self.stored[index];
         let to = vector(light.place);
         [to, (to + vector(self.model.eye)) * light.half] // h = (e + l) / |e + l|
@@ -568,7 +559,7 @@ impl<'a, F: Num> Lit<'a, F> {
     /// J = L·N,   M = H·N
     /// ```
     #[inline(always)]
-    pub(in crate::shading) fn half_products<const L: usize>(
+    pub(crate) fn half_products<const L: usize>(
         &self,
         n: Vec3<F>,
     ) -> (PerLight<F, L>, PerLight<F, L>) {
@@ -584,7 +575,7 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns the colour of a surface from the products J and M of its unit normal.
     #[inline(always)]
-    pub(in crate::shading) fn shade_half_products<const L: usize>(
+    pub(crate) fn shade_half_products<const L: usize>(
         &self,
         (j, m): (PerLight<F, L>, PerLight<F, L>),
     ) -> Vec3<F> {
@@ -751,7 +742,7 @@ impl<'a, F: Num> Lit<'a, F> {
 
 impl<F: Num> Seen<'_, F> {
     /// Returns `I_p k_d`.
-    pub(in crate::shading) fn diffuse(&self) -> Vec3<f32> {
+    pub(crate) fn diffuse(&self) -> Vec3<f32> {
         self.light.diffuse
     }
 

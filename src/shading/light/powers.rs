@@ -55,7 +55,7 @@ impl Exponent {
     }
 
     /// Returns the entries of a table; `None` for other functions.
-    pub(in crate::shading) fn table(self, shininess: f32, faint: f32) -> Option<Vec<f32>> {
+    pub(crate) fn table(self, shininess: f32, faint: f32) -> Option<Vec<f32>> {
         let Exponent::Table { scale, .. } = self else {
             return None;
         };
@@ -67,7 +67,7 @@ impl Exponent {
     }
 
     /// True if it is tⁿ with n over 0.
-    pub(in crate::shading) fn is_power(self) -> bool {
+    pub(crate) fn is_power(self) -> bool {
         match self {
             Exponent::Whole(n) => n > 0,
             Exponent::Squarings(_) => true,
@@ -77,7 +77,7 @@ impl Exponent {
     }
 
     /// True if the function is not 0 at 0 as all others are.
-    pub(in crate::shading) fn is_lit_at_zero(self) -> bool {
+    pub(crate) fn is_lit_at_zero(self) -> bool {
         match self {
             Exponent::Whole(0) | Exponent::Exp(_) => true,
             Exponent::Lyon { slope, .. } => slope < 1.0,
@@ -87,7 +87,7 @@ impl Exponent {
 
     /// Returns `base` to this power, from the entries `powers` if it is a table.
     #[inline(always)]
-    pub(in crate::shading) fn of_or_read<F: Num>(self, base: F, powers: &[f32]) -> F {
+    pub(crate) fn of_or_read<F: Num>(self, base: F, powers: &[f32]) -> F {
         match self {
             Exponent::Table { from, scale } => ((base - from).max(0.0) * scale).lookup(powers),
             other => other.of(base),
@@ -140,7 +140,7 @@ fn to_whole<F: Num>(x: F, n: u32) -> F {
 /// [`Exponent::of_or_read`] as a call. Inlined in a scalar loop, compilers compute all functions at each pixel and then choose: what the
 /// others give is often subnormal, which takes a hundred times as long.
 #[inline(never)]
-pub(in crate::shading) fn power_by_call<F: Num>(exponent: Exponent, base: F, powers: &[f32]) -> F {
+pub(crate) fn power_by_call<F: Num>(exponent: Exponent, base: F, powers: &[f32]) -> F {
     match exponent {
         Exponent::Whole(n) if n > 0 => to_whole(base, n), // the usual one, before all others
         _ => exponent.of_or_read(base, powers),
@@ -149,7 +149,7 @@ pub(in crate::shading) fn power_by_call<F: Num>(exponent: Exponent, base: F, pow
 
 /// Returns `x` squared `times` times, of 7 at most. Without a loop: those of 16, 32 and 64 are most of what a highlight costs.
 #[inline(always)]
-pub(in crate::shading) fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
+pub(crate) fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
     if times & 4 != 0 {
         x = x * x;
         x = x * x;

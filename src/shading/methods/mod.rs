@@ -3,14 +3,14 @@
 //! [`MethodRow::info`] says of each what it computes, and where it fails. Those that comparisons show where they are asked for have constants
 //! too, which are not listed here: `fastphong list methods --all` names them.
 
-pub(in crate::shading) mod angles;
-pub(in crate::shading) mod colours;
-pub(in crate::shading) mod highlights;
-pub(in crate::shading) mod hybrids;
-pub(in crate::shading) mod integers;
-pub(in crate::shading) mod quadratics;
-pub(in crate::shading) mod roots;
-pub(in crate::shading) mod series;
+pub(crate) mod angles;
+pub(crate) mod colours;
+pub(crate) mod highlights;
+pub(crate) mod hybrids;
+pub(crate) mod integers;
+pub(crate) mod quadratics;
+pub(crate) mod roots;
+pub(crate) mod series;
 
 use crate::shading::{METHODS, MethodRow};
 

@@ -11,8 +11,8 @@ mod products;
 mod quadratic;
 mod rsqrt;
 mod sines;
-pub(in crate::shading) mod values;
-pub(in crate::shading) mod vertices;
+pub(crate) mod values;
+pub(crate) mod vertices;
 
 pub use chebyshev::Chebyshev;
 pub use cubic::Cubic;

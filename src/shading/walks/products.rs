@@ -52,4 +52,4 @@ macro_rules! products {
         }
     };
 }
-pub(in crate::shading) use products;
+pub(crate) use products;

@@ -74,7 +74,7 @@ pub struct GreatCircle<F, V = Vec3<F>> {
 /// linear ones by less than φ²/16, 6·10⁻⁸, about half a unit in the last place of an `f32`.
 const SMALLEST_ANGLE: f32 = 1e-3;
 /// Beyond this angle (179°) the great circle is not defined by its ends: the polygon's normal takes its place.
-pub(in crate::shading) const LARGEST_ANGLE: f32 = 179.0 * core::f32::consts::PI / 180.0;
+pub(crate) const LARGEST_ANGLE: f32 = 179.0 * core::f32::consts::PI / 180.0;
 
 impl<R: Real> GreatCircle<R> {
     /// Starts at `t0` between the unit normals `a` (t = 0) and `b` (t = 1) and goes on by `dt` a step. `face` is the unit normal

@@ -110,7 +110,7 @@ macro_rules! values {
     };
 }
 
-pub(in crate::shading) use values;
+pub(crate) use values;
 
 values!([] Vec3<F>, { x: F, y: F, z: F }, |x, y, z| Vec3 { x, y, z });
 values!([A, B] (A, B), { 0: A, 1: B }, |a, b| (a, b));
@@ -124,7 +124,7 @@ const MOST_UNROLLED: usize = 4;
 pub struct PerLight<F, const L: usize> {
     /// The value of each light; those after the last light are never read.
     pub values: [F; L],
-    pub(in crate::shading) count: usize,
+    pub(crate) count: usize,
 }
 
 impl<F: Copy, const L: usize> PerLight<F, L> {
@@ -139,7 +139,7 @@ impl<F: Copy, const L: usize> PerLight<F, L> {
 
     /// Returns how many values are stepped and stored.
     #[inline(always)]
-    pub(in crate::shading) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         if L <= MOST_UNROLLED { L } else { self.count }
     }
 }

@@ -13,7 +13,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use glam::DVec3;
 
 /// The normals of a polygon as its eye sees them.
-pub(in crate::shading) struct FromEye {
+pub(crate) struct FromEye {
     /// The unit normals of the corners, z toward the eye. The ends of a cut edge stand for the corner that was made.
     normals: Vec<DVec3>,
     /// The least cosine of a normal with the mean direction of all: no mean of them is shorter.
@@ -22,7 +22,7 @@ pub(in crate::shading) struct FromEye {
 
 /// The charts of [`FromEye::angle`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::shading) enum Chart {
+pub(crate) enum Chart {
     /// Points u = (N_x, N_y)/(1 + N_z), interpolated.
     Stereographic,
     /// Unit vectors half-way between normal and eye, interpolated.
@@ -132,7 +132,7 @@ impl FromEye {
 }
 
 /// Returns the error of cosines of unit vectors at most this angle apart.
-pub(in crate::shading) fn of_angle(angle: f64) -> Approximation {
+pub(crate) fn of_angle(angle: f64) -> Approximation {
     Approximation {
         cosine: 2.0 * libm::sin(angle.min(PI) / 2.0),
         ..Approximation::NONE

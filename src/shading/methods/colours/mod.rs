@@ -1,6 +1,6 @@
 //! Colours, constant or interpolated: no normal at a pixel.
 
-pub(in crate::shading) mod flat;
-pub(in crate::shading) mod flat_average;
-pub(in crate::shading) mod gouraud;
-pub(in crate::shading) mod gouraud_separate;
+pub(crate) mod flat;
+pub(crate) mod flat_average;
+pub(crate) mod gouraud;
+pub(crate) mod gouraud_separate;

@@ -6,7 +6,8 @@ use crate::scene::{Lighting, SpecularModel};
 use crate::shading::walks::Quadratic;
 use crate::shading::walks::values::scaled;
 use crate::shading::{
-    Carries, Fit, Info, Linear, Lit, Needs, On, PerLight, Pixel, Roundings, Shader, Span, Stepped,
+    Carries, Family, Fit, Info, Linear, Lit, Needs, On, PerLight, Pixel, Roundings, Shader, Span,
+    Stepped,
 };
 
 /// Duff's forward differences for highlights by the half vector, for up to `L` lights: `J = L·N` and `M = H·N` of each light by one
@@ -15,7 +16,7 @@ use crate::shading::{
 pub struct DuffHalf<const L: usize>;
 
 /// Returns the reason why a method that follows M = N·H along a span is not for a material, if it is not.
-pub(in crate::shading) fn refuses_light(lighting: &Lighting) -> Option<&'static str> {
+pub(crate) fn refuses_light(lighting: &Lighting) -> Option<&'static str> {
     if lighting.specular != SpecularModel::Blinn {
         return Some("it follows N.H, and these highlights are R.V");
     }
@@ -27,6 +28,7 @@ pub(in crate::shading) fn refuses_light(lighting: &Lighting) -> Option<&'static 
 impl<const L: usize> Shader for DuffHalf<L> {
     const INFO: Info = Info {
         name: "duff-half",
+        family: Family::Highlights,
         ids: &["M05h"],
         title: "L.N and N.H by forward differences: no vector on a span, and no product for a highlight",
         formula: "J_next = J + dJ;  M_next = M + dM;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\

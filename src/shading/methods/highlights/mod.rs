@@ -1,5 +1,5 @@
-//! Highlights by N·H, which is stepped itself.
+//! Another formula for highlights: by N and H alone.
 
-pub(in crate::shading) mod difference_vector;
-pub(in crate::shading) mod duff_half;
-pub(in crate::shading) mod slerp_half;
+pub(crate) mod difference_vector;
+pub(crate) mod duff_half;
+pub(crate) mod slerp_half;

@@ -4,7 +4,9 @@ use crate::number::{Num, Real, Vec3};
 use crate::shading::methods::angles::slerp_chebyshev::SlerpChebyshev;
 use crate::shading::methods::highlights::duff_half::refuses_light;
 use crate::shading::walks::{Chebyshev, GreatCircle};
-use crate::shading::{Corners, Fit, Info, Lit, Needs, Normal, On, PerLight, Pixel, Shader, Span};
+use crate::shading::{
+    Corners, Family, Fit, Info, Lit, Needs, Normal, On, PerLight, Pixel, Shader, Span,
+};
 
 /// Slerp Phong shading for highlights by the half vector, for up to `L` lights: `J = L·N` and `M = H·N` along a great circle
 /// by two additions and a product each, with no root, no division and nothing else at a pixel but the light model.
@@ -14,6 +16,7 @@ pub struct SlerpHalf<const L: usize>;
 impl<const L: usize> Shader for SlerpHalf<L> {
     const INFO: Info = Info {
         name: "slerp-half",
+        family: Family::Highlights,
         ids: &["M12h"],
         title: "L.N and N.H along great circles, by Chebyshev's recurrence",
         formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 4 sin^2(d/2), d the angle of a pixel; M = N.H likewise\n\

@@ -68,19 +68,19 @@ use crate::shading::light::{LightUniforms, magnitude};
 use crate::shading::{Corner, Corners, Lit};
 
 /// The kinds of polygons, as [`Method::Kinds`](super::Method::Kinds) of adaptive shading names them.
-pub(in crate::shading) const EXACT: u8 = 0;
+pub(crate) const EXACT: u8 = 0;
 /// The colour is linear in the normal.
-pub(in crate::shading) const LINEAR: u8 = 1;
+pub(crate) const LINEAR: u8 = 1;
 /// No highlight, and all lights in front or behind: one colour times 1/√D, which is a line of D.
-pub(in crate::shading) const DULL: u8 = 2;
+pub(crate) const DULL: u8 = 2;
 /// Cosines of the lights times 1/√D, which is a line or a parabola of D.
-pub(in crate::shading) const CURVED: u8 = 3;
+pub(crate) const CURVED: u8 = 3;
 /// Cosines of the lights times a true 1/√D.
-pub(in crate::shading) const ROOT: u8 = 4;
+pub(crate) const ROOT: u8 = 4;
 
 /// What a walk follows of a light beside the sum of all lights in front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::shading) struct Followed {
+pub(crate) struct Followed {
     /// The index of the light.
     pub light: u16,
     /// True if its diffuse term is followed, as L·N changes its sign on the polygon.
@@ -90,16 +90,16 @@ pub(in crate::shading) struct Followed {
 }
 
 /// The most lights that are followed on a polygon. More are rarely near one another, and need more registers than there are.
-pub(in crate::shading) const MOST: usize = 2;
+pub(crate) const MOST: usize = 2;
 
 /// The pixels after which a walk starts anew.
-pub(in crate::shading) const STEPS: u32 = 32;
+pub(crate) const STEPS: u32 = 32;
 /// The steps whose roundings a new start has: its sums are of three terms, and increments are rounded twice.
 const SETUP: f32 = 8.0;
 /// The roundings of a cosine in one step: 2⁻²³ (see the derivation of `duff-phong`).
 const ROUNDING: f32 = 1.0 / (1u32 << 23) as f32;
 /// The largest x of (d) for which lines and parabolas are taken.
-pub(in crate::shading) const WIDEST: f32 = 0.5;
+pub(crate) const WIDEST: f32 = 0.5;
 /// Polygons whose box has fewer pixels are not planned: it takes longer than it saves.
 const LEAST_BOX: f32 = 16.0;
 /// The largest s for (h).
@@ -107,7 +107,7 @@ const FLATTEST: f32 = 0.1;
 
 /// The way to shade a polygon.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::shading) struct Plan {
+pub(crate) struct Plan {
     pub kind: u8,
     /// True if the polygon has one colour: that of its mean normal.
     pub is_one_colour: bool,
@@ -141,7 +141,7 @@ fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
 }
 
 /// Returns s of some unit normals: see (a). NaN where one has no direction.
-pub(in crate::shading) fn spread(normals: impl ExactSizeIterator<Item = Vec3<f32>> + Clone) -> f32 {
+pub(crate) fn spread(normals: impl ExactSizeIterator<Item = Vec3<f32>> + Clone) -> f32 {
     let share = 1.0 / normals.len() as f32;
     let mean = normals.clone().fold(vec3([0.0; 3]), |sum, n| sum + n) * share;
     let apart = normals.map(|n| (n - mean).dot(n - mean));
@@ -149,12 +149,12 @@ pub(in crate::shading) fn spread(normals: impl ExactSizeIterator<Item = Vec3<f32
 }
 
 /// Returns s with the roundings of [`spread`] and of the normals.
-pub(in crate::shading) fn rounded_up(s: f32) -> f32 {
+pub(crate) fn rounded_up(s: f32) -> f32 {
     1.000_01 * s + 2e-6
 }
 
 /// Returns the least and the greatest square of the interpolated vector, from s and the least and the greatest weight: see (a).
-pub(in crate::shading) fn squares(s: f32, [light, heavy]: [f32; 2]) -> [f32; 2] {
+pub(crate) fn squares(s: f32, [light, heavy]: [f32; 2]) -> [f32; 2] {
     [
         f32::max(1.0 - s, 0.0) * light * light,
         heavy * heavy * 1.000_001,
@@ -162,7 +162,7 @@ pub(in crate::shading) fn squares(s: f32, [light, heavy]: [f32; 2]) -> [f32; 2] 
 }
 
 /// Returns the coefficients of a line for 1/√D on [`low`, `high`], and its relative error: see (d).
-pub(in crate::shading) fn line([low, high]: [f32; 2]) -> ([f32; 3], f32) {
+pub(crate) fn line([low, high]: [f32; 2]) -> ([f32; 3], f32) {
     let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
     let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
     let (at, slope) = (1.0 + 0.1875 * xx, -0.5 - 0.234_375 * xx);
@@ -171,7 +171,7 @@ pub(in crate::shading) fn line([low, high]: [f32; 2]) -> ([f32; 3], f32) {
 }
 
 /// Returns the coefficients of a parabola for 1/√D on [`low`, `high`], and its relative error: see (d).
-pub(in crate::shading) fn parabola([low, high]: [f32; 2]) -> ([f32; 3], f32) {
+pub(crate) fn parabola([low, high]: [f32; 2]) -> ([f32; 3], f32) {
     let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
     let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
     let at = 1.0 - 0.034_179_7 * xx * xx;
@@ -217,7 +217,7 @@ fn seen<R: Real>(corners: &[Vec3<R>], to: Vec3<f32>, view: Vec3<f32>) -> Seen {
 const SHARE: f32 = 0.75;
 
 /// Plans a polygon for an error of so many grey levels of 255. If there `is_one` light at most, walks follow its diffuse term, too.
-pub(in crate::shading) fn plan<R: Real>(
+pub(crate) fn plan<R: Real>(
     levels: f32,
     is_one: bool,
     lit: &Lit<'_, R>,

@@ -1,5 +1,5 @@
 //! For each polygon another method.
 
-pub(in crate::shading) mod adaptive_phong;
-pub(in crate::shading) mod adaptive_plan;
-pub(in crate::shading) mod h_test;
+pub(crate) mod adaptive_phong;
+pub(crate) mod adaptive_plan;
+pub(crate) mod h_test;

@@ -6,7 +6,7 @@ use crate::shading::methods::integers::{self, Line, Normals, sum};
 use crate::shading::{Family, Info, Value};
 
 /// J and K by an addition, D by two, 1/√D by table: [`crate::integer::fast`].
-pub(in crate::shading) struct Fast;
+pub(crate) struct Fast;
 
 impl Line for Fast {
     const INFO: Info = Info {

@@ -6,7 +6,7 @@ use crate::shading::methods::integers::{self, Line, Normals, sum};
 use crate::shading::{Approximation, Family, Info, Roundings, Standing, Stepped, Value};
 
 /// `Span::fast_as_printed` of [`crate::integer`].
-pub(in crate::shading) struct FastPrinted;
+pub(crate) struct FastPrinted;
 
 impl Line for FastPrinted {
     const INFO: Info = Info {

@@ -49,7 +49,7 @@ static KERNELS: Kernels = Kernels {
 };
 
 /// The row of the method table.
-pub(in crate::shading) const ENTRY: MethodRow =
+pub(crate) const ENTRY: MethodRow =
     MethodRow::integer_of::<Colours>(&INFO, &KERNELS, |bench, variant| {
         integers::counted::<Colours>(bench, variant, pixels, integers::LIGHTS, |_| {
             [

@@ -10,13 +10,13 @@
 //! [`integer::ErrorBound`] derives the errors against the closed form from the formats. Colours are those of 8 bits: half a level of it is
 //! a part that no other method has.
 
-pub(in crate::shading) mod fast;
-pub(in crate::shading) mod fast_printed;
-pub(in crate::shading) mod gouraud;
-pub(in crate::shading) mod naive;
-pub(in crate::shading) mod naive_printed;
-pub(in crate::shading) mod quadratic;
-pub(in crate::shading) mod slerp;
+pub(crate) mod fast;
+pub(crate) mod fast_printed;
+pub(crate) mod gouraud;
+pub(crate) mod naive;
+pub(crate) mod naive_printed;
+pub(crate) mod quadratic;
+pub(crate) mod slerp;
 
 use crate::frame::{Frame, Polygon};
 use crate::integer::{
@@ -43,26 +43,25 @@ use fixed::types::U16F16;
 /// The pixels of a span that are shaded at once.
 const MOST: usize = integer::Span::MAX;
 /// The lights of the methods that know several.
-pub(in crate::shading) const LIGHTS: usize = 4;
+pub(crate) const LIGHTS: usize = 4;
 /// The least cosine of the angles between normals and their mean for which [`ErrorBound`] holds: normals are up to 90° apart, and up to
 /// 60° of [`Form::Waves`].
 const LEAST_COSINE: f64 = core::f64::consts::FRAC_1_SQRT_2;
 const LEAST_COSINE_OF_WAVES: f64 = 0.866_025_403_784_438_6;
 
 /// What the span engine's edges round: as of naive Phong shading.
-pub(in crate::shading) const ROUNDINGS: Roundings = Roundings::new(4.0, 0.9, Stepped::Cosines);
+pub(crate) const ROUNDINGS: Roundings = Roundings::new(4.0, 0.9, Stepped::Cosines);
 /// The same on great circles: as of slerp Phong shading.
-pub(in crate::shading) const CIRCLE_ROUNDINGS: Roundings =
-    Roundings::new(28.0, 2.1, Stepped::GreatCircles);
+pub(crate) const CIRCLE_ROUNDINGS: Roundings = Roundings::new(28.0, 2.1, Stepped::GreatCircles);
 /// The reason for the stated approximation.
-pub(in crate::shading) const DERIVATION: &str = "edges as of naive-phong; then normals, cosines and roots are rounded to 15 bits, cosines to the \
+pub(crate) const DERIVATION: &str = "edges as of naive-phong; then normals, cosines and roots are rounded to 15 bits, cosines to the \
                                      entries of tables, and colours to 8 bits: the formats' errors are those of the approximation";
 /// What these methods are not for.
-pub(in crate::shading) const FAILS: &str =
+pub(crate) const FAILS: &str =
     "where normals turn by more than 90 degrees over a polygon; lights and eye are at infinity";
 
 /// The parameter of methods that find 1/|N| by table.
-pub(in crate::shading) const PARAMETERS: &[MethodParameter] = &[MethodParameter::whole(
+pub(crate) const PARAMETERS: &[MethodParameter] = &[MethodParameter::whole(
     "steps",
     "Newton's steps after the table of 1/|N|",
     0,
@@ -70,12 +69,12 @@ pub(in crate::shading) const PARAMETERS: &[MethodParameter] = &[MethodParameter:
 )];
 
 /// Returns the value of [`PARAMETERS`].
-pub(in crate::shading) fn steps(parameters: &[Value]) -> u32 {
+pub(crate) fn steps(parameters: &[Value]) -> u32 {
     parameters[0].whole().unwrap_or(0)
 }
 
 /// A description to begin from.
-pub(in crate::shading) const INFO: Info = Info {
+pub(crate) const INFO: Info = Info {
     roundings: ROUNDINGS,
     derivation: DERIVATION,
     approximation: |frame, polygon, _| approximation(frame, polygon, Form::Table),
@@ -86,7 +85,7 @@ pub(in crate::shading) const INFO: Info = Info {
 };
 
 /// A method: its loop over a piece of a span.
-pub(in crate::shading) trait Line: Sized + 'static {
+pub(crate) trait Line: Sized + 'static {
     /// The description of the method.
     const INFO: Info;
     /// What it asks of engines: [`Normals`] or [`Circles`].
@@ -110,7 +109,7 @@ pub(in crate::shading) trait Line: Sized + 'static {
 /// Interpolates normals over spans that engines keep: what the methods in integers ask of engines. Those for one light are the
 /// methods as printed, which know highlights by R·V only.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::shading) struct Normals<const LIGHTS: usize>;
+pub(crate) struct Normals<const LIGHTS: usize>;
 
 impl<const LIGHTS: usize> Shader for Normals<LIGHTS> {
     const INFO: Info = Info::OF_PIXELS;
@@ -143,7 +142,7 @@ impl<const LIGHTS: usize> Shader for Normals<LIGHTS> {
 
 /// Carries unit normals along great circles, as [`Normals`] carries them along lines.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::shading) struct Circles;
+pub(crate) struct Circles;
 
 impl Shader for Circles {
     const INFO: Info = Info::OF_PIXELS;
@@ -173,11 +172,11 @@ impl Shader for Circles {
 }
 
 /// The reason why methods in integers are scalar only.
-pub(in crate::shading) const WHY: &str = "it computes in integers, one pixel at a time";
+pub(crate) const WHY: &str = "it computes in integers, one pixel at a time";
 const WHY_SCALAR: Option<&'static str> = Some(WHY);
 
 /// Returns the reason why a material is not for methods in integers of so many lights.
-pub(in crate::shading) fn refuses(
+pub(crate) fn refuses(
     lighting: &Lighting,
     interpolation: Interpolation,
     lights: usize,
@@ -207,12 +206,12 @@ pub(in crate::shading) fn refuses(
 
 /// Returns a vector in 15 fractional bits, rounded, or 0 if it is no number: a frame's builder takes any finite normal, and lines between such
 /// may overflow.
-pub(in crate::shading) fn vector(v: Vec3<f32>) -> Vector {
+pub(crate) fn vector(v: Vec3<f32>) -> Vector {
     Vector::from_f32(v.array()).unwrap_or_default()
 }
 
 /// Makes the tables of a material for each light: the first one has the ambient light.
-pub(in crate::shading) fn materials(lighting: &Lighting) -> Vec<Material<Rgb888>> {
+pub(crate) fn materials(lighting: &Lighting) -> Vec<Material<Rgb888>> {
     let shininess = (lighting.shininess as u32).clamp(1, 1000);
     let colour = |c: [f32; 3]| c.map(|c| U16F16::saturating_from_num(c.max(0.0)));
     let none = [0.0; 3];
@@ -234,7 +233,7 @@ pub(in crate::shading) fn materials(lighting: &Lighting) -> Vec<Material<Rgb888>
 }
 
 /// Makes the lights of uniforms that hold materials in integers.
-pub(in crate::shading) fn lights<const L: usize>(uniforms: &Uniforms) -> [Light<'_, Rgb888>; L] {
+pub(crate) fn lights<const L: usize>(uniforms: &Uniforms) -> [Light<'_, Rgb888>; L] {
     let direction = |place: Place<Vec3<f32>>| match place {
         Place::Infinite(v) | Place::Local(v) => vector(v),
     };
@@ -250,7 +249,7 @@ pub(in crate::shading) fn lights<const L: usize>(uniforms: &Uniforms) -> [Light<
 }
 
 /// Shades runs by the loop `M`.
-pub(in crate::shading) fn pixels<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
+pub(crate) fn pixels<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
     let along = |index: usize, t: f32| {
         let [a, b] = ends(job, index);
         vector(a + (b - a) * t)
@@ -259,7 +258,7 @@ pub(in crate::shading) fn pixels<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]
 }
 
 /// Shades runs by the loop `M`, between normals on great circles.
-pub(in crate::shading) fn circles<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
+pub(crate) fn circles<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
     let along = |index: usize, t: f32| {
         let values = &job.constants.values;
         let polygon = job.list.runs[index].polygon as usize;
@@ -271,7 +270,7 @@ pub(in crate::shading) fn circles<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]
 }
 
 /// Returns the varyings at both ends of a run's span.
-pub(in crate::shading) fn ends(job: &Pixels<'_>, index: usize) -> [Vec3<f32>; 2] {
+pub(crate) fn ends(job: &Pixels<'_>, index: usize) -> [Vec3<f32>; 2] {
     let ends = job.list.starts.of(index);
     ends.map(|end| vec3([end[0], end[1], end[2]]))
 }
@@ -310,7 +309,7 @@ fn shade<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]], along: &impl Fn(usize,
 }
 
 /// True if a material has no highlights.
-pub(in crate::shading) fn is_dull(uniforms: &Uniforms) -> bool {
+pub(crate) fn is_dull(uniforms: &Uniforms) -> bool {
     (uniforms.lights.iter()).all(|light| light.specular.array() == [0.0; 3])
 }
 
@@ -347,7 +346,7 @@ impl<A: Fn(usize, f32) -> Vector> Group<'_, '_, A> {
 
 /// Shades the pieces of a span that a run shows, and copies its pixels. `at` returns what `draw` starts from, at a parameter of the
 /// span: at the first pixel of a piece and at the pixel after its last.
-pub(in crate::shading) fn shade_run<T: Copy>(
+pub(crate) fn shade_run<T: Copy>(
     job: &Pixels<'_>,
     index: usize,
     out: &mut [[f32; 3]],
@@ -393,7 +392,7 @@ pub(in crate::shading) fn shade_run<T: Copy>(
 
 /// The form of a loop, for its errors.
 #[derive(Clone, Copy)]
-pub(in crate::shading) enum Form {
+pub(crate) enum Form {
     /// 1/|N| is of the table alone.
     Table,
     /// 1/|N| is refined by a step of Newton's.
@@ -405,7 +404,7 @@ pub(in crate::shading) enum Form {
 }
 
 /// Bounds the error of a form on a material, where normals turn by `angle` along a span.
-pub(in crate::shading) fn error(lighting: &Lighting, angle: f64, form: Form) -> Approximation {
+pub(crate) fn error(lighting: &Lighting, angle: f64, form: Form) -> Approximation {
     let largest = |channels: [f32; 3]| f64::from(channels.into_iter().fold(0.0, f32::max));
     let levels: f64 = (lighting.lights.iter())
         .map(|light| {
@@ -432,11 +431,7 @@ pub(in crate::shading) fn error(lighting: &Lighting, angle: f64, form: Form) -> 
 }
 
 /// Bounds the error of a form on a polygon.
-pub(in crate::shading) fn approximation(
-    frame: &Frame,
-    polygon: &Polygon,
-    form: Form,
-) -> Approximation {
+pub(crate) fn approximation(frame: &Frame, polygon: &Polygon, form: Form) -> Approximation {
     let cosine = Extent::of(frame, polygon).cosine.min(1.0);
     let least = match form {
         Form::Waves => LEAST_COSINE_OF_WAVES,
@@ -468,7 +463,7 @@ const fn work(additions: u32, multiplications: u32, lookups: u32, comparisons: u
 }
 
 /// Adds up work, each so many times.
-pub(in crate::shading) fn sum<const N: usize>(all: [(u32, Counts); N]) -> Counts {
+pub(crate) fn sum<const N: usize>(all: [(u32, Counts); N]) -> Counts {
     all.into_iter()
         .fold(Counts::default(), |sum, (times, one)| Counts {
             additions: sum.additions + times * one.additions,
@@ -481,29 +476,29 @@ pub(in crate::shading) fn sum<const N: usize>(all: [(u32, Counts); N]) -> Counts
 }
 
 // The parts of the loops in `src/integer/`, by the names that they have there; shifts and masks are not counted.
-pub(in crate::shading) const ADDITION: Counts = work(1, 0, 0, 0);
-pub(in crate::shading) const DOT: Counts = work(2, 3, 0, 0);
-pub(in crate::shading) const ROOT: Counts = work(1, 0, 1, 0);
-pub(in crate::shading) const NEWTON: Counts = work(6, 3, 0, 1);
-pub(in crate::shading) const UNIT_COSINE: Counts = work(0, 1, 0, 0);
+pub(crate) const ADDITION: Counts = work(1, 0, 0, 0);
+pub(crate) const DOT: Counts = work(2, 3, 0, 0);
+pub(crate) const ROOT: Counts = work(1, 0, 1, 0);
+pub(crate) const NEWTON: Counts = work(6, 3, 0, 1);
+pub(crate) const UNIT_COSINE: Counts = work(0, 1, 0, 0);
 /// R·V from the unit cosines.
-pub(in crate::shading) const REFLECTION: Counts = work(1, 1, 0, 0);
-pub(in crate::shading) const RECIPROCAL: Counts = work(0, 0, 1, 0);
+pub(crate) const REFLECTION: Counts = work(1, 1, 0, 0);
+pub(crate) const RECIPROCAL: Counts = work(0, 0, 1, 0);
 /// `Ramp::between`.
-pub(in crate::shading) const RAMP: Counts = work(2, 1, 0, 0);
+pub(crate) const RAMP: Counts = work(2, 1, 0, 0);
 /// `Quadratic::polynomial`, and `Quadratic::through`.
-pub(in crate::shading) const POLYNOMIAL: Counts = work(1, 3, 0, 0);
-pub(in crate::shading) const THROUGH: Counts = work(5, 6, 0, 4);
+pub(crate) const POLYNOMIAL: Counts = work(1, 3, 0, 0);
+pub(crate) const THROUGH: Counts = work(5, 6, 0, 4);
 /// Clamps.
-pub(in crate::shading) const CLAMP: Counts = work(0, 0, 0, 1);
+pub(crate) const CLAMP: Counts = work(0, 0, 0, 1);
 /// A division.
-pub(in crate::shading) const DIVISION: Counts = Counts {
+pub(crate) const DIVISION: Counts = Counts {
     divisions: 1,
     ..work(0, 0, 0, 0)
 };
 
 /// The colour of a pixel: two entries of tables a light, sums that are clamped; cosines too where they are `clamped`.
-pub(in crate::shading) fn colour(lights: u32, clamped: bool) -> Counts {
+pub(crate) fn colour(lights: u32, clamped: bool) -> Counts {
     let further = work(3, 0, 0, 0);
     let cosine = work(0, 0, 0, if clamped { 1 } else { 0 });
     sum([
@@ -516,7 +511,7 @@ pub(in crate::shading) fn colour(lights: u32, clamped: bool) -> Counts {
 /// Returns the operations of a method with a highlight by R·V: those of the engine on vertices and edges, and those of the method on a
 /// span, which `of` states for up to `most` lights as the loops stand. The colour is the
 /// kernel's.
-pub(in crate::shading) fn counted<M: Method>(
+pub(crate) fn counted<M: Method>(
     bench: &SpanBench,
     variant: &Variant,
     kernel: PixelKernel,

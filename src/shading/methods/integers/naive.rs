@@ -6,7 +6,7 @@ use crate::shading::methods::integers::{self, Line, Normals, sum};
 use crate::shading::{Family, Info, Value};
 
 /// N by three additions, J, K and D by products, 1/√D by table: [`crate::integer::naive`].
-pub(in crate::shading) struct Naive;
+pub(crate) struct Naive;
 
 impl Line for Naive {
     const INFO: Info = Info {

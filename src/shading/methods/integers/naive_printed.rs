@@ -6,7 +6,7 @@ use crate::shading::methods::integers::{self, Form, Line, Normals, sum};
 use crate::shading::{Family, Info, Standing, Value};
 
 /// `Span::naive_as_printed` of [`crate::integer`].
-pub(in crate::shading) struct NaivePrinted;
+pub(crate) struct NaivePrinted;
 
 impl Line for NaivePrinted {
     const INFO: Info = Info {

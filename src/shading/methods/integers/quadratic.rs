@@ -6,7 +6,7 @@ use crate::shading::methods::integers::{self, Form, Line, Normals, sum};
 use crate::shading::{Family, Info, Value};
 
 /// L·N and R·V by two additions each, through both ends and the middle of a span: [`crate::integer::quadratic`].
-pub(in crate::shading) struct Parabolas;
+pub(crate) struct Parabolas;
 
 impl Line for Parabolas {
     const INFO: Info = Info {

@@ -8,7 +8,7 @@ use crate::shading::methods::integers::{self, Circles, Form, Line, sum};
 use crate::shading::{Family, Info, Value};
 
 /// J and K along great circles by two additions and a product each: `Span::slerp` of [`crate::integer`].
-pub(in crate::shading) struct Waves;
+pub(crate) struct Waves;
 
 impl Line for Waves {
     const INFO: Info = Info {

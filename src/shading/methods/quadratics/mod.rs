@@ -1,8 +1,8 @@
 //! Quadratics over a polygon or a span in place of unit vectors.
 
-pub(in crate::shading) mod biquadratic_normals;
-pub(in crate::shading) mod bishop_weimer;
-pub(in crate::shading) mod over_triangle;
-pub(in crate::shading) mod over_triangle_at_positions;
-pub(in crate::shading) mod quadratic_normals;
-pub(in crate::shading) mod six_point;
+pub(crate) mod biquadratic_normals;
+pub(crate) mod bishop_weimer;
+pub(crate) mod over_triangle;
+pub(crate) mod over_triangle_at_positions;
+pub(crate) mod quadratic_normals;
+pub(crate) mod six_point;

@@ -7,49 +7,46 @@ use crate::shading::walks::values::{each, scaled, sum};
 use crate::shading::{Corner, Corners, Info, Lit, Normal, PerLight, Pixel, Shader, Span, Values};
 
 /// J of each light, and K.
-pub(in crate::shading) type Products<F, const L: usize> = (PerLight<F, L>, F);
+pub(crate) type Products<F, const L: usize> = (PerLight<F, L>, F);
 
 /// The coefficients of 1, x, y, x², xy, y², and the point of the picture from which x and y are counted.
-pub(in crate::shading) type OverPolygon<F, const L: usize> = ([Products<F, L>; 6], [F; 2]);
+pub(crate) type OverPolygon<F, const L: usize> = ([Products<F, L>; 6], [F; 2]);
 
 /// The largest D/ℓ for which there are quadratics, that of three normals 60° apart: D is the longest distance between two of the
 /// weighted normals, ℓ the least length between them.
-pub(in crate::shading) const WIDEST: f32 = 1.25;
+pub(crate) const WIDEST: f32 = 1.25;
 /// The most by which barycentric coordinates grow from one side of a triangle's box to the other: more loses too many digits.
 const STEEPEST: f32 = 64.0;
 
 /// Returns the vector as plain `f32`: operations that choose a polygon's kind are not counted.
 #[inline(always)]
-pub(in crate::shading) fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
+pub(crate) fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
     vec3([v.x.value(), v.y.value(), v.z.value()])
 }
 
 /// Returns a value that ℓ is not below: of v = Σ b_i N_i w_i the part along the mean direction m of the corners is at least
 /// min w_i · min N_i·m.
-pub(in crate::shading) fn least_length(corners: [(Vec3<f32>, f32); 3]) -> f32 {
+pub(crate) fn least_length(corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let mean = (corners[0].0 + corners[1].0 + corners[2].0).unit();
     let least = |of: [f32; 3]| of[0].min(of[1]).min(of[2]);
     least(corners.map(|(normal, _)| normal.dot(mean))) * least(corners.map(|(_, weight)| weight))
 }
 
 /// Returns D, the longest distance between two of three vectors.
-pub(in crate::shading) fn longest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
+pub(crate) fn longest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
     let square = |d: Vec3<f32>| d.dot(d);
     Num::sqrt(square(a - b).max(square(b - c)).max(square(c - a)))
 }
 
 /// Returns the longest distance of three vectors from their mean.
-pub(in crate::shading) fn farthest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
+pub(crate) fn farthest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
     let middle = (a + b + c) * (1.0 / 3.0);
     let square = |v: Vec3<f32>| (v - middle).dot(v - middle);
     Num::sqrt(square(a).max(square(b)).max(square(c)))
 }
 
 /// Returns a distance `across` three unit vectors times their weights, over ℓ; more than any value where ℓ may be 0.
-pub(in crate::shading) fn relative(
-    across: fn([Vec3<f32>; 3]) -> f32,
-    corners: [(Vec3<f32>, f32); 3],
-) -> f32 {
+pub(crate) fn relative(across: fn([Vec3<f32>; 3]) -> f32, corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let length = least_length(corners);
     match length > 0.0 {
         true => across(corners.map(|(unit, weight)| unit * weight)) / length,
@@ -58,15 +55,12 @@ pub(in crate::shading) fn relative(
 }
 
 /// Returns D/ℓ of three unit normals and their weights.
-pub(in crate::shading) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
+pub(crate) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
     relative(longest, corners)
 }
 
 /// Returns the unit normals and weights of a polygon of a frame, if it is a whole triangle and not too [wide](WIDEST).
-pub(in crate::shading) fn narrow_triangle(
-    frame: &Frame,
-    polygon: &Polygon,
-) -> Option<[(Vec3<f32>, f32); 3]> {
+pub(crate) fn narrow_triangle(frame: &Frame, polygon: &Polygon) -> Option<[(Vec3<f32>, f32); 3]> {
     let &[a, b, c] = frame.corners(polygon) else {
         return None;
     };
@@ -77,7 +71,7 @@ pub(in crate::shading) fn narrow_triangle(
 
 /// Returns the corners of a polygon as a method sets it up, and their growth, if it is such a triangle, and no sliver.
 #[inline(always)]
-pub(in crate::shading) fn set_up_triangle<R: Real>(
+pub(crate) fn set_up_triangle<R: Real>(
     polygon: &Corners<'_, R>,
 ) -> Option<([Corner<R>; 3], Growth<R>)> {
     let &[a, b, c] = polygon.all else {
@@ -90,7 +84,7 @@ pub(in crate::shading) fn set_up_triangle<R: Real>(
 
 /// The growth of the barycentric coordinates b and c of a triangle: `b = p x + q y`, `c = r x + s y`, from its first corner.
 #[derive(Clone, Copy)]
-pub(in crate::shading) struct Growth<R> {
+pub(crate) struct Growth<R> {
     pub p: R,
     pub q: R,
     pub r: R,
@@ -120,7 +114,7 @@ impl<R: Real> Growth<R> {
 /// F = A + b (4 AB − 3 A − B) + c (4 CA − 3 A − C) + b² 2 (A + B − 2 AB) + c² 2 (A + C − 2 CA) + bc 4 (A + BC − AB − CA)
 /// ```
 #[inline(always)]
-pub(in crate::shading) fn lagrange<R: Real, P: Values<R>>(
+pub(crate) fn lagrange<R: Real, P: Values<R>>(
     [a, b, c]: [P; 3],
     [ab, bc, ca]: [P; 3],
     Growth { p, q, r, s }: Growth<R>,
@@ -176,7 +170,7 @@ impl<const L: usize> Shader for Quadratics<L> {
 
 /// Returns a quadratic in x and y along a row.
 #[inline(always)]
-pub(in crate::shading) fn along<F: Num>(
+pub(crate) fn along<F: Num>(
     [c, cx, cy, cxx, cxy, cyy]: [F::One; 6],
     [x, y]: [F; 2],
 ) -> Quadratic<F> {
@@ -188,6 +182,6 @@ pub(in crate::shading) fn along<F: Num>(
 
 /// Returns the six values that `of` gives.
 #[inline(always)]
-pub(in crate::shading) fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
+pub(crate) fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
     [of(0), of(1), of(2), of(3), of(4), of(5)]
 }

@@ -21,14 +21,11 @@ products! {
 type Coefficients<F, const L: usize> = [UnitProducts<F, L>; 6];
 
 /// The coefficients, and the point of the picture from which x and y are counted.
-pub(in crate::shading) type OverTriangle<F, const L: usize> = (Coefficients<F, L>, [F; 2]);
+pub(crate) type OverTriangle<F, const L: usize> = (Coefficients<F, L>, [F; 2]);
 
 /// Sets the coefficients of K.
 #[inline(always)]
-pub(in crate::shading) fn set_view<F: Copy, const L: usize>(
-    to: &mut Coefficients<F, L>,
-    k: [F; 6],
-) {
+pub(crate) fn set_view<F: Copy, const L: usize>(to: &mut Coefficients<F, L>, k: [F; 6]) {
     for (of, k) in to.iter_mut().zip(k) {
         of.k = k;
     }
@@ -36,7 +33,7 @@ pub(in crate::shading) fn set_view<F: Copy, const L: usize>(
 
 /// Sets the coefficients of J, L·V and the strength of a light.
 #[inline(always)]
-pub(in crate::shading) fn set_light<F: Copy, const L: usize>(
+pub(crate) fn set_light<F: Copy, const L: usize>(
     to: &mut Coefficients<F, L>,
     light: usize,
     all: [(F, F, F); 6],
@@ -49,12 +46,12 @@ pub(in crate::shading) fn set_light<F: Copy, const L: usize>(
 }
 
 /// A corner of a triangle and its position in the world.
-pub(in crate::shading) type Placed<R> = (Corner<R>, Vec3<R>);
+pub(crate) type Placed<R> = (Corner<R>, Vec3<R>);
 
 /// Returns the corners of a polygon as a method sets it up, and their growth, if it is a triangle over which products are quadratics: no
 /// sliver, and no light, eye or normal turns or changes by too much. Not inlined: it is the same for any count of lights.
 #[inline(never)]
-pub(in crate::shading) fn set_up_placed<R: Real>(
+pub(crate) fn set_up_placed<R: Real>(
     lit: &Lit<'_, R>,
     polygon: &Corners<'_, R>,
 ) -> Option<([Placed<R>; 3], Growth<R>)> {
@@ -67,7 +64,7 @@ pub(in crate::shading) fn set_up_placed<R: Real>(
 }
 
 /// The way across a triangle of vectors by which a quadratic's error grows.
-pub(in crate::shading) type Across = fn([Vec3<f32>; 3]) -> f32;
+pub(crate) type Across = fn([Vec3<f32>; 3]) -> f32;
 
 /// Unit normals, positions and weights of the corners of a triangle.
 ///
@@ -84,7 +81,7 @@ pub(in crate::shading) type Across = fn([Vec3<f32>; 3]) -> f32;
 /// |(w/|v|)‴| ≤ 6 (a + ρ)³ w/ℓ,      |(w²/|v|²)‴| ≤ 24 (a + ρ)³ w²/ℓ²
 /// ```
 /// for 1/d and 1/d², and for 1/(1 + k d²) if v is (w, √k (p − P)/w), of four coordinates.
-pub(in crate::shading) struct Triangle(pub(in crate::shading) [(Vec3<f32>, Vec3<f32>, f32); 3]);
+pub(crate) struct Triangle(pub(crate) [(Vec3<f32>, Vec3<f32>, f32); 3]);
 
 impl Triangle {
     /// Returns the largest third derivative of a product, over 3: (a + b)³ of the two vectors that turn by most.
@@ -103,7 +100,7 @@ impl Triangle {
     }
 
     /// Returns the largest third derivative of a light's strength, over 3, as a factor and the strength that it multiplies; 0 without falloff.
-    pub(in crate::shading) fn fall(&self, across: Across, (place, falloff): Light) -> [f32; 2] {
+    pub(crate) fn fall(&self, across: Across, (place, falloff): Light) -> [f32; 2] {
         let Some(to) = self.vectors(place) else {
             return [0.0; 2];
         };
@@ -164,7 +161,7 @@ type Light = (Place<Vec3<f32>>, Falloff);
 
 /// Bounds the error on a polygon of quadratics that are off by a `share` of their third derivatives: see [`Triangle`]. None where
 /// vectors are followed.
-pub(in crate::shading) fn approximation(
+pub(crate) fn approximation(
     frame: &Frame,
     polygon: &Polygon,
     (across, share): (Across, f64),

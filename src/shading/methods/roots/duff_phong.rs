@@ -70,7 +70,7 @@ pub struct DuffOfNormals<const L: usize>;
 impl<const L: usize> DuffOfNormals<L> {
     /// Starts the products and the square of normals.
     #[inline(always)]
-    pub(in crate::shading) fn start<F: Num>(
+    pub(crate) fn start<F: Num>(
         lit: &Lit<'_, F>,
         Linear { at: n, step: dn }: Linear<Vec3<F>>,
     ) -> <Self as Shader>::Walk<F> {
@@ -116,7 +116,7 @@ products! {
 impl<const L: usize> DuffPhongLocal<L> {
     /// Starts the products of vectors that grow linearly.
     #[inline(always)]
-    pub(in crate::shading) fn products<F: Num>(
+    pub(crate) fn products<F: Num>(
         lit: &Lit<'_, F>,
         Linear { at, step }: Linear<(Vec3<F>, Vec3<F>, F)>,
     ) -> LocalProducts<Quadratic<F>, L> {

@@ -1,10 +1,10 @@
 //! Normals or products of normals, and a root or a quotient at each pixel.
 
-pub(in crate::shading) mod duff_newton;
-pub(in crate::shading) mod duff_phong;
-pub(in crate::shading) mod eye_frame_phong;
-pub(in crate::shading) mod fast_phong;
-pub(in crate::shading) mod fast_phong_rsqrt;
-pub(in crate::shading) mod naive_phong;
-pub(in crate::shading) mod phong_rsqrt;
-pub(in crate::shading) mod phong_unnormalised;
+pub(crate) mod duff_newton;
+pub(crate) mod duff_phong;
+pub(crate) mod eye_frame_phong;
+pub(crate) mod fast_phong;
+pub(crate) mod fast_phong_rsqrt;
+pub(crate) mod naive_phong;
+pub(crate) mod phong_rsqrt;
+pub(crate) mod phong_unnormalised;

@@ -1,4 +1,4 @@
 //! Polynomials in place of the root.
 
-pub(in crate::shading) mod cubic_phong;
-pub(in crate::shading) mod series_phong;
+pub(crate) mod cubic_phong;
+pub(crate) mod series_phong;

@@ -34,7 +34,7 @@ pub struct SeriesPhong<const L: usize> {
 const LEAST_SQUARE: f32 = 1e-12;
 
 /// Returns the polynomial of `order` for polygons of these unit normals and weights, and its relative error; `None` if they take roots.
-pub(in crate::shading) fn polynomial(
+pub(crate) fn polynomial(
     order: u32,
     normals: impl ExactSizeIterator<Item = Vec3<f32>> + Clone,
     weights: impl Iterator<Item = f32> + Clone,
@@ -53,10 +53,7 @@ pub(in crate::shading) fn polynomial(
 }
 
 /// Returns the same for a polygon as a method sets it up. It is decided by plain values, which are nothing that the method computes.
-pub(in crate::shading) fn of_corners<R: Real>(
-    order: u32,
-    polygon: &Corners<'_, R>,
-) -> Option<[f32; 3]> {
+pub(crate) fn of_corners<R: Real>(order: u32, polygon: &Corners<'_, R>) -> Option<[f32; 3]> {
     let normals = polygon.all.iter().map(|corner| plain(corner.normal));
     let weights = polygon.all.iter().map(|corner| corner.weight.value());
     let polynomial = polynomial(order, normals, weights)?;
@@ -64,11 +61,7 @@ pub(in crate::shading) fn of_corners<R: Real>(
 }
 
 /// Bounds the relative error of 1/√D on a polygon of a frame.
-pub(in crate::shading) fn approximation(
-    frame: &Frame,
-    polygon: &Polygon,
-    order: u32,
-) -> Approximation {
+pub(crate) fn approximation(frame: &Frame, polygon: &Polygon, order: u32) -> Approximation {
     let corners = frame.corners(polygon);
     if corners.iter().any(|&v| frame.clip_corner(v).is_some()) {
         return Approximation::NONE;
