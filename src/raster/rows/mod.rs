@@ -75,18 +75,14 @@ use tile::{MOST, NumberCount, Tile};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, bits};
 
-/// Evaluates an expression in which a name stands for the [`Token`] of a level.
+/// Evaluates an expression in which a name stands for the [`Token`] of a level: of AVX2 on AVX-512 too, as only pixel kernels gain
+/// by its wider registers (`docs/performance.md`).
 macro_rules! with_level {
     ($level:expr, $token:ident => $work:expr) => {
         match $level {
             #[cfg(target_arch = "x86_64")]
-            $crate::number::Level::Avx2 => {
+            $crate::number::Level::Avx2 | $crate::number::Level::Avx512 => {
                 type $token = fearless_simd::Avx2;
-                $work
-            }
-            #[cfg(target_arch = "x86_64")]
-            $crate::number::Level::Avx512 => {
-                type $token = fearless_simd::Avx512;
                 $work
             }
             #[cfg(target_arch = "aarch64")]
