@@ -1,4 +1,4 @@
-//! The method table: add a line here for a new file beside this one.
+//! The method table: a new method is a file below `methods/` and a line here.
 
 use crate::frame::Frame;
 use crate::shading::kernels::operation_counts::{CountedSpan, count};

@@ -17,7 +17,7 @@
 //! counted, tested and drawn. Two of them are other names for the kernels of a file: `flat_average.rs` for those of `flat.rs`,
 //! `fast_phong_rsqrt.rs` for those of `duff_phong.rs`. CONTRIBUTING says what a new method needs.
 //!
-//! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
+//! Start with `methods/colours/gouraud.rs`, then `methods/roots/fast_phong.rs`, then [`light`], which holds all of equation 2.1.
 
 mod bounds;
 mod description;
