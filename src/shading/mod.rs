@@ -73,7 +73,7 @@ pub trait Shader: Copy + Default + 'static {
     const NEEDS: Needs = Needs::PIXELS;
     /// What is set up once per polygon: values, vectors and tuples of them; `()` if nothing is.
     type Constants<F: Num>: Values<F>;
-    /// What a vertex carries: `Self` if it is none of those in `carries.rs`.
+    /// What a vertex carries: `Self` if it is none of those in `walks/vertices.rs`.
     type Carries: Carries;
     /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.
     type Walk<F: Num>: Walk<F>;

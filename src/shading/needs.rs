@@ -17,7 +17,8 @@ pub struct Needs {
     pub spans: Spans,
     /// True if it is for general light alone, by N·H or from positions: no loop is compiled for other light.
     pub general_only: bool,
-    /// The reason why it is not compiled for SIMD, if it is not. Methods of several kinds of polygons never are, and need not say why.
+    /// The reason why it is not compiled for SIMD, if it is not. Methods of several kinds never are: say
+    /// here only what else stands against it.
     pub scalar_only: Option<&'static str>,
 }
 

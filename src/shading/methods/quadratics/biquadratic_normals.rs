@@ -86,6 +86,9 @@ impl Method for BiquadraticNormals {
     };
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
+        scalar_only: Some(
+            "biquadratic-normals steps quadratics of each polygon, and the row engine has no spans",
+        ),
         ..Needs::PIXELS_BY_POLYGON
     };
     type Kinds = (QuadraticOfNormals, PhongRsqrt);

@@ -176,10 +176,14 @@ const BISHOP_WEIMER: Info = Info {
     ..Info::OF_PIXELS
 };
 
+const SCALAR_ONLY: Option<&str> =
+    Some("bishop-weimer steps quadratics of each polygon, and the row engine has no spans");
+
 impl<const L: usize> Method for BishopWeimer<L> {
     const INFO: Info = BISHOP_WEIMER;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
+        scalar_only: SCALAR_ONLY,
         ..Needs::PIXELS
     };
     type Kinds = (Quadratics<L>, DuffOfNormals<L>);
@@ -295,6 +299,7 @@ impl<const L: usize> Method for BishopWeimerLocal<L> {
     const INFO: Info = BISHOP_WEIMER;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
+        scalar_only: SCALAR_ONLY,
         general_only: true,
         ..Needs::PIXELS
     };

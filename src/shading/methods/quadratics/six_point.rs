@@ -124,10 +124,14 @@ const SIX_POINT: Info = Info {
     ..Info::OF_PIXELS
 };
 
+const SCALAR_ONLY: Option<&str> =
+    Some("six-point steps quadratics of each polygon, and the row engine has no spans");
+
 impl<const L: usize> Method for SixPoint<L> {
     const INFO: Info = SIX_POINT;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
+        scalar_only: SCALAR_ONLY,
         ..Needs::PIXELS
     };
     type Kinds = (Quadratics<L>, DuffOfNormals<L>);
@@ -207,6 +211,7 @@ impl<const L: usize> Method for SixPointLocal<L> {
     const INFO: Info = SIX_POINT;
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
+        scalar_only: SCALAR_ONLY,
         general_only: true,
         ..Needs::PIXELS
     };
