@@ -20,7 +20,8 @@ use glam::{DQuat, DVec3, EulerRot};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Checks that a drawing is within the rounding bound of its closed form. Returns the error as a share of that bound, or a message.
+/// Checks that a drawing is within the rounding bound of its closed form. Returns the span engine's
+/// error as a share of that bound, or a message.
 ///
 /// The other engines round in other places than the span engine but no more often. The row engine steps eight pixels
 /// at a time, the barycentric one interpolates by barycentric coordinates.
@@ -40,6 +41,9 @@ fn check(drawing: &Drawing) -> Result<f64, String> {
         return Err(format!(
             "{drawing}: {max:.2e} is over {bound:.2e}, {uncovered} pixels drawn in one only"
         ));
+    }
+    if !drawing.is_by_spans() {
+        return Ok(0.0);
     }
     // These scenes should exercise rounding. The method's own allowance is for coarser scenes, so
     // it is left out, and so is what it leaves out by design.
