@@ -4,7 +4,7 @@ use super::clamped::too_bright_text;
 use super::input_name;
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::mesh_hints::{hints, lies_on_its_side};
-use super::normals::describe;
+use super::normal_text::describe;
 use super::scene_flags::SceneFlags;
 use super::shown_frame::ShownFrame;
 use super::text::{counted, grouped, wrapped};

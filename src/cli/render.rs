@@ -18,7 +18,7 @@ use super::{CliError, Log, Outcome, files, memory, values};
 use fastphong::frame::Frame;
 use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
-use fastphong::raster::painter::{Conflicts, conflicts};
+use fastphong::raster::painter_conflicts::{Conflicts, conflicts};
 use fastphong::scene::file::STANDARD_INPUT;
 use fastphong::scene::{HiddenSurfaces, input};
 use fastphong::shading::{METHODS, Variant};

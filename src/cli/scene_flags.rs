@@ -2,7 +2,7 @@
 //! values replace those of the file, and are checked together with the rest.
 
 use super::mesh_hints::hints;
-use super::normals::describe;
+use super::normal_text::describe;
 use super::{CliError, Log, files};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};

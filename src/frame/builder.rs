@@ -1,7 +1,7 @@
 //! A builder of frames, which checks them once.
 
 use super::guard::{self, Checked, FINITE, POSITION};
-use super::painter::back_to_front;
+use super::painter_order::back_to_front;
 use super::projection::Scratch;
 use super::{
     ClipCorner, DepthRange, Frame, FrameError, FrameItem, FrameStats, Geometry, Mean, Polygon,

@@ -2,7 +2,7 @@
 //!
 //! `projection/` makes it from a scene, and may fail; so may [`FrameBuilder`]. Past it there is only arithmetic that cannot fail and
 //! does not know where polygons come from. The engines and the `f64` reference all take the same frame, the barycentric renderer
-//! after `triangulate.rs` cut it into triangles. So what differs between their pictures is shading and not geometry. `painter.rs`
+//! after `triangulate.rs` cut it into triangles. So what differs between their pictures is shading and not geometry. `painter_order.rs`
 //! sorts a frame for the painter's algorithm.
 
 mod builder;
@@ -11,7 +11,7 @@ mod elements;
 mod error;
 mod geometry;
 pub(crate) mod guard;
-mod painter;
+mod painter_order;
 pub mod perspective;
 mod projection;
 pub(crate) mod row_tiles;

@@ -1,7 +1,7 @@
 //! Hidden surfaces by the painter's algorithm, and by a depth buffer (L5).
 
 use super::prelude::*;
-use crate::raster::painter::conflicts;
+use crate::raster::painter_conflicts::conflicts;
 use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey};
 
 pub(super) static FIGURE: Figure = Figure {

@@ -34,7 +34,7 @@ mod depth;
 pub mod depth_ties;
 mod draw;
 mod engine;
-pub mod painter;
+pub mod painter_conflicts;
 mod render;
 #[cfg(feature = "simd")]
 mod rows;

@@ -7,7 +7,7 @@ use fastphong::frame::{DepthRange, Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::MeshBuilder;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::Picture;
-use fastphong::raster::painter::conflicts;
+use fastphong::raster::painter_conflicts::conflicts;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
 use fastphong::scene::{

@@ -19,7 +19,7 @@ const ROOMS: &[(&str, &str)] = &[
     // engines.
     ("reference", "picture scene frame"),
     ("shading", "integer number mesh scene frame reference"),
-    // `painter.rs` needs the reference's exact spans. The engines need nothing of it.
+    // `painter_conflicts.rs` needs the reference's exact spans. The engines need nothing of it.
     ("raster", "picture number scene frame reference shading"),
     (
         "compare",

@@ -6,7 +6,7 @@
 mod check;
 pub mod diagnostics;
 mod lights;
-mod normals;
+mod normal_source;
 pub mod resolve;
 pub mod schema;
 mod sides;

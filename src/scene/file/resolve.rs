@@ -3,7 +3,7 @@
 use super::check::Section;
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
-use super::normals::{normals, note_unused};
+use super::normal_source::{normals, note_unused};
 use super::sides::Sides;
 use super::upright::turn;
 use super::value::{Data, SceneTable};

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use fastphong::mesh::builtin::builtin;
-//! use fastphong::raster::painter::conflicts;
+//! use fastphong::raster::painter_conflicts::conflicts;
 //! use fastphong::scene::{Culling, HiddenSurfaces, PainterKey, Scene};
 //!
 //! let mut scene = Scene::of_mesh(builtin("teapot").unwrap());

@@ -3,7 +3,7 @@
 //! Sorting takes O(n log n), and the sorted frame is then drawn without looking at depth. The key is one number per polygon:
 //! the depth of its corners, their mean or that of the farthest one. One number cannot order all scenes, and for some
 //! no order is right at all (L5: *Can have unresolvable depth order*):
-//! [`conflicts`](crate::raster::painter::conflicts) finds both.
+//! [`conflicts`](crate::raster::painter_conflicts::conflicts) finds both.
 
 use super::{Frame, Polygon};
 use crate::scene::PainterKey;

@@ -31,7 +31,7 @@ const LIGHTS: [([f64; 3], [f64; 3]); 2] = [
 const SMOOTH: u64 = 1 << 36;
 
 impl SceneFlags {
-    /// Loads the scene that `input` names as [`SceneFlags::load`] does; a mesh alone comes into the studio.
+    /// Loads the scene that `input` names as [`SceneFlags::load`] does; a mesh alone gets the light rig.
     ///
     /// # Errors
     /// When there is no such input.
@@ -44,7 +44,7 @@ impl SceneFlags {
     }
 
     /// Returns the scene that `file` describes, as [`files::resolve`] does. If it is a mesh alone, adds the lights of the
-    /// studio, and smooth edges where they cost little, unless flags gave others.
+    /// rig, and smooth edges where they cost little, unless flags gave others.
     ///
     /// # Errors
     /// As [`files::resolve`].
@@ -78,7 +78,7 @@ fn is_mesh_alone(file: &SceneFile) -> bool {
     file.path().is_none()
 }
 
-/// Returns the lights of the studio around `camera`, as a scene file lists them.
+/// Returns the lights of the rig around `camera`, as a scene file lists them.
 fn lights(camera: &Camera) -> Data {
     let toward = (camera.eye - camera.target).normalize();
     let right = camera.up.cross(toward).normalize();
