@@ -74,28 +74,7 @@ fn key(p: &Vec3) -> [u32; 3] {
 /// Returns for each of `len` keys its number among the different ones, by first occurrence, and the number of different
 /// ones; in the time that [`weld`] takes.
 pub(crate) fn number_distinct(len: usize, key: impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
-    match len {
-        0..=FEW => by_comparing(len, &key),
-        _ => by_hash(len, &key).unwrap_or_else(|| by_sorting(len, &key)),
-    }
-}
-
-/// So few keys are compared each with all before it.
-const FEW: usize = 16;
-
-fn by_comparing(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
-    let mut number = vec![0; len];
-    let mut count = 0;
-    for i in 0..len {
-        number[i] = match (0..i).find(|&before| key(before) == key(i)) {
-            Some(equal) => number[equal],
-            None => {
-                count += 1;
-                count as u32 - 1
-            }
-        };
-    }
-    (number, count)
+    by_hash(len, &key).unwrap_or_else(|| by_sorting(len, &key))
 }
 
 /// Looks each key up in a table of those before it; `None` where that takes more than a few steps a key.
@@ -219,7 +198,16 @@ mod tests {
             let by_hash = by_hash(count, &key).expect("no collisions were sought");
             assert!(count < 1000 || by_hash.1 < count, "nothing to weld");
             assert_eq!(by_hash, by_sorting(count, &key));
-            assert_eq!(by_hash, by_comparing(count, &key));
+            let mut distinct = Vec::new();
+            let mut number = |i: usize| {
+                let known = distinct.iter().position(|&known| known == key(i));
+                known.unwrap_or_else(|| {
+                    distinct.push(key(i));
+                    distinct.len() - 1
+                }) as u32
+            };
+            let by_comparing: Vec<u32> = (0..count).map(&mut number).collect();
+            assert_eq!(by_hash, (by_comparing, distinct.len()));
         }
     }
 

@@ -450,15 +450,16 @@ impl<'a> SetUp<'a> {
             let mut lit = vec![0.0; BATCH * own];
             while !rest.is_empty() {
                 let most = BATCH.min(rest.len() / stride);
-                let (number, mut k) = (item(first).uniforms, 0);
-                while k < most {
-                    let item = item(first + k);
-                    if item.uniforms != number {
+                let mut next = item(first);
+                let (number, mut k) = (next.uniforms, 0);
+                while next.uniforms == number {
+                    (normals[k], points[k]) = (next.normal, next.position);
+                    attributes[k] = next.attributes;
+                    k += 1;
+                    if k == most {
                         break;
                     }
-                    (normals[k], points[k]) = (item.normal, item.position);
-                    attributes[k] = item.attributes;
-                    k += 1;
+                    next = item(first + k);
                 }
                 let padded = k.next_multiple_of(BLOCK);
                 let to = &mut lit[..padded * own];
