@@ -119,10 +119,17 @@ impl Variant {
             .map(|(lighting, seen)| self.material_bound(lighting, seen))
             .collect();
         let info = self.row().on(frame).info;
+        // Once per material: an error takes thousands of powers.
+        let highlights: Vec<f64> = materials
+            .iter()
+            .map(|material| {
+                let power = self.power().error(f64::from(material.lighting.shininess));
+                material.specular.into_iter().fold(0.0, f64::max) * power
+            })
+            .collect();
         let of_polygon = |polygon: &Polygon| {
             let material = &materials[polygon.material as usize];
-            let power = self.power().error(f64::from(material.lighting.shininess));
-            let highlights = material.specular.into_iter().fold(0.0, f64::max) * power;
+            let highlights = highlights[polygon.material as usize];
             let error = (info.approximation)(frame, polygon, self.parameters());
             let by_method = match error.cosine + error.length {
                 0.0 => error.colour + material.jump(error),
