@@ -1,5 +1,5 @@
 //! Powers in lanes: xⁿ = 2^(n log₂ x), for exponents that are not whole; whole ones are
-//! `Exponent` in `shading/exponent.rs`.
+//! `Exponent` in `shading/light/powers.rs`.
 
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 

@@ -1,4 +1,4 @@
-//! The engines: they find the pixels that are seen, and a method's kernels shade these (`shading/kernels.rs`). No engine
+//! The engines: they find the pixels that are seen, and a method's kernels shade these (`shading/kernels/mod.rs`). No engine
 //! evaluates the light model.
 //!
 //! - `spans` is the lecture's, scalar: an edge table, active edges that step their varyings from scanline to scanline, a depth

@@ -1,6 +1,6 @@
 //! The set-up before the first scanline: uniforms are made once per material, and once per polygon where each polygon sees light from
 //! its own place. Then vertices, corners or polygons are lit, each once, by the method's vertex kernel. All of this runs on all threads.
-//! The loop over vertices is `light` in `shading/kernels.rs`.
+//! The loop over vertices is `light` in `shading/kernels/mod.rs`.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;

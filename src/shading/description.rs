@@ -222,7 +222,7 @@ impl Perspective {
             Perspective::Unaffected => "interpolates nothing, so perspective changes nothing",
             Perspective::Free => "perspective-correct at no cost per pixel: the weight cancels",
             Perspective::Divides => {
-                "perspective-correct for one more division per pixel, and one more multiplication of each number"
+                "perspective-correct for one more division per pixel, and one more multiplication of each value"
             }
             Perspective::ScreenOnly => {
                 "not perspective-correct: its increments are constant on the screen only"

@@ -12,14 +12,15 @@ pub enum On<'a> {
     Spans(&'a Lighting, Interpolation),
 }
 
-/// Whether a method draws it.
+/// The answer to [`On`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
-    /// It does.
+    /// The method draws it.
     Draws,
     /// It does not, for a reason: a sentence without its full stop. No renderer draws the frame with it, and comparisons leave it out.
     Refuses(&'static str),
-    /// It gains nothing there: the kernels of the method of this name draw the frame. That one has no parameters, and the same closed form.
+    /// It gains nothing on this frame, so the method of this name draws it, which has no parameters and the same closed form. Spans
+    /// ignore this.
     LeavesTo(&'static str),
 }
 

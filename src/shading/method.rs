@@ -24,7 +24,7 @@ pub trait Method: Copy + Default + 'static {
     fn new(_parameters: &[Value], _model: &LightModel) -> Self {
         Self::default()
     }
-    /// Returns the kinds, if they have parameters.
+    /// Makes the kinds. Override this if they have parameters.
     #[inline(always)]
     fn kinds(self) -> Self::Kinds {
         Self::Kinds::default()
@@ -69,9 +69,9 @@ impl<S: Shader> Method for S {
     }
 }
 
-/// What is done with a polygon's kind, whichever it is: a closure that is generic.
+/// A generic closure over a kind.
 pub trait Visit<C: Carries> {
-    /// Does it.
+    /// Runs it for `kind`.
     fn visit<S: Shader<Carries = C>>(self, kind: S);
 }
 

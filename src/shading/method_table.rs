@@ -48,8 +48,8 @@ macro_rules! lights {
 /// All shading methods.
 pub static METHODS: &[MethodRow] = &TABLE;
 
-/// The rows of [`METHODS`]. A static with a name: crates that name a method refer to it, where a constant without a name would
-/// be copied into them, and all kernels compiled again.
+/// The rows of [`METHODS`]. A static with a name: other crates refer to it. A constant without a name would be copied into them, and
+/// every kernel compiled again.
 static TABLE: [MethodRow; 38] = [
     MethodRow::of::<Flat>(),
     MethodRow {
@@ -119,7 +119,7 @@ pub struct MethodRow {
     pub is_integer: bool,
     directional: ByLights,
     positional: ByLights,
-    /// The functions that count operations, for one light and for more: without a light or the eye at a position, and with one.
+    /// The functions that count operations, by `[is_local][more than one light]`.
     count: [[CountSpan; 2]; 2],
 }
 
@@ -253,7 +253,7 @@ impl MethodRow {
         by_lights[usize::from(bench.lighting.lights.len() > 1)](bench, variant)
     }
 
-    /// Returns the kernels for so many lights, some at positions (`is_local`) or none.
+    /// Returns the kernels for `lights` lights, some at positions (`is_local`) or none.
     pub(crate) fn kernels(&self, lights: usize, is_local: bool) -> &'static Kernels {
         let all = if is_local {
             self.positional
@@ -276,7 +276,7 @@ mod tests {
     use crate::shading::{Linear, Lit, Span};
     use std::collections::BTreeSet;
 
-    /// Returns the functions in the tables of these methods, each once: AVX-512 takes those of AVX2 but for its shading.
+    /// Counts the distinct functions in these rows: AVX-512 shares all but shading with AVX2.
     fn compiled(entries: &[MethodRow]) -> usize {
         let mut kernels = BTreeSet::new();
         for entry in entries {

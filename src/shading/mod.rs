@@ -2,8 +2,8 @@
 //!
 //! A method says what a vertex carries ([`Carries::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
 //! shaded ([`Shader::shade`]), once, for every arithmetic backend. Kernels and engines do all else: positions of lights,
-//! perspective, clamping, storing, loops. (The methods in `duff_phong.rs`, `six_point.rs` and `bishop_weimer.rs` see lights at positions
-//! in their own way: they step positions, or quadratics of them, themselves.)
+//! perspective, clamping, storing, loops. (Three methods step positions, or quadratics of them, themselves where a light is at a
+//! position: `roots/duff_phong.rs`, `quadratics/six_point.rs` and `quadratics/bishop_weimer.rs`.)
 //!
 //! ```text
 //! vertex ──► Varying ──► edges, spans ──► Walk ──► Pixel ──► shade ──► colour
@@ -14,8 +14,8 @@
 //! **All memory of the previous pixel is in the walk.** So an engine may interpolate a row now and shade it later, in blocks, or on
 //! another thread, and no method changes. [`Kernels`] is a method compiled: a table of plain functions, which engines
 //! call once per row, batch of runs or range of vertices. [`METHODS`] lists all methods: each is rendered, compared, timed,
-//! counted, tested and drawn. Two of them are other names for the kernels of a file: `flat_average.rs` for those of `flat.rs`,
-//! `fast_phong_rsqrt.rs` for those of `duff_phong.rs`. CONTRIBUTING says what a new method needs.
+//! counted, tested and drawn. Two files are descriptions only: `colours/flat_average.rs` runs `Flat`, `roots/fast_phong_rsqrt.rs` runs
+//! `DuffPhong<L, true>`. CONTRIBUTING says what a new method needs.
 //!
 //! Start with `methods/colours/gouraud.rs`, then `methods/roots/fast_phong.rs`, then [`light`], which holds all of equation 2.1.
 
@@ -67,13 +67,13 @@ use crate::number::{Num, Real, Vec3};
 ///
 /// Fields are parameters; a method without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
 pub trait Shader: Copy + Default + 'static {
-    /// The description of the method; of one of another method's kinds of polygons the name is enough ([`Info::of_kind`]).
+    /// The description of the method. A kind of another method needs only a name: [`Info::of_kind`].
     const INFO: Info;
     /// What it needs of engines.
     const NEEDS: Needs = Needs::PIXELS;
     /// What is set up once per polygon: values, vectors and tuples of them; `()` if nothing is.
     type Constants<F: Num>: Values<F>;
-    /// What a vertex carries: `Self` if it is none of those in `walks/vertices.rs`.
+    /// What a vertex carries: a type of `walks/vertices.rs`, or `Self`.
     type Carries: Carries;
     /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.
     type Walk<F: Num>: Walk<F>;
@@ -87,7 +87,8 @@ pub trait Shader: Copy + Default + 'static {
     fn new(_parameters: &[Value], _model: &LightModel) -> Self {
         Self::default()
     }
-    /// Sets up a polygon. Of the light `lit` tells what the whole polygon shares; lights at positions are seen from its mean.
+    /// Sets up a polygon. With [`Local::PerPolygon`] the light is that at its mean; else call [`Lit::at`] before you ask for
+    /// a light or an eye at a position.
     #[inline(always)]
     fn polygon<R: Real>(self, lit: &Lit<'_, R>, _: &Corners<'_, R>) -> Self::Constants<R> {
         Self::Constants::filled(lit.count(), lit.zero())
@@ -98,8 +99,8 @@ pub trait Shader: Copy + Default + 'static {
     fn walks_along_runs(self) -> bool {
         Self::NEEDS.reads_span() || <Self::Walk<f32> as Walk<f32>>::REMEMBERS
     }
-    /// Starts a walk. With steps of 0, as a block starts it, it must give what it gives along a run at the same varyings, but for
-    /// rounding.
+    /// Starts a walk. With steps of 0, as a block starts it, it must give what it gives along a run at the same varyings, within the
+    /// error that the method allows itself.
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F>;
     /// Returns the colour of a pixel: linear, not yet clamped.
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F>;

@@ -15,7 +15,7 @@ pub struct Needs {
     pub perspective: Perspective,
     /// What of a span its walk starts from.
     pub spans: Spans,
-    /// True if it is for general light alone, by N·H or from positions: no loop is compiled for other light.
+    /// True if it is only for general light, by N·H or from positions: no fast loop is compiled.
     pub general_only: bool,
     /// The reason why it is not compiled for SIMD, if it is not. Methods of several kinds never are: say
     /// here only what else stands against it.
@@ -67,8 +67,8 @@ impl Needs {
 pub enum Spans {
     /// The varyings at the first pixel and their growth: a span may as well be walked block by block.
     Pixels,
-    /// The varyings at its ends, or its place: engines keep these, and walk along runs. The polygon's constants are there for methods
-    /// of kinds, too.
+    /// The varyings at its ends, or its place, or a polygon's constants in a method that is compiled for SIMD: engines store the ends
+    /// and the place, and SIMD walks along runs. Methods of several kinds are scalar only, and may read constants without it.
     Ends,
     /// As `Ends`; and edges carry the varying, a unit normal, along great circles (L21 4.7).
     GreatCircles,

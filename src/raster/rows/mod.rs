@@ -10,7 +10,7 @@
 //!
 //! Polygons are binned into bands of 16 scanlines. Those of a band are set up in batches and rasterised, in drawing order, with a
 //! depth test: the method's varyings, or the pixels that its walk returns, are written into a tile, the band's G-buffer, beside depth
-//! and material. Then each row is shaded once, by `shade_blocks` in `shading/kernels.rs`. So the shading cost per pixel does not
+//! and material. Then each row is shaded once, by `shade_blocks` in `shading/kernels/mod.rs`. So the shading cost per pixel does not
 //! depend on the size of triangles, and hidden pixels are never shaded. Bands are independent: each is one job for a thread.
 //!
 //! Where each polygon has one colour, that colour is the only varying, packed as the picture stores it (`packed.rs`).
@@ -18,7 +18,7 @@
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
 //! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles and slivers by the crossings
 //! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Runs of
-//! small convex quadrangles are found for eight quadrangles at a time, and are the same to the bit. Only slerp Phong and fast Phong
+//! small convex quadrangles are found for eight quadrangles at a time, and are the same to the bit. Only the three slerp methods and fast Phong
 //! with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
 //!
 //! Who calls whom, for one frame:

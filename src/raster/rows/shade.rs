@@ -1,5 +1,5 @@
 //! Shading: one row of the G-buffer to colours, by one call of the method's kernel for each stretch of one material. The loop over
-//! its pixels is `shade_blocks` in `shading/kernels.rs`.
+//! its pixels is `shade_blocks` in `shading/kernels/mod.rs`.
 
 use super::tile::Tile;
 use super::{Buffers, RowEngine, with_level};

@@ -17,15 +17,16 @@ use crate::shading::kernels::runs::{RunList, RunStart};
 use crate::shading::light::Stored;
 #[cfg(feature = "simd")]
 use crate::shading::light::at_most;
-#[cfg(feature = "simd")]
 use crate::shading::light::eye_frame::carried;
 use crate::shading::light::{LightModel, Lit, Uniforms};
 use crate::shading::walks::values::{Values, count, each, scaled};
 use crate::shading::walks::{Linear, Walk};
 use crate::shading::{
-    Carried, Carries, CarriesOf, Corners, Kinds, LitAt, Method, Needs, Pixel, PolygonConstants,
-    Run, Shader, Span, Value, Varying, Visit,
+    Carried, Carries, CarriesOf, Corners, Kinds, Method, Needs, Pixel, PolygonConstants, Run,
+    Shader, Span, Value, Visit,
 };
+#[cfg(feature = "simd")]
+use crate::shading::{LitAt, Varying};
 #[cfg(feature = "simd")]
 use fearless_simd::*;
 
@@ -157,7 +158,7 @@ pub(crate) type PolygonKernel = fn(&[Value], &Uniforms, &Corners<'_, f32>, &mut 
 pub(crate) type PixelKernel = fn(&Pixels<'_>, &mut [[f32; 3]]);
 pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
-/// A method compiled for one count of lights.
+/// A compiled method. A row whose varyings hold values per light has three: for 1, up to 4 and up to 64 lights.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernels {
     /// Returns how many values a varying, a pixel and a polygon's constants take for this many lights.
@@ -285,7 +286,7 @@ fn vertices<C: Carries>(job: &Vertices<'_>, out: &mut [f32]) {
     light::<C, f32>(job, true, out, |all| vec3(all[0]), |x| [x; BLOCK]);
 }
 
-/// Lights vertices, as many at a time as `F` has lanes: `gather` makes a vector of them, `lanes` takes a value apart. Without
+/// Lights `F::WIDTH` vertices at a time: `gather` packs their vectors, `lanes` unpacks a value. Without
 /// `general`, a literal, the model is fast.
 #[inline(always)]
 fn light<C: Carries, F: Num>(

@@ -19,7 +19,7 @@ pub struct Run {
     pub pixels: u32,
 }
 
-/// The place of a run on its span: for methods that ask for it ([`Needs::spans](super::Needs::spans]).
+/// The place of a run on its span: for methods that ask for it ([`Needs::spans`].
 #[derive(Clone, Copy, Debug)]
 pub struct SpanPlace<T = f32> {
     /// The scanline.
@@ -29,9 +29,9 @@ pub struct SpanPlace<T = f32> {
     pub t0: T,
     /// The growth of the parameter from pixel to pixel, `1 / (x_2 − x_1)`.
     pub dt: T,
-    /// The column of the first pixel of the whole span that is in the picture.
+    /// The first column of the whole span inside the picture.
     pub start: u32,
-    /// The count of the whole span's pixels that are in the picture.
+    /// The count of the whole span's pixels inside the picture.
     pub pixels: u32,
 }
 
@@ -40,7 +40,7 @@ pub struct SpanPlace<T = f32> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Starts {
     values: Vec<f32>,
-    /// The varyings and extras of a run.
+    /// How many varyings and extras a run has.
     count: usize,
 }
 
@@ -85,14 +85,14 @@ pub(crate) struct RunList {
 }
 
 impl RunList {
-    /// Makes an empty list for runs of so many varyings and extras.
+    /// Makes an empty list for runs of `count` varyings and extras.
     pub fn new(count: usize) -> Self {
         let mut list = RunList::default();
         list.prepare(count);
         list
     }
 
-    /// Empties the list, for runs of so many varyings and extras.
+    /// Empties the list, for runs of `count` varyings and extras.
     pub fn prepare(&mut self, count: usize) {
         self.clear();
         self.starts.count = count;
@@ -179,7 +179,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         }
     }
 
-    /// Starts a walk that interpolates linearly. A block goes nowhere: its steps are 0, and the walk is its closed form.
+    /// Starts a walk that interpolates linearly. A block starts with steps of 0, so that its one `next` returns the varyings.
     #[inline(always)]
     pub fn linear(self) -> Linear<Varying<S, F>> {
         let none = Varying::<S, F>::filled(self.lights, self.zero);

@@ -35,7 +35,12 @@ pub(crate) fn carried<C: Carries, F: Num>(
     n: Vec3<F>,
 ) -> C::Varying<F> {
     match C::FROM {
-        Carried::Turned => C::vertex(lit, in_frame(uniforms.eye_frame.unwrap_or_default(), n)),
+        Carried::Turned => {
+            let frame = uniforms
+                .eye_frame
+                .expect("methods that turn normals turn their lights");
+            C::vertex(lit, in_frame(frame, n))
+        }
         _ => C::vertex(lit, n),
     }
 }

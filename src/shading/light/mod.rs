@@ -48,7 +48,7 @@ pub struct Uniforms {
     powers: Option<Arc<Vec<f32>>>,
     /// The tables of a method in integers, one a light; else empty.
     pub(crate) materials: Vec<Material<Rgb888>>,
-    /// The frame of eye and first light, for methods that turn normals into it: see [`super::eye_frame`].
+    /// The frame of eye and first light, for methods that turn normals into it: see [`eye_frame`].
     pub(crate) eye_frame: Option<EyeFrame>,
 }
 

@@ -1,6 +1,6 @@
 //! Products by name, where lights or the eye are at positions: a tuple of six would be read by counting parentheses.
 
-/// Makes a structure of products, some of them one per light. Of values it is a value; of walks it is a walk to a pixel of values.
+/// Defines a structure of named products, some of them one per light. With values it implements `Values`; with walks, `Walk`.
 macro_rules! products {
     ($(#[$about:meta])* $name:ident { $($(#[$of_one:meta])* $one:ident),* } per light { $($(#[$of_each:meta])* $each:ident),* }) => {
         $(#[$about])*

@@ -1,4 +1,4 @@
-//! Groups of values: what a vertex, a pixel or a polygon carries. Each value takes one plane of the G-buffer.
+//! Groups of values: varyings, pixels, constants of a polygon. In the G-buffer a varying or pixel takes one place per value.
 
 use crate::number::{Num, Vec3};
 
@@ -8,12 +8,11 @@ pub trait Values<F: Num>: Copy {
     fn filled(lights: usize, value: F) -> Self;
     /// Passes its values to `to` in order, to be read or changed, with indices from `next` on.
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F));
-    /// Replaces each value by `of` it and the value of another group at its place.
+    /// Replaces each value x by `of(x, y)`, where y is the value at the same index of `other`.
     fn zip(&mut self, other: Self, of: impl Fn(F, F) -> F + Copy);
 }
 
-/// Passes each value of a group with its index to a closure that is inlined, which only an argument can ask for. Returns the
-/// group as the closure leaves it.
+/// Calls `to` with each index and value, and returns the changed group. A closure can be marked `#[inline(always)]` only as an argument.
 #[inline(always)]
 pub(crate) fn each<F: Num, P: Values<F>>(mut value: P, mut to: impl FnMut(usize, &mut F)) -> P {
     value.each(&mut 0, &mut to);
@@ -122,7 +121,7 @@ const MOST_UNROLLED: usize = 4;
 /// One value per light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
 #[derive(Clone, Copy, Debug)]
 pub struct PerLight<F, const L: usize> {
-    /// The value of each light; those after the last light are never read.
+    /// The value of each light; those after the last light are never shaded.
     pub values: [F; L],
     pub(crate) count: usize,
 }
@@ -207,9 +206,9 @@ mod tests {
         assert!(put_and_taken(1, ()).is_empty());
     }
 
-    /// Of few lights all that there is room for are stepped, of many as many as there are.
+    /// Up to 4 lights all places are stepped, of more lights those that exist.
     #[test]
-    fn there_is_a_number_for_each_light() {
+    fn there_is_a_value_for_each_light() {
         fn of<const L: usize>(lights: usize) -> Vec<f32> {
             let mut all = PerLight::<f32, L>::new(lights, 0.5);
             (0..lights).for_each(|i| all.values[i] = i as f32);

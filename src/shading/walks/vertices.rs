@@ -3,7 +3,7 @@
 use crate::number::{Num, Vec3};
 use crate::shading::{Lit, PerLight, Values};
 
-/// What a vertex carries. A method that carries something of its own implements it itself, and says `type Carries = Self`.
+/// What a vertex carries. A method with other varyings implements this itself, and sets `type Carries = Self`.
 pub trait Carries: 'static {
     /// What it is made from: what engines get ready.
     const FROM: Carried = Carried::Lit;
@@ -16,11 +16,11 @@ pub trait Carries: 'static {
 /// What varyings are made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carried {
-    /// They are the normal: engines read the frame's, and skip the vertex pass.
+    /// The normal itself: an engine may borrow the frame's normals and skip the vertex pass.
     Normal,
     /// The normal and light.
     Lit,
-    /// The normal and light, both in the frame of eye and first light (`eye_frame.rs`), in which z is toward the eye.
+    /// The normal and light, both in the frame of eye and first light (`light/eye_frame.rs`), in which z is toward the eye.
     Turned,
     /// [`Lit::attributes`], too.
     Attributes,

@@ -43,7 +43,7 @@ impl<const L: usize> Shader for DuffHalf<L> {
     const NEEDS: Needs = Needs {
         general_only: true,
         scalar_only: Some(
-            "duff-half steps differences from pixel to pixel, and a block of pixels would keep two numbers a light",
+            "duff-half steps differences from pixel to pixel, and a block of pixels would keep two values a light",
         ),
         ..Needs::PIXELS
     };

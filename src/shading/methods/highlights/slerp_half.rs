@@ -29,7 +29,7 @@ impl<const L: usize> Shader for SlerpHalf<L> {
     const NEEDS: Needs = Needs {
         general_only: true,
         scalar_only: Some(
-            "slerp-half walks along spans, and a block of pixels would keep two numbers a light",
+            "slerp-half walks along spans, and a block of pixels would keep two values a light",
         ),
         ..SlerpChebyshev::<L>::NEEDS
     };

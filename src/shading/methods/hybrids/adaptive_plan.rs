@@ -56,7 +56,8 @@
 //! (f) Three quarters of the levels are for (e) and (g), a quarter for highlights left out. The clamp of the sum makes errors smaller.
 //!
 //! (g) **Roundings.** Of D, J and K each step is rounded, which after k steps moves cosines by up to k 2⁻²³ as in `duff-phong`, where D is at its
-//! greatest, and by D_max/D times that elsewhere; walks start anew after [`STEPS`] pixels, from sums that are off by as much as [`SETUP`] steps. With a true root
+//! greatest, and by D_max/D times that elsewhere; walks of kinds [`CURVED`] and [`ROOT`] start anew
+//! after [`STEPS`] pixels, from sums that are off by as much as [`SETUP`] steps. With a true root
 //! a run whose D falls too low for that starts anew at each pixel: then D, J and K are those of the exact kind, and so are their roundings.
 //!
 //! (h) **One colour** where no light crosses J = 0 (there the highlight jumps). Normals are within asin(√s/√(1 − s)) ≤ 1.1 √s of the mean
@@ -65,13 +66,15 @@
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::scene::{Place, SpecularGate, SpecularModel};
 use crate::shading::light::{LightUniforms, magnitude};
+use crate::shading::methods::quadratics::over_triangle::plain;
 use crate::shading::{Corner, Corners, Lit};
 
-/// The kinds of polygons, as [`Method::Kinds`](super::Method::Kinds) of adaptive shading names them.
+// The kinds of polygons, in the order of the method's `Kinds`.
+/// The loop of `phong-rsqrt`.
 pub(crate) const EXACT: u8 = 0;
 /// The colour is linear in the normal.
 pub(crate) const LINEAR: u8 = 1;
-/// No highlight, and all lights in front or behind: one colour times 1/√D, which is a line of D.
+/// No highlight, and all lights in front or behind: their diffuse light, linear in the normal, times a line of D for 1/√D.
 pub(crate) const DULL: u8 = 2;
 /// Cosines of the lights times 1/√D, which is a line or a parabola of D.
 pub(crate) const CURVED: u8 = 3;
@@ -135,12 +138,7 @@ impl Plan {
     };
 }
 
-/// Returns a vector of plain `f32`: plans decide, and what they decide by is nothing that the method computes.
-fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
-    vec3([v.x.value(), v.y.value(), v.z.value()])
-}
-
-/// Returns s of some unit normals: see (a). NaN where one has no direction.
+/// Returns s of some unit normals: see (a).
 pub(crate) fn spread(normals: impl ExactSizeIterator<Item = Vec3<f32>> + Clone) -> f32 {
     let share = 1.0 / normals.len() as f32;
     let mean = normals.clone().fold(vec3([0.0; 3]), |sum, n| sum + n) * share;
@@ -213,10 +211,10 @@ fn seen<R: Real>(corners: &[Vec3<R>], to: Vec3<f32>, view: Vec3<f32>) -> Seen {
     seen
 }
 
-/// The part of a polygon's error budget, in grey levels, that approximations may take; roundings have the rest.
+/// The share of the levels for approximations and roundings; highlights that are left out take the rest: see (f).
 const SHARE: f32 = 0.75;
 
-/// Plans a polygon for an error of so many grey levels of 255. If there `is_one` light at most, walks follow its diffuse term, too.
+/// Plans a polygon for an error of `levels` grey levels of 255. With one light at most (`is_one`), walks follow its diffuse term, too.
 pub(crate) fn plan<R: Real>(
     levels: f32,
     is_one: bool,
@@ -410,7 +408,7 @@ fn dull(range: [f32; 2], width: f32, gain: f32, room: f32) -> Option<(u8, [f32; 
     }
     let [low, high] = range;
     let (factors, error) = line(range);
-    // Of the line itself the steps are rounded, which is at most 1/√low.
+    // The line's own steps are rounded, too; its value is at most 1/√low.
     let error = error + 2.0 * ROUNDING * width * high / low;
     (is_narrow(range) && gain * error <= room).then_some((DULL, factors))
 }
@@ -427,7 +425,7 @@ fn shining(range: [f32; 2], width: f32, gain: f32, room: f32) -> Option<(u8, [f3
             }
         }
     }
-    // NaN, where a corner has no normal, is exact.
+    // A share that is NaN fails the comparison.
     let share = ROUNDING * steps * gain / room;
     (share < 0.5).then_some((ROOT, [share, 0.0, 0.0]))
 }

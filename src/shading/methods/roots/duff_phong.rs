@@ -144,6 +144,10 @@ impl<const L: usize> DuffPhongLocal<L> {
 
 impl<const L: usize> Shader for DuffPhongLocal<L> {
     const INFO: Info = DUFF_PHONG;
+    const NEEDS: Needs = Needs {
+        general_only: true,
+        ..Needs::PIXELS
+    };
     type Constants<F: Num> = ();
     type Carries = NormalAndPlace;
     type Walk<F: Num> = LocalProducts<Quadratic<F>, L>;

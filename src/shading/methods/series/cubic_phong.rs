@@ -1,4 +1,4 @@
-//! Phong shading by additions alone: unit products as cubics along a span.
+//! Phong shading by additions only: unit products as cubics along a span.
 
 use crate::number::{Num, Real, Vec3};
 use crate::reference::Model;

@@ -23,7 +23,7 @@ use crate::shading::{
 /// ```
 ///
 /// about the middle of the values that D has on the polygon: [`line`] and [`parabola`], whose coefficients and errors are (a) and (d) of
-/// [`super::adaptive_plan`]. The patent's series is Taylor's about 1, where D is under parallel projection; under perspective N
+/// [`crate::shading::methods::hybrids::adaptive_plan`]. The patent's series is Taylor's about 1, where D is under parallel projection; under perspective N
 /// is weighted by 1/w, and D is anywhere. Polygons whose D varies by more than a factor of 3, and pieces that clipping cut, take roots.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SeriesPhong<const L: usize> {
