@@ -10,7 +10,7 @@ use crate::shading::{Carries, Corners, Fit, Info, LightModel, Lit, Needs, On, Sh
 pub trait Method: Copy + Default + 'static {
     /// The description of the method.
     const INFO: Info;
-    /// What it needs of engines: for all of its kinds.
+    /// What it needs of engines: for all of its kinds, whose own needs are not read.
     const NEEDS: Needs = Needs::PIXELS;
     /// The kinds: a tuple of up to five that carry the same.
     type Kinds: Kinds;
@@ -29,7 +29,7 @@ pub trait Method: Copy + Default + 'static {
     fn kinds(self) -> Self::Kinds {
         Self::Kinds::default()
     }
-    /// True if SIMD walks along runs with these parameters: see [`Shader::walks_along_runs`].
+    /// True if SIMD walks along runs with these parameters: see [`Shader::walks_along_runs`]. Methods of several kinds are not asked.
     #[inline(always)]
     fn walks_along_runs(self) -> bool {
         true

@@ -74,7 +74,7 @@ fn aovs_show_kinds_of_polygons() {
     folder
         .run(&format!("{ball} -o kind.pfm"))
         .done()
-        .says("adaptive-phong: polygons by kind: 0 exact (grey), ");
+        .says("adaptive-phong: polygons by kind: 0 phong-rsqrt (grey), ");
     let kinds = match read_picture(&folder.path("kind.pfm")).unwrap().pixels {
         FilePixels::Linear(floats) => floats,
         _ => panic!("floats"),

@@ -1,6 +1,6 @@
 //! Errors of every method against its `f64` closed form, over all shipped scenes, on linear frames.
 
-use crate::support::cases::{Case, case, cases, sweep_size};
+use crate::support::cases::{Case, case, cases};
 use crate::support::differences::largest_difference;
 use crate::support::drawings::{Drawing, assert_none, for_each_drawing};
 
@@ -86,7 +86,7 @@ fn with_numbers(info: &Info) -> Variant {
 /// set of this machine. Over all scenes the bound is at most ten times too wide.
 #[test]
 fn every_method_is_within_its_bound_and_the_bound_bites() {
-    for scene in cases(sweep_size()) {
+    for scene in cases(None) {
         let decided = scene.decided();
         let left_out = decided.pixels().iter().filter(|decided| !**decided).count();
         println!(
@@ -102,10 +102,10 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
         );
     }
     let mut nearest: BTreeMap<&str, (f64, &str)> = BTreeMap::new();
-    let mut shares = check_all(cases(sweep_size()));
+    let mut shares = check_all(cases(None));
     // No shipped scene has small triangles whose highlights are N·H, which some methods ask for.
     let by_half_vectors = ["million", "mirrored"].map(|name| {
-        let frame = relit(&case(name, sweep_size()).frame, |lighting| {
+        let frame = relit(&case(name, None).frame, |lighting| {
             lighting.specular = SpecularModel::Blinn;
         });
         Case::new(format!("{name} with N.H"), frame)
@@ -469,7 +469,7 @@ fn spans_take_as_few_steps_as_cannot_be_seen() {
 /// The visible polygon differs at few pixels, where two surfaces meet within the rounding of depth.
 #[test]
 fn visible_polygons_differ_only_where_surfaces_meet() {
-    for scene in cases(sweep_size()) {
+    for scene in cases(None) {
         let (width, height) = (scene.frame.width(), scene.frame.height());
         let mut differing = 0;
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
@@ -556,7 +556,7 @@ const WITHOUT_HIGHLIGHT: [&str; 6] = [
 #[test]
 fn every_scene_is_lit() {
     let wide = |pixel: [f32; 4]| pixel.map(f64::from);
-    for scene in cases(sweep_size()) {
+    for scene in cases(None) {
         let full = scene.truth(Model::Phong);
         let dull = matte(&scene.frame);
         let dull = reference::shade(&dull, scene.visibility(), Model::Phong).to_linear();

@@ -290,8 +290,10 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             let products = lights + 1;
             ByHand {
                 span: 3 * ramp() + 2 * products * DOT + 3 * DOT + ADD + 2 * ADD,
-                walk: products * ADD + 2 * ADD + 2 * (MULTIPLY + ADD) + products * MULTIPLY,
-                shade: lights * (highlight() + light()),
+                walk: products * ADD + 2 * ADD,
+                shade: 2 * (MULTIPLY + ADD)
+                    + products * MULTIPLY
+                    + lights * (highlight() + light()),
                 ..by_hand("phong-rsqrt", lights)
             }
         }

@@ -74,15 +74,6 @@ pub fn case(name: &str, size: Size) -> &'static Case {
     cell.get_or_init(|| Case::new(name, scene(name, size).frame().expect("a frame")))
 }
 
-/// Returns the size at which every scene is rendered by every method: that of the smallest scenes, or
-/// each scene's own if `FASTPHONG_FULL_SIZE` is set.
-pub fn sweep_size() -> Size {
-    match std::env::var_os("FASTPHONG_FULL_SIZE") {
-        Some(_) => None,
-        None => Some((320, 240)),
-    }
-}
-
 /// Returns the cases of all shipped scenes at a size. Each is made when its turn comes.
 pub fn cases(size: Size) -> impl Iterator<Item = &'static Case> {
     shipped().into_iter().map(move |name| case(&name, size))
