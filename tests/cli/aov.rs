@@ -85,7 +85,7 @@ fn aovs_show_kinds_of_polygons() {
     folder
         .run(&format!("{ball} -m six-point -o six.png"))
         .done()
-        .says("six-point: polygons by kind: 9 quadratic (grey), 27 roots (blue)");
+        .says("six-point: polygons by kind: 9 quadratic (grey), 27 duff-phong (blue)");
     let six = picture(&folder.path("six.png"));
     let colours: std::collections::BTreeSet<[u8; 4]> = six.pixels().iter().copied().collect();
     let expected = [[0; 4], [86, 180, 233, 255], [153, 153, 153, 255]];
