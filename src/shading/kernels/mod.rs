@@ -411,7 +411,6 @@ impl<C: Carries> Visit<C> for RunLoop<'_> {
         let span = Span::of_run(lit.count(), self.start, 0.0);
         let mut walk = kind.walk(&lit, span);
         // An iterator counts triples by a division: 3 % of Gouraud's frames.
-        #[expect(clippy::needless_range_loop)]
         for x in 0..self.here.len() {
             let pixel = (walk.next(), self.extra.next());
             self.here[x] = colour(kind, lit, self.extras, pixel).array();

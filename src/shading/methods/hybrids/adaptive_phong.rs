@@ -429,9 +429,10 @@ impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
         self.left -= 1;
         let (mut j, k) = (self.first.0, self.products.at.1);
         self.products.at.1 = self.products.at.1 + self.products.step.1;
-        for i in 0..most(MANY) {
-            j[i] = self.products.at.0[i];
-            self.products.at.0[i] = self.products.at.0[i] + self.products.step.0[i];
+        let products = &mut self.products;
+        for (i, j) in j.iter_mut().enumerate().take(most(MANY)) {
+            *j = products.at.0[i];
+            products.at.0[i] = products.at.0[i] + products.step.0[i];
         }
         let vector = match MANY {
             true => self.colour.next(),
