@@ -202,6 +202,7 @@ pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
 /// [`NOTHING`].
 ///
 /// It agrees with [`polygon_numbers`](super::polygon_numbers) except where depths are equal within rounding.
+#[doc(hidden)]
 pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
     let visit = &mut |number, column, row, _: &mut RunList| picture.row_mut(row)[column] = number;

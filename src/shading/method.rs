@@ -39,8 +39,10 @@ pub trait Method: Copy + Default + 'static {
 }
 
 /// The constants of a polygon's kind.
+#[doc(hidden)]
 pub type Chosen<M, R> = <<M as Method>::Kinds as Kinds>::Constants<R>;
 /// What the vertices of a method carry.
+#[doc(hidden)]
 pub type CarriesOf<M> = <<M as Method>::Kinds as Kinds>::Carries;
 
 impl<S: Shader> Method for S {
@@ -70,12 +72,14 @@ impl<S: Shader> Method for S {
 }
 
 /// A generic closure over a kind.
+#[doc(hidden)]
 pub trait Visit<C: Carries> {
     /// Runs it for `kind`.
     fn visit<S: Shader<Carries = C>>(self, kind: S);
 }
 
 /// Kinds of polygons.
+#[doc(hidden)]
 pub trait Kinds: Copy + Default + 'static {
     /// Their names: those of the methods that they are, or the kinds' own. None if there is only one kind.
     const NAMES: &'static [&'static str];
@@ -95,6 +99,7 @@ pub trait Kinds: Copy + Default + 'static {
 }
 
 /// A value for one of up to five kinds.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 #[expect(missing_docs, reason = "their order says all")]
 pub enum OneOf<A, B = (), C = (), D = (), E = ()> {

@@ -32,6 +32,7 @@ use fearless_simd::*;
 
 /// The index of some uniforms in the list of a method on a frame. It is not the index of a material: under local lights each polygon
 /// may have uniforms of its own.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UniformsIndex(pub u32);
 
@@ -159,6 +160,7 @@ pub(crate) type PixelKernel = fn(&Pixels<'_>, &mut [[f32; 3]]);
 pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
 /// A compiled method. A row whose varyings hold values per light has three: for 1, up to 4 and up to 64 lights.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Kernels {
     /// Returns how many values a varying, a pixel and a polygon's constants take for this many lights.

@@ -7,6 +7,7 @@ use crate::shading::{Kinds, Method, Needs, Shader, UniformsIndex, Values, Varyin
 use alloc::vec::Vec;
 
 /// A run of pixels of one polygon on one scanline: a span, or a piece of one that is seen.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     /// The uniforms that it is shaded with.

@@ -37,6 +37,7 @@ const LEAST_SQUARE: f32 = 1e-30;
 const FAINT: f32 = 1.0 / (1 << 24) as f32;
 
 /// The light on one material, as kernels read it: plain values, made once per material.
+#[doc(hidden)]
 #[derive(Clone, Debug)]
 pub struct Uniforms {
     /// The part that all lights share.
@@ -76,6 +77,7 @@ pub struct LightModel {
 }
 
 /// The uniforms of a material as pixel loops hold them.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Stored<'a> {
     /// The part that all lights share.
@@ -86,6 +88,7 @@ pub struct Stored<'a> {
 }
 
 /// A light on a material.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct LightUniforms {
     /// The unit vector toward it, or its position.

@@ -15,6 +15,7 @@ use crate::shading::walks::values::Values;
 ///
 /// In `f32` F is rounded at each step, and ΔF by its own size, δ at most, whose roundings the steps add up: after k steps F
 /// is off by at most k (½ + ½ kδ) 2⁻²⁴, with kδ the angle that was passed; and by 3 kδ 2⁻²⁴ for the roundings of α and of the first ΔF.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Chebyshev<F, V> {
     at: V,

@@ -15,6 +15,7 @@ use crate::shading::walks::values::{Values, each, scaled, sum};
 /// Over n pixels ΔF is about the slope S over n, and ΔΔF the curvature C over n², so that this is at most `(|F| + S/2 + C/6) k 2⁻²⁴`.
 ///
 /// A tuple of values steps together, as [`Linear`](super::Linear) steps it: additions of several cubics then share SIMD registers.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Cubic<V> {
     at: V,

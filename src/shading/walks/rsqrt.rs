@@ -10,6 +10,7 @@ use crate::number::Num;
 /// ```
 /// The step is Newton's method for 1/r² − D = 0. Unlike that for the root ([`super::Newton`]) it divides by nothing, and diverges
 /// where D grows threefold at once: [`WarmSteps`] chooses.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct WarmRsqrt<F> {
     square: Quadratic<F>,
@@ -33,6 +34,7 @@ impl<F: Num> WarmRsqrt<F> {
 }
 
 /// The largest changes of a normal that one and two steps follow.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WarmSteps {
     /// `within[s]`: up to this δ², s + 1 steps leave no more than the largest error.

@@ -41,6 +41,7 @@ impl Carries for Normal {
 }
 
 /// N in the frame of eye and first light.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct TurnedNormal;
 
@@ -55,6 +56,7 @@ impl Carries for TurnedNormal {
 }
 
 /// J = L·N of up to `L` lights and K = V·N; N.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct ProductsAndNormal<const L: usize>;
 
@@ -68,6 +70,7 @@ impl<const L: usize> Carries for ProductsAndNormal<L> {
 }
 
 /// N, position, 1/w.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct NormalAndPlace;
 
