@@ -101,7 +101,6 @@ pub trait Kinds: Copy + Default + 'static {
 /// A value for one of up to five kinds.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
-#[expect(missing_docs, reason = "their order says all")]
 pub enum OneOf<A, B = (), C = (), D = (), E = ()> {
     First(A),
     Second(B),
