@@ -131,8 +131,9 @@ impl SpanRow {
 impl Variant {
     /// Shades one span into `out`, one pixel at a time: its two vertices, its set-up, and as many pixels as `out` has.
     pub fn shade_span(&self, bench: &SpanBench, out: &mut [[f32; 3]]) {
-        let started = start(self, bench, &bench.uniforms, out.len());
-        (started.kernels.pixels)(&started.job(self, &bench.uniforms), out);
+        let uniforms = bench.prepared(self);
+        let started = start(self, bench, uniforms, out.len());
+        (started.kernels.pixels)(&started.job(self, uniforms), out);
     }
 
     /// Shades one span by the kernels of an instruction set, as the row engine calls them: the walk into a row of the G-buffer,

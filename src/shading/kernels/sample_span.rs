@@ -6,7 +6,7 @@ use crate::scene::{Falloff, Interpolation, Light, Lighting, Place, Power};
 use crate::shading::light::Uniforms;
 use crate::shading::methods::integers;
 use crate::shading::walks::GreatCircle;
-use crate::shading::{Corner, Corners, Extras, Local, On, OperationCounts, Variant, ramp};
+use crate::shading::{Carried, Corner, Corners, Extras, Local, On, OperationCounts, Variant, ramp};
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -14,8 +14,9 @@ use glam::DVec3;
 #[derive(Clone, Debug)]
 pub struct SpanBench {
     pub(crate) lighting: Lighting,
+    /// The uniforms of methods as they are, and of those that turn normals into the eye's frame.
     #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
-    pub(crate) uniforms: Uniforms,
+    uniforms: [Uniforms; 2],
     /// The unit normals of a triangle whose first two corners are the ends of the span, and their positions.
     pub(crate) normals: [[f32; 3]; 3],
     pub(crate) points: [[f32; 3]; 3],
@@ -111,7 +112,7 @@ impl SpanBench {
         let mut uniforms = Uniforms::new(&lighting, Power::default(), 1.0);
         uniforms.materials = integers::materials(&lighting);
         SpanBench {
-            uniforms,
+            uniforms: [uniforms.clone(), uniforms.turned()],
             lighting,
             normals: [[-sin, 0.0, cos], [sin, 0.0, cos], [0.0, sin, cos]],
             points: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -126,6 +127,14 @@ impl SpanBench {
             false => Interpolation::Screen,
         };
         (variant.row().fit)(On::Spans(&self.lighting, interpolation)).refused()
+    }
+
+    /// Returns the uniforms of a method with its default power function, at scale 1, which were made with the span: a timing repeats
+    /// what is done once per span, and not once per material.
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
+    pub(crate) fn prepared(&self, variant: &Variant) -> &Uniforms {
+        let carries = variant.row().kernels(1, false).carries;
+        &self.uniforms[usize::from(carries == Carried::Turned)]
     }
 
     /// Returns the uniforms of a method at `scale`.
