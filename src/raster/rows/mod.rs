@@ -75,14 +75,18 @@ use tile::{MOST, NumberCount, Tile};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, bits};
 
-/// Evaluates an expression in which a name stands for the [`Token`] of a level: of AVX2 on AVX-512 too, as only pixel kernels gain
-/// by its wider registers (`docs/performance.md`).
+/// Evaluates an expression in which a name stands for the [`Token`] of a level.
 macro_rules! with_level {
     ($level:expr, $token:ident => $work:expr) => {
         match $level {
             #[cfg(target_arch = "x86_64")]
-            $crate::number::Level::Avx2 | $crate::number::Level::Avx512 => {
+            $crate::number::Level::Avx2 => {
                 type $token = fearless_simd::Avx2;
+                $work
+            }
+            #[cfg(target_arch = "x86_64")]
+            $crate::number::Level::Avx512 => {
+                type $token = fearless_simd::Avx512;
                 $work
             }
             #[cfg(target_arch = "aarch64")]
