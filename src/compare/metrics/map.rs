@@ -79,7 +79,7 @@ fn paint(
     Ok(map)
 }
 
-fn absolute_colour(error: f64, scale: f64) -> [u8; 4] {
+pub(super) fn absolute_colour(error: f64, scale: f64) -> [u8; 4] {
     if error == 0.0 {
         return EQUAL;
     }

@@ -20,6 +20,9 @@ use alloc::vec::Vec;
 use core::fmt;
 
 mod flip;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod judgement;
 mod list;
 mod map;
 mod percentile;

@@ -1,0 +1,127 @@
+//! Errors of pixels, row by row, with or without a radius.
+
+use super::super::PixelDifference;
+use super::Selection;
+use crate::picture::{LevelRows, Levels};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// The largest radius: a pixel has 288 neighbours then, and beyond that a match says little.
+pub const MAX_RADIUS: usize = 8;
+
+/// Calls `visit` with the index of each row, from the top, and with the errors of its pixels in
+/// grey levels; `None` for pixels that are left out or that neither picture covers.
+pub(super) fn for_each_error_row(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
+    radius: usize,
+    selection: &Selection<'_>,
+    mut visit: impl FnMut(usize, &[Option<f64>]),
+) {
+    debug_assert_eq!(reference.size(), actual.size());
+    let [width, height] = reference.size();
+    let mut windows = [reference, actual].map(|picture| Window::new(picture, radius));
+    let mut errors = vec![None; width];
+    for y in 0..height {
+        let [of_reference, of_actual] = &mut windows;
+        of_reference.move_to(y);
+        of_actual.move_to(y);
+        for (x, error) in errors.iter_mut().enumerate() {
+            *error = match selection.includes(x, y) {
+                true => error_at(of_reference, of_actual, [x, y]),
+                false => None,
+            };
+        }
+        visit(y, &errors);
+    }
+}
+
+/// Returns the error at a pixel; `None` if neither picture covers it.
+fn error_at(reference: &Window<'_>, actual: &Window<'_>, [x, y]: [usize; 2]) -> Option<f64> {
+    let (r, a) = (reference.row(y)[x], actual.row(y)[x]);
+    let error = error_between(r, a)?;
+    if error == 0.0 || reference.radius == 0 {
+        return Some(error);
+    }
+    let of_reference = actual.least_error(r, [x, y], error);
+    let of_actual = reference.least_error(a, [x, y], error);
+    Some(of_reference.max(of_actual))
+}
+
+/// Returns the error of one pixel against another; `None` if neither is covered.
+fn error_between(a: Levels, b: Levels) -> Option<f64> {
+    let difference = PixelDifference::new(a, b)?;
+    Some(match difference.is_not_finite_differing {
+        true => f64::INFINITY,
+        false => difference.largest(),
+    })
+}
+
+/// The rows of a picture around one of them.
+struct Window<'a> {
+    picture: &'a dyn LevelRows,
+    radius: usize,
+    /// Row y is at y modulo their number, 2 `radius` + 1.
+    rows: Vec<Vec<Levels>>,
+    /// The first row that was not read yet.
+    next: usize,
+}
+
+impl<'a> Window<'a> {
+    fn new(picture: &'a dyn LevelRows, radius: usize) -> Window<'a> {
+        let [width, height] = picture.size();
+        // A low picture has no more rows than it has.
+        let rows = (2 * radius + 1).min(height.max(1));
+        Window {
+            picture,
+            radius,
+            rows: vec![vec![Levels([0.0; 4]); width]; rows],
+            next: 0,
+        }
+    }
+
+    /// Reads rows until those around row `y` are here; `y` grows by 1 from call to call.
+    fn move_to(&mut self, y: usize) {
+        let end = (y + self.radius + 1).min(self.picture.size()[1]);
+        while self.next < end {
+            let slot = self.next % self.rows.len();
+            self.picture.level_row(self.next, &mut self.rows[slot]);
+            self.next += 1;
+        }
+    }
+
+    /// Returns row `y`, which is one of those around the current one.
+    fn row(&self, y: usize) -> &[Levels] {
+        debug_assert!(y < self.next && y + self.rows.len() >= self.next);
+        &self.rows[y % self.rows.len()]
+    }
+
+    /// Returns the least error of `pixel` against the pixels around a place; at most `most`, its
+    /// error against the pixel at the place itself. Looks at the nearest first, as most matches are
+    /// near.
+    fn least_error(&self, pixel: Levels, [x, y]: [usize; 2], most: f64) -> f64 {
+        let [width, height] = self.picture.size();
+        let mut least = most;
+        let mut look = |x: usize, y: usize| {
+            // Two pixels that nothing covers are the same.
+            least = least.min(error_between(pixel, self.row(y)[x]).unwrap_or(0.0));
+            least == 0.0
+        };
+        for distance in 1..=self.radius {
+            let (left, right) = (x.saturating_sub(distance), (x + distance).min(width - 1));
+            let (top, bottom) = (y.saturating_sub(distance), (y + distance).min(height - 1));
+            for row in top..=bottom {
+                // Rows in between have two pixels at this distance, or fewer at a border.
+                let is_edge = row.abs_diff(y) == distance;
+                let step = if is_edge { 1 } else { (right - left).max(1) };
+                for column in (left..=right).step_by(step) {
+                    let is_here = is_edge || column.abs_diff(x) == distance;
+                    if is_here && look(column, row) {
+                        return 0.0;
+                    }
+                }
+            }
+        }
+        least
+    }
+}
