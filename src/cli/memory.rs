@@ -138,6 +138,17 @@ pub fn check_pair(pair: &Pair<'_>) -> Result<(), CliError> {
     check_size(size, "comparing", flip + 4 * pixels)
 }
 
+/// Checks that there is memory for the rows around a pixel that may match others within `radius`.
+///
+/// # Errors
+/// When there is not.
+pub fn check_rows(size: [usize; 2], radius: usize) -> Result<(), CliError> {
+    // Of two pictures, four numbers a pixel.
+    let rows = 2 * (2 * radius as u64 + 1);
+    let needed = rows * size[0] as u64 * size_of::<[f64; 4]>() as u64;
+    check_size(size, "comparing within a radius", needed)
+}
+
 fn check_size([width, height]: [usize; 2], name: &str, needed: u64) -> Result<(), CliError> {
     let needs = format!("{width}x{height}: {name} needs about {}", bytes(needed));
     check_free(needed, &needs, "fewer pixels or samples")

@@ -45,6 +45,7 @@ mod shown_frame;
 mod signals;
 mod span_times;
 mod text;
+mod tolerance;
 mod unlit;
 mod values;
 #[cfg(feature = "view")]

@@ -4,8 +4,10 @@ use super::contents::Contents;
 use super::drawing::RenderJob;
 use super::output::{ForceFlag, Output};
 use super::text::{counted, measured};
+use super::tolerance::{Judged, Levels, Tolerance};
 use super::{CliError, Outcome, files};
-use fastphong::compare::metrics::{Difference, compare, difference_map};
+use fastphong::compare::metrics::compare_where;
+use fastphong::compare::metrics::judgement::{Selection, judged_map};
 use fastphong::picture::Encoding;
 use fastphong::picture::image_file::{AlphaUse, FilePicture, Format, Pair};
 use fastphong::report::shell_word;
@@ -15,18 +17,10 @@ use std::path::{Path, PathBuf};
 /// Grey levels at the light end of difference pictures.
 pub const SCALE: f32 = 16.0;
 
-/// Returns the largest difference of a channel, alpha among them, in grey levels; infinite where one picture alone has a number.
-pub fn largest_difference(difference: &Difference) -> f64 {
-    match difference.not_finite_differing {
-        0 => 255.0 * difference.max,
-        _ => f64::INFINITY,
-    }
-}
-
 /// Says in how many pixels only one picture has a number: the end of a sentence about pictures that differ.
-pub fn not_finite_text(difference: &Difference) -> String {
+pub fn not_finite_text(pixels: usize) -> String {
     let (one, more) = ("pixel that is", "pixels that are");
-    let pixels = counted(difference.not_finite_differing, one, more);
+    let pixels = counted(pixels, one, more);
     format!("in {pixels} infinite or not a number in one of them, which no threshold allows")
 }
 
@@ -60,8 +54,8 @@ pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<Stri
 pub struct ReferenceCheck<'a> {
     /// The accepted picture.
     pub reference: &'a Path,
-    /// Grey levels that a channel may differ.
-    pub threshold: f64,
+    /// What may differ, with a threshold.
+    pub tolerance: &'a Tolerance<'a>,
     /// The place where the picture was written already, if it was.
     pub written: Option<&'a Output>,
     /// `--force`: whether pictures beside the reference may replace those of others.
@@ -98,36 +92,51 @@ impl ReferenceCheck<'_> {
             let found = format!("{shown} is {of_reference}, the picture {of_actual}");
             notes += &format!("{found}: the linear one is encoded before they are compared\n");
         }
-        let [r, a] = pair.compared();
-        let difference = compare(&r, &a)?;
-        let largest = largest_difference(&difference);
-        if pair.is_one_size() && largest <= self.threshold {
-            let within = format!("equal within {} grey levels", self.threshold);
-            let text = format!("{shown}: {within}: largest difference {largest}\n");
-            return Ok((Outcome::Done, notes + &text));
+        let found = match pair.is_one_size() {
+            true => Some(self.judge(&pair)?),
+            false => None,
+        };
+        if let Some(judged) = found.as_ref().filter(|judged| !judged.fails) {
+            let text = self.passed_text(judged);
+            return Ok((Outcome::Done, format!("{notes}{shown}: {text}\n")));
         }
         let candidate = self.keep(&actual)?;
-        let map = FilePicture::stored(difference_map(&r, &a, SCALE)?).encoded(Encoding::Srgb);
         let map_path = sibling(&candidate, reference, "diff", Format::Png);
         self.beside(map_path.clone(), Format::Png)
-            .write_encoded(&map)?;
-        let found = match pair.is_one_size() {
-            true => self.difference_text(&difference),
-            false => {
+            .write_encoded(&self.map(&pair)?)?;
+        let (found, part) = match &found {
+            Some(judged) => (self.failed_text(judged, &pair)?, ""),
+            None => {
                 let ([rw, rh], [aw, ah]) = (accepted.size(), actual.size());
                 let sizes = format!("the reference has {rw}x{rh} pixels, the picture {aw}x{ah}");
-                format!("{shown}: the sizes differ: {sizes}")
+                let part = " of the upper left part that both have";
+                (format!("the sizes differ: {sizes}\n"), part)
             }
-        };
-        let part = match pair.is_one_size() {
-            true => "",
-            false => " of the upper left part that both have",
         };
         let accept = self.how_to_accept(&candidate);
         let (candidate, map_path) = (candidate.display(), map_path.display());
         let scale = format!("{SCALE} levels from black to yellow");
         let files = format!("actual: {candidate}\ndifference{part}, {scale}: {map_path}\n");
-        Ok((Outcome::Differs, format!("{notes}{found}\n{files}{accept}")))
+        let text = format!("{notes}{shown}: {found}{files}{accept}");
+        Ok((Outcome::Differs, text))
+    }
+
+    /// Judges a pair of one size.
+    fn judge(&self, pair: &Pair<'_>) -> Result<Judged, CliError> {
+        let [r, a] = pair.compared();
+        let selection = self.tolerance.selection(pair.common_size())?;
+        self.tolerance.judge(&r, &a, &selection)
+    }
+
+    /// Draws the map of the part that both pictures have.
+    fn map(&self, pair: &Pair<'_>) -> Result<FilePicture, CliError> {
+        let [r, a] = pair.compared();
+        let selection = match pair.is_one_size() {
+            true => self.tolerance.selection(pair.common_size())?,
+            false => Selection::whole(pair.common_size()),
+        };
+        let map = judged_map(&r, &a, SCALE, self.tolerance.radius(), &selection)?;
+        Ok(FilePicture::stored(map).encoded(Encoding::Srgb))
     }
 
     /// Returns the files that may be written, beside [`ReferenceCheck::written`]: the picture, unless it is there already, and the map.
@@ -176,20 +185,42 @@ impl ReferenceCheck<'_> {
         Ok(path)
     }
 
-    /// Describes the difference in one line.
-    fn difference_text(&self, difference: &Difference) -> String {
-        let (found, most) = (largest_difference(difference), self.threshold);
-        let shown = self.reference.display();
-        let mut text = match found.is_finite() {
-            true => {
-                let found = measured(found);
-                format!("{shown}: differs by {found} grey levels, more than {most}")
-            }
-            false => format!(
-                "{shown}: the pictures differ {}",
-                not_finite_text(difference)
+    fn threshold(&self) -> f64 {
+        self.tolerance.threshold().unwrap_or(0.0)
+    }
+
+    /// Describes a picture that passes, in one line.
+    fn passed_text(&self, judged: &Judged) -> String {
+        let (threshold, largest) = (self.threshold(), judged.judgement.largest);
+        let (count, allowed) = (judged.count_text(), judged.allowed_text());
+        match judged.judgement.over {
+            0 => format!(
+                "equal within {threshold} grey levels: largest difference {largest}; {count} are over{allowed}"
             ),
+            _ => format!(
+                "accepted: {count} are over {threshold} grey levels{allowed}: largest difference {}",
+                Levels(largest)
+            ),
+        }
+    }
+
+    /// Describes the difference, in a line and another one of the largest region.
+    fn failed_text(&self, judged: &Judged, pair: &Pair<'_>) -> Result<String, CliError> {
+        let (found, most) = (&judged.judgement, self.threshold());
+        let (count, allowed) = (judged.count_text(), judged.allowed_text());
+        let mut text = match found.largest.is_finite() {
+            true => {
+                let by = measured(found.largest);
+                format!("differs by {by} grey levels, more than {most}, in {count}{allowed}")
+            }
+            false => {
+                let pixels = not_finite_text(found.histogram.not_finite);
+                format!("the pictures differ {pixels}; {count} are over {most} levels{allowed}")
+            }
         };
+        let [r, a] = pair.compared();
+        let selection = self.tolerance.selection(pair.common_size())?;
+        let difference = compare_where(&r, &a, |x, y| selection.includes(x, y))?;
         if difference.coverage_mismatches > 0 {
             let covered = counted(
                 difference.coverage_mismatches,
@@ -198,11 +229,11 @@ impl ReferenceCheck<'_> {
             );
             text += &format!(" ({covered})");
         }
-        if let Some([x, y]) = difference.worst {
+        if let Some([x, y]) = found.worst {
             let differ = counted(difference.differing, "pixel differs", "pixels differ");
             text += &format!("; {differ}, most at column {x}, row {y}");
         }
-        text
+        Ok(format!("{text}\n{}", judged.region_text()))
     }
 }
 

@@ -13,6 +13,7 @@ use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
 use super::shown_frame::ShownFrame;
 use super::text::counted;
+use super::tolerance::{Tolerance, ToleranceFlags};
 use super::watch::watch;
 use super::{CliError, Log, Outcome, files, memory, values};
 use fastphong::frame::Frame;
@@ -22,7 +23,7 @@ use fastphong::raster::painter_conflicts::{Conflicts, conflicts};
 use fastphong::scene::file::STANDARD_INPUT;
 use fastphong::scene::{HiddenSurfaces, input};
 use fastphong::shading::{METHODS, Variant};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Draw a scene or a mesh
@@ -79,6 +80,8 @@ pub struct RenderArgs {
     /// pictures covers differs by its alpha
     #[arg(long, value_name = "GREY_LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
     reference_threshold: f64,
+    #[command(flatten)]
+    tolerance: ToleranceFlags,
     /// Draw again whenever a file of the scene changes, until Ctrl-C
     #[arg(long)]
     watch: bool,
@@ -101,6 +104,7 @@ impl RenderArgs {
     /// Loads, draws, writes and compares.
     fn draw(&self, log: Log) -> Result<Outcome, CliError> {
         let mut output = self.output()?;
+        let tolerance = self.tolerance()?;
         let beside: Vec<Output> = output.iter().cloned().collect();
         let beside: Vec<&Output> = beside.iter().collect();
         let renderer = match self.engine {
@@ -189,12 +193,17 @@ impl RenderArgs {
         if let Some(output) = &mut output {
             self.name(output, &job)?;
         }
-        let check = self.reference.as_deref().map(|reference| ReferenceCheck {
-            reference,
-            threshold: self.reference_threshold,
-            written: output.as_ref(),
-            force: self.force,
-        });
+        let check = tolerance
+            .as_ref()
+            .map(|(reference, tolerance)| ReferenceCheck {
+                reference,
+                tolerance,
+                written: output.as_ref(),
+                force: self.force,
+            });
+        if let Some((_, tolerance)) = &tolerance {
+            tolerance.selection(job.size())?;
+        }
         let others = check.as_ref().map(ReferenceCheck::outputs).transpose()?;
         let others = others.unwrap_or_default();
         output::check(&output.iter().chain(&others).collect::<Vec<_>>())?;
@@ -213,6 +222,25 @@ impl RenderArgs {
         let (outcome, text) = check.run(&mut job)?;
         progress.aside(|| print_beside(&beside, &text))?;
         Ok(outcome)
+    }
+
+    /// Returns the reference, and what the picture may differ from it.
+    ///
+    /// # Errors
+    /// When there is no reference to differ from, or a mask that cannot be read.
+    fn tolerance(&self) -> Result<Option<(&Path, Tolerance<'_>)>, CliError> {
+        let Some(reference) = self.reference.as_deref() else {
+            return match self.tolerance.first_given() {
+                None => Ok(None),
+                Some(flag) => {
+                    let problem = format!("`{flag}` is for a comparison, and there is none");
+                    Err(format!("{problem}: expected `--reference FILE` too").into())
+                }
+            };
+        };
+        let threshold = Some(self.reference_threshold);
+        let tolerance = self.tolerance.with(threshold, "--reference-threshold")?;
+        Ok(Some((reference, tolerance)))
     }
 
     /// Returns the format of the reference, which [`RenderArgs::output`] has checked.

@@ -25,6 +25,7 @@ mod search;
 mod shell;
 mod signals;
 mod tables;
+mod tolerance;
 mod view;
 mod watch;
 mod winding;

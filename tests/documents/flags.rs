@@ -30,7 +30,7 @@ fn flags() -> impl Iterator<Item = [&'static str; 4]> {
 /// Flags that change no picture, except by rounding of single pixels.
 #[rustfmt::skip]
 const OTHERS: &[&str] = &[
-    "output", "format", "input-format", "simd", "threads", "print-scene", "stats", "watch", "reference", "reference-threshold", "force", "verbose", "quiet", "help",
+    "output", "format", "input-format", "simd", "threads", "print-scene", "stats", "watch", "reference", "reference-threshold", "allow", "radius", "mask", "region", "force", "verbose", "quiet", "help",
 ];
 
 const PAGE: &str = "docs/flags.md";

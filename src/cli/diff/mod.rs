@@ -1,18 +1,20 @@
 //! `fastphong diff`: two picture files, in numbers and as a map.
 
+mod comparison;
+
 use super::output::{self, Output, print_beside};
-use super::reference_check::{
-    SCALE, alpha_text, has_two_encodings, largest_difference, not_finite_text,
-};
+use super::reference_check::{SCALE, alpha_text, has_two_encodings, not_finite_text};
 use super::text::measured;
+use super::tolerance::{Judged, Tolerance, ToleranceFlags};
 use super::{CliError, Log, Outcome, files, memory, values};
+use comparison::Comparison;
+use fastphong::compare::metrics::judgement::{Selection, draw_frame, draw_left_out, judged_map};
 use fastphong::compare::metrics::{
-    Difference, MAX_PERCEIVED, METRICS, compare, difference_map, flip_colours, flip_map, mean_flip,
-    signed_difference_map, ssim,
+    Difference, MAX_PERCEIVED, METRICS, flip_colours, signed_difference_map,
 };
 use fastphong::compare::table::aligned;
 use fastphong::picture::image_file::{FilePicture, Pair, read_picture_from};
-use fastphong::picture::{Encoding, Picture, Picture8};
+use fastphong::picture::{Encoding, Picture8};
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -32,6 +34,8 @@ pub struct DiffArgs {
     /// pictures covers differs by its alpha
     #[arg(long, value_name = "GREY_LEVELS", value_parser = values::grey_levels, allow_hyphen_values = true)]
     fail_above: Option<f64>,
+    #[command(flatten)]
+    tolerance: ToleranceFlags,
     /// Write a map of the difference; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -44,6 +48,9 @@ pub struct DiffArgs {
     /// Map what a viewer sees when the pictures alternate (FLIP), from black to a light yellow
     #[arg(long, requires = "output", conflicts_with_all = ["signed", "scale"])]
     flip: bool,
+    /// Draw a frame around the largest connected region of pixels that are over the threshold, or that differ, on the map
+    #[arg(long, requires = "output")]
+    frame: bool,
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
@@ -68,6 +75,8 @@ impl DiffArgs {
                 false => files::will_read(path, part),
             }
         }
+        self.check_flags()?;
+        let tolerance = self.tolerance.with(self.fail_above, "--fail-above")?;
         output::check(&outputs)?;
         let [reference, actual] = parts.map(|(path, part)| read(path, part));
         let (reference, actual) = (reference?, actual?);
@@ -81,49 +90,102 @@ impl DiffArgs {
             log.warning(&text);
         }
         memory::check_pair(&pair)?;
-        let found = Found::of(&pair, self.flip)?;
+        let found = Comparison::of(&pair, &tolerance, self.flip)?;
         if let Some(output) = &output {
-            let map = self.map(&pair, found.flip.as_ref())?;
+            let map = self.map(&pair, &found, &tolerance)?;
             output.write_encoded(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
         }
         let sizes = [reference.size(), actual.size()];
-        let difference = found.difference.as_ref();
-        let text = match (self.json, difference) {
-            (true, _) => format!("{:#}\n", self.json(difference, &pair, sizes)),
-            (false, None) => self.encodings_text(&pair) + &self.sizes_text(&pair, sizes),
-            (false, Some(difference)) => {
-                let mut text = table(difference);
-                if found.flip.is_none() {
-                    text += &format!("ssim and flip are left out: over {MAX_PERCEIVED} pixels\n");
-                }
-                text + &self.encodings_text(&pair)
-            }
+        let text = match self.json {
+            true => format!("{:#}\n", self.json(&found, &pair, sizes, &tolerance)),
+            false => self.text(&found, &pair, sizes),
         };
         print_beside(&outputs, &text)?;
-        let Some(difference) = difference else {
-            log.note("the pictures differ in size");
-            return Ok(Outcome::Differs);
-        };
-        let found = largest_difference(difference);
-        let Some(most) = self.fail_above.filter(|most| found > *most) else {
-            return Ok(Outcome::Done);
-        };
-        let by = match found.is_finite() {
-            true => format!("by {} grey levels, more than {most}", measured(found)),
-            false => not_finite_text(difference),
-        };
-        log.note(&format!("the pictures differ {by}"));
-        Ok(Outcome::Differs)
+        Ok(match &found.numbers {
+            None => {
+                log.note("the pictures differ in size");
+                Outcome::Differs
+            }
+            Some((_, judged)) if judged.fails => {
+                log.note(&format!("the pictures differ {}", self.failed_text(judged)));
+                Outcome::Differs
+            }
+            Some(_) => Outcome::Done,
+        })
     }
 
-    /// Draws the map, of the part that both pictures have; `flip` is what a viewer sees there.
-    fn map(&self, pair: &Pair<'_>, flip: Option<&Picture<f32>>) -> Result<Picture8, CliError> {
+    /// Returns what was found as lines.
+    fn text(&self, found: &Comparison, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
+        let Some((difference, judged)) = &found.numbers else {
+            return self.encodings_text(pair) + &self.sizes_text(pair, sizes);
+        };
+        let mut text = table(difference);
+        if found.flip.is_none() {
+            text += &format!("ssim and flip are left out: over {MAX_PERCEIVED} pixels\n");
+        }
+        if !difference.equal || self.fail_above.is_some() {
+            text += &judged.text();
+        }
+        text + &self.encodings_text(pair)
+    }
+
+    /// Refuses maps that a radius changes nothing on.
+    fn check_flags(&self) -> Result<(), CliError> {
+        let other = match (self.signed, self.flip) {
+            (true, _) => "--signed",
+            (_, true) => "--flip",
+            _ => return Ok(()),
+        };
+        match self.tolerance.radius() {
+            0 => Ok(()),
+            _ => {
+                let problem = format!("`{other}` maps pixels against those at the same place");
+                Err(format!("{problem}: expected no `--radius`").into())
+            }
+        }
+    }
+
+    /// Says how a picture fails: the end of a sentence.
+    fn failed_text(&self, judged: &Judged) -> String {
+        let most = self.fail_above.unwrap_or_default();
+        let (count, allowed) = (judged.count_text(), judged.allowed_text());
+        match judged.judgement.largest {
+            found if found.is_finite() => {
+                let by = measured(found);
+                format!("by {by} grey levels, more than {most}, in {count}{allowed}")
+            }
+            _ => {
+                let pixels = not_finite_text(judged.judgement.histogram.not_finite);
+                format!("{pixels}; {count} are over {most} levels{allowed}")
+            }
+        }
+    }
+
+    /// Draws the map, of the part that both pictures have.
+    fn map(
+        &self,
+        pair: &Pair<'_>,
+        found: &Comparison,
+        tolerance: &Tolerance<'_>,
+    ) -> Result<Picture8, CliError> {
         let [r, a] = pair.compared();
-        Ok(match (flip, self.signed) {
+        let size = pair.common_size();
+        let selection = match pair.is_one_size() {
+            true => tolerance.selection(size)?,
+            false => Selection::whole(size),
+        };
+        let mut map = match (&found.flip, self.signed) {
             (Some(flip), _) if self.flip => flip_colours(flip),
             (_, true) => signed_difference_map(&r, &a, self.scale)?,
-            (_, false) => difference_map(&r, &a, self.scale)?,
-        })
+            (_, false) => judged_map(&r, &a, self.scale, tolerance.radius(), &selection)?,
+        };
+        draw_left_out(&mut map, &selection);
+        let judged = found.numbers.as_ref().map(|(_, judged)| judged);
+        let region = judged.and_then(|judged| judged.judgement.region);
+        if let (true, Some(region)) = (self.frame, region) {
+            draw_frame(&mut map, &region);
+        }
+        Ok(map)
     }
 
     fn paths(&self) -> [&Path; 2] {
@@ -162,38 +224,31 @@ impl DiffArgs {
     /// Returns the numbers as data; without metrics for pictures of different size.
     fn json(
         &self,
-        difference: Option<&Difference>,
+        found: &Comparison,
         pair: &Pair<'_>,
         sizes: [[usize; 2]; 2],
+        tolerance: &Tolerance<'_>,
     ) -> Value {
-        // JSON has neither infinity nor NaN: they become null.
-        let metrics = METRICS.iter();
-        let metrics = metrics.map(|m| (m.name, json!(difference.map(|found| (m.value)(found)))));
-        let ([width, height], [reference_size, actual_size]) = (pair.common_size(), sizes);
-        let [reference_encoding, actual_encoding] = pair.encodings();
-        let failed = match difference {
-            Some(found) => self.fail_above.map(|most| largest_difference(found) > most),
-            None => Some(true),
-        };
-        json!({
+        let [reference, actual] = self.paths().map(|path| path.display().to_string());
+        let mut object = json!({
             "schema": "fastphong.diff/1",
-            "reference": self.reference.display().to_string(),
-            "actual": self.actual.display().to_string(),
-            "width": width,
-            "height": height,
-            "reference_size": reference_size,
-            "actual_size": actual_size,
-            "reference_encoding": reference_encoding.encoding,
-            "reference_encoding_assumed": !reference_encoding.is_stated,
-            "actual_encoding": actual_encoding.encoding,
-            "actual_encoding_assumed": !actual_encoding.is_stated,
-            "compared_encoding": pair.compared_encoding(),
-            "equal": difference.is_some_and(|found| found.equal),
-            "worst": difference.and_then(|found| found.worst),
-            "metrics": metrics.collect::<Value>(),
-            "fail_above": self.fail_above,
-            "failed": failed,
-        })
+            "reference": reference,
+            "actual": actual,
+        });
+        found.add_to(&mut object, pair, sizes);
+        add(&mut object, tolerance.json());
+        object["failed"] = match &found.numbers {
+            Some((_, judged)) => json!(self.fail_above.map(|_| judged.fails)),
+            None => true.into(),
+        };
+        object
+    }
+}
+
+/// Adds the fields of one object to another.
+fn add(object: &mut Value, fields: Value) {
+    if let (Value::Object(object), Value::Object(fields)) = (object, fields) {
+        object.extend(fields);
     }
 }
 
@@ -216,44 +271,6 @@ fn encoding(text: &str) -> Result<Encoding, String> {
     named.ok_or_else(|| "expected linear or srgb".to_owned())
 }
 
-/// What a comparison finds.
-struct Found {
-    /// `None` for pictures of different size: numbers of a corner that both have say nothing about the pictures.
-    difference: Option<Difference>,
-    /// What a viewer sees where the pictures alternate, if it is computed.
-    flip: Option<Picture<f32>>,
-}
-
-impl Found {
-    /// Compares a pair; of pictures of different size, finds only what a map needs, which is of FLIP if `maps_flip`.
-    ///
-    /// # Errors
-    /// When there are too many pixels for a map of FLIP.
-    fn of(pair: &Pair<'_>, maps_flip: bool) -> Result<Found, CliError> {
-        let [width, height] = pair.common_size();
-        let is_perceived = width * height <= MAX_PERCEIVED;
-        if maps_flip && !is_perceived {
-            let problem = format!("{width}x{height} pixels are too many");
-            return Err(format!("--flip: {problem}: expected at most {MAX_PERCEIVED}").into());
-        }
-        let [seen, other] = pair.displayed();
-        let flip = is_perceived && (maps_flip || pair.is_one_size());
-        let flip = flip.then(|| flip_map(&seen, &other)).transpose()?;
-        if !pair.is_one_size() {
-            let difference = None;
-            return Ok(Found { difference, flip });
-        }
-        let [r, a] = pair.compared();
-        let difference = Difference {
-            ssim: ssim(&seen, &other)?,
-            flip: flip.as_ref().map(mean_flip),
-            ..compare(&r, &a)?
-        };
-        let difference = Some(difference);
-        Ok(Found { difference, flip })
-    }
-}
-
 /// Returns the numbers as a table.
 fn table(difference: &Difference) -> String {
     let value = |value: Option<f64>| match value {
@@ -272,7 +289,10 @@ fn table(difference: &Difference) -> String {
         text += "the pictures are equal\n";
     }
     if difference.not_finite_differing > 0 {
-        text += &format!("the pictures differ {}\n", not_finite_text(difference));
+        text += &format!(
+            "the pictures differ {}\n",
+            not_finite_text(difference.not_finite_differing)
+        );
     }
     text
 }

@@ -1,0 +1,96 @@
+//! The comparison of two pictures: metrics, and what a tolerance makes of them.
+
+use super::super::CliError;
+use super::super::tolerance::{Judged, Tolerance};
+use fastphong::compare::metrics::{
+    Difference, MAX_PERCEIVED, METRICS, compare_where, flip_map, mean_flip, ssim,
+};
+use fastphong::picture::Picture;
+use fastphong::picture::image_file::Pair;
+use serde_json::{Value, json};
+
+/// What a comparison finds.
+pub struct Comparison {
+    /// The numbers. `None` for pictures of different size: numbers of a corner that both have say nothing about the pictures.
+    pub numbers: Option<(Difference, Judged)>,
+    /// What a viewer sees where the pictures alternate, if it is computed.
+    pub flip: Option<Picture<f32>>,
+}
+
+impl Comparison {
+    /// Compares a pair; of pictures of different size, finds only what a map needs, which is of FLIP if `maps_flip`.
+    ///
+    /// # Errors
+    /// When there are too many pixels for a map of FLIP, or the tolerance is not for pictures of this size.
+    pub fn of(
+        pair: &Pair<'_>,
+        tolerance: &Tolerance<'_>,
+        maps_flip: bool,
+    ) -> Result<Comparison, CliError> {
+        let [width, height] = pair.common_size();
+        let is_perceived = width * height <= MAX_PERCEIVED;
+        if maps_flip && !is_perceived {
+            let problem = format!("{width}x{height} pixels are too many");
+            return Err(format!("--flip: {problem}: expected at most {MAX_PERCEIVED}").into());
+        }
+        let [seen, other] = pair.displayed();
+        if !pair.is_one_size() {
+            let flip = maps_flip.then(|| flip_map(&seen, &other)).transpose()?;
+            let numbers = None;
+            return Ok(Comparison { numbers, flip });
+        }
+        let selection = tolerance.selection([width, height])?;
+        let shown = selection.selected(&seen, &other);
+        let flip = is_perceived.then(|| flip_map(&seen, &shown)).transpose()?;
+        let [r, a] = pair.compared();
+        let difference = Difference {
+            ssim: ssim(&seen, &shown)?,
+            flip: flip.as_ref().map(mean_flip),
+            ..compare_where(&r, &a, |x, y| selection.includes(x, y))?
+        };
+        let judged = tolerance.judge(&r, &a, &selection)?;
+        let numbers = Some((difference, judged));
+        Ok(Comparison { numbers, flip })
+    }
+
+    /// Adds sizes, encodings and numbers to an object; without numbers for pictures of different size.
+    pub fn add_to(&self, object: &mut Value, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) {
+        let difference = self.numbers.as_ref().map(|(difference, _)| difference);
+        // JSON has neither infinity nor NaN: they become null.
+        let metrics = METRICS.iter();
+        let metrics = metrics.map(|m| (m.name, json!(difference.map(|found| (m.value)(found)))));
+        let ([width, height], [reference_size, actual_size]) = (pair.common_size(), sizes);
+        let [reference_encoding, actual_encoding] = pair.encodings();
+        super::add(
+            object,
+            json!({
+                "width": width,
+                "height": height,
+                "reference_size": reference_size,
+                "actual_size": actual_size,
+                "reference_encoding": reference_encoding.encoding,
+                "reference_encoding_assumed": !reference_encoding.is_stated,
+                "actual_encoding": actual_encoding.encoding,
+                "actual_encoding_assumed": !actual_encoding.is_stated,
+                "compared_encoding": pair.compared_encoding(),
+                "equal": difference.is_some_and(|found| found.equal),
+                "worst": difference.and_then(|found| found.worst),
+                "metrics": metrics.collect::<Value>(),
+            }),
+        );
+        match &self.numbers {
+            Some((_, judged)) => judged.add_to(object),
+            None => add_nothing(object),
+        }
+    }
+}
+
+/// Adds the fields of [`Judged::add_to`] for pictures that were not judged.
+fn add_nothing(object: &mut Value) {
+    for field in ["compared", "left_out", "over", "largest", "histogram"] {
+        object[field] = Value::Null;
+    }
+    for field in ["not_finite_differing", "largest_region"] {
+        object[field] = Value::Null;
+    }
+}
