@@ -47,6 +47,8 @@ pub use error::{DecodeError, EncodeError, ImageFileError};
 pub use netpbm::PpmWriter;
 pub use pair::{AlphaUse, LevelView, Pair, UsedEncoding};
 pub use png::encode_png;
+#[doc(hidden)]
+pub use replace::write_files_by;
 pub use replace::{NoDrafts, place, remove_drafts, write_file, write_file_by};
 
 /// Pixels of the largest picture that is read, 16384 × 16384, which is the largest that is drawn: beyond that a file is more

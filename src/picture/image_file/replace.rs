@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::vec::Vec;
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, TempPath};
 
 use super::ImageFileError;
 
@@ -45,6 +45,118 @@ pub fn write_file_by(
         path: path.to_owned(),
         cause,
     })
+}
+
+/// Writes several files, all of them or none: `write` writes the file of each index to a draft, and once all drafts are complete, they
+/// get their names. Folders that are missing are made. If anything fails, every file is as it was before. A signal for which the
+/// program calls [`remove_drafts`] is waited for until all have their names; a process that is killed between two names leaves some
+/// files new and others old, all of them whole.
+///
+/// # Errors
+/// As [`write_file_by`]; names the file.
+pub fn write_files_by(
+    paths: &[&Path],
+    mut write: impl FnMut(usize, &mut dyn Write) -> io::Result<()>,
+) -> Result<(), ImageFileError> {
+    let mut made = MadeFolders(Vec::new());
+    let mut waiting = Vec::new();
+    for (i, path) in paths.iter().enumerate() {
+        let file = Waiting::new(path, &mut made, |file| write(i, file));
+        let failed = |cause| ImageFileError::Write {
+            path: path.to_path_buf(),
+            cause,
+        };
+        waiting.push(file.map_err(failed)?);
+    }
+    let named = name_all(&waiting);
+    named.map_err(|(i, cause)| ImageFileError::Write {
+        path: paths[i].to_owned(),
+        cause,
+    })?;
+    made.0.clear();
+    Ok(())
+}
+
+/// Gives all drafts their names, or none; returns the index of the one that could not have it.
+fn name_all(files: &[Waiting]) -> Result<(), (usize, io::Error)> {
+    // A signal that would remove drafts and backups waits.
+    let _held = drafts();
+    for (i, file) in files.iter().enumerate() {
+        if let Err(error) = fs::rename(&file.draft.1, &file.place) {
+            for file in &files[..i] {
+                // What fails here has been possible just before.
+                let _ = match &file.backup {
+                    Some((_, backup)) => fs::rename(backup, &file.place),
+                    None => fs::remove_file(&file.place),
+                };
+            }
+            return Err((i, error));
+        }
+    }
+    Ok(())
+}
+
+/// A complete draft that waits for its name, and the file that has it.
+struct Waiting {
+    place: PathBuf,
+    draft: (ListedDraft, TempPath),
+    /// The old file under another name.
+    backup: Option<(ListedDraft, TempPath)>,
+}
+
+impl Waiting {
+    fn new(
+        path: &Path,
+        made: &mut MadeFolders,
+        write: impl FnOnce(&mut File) -> io::Result<()>,
+    ) -> io::Result<Waiting> {
+        let old = replaceable(path)?;
+        let place = place(path);
+        if old.as_ref().is_some_and(|old| !old.is_file()) {
+            let problem = "it is no plain file";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        }
+        made.make(folder(&place))?;
+        let draft = complete_draft(&place, old.as_ref(), write)?;
+        let backup = old.map(|old| {
+            complete_draft(&place, Some(&old), |file| {
+                io::copy(&mut File::open(&place)?, file).map(|_| ())
+            })
+        });
+        let paths = |(listed, file): (ListedDraft, NamedTempFile)| (listed, file.into_temp_path());
+        Ok(Waiting {
+            draft: paths(draft),
+            backup: backup.transpose()?.map(paths),
+            place,
+        })
+    }
+}
+
+/// Folders that were made, which are removed again on drop.
+struct MadeFolders(Vec<PathBuf>);
+
+impl MadeFolders {
+    /// Makes a folder and those above it that are missing.
+    fn make(&mut self, folder: &Path) -> io::Result<()> {
+        let missing = folder.ancestors().take_while(|above| {
+            let is_named = **above != *"";
+            is_named && !above.exists()
+        });
+        for folder in missing.collect::<Vec<_>>().into_iter().rev() {
+            fs::create_dir(folder)?;
+            self.0.push(folder.to_owned());
+        }
+        Ok(())
+    }
+}
+
+impl Drop for MadeFolders {
+    fn drop(&mut self) {
+        for folder in self.0.iter().rev() {
+            // One that is not empty has files of others now.
+            let _ = fs::remove_dir(folder);
+        }
+    }
 }
 
 /// Removes the drafts of all files that are being written, for a program that is about to be ended by a signal. As long as the
@@ -121,36 +233,53 @@ fn folder(path: &Path) -> &Path {
 
 /// Writes beside the place of `path`, then renames.
 fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
-    let old = match fs::metadata(path) {
-        Ok(old) => Some(old),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        Err(error) => return Err(error),
-    };
-    if let Some(old) = &old {
-        if old.is_dir() {
-            return Err(io::Error::from(io::ErrorKind::IsADirectory));
-        }
-        if !old.is_file() {
-            return write(&mut OpenOptions::new().write(true).open(path)?);
-        }
-        // A rename would not ask.
-        if old.permissions().readonly() {
-            let problem = "the file there is read-only";
-            return Err(io::Error::new(io::ErrorKind::PermissionDenied, problem));
-        }
+    let old = replaceable(path)?;
+    if old.as_ref().is_some_and(|old| !old.is_file()) {
+        return write(&mut OpenOptions::new().write(true).open(path)?);
     }
     let place = place(path);
-    let draft = draft(folder(&place), old.as_ref());
+    let (_listed, draft) = complete_draft(&place, old.as_ref(), write)?;
+    draft.persist(place)?;
+    Ok(())
+}
+
+/// Returns the file at `path`, if there is one.
+///
+/// # Errors
+/// If it is a folder or read-only.
+fn replaceable(path: &Path) -> io::Result<Option<Metadata>> {
+    let old = match fs::metadata(path) {
+        Ok(old) => old,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    if old.is_dir() {
+        return Err(io::Error::from(io::ErrorKind::IsADirectory));
+    }
+    // A rename would not ask.
+    if old.is_file() && old.permissions().readonly() {
+        let problem = "the file there is read-only";
+        return Err(io::Error::new(io::ErrorKind::PermissionDenied, problem));
+    }
+    Ok(Some(old))
+}
+
+/// Writes a draft beside `place`, with the permissions of the `old` file there.
+fn complete_draft(
+    place: &Path,
+    old: Option<&Metadata>,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> io::Result<(ListedDraft, NamedTempFile)> {
+    let draft = draft(folder(place), old);
     let problem = "its folder does not exist or takes no files";
-    let (_listed, mut draft) = draft.map_err(|error| io::Error::new(error.kind(), problem))?;
+    let (listed, mut draft) = draft.map_err(|error| io::Error::new(error.kind(), problem))?;
     write(draft.as_file_mut())?;
     if let Some(old) = old {
         draft.as_file().set_permissions(old.permissions())?;
         // Else a loss of power could leave neither: the name may reach the disk before the bytes.
         draft.as_file().sync_all()?;
     }
-    draft.persist(place)?;
-    Ok(())
+    Ok((listed, draft))
 }
 
 #[cfg(test)]
@@ -178,6 +307,53 @@ mod tests {
             assert_eq!(fs::read(&path).unwrap(), bytes);
             assert_eq!(names(&directory), ["out.bin"], "nothing else is left");
         }
+    }
+
+    #[test]
+    fn several_files_are_written_or_none() {
+        let directory = tempdir().unwrap();
+        let path = |name: &str| directory.path().join(name);
+        let [old, other, new] = ["old", "other", "in/two/new"].map(path);
+        fs::write(&old, "old").unwrap();
+        fs::write(&other, "other").unwrap();
+        let paths = [&*old, &*new, &*other];
+        let state = || (fs::read(&old).unwrap(), names(&directory).len());
+        // The last one fails while it is written.
+        let failed = write_files_by(&paths, |i, out| match i {
+            2 => Err(io::Error::other("full")),
+            _ => out.write_all(b"x"),
+        });
+        assert!(failed.unwrap_err().to_string().contains("other"));
+        assert_eq!(
+            state(),
+            (b"old".to_vec(), 2),
+            "folders that were made are gone"
+        );
+        // The last one fails while it gets its name, after the others have theirs.
+        let failed = write_files_by(&paths, |i, out| {
+            if i == 2 {
+                fs::remove_file(&other)?;
+            }
+            out.write_all(b"x")
+        });
+        assert!(failed.is_err(), "its old file cannot be kept");
+        assert_eq!(state(), (b"old".to_vec(), 1));
+        let failed = write_files_by(&paths, |i, out| {
+            if i == 2 {
+                fs::create_dir(&other)?;
+            }
+            out.write_all(b"x")
+        });
+        assert!(failed.is_err(), "a folder has its name");
+        assert_eq!(state(), (b"old".to_vec(), 2));
+        assert!(!new.exists() && !path("in").exists() && other.is_dir());
+        fs::remove_dir(&other).unwrap();
+        write_files_by(&paths, |i, out| write!(out, "{i}")).unwrap();
+        let contents = paths.map(|path| fs::read_to_string(path).unwrap());
+        assert_eq!(contents, ["0", "1", "2"]);
+        assert_eq!(names(&directory).len(), 3, "no draft and no backup is left");
+        let is_ours = |draft: &PathBuf| draft.starts_with(directory.path());
+        assert!(!drafts().iter().any(is_ours));
     }
 
     #[test]
