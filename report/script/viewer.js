@@ -213,7 +213,7 @@ class Viewer {
 			const isLive = s !== this.scene;
 			const time = q?.ms ? ` · ${num(q.ms)} ms${isLive ? " here" : ""}` : "";
 			const from = isLive && s.exact !== "reference" ? ` from ${nameOf(s.exact)}` : "";
-			const about = q ? `max ${num(q.max)} levels${from}${time}` : "f64, closed form";
+			const about = s.about?.(m) ?? (q ? `max ${num(q.max)} levels${from}${time}` : "f64, closed form");
 			el.innerHTML = html`<b>${nameOf(m)}${error && " · error"}</b>${about}`;
 			el.classList.toggle("faint", !shown);
 		};

@@ -31,6 +31,8 @@ mod document;
 mod live;
 mod markdown;
 mod page;
+#[doc(hidden)]
+pub mod pairs_page;
 mod pictures;
 mod shard;
 mod tables;

@@ -10,7 +10,9 @@ use alloc::vec::Vec;
 use serde_json::{Number, Value};
 
 const TEMPLATE: &str = include_str!("../../report/template.html");
-const STYLE: &str = include_str!("../../report/app.css");
+/// The parts of a viewer, which it clones.
+pub(super) const VIEWER: &str = include_str!("../../report/viewer.html");
+pub(super) const STYLE: &str = include_str!("../../report/app.css");
 
 /// Joins files of `report/script`, in this order: a file may use at once what those before it define.
 macro_rules! script {
@@ -33,6 +35,9 @@ const SCRIPT: &str = script!(
     "views" "link" "keys" "page"
 );
 
+/// What a viewer needs of the script, where the page brings scenes and pictures.
+pub(super) const VIEWER_SCRIPT: &str = script!("markup" "controls" "numbers" "viewer");
+
 /// Fills the template.
 pub(super) fn page(report: &Report) -> String {
     let data = &report.data;
@@ -54,13 +59,14 @@ pub(super) fn page(report: &Report) -> String {
         ("made", html_text(&made(data))),
         ("data", script_text(&json(report))),
         ("pictures", pictures(report)),
+        ("viewer", VIEWER.to_string()),
         ("script", SCRIPT.to_string()),
     ];
     filled(TEMPLATE, &parts)
 }
 
 /// Replaces each `{{name}}` of a template; what is put in is not looked at again.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
+pub(super) fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_string();
     for piece in pieces {
