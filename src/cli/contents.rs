@@ -24,6 +24,8 @@ pub enum Contents {
     Page,
     /// Numbers in JSON.
     Json,
+    /// Results of tests in XML.
+    Xml,
     /// Tables in CSV.
     Csv,
     /// Text in Markdown.
@@ -41,6 +43,7 @@ impl Contents {
             Contents::Picture(Format::Pfm) => &["pfm"],
             Contents::Page => &["html", "htm"],
             Contents::Json => &["json"],
+            Contents::Xml => &["xml"],
             Contents::Csv => &["csv"],
             Contents::Markdown => &["md"],
             Contents::Manual => &["1"],
@@ -63,7 +66,7 @@ impl Contents {
             Contents::Markdown => has(b"Made by `fastphong "),
             Contents::Manual => has(b".TH fastphong"),
             // No command chooses names for these.
-            Contents::Json | Contents::Csv => false,
+            Contents::Json | Contents::Xml | Contents::Csv => false,
         }
     }
 }
@@ -74,6 +77,7 @@ impl fmt::Display for Contents {
             Contents::Picture(_) => "a picture",
             Contents::Page => "a page in HTML",
             Contents::Json => "JSON",
+            Contents::Xml => "XML",
             Contents::Csv => "CSV",
             Contents::Markdown => "Markdown",
             Contents::Manual => "a manual page",

@@ -3,6 +3,7 @@
 use super::files::OneFileError;
 use fastphong::scene::file::diagnostics::SceneError;
 use std::error::Error;
+use std::fmt;
 
 /// The result of a sub-command that did its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +21,12 @@ pub struct CliError(Box<dyn Error + Send + Sync>);
 impl<E: Into<Box<dyn Error + Send + Sync>>> From<E> for CliError {
     fn from(error: E) -> Self {
         CliError(error.into())
+    }
+}
+
+impl fmt::Display for CliError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
     }
 }
 

@@ -10,12 +10,13 @@
 use super::input_name::{is_stand_in, path_behind};
 use super::{CliError, memory, signals};
 use fastphong::picture::image_file::{
-    FilePicture, ImageFileError, place, read_picture, write_file_by,
+    FilePicture, ImageFileError, place, read_picture, write_file_by, write_files_by,
 };
 use fastphong::scene::file::diagnostics::SceneError;
 use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
 use fastphong::scene::input::{self, InputFormat, has_ending, read_input};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
 use std::io::{self, Read, Write};
@@ -71,11 +72,14 @@ impl std::error::Error for OneFileError {}
 #[derive(Debug)]
 struct Files {
     read: Vec<FileRead>,
+    /// The paths of those.
+    paths: BTreeSet<PathBuf>,
     written: Vec<PathBuf>,
 }
 
 const NONE: Files = Files {
     read: Vec::new(),
+    paths: BTreeSet::new(),
     written: Vec::new(),
 };
 
@@ -93,20 +97,22 @@ pub fn forget() {
 
 /// Registers a file that is going to be read, as `part` of the command.
 pub fn will_read(path: &Path, part: &'static str) {
+    if is_read(path) {
+        return;
+    }
     let file = FileRead {
         path: path.to_owned(),
         part,
         state: State::of(path),
     };
-    let known = &mut files().read;
-    if known.iter().all(|other| other.path != file.path) {
-        known.push(file);
-    }
+    let mut files = files();
+    files.paths.insert(path.to_owned());
+    files.read.push(file);
 }
 
 /// True if a file of this name is registered.
 fn is_read(path: &Path) -> bool {
-    files().read.iter().any(|file| file.path == path)
+    files().paths.contains(path)
 }
 
 /// Registers standard input, which is going to be read as `part` of the command.
@@ -197,6 +203,83 @@ pub fn of_scene(file: &SceneFile, most: u64) -> Option<Vec<(String, Vec<u8>)>> {
         Ok(bytes)
     });
     resolved.is_ok().then_some(read)
+}
+
+/// Endings of picture files that are read, without the dot.
+const PICTURES: [&str; 8] = ["png", "pbm", "pgm", "ppm", "pam", "pfm", "bmp", "tga"];
+
+/// The picture files in a folder.
+#[derive(Debug, Default)]
+pub struct PictureNames {
+    /// Names within the folder, sorted.
+    pub names: Vec<PathBuf>,
+    /// The number of other files.
+    pub others: usize,
+}
+
+/// Lists the picture files in a folder and in the folders within it, by their endings. Hidden files are left out, drafts among
+/// them, and links to folders are not followed, which may lead anywhere.
+///
+/// # Errors
+/// When a folder cannot be read.
+pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
+    let mut found = PictureNames::default();
+    let mut open = vec![PathBuf::new()];
+    while let Some(inner) = open.pop() {
+        let path = folder.join(&inner);
+        let refused = |error| format!("{}: cannot be read: {error}", path.display());
+        for entry in fs::read_dir(&path).map_err(refused)? {
+            let entry = entry.map_err(refused)?;
+            let name = inner.join(entry.file_name());
+            if entry.file_name().as_encoded_bytes().starts_with(b".") {
+                continue;
+            }
+            let is_picture = PICTURES.iter().any(|ending| has_ending(&name, ending));
+            match entry.file_type().map_err(refused)? {
+                kind if kind.is_dir() => open.push(name),
+                kind if kind.is_symlink() && entry.path().is_dir() => {}
+                _ if is_picture => found.names.push(name),
+                _ => found.others += 1,
+            }
+        }
+    }
+    found.names.sort();
+    Ok(found)
+}
+
+/// A file that is copied over another one, or to a place where there is none.
+#[derive(Clone, Copy, Debug)]
+pub struct Copy<'a> {
+    pub from: &'a Path,
+    pub to: &'a Path,
+}
+
+/// Copies files, all of them or none. This is the one way to write files that are read: to replace references is what the user
+/// asked for.
+///
+/// # Errors
+/// When a copy would be written over a file that is to be copied, or two of them to one place, or a file cannot be read or written.
+pub fn copy_all(copies: &[Copy<'_>]) -> Result<(), CliError> {
+    let sources: BTreeSet<PathBuf> = copies.iter().map(|copy| place(copy.from)).collect();
+    let mut places = BTreeSet::new();
+    for copy in copies {
+        let (to, end) = (copy.to.display(), place(copy.to));
+        if sources.contains(&end) {
+            let problem = format!("{to} leads to a picture that is to be approved");
+            return Err(OneFileError(format!("{problem}: expected a reference of its own")).into());
+        }
+        if !places.insert(end) {
+            let problem = format!("{to} leads to the same file as another reference");
+            return Err(OneFileError(format!("{problem}: expected a file for each")).into());
+        }
+    }
+    signals::remove_drafts_at_the_end();
+    let places: Vec<&Path> = copies.iter().map(|copy| copy.to).collect();
+    write_files_by(&places, |i, out| {
+        let mut from = fs::File::open(copies[i].from)?;
+        io::copy(&mut from, out).map(|_| ())
+    })?;
+    Ok(())
 }
 
 /// Reads a picture, which is `part` of the command.

@@ -34,7 +34,7 @@ fn name(input: &OsStr) -> String {
 }
 
 /// Writes bytes that are no text as `\xE9`.
-fn escaped(path: &OsStr) -> String {
+pub fn escaped(path: &OsStr) -> String {
     let chunks = path.as_encoded_bytes().utf8_chunks();
     let escape = |byte: &u8| format!("\\x{byte:02X}");
     let text = chunks.map(|chunk| {

@@ -171,6 +171,31 @@ impl Tolerance<'_> {
         })
     }
 
+    /// Says what passes, in a sentence.
+    pub fn text(&self) -> String {
+        let flags = self.flags;
+        let mut text = match self.threshold {
+            Some(most) => format!("No pixel may differ by more than {most} grey levels"),
+            None => "There is no threshold".to_owned(),
+        };
+        if let Some(allow) = &flags.allow {
+            text += &format!(", but for {allow} of them");
+            text += if allow.to_string().ends_with('%') {
+                ""
+            } else {
+                " in each picture"
+            };
+        }
+        match self.radius() {
+            0 => {}
+            radius => text += &format!(", within a radius of {radius}"),
+        }
+        if flags.mask.is_some() || flags.region.is_some() {
+            text += "; pixels are left out";
+        }
+        text + "."
+    }
+
     /// Returns the flags as data.
     pub fn json(&self) -> Value {
         let region = self.flags.region;
@@ -299,14 +324,18 @@ impl Judged {
     }
 }
 
-/// Grey levels in a sentence: `2.5000 grey levels`, or that no number says them.
+/// Grey levels in a sentence: `40 grey levels`, `2.5000 grey levels`, or that no number says them.
 pub struct Levels(pub f64);
 
 impl fmt::Display for Levels {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.is_finite() {
-            true => write!(f, "{} grey levels", super::text::measured(self.0)),
-            false => f.write_str("infinite or not a number in one picture"),
+        match self.0 {
+            levels if !levels.is_finite() => f.write_str("infinite or not a number in one picture"),
+            1.0 => f.write_str("1 grey level"),
+            levels if levels == levels.round() && levels < 1e15 => {
+                write!(f, "{levels:.0} grey levels")
+            }
+            levels => write!(f, "{} grey levels", super::text::measured(levels)),
         }
     }
 }

@@ -9,6 +9,7 @@ mod engines;
 mod figure;
 mod files;
 mod flags;
+mod folders;
 mod formats;
 mod geometry;
 mod hints;

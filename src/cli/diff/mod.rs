@@ -1,6 +1,11 @@
-//! `fastphong diff`: two picture files, in numbers and as a map.
+//! `fastphong diff`: two picture files, in numbers and as a map, or the pictures of two folders.
 
+mod compared;
 mod comparison;
+mod folders;
+mod junit;
+mod page;
+mod pairing;
 
 use super::output::{self, Output, print_beside};
 use super::reference_check::{SCALE, alpha_text, has_two_encodings, not_finite_text};
@@ -19,19 +24,20 @@ use serde_json::{Value, json};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
-/// Compare two picture files
+/// Compare two picture files, or all pictures of two folders
 #[derive(clap::Args, Debug)]
 pub struct DiffArgs {
-    /// Reference picture: PNG, PBM, PGM, PPM, PAM, PFM, BMP or Targa; `-` is standard input
+    /// Reference picture: PNG, PBM, PGM, PPM, PAM, PFM, BMP or Targa; `-` is standard input. Or a folder of references
     reference: PathBuf,
-    /// Picture to compare with it; `-` is standard input
+    /// Picture to compare with it; `-` is standard input. Or a folder of pictures, which are compared with the references of the same
+    /// names, in folders within it too
     actual: PathBuf,
     /// Encoding of pictures that state none [default: linear for PFM, srgb for others]. Of two encodings, the linear picture is
     /// encoded before they are compared
     #[arg(long, value_name = "linear|srgb", value_parser = encoding)]
     assume: Option<Encoding>,
     /// Exit with code 1 when a channel differs by more grey levels, of 255. Alpha is a channel: a pixel that only one of the
-    /// pictures covers differs by its alpha
+    /// pictures covers differs by its alpha. Without this, folders must be equal
     #[arg(long, value_name = "GREY_LEVELS", value_parser = values::grey_levels, allow_hyphen_values = true)]
     fail_above: Option<f64>,
     #[command(flatten)]
@@ -54,11 +60,65 @@ pub struct DiffArgs {
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
+    /// Write a page with all pairs of two folders: pictures, slider, flipping and maps; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write the result of two folders as JUnit XML, a test case for each pair; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Copy pictures that differ, and new ones, over the references, all of them or none. Nothing is removed
+    #[arg(long)]
+    approve: bool,
 }
 
 impl DiffArgs {
-    /// Compares, prints, and writes the map.
+    /// Compares, prints, and writes what was asked for.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        match self
+            .paths()
+            .map(|path| path.as_os_str() != "-" && path.is_dir())
+        {
+            [true, true] => folders::run(self, log),
+            [false, false] => self.run_on_files(log),
+            of_reference => {
+                let folder = self.paths()[usize::from(!of_reference[0])].display();
+                let other = self.paths()[usize::from(of_reference[0])].display();
+                let problem = format!("{folder} is a folder, and {other} is none");
+                Err(format!("{problem}: expected two files or two folders").into())
+            }
+        }
+    }
+
+    /// Refuses flags that are for two files.
+    fn check_for_folders(&self) -> Result<(), CliError> {
+        match &self.output {
+            None => Ok(()),
+            Some(_) => {
+                let problem = "`--output` is for the map of two files";
+                Err(format!("{problem}: expected `--html FILE` for two folders").into())
+            }
+        }
+    }
+
+    /// Refuses flags that are for two folders.
+    fn check_for_files(&self) -> Result<(), CliError> {
+        let flags = [
+            ("--html", self.html.is_some()),
+            ("--junit", self.junit.is_some()),
+            ("--approve", self.approve),
+        ];
+        match flags.into_iter().find(|(_, is_given)| *is_given) {
+            None => Ok(()),
+            Some((flag, _)) => {
+                let problem = format!("`{flag}` is for two folders");
+                Err(format!("{problem}: expected folders, not files").into())
+            }
+        }
+    }
+
+    /// Compares two files, prints, and writes the map.
+    fn run_on_files(&self, log: Log) -> Result<Outcome, CliError> {
+        self.check_for_files()?;
         let output = self.output.as_deref();
         let output = output.map(|path| Output::of_picture(path, None));
         let output = output.transpose()?;
@@ -120,7 +180,7 @@ impl DiffArgs {
             return self.encodings_text(pair) + &self.sizes_text(pair, sizes);
         };
         let mut text = table(difference);
-        if found.flip.is_none() {
+        if difference.flip.is_none() {
             text += &format!("ssim and flip are left out: over {MAX_PERCEIVED} pixels\n");
         }
         if !difference.equal || self.fail_above.is_some() {

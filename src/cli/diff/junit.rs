@@ -1,0 +1,76 @@
+//! A comparison of folders as JUnit XML, which CI servers show: a test case a pair.
+
+use super::DiffArgs;
+use super::compared::{Compared, Status, count};
+
+/// Writes the comparison. A pair that cannot be compared is an error, any other that fails a failure.
+pub fn xml(args: &DiffArgs, compared: &[Compared]) -> String {
+    let errors = count(compared, Status::Unreadable);
+    let failures = compared.iter().filter(|one| one.status.fails()).count() - errors;
+    let seconds: f64 = compared.iter().map(|one| one.time.as_secs_f64()).sum();
+    let numbers = format!(
+        "tests=\"{}\" failures=\"{failures}\" errors=\"{errors}\" skipped=\"0\" time=\"{seconds:.3}\"",
+        compared.len()
+    );
+    let name = format!("{} and {}", args.reference.display(), args.actual.display());
+    let name = escaped(&name);
+    let cases: String = compared.iter().map(case).collect();
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fastphong diff\" {numbers}>\n\
+         <testsuite name=\"{name}\" {numbers}>\n{cases}</testsuite>\n</testsuites>\n"
+    )
+}
+
+/// Writes a pair.
+fn case(one: &Compared) -> String {
+    let (folder, file) = one
+        .pair
+        .name
+        .rsplit_once('/')
+        .unwrap_or(("", &one.pair.name));
+    let class = match folder {
+        "" => "pictures".to_owned(),
+        folder => format!("pictures.{}", folder.replace('/', ".")),
+    };
+    let seconds = one.time.as_secs_f64();
+    let head = format!(
+        "<testcase classname=\"{}\" name=\"{}\" time=\"{seconds:.3}\"",
+        escaped(&class),
+        escaped(file)
+    );
+    let (element, kind) = match one.status {
+        Status::Within | Status::Equal => return format!("{head}/>\n"),
+        Status::Unreadable => ("error", one.status.name()),
+        Status::Differs | Status::Missing | Status::New => ("failure", one.status.name()),
+    };
+    let region = one
+        .judged
+        .as_ref()
+        .map_or(String::new(), |judged| judged.region_text());
+    let (message, text) = (
+        escaped(&one.text),
+        escaped(&format!("{}\n{region}", one.text)),
+    );
+    format!(
+        "{head}><{element} type=\"{kind}\" message=\"{message}\">{text}</{element}></testcase>\n"
+    )
+}
+
+/// Escapes a text for XML 1.0, in an attribute too. Characters that XML cannot hold become U+FFFD.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for letter in text.chars() {
+        match letter {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            '\'' => out += "&apos;",
+            // A parser would make spaces of them in an attribute.
+            '\t' | '\n' | '\r' => out += &format!("&#{};", letter as u32),
+            '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            letter => out.push(letter),
+        }
+    }
+    out
+}

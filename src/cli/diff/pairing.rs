@@ -1,0 +1,101 @@
+//! The pairs of two folders: pictures that have one name, in folders of one name.
+
+use super::super::{CliError, files, input_name::escaped};
+use std::cmp::Ordering;
+use std::path::{Path, PathBuf};
+
+/// Pictures of one name.
+#[derive(Debug)]
+pub struct Named {
+    /// The name within the folders; its parts are divided by `/` everywhere. Bytes that are no text
+    /// are written as `\xE9`.
+    pub name: String,
+    pub reference: Option<PathBuf>,
+    pub actual: Option<PathBuf>,
+    /// The place of the reference, whether there is one or not.
+    pub place: PathBuf,
+}
+
+/// The pictures of two folders.
+#[derive(Debug)]
+pub struct Pairing {
+    /// All names, sorted.
+    pub pairs: Vec<Named>,
+    /// Files that are left out, as their endings are those of no picture.
+    pub others: usize,
+}
+
+impl Pairing {
+    /// Lists the pictures of two folders and of the folders in them.
+    ///
+    /// # Errors
+    /// When the folders are one, or one lies in the other, or cannot be read, or neither has a
+    /// picture.
+    pub fn of(reference: &Path, actual: &Path) -> Result<Pairing, CliError> {
+        check_apart(reference, actual)?;
+        let [of_reference, of_actual] = [reference, actual].map(files::pictures_in);
+        let (of_reference, of_actual) = (of_reference?, of_actual?);
+        let others = of_reference.others + of_actual.others;
+        let pairs = merged(reference, actual, of_reference.names, of_actual.names);
+        if pairs.is_empty() {
+            let (one, two) = (reference.display(), actual.display());
+            let expected =
+                "expected files that end in .png, .ppm, .pfm or another ending of docs/pictures.md";
+            return Err(format!("no pictures in {one} and {two}: {expected}").into());
+        }
+        Ok(Pairing { pairs, others })
+    }
+}
+
+/// Refuses one folder twice, and a folder within the other.
+fn check_apart(reference: &Path, actual: &Path) -> Result<(), CliError> {
+    let place = |path: &Path| {
+        let refused = |error| format!("{}: cannot be read: {error}", path.display());
+        path.canonicalize().map_err(refused)
+    };
+    let (one, two) = (place(reference)?, place(actual)?);
+    let (reference, actual) = (reference.display(), actual.display());
+    if one == two {
+        return Err(format!("{reference} and {actual} are one folder: expected two").into());
+    }
+    let within = match (one.starts_with(&two), two.starts_with(&one)) {
+        (true, _) => format!("{reference} lies in {actual}"),
+        (_, true) => format!("{actual} lies in {reference}"),
+        _ => return Ok(()),
+    };
+    Err(format!("{within}: expected two folders, none within the other").into())
+}
+
+/// Joins two sorted lists of names.
+fn merged(
+    reference: &Path,
+    actual: &Path,
+    of_reference: Vec<PathBuf>,
+    of_actual: Vec<PathBuf>,
+) -> Vec<Named> {
+    let mut pairs = Vec::new();
+    let mut add = |name: &Path, is_reference: bool, is_actual: bool| {
+        let place = reference.join(name);
+        let parts = name.iter().map(escaped);
+        pairs.push(Named {
+            name: parts.collect::<Vec<_>>().join("/"),
+            reference: is_reference.then(|| place.clone()),
+            actual: is_actual.then(|| actual.join(name)),
+            place,
+        });
+    };
+    let (mut ones, mut twos) = (of_reference.iter().peekable(), of_actual.iter().peekable());
+    loop {
+        let order = match (ones.peek(), twos.peek()) {
+            (None, None) => return pairs,
+            (Some(_), None) => Ordering::Less,
+            (None, Some(_)) => Ordering::Greater,
+            (Some(one), Some(two)) => one.cmp(two),
+        };
+        let one = if order.is_le() { ones.next() } else { None };
+        let two = if order.is_ge() { twos.next() } else { None };
+        if let Some(name) = one.or(two) {
+            add(name, one.is_some(), two.is_some());
+        }
+    }
+}
