@@ -218,7 +218,7 @@ pub struct PictureNames {
 }
 
 /// Lists the picture files in a folder and in the folders within it, by their endings. Hidden files are left out, drafts among
-/// them, and links to folders are not followed, which may lead anywhere.
+/// them, as are pipes and devices; links to folders, which may lead anywhere, are not followed.
 ///
 /// # Errors
 /// When a folder cannot be read.
@@ -235,10 +235,14 @@ pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
                 continue;
             }
             let is_picture = PICTURES.iter().any(|ending| has_ending(&name, ending));
-            match entry.file_type().map_err(refused)? {
-                kind if kind.is_dir() => open.push(name),
-                kind if kind.is_symlink() && entry.path().is_dir() => {}
-                _ if is_picture => found.names.push(name),
+            let kind = entry.file_type().map_err(refused)?;
+            // A link that leads nowhere is a picture that cannot be read. A pipe would be waited for.
+            let target = fs::metadata(entry.path());
+            let is_file = target.as_ref().map_or(true, fs::Metadata::is_file);
+            match (kind.is_dir(), target.is_ok_and(|target| target.is_dir())) {
+                (true, _) => open.push(name),
+                (_, true) => {}
+                _ if is_picture && is_file => found.names.push(name),
                 _ => found.others += 1,
             }
         }

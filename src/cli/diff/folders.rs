@@ -32,7 +32,7 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
     if pairing.others > 0 {
         let others = counted(pairing.others, "file is left out", "files are left out");
         log.note(&format!(
-            "{others}: their endings are those of no picture that is read"
+            "{others}: expected plain files with the ending of a picture that is read"
         ));
     }
     let mut page = outputs.page.as_ref().map(|_| page::Page::default());
@@ -159,7 +159,8 @@ fn text(compared: &[Compared], approved: &[String], log: Log) -> String {
     text += &format!("{}\n", summary(compared));
     if !approved.is_empty() {
         let of = part_of(approved.len(), compared.len(), "picture");
-        text += &format!("approved {of}: {}\n", approved.join(", "));
+        text += &format!("approved {of}:\n");
+        text.extend(approved.iter().map(|name| format!("  {name}\n")));
     }
     text
 }

@@ -50,6 +50,13 @@ fn error_at(reference: &Window<'_>, actual: &Window<'_>, [x, y]: [usize; 2]) -> 
 
 /// Returns the error of one pixel against another; `None` if neither is covered.
 fn error_between(a: Levels, b: Levels) -> Option<f64> {
+    // Nearly all pixels are covered and finite: a radius asks for hundreds of pairs a pixel. An
+    // infinity or NaN in a channel shows in the sum.
+    let errors: [f64; 4] = core::array::from_fn(|c| (a.0[c] - b.0[c]).abs());
+    let is_covered = a.alpha() != 0.0 && b.alpha() != 0.0;
+    if is_covered && errors.iter().sum::<f64>().is_finite() {
+        return Some(errors.into_iter().fold(0.0, f64::max));
+    }
     let difference = PixelDifference::new(a, b)?;
     Some(match difference.is_not_finite_differing {
         true => f64::INFINITY,
@@ -102,24 +109,24 @@ impl<'a> Window<'a> {
     fn least_error(&self, pixel: Levels, [x, y]: [usize; 2], most: f64) -> f64 {
         let [width, height] = self.picture.size();
         let mut least = most;
-        let mut look = |x: usize, y: usize| {
-            // Two pixels that nothing covers are the same.
-            least = least.min(error_between(pixel, self.row(y)[x]).unwrap_or(0.0));
-            least == 0.0
-        };
+        // Two pixels that nothing covers are the same.
+        let error = |other: &Levels| error_between(pixel, *other).unwrap_or(0.0);
         for distance in 1..=self.radius {
             let (left, right) = (x.saturating_sub(distance), (x + distance).min(width - 1));
             let (top, bottom) = (y.saturating_sub(distance), (y + distance).min(height - 1));
-            for row in top..=bottom {
-                // Rows in between have two pixels at this distance, or fewer at a border.
-                let is_edge = row.abs_diff(y) == distance;
-                let step = if is_edge { 1 } else { (right - left).max(1) };
-                for column in (left..=right).step_by(step) {
-                    let is_here = is_edge || column.abs_diff(x) == distance;
-                    if is_here && look(column, row) {
-                        return 0.0;
-                    }
+            for y_near in top..=bottom {
+                let row = self.row(y_near);
+                if y_near.abs_diff(y) == distance {
+                    least = row[left..=right].iter().map(error).fold(least, f64::min);
+                } else {
+                    // The rows between have two pixels at this distance, or fewer at a border.
+                    let ends = [left, right].into_iter();
+                    let ends = ends.filter(|end| end.abs_diff(x) == distance);
+                    least = ends.map(|end| error(&row[end])).fold(least, f64::min);
                 }
+            }
+            if least == 0.0 {
+                break;
             }
         }
         least
