@@ -75,7 +75,7 @@ function toggle(card, opens = !card.classList.contains("on")) {
 		rows: { actual: { max: largest, worst } },
 		drawn: true,
 		images,
-		about: m => (m === "reference" ? "" : largest == null ? null : `up to ${num(largest)} levels`),
+		about: m => (m === "reference" || largest == null ? "" : `up to ${num(largest)} levels`),
 	};
 	const v = new PairViewer(root, { scene, a: "actual", b: "reference" });
 	$(".hints", root).innerHTML = html`
