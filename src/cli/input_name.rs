@@ -44,6 +44,15 @@ pub fn escaped(path: &OsStr) -> String {
     text.collect()
 }
 
+/// Writes control characters as `\x1B`, so that no name of a file commands the terminal.
+pub fn printable(text: &str) -> String {
+    let letter = |letter: char| match letter.is_control() {
+        true => format!("\\x{:02X}", letter as u32),
+        false => letter.to_string(),
+    };
+    text.chars().map(letter).collect()
+}
+
 /// True if a name is a stand-in, or is in the folder of one.
 pub fn is_stand_in(name: &str) -> bool {
     path_behind(Path::new(name)) != Path::new(name)

@@ -309,25 +309,25 @@ fn links_to_folders_are_not_followed_and_names_may_be_of_any_bytes() {
     // What never ends is not read.
     std::os::unix::fs::symlink("/dev/zero", folder.path("now/zero.png")).unwrap();
     let odd = std::ffi::OsStr::from_bytes(b"caf\xe9 <&\">\x01.png");
-    for side in ["ref", "now"] {
-        fs::copy(folder.path("now/a.png"), folder.path(side).join(odd)).unwrap();
-    }
     write(&folder, "now/x.png", 30);
     fs::rename(folder.path("now/x.png"), folder.path("now").join(odd)).unwrap();
     let ended = folder
         .run("diff ref now --fail-above 2 --junit out/j.xml --html p.html")
         .differs();
     ended
-        .prints("caf\\xE9 <&\">")
+        .prints("new         caf\\xE9 <&\">\\x01.png")
         .prints("unreadable  broken.png")
         .prints("8 pictures: ");
     let xml = String::from_utf8(folder.read("out/j.xml")).unwrap();
-    assert!(
-        xml.contains("name=\"caf\\xE9 &lt;&amp;&quot;&gt;\u{fffd}.png\""),
-        "{xml}"
-    );
+    // XML has no place for the control character of the path, which the message says as it is.
+    for part in [
+        "name=\"caf\\xE9 &lt;&amp;&quot;&gt;\\x01.png\"",
+        "&quot;&gt;\u{fffd}.png yet",
+    ] {
+        assert!(xml.contains(part), "{xml}");
+    }
     let page = String::from_utf8(folder.read("p.html")).unwrap();
-    assert!(page.contains("caf\\xE9 &lt;&amp;&quot;&gt;\u{fffd}.png"));
+    assert!(page.contains("caf\\xE9 &lt;&amp;&quot;&gt;\\x01.png"));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::super::output::{self, Output, print_beside};
 use super::super::progress::Progress;
 use super::super::text::{counted, part_of};
 use super::super::tolerance::Tolerance;
-use super::super::{CliError, Log, Outcome, contents::Contents, files};
+use super::super::{CliError, Log, Outcome, contents::Contents, files, input_name::printable};
 use super::compared::{Compared, Status, compare, count, summary};
 use super::pairing::Pairing;
 use super::{DiffArgs, add, junit, page};
@@ -148,7 +148,7 @@ fn text(compared: &[Compared], approved: &[String], log: Log) -> String {
             "" => String::new(),
             region => format!("; {region}"),
         };
-        let text = one.text.replace('\n', " ");
+        let text = printable(&one.text);
         [
             one.status.name().to_owned(),
             one.pair.name.clone(),

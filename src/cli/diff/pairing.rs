@@ -1,6 +1,9 @@
 //! The pairs of two folders: pictures that have one name, in folders of one name.
 
-use super::super::{CliError, files, input_name::escaped};
+use super::super::{
+    CliError, files,
+    input_name::{escaped, printable},
+};
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Named {
     /// The name within the folders; its parts are divided by `/` everywhere. Bytes that are no text
-    /// are written as `\xE9`.
+    /// and control characters are written as `\xE9`.
     pub name: String,
     pub reference: Option<PathBuf>,
     pub actual: Option<PathBuf>,
@@ -76,7 +79,7 @@ fn merged(
     let mut pairs = Vec::new();
     let mut add = |name: &Path, is_reference: bool, is_actual: bool| {
         let place = reference.join(name);
-        let parts = name.iter().map(escaped);
+        let parts = name.iter().map(|part| printable(&escaped(part)));
         pairs.push(Named {
             name: parts.collect::<Vec<_>>().join("/"),
             reference: is_reference.then(|| place.clone()),
