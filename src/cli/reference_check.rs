@@ -233,7 +233,11 @@ impl ReferenceCheck<'_> {
             let differ = counted(difference.differing, "pixel differs", "pixels differ");
             text += &format!("; {differ}, most at column {x}, row {y}");
         }
-        Ok(format!("{text}\n{}", judged.region_text()))
+        Ok(format!(
+            "{text}\n{}{}",
+            judged.spread_text(),
+            judged.region_text()
+        ))
     }
 }
 

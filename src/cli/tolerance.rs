@@ -270,8 +270,8 @@ impl Judged {
         )
     }
 
-    /// Returns the spread of differences, the count and the largest region as lines.
-    pub fn text(&self) -> String {
+    /// Returns the spread of differences as lines.
+    pub fn spread_text(&self) -> String {
         let Judgement {
             compared,
             left_out,
@@ -283,7 +283,7 @@ impl Judged {
             pixels => format!(", {} left out", grouped(pixels)),
         };
         let pixels = super::text::counted(compared, "compared pixel", "compared pixels");
-        let mut text = format!("{pixels}{left_out}{}:\n", self.radius_text());
+        let text = format!("{pixels}{left_out}{}:\n", self.radius_text());
         let mut rows: Vec<[String; 3]> = Vec::new();
         let mut row = |range: String, pixels: usize| {
             if pixels > 0 {
@@ -294,7 +294,12 @@ impl Judged {
             row(bin_text(&bin), bin.pixels);
         }
         row("infinite or not a number".to_owned(), histogram.not_finite);
-        text += &fastphong::compare::table::aligned(&rows, &[0]);
+        text + &fastphong::compare::table::aligned(&rows, &[0])
+    }
+
+    /// Returns the spread of differences, the count and the largest region as lines.
+    pub fn text(&self) -> String {
+        let mut text = self.spread_text();
         if let Some(threshold) = self.threshold {
             let (count, allowed) = (self.count_text(), self.allowed.as_ref());
             let allowed = allowed.map_or(String::new(), |text| format!(", {text} allowed"));

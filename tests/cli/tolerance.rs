@@ -268,6 +268,7 @@ fn a_rendered_picture_is_judged_by_the_same_flags() {
     check("")
         .differs()
         .prints("differs by 9.0000 grey levels, more than 1, in 1 of ")
+        .prints("\nover 8 to 16 levels")
         .prints("largest region: 1 pixel within 1x1 at column 32, row 24");
     check("--allow 1")
         .done()
