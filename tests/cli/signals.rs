@@ -74,32 +74,33 @@ fn a_signal_leaves_no_draft_and_the_old_file_and_is_seen_from_outside() {
     }
 }
 
-/// Approving is all or nothing, whenever it is ended: while drafts are written, or while they get their names.
+/// Approving is all or nothing, whenever it is ended: while drafts are written, or while they get their names. The pictures are
+/// large, so that drafts take time, and of another size than the references, so that comparing takes none.
 #[test]
 fn a_signal_while_pictures_are_approved_leaves_all_old_or_all_new() {
     let [references, pictures] = [Folder::new(), Folder::new()];
-    let names: Vec<String> = (100..200).map(|i| format!("{i}.ppm")).collect();
-    let picture = |level: u8| [b"P6 1 1 255\n".as_slice(), &[level; 3]].concat();
+    let names: Vec<String> = (10..40).map(|i| format!("{i}.ppm")).collect();
+    let small = b"P6 1 1 255\nabc".to_vec();
+    let large = [b"P6 1000 1000 255\n".as_slice(), &[9; 3_000_000]].concat();
     let command = format!("diff . {} --approve", pictures.path("").display());
     for name in &names {
-        pictures.write(name, picture(9));
+        pictures.write(name, &large);
     }
-    for draft in [1, 100, 150, 199] {
+    for drafts in [1, 10, 30, 59] {
         for name in &names {
-            references.write(name, picture(1));
+            references.write(name, &small);
         }
         let mut child = start(references.command(&command));
         wait_until(&references, |names| {
-            let drafts = names.iter().filter(|name| name.starts_with(".tmp"));
-            drafts.count() >= draft || names.len() == 100 && references.read("199.ppm")[13] == 9
+            let found = names.iter().filter(|name| name.starts_with(".tmp"));
+            found.count() >= drafts || references.read("39.ppm") == large
         });
         send("TERM", &child);
         child.wait().expect("an end");
         assert_eq!(references.names(), names, "no draft is left");
-        let new = names
-            .iter()
-            .filter(|name| references.read(name) == picture(9));
-        assert!([0, 100].contains(&new.count()), "all or none");
+        let new = names.iter().filter(|name| references.read(name) == large);
+        let new = new.count();
+        assert!([0, names.len()].contains(&new), "{new} are new");
     }
 }
 
