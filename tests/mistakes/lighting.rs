@@ -1,0 +1,325 @@
+//! The light on a point of a surface (L21 2.1).
+
+use crate::camera::{Camera, unit};
+use crate::options::{
+    Ambient, DiffuseCosine, DiffuseTerm, Exponent, Falloff, Gate, HalfVector, HighlightCosine,
+    LightColour, LightDirection, LightLength, LightSpace, Lights, Options, Reflection,
+    SpecularClamp, SpecularColour, SpecularTerm, View, ViewLength,
+};
+use fastphong::mesh::Material;
+use fastphong::scene::{self, Place, Scene, SpecularGate, SpecularModel};
+use glam::{DAffine3, DVec3};
+use std::f64::consts::PI;
+
+/// A point on a surface.
+#[derive(Clone, Copy)]
+pub struct Point {
+    /// Its position in world space.
+    pub position: DVec3,
+    /// Its normal in world space.
+    pub normal: DVec3,
+}
+
+/// The coefficients of a material.
+struct Coefficients {
+    ka: DVec3,
+    kd: DVec3,
+    ks: DVec3,
+    n: f64,
+}
+
+/// A light of the scene, as the object under it sees it.
+struct Light {
+    place: Place<DVec3>,
+    colour: DVec3,
+    falloff: scene::Falloff,
+}
+
+/// All light on one material of one object.
+pub struct Lighting<'a> {
+    options: &'a Options,
+    scene: &'a Scene,
+    eye: DVec3,
+    /// The unit vector to an eye far away.
+    far_eye: DVec3,
+    ambient: DVec3,
+    material: Coefficients,
+    lights: Vec<Light>,
+    object_origin: DVec3,
+}
+
+fn wide(colour: [f32; 3]) -> DVec3 {
+    DVec3::from_array(colour.map(f64::from))
+}
+
+impl<'a> Lighting<'a> {
+    /// Makes the light on `material` of an object that `transform` takes to world space.
+    pub fn new(
+        scene: &'a Scene,
+        camera: &Camera,
+        options: &'a Options,
+        material: &Material,
+        transform: &DAffine3,
+    ) -> Lighting<'a> {
+        let moved = |place: Place<DVec3>| match (options.light_space, place) {
+            (LightSpace::World, place) => place,
+            (LightSpace::Object, Place::Infinite(l)) => {
+                Place::Infinite(unit(transform.matrix3 * l))
+            }
+            (LightSpace::Object, Place::Local(p)) => Place::Local(transform.transform_point3(p)),
+            (LightSpace::Eye, place) => place.map(|v| camera.turned_back(v)),
+        };
+        let first = scene.lights.first().map_or([1.0; 3], |light| light.colour);
+        let lights = scene.lights.iter().map(|light| Light {
+            place: moved(
+                light
+                    .place
+                    .map(|v| if light.place.is_local() { v } else { unit(v) }),
+            ),
+            colour: match options.light_colour {
+                LightColour::Own => wide(light.colour),
+                LightColour::White => DVec3::ONE,
+                LightColour::OfFirstLight => wide(first),
+            },
+            falloff: light.falloff,
+        });
+        Lighting {
+            options,
+            scene,
+            eye: scene.camera.eye,
+            far_eye: unit(scene.camera.eye - scene.camera.target),
+            ambient: wide(scene.ambient),
+            material: Coefficients {
+                ka: wide(material.ambient),
+                kd: wide(material.diffuse),
+                ks: wide(material.specular),
+                n: exponent(scene, options, material.shininess.into()),
+            },
+            lights: lights.collect(),
+            object_origin: transform.translation,
+        }
+    }
+
+    /// Returns the colour of a point, not clamped.
+    pub fn colour(&self, point: &Point) -> DVec3 {
+        let v = self.to_eye(point);
+        let mut sum = self.ambient(point);
+        let last = self.lights.len().saturating_sub(1);
+        for (number, light) in self.lights.iter().enumerate() {
+            let share = match self.options.lights {
+                Lights::Sum => 1.0,
+                Lights::Mean => 1.0 / self.lights.len() as f64,
+                Lights::First => f64::from(u8::from(number == 0)),
+                Lights::Last => f64::from(u8::from(number == last)),
+            };
+            if share > 0.0 {
+                sum += share * self.of_light(light, point, v);
+            }
+        }
+        sum
+    }
+
+    fn ambient(&self, point: &Point) -> DVec3 {
+        let ka = self.material.ka;
+        match self.options.ambient {
+            Ambient::Right => self.ambient * ka,
+            Ambient::Missing => DVec3::ZERO,
+            Ambient::PerLight => self.ambient * ka * self.lights.len() as f64,
+            Ambient::WithoutKa => self.ambient,
+            Ambient::WithoutIa => ka,
+            Ambient::TimesKd => self.ambient * self.material.kd,
+            Ambient::Attenuated => {
+                let of_light = |light| self.strength(light, self.to_light(light, point).1);
+                self.ambient * ka * self.lights.iter().map(of_light).sum::<f64>()
+            }
+        }
+    }
+
+    /// Returns V.
+    pub fn to_eye(&self, point: &Point) -> DVec3 {
+        let from_point = || {
+            let vector = self.eye - point.position;
+            match self.options.view_length {
+                ViewLength::Unit => unit(vector),
+                ViewLength::NotNormalised => vector,
+            }
+        };
+        let of_scene = || {
+            if self.scene.local_viewer {
+                from_point()
+            } else {
+                self.far_eye
+            }
+        };
+        match self.options.view {
+            View::OfScene => of_scene(),
+            View::Negated => -of_scene(),
+            View::AlongZ => DVec3::Z,
+            View::AlwaysAtEye => from_point(),
+            View::AlwaysFarAway => self.far_eye,
+            View::TowardOrigin => unit(-point.position),
+        }
+    }
+
+    /// Returns L, and the distance of the light.
+    fn to_light(&self, light: &Light, point: &Point) -> (DVec3, f64) {
+        let from = match self.options.light_direction {
+            LightDirection::FromObjectOrigin => self.object_origin,
+            _ => point.position,
+        };
+        let (l, distance) = match light.place {
+            Place::Infinite(l) => (l, f64::INFINITY),
+            Place::Local(p) => {
+                let vector = match self.options.light_direction {
+                    LightDirection::PositionAlone => p,
+                    _ => p - from,
+                };
+                let distance = (p - point.position).length();
+                match self.options.light_length {
+                    LightLength::Unit => (unit(vector), distance),
+                    LightLength::NotNormalised => (vector, distance),
+                }
+            }
+        };
+        match self.options.light_direction {
+            LightDirection::FromLight => (-l, distance),
+            _ => (l, distance),
+        }
+    }
+
+    /// Returns how much a light is weakened over `distance`.
+    fn strength(&self, light: &Light, distance: f64) -> f64 {
+        if !light.place.is_local() {
+            return 1.0;
+        }
+        let square = distance * distance;
+        match (self.options.falloff, light.falloff) {
+            (Falloff::Missing, _) | (_, scene::Falloff::None) => 1.0,
+            (Falloff::InverseSquare, _) => 1.0 / square,
+            (Falloff::NotSquared, scene::Falloff::Attenuation(k)) => {
+                1.0 / (1.0 + f64::from(k) * distance)
+            }
+            (Falloff::Multiplied, scene::Falloff::Attenuation(k)) => 1.0 + f64::from(k) * square,
+            (_, scene::Falloff::Attenuation(k)) => 1.0 / (1.0 + f64::from(k) * square),
+            (_, scene::Falloff::InverseSquare) => 1.0 / square,
+            (_, scene::Falloff::Inverse) => 1.0 / distance,
+        }
+    }
+
+    /// Returns what one light adds.
+    fn of_light(&self, light: &Light, point: &Point, v: DVec3) -> DVec3 {
+        let (l, distance) = self.to_light(light, point);
+        let l_n = l.dot(point.normal);
+        let cosine = match self.options.diffuse_cosine {
+            DiffuseCosine::Clamped => l_n.max(0.0),
+            DiffuseCosine::NotClamped => l_n,
+            DiffuseCosine::Absolute => l_n.abs(),
+            DiffuseCosine::Half => l_n / 2.0 + 0.5,
+        };
+        let Coefficients { kd, ks, .. } = self.material;
+        let diffuse = match self.options.diffuse_term {
+            DiffuseTerm::Whole => light.colour * kd * cosine,
+            DiffuseTerm::Missing => DVec3::ZERO,
+            DiffuseTerm::OverPi => light.colour * kd * cosine / PI,
+        };
+        let colour = match self.options.specular_colour {
+            SpecularColour::LightTimesKs => light.colour * ks,
+            SpecularColour::LightTimesKd => light.colour * kd,
+            SpecularColour::KsAlone => ks,
+        };
+        let specular = match self.options.specular_term {
+            SpecularTerm::Missing => DVec3::ZERO,
+            SpecularTerm::Whole => self.highlight(colour, point.normal, l, v),
+            SpecularTerm::EnergyConserving => {
+                self.highlight(colour, point.normal, l, v) * (self.material.n + 8.0) / (8.0 * PI)
+            }
+        };
+        let strength = self.strength(light, distance);
+        match self.options.falloff {
+            Falloff::DiffuseOnly => diffuse * strength + specular,
+            _ => (diffuse + specular) * strength,
+        }
+    }
+
+    /// Returns the highlight of one light whose colour times the material's is `colour`.
+    fn highlight(&self, colour: DVec3, n: DVec3, l: DVec3, v: DVec3) -> DVec3 {
+        let l_n = l.dot(n);
+        let gate = match (self.options.gate, self.scene.gate) {
+            (Gate::OfScene, SpecularGate::Gated) => f64::from(u8::from(l_n > 0.0)),
+            (Gate::OfScene, SpecularGate::Ungated) | (Gate::Missing, _) => 1.0,
+            (Gate::OfScene, SpecularGate::Weighted) | (Gate::TimesDiffuse, _) => l_n.max(0.0),
+        };
+        if gate == 0.0 {
+            return DVec3::ZERO;
+        }
+        let cosine = self.highlight_cosine(n, l, v);
+        let cosine = match self.options.specular_clamp {
+            SpecularClamp::Clamped => cosine.max(0.0),
+            SpecularClamp::NotClamped => cosine,
+        };
+        let exponent = self.material.n;
+        // The power of a negative number with an exponent that is no integer is no number: black.
+        let power = |x: f64| match x.powf(exponent) {
+            power if power.is_nan() => 0.0,
+            power => power,
+        };
+        gate * match self.options.exponent {
+            Exponent::Factor => colour * cosine * exponent,
+            Exponent::OfProduct => DVec3::from_array((colour * cosine).to_array().map(power)),
+            _ => colour * power(cosine),
+        }
+    }
+
+    fn highlight_cosine(&self, n: DVec3, l: DVec3, v: DVec3) -> f64 {
+        let model = match (self.options.highlight_cosine, self.scene.specular) {
+            (HighlightCosine::NormalView, _) => return n.dot(v),
+            (HighlightCosine::NormalLight, _) => return n.dot(l),
+            (HighlightCosine::OfScene, model) => model,
+            (HighlightCosine::OtherModel, SpecularModel::Phong) => SpecularModel::Blinn,
+            (HighlightCosine::OtherModel, SpecularModel::Blinn) => SpecularModel::Phong,
+        };
+        match model {
+            SpecularModel::Phong => match self.options.reflection {
+                Reflection::Right => 2.0 * n.dot(l) * n - l,
+                Reflection::Negated => l - 2.0 * n.dot(l) * n,
+                Reflection::WithoutTwo => n.dot(l) * n - l,
+                Reflection::OfView => 2.0 * n.dot(v) * n - l,
+            }
+            .dot(v),
+            SpecularModel::Blinn => {
+                let sum = match self.options.half_vector {
+                    HalfVector::Difference => l - v,
+                    _ => l + v,
+                };
+                let length = sum.length();
+                if length < 1e-3 {
+                    return 0.0;
+                }
+                n.dot(match self.options.half_vector {
+                    HalfVector::Unit | HalfVector::Difference => sum / length,
+                    HalfVector::NotNormalised => sum,
+                    HalfVector::Mean => sum / 2.0,
+                })
+            }
+        }
+    }
+}
+
+/// Returns the exponent that is used for a material's.
+fn exponent(scene: &Scene, options: &Options, shininess: f64) -> f64 {
+    let is_other_model = options.highlight_cosine == HighlightCosine::OtherModel;
+    let ratio = match (scene.shininess_for, scene.specular) {
+        // Whoever takes the other model does not convert either.
+        _ if is_other_model => 1.0,
+        (SpecularModel::Phong, SpecularModel::Blinn) => 4.0,
+        (SpecularModel::Blinn, SpecularModel::Phong) => 0.25,
+        _ => 1.0,
+    };
+    match options.exponent {
+        Exponent::Right | Exponent::Factor | Exponent::OfProduct => shininess * ratio,
+        Exponent::Missing => 1.0,
+        Exponent::Times128 => shininess * 128.0,
+        Exponent::NotConverted => shininess,
+        Exponent::DividedByFour => shininess / ratio,
+    }
+}

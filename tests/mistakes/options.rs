@@ -1,0 +1,177 @@
+//! The ways to do each step of drawing a scene: the right one, and those of students.
+
+macro_rules! ways {
+    ($($(#[$doc:meta])* $name:ident: $right:ident $(| $wrong:ident)+;)*) => {$(
+        $(#[$doc])*
+        ///
+        /// The first way is the right one.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub enum $name {
+            #[default]
+            $right,
+            $($wrong,)+
+        }
+    )*};
+}
+
+ways! {
+    /// The vector L at a point.
+    LightDirection: TowardLight | FromLight | PositionAlone | FromObjectOrigin;
+    /// The length of L, where a light has a position.
+    LightLength: Unit | NotNormalised;
+    /// The space that the lights of the scene are taken to be given in.
+    LightSpace: World | Object | Eye;
+    /// The colour I_p of a light.
+    LightColour: Own | White | OfFirstLight;
+    /// The lights that count.
+    Lights: Sum | First | Last | Mean;
+    /// What stands for L·N.
+    DiffuseCosine: Clamped | NotClamped | Absolute | Half;
+    /// The diffuse term.
+    DiffuseTerm: Whole | Missing | OverPi;
+    /// The specular term.
+    SpecularTerm: Whole | Missing | EnergyConserving;
+    /// The colour of the specular term.
+    SpecularColour: LightTimesKs | LightTimesKd | KsAlone;
+    /// The ambient term.
+    Ambient: Right | Missing | PerLight | WithoutKa | WithoutIa | TimesKd | Attenuated;
+    /// The cosine that is raised to the exponent.
+    HighlightCosine: OfScene | NormalView | NormalLight | OtherModel;
+    /// The reflected vector R.
+    Reflection: Right | Negated | WithoutTwo | OfView;
+    /// The vector H halfway between L and V.
+    HalfVector: Unit | NotNormalised | Mean | Difference;
+    /// The cosine of a highlight where it is below 0.
+    SpecularClamp: Clamped | NotClamped;
+    /// Highlights of lights behind the surface.
+    Gate: OfScene | Missing | TimesDiffuse;
+    /// The exponent.
+    Exponent: Right | Missing | Factor | Times128 | OfProduct | NotConverted | DividedByFour;
+    /// The vector V.
+    View: OfScene | Negated | AlongZ | AlwaysAtEye | AlwaysFarAway | TowardOrigin;
+    /// The length of V, where the eye has a position.
+    ViewLength: Unit | NotNormalised;
+    /// The falloff of lights at positions.
+    Falloff: OfScene | Missing | NotSquared | Multiplied | InverseSquare | DiffuseOnly;
+    /// Where light is computed.
+    Rate: Pixel | Vertex | Face | FirstVertex | MeanNormal;
+    /// The normal at a pixel, once it is interpolated.
+    PixelNormal: Normalised | AsInterpolated;
+    /// The side to which a normal points.
+    NormalSign: Outside | TowardViewer;
+
+    /// The normal of a polygon.
+    PolygonNormal: Newell | Reversed | FirstCorner;
+    /// What is added up at a vertex.
+    VertexNormal: UnitNormals | AreaWeighted | AngleWeighted | LastPolygon | EachTriangle | SumKept;
+    /// Where vertex normals come from.
+    NormalSource: OfScene | AlwaysAveraged | AlwaysGiven | WithoutCrease;
+    /// What takes normals from model space to world space.
+    NormalTransform: InverseTranspose | Matrix | Inverse | Missing | AsPoint;
+    /// The space that normals are in when light is computed; lights are in world space.
+    NormalSpace: World | Eye;
+
+    /// The scale of a perspective picture.
+    FieldOfView: Right | Degrees | NotHalved | Horizontal;
+    /// The scale of an orthographic picture.
+    HalfHeight: Right | TakenAsHeight;
+    /// The aspect ratio of the picture.
+    Aspect: Right | Missing | Inverted | OnHeight;
+    /// The vector to the right of the camera.
+    CameraRight: ForwardTimesUp | UpTimesForward;
+    /// The vector upward of the camera.
+    CameraUp: Perpendicular | AsGiven;
+    /// From world space to the camera's.
+    ViewMatrix: Right | Transposed | TranslatedLast;
+    /// The division by w.
+    Division: ByW | Missing;
+    /// The way from device coordinates to pixels.
+    Viewport: Right | UpsideDown | LessOnePixel;
+    /// The point of a pixel that is tested.
+    SamplePoint: Centre | Corner;
+    /// Corners of polygons on the screen.
+    ScreenCorners: Exact | WholePixels;
+
+    /// Polygons seen from behind.
+    Culling: OfScene | Missing | Reversed;
+    /// The winding of polygons after a mirroring transform.
+    MirroredWinding: Restored | Forgotten;
+    /// The depth test.
+    Depth: Nearest | Farthest | Missing | StartsAtZero | OfTriangle | TiesToLast;
+    /// The triangles of a polygon.
+    Triangles: Right | FanAlways | FirstThree | Strip;
+    /// The shares of the three corners of a triangle.
+    Weights: Right | Rotated;
+    /// The variation of normals and positions over the screen.
+    Interpolation: OfScene | OnScreen | TimesW;
+    /// The end of a triangle's bounding box.
+    BoxEnd: Inclusive | Exclusive;
+
+    /// The transfer function.
+    Encoding: OfScene | Linear | Srgb | Gamma22 | SrgbTwice | Decoded;
+    /// From 0..=1 to 0..=255.
+    Rounding: Nearest | Down | Times256;
+    /// What is brighter than 1.
+    Overflow: Clamped | Wraps | DividedByBrightest | DividedByOwnLargest | ToneMapped;
+    /// The order of channels.
+    Channels: Rgb | Bgr | Grey;
+    /// Where nothing is drawn.
+    Background: OfScene | Black | White;
+    /// The order of pixels in the file.
+    Layout: Rows | RightToLeft | HalfTurn | Columns | OneRowDown;
+}
+
+/// How a renderer does each step; the default does all of them right.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    pub light_direction: LightDirection,
+    pub light_length: LightLength,
+    pub light_space: LightSpace,
+    pub light_colour: LightColour,
+    pub lights: Lights,
+    pub diffuse_cosine: DiffuseCosine,
+    pub diffuse_term: DiffuseTerm,
+    pub specular_term: SpecularTerm,
+    pub specular_colour: SpecularColour,
+    pub ambient: Ambient,
+    pub highlight_cosine: HighlightCosine,
+    pub reflection: Reflection,
+    pub half_vector: HalfVector,
+    pub specular_clamp: SpecularClamp,
+    pub gate: Gate,
+    pub exponent: Exponent,
+    pub view: View,
+    pub view_length: ViewLength,
+    pub falloff: Falloff,
+    pub rate: Rate,
+    pub pixel_normal: PixelNormal,
+    pub normal_sign: NormalSign,
+    pub polygon_normal: PolygonNormal,
+    pub vertex_normal: VertexNormal,
+    pub normal_source: NormalSource,
+    pub normal_transform: NormalTransform,
+    pub normal_space: NormalSpace,
+    pub field_of_view: FieldOfView,
+    pub half_height: HalfHeight,
+    pub aspect: Aspect,
+    pub camera_right: CameraRight,
+    pub camera_up: CameraUp,
+    pub view_matrix: ViewMatrix,
+    pub division: Division,
+    pub viewport: Viewport,
+    pub sample_point: SamplePoint,
+    pub screen_corners: ScreenCorners,
+    pub culling: Culling,
+    pub mirrored_winding: MirroredWinding,
+    pub depth: Depth,
+    pub triangles: Triangles,
+    pub weights: Weights,
+    pub interpolation: Interpolation,
+    pub box_end: BoxEnd,
+    pub encoding: Encoding,
+    pub rounding: Rounding,
+    pub overflow: Overflow,
+    pub channels: Channels,
+    pub background: Background,
+    pub layout: Layout,
+}

@@ -1,0 +1,122 @@
+//! An object in the world, as the camera sees it.
+
+use crate::camera::{Camera, Seen, unit};
+use crate::clip::{Vertex, clipped, is_inside};
+use crate::lighting::Point;
+use crate::normals::{Normals, normals};
+use crate::options::{MirroredWinding, NormalSpace, NormalTransform, Options, VertexNormal};
+use fastphong::mesh::PolygonMesh;
+use fastphong::scene::Object;
+use glam::{DMat3, DVec3};
+
+/// An object in the world.
+pub struct Placed<'a> {
+    pub mesh: &'a PolygonMesh,
+    camera: &'a Camera,
+    normals: Normals,
+    /// The positions of the mesh in world space, and as the camera sees them.
+    positions: Vec<(DVec3, Seen)>,
+    /// What is done to a normal: a matrix, and what is added.
+    normal_matrix: DMat3,
+    normal_offset: DVec3,
+    /// True if vertex normals are unit vectors in the world.
+    is_unit: bool,
+    is_in_eye_space: bool,
+    is_reversed: bool,
+}
+
+impl<'a> Placed<'a> {
+    /// Places `object`.
+    pub fn new(object: &'a Object, camera: &'a Camera, options: &Options) -> Placed<'a> {
+        let to_world = object.positions_to_world();
+        let positions = object.mesh.positions().iter().map(|p| {
+            let position = to_world.transform_point3(p.as_dvec3());
+            (position, camera.see(position))
+        });
+        let matrix = object.transform.matrix3;
+        let (normal_matrix, normal_offset) = match options.normal_transform {
+            NormalTransform::InverseTranspose => (matrix.inverse().transpose(), DVec3::ZERO),
+            NormalTransform::Matrix => (matrix, DVec3::ZERO),
+            NormalTransform::Inverse => (matrix.inverse(), DVec3::ZERO),
+            NormalTransform::Missing => (DMat3::IDENTITY, DVec3::ZERO),
+            NormalTransform::AsPoint => (matrix, object.transform.translation),
+        };
+        let is_restored = options.mirrored_winding == MirroredWinding::Restored;
+        Placed {
+            mesh: &object.mesh,
+            camera,
+            normals: normals(&object.mesh, object.normals, options),
+            positions: positions.collect(),
+            normal_matrix,
+            normal_offset,
+            is_unit: options.vertex_normal != VertexNormal::SumKept,
+            is_in_eye_space: options.normal_space == NormalSpace::Eye,
+            is_reversed: matrix.determinant() < 0.0 && is_restored,
+        }
+    }
+
+    /// Returns the corners of polygon `p`.
+    pub fn vertices(&self, p: usize) -> Vec<Vertex> {
+        let corners = self.mesh.corner_range(p).zip(self.mesh.polygon(p));
+        corners
+            .map(|(corner, &c)| {
+                let (position, seen) = self.positions[c as usize];
+                let normal = self.to_world(self.normals.corners[corner], self.is_unit);
+                Vertex {
+                    seen,
+                    point: Point { position, normal },
+                    colour: DVec3::ZERO,
+                }
+            })
+            .collect()
+    }
+
+    /// Returns the normal of polygon `p`.
+    pub fn polygon_normal(&self, p: usize) -> DVec3 {
+        self.to_world(self.normals.polygons[p], true)
+    }
+
+    fn to_world(&self, normal: DVec3, is_unit: bool) -> DVec3 {
+        let vector = self.normal_matrix * normal + self.normal_offset;
+        let vector = if is_unit { unit(vector) } else { vector };
+        match self.is_in_eye_space {
+            false => vector,
+            true => self.camera.turned(vector),
+        }
+    }
+
+    /// Returns a number over 0 for a polygon that is seen from outside, below 0 for one seen from
+    /// inside, and 0 for one that is not seen.
+    pub fn side(&self, p: usize) -> f64 {
+        if self.normals.polygons[p] == DVec3::ZERO {
+            return 0.0;
+        }
+        let corners = self.mesh.polygon(p);
+        let seen = |c: &u32| &self.positions[*c as usize].1;
+        let is_whole = corners.iter().all(|c| is_inside(self.camera, seen(c)));
+        let area = match is_whole {
+            true => area(corners.iter().map(|c| self.camera.device(seen(c)))),
+            false => {
+                let vertices = self.vertices(p);
+                let part = clipped(self.camera, &vertices);
+                area(part.iter().map(|v| self.camera.device(&v.seen)))
+            }
+        };
+        if self.is_reversed { -area } else { area }
+    }
+}
+
+/// Returns twice the area of a polygon, over 0 if it runs counter-clockwise where y is upward.
+fn area(mut places: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let Some([x, y]) = places.next() else {
+        return 0.0;
+    };
+    let mut last = [0.0, 0.0];
+    let mut sum = 0.0;
+    for place in places {
+        let place = [place[0] - x, place[1] - y];
+        sum += last[0] * place[1] - last[1] * place[0];
+        last = place;
+    }
+    sum
+}

@@ -1,0 +1,266 @@
+//! The renderer is right without mistakes, and each mistake changes a picture.
+
+use crate::draw::{both_show, draw};
+use crate::mistakes::{MISTAKES, can_be_combined};
+use crate::picture::Picture;
+use crate::variation::{Edges, Filling, Variation};
+use fastphong::frame::triangulate::triangulated;
+use fastphong::reference::{self, Model, ReferencePicture};
+use fastphong::scene::Scene;
+use fastphong::scene::input::{SCENES, resolve};
+use std::collections::HashSet;
+use std::thread;
+
+/// The pictures as two programs draw them that both make no mistake and no other choice.
+const AS_LECTURE: Variation = Variation {
+    dirty: false,
+    filling: Filling::ScanLines,
+    edges: Edges::Snapped,
+    supersampled: false,
+    opaque: false,
+};
+
+/// Returns the shipped scenes with their names, for pictures of `width` × `height` pixels.
+///
+/// `million` is left out: its normals alone take a second, and it is another sphere of small
+/// polygons.
+fn scenes(width: u32, height: u32) -> Vec<(&'static str, Scene)> {
+    let shipped = SCENES.iter().filter(|scene| scene.name != "million");
+    shipped
+        .map(|shipped| {
+            let file = shipped.load().expect("a shipped scene");
+            let mut scene = resolve(&file).expect("a shipped scene").scene;
+            (scene.width, scene.height) = (width, height);
+            (shipped.name, scene)
+        })
+        .collect()
+}
+
+/// Returns the reference as it is stored.
+fn stored(reference: &ReferencePicture, scene: &Scene) -> Vec<[u8; 4]> {
+    let level = |value: f64| (255.0 * value).round() as u8;
+    let pixels = reference.picture.pixels().iter();
+    pixels
+        .map(|&[r, g, b, alpha]| {
+            let [r, g, b] = [r, g, b].map(|c| level(scene.encoding.encode(c)));
+            [r, g, b, level(alpha)]
+        })
+        .collect()
+}
+
+/// Returns the largest difference of a channel.
+fn difference(a: [u8; 4], b: [u8; 4]) -> u8 {
+    let channels = a.iter().zip(b);
+    channels.map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+}
+
+/// Returns how many pixels differ by more than `levels`.
+fn differing(a: &Picture, b: &Picture, levels: u8) -> usize {
+    let pixels = a.pixels.iter().zip(&b.pixels);
+    pixels
+        .filter(|(a, b)| difference(**a, **b) > levels)
+        .count()
+}
+
+/// Scan lines across corners that are rounded to 1/256 pixel are what the reference draws, so the
+/// same pixels are covered, by the same polygons. The frame of the reference keeps normals and
+/// directions in `f32`, which moves a colour by some 2⁻²⁴ of what it is, times the exponent: far
+/// less than a level, which is therefore the next one at most, where a value is near a half.
+#[test]
+fn scan_lines_draw_the_reference() {
+    for (name, scene) in scenes(320, 240) {
+        let frame = scene.frame().expect("a frame");
+        let expected = stored(&reference::render(&frame, Model::Phong), &scene);
+        let picture = draw(&scene, &[], &AS_LECTURE);
+        for (at, (&ours, &theirs)) in picture.pixels.iter().zip(&expected).enumerate() {
+            assert_eq!(ours[3], theirs[3], "{name}: coverage of pixel {at}");
+            assert!(
+                difference(ours, theirs) <= 1,
+                "{name}: pixel {at} is {ours:?}, not {theirs:?}"
+            );
+        }
+    }
+}
+
+/// The default draws triangles and does not round corners. Rounding moves an edge by up to √2/512
+/// pixel. So a pixel may have another polygon, or none, if its centre is within 0.0028 pixels of an
+/// edge: its own polygon or a neighbour's is another one then, and of such pixels 1 in 180 is that
+/// near to an edge. All others have the same triangle, whose colour moves by less than a level
+/// unless it changes by 350 levels from pixel to pixel.
+///
+/// The reference cuts a mirrored polygon into a fan about its last corner, which has the other
+/// diagonal in a quadrangle. So colours may be those of either.
+#[test]
+fn triangles_draw_the_triangulated_reference() {
+    for (name, scene) in scenes(320, 240) {
+        let frame = triangulated(&scene.frame().expect("a frame")).frame;
+        let reference = reference::render(&frame, Model::Phong);
+        let expected = stored(&reference, &scene);
+        let draw_by = |filling| {
+            let variation = Variation {
+                filling,
+                ..Variation::default()
+            };
+            draw(&scene, &[], &variation)
+        };
+        let ours = draw_by(Filling::Triangles);
+        let others = draw_by(Filling::OtherTriangles);
+        let (mut beside, mut changed) = (0, 0);
+        for (at, &theirs) in expected.iter().enumerate() {
+            let is_beside = is_beside_another(&reference, at);
+            let mut is_same = difference(ours.pixels[at], theirs) <= 1;
+            if name == "mirrored" {
+                is_same |= difference(others.pixels[at], theirs) <= 1;
+            }
+            assert!(is_same || is_beside, "{name}: pixel {at}");
+            beside += usize::from(is_beside);
+            changed += usize::from(!is_same);
+        }
+        assert!(changed <= 3 + beside / 100, "{name}: {changed} of {beside}");
+    }
+}
+
+/// True if a pixel or one of those around it shows another polygon than one of the others.
+fn is_beside_another(reference: &ReferencePicture, at: usize) -> bool {
+    let polygons = &reference.polygons;
+    let (x, y) = (at % polygons.width(), at / polygons.width());
+    let own = polygons.get(x, y);
+    let rows = y.saturating_sub(1)..(y + 2).min(polygons.height());
+    let columns = x.saturating_sub(1)..(x + 2).min(polygons.width());
+    rows.flat_map(|row| columns.clone().map(move |column| (column, row)))
+        .any(|(column, row)| polygons.get(column, row) != own)
+}
+
+#[test]
+fn mistakes_have_names_of_their_own() {
+    let names: HashSet<&str> = MISTAKES.iter().map(|mistake| mistake.id).collect();
+    assert_eq!(names.len(), MISTAKES.len());
+    let sentences: HashSet<&str> = MISTAKES.iter().map(|mistake| mistake.what).collect();
+    assert_eq!(sentences.len(), MISTAKES.len());
+    assert!(MISTAKES.len() >= 100);
+    for mistake in MISTAKES {
+        assert!(!can_be_combined(mistake, mistake), "{}", mistake.id);
+        assert!(mistake.what.ends_with('.'), "{}", mistake.id);
+    }
+}
+
+/// Draws all mistakes in all scenes but `knot-100k`, on all processors.
+fn pictures_of_mistakes(scenes: &[(&str, Scene)]) -> Vec<Vec<Picture>> {
+    let variation = Variation {
+        opaque: true,
+        ..Variation::default()
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let share = MISTAKES.len().div_ceil(threads);
+    thread::scope(|scope| {
+        let parts: Vec<_> = MISTAKES
+            .chunks(share)
+            .map(|part| {
+                scope.spawn(move || {
+                    let of_mistake = |mistake| {
+                        let draw = |(_, scene): &(&str, Scene)| draw(scene, &[mistake], &variation);
+                        scenes.iter().map(draw).collect()
+                    };
+                    part.iter().map(of_mistake).collect::<Vec<Vec<Picture>>>()
+                })
+            })
+            .collect();
+        let joined = parts.into_iter().map(|part| part.join().expect("no panic"));
+        joined.flatten().collect()
+    })
+}
+
+/// Each mistake changes at least 20 pixels of a scene, and no two draw the same pictures of all
+/// scenes.
+#[test]
+fn every_mistake_shows() {
+    let mut scenes = scenes(96, 72);
+    scenes.retain(|(name, _)| *name != "knot-100k");
+    let variation = Variation {
+        opaque: true,
+        ..Variation::default()
+    };
+    let right: Vec<Picture> = scenes
+        .iter()
+        .map(|(_, s)| draw(s, &[], &variation))
+        .collect();
+    let wrong = pictures_of_mistakes(&scenes);
+    let mut unseen = Vec::new();
+    for (mistake, pictures) in MISTAKES.iter().zip(&wrong) {
+        let changed = pictures.iter().zip(&right).map(|(a, b)| differing(a, b, 0));
+        if changed.max().unwrap_or(0) < 20 {
+            unseen.push(mistake.id);
+        }
+    }
+    assert!(unseen.is_empty(), "no scene shows {unseen:?}");
+    let mut alike = Vec::new();
+    for (i, a) in wrong.iter().enumerate() {
+        for (j, b) in wrong.iter().enumerate().skip(i + 1) {
+            if a == b {
+                alike.push((MISTAKES[i].id, MISTAKES[j].id));
+            }
+        }
+    }
+    assert!(alike.is_empty(), "the same pictures: {alike:?}");
+}
+
+#[test]
+fn one_mistake_may_hide_another() {
+    let named = |id: &str| {
+        let found = MISTAKES.iter().find(|mistake| mistake.id == id);
+        found.expect("a mistake")
+    };
+    let scenes = scenes(96, 72);
+    let (_, scene) = &scenes[0];
+    let (missing, exponent) = (named("specular-missing"), named("exponent-missing"));
+    assert!(can_be_combined(missing, exponent));
+    assert!(!both_show(scene, missing, exponent));
+    assert!(both_show(scene, named("ambient-missing"), exponent));
+    assert!(!can_be_combined(exponent, named("exponent-128")));
+}
+
+#[test]
+fn variations_are_small() {
+    for (name, scene) in scenes(160, 120) {
+        if name == "knot-100k" {
+            continue;
+        }
+        let vary = |variation| draw(&scene, &[], &variation);
+        let right = vary(Variation::default());
+        let count = right.pixels.len();
+        let dirty = vary(Variation {
+            dirty: true,
+            ..Variation::default()
+        });
+        assert_eq!(differing(&right, &dirty, 1), 0, "{name}");
+        assert!(differing(&right, &dirty, 0) > count / 2, "{name}");
+        let filtered = vary(Variation {
+            supersampled: true,
+            ..Variation::default()
+        });
+        let is_partly = |pixel: &&[u8; 4]| pixel[3] != 0 && pixel[3] != 255;
+        let partly = filtered.pixels.iter().filter(is_partly).count();
+        assert!(partly > 0 || name == "perspective", "{name}: {partly}");
+        let opaque = vary(Variation {
+            opaque: true,
+            ..Variation::default()
+        });
+        assert!(opaque.pixels.iter().all(|pixel| pixel[3] == 255), "{name}");
+        // Rounded to 16 bits, nearly equal depths fall on other levels if a corner moves at all.
+        if name == "z-fighting" {
+            continue;
+        }
+        // Edges move by at most 0.02 pixels, and 3 pixels of 100 around an edge change hands: no
+        // scene has more than a tenth of its pixels at edges where colours differ by 32 levels.
+        for edges in [Edges::Moved, Edges::Snapped, Edges::BottomRight] {
+            let moved = vary(Variation {
+                edges,
+                ..Variation::default()
+            });
+            assert!(
+                differing(&right, &moved, 32) <= count / 300,
+                "{name} {edges:?}"
+            );
+        }
+    }
+}
