@@ -59,6 +59,7 @@ fn mix(a: &Vertex, b: &Vertex, t: f64) -> Vertex {
         point: Point {
             position: vector(a.point.position, b.point.position),
             normal: vector(a.point.normal, b.point.normal),
+            length: 1.0,
         },
         colour: vector(a.colour, b.colour),
     }

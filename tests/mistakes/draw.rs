@@ -6,8 +6,8 @@ use crate::lighting::{Lighting, Point};
 use crate::mistakes::Mistake;
 use crate::normals::corners_of;
 use crate::options::{
-    Culling, Depth, Interpolation, NormalSign, Options, Overflow, PixelNormal, Rate, Triangles,
-    Weights,
+    Culling, Depth, Interpolation, Materials, NormalSign, Options, Overflow, PixelNormal, Rate,
+    Triangles, Weights,
 };
 use crate::picture::{Picture, Samples, picture};
 use crate::placed::Placed;
@@ -108,24 +108,32 @@ impl<'a> Canvas<'a> {
     fn draw(&mut self, object: &Object) {
         let placed = Placed::new(object, self.camera, self.options);
         let mesh = placed.mesh;
-        let materials: Vec<Material> = match object.material {
-            Some(material) => vec![material],
-            None => {
-                let of_mesh = mesh.materials().iter().copied();
-                of_mesh.chain([Material::default()]).collect()
-            }
-        };
+        let materials = self.materials(object);
         let last = materials.len() - 1;
-        let lightings: Vec<Lighting> = materials
-            .iter()
-            .map(|material| {
-                let transform = &object.transform;
-                Lighting::new(self.scene, self.camera, self.options, material, transform)
-            })
-            .collect();
+        let light = |material| {
+            let transform = &object.transform;
+            Lighting::new(self.scene, self.camera, self.options, material, transform)
+        };
+        let lightings: Vec<Lighting> = materials.iter().map(light).collect();
         for p in 0..mesh.polygon_count() {
             let material = mesh.polygon_material(p).unwrap_or(last).min(last);
             self.draw_polygon(&placed, &lightings[material], p);
+        }
+    }
+
+    /// Returns the materials of an object, the last of which is for polygons that have none.
+    fn materials(&self, object: &Object) -> Vec<Material> {
+        let object = match self.options.materials {
+            Materials::OfFirstObject => self.scene.objects.first().unwrap_or(object),
+            Materials::Own | Materials::FirstOfMesh => object,
+        };
+        let of_mesh = object.mesh.materials().iter().copied();
+        match (object.material, self.options.materials) {
+            (Some(material), _) => vec![material],
+            (None, Materials::FirstOfMesh) => {
+                of_mesh.chain([Material::default()]).take(1).collect()
+            }
+            (None, _) => of_mesh.chain([Material::default()]).collect(),
         }
     }
 
@@ -187,7 +195,7 @@ impl<'a> Canvas<'a> {
             Rate::Face => {
                 let sum: DVec3 = vertices.iter().map(|vertex| vertex.point.position).sum();
                 let position = sum / vertices.len() as f64;
-                Some(lighting.colour(&self.faced(Point { position, normal }, lighting)))
+                Some(lighting.colour(&self.faced(Point::new(position, normal), lighting)))
             }
         }
     }
@@ -217,7 +225,7 @@ impl<'a> Canvas<'a> {
             let share = 1.0 / piece.len() as f64;
             let position = piece.iter().map(|v| v.point.position).sum::<DVec3>() * share;
             let normal = unit(piece.iter().map(|v| v.point.normal).sum::<DVec3>());
-            lighting.colour(&self.faced(Point { position, normal }, lighting))
+            lighting.colour(&self.faced(Point::new(position, normal), lighting))
         };
         let colour = match self.options.rate {
             Rate::MeanNormal => Some(mean()),
@@ -263,10 +271,11 @@ impl<'a> Canvas<'a> {
         };
         let (p, n, c) = (point.position, point.normal, colour);
         let carried = [p.x, p.y, p.z, n.x, n.y, n.z, c.x, c.y, c.z];
+        let depth = self.camera.depth(seen.forward);
         Corner {
             x,
             y,
-            depth: self.camera.depth(seen.forward),
+            depth,
             weight,
             carried,
         }
@@ -295,11 +304,17 @@ impl<'a> Canvas<'a> {
         let colour = colour.unwrap_or_else(|| match self.options.rate {
             Rate::Vertex => DVec3::new(r, g, b),
             _ => {
+                let length = normal.dot(normal).sqrt();
                 let normal = match self.options.pixel_normal {
-                    PixelNormal::Normalised => unit(normal),
                     PixelNormal::AsInterpolated => normal,
+                    _ => normal / length,
                 };
-                lighting.colour(&self.faced(Point { position, normal }, lighting))
+                let point = Point {
+                    position,
+                    normal,
+                    length,
+                };
+                lighting.colour(&self.faced(point, lighting))
             }
         });
         self.samples.colours[at] = Some(colour);

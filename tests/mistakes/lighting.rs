@@ -2,11 +2,11 @@
 
 use crate::camera::{Camera, unit};
 use crate::options::{
-    Ambient, DiffuseCosine, DiffuseTerm, Exponent, Falloff, Gate, HalfVector, HighlightCosine,
-    LightColour, LightDirection, LightLength, LightSpace, Lights, Options, Reflection,
-    SpecularClamp, SpecularColour, SpecularTerm, View, ViewLength,
+    Ambient, Coefficients, DiffuseCosine, DiffuseTerm, Exponent, Falloff, Gate, HalfVector,
+    HighlightCosine, LightColour, LightDirection, LightLength, LightSpace, Lights, Options,
+    PixelNormal, Reflection, SpecularClamp, SpecularColour, SpecularTerm, View, ViewLength,
 };
-use fastphong::mesh::Material;
+use fastphong::mesh;
 use fastphong::scene::{self, Place, Scene, SpecularGate, SpecularModel};
 use glam::{DAffine3, DVec3};
 use std::f64::consts::PI;
@@ -18,10 +18,23 @@ pub struct Point {
     pub position: DVec3,
     /// Its normal in world space.
     pub normal: DVec3,
+    /// How long the normal was before it was normalised.
+    pub length: f64,
+}
+
+impl Point {
+    /// Makes a point with a unit normal.
+    pub fn new(position: DVec3, normal: DVec3) -> Point {
+        Point {
+            position,
+            normal,
+            length: 1.0,
+        }
+    }
 }
 
 /// The coefficients of a material.
-struct Coefficients {
+struct Material {
     ka: DVec3,
     kd: DVec3,
     ks: DVec3,
@@ -43,7 +56,7 @@ pub struct Lighting<'a> {
     /// The unit vector to an eye far away.
     far_eye: DVec3,
     ambient: DVec3,
-    material: Coefficients,
+    material: Material,
     lights: Vec<Light>,
     object_origin: DVec3,
 }
@@ -58,7 +71,7 @@ impl<'a> Lighting<'a> {
         scene: &'a Scene,
         camera: &Camera,
         options: &'a Options,
-        material: &Material,
+        material: &mesh::Material,
         transform: &DAffine3,
     ) -> Lighting<'a> {
         let moved = |place: Place<DVec3>| match (options.light_space, place) {
@@ -89,12 +102,7 @@ impl<'a> Lighting<'a> {
             eye: scene.camera.eye,
             far_eye: unit(scene.camera.eye - scene.camera.target),
             ambient: wide(scene.ambient),
-            material: Coefficients {
-                ka: wide(material.ambient),
-                kd: wide(material.diffuse),
-                ks: wide(material.specular),
-                n: exponent(scene, options, material.shininess.into()),
-            },
+            material: coefficients(scene, options, material),
             lights: lights.collect(),
             object_origin: transform.translation,
         }
@@ -215,8 +223,9 @@ impl<'a> Lighting<'a> {
             DiffuseCosine::NotClamped => l_n,
             DiffuseCosine::Absolute => l_n.abs(),
             DiffuseCosine::Half => l_n / 2.0 + 0.5,
+            DiffuseCosine::NormalView => v.dot(point.normal).max(0.0),
         };
-        let Coefficients { kd, ks, .. } = self.material;
+        let Material { kd, ks, .. } = self.material;
         let diffuse = match self.options.diffuse_term {
             DiffuseTerm::Whole => light.colour * kd * cosine,
             DiffuseTerm::Missing => DVec3::ZERO,
@@ -229,9 +238,9 @@ impl<'a> Lighting<'a> {
         };
         let specular = match self.options.specular_term {
             SpecularTerm::Missing => DVec3::ZERO,
-            SpecularTerm::Whole => self.highlight(colour, point.normal, l, v),
+            SpecularTerm::Whole => self.highlight(colour, point, l, v),
             SpecularTerm::EnergyConserving => {
-                self.highlight(colour, point.normal, l, v) * (self.material.n + 8.0) / (8.0 * PI)
+                self.highlight(colour, point, l, v) * (self.material.n + 8.0) / (8.0 * PI)
             }
         };
         let strength = self.strength(light, distance);
@@ -242,7 +251,8 @@ impl<'a> Lighting<'a> {
     }
 
     /// Returns the highlight of one light whose colour times the material's is `colour`.
-    fn highlight(&self, colour: DVec3, n: DVec3, l: DVec3, v: DVec3) -> DVec3 {
+    fn highlight(&self, colour: DVec3, point: &Point, l: DVec3, v: DVec3) -> DVec3 {
+        let n = point.normal;
         let l_n = l.dot(n);
         let gate = match (self.options.gate, self.scene.gate) {
             (Gate::OfScene, SpecularGate::Gated) => f64::from(u8::from(l_n > 0.0)),
@@ -252,7 +262,7 @@ impl<'a> Lighting<'a> {
         if gate == 0.0 {
             return DVec3::ZERO;
         }
-        let cosine = self.highlight_cosine(n, l, v);
+        let cosine = self.highlight_cosine(point, l, v);
         let cosine = match self.options.specular_clamp {
             SpecularClamp::Clamped => cosine.max(0.0),
             SpecularClamp::NotClamped => cosine,
@@ -270,7 +280,15 @@ impl<'a> Lighting<'a> {
         }
     }
 
-    fn highlight_cosine(&self, n: DVec3, l: DVec3, v: DVec3) -> f64 {
+    fn highlight_cosine(&self, point: &Point, l: DVec3, v: DVec3) -> f64 {
+        // The normal is in R·V twice: N·N is what (4.6) of L21 divides by.
+        let n = match (self.options.pixel_normal, self.scene.specular) {
+            (PixelNormal::NotInHighlights, _) => point.normal * point.length,
+            (PixelNormal::RootInHighlights, SpecularModel::Phong) => {
+                point.normal * point.length.sqrt()
+            }
+            _ => point.normal,
+        };
         let model = match (self.options.highlight_cosine, self.scene.specular) {
             (HighlightCosine::NormalView, _) => return n.dot(v),
             (HighlightCosine::NormalLight, _) => return n.dot(l),
@@ -303,6 +321,19 @@ impl<'a> Lighting<'a> {
             }
         }
     }
+}
+
+/// Returns the coefficients that are used for a material's.
+fn coefficients(scene: &Scene, options: &Options, material: &mesh::Material) -> Material {
+    let [ka, kd, ks] = [material.ambient, material.diffuse, material.specular].map(wide);
+    let decoded = |k: DVec3| DVec3::from_array(k.to_array().map(|c| c.powf(2.2)));
+    let [ka, kd, ks] = match options.coefficients {
+        Coefficients::Right => [ka, kd, ks],
+        Coefficients::Swapped => [ka, ks, kd],
+        Coefficients::Decoded => [ka, kd, ks].map(decoded),
+    };
+    let n = exponent(scene, options, material.shininess.into());
+    Material { ka, kd, ks, n }
 }
 
 /// Returns the exponent that is used for a material's.

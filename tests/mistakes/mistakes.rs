@@ -59,6 +59,18 @@ mistakes! {
     "light-in-eye-space" light_space = LightSpace::Eye,
         "Took the lights of the scene to be given in the camera's space, where they move with it.";
 
+    // --- Materials -------------------------------------------------------------------------
+
+    "coefficients-swapped" coefficients = Coefficients::Swapped,
+        "Swapped kd and ks.";
+    // https://medium.com/@Jacob_Bell/programmers-guide-to-gamma-correction-4c1d3a1724fb
+    "coefficients-decoded" coefficients = Coefficients::Decoded,
+        "Took the materials' colours for sRGB and decoded them: pow(k, 2.2).";
+    "materials-first-of-mesh" materials = Materials::FirstOfMesh,
+        "Ignored usemtl: the whole mesh has the first material of its file.";
+    "materials-of-first-object" materials = Materials::OfFirstObject,
+        "Set the material once, before the loop over objects: all have that of the first.";
+
     // --- Light colours and sums ------------------------------------------------------------
 
     "light-colour-ignored" light_colour = LightColour::White,
@@ -99,6 +111,8 @@ mistakes! {
         "Wrote abs(dot(n, l)): the dark side is lit too.";
     "diffuse-half" diffuse_cosine = DiffuseCosine::Half,
         "Used half Lambert, dot(n, l) * 0.5 + 0.5, from a tutorial for games.";
+    "diffuse-n-dot-v" diffuse_cosine = DiffuseCosine::NormalView,
+        "Took the view vector for the light's in the diffuse term: dot(n, v).";
     "diffuse-missing" diffuse_term = DiffuseTerm::Missing,
         "Left out the diffuse term.";
     "diffuse-over-pi" diffuse_term = DiffuseTerm::OverPi,
@@ -220,6 +234,11 @@ mistakes! {
     // https://how-to-3d.twodee.org/lighting/interpolating-normals.html
     "normal-not-normalised" pixel_normal = PixelNormal::AsInterpolated,
         "Did not normalise the interpolated normal at each pixel.";
+    // L21 4.3 divides by |N|^2 where 4.2 divides by |N|.
+    "normal-not-normalised-in-highlights" pixel_normal = PixelNormal::NotInHighlights,
+        "Normalised the interpolated normal for the diffuse term, and forgot it for the specular term.";
+    "normal-root-in-highlights" pixel_normal = PixelNormal::RootInHighlights,
+        "Divided by |N| in the specular term of fast Phong shading, whose denominator is |N|^2.";
     // https://github.com/yfeng95/DECA/issues/198
     "weights-rotated" weights = Weights::Rotated,
         "Gave the barycentric weights to the wrong corners: the area opposite a counted for b, and so on.";
@@ -280,6 +299,12 @@ mistakes! {
     // https://github.com/oframe/ogl/issues/105
     "normals-in-eye-space" normal_space = NormalSpace::Eye,
         "Transformed normals to the camera's space, and left lights and view vector in world space.";
+
+    // https://github.com/rustgd/cgmath/issues/448
+    "model-matrix-transposed" model_matrix = ModelMatrix::Transposed,
+        "Stored the model matrix by rows and read it by columns: objects turn the other way.";
+    "model-matrix-missing" model_matrix = ModelMatrix::Missing,
+        "Drew objects in model space, where all of them are in the middle.";
 
     // --- The camera ------------------------------------------------------------------------
 

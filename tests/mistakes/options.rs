@@ -21,12 +21,16 @@ ways! {
     LightLength: Unit | NotNormalised;
     /// The space that the lights of the scene are taken to be given in.
     LightSpace: World | Object | Eye;
+    /// The coefficients ka, kd and ks.
+    Coefficients: Right | Swapped | Decoded;
+    /// The material of a polygon.
+    Materials: Own | FirstOfMesh | OfFirstObject;
     /// The colour I_p of a light.
     LightColour: Own | White | OfFirstLight;
     /// The lights that count.
     Lights: Sum | First | Last | Mean;
     /// What stands for L·N.
-    DiffuseCosine: Clamped | NotClamped | Absolute | Half;
+    DiffuseCosine: Clamped | NotClamped | Absolute | Half | NormalView;
     /// The diffuse term.
     DiffuseTerm: Whole | Missing | OverPi;
     /// The specular term.
@@ -56,10 +60,12 @@ ways! {
     /// Where light is computed.
     Rate: Pixel | Vertex | Face | FirstVertex | MeanNormal;
     /// The normal at a pixel, once it is interpolated.
-    PixelNormal: Normalised | AsInterpolated;
+    PixelNormal: Normalised | AsInterpolated | NotInHighlights | RootInHighlights;
     /// The side to which a normal points.
     NormalSign: Outside | TowardViewer;
 
+    /// From model space to world space.
+    ModelMatrix: Right | Transposed | Missing;
     /// The normal of a polygon.
     PolygonNormal: Newell | Reversed | FirstCorner;
     /// What is added up at a vertex.
@@ -127,6 +133,8 @@ pub struct Options {
     pub light_direction: LightDirection,
     pub light_length: LightLength,
     pub light_space: LightSpace,
+    pub coefficients: Coefficients,
+    pub materials: Materials,
     pub light_colour: LightColour,
     pub lights: Lights,
     pub diffuse_cosine: DiffuseCosine,
@@ -146,6 +154,7 @@ pub struct Options {
     pub rate: Rate,
     pub pixel_normal: PixelNormal,
     pub normal_sign: NormalSign,
+    pub model_matrix: ModelMatrix,
     pub polygon_normal: PolygonNormal,
     pub vertex_normal: VertexNormal,
     pub normal_source: NormalSource,

@@ -4,10 +4,12 @@ use crate::camera::{Camera, Seen, unit};
 use crate::clip::{Vertex, clipped, is_inside};
 use crate::lighting::Point;
 use crate::normals::{Normals, normals};
-use crate::options::{MirroredWinding, NormalSpace, NormalTransform, Options, VertexNormal};
+use crate::options::{
+    MirroredWinding, ModelMatrix, NormalSpace, NormalTransform, Options, VertexNormal,
+};
 use fastphong::mesh::PolygonMesh;
 use fastphong::scene::Object;
-use glam::{DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 /// An object in the world.
 pub struct Placed<'a> {
@@ -28,18 +30,19 @@ pub struct Placed<'a> {
 impl<'a> Placed<'a> {
     /// Places `object`.
     pub fn new(object: &'a Object, camera: &'a Camera, options: &Options) -> Placed<'a> {
-        let to_world = object.positions_to_world();
+        let transform = model_matrix(object, options);
+        let to_world = transform * DAffine3::from_translation(object.mesh.origin());
         let positions = object.mesh.positions().iter().map(|p| {
             let position = to_world.transform_point3(p.as_dvec3());
             (position, camera.see(position))
         });
-        let matrix = object.transform.matrix3;
+        let matrix = transform.matrix3;
         let (normal_matrix, normal_offset) = match options.normal_transform {
             NormalTransform::InverseTranspose => (matrix.inverse().transpose(), DVec3::ZERO),
             NormalTransform::Matrix => (matrix, DVec3::ZERO),
             NormalTransform::Inverse => (matrix.inverse(), DVec3::ZERO),
             NormalTransform::Missing => (DMat3::IDENTITY, DVec3::ZERO),
-            NormalTransform::AsPoint => (matrix, object.transform.translation),
+            NormalTransform::AsPoint => (matrix, transform.translation),
         };
         let is_restored = options.mirrored_winding == MirroredWinding::Restored;
         Placed {
@@ -64,7 +67,7 @@ impl<'a> Placed<'a> {
                 let normal = self.to_world(self.normals.corners[corner], self.is_unit);
                 Vertex {
                     seen,
-                    point: Point { position, normal },
+                    point: Point::new(position, normal),
                     colour: DVec3::ZERO,
                 }
             })
@@ -103,6 +106,22 @@ impl<'a> Placed<'a> {
             }
         };
         if self.is_reversed { -area } else { area }
+    }
+}
+
+/// Returns what takes points of an object from model space to world space.
+fn model_matrix(object: &Object, options: &Options) -> DAffine3 {
+    let DAffine3 {
+        matrix3,
+        translation,
+    } = object.transform;
+    match options.model_matrix {
+        ModelMatrix::Right => object.transform,
+        ModelMatrix::Transposed => DAffine3 {
+            matrix3: matrix3.transpose(),
+            translation,
+        },
+        ModelMatrix::Missing => DAffine3::IDENTITY,
     }
 }
 
