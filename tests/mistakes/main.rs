@@ -22,5 +22,6 @@ mod picture;
 mod placed;
 mod proof;
 mod raster;
+mod scenes;
 mod triangulate;
 mod variation;

@@ -25,7 +25,8 @@ pub enum Filling {
     /// By triangles, convex polygons as a fan about their second corner: quads have the other
     /// diagonal.
     OtherTriangles,
-    /// By scan lines across whole polygons, as the lecture does (L21 3).
+    /// By scan lines across whole polygons, as the lecture does (L21 3). Whoever makes a mistake
+    /// with triangles draws triangles nevertheless.
     ScanLines,
 }
 
@@ -35,7 +36,7 @@ pub enum Edges {
     /// Those whose centre is inside; centres on an edge count if it is a top or a left edge.
     #[default]
     TopLeft,
-    /// Likewise, but on bottom and right edges.
+    /// Those whose centre is inside; centres on an edge count if it is a bottom or a right edge.
     BottomRight,
     /// Corners are rounded to 1/256 pixel first, as many rasterizers do.
     Snapped,

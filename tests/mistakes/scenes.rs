@@ -1,0 +1,20 @@
+//! The shipped scenes.
+
+use fastphong::scene::Scene;
+use fastphong::scene::input::{SCENES, resolve};
+
+/// Returns the shipped scenes with their names, for pictures of `width` × `height` pixels.
+///
+/// `million` is left out: its normals alone take a second, and it is another sphere of small
+/// polygons.
+pub fn scenes(width: u32, height: u32) -> Vec<(&'static str, Scene)> {
+    let shipped = SCENES.iter().filter(|scene| scene.name != "million");
+    shipped
+        .map(|shipped| {
+            let file = shipped.load().expect("a shipped scene");
+            let mut scene = resolve(&file).expect("a shipped scene").scene;
+            (scene.width, scene.height) = (width, height);
+            (shipped.name, scene)
+        })
+        .collect()
+}
