@@ -73,6 +73,9 @@ pub use glam;
 
 #[cfg(feature = "alloc")]
 pub mod compare;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod diagnose;
 #[cfg(feature = "alloc")]
 pub mod frame;
 pub mod integer;

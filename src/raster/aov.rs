@@ -33,6 +33,19 @@ pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
     picture
 }
 
+/// What takes the number of a row, and a function from columns to polygon numbers.
+#[cfg(feature = "cli")]
+type VisitRow<'a> = &'a mut dyn FnMut(usize, &dyn Fn(usize) -> u32);
+
+/// Calls `visit` with each row on which anything is drawn: its number, and a function that returns the number of the polygon at a
+/// column, as [`polygon_numbers`] has it. The picture is never in memory as a whole.
+#[cfg(feature = "cli")]
+pub(crate) fn for_each_polygon_row(frame: &Frame, visit: VisitRow<'_>) {
+    scan(frame, &Varyings::none(), &mut |row, line, _| {
+        visit(row, &|x| line.polygon(x));
+    });
+}
+
 impl Variant {
     /// Returns the number of the polygon seen at each sample where `renderer` draws this method, an index into
     /// [`Frame::polygons`], or [`NOTHING`].

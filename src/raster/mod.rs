@@ -42,6 +42,8 @@ mod setup;
 mod spans;
 mod target;
 
+#[cfg(feature = "cli")]
+pub(crate) use aov::for_each_polygon_row;
 pub use aov::{checkerboard, coverage, depth, normals, polygon_numbers, vertex_colours};
 pub use barycentric::{Edges, barycentric_polygon_numbers};
 pub use draw::{Background, DrawError, DrawOptions};

@@ -175,6 +175,12 @@ impl VertexWeights {
         ])
     }
 
+    /// Returns the vertices and their weights; a triangle's last corner is there twice.
+    #[cfg(feature = "cli")]
+    pub fn all(&self) -> [(u32, f64); 4] {
+        self.0
+    }
+
     /// Returns the weighted sum of `value` over the vertices.
     pub fn sum<T: Default + Add<Output = T> + Mul<f64, Output = T>>(
         &self,

@@ -75,7 +75,7 @@ impl SpecularModel {
 }
 
 /// The treatment of a highlight where the light is behind the surface, L·N ≤ 0, which no lecture settles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SpecularGate {
     /// None there: the highlight ends in a hard line where L·N = 0.
     #[default]

@@ -14,7 +14,7 @@ pub enum Interpolation {
 }
 
 /// The polygons that are left out for the direction in which they are seen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Culling {
     /// Leave out polygons whose corners run clockwise on the screen.
     #[default]

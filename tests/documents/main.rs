@@ -8,6 +8,7 @@ mod lectures;
 mod live;
 mod markdown;
 mod methods;
+mod mistakes;
 mod obj;
 mod rooms;
 mod small;

@@ -26,6 +26,10 @@ const ROOMS: &[(&str, &str)] = &[
         "picture number mesh scene frame reference shading raster",
     ),
     (
+        "diagnose",
+        "picture number mesh scene frame reference shading raster",
+    ),
+    (
         "lectures",
         "picture number mesh scene frame reference shading raster compare",
     ),
@@ -33,7 +37,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("view", "picture mesh scene frame shading raster"),
     (
         "cli",
-        "picture number mesh scene frame reference shading raster compare lectures report view",
+        "picture number mesh scene frame reference shading raster compare diagnose lectures report view",
     ),
 ];
 

@@ -300,3 +300,33 @@ impl PreparedScene {
         if is_far { middle } else { eye }
     }
 }
+
+/// What `diagnose` looks at beside frames.
+#[cfg(feature = "cli")]
+impl PreparedScene {
+    /// The settings of the next frame, which may be changed, but for [`Scene::two_sided`]; objects are not among them.
+    pub(crate) fn settings_mut(&mut self) -> &mut Scene {
+        &mut self.settings
+    }
+
+    /// Returns the vertices, corner lists and normals of the whole scene, whatever its camera sees of them.
+    pub(crate) fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// Returns the materials, by [`Polygon::material`].
+    pub(crate) fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Returns the number of polygons of the scene.
+    pub(crate) fn polygon_count(&self) -> usize {
+        self.table.count
+    }
+
+    /// Returns the vertices at the corners of a polygon of the scene, whatever its camera sees of it.
+    pub(crate) fn corners(&self, polygon: usize) -> &[u32] {
+        let (first, count) = self.table.corners(polygon);
+        &self.geometry.corners[first as usize..][..count as usize]
+    }
+}

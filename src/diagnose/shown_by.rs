@@ -1,0 +1,45 @@
+//! The shipped scenes that show a mistake. The table is written by
+//! `FASTPHONG_BLESS=1 cargo test --test documents mistakes`.
+
+use super::shown_by_table::{SHOWING, SHOWN};
+use super::{Cause, told_apart};
+use crate::scene::input::{SCENES, resolve};
+use alloc::vec::Vec;
+
+/// Returns the shipped scenes that show a mistake, the one first that shows it best, each with the grey
+/// levels by which the mistake changes its picture.
+pub fn scenes_that_show(id: &str) -> Vec<(&'static str, f32)> {
+    let row = SHOWN.iter().find(|(name, _)| *name == id);
+    let hundredths = row.map_or(&[][..], |(_, hundredths)| hundredths);
+    let levels = hundredths.iter().map(|levels| f32::from(*levels) / 100.0);
+    let mut found: Vec<(&str, f32)> = SHOWING.iter().copied().zip(levels).collect();
+    found.retain(|(_, levels)| *levels >= VISIBLE);
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found
+}
+
+/// A mistake that changes a picture by less, as a mean over what is seen, is hard to tell from noise.
+const VISIBLE: f32 = 0.05;
+
+/// Returns a shipped scene in which two explanations are not alike, if there is one.
+pub fn scene_that_tells(causes: [&Cause; 2]) -> Option<&'static str> {
+    let [a, b] = causes.map(|cause| &cause.mistakes[..]);
+    let small = SCENES
+        .iter()
+        .filter(|scene| SHOWING.contains(&scene.name) && !is_large(scene.name));
+    small.map(|scene| scene.name).find(|name| {
+        let scene = SCENES.iter().find(|scene| scene.name == *name);
+        let file = scene.and_then(|scene| scene.load().ok());
+        let resolved = file.and_then(|file| resolve(&file).ok());
+        let Some(mut scene) = resolved.map(|resolved| resolved.scene) else {
+            return false;
+        };
+        (scene.width, scene.height, scene.samples) = (320, 240, 1);
+        told_apart(&scene, [a, b]).is_ok_and(|levels| levels > 0.5)
+    })
+}
+
+/// True for scenes that take long to prepare.
+fn is_large(name: &str) -> bool {
+    name == "knot-100k" || name == "fine-sphere"
+}
