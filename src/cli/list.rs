@@ -6,6 +6,7 @@ use super::{CliError, Outcome, done};
 use fastphong::compare::comparison::parameter_json;
 use fastphong::compare::metrics::METRICS;
 use fastphong::compare::table::aligned;
+use fastphong::diagnose::{MISTAKES, Mistake, scenes_that_show};
 use fastphong::lectures::{FIGURES, Figure};
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
@@ -13,7 +14,7 @@ use fastphong::scene::input::{SCENES, ShippedScene};
 use fastphong::shading::{Info, METHODS, MethodRow, Range, Roundings, Standing, Stepped};
 use serde_json::{Value, json};
 
-/// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
+/// List methods, meshes, scenes, metrics, figures of the lectures, engines, instruction sets or mistakes
 #[derive(clap::Args, Debug)]
 pub struct ListArgs {
     /// Things to list
@@ -43,6 +44,8 @@ enum Subject {
     Engines,
     /// Instruction sets of the pixel loops
     Simd,
+    /// Mistakes that `diagnose` knows
+    Mistakes,
 }
 
 impl ListArgs {
@@ -81,6 +84,7 @@ fn text(subject: Subject, all: bool) -> Result<String, CliError> {
             FIGURES.iter().map(text).collect()
         }
         Subject::Engines => ENGINES.iter().map(engine_text).collect(),
+        Subject::Mistakes => MISTAKES.iter().map(mistake_text).collect(),
         Subject::Simd => {
             let rows = Level::ALL.map(|level| {
                 let here = match level.is_available() {
@@ -111,6 +115,7 @@ fn json(subject: Subject, all: bool) -> Result<Value, CliError> {
         Subject::Metrics => json!(METRICS),
         Subject::Figures => json!(FIGURES),
         Subject::Engines => ENGINES.iter().map(EngineInfo::json).collect(),
+        Subject::Mistakes => MISTAKES.iter().map(mistake_json).collect(),
         Subject::Simd => Level::ALL.into_iter().map(level_json).collect(),
     })
 }
@@ -270,5 +275,28 @@ fn level_json(level: Level) -> Value {
     json!({
         "name": level.name(), "title": level.title(), "width": level.width(),
         "available": level.is_available(), "auto": level == Level::best(),
+    })
+}
+
+fn mistake_text(mistake: &Mistake) -> String {
+    let shown = scenes_that_show(&mistake.id);
+    let scenes: Vec<&str> = shown.iter().take(4).map(|(scene, _)| *scene).collect();
+    let shown = match scenes.is_empty() {
+        true => "shown by no shipped scene".to_owned(),
+        false => format!("shown by {}", scenes.join(", ")),
+    };
+    let fix = format!("what to do: {}", mistake.fix);
+    let read = format!("read on: {}", mistake.read_on());
+    entry(&mistake.id, &[&mistake.text, &fix, &read, &shown])
+}
+
+fn mistake_json(mistake: &Mistake) -> Value {
+    let shown = scenes_that_show(&mistake.id);
+    let shown = shown
+        .iter()
+        .map(|(scene, levels)| json!({ "scene": scene, "levels": levels }));
+    json!({
+        "id": mistake.id, "part": word(mistake.part), "text": mistake.text, "fix": mistake.fix,
+        "see": mistake.see, "shown_by": shown.collect::<Value>(),
     })
 }

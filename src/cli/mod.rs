@@ -9,6 +9,7 @@ mod clamped;
 mod compare;
 mod contents;
 mod depth_notes;
+mod diagnose;
 mod diff;
 mod drawing;
 mod engines;
@@ -97,6 +98,7 @@ enum Command {
     Report(report::ReportArgs),
     Figure(figure::FigureArgs),
     Diff(diff::DiffArgs),
+    Diagnose(diagnose::DiagnoseArgs),
     List(list::ListArgs),
     Explain(explain::ExplainArgs),
     Info(info::InfoArgs),
@@ -124,6 +126,7 @@ impl Cli {
             Command::Report(command) => command.run(log),
             Command::Figure(command) => command.run(log),
             Command::Diff(command) => command.run(log),
+            Command::Diagnose(command) => command.run(log),
             Command::List(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Info(command) => command.run(log),

@@ -4,6 +4,7 @@
 mod aov;
 mod bench;
 mod defaults;
+mod diagnose;
 mod diff;
 mod engines;
 mod figure;
@@ -12,6 +13,8 @@ mod flags;
 mod folders;
 mod formats;
 mod geometry;
+#[cfg(unix)]
+mod grading;
 mod hints;
 mod input;
 mod light_rig;

@@ -1,0 +1,37 @@
+//! Three pictures side by side: yours, the reference, and the reference with your mistake.
+
+use fastphong::diagnose::{DiagnoseError, Diagnosis, Question};
+use fastphong::picture::{Picture, Picture8};
+
+/// The widest that each of them is, in pixels: of larger ones every second or third pixel is shown.
+const WIDEST: usize = 1280;
+
+/// The gap between them.
+const GAP: usize = 8;
+
+/// Draws the strip; of a picture that is right, or that nothing explains, only two.
+///
+/// # Errors
+/// When the scene cannot be drawn.
+pub fn strip(question: &Question<'_>, found: &Diagnosis) -> Result<Picture8, DiagnoseError> {
+    let scene = question.scene;
+    let size = [scene.width, scene.height].map(|side| side as usize);
+    let step = size[0].max(size[1]).div_ceil(WIDEST);
+    let mut pictures = vec![
+        found.yours(question, step),
+        found.draw(question, false, step)?,
+    ];
+    if !found.causes.is_empty() {
+        pictures.push(found.draw(question, true, step)?);
+    }
+    let (width, height) = (pictures[0].width(), pictures[0].height());
+    let count = pictures.len();
+    let mut strip = Picture::new(count * width + (count - 1) * GAP, height, [0; 4]);
+    for (place, picture) in pictures.iter().enumerate() {
+        for y in 0..height {
+            let to = &mut strip.row_mut(y)[place * (width + GAP)..][..width];
+            to.copy_from_slice(picture.row(y));
+        }
+    }
+    Ok(strip)
+}

@@ -1,0 +1,188 @@
+//! `fastphong diagnose`: the answer, its evidence, its exit codes.
+
+use super::{Folder, picture};
+use fastphong::picture::Picture8;
+use fastphong::picture::image_file::{FilePicture, write_picture};
+
+/// Writes a picture of `teapot` drawn with `flags`.
+fn drawn(flags: &str) -> Folder {
+    let folder = Folder::new();
+    folder
+        .run(&format!(
+            "render teapot --size 160x120 {flags} -o yours.png -q"
+        ))
+        .done();
+    folder
+}
+
+#[test]
+fn a_right_picture_is_said_to_be_right() {
+    drawn("")
+        .run("diagnose yours.png teapot")
+        .done()
+        .prints("agrees with teapot: it is 0.00 grey levels off");
+    // Supersampled edges are edges of another rasterizer.
+    drawn("--samples 4").run("diagnose yours.png teapot").done();
+}
+
+#[test]
+fn mistakes_are_named_with_evidence_and_what_to_do() {
+    let folder = drawn("-m gouraud");
+    let ended = folder
+        .run("diagnose yours.png teapot -o strip.png")
+        .differs();
+    let ended = ended
+        .prints("one mistake explains it")
+        .prints("Gouraud shading");
+    ended
+        .prints("0.00 are left")
+        .prints("what to do")
+        .prints("docs/course/3-gouraud-shading.md");
+    let strip = picture(&folder.path("strip.png"));
+    assert_eq!([strip.width(), strip.height()], [3 * 160 + 2 * 8, 120]);
+    // The third picture is the first: the mistake explains all of it.
+    for y in 0..120 {
+        let row = strip.row(y);
+        let differ = row[..160]
+            .iter()
+            .zip(&row[2 * 168..])
+            .filter(|(a, b)| a != b)
+            .count();
+        assert!(differ == 0, "row {y}: {differ} pixels");
+    }
+    folder.run("diagnose yours.png teapot --as gouraud").done();
+    let two = drawn("--encoding srgb --shininess 64")
+        .run("diagnose yours.png teapot")
+        .differs();
+    two.prints("two mistakes together")
+        .prints("encoded as sRGB")
+        .prints("The exponent is twice as large.");
+    let amounts = drawn("--ambient 0.5")
+        .run("diagnose yours.png teapot")
+        .differs();
+    amounts.prints("other amounts").prints("ambient × 0.50");
+}
+
+#[test]
+fn what_no_mistake_explains_is_said_to_be_so() {
+    let folder = Folder::new();
+    folder
+        .run("render vase --size 160x120 -o vase.png -q")
+        .done();
+    let ended = folder.run("diagnose vase.png teapot").differs();
+    ended
+        .prints("none of the")
+        .prints("nearest")
+        .prints("worst");
+    let black = Picture8::new(160, 120, [0, 0, 0, 255]);
+    write_picture(&folder.path("black.png"), &FilePicture::stored(black)).unwrap();
+    folder
+        .run("diagnose black.png teapot")
+        .differs()
+        .prints("shows nothing of teapot");
+}
+
+#[test]
+fn json_holds_what_each_mistake_leaves() {
+    let found = drawn("-m gouraud")
+        .run("diagnose yours.png teapot --json")
+        .differs()
+        .json();
+    assert_eq!(found["schema"], "fastphong.diagnose/1");
+    assert_eq!(found["verdict"], "one");
+    assert_eq!(found["causes"][0]["ids"][0], "per-vertex");
+    assert_eq!(found["correct"], false);
+    assert!(found["singles"].as_array().unwrap().len() > 100);
+    assert!(
+        found["cannot_show"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|m| m["id"] == "falloff-missing")
+    );
+    let list = Folder::new().run("list mistakes --json").done().json();
+    assert!(
+        list.as_array()
+            .unwrap()
+            .iter()
+            .any(|m| m["id"] == "per-vertex")
+    );
+}
+
+/// Exchanges columns and rows.
+fn transposed(from: &Picture8) -> Picture8 {
+    let mut to = Picture8::new(from.height(), from.width(), [0; 4]);
+    for y in 0..to.height() {
+        for x in 0..to.width() {
+            to.row_mut(y)[x] = from.get(y, x);
+        }
+    }
+    to
+}
+
+#[test]
+fn size_and_background_are_looked_at_first() {
+    let folder = drawn("");
+    let right = picture(&folder.path("yours.png"));
+    let turned = FilePicture::stored(transposed(&right));
+    write_picture(&folder.path("turned.png"), &turned).unwrap();
+    let ended = folder
+        .run("diagnose turned.png teapot --size 160x120")
+        .differs();
+    ended
+        .prints("width and height are exchanged")
+        .prints("agrees with teapot, but for that");
+    // The scene is drawn at the size of the picture, whatever it is.
+    folder
+        .run("render teapot --size 90x200 -o tall.png -q")
+        .done();
+    folder.run("diagnose tall.png teapot").done();
+    folder
+        .run("diagnose tall.png teapot --size 160x120")
+        .refused(&["tall.png: has 90x200 pixels: expected 160x120, as --resolution says"]);
+    let other = right.map(|pixel| {
+        if pixel[3] == 0 {
+            [0, 0, 90, 255]
+        } else {
+            pixel
+        }
+    });
+    write_picture(&folder.path("blue.png"), &FilePicture::stored(other)).unwrap();
+    let ended = folder.run("diagnose blue.png teapot").differs();
+    ended
+        .prints("the background is 0 0 90 and not 0 0 0")
+        .prints("agrees with teapot, but for that");
+}
+
+#[test]
+fn what_cannot_be_diagnosed_is_refused() {
+    let folder = drawn("");
+    folder.write("no.png", "nothing");
+    folder.run("diagnose no.png teapot").refused(&["no.png"]);
+    folder
+        .run("diagnose missing.png teapot")
+        .refused(&["missing.png"]);
+    folder
+        .run("diagnose yours.png taepot")
+        .refused(&["did you mean `teapot`?"]);
+    folder
+        .run("diagnose yours.png teapot -o yours.png")
+        .refused(&["`--output` is the picture itself"]);
+    folder
+        .run("diagnose yours.png local-lights --as integer-fast")
+        .refused(&["--as integer-fast: in integers, lights and eye are at infinity"]);
+    folder
+        .run("diagnose yours.png teapot --as nothing")
+        .refused(&["unknown method"]);
+    let small = Picture8::new(1, 1, [0, 0, 0, 255]);
+    write_picture(&folder.path("small.png"), &FilePicture::stored(small)).unwrap();
+    folder
+        .run("diagnose small.png teapot")
+        .refused(&["too little is seen"]);
+    let mut ppm = b"P5 20000 1 255\n".to_vec();
+    ppm.resize(ppm.len() + 20000, 0);
+    folder.write("wide.pgm", ppm);
+    folder
+        .run("diagnose wide.pgm teapot")
+        .refused(&["20000x1 pixels: expected at most 16384 a side"]);
+}

@@ -1,0 +1,164 @@
+//! The page that tells students and teachers how to check pictures: its commands and scripts run as
+//! they are printed.
+
+use super::Folder;
+use serde_json::Value;
+use std::process::{Command, Output};
+
+/// The page.
+const PAGE: &str = include_str!("../../docs/course/check-your-own.md");
+
+/// Returns the code block with the name `name`, or panics.
+fn script(name: &str) -> &'static str {
+    let (_, rest) = PAGE
+        .split_once(&format!("<!-- script: {name} -->\n```"))
+        .unwrap_or_else(|| panic!("no script {name}"));
+    let (_, text) = rest.split_once('\n').expect("a language");
+    text.split("\n```").next().expect("an end")
+}
+
+/// Draws the vase, small, into `name`.
+fn draw(folder: &Folder, name: &str, flags: &str) {
+    folder
+        .run(&format!(
+            "render vase --size 80x60 --alpha opaque {flags} -o {name}"
+        ))
+        .done();
+}
+
+/// Runs a command in the folder of submissions, with the installed program on the path.
+fn run(folder: &Folder, command: &[&str]) -> Output {
+    let others = std::env::var("PATH").expect("a path");
+    Command::new(command[0])
+        .args(&command[1..])
+        .current_dir(folder.path("submission"))
+        .env("AUTOGRADER", folder.path(""))
+        .env("BIN", folder.path("bin"))
+        .env("PATH", format!("{}:{others}", folder.path("bin").display()))
+        .output()
+        .expect("a command that runs")
+}
+
+/// Makes the layout of Gradescope, with the scripts of the page, and runs `setup.sh`.
+fn autograder() -> Folder {
+    let folder = Folder::new();
+    for name in ["source", "submission", "results", "bin"] {
+        std::fs::create_dir(folder.path(name)).expect("a folder");
+    }
+    for name in ["setup.sh", "run_autograder", "grade", "validate"] {
+        folder.write(&format!("source/{name}"), script(name));
+    }
+    let program = std::fs::read(env!("CARGO_BIN_EXE_fastphong")).expect("the program");
+    folder.write("source/fastphong", program);
+    let setup = run(&folder, &["sh", "../source/setup.sh"]);
+    assert!(setup.status.success(), "{setup:?}");
+    folder
+}
+
+/// Runs the autograder. Returns scores and answers of the tests.
+fn graded(folder: &Folder) -> Vec<(f64, String)> {
+    let done = run(folder, &["sh", "../source/run_autograder"]);
+    assert!(done.status.success(), "{done:?}");
+    let results = folder.read("results/results.json");
+    let results: Value = serde_json::from_slice(&results).expect("results.json is JSON");
+    let tests = results["tests"].as_array().expect("tests").iter();
+    let test = |test: &Value| {
+        let answer = test["output"].as_str().expect("an output");
+        (
+            test["score"].as_f64().expect("a score"),
+            answer.replace('\n', " "),
+        )
+    };
+    tests.map(test).collect()
+}
+
+#[test]
+fn the_script_of_the_page_grades_right_and_wrong_pictures() {
+    let folder = autograder();
+    draw(&folder, "submission/flat.png", "--method flat");
+    draw(
+        &folder,
+        "submission/gouraud.png",
+        "--method gouraud --ambient 0",
+    );
+    draw(&folder, "submission/phong.png", "--method naive-phong");
+    let [flat, gouraud, phong] = &graded(&folder)[..] else {
+        panic!("not three tests")
+    };
+    assert!(flat.0 == 2.0 && flat.1.contains("agrees"), "{flat:?}");
+    let is_named = gouraud.1.contains("Ambient light is missing.");
+    assert!(gouraud.0 == 2.4 && is_named, "{gouraud:?}");
+    assert!(phong.0 == 5.0, "{phong:?}");
+
+    folder.write("submission/flat.png", "no picture");
+    draw(&folder, "submission/gouraud.png", "--ambient 0 --no-lights");
+    std::fs::remove_file(folder.path("submission/phong.png")).expect("a picture");
+    let [flat, gouraud, phong] = &graded(&folder)[..] else {
+        panic!("not three tests")
+    };
+    assert!(
+        flat.0 == 0.0 && flat.1.contains("not a picture"),
+        "{flat:?}"
+    );
+    assert!(gouraud.0 == 0.0, "a black picture: {gouraud:?}");
+    assert!(
+        phong.0 == 0.0 && phong.1.contains("cannot be read"),
+        "{phong:?}"
+    );
+}
+
+#[test]
+fn the_validator_of_the_page_gives_a_share() {
+    let folder = autograder();
+    draw(&folder, "submission/phong.png", "--ambient 0");
+    let done = run(&folder, &["sh", "../source/validate", "phong.png", "vase"]);
+    let found: Value = serde_json::from_slice(&done.stdout).expect("JSON");
+    assert_eq!(found["score"], 0.8, "{found}");
+    assert_eq!(found["status"], "failure");
+    let message = found["message"].as_str().expect("a message");
+    assert!(message.contains("Ambient light is missing."), "{message}");
+}
+
+#[test]
+fn the_example_of_the_page_is_what_is_said() {
+    let folder = Folder::new();
+    folder
+        .run("render vase --size 320x240 --method phong-unnormalised --alpha opaque -o mine.png")
+        .done();
+    let found = folder.run("diagnose mine.png vase").exits(1);
+    // Levels and pixels are those of another program.
+    for part in ["wrong, and", "not normalised", "what to do", "read on"] {
+        let line = found.out.lines().find(|line| line.contains(part));
+        let line = line.unwrap_or_else(|| panic!("no {part}: {}", found.out));
+        assert!(PAGE.contains(line), "the page lacks: {line}");
+    }
+}
+
+#[test]
+fn commands_and_scene_of_the_page_are_understood() {
+    let folder = Folder::new();
+    let football = include_bytes!("../../scenes/football.obj");
+    folder.write("football.obj", football);
+    let (_, scene) = PAGE.split_once("```toml\n").expect("a scene");
+    folder.write("scene.toml", scene.split("```").next().expect("an end"));
+    folder.run("info scene.toml").done().prints("lights   2");
+
+    for name in ["mine", "flat", "gouraud", "phong"] {
+        folder
+            .run(&format!(
+                "render vase --size 320x240 --alpha opaque -o {name}.png"
+            ))
+            .done();
+    }
+    let mut count = 0;
+    for block in PAGE.split("\n\n```sh\n").skip(1) {
+        for line in block.split("```").next().expect("an end").lines() {
+            let command = line.split('#').next().expect("a command").trim();
+            let arguments = command.strip_prefix("fastphong ").expect("fastphong");
+            let ended = folder.run(arguments);
+            assert_ne!(ended.code, Some(2), "{command}: {}", ended.err);
+            count += 1;
+        }
+    }
+    assert!(count >= 8, "only {count} commands");
+}
