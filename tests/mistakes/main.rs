@@ -16,6 +16,7 @@ mod clip;
 mod draw;
 mod lighting;
 mod mistakes;
+mod named;
 mod normals;
 mod options;
 mod picture;
