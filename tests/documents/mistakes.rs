@@ -85,7 +85,7 @@ fn document() -> String {
             } else {
                 shown.join(", ")
             };
-            let cells = [&*mistake.text, &*mistake.fix, mistake.see, &shown]
+            let cells = [&*mistake.text, &*mistake.fix, &mistake.read_on(), &shown]
                 .map(|cell| cell.replace('|', "\\|"));
             writeln!(text, "| `{}` | {} |", mistake.id, cells.join(" | ")).unwrap();
         }

@@ -15,6 +15,7 @@ use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
+use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::file::value::{Data, SceneTable};
 use fastphong::shading::Variant;
 use std::path::PathBuf;
@@ -64,8 +65,7 @@ impl DiagnoseArgs {
         }
         let progress = Progress::watched(log);
         progress.at(0.0, "loading the scene");
-        let (file, own_size) = self.sized(file, &picture)?;
-        let resolved = files::resolve(&file)?;
+        let (file, resolved, own_size) = self.sized(file, &picture)?;
         let mut scene = resolved.scene.clone();
         scene.samples = 1;
         progress.aside(|| self.scene.warn_without_hints(&file, &resolved, log));
@@ -107,12 +107,13 @@ impl DiagnoseArgs {
     }
 
     /// Returns the scene at the size of the picture, or of the picture with columns and rows exchanged if
-    /// that is the scene's own size, and that size.
+    /// that is the scene's own size, and the scene's own size. Meshes are read again only for another size,
+    /// which a fitted camera has to see.
     fn sized(
         &self,
         mut file: SceneFile,
         picture: &FilePicture,
-    ) -> Result<(SceneFile, [u32; 2]), CliError> {
+    ) -> Result<(SceneFile, Resolved, [u32; 2]), CliError> {
         let [width, height] = picture.size();
         let most = Scene::MAX_SIDE as usize;
         if width.max(height) > most {
@@ -124,7 +125,7 @@ impl DiagnoseArgs {
         let [own_width, own_height] = own_size;
         let own = [own_width, own_height].map(|side| side as usize);
         if own == [width, height] || own == [height, width] {
-            return Ok((file, own_size));
+            return Ok((file, resolved, own_size));
         }
         if self.scene.gives(Some("image"), "width") {
             let found = format!("{}: has {width}x{height} pixels", self.picture.display());
@@ -136,7 +137,8 @@ impl DiagnoseArgs {
         image.set("width", Data::Whole(width as i64), Origin::Program);
         image.set("height", Data::Whole(height as i64), Origin::Program);
         file.overlay(size);
-        Ok((file, own_size))
+        let resolved = files::resolve(&file)?;
+        Ok((file, resolved, own_size))
     }
 
     /// Checks that the method that was asked for draws such frames.
