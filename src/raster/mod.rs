@@ -41,6 +41,8 @@ mod rows;
 mod setup;
 mod spans;
 mod target;
+#[cfg(feature = "io")]
+pub mod trace;
 
 #[cfg(feature = "cli")]
 pub(crate) use aov::for_each_polygon_row;

@@ -3,6 +3,8 @@
 use crate::frame::Frame;
 use crate::shading::kernels::operation_counts::{CountedSpan, count};
 use crate::shading::kernels::sample_span::SpanBench;
+#[cfg(feature = "io")]
+use crate::shading::kernels::walked::Walked;
 use crate::shading::methods::angles::half_reflection::HalfReflection;
 use crate::shading::methods::angles::kuijk_blake::KuijkBlake;
 use crate::shading::methods::angles::phong_map::PhongMap;
@@ -121,6 +123,9 @@ pub struct MethodRow {
     positional: ByLights,
     /// The functions that count operations, by `[is_local][more than one light]`.
     count: [[CountSpan; 2]; 2],
+    /// The walks of `directional` and `positional`, for up to 64 lights.
+    #[cfg(feature = "io")]
+    pub(crate) walked: [Walked; 2],
 }
 
 impl MethodRow {
@@ -138,6 +143,8 @@ impl MethodRow {
             info,
             directional: [kernels; 3],
             positional: [kernels; 3],
+            #[cfg(feature = "io")]
+            walked: [Walked::none::<M>(); 2],
             ..MethodRow::of::<M>()
         }
     }
@@ -183,6 +190,8 @@ impl MethodRow {
             positional: all,
             // Up to four lights are stepped as four, up to 64 as many as there are: these are counted.
             count: [[count::<C>; 2]; 2],
+            #[cfg(feature = "io")]
+            walked: [Walked::of::<C>(); 2],
         }
     }
 
@@ -204,6 +213,8 @@ impl MethodRow {
         MethodRow {
             positional: near.positional,
             count: [self.count[0], near.count[1]],
+            #[cfg(feature = "io")]
+            walked: [self.walked[0], near.walked[1]],
             ..self
         }
     }
@@ -265,6 +276,12 @@ impl MethodRow {
             2..=4 => all[1],
             _ => all[2],
         }
+    }
+
+    /// Returns the kernels whose runs [`MethodRow::walked`] walks along: those for any number of lights.
+    #[cfg(feature = "io")]
+    pub(crate) fn walked_kernels(&self, is_local: bool) -> &'static Kernels {
+        self.kernels(usize::MAX, is_local)
     }
 }
 

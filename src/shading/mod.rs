@@ -45,10 +45,14 @@ pub use kernels::operation_counts::OperationCounts;
 pub use kernels::runs::{Corner, Corners, Run, Span, SpanPlace};
 pub(crate) use kernels::runs::{PolygonConstants, RunList, Starts, ramp};
 pub use kernels::sample_span::SpanBench;
+#[cfg(feature = "io")]
+pub(crate) use kernels::walked::{Walked, WalkedRun};
 pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices};
 pub use kernels::{Kernels, UniformsIndex};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
+#[cfg(feature = "io")]
+pub(crate) use light::LightUniforms;
 pub use light::{LightModel, Lit, Seen};
 pub use method::{CarriesOf, Chosen, Kinds, Method, OneOf, Visit};
 pub use method_table::{METHODS, MethodRow};
@@ -77,6 +81,8 @@ pub trait Shader: Copy + Default + 'static {
     type Carries: Carries;
     /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.
     type Walk<F: Num>: Walk<F>;
+    /// The names of the values of [`Walk::Pixel`], in order, for traces: a name that ends in `_i` stands for a value of each light.
+    const VALUES: &'static [&'static str] = &[];
 
     /// Says whether it draws a frame, or spans of a material. It may ask for lights, positions, exponents, and the sides of polygons.
     fn on(_: On<'_>) -> Fit {

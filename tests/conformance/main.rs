@@ -27,4 +27,5 @@ mod regression;
 mod span_shader;
 mod supersampling;
 mod support;
+mod trace;
 mod two_sided;

@@ -4,6 +4,7 @@ use super::renderers::{depth_rounding, distinct, name, renderers};
 use fastphong::frame::{DepthRange, Frame, FrameBuilder, FrameError};
 use fastphong::mesh::Material;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
+use fastphong::raster::trace::TraceActive;
 use fastphong::raster::{self, DrawOptions, Edges, NOTHING, Renderer};
 use fastphong::reference::{self, Model, Visibility};
 use fastphong::scene::{Clipping, DepthBuffer, HiddenSurfaces, Lighting, Place, Scene};
@@ -72,6 +73,7 @@ pub fn check(scene: &Scene) -> Result<Tally, String> {
         }
     }
     check_views(&frame)?;
+    check_trace(&frame)?;
     Ok(tally)
 }
 
@@ -171,6 +173,46 @@ fn check_coverage(frame: &Frame) -> Result<(), String> {
                     "reference and {name} cover other pixels: polygon {where_}"
                 ));
             }
+        }
+    }
+    Ok(())
+}
+
+/// A trace tells of each edge from its first line to its last, of edges in pairs, and of each pixel once.
+fn check_trace(frame: &Frame) -> Result<(), String> {
+    let naive = Variant::parse("naive-phong").expect("a method");
+    let trace = naive
+        .trace(frame, None)
+        .map_err(|error| error.to_string())?;
+    let numbers = raster::polygon_numbers(frame);
+    for line in &trace.lines {
+        let at = |what: &str| Err(format!("line {} of the trace: {what}", line.y));
+        let y = line.y as i32;
+        if line.left.iter().any(|edge| trace.edges[*edge].end != y) {
+            return at("an edge leaves that does not end there");
+        }
+        let is_active = |edge: &TraceActive| {
+            let edge = &trace.edges[edge.edge];
+            edge.crosses && (edge.first..edge.end).contains(&y)
+        };
+        if !line.active.iter().all(is_active) {
+            return at("an edge is active that does not cross it");
+        }
+        let polygon = |edge: &TraceActive| trace.edges[edge.edge].polygon;
+        let mut polygons = line.active.chunk_by(|a, b| polygon(a) == polygon(b));
+        if polygons.any(|edges| !edges.len().is_multiple_of(2)) {
+            return at("a polygon has an odd number of edges");
+        }
+        let mut seen = vec![NOTHING; frame.width()];
+        for run in &line.runs {
+            let pixels = run.x as usize..run.x as usize + run.pixels;
+            if seen[pixels.clone()].iter().any(|&p| p != NOTHING) {
+                return at("a pixel is in two runs");
+            }
+            seen[pixels].fill(line.spans[run.span].polygon as u32);
+        }
+        if seen != numbers.row(line.y) {
+            return at("other polygons are seen");
         }
     }
     Ok(())

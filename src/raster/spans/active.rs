@@ -39,6 +39,21 @@ impl ActiveEdge {
     }
 }
 
+/// An active edge as it is read between two scanlines.
+#[cfg(feature = "io")]
+pub(crate) struct EdgeState {
+    pub polygon: u32,
+    pub corner: u32,
+    pub crossing: EdgeCrossing,
+    /// Depth here, and its growth.
+    pub depth: [f32; 2],
+    /// The varyings here, or the normal of a great circle.
+    pub at: Vec<f32>,
+    /// Their growth; none of a great circle.
+    pub by: Vec<f32>,
+    pub circle: Option<GreatCircle<f32>>,
+}
+
 /// The length of a [`Group`]. One is kept with the edge: a normal or a colour, and a weight.
 const GROUP: usize = 4;
 
@@ -86,15 +101,15 @@ pub(crate) struct PolygonSpan {
     /// The polygon.
     pub polygon: u32,
     /// The left edge, an index into the active edges; the right one follows it.
-    left: u32,
+    pub left: u32,
     /// The first pixel.
     pub start: u32,
     /// The pixel after the last one.
     pub end: u32,
     /// The parameter between the edges at the centre of the first pixel.
-    t0: f32,
+    pub t0: f32,
     /// The step of the parameter from pixel to pixel: `Δt = 1 / (x_2 − x_1)` (L21 3).
-    dt: f32,
+    pub dt: f32,
     /// The number that depth is computed from ([`SampleDepth`]), at the centre of the first pixel.
     pub depth: f32,
     /// The step of that number from pixel to pixel.
@@ -239,20 +254,9 @@ impl<'a> ActiveEdges<'a> {
     #[inline(always)]
     fn start_edge(&mut self, edge: &TableEdge, row: i32) {
         let vertices = self.frame.vertices();
-        let (top, bottom) = (
-            &vertices[edge.top as usize],
-            &vertices[edge.bottom as usize],
-        );
+        let [top, bottom] = [edge.top, edge.bottom].map(|v| &vertices[v as usize]);
         let place = |v: &ScreenVertex| [v.x, v.y];
-        // Exact: both differences have at most 24 bits.
-        let height = (bottom.y - top.y).to_bits() as f32;
-        let centre = SubPixel::from_num(row) + SubPixel::from_bits(1 << (SubPixel::FRAC_NBITS - 1));
-        let t0 = (centre - top.y).to_bits() as f32 / height;
-        debug_assert!(
-            (0.0..=1.0).contains(&t0),
-            "the scanline crosses the edge between its ends"
-        );
-        let dt = (1 << SubPixel::FRAC_NBITS) as f32 / height; // Δt = 1 / (y_2 − y_1)
+        let [t0, dt] = parameter([top, bottom], row);
         let (varyings, slot) = match self.is_walked {
             true => self.start_varyings(edge, [t0, dt]),
             false => (Group::default(), 0),
@@ -288,7 +292,7 @@ impl<'a> ActiveEdges<'a> {
 
     /// Returns the varyings of the upper and the lower end of an edge.
     #[inline(always)]
-    fn ends(&self, edge: &TableEdge) -> [&'a [f32]; 2] {
+    pub fn ends(&self, edge: &TableEdge) -> [&'a [f32]; 2] {
         let (mut corners, polygon) = ([0; 2], edge.polygon);
         if let Per::Corner(_) = self.varyings.per {
             let polygon = &self.frame.polygons()[polygon as usize];
@@ -332,6 +336,42 @@ impl<'a> ActiveEdges<'a> {
         if self.has_slots {
             self.more.free.extend(slots);
         }
+    }
+
+    /// Returns the edges as they are on this scanline, in order, to be read.
+    #[cfg(feature = "io")]
+    pub fn states(&self) -> impl Iterator<Item = EdgeState> {
+        self.edges.iter().map(|edge| {
+            let mut state = EdgeState {
+                polygon: edge.polygon,
+                corner: edge.corner,
+                crossing: edge.crossing,
+                depth: edge.depth,
+                at: Vec::new(),
+                by: Vec::new(),
+                circle: None,
+            };
+            if !self.is_walked {
+                return state;
+            }
+            if self.varyings.great_circles {
+                let circle = self.more.circles[edge.slot as usize];
+                state.at.extend(circle.normal().array());
+                state.circle = Some(circle);
+                return state;
+            }
+            let more = match self.has_slots {
+                true => self.more.groups(edge.slot),
+                false => &[],
+            };
+            for group in core::iter::once(&edge.varyings).chain(more) {
+                state.at.extend(group.at);
+                state.by.extend(group.step);
+            }
+            state.at.truncate(self.varyings.count);
+            state.by.truncate(self.varyings.count);
+            state
+        })
     }
 
     /// Puts the edges of each polygon in order and calls `visit` with their spans, polygon by polygon.
@@ -443,6 +483,20 @@ impl<'a> ActiveEdges<'a> {
             false => Group::new([left.at, right.at], parameter),
         }
     }
+}
+
+/// Returns the parameter of an edge at the centre of scanline `row`, 0 at its upper end and 1 at its lower one, and its growth.
+#[inline(always)]
+pub(crate) fn parameter([top, bottom]: [&ScreenVertex; 2], row: i32) -> [f32; 2] {
+    // Exact: both differences have at most 24 bits.
+    let height = (bottom.y - top.y).to_bits() as f32;
+    let centre = SubPixel::from_num(row) + SubPixel::from_bits(1 << (SubPixel::FRAC_NBITS - 1));
+    let t0 = (centre - top.y).to_bits() as f32 / height;
+    debug_assert!(
+        (0.0..=1.0).contains(&t0),
+        "the scanline crosses the edge between its ends"
+    );
+    [t0, (1 << SubPixel::FRAC_NBITS) as f32 / height] // Δt = 1 / (y_2 − y_1)
 }
 
 /// Puts the edges of a polygon in order, by insertion: crossings change places only where edges cross each other. Ties keep the

@@ -77,6 +77,16 @@ impl EdgeCrossing {
         self.rest as f64 / self.denominator as f64
     }
 
+    /// Returns numerator and denominator of [`EdgeCrossing::offset`]: the crossing lies at `pixel + ½ − numerator/denominator`.
+    pub fn rest(&self) -> [i64; 2] {
+        [self.rest, self.denominator]
+    }
+
+    /// Returns what a step adds to the crossing: whole pixels, and a numerator over the denominator of [`EdgeCrossing::rest`].
+    pub fn step(&self) -> [i64; 2] {
+        [i64::from(self.step_pixels), self.step_rest]
+    }
+
     /// Steps to the next scanline.
     #[inline(always)]
     pub fn advance(&mut self) {

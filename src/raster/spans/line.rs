@@ -99,6 +99,12 @@ impl VisibleLine {
         self.pixels[x].0
     }
 
+    /// Returns the span seen at pixel `x`, an index into [`VisibleLine::spans`], or [`NOTHING`].
+    #[cfg(feature = "io")]
+    pub fn span_at(&self, x: usize) -> u32 {
+        self.pixels[x].1
+    }
+
     /// Returns the polygon seen at pixel `x`, or [`NOTHING`].
     pub fn polygon(&self, x: usize) -> u32 {
         self.spans

@@ -13,7 +13,7 @@
 pub(super) mod active;
 pub(super) mod edge;
 pub(super) mod edge_table;
-mod line;
+pub(super) mod line;
 
 use active::ActiveEdges;
 pub use edge::EdgeCrossing;

@@ -7,6 +7,8 @@ pub(crate) mod gbuffer_cell;
 pub(crate) mod operation_counts;
 pub(crate) mod runs;
 pub(crate) mod sample_span;
+#[cfg(feature = "io")]
+pub(crate) mod walked;
 
 #[cfg(feature = "simd")]
 use crate::number::simd::{Block, Token, deinterleaved, vectorize};
@@ -338,15 +340,18 @@ fn light<C: Carries, F: Num>(
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = if M::NEEDS.general_only
-            || uniforms.model.is_general
-            || job.extras != Extras::default()
-        {
+        out = if is_general::<M>(job, uniforms) {
             shade_runs::<M>(job, uniforms, true, runs, out)
         } else {
             shade_fast_runs::<M>(job, uniforms, runs, out)
         };
     }
+}
+
+/// True if runs have extras or general lights.
+#[inline(always)]
+fn is_general<M: Method>(job: &Pixels<'_>, uniforms: &Uniforms) -> bool {
+    M::NEEDS.general_only || uniforms.model.is_general || job.extras != Extras::default()
 }
 
 /// Shades runs without extras and general lights: a function of its own, whose loop then has more registers.

@@ -2,7 +2,7 @@
 
 use super::{GreatCircle, Walk};
 use crate::number::{Num, Vec3};
-use crate::shading::walks::values::Values;
+use crate::shading::walks::values::{Values, each};
 
 /// Whatever grows as a sine and a cosine do, `F(k) = P cos kδ + Q sin kδ`: two additions and a multiplication a step.
 ///
@@ -55,5 +55,9 @@ impl<F: Num, V: Values<F>> Walk<F> for Chebyshev<F, V> {
         let alpha = self.alpha;
         self.step.zip(self.at, |step, at| step - at * alpha);
         here
+    }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        each(self.step, |_, value| see("first", *value));
+        see("alpha", self.alpha);
     }
 }

@@ -67,4 +67,9 @@ impl<F: Num, V: Values<F>> Walk<F> for Cubic<V> {
         self.second = sum([self.second, self.third]);
         here
     }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        each(self.first, |_, value: &mut F| see("first", *value));
+        each(self.second, |_, value: &mut F| see("second", *value));
+        each(self.third, |_, value: &mut F| see("third", *value));
+    }
 }

@@ -39,6 +39,9 @@ pub trait Walk<F: Num>: Copy {
 
     /// Returns the value here, and steps to the next pixel (or block).
     fn next(&mut self) -> Self::Pixel;
+    /// Calls `see` with what the next value is found by and does not show, by name: Newton's guesses, sines. For traces
+    /// (`raster/trace/`); several values of one name belong together.
+    fn inside(&self, _see: &mut dyn FnMut(&'static str, F)) {}
 }
 
 impl<F: Num, A: Walk<F>, B: Walk<F>> Walk<F> for (A, B) {
@@ -48,6 +51,10 @@ impl<F: Num, A: Walk<F>, B: Walk<F>> Walk<F> for (A, B) {
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
         (self.0.next(), self.1.next())
+    }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        self.0.inside(see);
+        self.1.inside(see);
     }
 }
 
@@ -59,6 +66,9 @@ impl<F: Num, W: Walk<F, Pixel = F>> Walk<F> for [W; 3] {
     fn next(&mut self) -> Vec3<F> {
         let [x, y, z] = self;
         vec3([x.next(), y.next(), z.next()])
+    }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        self.iter().for_each(|walk| walk.inside(see));
     }
 }
 
@@ -73,6 +83,11 @@ impl<F: Num, W: Walk<F, Pixel = F>, const L: usize> Walk<F> for PerLight<W, L> {
             pixel.values[i] = self.values[i].next();
         }
         pixel
+    }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        self.values[..self.len()]
+            .iter()
+            .for_each(|walk| walk.inside(see));
     }
 }
 

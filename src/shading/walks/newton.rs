@@ -104,6 +104,18 @@ impl<F: Num> Newton<F> {
             steps: steps.of_span(n, dn, square),
         }
     }
+
+    /// Steps from the length before to that of `square`; `see` sees the guess and what each step makes of it.
+    #[inline(always)]
+    fn root(&self, square: F, mut see: impl FnMut(F)) -> F {
+        let mut x = self.length;
+        see(x);
+        for _ in 0..self.steps {
+            x = x - (x * x - square) / (x + x); // 4.4 by Newton's method
+            see(x);
+        }
+        x
+    }
 }
 
 impl<F: Num> Walk<F> for Newton<F> {
@@ -117,11 +129,14 @@ impl<F: Num> Walk<F> for Newton<F> {
         if self.steps == 0 {
             return (square.sqrt(), square);
         }
-        let mut x = self.length;
-        for _ in 0..self.steps {
-            x = x - (x * x - square) / (x + x); // 4.4 by Newton's method
+        self.length = self.root(square, |_| ());
+        (self.length, square)
+    }
+    /// The guesses, the last of which is d; none where roots are true.
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        if self.steps > 0 {
+            let n = self.normal.at;
+            self.root(n.dot(n), |x| see("guess", x));
         }
-        self.length = x;
-        (x, square)
     }
 }

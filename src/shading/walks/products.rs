@@ -49,6 +49,10 @@ macro_rules! products {
                     $($each: self.$each.next(),)*
                 }
             }
+            fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+                $(self.$one.inside(see);)*
+                $(self.$each.inside(see);)*
+            }
         }
     };
 }

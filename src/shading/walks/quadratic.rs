@@ -67,4 +67,8 @@ impl<F: Num> Walk<F> for Quadratic<F> {
         self.step = self.step + self.second;
         here
     }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        see("first", self.step);
+        see("second", self.second);
+    }
 }

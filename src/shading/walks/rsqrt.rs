@@ -76,6 +76,21 @@ impl WarmSteps {
     }
 }
 
+impl<F: Num> WarmRsqrt<F> {
+    /// Steps from the root before to 1/√`square`; `see` sees the guess and what each step makes of it.
+    #[inline(always)]
+    fn next_root(&self, square: F, mut see: impl FnMut(F)) -> F {
+        let half = square * 0.5;
+        let mut root = self.root;
+        see(root);
+        for _ in 0..self.steps {
+            root = root * (-(half * root * root) + 1.5);
+            see(root);
+        }
+        root
+    }
+}
+
 impl<F: Num> Walk<F> for WarmRsqrt<F> {
     type Pixel = F;
 
@@ -85,10 +100,14 @@ impl<F: Num> Walk<F> for WarmRsqrt<F> {
         if self.steps == 0 {
             return square.broadcast(1.0) / square.sqrt();
         }
-        let half = square * 0.5;
-        for _ in 0..self.steps {
-            self.root = self.root * (-(half * self.root * self.root) + 1.5);
-        }
+        self.root = self.next_root(square, |_| ());
         self.root
+    }
+    /// The guesses, the last of which is 1/d; none where roots are true.
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        if self.steps > 0 {
+            let square = { self.square }.next();
+            self.next_root(square, |root| see("guess", root));
+        }
     }
 }

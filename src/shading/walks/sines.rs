@@ -2,7 +2,7 @@
 
 use super::Walk;
 use crate::number::{Num, Real, Vec3, vec3};
-use crate::shading::walks::values::Values;
+use crate::shading::walks::values::{Values, each};
 
 /// The weights of spherical linear interpolation, `sin((1−t)φ)` and `sin(tφ)`, stepped by the addition theorems: four additions
 /// and eight multiplications per step.
@@ -51,6 +51,12 @@ impl<F: Num> Walk<F> for Sines<F> {
         self.t.1 = cos_t * cos_step - sin_t * sin_step; // 4.11
         self.rest.1 = cos_rest * cos_step + sin_rest * sin_step; // 4.12
         here
+    }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        for (name, (sin, cos)) in [("t", self.t), ("rest", self.rest), ("step", self.step)] {
+            see(name, sin);
+            see(name, cos);
+        }
     }
 }
 
@@ -181,5 +187,10 @@ impl<F: Num, V: Values<F>> Walk<F> for GreatCircle<F, V> {
         let normal = self.normal();
         self.sines.next(); // 4.9–4.12
         normal
+    }
+    fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
+        each(self.from, |_, value| see("from", *value));
+        each(self.to, |_, value| see("to", *value));
+        self.sines.inside(see);
     }
 }

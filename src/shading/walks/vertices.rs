@@ -9,6 +9,8 @@ pub trait Carries: 'static {
     const FROM: Carried = Carried::Lit;
     /// The varyings: values, vectors and tuples of them.
     type Varying<F: Num>: Values<F>;
+    /// The names of its values, in order, for traces: a name that ends in `_i` stands for a value of each light.
+    const NAMES: &'static [&'static str] = &[];
     /// Returns the varyings of a vertex with the unit normal `n`; once per polygon for methods that are lit there.
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
 }
@@ -33,6 +35,7 @@ pub struct Normal;
 impl Carries for Normal {
     const FROM: Carried = Carried::Normal;
     type Varying<F: Num> = Vec3<F>;
+    const NAMES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
@@ -48,6 +51,7 @@ pub struct TurnedNormal;
 impl Carries for TurnedNormal {
     const FROM: Carried = Carried::Turned;
     type Varying<F: Num> = Vec3<F>;
+    const NAMES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
@@ -62,6 +66,7 @@ pub struct ProductsAndNormal<const L: usize>;
 
 impl<const L: usize> Carries for ProductsAndNormal<L> {
     type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>);
+    const NAMES: &'static [&'static str] = &["J_i", "K", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
@@ -76,6 +81,7 @@ pub struct NormalAndPlace;
 
 impl Carries for NormalAndPlace {
     type Varying<F: Num> = (Vec3<F>, Vec3<F>, F);
+    const NAMES: &'static [&'static str] = &["Nx", "Ny", "Nz", "Px", "Py", "Pz", "w"];
 
     #[inline(always)]
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
@@ -89,6 +95,7 @@ pub struct Colour;
 
 impl Carries for Colour {
     type Varying<F: Num> = Vec3<F>;
+    const NAMES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {

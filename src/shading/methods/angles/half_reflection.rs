@@ -104,6 +104,7 @@ impl<const L: usize> Shader for HalfReflection<L> {
     type Constants<F: Num> = ();
     type Carries = Normal;
     type Walk<F: Num> = HalfWalk<F, L>;
+    const VALUES: &'static [&'static str] = &["J_i", "K"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> HalfWalk<F, L> {

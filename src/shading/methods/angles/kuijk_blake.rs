@@ -135,7 +135,8 @@ impl<const L: usize> Shader for KuijkBlake<L> {
     };
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
     type Carries = Normal;
-    type Walk<F: Num> = (Linear<Pair<F, L>>, Constant<Pair<F, L>>); // angles; p and qⁿ
+    type Walk<F: Num> = (Linear<Pair<F, L>>, Constant<Pair<F, L>>);
+    const VALUES: &'static [&'static str] = &["x_i", "y_i", "p_i", "q_i"];
 
     fn on(on: On<'_>) -> Fit {
         on.each(|lighting, _| {

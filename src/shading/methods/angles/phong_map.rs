@@ -57,6 +57,7 @@ impl Shader for PhongMap {
     type Constants<F: Num> = ();
     type Carries = Self;
     type Walk<F: Num> = Linear<(F, F)>;
+    const VALUES: &'static [&'static str] = &["Nx", "Ny"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<(F, F)> {
@@ -78,7 +79,8 @@ impl Shader for PhongMap {
 
 impl Carries for PhongMap {
     const FROM: Carried = Carried::Turned;
-    type Varying<F: Num> = (F, F); // N_x, N_y
+    type Varying<F: Num> = (F, F);
+    const NAMES: &'static [&'static str] = &["Nx", "Ny"];
 
     #[inline(always)]
     fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {

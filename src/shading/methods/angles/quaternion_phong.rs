@@ -55,6 +55,7 @@ impl Shader for QuaternionPhong {
     type Constants<F: Num> = ();
     type Carries = Self;
     type Walk<F: Num> = Linear<Vec3<F>>;
+    const VALUES: &'static [&'static str] = &["mx", "my", "mz"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
@@ -75,7 +76,8 @@ impl Shader for QuaternionPhong {
 
 impl Carries for QuaternionPhong {
     const FROM: Carried = Carried::Turned;
-    type Varying<F: Num> = Vec3<F>; // m
+    type Varying<F: Num> = Vec3<F>;
+    const NAMES: &'static [&'static str] = &["mx", "my", "mz"];
 
     #[inline(always)]
     fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {

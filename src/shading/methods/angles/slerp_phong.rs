@@ -35,7 +35,8 @@ impl<const L: usize> Shader for SlerpPhong<L> {
     const NEEDS: Needs = Needs::GREAT_CIRCLES;
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
     type Carries = Normal;
-    type Walk<F: Num> = GreatCircle<F, (PerLight<F, L>, F)>; // J of each light, K
+    type Walk<F: Num> = GreatCircle<F, (PerLight<F, L>, F)>;
+    const VALUES: &'static [&'static str] = &["J_i", "K"];
 
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {

@@ -26,6 +26,7 @@ impl Shader for SlerpPhongVector {
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
     type Carries = Normal;
     type Walk<F: Num> = GreatCircle<F>;
+    const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {

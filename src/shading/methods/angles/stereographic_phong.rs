@@ -50,6 +50,7 @@ impl Shader for StereographicPhong {
     type Constants<F: Num> = ();
     type Carries = Self;
     type Walk<F: Num> = Linear<(F, F)>;
+    const VALUES: &'static [&'static str] = &["u", "v"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<(F, F)> {
@@ -72,7 +73,8 @@ impl Shader for StereographicPhong {
 
 impl Carries for StereographicPhong {
     const FROM: Carried = Carried::Turned;
-    type Varying<F: Num> = (F, F); // u, v
+    type Varying<F: Num> = (F, F);
+    const NAMES: &'static [&'static str] = &["u", "v"];
 
     #[inline(always)]
     fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {

@@ -36,6 +36,7 @@ impl Shader for Flat {
     type Constants<F: Num> = ();
     type Carries = Colour;
     type Walk<F: Num> = Constant<Vec3<F>>;
+    const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {

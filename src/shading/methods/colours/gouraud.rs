@@ -39,6 +39,7 @@ impl Shader for Gouraud {
     type Constants<F: Num> = ();
     type Carries = Colour;
     type Walk<F: Num> = Linear<Vec3<F>>;
+    const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {

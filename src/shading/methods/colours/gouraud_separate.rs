@@ -34,6 +34,7 @@ impl Shader for GouraudSeparate {
     type Constants<F: Num> = ();
     type Carries = Self;
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;
+    const VALUES: &'static [&'static str] = &["Dr", "Dg", "Db", "Sr", "Sg", "Sb"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -46,7 +47,8 @@ impl Shader for GouraudSeparate {
 }
 
 impl Carries for GouraudSeparate {
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // D, S
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>);
+    const NAMES: &'static [&'static str] = &["Dr", "Dg", "Db", "Sr", "Sg", "Sb"];
 
     #[inline(always)]
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {

@@ -76,7 +76,8 @@ impl<const L: usize> Shader for DifferenceVector<L> {
     };
     type Constants<F: Num> = ();
     type Carries = Normal;
-    type Walk<F: Num> = (Linear<PerLight<F, L>>, PerLight<Quadratic<F>, L>); // J and E of each light
+    type Walk<F: Num> = (Linear<PerLight<F, L>>, PerLight<Quadratic<F>, L>);
+    const VALUES: &'static [&'static str] = &["J_i", "E_i"];
 
     fn on(on: On<'_>) -> Fit {
         on.each(|lighting, how| match (lighting.specular, how) {

@@ -49,7 +49,8 @@ impl<const L: usize> Shader for DuffHalf<L> {
     };
     type Constants<F: Num> = ();
     type Carries = Self;
-    type Walk<F: Num> = (Linear<(PerLight<F, L>, PerLight<F, L>)>, Quadratic<F>); // J and M of each light; D
+    type Walk<F: Num> = (Linear<(PerLight<F, L>, PerLight<F, L>)>, Quadratic<F>);
+    const VALUES: &'static [&'static str] = &["J_i", "M_i", "D"];
 
     fn on(on: On<'_>) -> Fit {
         on.each(|lighting, _| refuses_light(lighting))
@@ -67,7 +68,8 @@ impl<const L: usize> Shader for DuffHalf<L> {
 }
 
 impl<const L: usize> Carries for DuffHalf<L> {
-    type Varying<F: Num> = ((PerLight<F, L>, PerLight<F, L>), Vec3<F>); // J and M of each light; N
+    type Varying<F: Num> = ((PerLight<F, L>, PerLight<F, L>), Vec3<F>);
+    const NAMES: &'static [&'static str] = &["J_i", "M_i", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {

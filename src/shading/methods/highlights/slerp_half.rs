@@ -35,7 +35,8 @@ impl<const L: usize> Shader for SlerpHalf<L> {
     };
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
     type Carries = Normal;
-    type Walk<F: Num> = Chebyshev<F, (PerLight<F, L>, PerLight<F, L>)>; // J and M of each light
+    type Walk<F: Num> = Chebyshev<F, (PerLight<F, L>, PerLight<F, L>)>;
+    const VALUES: &'static [&'static str] = &["J_i", "M_i"];
 
     fn on(on: On<'_>) -> Fit {
         on.each(|lighting, _| refuses_light(lighting))

@@ -216,6 +216,7 @@ impl Shader for OneColour {
     type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>); // r C by rows; a
     type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>;
+    const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -240,7 +241,8 @@ impl Shader for Dull {
     const INFO: Info = Info::of_kind("dull");
     type Constants<F: Num> = ([Vec3<F>; 3], [F; 2]); // C by rows; the line
     type Carries = Normal;
-    type Walk<F: Num> = (Linear<Vec3<F>>, Quadratic<F>); // C, r
+    type Walk<F: Num> = (Linear<Vec3<F>>, Quadratic<F>);
+    const VALUES: &'static [&'static str] = &["Cr", "Cg", "Cb", "r"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -268,6 +270,8 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
     type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>, [(F, (F, F)); plan::MOST]);
     type Carries = Normal;
     type Walk<F: Num> = CurvedWalk<F, MANY>;
+    const VALUES: &'static [&'static str] =
+        &["J_a", "J_b", "K", "Cr", "Cg", "Cb", "D", "k0", "k1", "k2"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

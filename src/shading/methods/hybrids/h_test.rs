@@ -141,6 +141,7 @@ impl Shader for Dull {
     type Constants<F: Num> = ();
     type Carries = HTest;
     type Walk<F: Num> = Linear<Vec3<F>>;
+    const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -165,6 +166,7 @@ impl Shader for Shining {
     type Constants<F: Num> = ();
     type Carries = HTest;
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;
+    const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -184,7 +186,8 @@ impl Shader for Shining {
 }
 
 impl Carries for HTest {
-    type Varying<F: Num> = (Vec3<F>, Vec3<F>); // ambient and diffuse light, N
+    type Varying<F: Num> = (Vec3<F>, Vec3<F>);
+    const NAMES: &'static [&'static str] = &["Ir", "Ig", "Ib", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {

@@ -129,6 +129,7 @@ impl Shader for QuadraticOfNormals {
     type Constants<F: Num> = ([Vec3<F>; 6], [F; 2]); // of 1, x, y, x², xy, y²; from the first corner
     type Carries = Normal;
     type Walk<F: Num> = [Quadratic<F>; 3];
+    const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -150,7 +150,8 @@ impl<const L: usize> Shader for Quadratics<L> {
     const INFO: Info = Info::of_kind("quadratic");
     type Constants<F: Num> = OverPolygon<F, L>;
     type Carries = Normal;
-    type Walk<F: Num> = (PerLight<Quadratic<F>, L>, Quadratic<F>); // J of each light, K
+    type Walk<F: Num> = (PerLight<Quadratic<F>, L>, Quadratic<F>);
+    const VALUES: &'static [&'static str] = &["J_i", "K"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -205,6 +205,7 @@ impl<const L: usize> Shader for QuadraticsLocal<L> {
     type Constants<F: Num> = OverTriangle<F, L>;
     type Carries = NormalAndPlace;
     type Walk<F: Num> = UnitProducts<Quadratic<F>, L>;
+    const VALUES: &'static [&'static str] = &["K", "J_i", "L_i.V", "strength_i"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -70,6 +70,7 @@ impl Shader for QuadraticNormals {
     type Constants<F: Num> = ();
     type Carries = Normal;
     type Walk<F: Num> = [Quadratic<F>; 3];
+    const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

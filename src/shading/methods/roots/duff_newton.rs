@@ -54,7 +54,8 @@ impl<const L: usize> Shader for DuffNewton<L> {
     };
     type Constants<F: Num> = ();
     type Carries = ProductsAndNormal<L>;
-    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, WarmRsqrt<F>); // J of each light, K; r
+    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, WarmRsqrt<F>);
+    const VALUES: &'static [&'static str] = &["J_i", "K", "r"];
 
     #[inline(always)]
     fn new(_: &[Value], model: &LightModel) -> Self {

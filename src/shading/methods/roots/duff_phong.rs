@@ -49,7 +49,8 @@ impl<const L: usize, const FAST: bool> Shader for DuffPhong<L, FAST> {
     };
     type Constants<F: Num> = ();
     type Carries = ProductsAndNormal<L>;
-    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
+    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>);
+    const VALUES: &'static [&'static str] = &["J_i", "K", "D"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -83,7 +84,8 @@ impl<const L: usize> Shader for DuffOfNormals<L> {
     const INFO: Info = DUFF_PHONG;
     type Constants<F: Num> = ();
     type Carries = Normal;
-    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
+    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>);
+    const VALUES: &'static [&'static str] = &["J_i", "K", "D"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
@@ -151,6 +153,8 @@ impl<const L: usize> Shader for DuffPhongLocal<L> {
     type Constants<F: Num> = ();
     type Carries = NormalAndPlace;
     type Walk<F: Num> = LocalProducts<Quadratic<F>, L>;
+    const VALUES: &'static [&'static str] =
+        &["N.N", "V.V", "N.V", "w.w", "L_i.L_i", "L_i.N", "L_i.V"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -51,7 +51,8 @@ impl<const L: usize> Shader for FastPhong<L> {
     const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
     type Constants<F: Num> = ();
     type Carries = ProductsAndNormal<L>;
-    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Newton<F>); // J of each light, K; d, D
+    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Newton<F>);
+    const VALUES: &'static [&'static str] = &["J_i", "K", "d", "D"];
 
     #[inline(always)]
     fn new(parameters: &[Value], model: &LightModel) -> Self {

@@ -49,6 +49,7 @@ impl Shader for PhongUnnormalised {
     type Constants<F: Num> = ();
     type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>;
+    const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {

@@ -57,7 +57,8 @@ impl<const L: usize> Shader for Cubics<L> {
     const INFO: Info = Info::of_kind("cubic");
     type Constants<F: Num> = [F; 2]; // the line
     type Carries = Normal;
-    type Walk<F: Num> = Cubic<(PerLight<F, L>, F)>; // J of each light, K
+    type Walk<F: Num> = Cubic<(PerLight<F, L>, F)>;
+    const VALUES: &'static [&'static str] = &["J_i", "K"];
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {

@@ -137,6 +137,10 @@ impl<const L: usize, const K: usize> Shader for Polynomial<L, K> {
     type Constants<F: Num> = [F; K];
     type Carries = Normal;
     type Walk<F: Num> = (<DuffOfNormals<L> as Shader>::Walk<F>, Constant<[F; K]>);
+    const VALUES: &'static [&'static str] = match K {
+        2 => &["J_i", "K", "D", "k0", "k1"],
+        _ => &["J_i", "K", "D", "k0", "k1", "k2"],
+    };
 
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
