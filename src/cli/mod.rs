@@ -47,6 +47,7 @@ mod signals;
 mod span_times;
 mod text;
 mod tolerance;
+mod trace;
 mod unlit;
 mod values;
 #[cfg(feature = "view")]
@@ -99,6 +100,7 @@ enum Command {
     Figure(figure::FigureArgs),
     Diff(diff::DiffArgs),
     Diagnose(diagnose::DiagnoseArgs),
+    Trace(trace::TraceArgs),
     List(list::ListArgs),
     Explain(explain::ExplainArgs),
     Info(info::InfoArgs),
@@ -127,6 +129,7 @@ impl Cli {
             Command::Figure(command) => command.run(log),
             Command::Diff(command) => command.run(log),
             Command::Diagnose(command) => command.run(log),
+            Command::Trace(command) => command.run(log),
             Command::List(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Info(command) => command.run(log),

@@ -30,6 +30,7 @@ mod shell;
 mod signals;
 mod tables;
 mod tolerance;
+mod trace;
 mod view;
 mod watch;
 mod winding;
