@@ -138,6 +138,13 @@ pub extern "C" fn figure() -> isize {
     with(|studio| studio.answer(Studio::figure))
 }
 
+/// Traces the method that the first line of the text names on the mesh of the figure `stop`, with columns and lines of its corners in
+/// the second. The text is then the trace as JSON, and the length of that is returned.
+#[unsafe(no_mangle)]
+pub extern "C" fn trace() -> isize {
+    with(|studio| studio.answer(Studio::trace))
+}
+
 /// Returns where three numbers (`u32`) of the figure's picture `number` are: its width, its height, and where its bytes are.
 #[unsafe(no_mangle)]
 pub extern "C" fn panel(number: usize) -> *const u32 {

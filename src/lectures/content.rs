@@ -4,6 +4,8 @@ use super::error::Result;
 use super::fixture::stored;
 use crate::compare::metrics::difference_map;
 use crate::picture::{LinearPicture, Picture8};
+use crate::raster::trace::Trace;
+use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use alloc::{format, vec::Vec};
 use serde::{Serialize, Serializer};
@@ -44,7 +46,18 @@ impl FigureContent {
             }
         };
         let shown = panels.into_iter().map(panel).collect();
-        self.blocks.push(FigureBlock::Pictures { columns, shown });
+        self.blocks.push(FigureBlock::Pictures {
+            columns,
+            shown,
+            outlines: Vec::new(),
+        });
+    }
+
+    /// Outlines polygons on the pictures that were added last, the one that matters first.
+    pub(super) fn outline(&mut self, polygons: Vec<Vec<[f32; 2]>>) {
+        if let Some(FigureBlock::Pictures { outlines, .. }) = self.blocks.last_mut() {
+            *outlines = polygons;
+        }
     }
 
     /// Adds pictures of one subject in a row: ` | ` separates their captions.
@@ -87,6 +100,14 @@ impl FigureContent {
         self.blocks.push(FigureBlock::Table {
             head: cells(head),
             rows: rows.into_iter().map(|row| cells(&row)).collect(),
+        });
+    }
+
+    /// Adds a trace.
+    pub fn trace(&mut self, trace: Trace) {
+        self.blocks.push(FigureBlock::Trace {
+            method: trace.method.clone(),
+            trace: Box::new(trace),
         });
     }
 
@@ -146,6 +167,10 @@ pub enum FigureBlock {
         columns: usize,
         /// The pictures, row by row.
         shown: Vec<Panel>,
+        /// The corners of polygons that the page may outline on each picture, the one that matters
+        /// first: column and row, in pixels.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        outlines: Vec<Vec<[f32; 2]>>,
     },
     /// Curves.
     Plot(Plot),
@@ -155,6 +180,14 @@ pub enum FigureBlock {
         head: Vec<String>,
         /// The cells: each row has as many as the head.
         rows: Vec<Vec<String>>,
+    },
+    /// The engine's work, step by step.
+    Trace {
+        /// The method, with its parameters.
+        method: String,
+        /// The trace. It is stored beside the data.
+        #[serde(skip)]
+        trace: Box<Trace>,
     },
 }
 

@@ -9,20 +9,26 @@ pub(super) static FIGURE: Figure = Figure {
     name: "exercises",
     title: "The exercises: a table of sines, and e to the t by one multiplication per pixel",
     lecture: "L21, Exercises 1 and 2",
-    parts: &[sine, exponential, fog],
+    parts: &[sine, exponential, fog, pixels],
     live: None,
 };
 
 /// The sines of 24° and 25° in the table of Exercise 1, in five decimals.
 const TABLE: [f64; 2] = [0.40674, 0.42262];
 
-/// Exercise 1: Gouraud shading reads between the lines of a table.
-fn sine(content: &mut FigureContent) -> Result {
-    // From the centre of pixel 0 to that of pixel 10: pixel 3 is 0.3 of the way. L · N is the
-    // normal's z.
+/// Draws the span of Exercise 1: from the centre of pixel 0, which shows the sine of 24°, to that
+/// of pixel 10.
+fn span() -> Result<LinearPicture> {
+    // L · N is the normal's z.
     let normals = TABLE.map(|z| DVec3::new(libm::sqrt(1.0 - z * z), 0.0, z));
     let strip = ScreenPolygon::strip([0.5, 10.5], 4.0, normals);
-    let picture = draw(&frame([11, 4], DULL, DVec3::Z, &[strip])?, "gouraud")?;
+    draw(&frame([11, 4], DULL, DVec3::Z, &[strip])?, "gouraud")
+}
+
+/// Exercise 1: Gouraud shading reads between the lines of a table.
+fn sine(content: &mut FigureContent) -> Result {
+    // Pixel 3 is 0.3 of the way.
+    let picture = span()?;
     let found = f64::from(picture.get(3, 1)[0]);
     let truth = libm::sin(24.3_f64.to_radians());
     let [low, high] = TABLE;
@@ -171,6 +177,24 @@ fn fog(content: &mut FigureContent) -> Result {
         (levels, "grey levels", levels < 0.5),
         "The pictures cannot be told apart.",
     );
+    Ok(())
+}
+
+/// Lists what both exercises give at each pixel, to the last bit: readers who program them are
+/// graded against it.
+fn pixels(content: &mut FigureContent) -> Result {
+    let span = span()?;
+    let covered = span.row(1).iter().filter(|pixel| pixel[3] > 0.0);
+    let mut walk = Exponential::new(0.0, -0.25);
+    let rows = covered.enumerate().map(|(k, pixel)| {
+        let (intensity, fall) = (pixel[0], walk.next());
+        format!("{k} | {intensity} | {fall}")
+    });
+    content.text(
+        "Both exercises pixel by pixel, as the engine's f32 has them: the span from sin 24° to sin \
+         25°, and e to the t for t = 0, −0.25 and so on.",
+    );
+    content.table("pixel | intensity | e to the t", rows);
     Ok(())
 }
 

@@ -23,11 +23,16 @@ impl Live {
     /// # Errors
     /// As [`super::Figure::make`].
     pub fn make(&self, given: &[f64]) -> Result<FigureContent> {
+        let mut content = FigureContent::default();
+        (self.make)(&mut content, &self.values(given))?;
+        Ok(content)
+    }
+
+    /// Returns a value of each handle: the given ones, brought into range, or those to start with.
+    pub(super) fn values(&self, given: &[f64]) -> Vec<f64> {
         let handles = self.handles.iter().enumerate();
         let values = handles.map(|(i, handle)| handle.allowed(given.get(i).copied()));
-        let mut content = FigureContent::default();
-        (self.make)(&mut content, &values.collect::<Vec<_>>())?;
-        Ok(content)
+        values.collect()
     }
 }
 
@@ -85,6 +90,19 @@ impl Handle {
             step: 1.0 / 16.0,
             start,
             axis: Some(axis),
+        }
+    }
+
+    /// Makes a handle that is a coordinate of a point that is followed while it moves.
+    pub(super) const fn fine_coordinate(
+        names: [&'static str; 2],
+        axis: char,
+        range: [f64; 2],
+        start: f64,
+    ) -> Handle {
+        Handle {
+            step: 1.0 / 256.0,
+            ..Handle::coordinate(names, axis, range, start)
         }
     }
 

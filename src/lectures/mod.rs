@@ -47,19 +47,25 @@ mod painter;
 mod perspective;
 mod prelude;
 mod slerp;
+mod spheres;
 mod square;
+mod stop;
 mod supersampling;
 
 pub use content::{Agreement, FigureBlock, FigureContent, Finding, Panel, Plot, Scale, Series};
 pub use error::FigureError;
 use error::Result;
 pub use handle::{Handle, Live};
+#[doc(hidden)]
+pub use stop::trace_of_stop;
 
 use crate::number::suggest::unknown;
 use alloc::string::String;
 
 /// All figures, in the order of the lectures.
 pub static FIGURES: &[&Figure] = &[
+    &stop::FIGURE,
+    &spheres::FIGURE,
     &newell::FIGURE,
     &mach_bands::FIGURE,
     &highlight::FIGURE,
@@ -88,6 +94,8 @@ pub static FIGURES: &[&Figure] = &[
 /// The figures that follow the reader's hand, by their names. They stand apart, so that a program that makes them alone does not hold
 /// what the others draw.
 pub static LIVE: &[(&str, &Live)] = &[
+    ("stop", &stop::LIVE),
+    ("spheres", &spheres::LIVE),
     ("newell", &newell::LIVE),
     ("mach-bands", &mach_bands::LIVE),
     ("highlight", &highlight::LIVE),

@@ -251,21 +251,19 @@ fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
 
 /// Draws polygons side by side, lit by a normal of their corners.
 fn lit_by(examples: &[Example], normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
+    // Far from the normal, so that a few degrees are seen.
+    let light = DVec3::new(-0.6, 0.3, 0.7);
     let polygon = |(i, (_, _, corners)): (usize, &Example)| {
         let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
         let corner =
             |c: &DVec2| ScreenCorner::new([middle.x + 21.0 * c.x, middle.y - 21.0 * c.y], DVec3::Z);
         ScreenPolygon {
             corners: corners.iter().map(corner).collect(),
-            // No direction: no light but the ambient one.
-            normal: normal(&in_space(corners))
-                .try_normalize()
-                .unwrap_or(DVec3::ZERO),
+            // No direction: turned from the light, which leaves the ambient one.
+            normal: normal(&in_space(corners)).try_normalize().unwrap_or(-light),
         }
     };
     let polygons: Vec<_> = examples.iter().enumerate().map(polygon).collect();
-    // Far from the normal, so that a few degrees are seen.
-    let light = DVec3::new(-0.6, 0.3, 0.7);
     draw(
         &frame(
             [48 * polygons.len() as u32, 48],

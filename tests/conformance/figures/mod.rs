@@ -61,6 +61,7 @@ fn made(name: &str) -> FigureContent {
             FigureBlock::Table { head, rows } => {
                 assert!(rows.iter().all(|row| row.len() == head.len()), "{name}")
             }
+            FigureBlock::Trace { trace, .. } => assert!(!trace.lines.is_empty(), "{name}"),
         }
     }
     let mut document = Document::new(vec!["fastphong".into()], Vec::new());

@@ -1,7 +1,8 @@
 //! Figures of interpolation: exercises, squares, Mach bands, Newton's root, great circles.
 
 use super::{agreement, made, value};
-use fastphong::lectures::Agreement;
+use fastphong::lectures::{Agreement, FigureBlock};
+use fastphong::raster::trace::Trace;
 
 #[test]
 fn exercises() {
@@ -53,6 +54,78 @@ fn highlight() {
     }
     assert_eq!(agreement(&content, "coarse"), Agreement::Confirms);
     assert_eq!(agreement(&content, "dull"), Agreement::Adds);
+}
+
+/// What is said of the mesh to be stopped is what its traces show: colours, an edge through pixel centres, two normals that nearly
+/// oppose each other.
+#[test]
+fn stop() {
+    let content = made("stop");
+    let trace = |name: &str| -> &Trace {
+        let mut traces = content.blocks.iter().filter_map(|block| match block {
+            FigureBlock::Trace { method, trace } if method == name => Some(&**trace),
+            _ => None,
+        });
+        traces
+            .next_back()
+            .unwrap_or_else(|| panic!("a trace of {name}"))
+    };
+    let pixels = |name: &str| {
+        let runs = trace(name).lines.iter().flat_map(|line| &line.runs);
+        let colours: Vec<f32> = runs.flat_map(|run| &run.colours).map(|c| c[0]).collect();
+        assert!(colours.len() > 150, "{name}: {} pixels", colours.len());
+        colours
+    };
+    let naive = pixels("naive-phong");
+    for (key, name, range) in [
+        ("gouraud", "gouraud", 20.0..255.0),
+        ("one", "fast-phong:steps=1", 0.5..20.0),
+        ("two", "fast-phong:steps=2", 0.0..0.5),
+    ] {
+        let apart = pixels(name).into_iter().zip(&naive);
+        let most = apart.fold(0.0f64, |most, (a, b)| most.max(f64::from(a - b).abs()));
+        let found = value(&content, key);
+        // Both colours are rounded once more where they are subtracted.
+        assert!(
+            (found - 255.0 * most).abs() < 1e-4,
+            "{key}: {found}, {}",
+            255.0 * most
+        );
+        assert!(range.contains(&found), "{key}: {found}");
+    }
+    assert_eq!(agreement(&content, "gouraud"), Agreement::Confirms);
+    assert_eq!(agreement(&content, "one"), Agreement::Contradicts);
+    assert_eq!(agreement(&content, "two"), Agreement::Confirms);
+    let active = trace("gouraud").lines.iter().flat_map(|line| &line.active);
+    let ties = active.filter(|edge| edge.rest[0] == 0).count();
+    assert!(ties > 10, "{ties} crossings in pixel centres");
+    // The lecture's way takes a true root a run and none at the pixels after it; the rule takes true roots on some.
+    let runs = |name: &str| {
+        let runs = trace(name).lines.iter().flat_map(|line| &line.runs);
+        let rooted = runs.clone().filter(|run| !run.inside.contains_key("guess"));
+        (runs.count(), rooted.count())
+    };
+    assert_eq!(runs("fast-phong:steps=1").1, 0);
+    let (all, rooted) = runs("fast-phong");
+    assert!(rooted > 0 && rooted < all / 4, "{rooted} of {all}");
+}
+
+#[test]
+fn spheres() {
+    let content = made("spheres");
+    // Half of the light at the highlight is specular, 127.5 levels. Inside a triangle with sides of 22°
+    // the corners are at least 10° away, where R turns by 20°: cos²⁸ 20° = 0.18 is left of it.
+    let inside = value(&content, "inside");
+    assert!((0.7 * 127.5..130.0).contains(&inside), "{inside}");
+    // The corner is at most √½ pixels away from a centre. Gouraud loses no more than all of the highlight
+    // over the 40 pixels to the next corner.
+    let corner = value(&content, "corner");
+    assert!(corner.abs() < 130.0 * 0.71 / 40.0 + 0.5, "{corner}");
+    for key in ["inside-fast", "corner-fast", "fast"] {
+        assert!(value(&content, key) < 0.05, "{key}");
+    }
+    assert_eq!(agreement(&content, "inside"), Agreement::Confirms);
+    assert_eq!(agreement(&content, "mean"), Agreement::Confirms);
 }
 
 #[test]
