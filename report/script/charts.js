@@ -198,7 +198,8 @@ function place(points, box, bars) {
 				if (!best || cost < best.cost)
 					best = { cost, x: q[0], y: cy, q, end: tied && [ex, ey], leader };
 			}
-		p.label = best && (best.cost < 420 || p.priority) ? best : null;
+		// A label on another's mark would name the wrong one.
+		p.label = best && best.cost < (p.priority ? 1000 : 420) ? best : null;
 		if (p.label)
 			done.push(best.q, ...best.leader.map(([x, y]) => [x - 2, y - 2, x + 2, y + 2]));
 	}

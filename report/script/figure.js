@@ -23,6 +23,7 @@ const verdictLine = x => html`
    here. */
 function handlesInto(el, f, query, remember) {
 	if (!CAN_DRAW || !f.live) return false;
+	if (f === SPHERES) return spheresWithVerdicts(el, query, remember);
 	const { claim, handles } = f.live;
 	const values = valuesOf(f.live, query);
 	const points = handles.flatMap((h, i) => (h.axis === "x" ? [i] : []));
@@ -61,6 +62,8 @@ function handlesInto(el, f, query, remember) {
 			showContent(body, studio.figure(f.name, values));
 			fill(said, html`${body.content.findings.map(verdictLine)}`);
 			el.dataset.shown = values.join(" ");
+			const detail = { content: body.content, values };
+			el.dispatchEvent(new CustomEvent("drawn", { detail, bubbles: true }));
 		} catch (error) {
 			said.textContent = `Not drawn here: ${error.message}`;
 		}
@@ -70,7 +73,7 @@ function handlesInto(el, f, query, remember) {
 		const query = handles.flatMap((h, i) =>
 			values[i] === h.start ? [] : [[h.name, +values[i].toFixed(4)]],
 		);
-		delay("figure", 200, () => remember?.(new URLSearchParams(query)));
+		delay(`figure ${f.name}`, 200, () => remember?.(new URLSearchParams(query)));
 		if (!waits) atNextFrame(draw);
 		waits = true;
 	};

@@ -3,7 +3,7 @@
 addEventListener("keydown", e => {
 	const v = seenViewer();
 	const on = e.target;
-	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select,input") || $("#keys").open) return;
+	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select,input,textarea") || $("#keys").open) return;
 	if (e.key === "?") return $("#keys").showModal();
 	if (!v || (e.key === " " && on.closest("button,a,.hit"))) return;
 	const step =

@@ -37,6 +37,8 @@ function figureBody(f) {
 				<figcaption>${b.caption}</figcaption>
 			</figure>`,
 		pictures: pictureRows(f),
+		// The figure that can be stopped stands above, and draws them.
+		trace: () => "",
 	};
 	return f.blocks.map((block, at) => {
 		const [[kind, content]] = Object.entries(block);
@@ -64,6 +66,7 @@ function figureInto(el, f, query, remember) {
 		<div></div>
 		<a class="more" href="#lectures/${f.name}">The whole figure: ${f.title}</a>`;
 	const [body] = el.children;
+	if (query && stopInto(body, f, query, remember)) return;
 	if (query && handlesInto(body, f, query, remember)) return;
 	body.className = "fig";
 	body.innerHTML = html`
@@ -109,13 +112,13 @@ function figureLinks(shown) {
 	return html`<nav class="list" aria-label="Figures">${links}</nav>`;
 }
 
-/* Keeps the address in step with the handles of a figure. */
-function rememberFigure(query) {
+/* Keeps the address in step with the handles of a figure, while it is that figure's. */
+const rememberFigure = f => query => {
 	const [path] = location.hash.split("?");
 	const text = String(query);
-	if (view === "lectures" || view === "course")
+	if ([`#lectures/${f.name}`, FIGURES.length < 2 && "#lectures"].includes(path))
 		history.replaceState(null, "", path + (text && "?" + text));
-}
+};
 
 /* #lectures, #lectures/wrong, #lectures/all, #lectures/FIGURE */
 function lectures([part = ""], query) {
@@ -154,7 +157,9 @@ function lectures([part = ""], query) {
 			</div>`;
 		reveal($(".list [aria-current]", body));
 		drawPlots(f);
-		handlesInto($(".hands", body), f, query, rememberFigure);
+		const hands = $(".hands", body);
+		const remember = rememberFigure(f);
+		stopInto(hands, f, query, remember) || handlesInto(hands, f, query, remember);
 	} else {
 		const [cards, rest] = folded(FIGURES, innerWidth < 700 ? 16 : 30, "figures");
 		body.innerHTML = html`<div class="gallery">${cards.map(card)}</div>${rest}`;

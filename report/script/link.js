@@ -78,8 +78,11 @@ function route(e) {
 	clearTimeout(timers.remember);
 	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?");
 	const [asked, ...parts] = path.split("/").map(decoded);
+	// A short address for talks.
+	if (asked === "stop") return location.replace(`#lectures/stop${query ? "?" + query : ""}`);
 	const isView = Object.hasOwn(VIEWS, asked) && FILLED[asked];
 	const name = isView ? asked : FILLED.overview ? "overview" : "lectures";
+	if (asked && !isView) history.replaceState(null, "", "#" + name);
 	const changed = name !== view;
 	view = name;
 	restoring = true;
@@ -88,10 +91,12 @@ function route(e) {
 	$$(".top nav a").forEach(a => {
 		a.ariaCurrent = a === link ? "page" : null;
 	});
-	VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
+	const chapter = VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
+	placeSpheres($("#" + name));
 	const target = e && document.getElementById("m-" + parts[0]);
 	if (target) target.scrollIntoView();
-	else if (changed || (e && ["lectures", "course"].includes(name))) scrollTo(0, 0);
+	else if (name === "course" && (e || changed)) startReading(chapter);
+	else if (changed || (e && name === "lectures")) scrollTo(0, 0);
 	restoring = false;
 	fadeEnds();
 	const title = name === "overview" ? "" : link.textContent + " · ";

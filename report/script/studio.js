@@ -124,6 +124,12 @@ class Studio {
 		return JSON.parse(this.said(this.ask(this.exports.parameters())));
 	}
 
+	/* Traces the mesh of the figure that can be stopped, by a variant of a method, with its corners at x1 y1 x2 y2 …, in pixels. */
+	trace(variant, corners) {
+		this.put(`${variant}\n${corners.join(" ")}`);
+		return JSON.parse(this.said(this.ask(this.exports.trace())));
+	}
+
 	/* Makes a figure for values of its handles: its content, and its pictures. */
 	figure(name, values) {
 		this.put(`${name}\n${values.join(" ")}`);

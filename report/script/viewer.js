@@ -55,7 +55,7 @@ class Viewer {
 		}
 		this.hand = new Hand(this);
 		this.listen();
-		new ResizeObserver(() => this.draw()).observe(this.stage);
+		new ResizeObserver(() => atNextFrame(() => this.draw())).observe(this.stage);
 	}
 
 	/* The scene, stored or drawn here, of which pictures and rows are shown. */

@@ -214,11 +214,14 @@ pub(super) fn remarks(data: &Value) -> Vec<Part> {
             0 => String::new(),
             rest => format!(" and {rest} more"),
         };
+        let who = match others().count() {
+            1 => "Another is",
+            _ => "Others are",
+        };
         parts.push(Part::Text(format!(
-            "Faster but off by {2} levels or more: {0}{1}. ",
-            names.join(", "),
-            rest,
-            significant(nearest.worst)
+            "{who} faster, but off by {} grey levels or more: {}{rest}. ",
+            significant(nearest.worst),
+            names.join(", ")
         )));
     }
     parts.push(Part::Text("Scalar: one pixel per instruction.".into()));

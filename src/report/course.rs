@@ -1,91 +1,178 @@
 //! The course: chapters of `docs/course`, from Markdown to parts of the page.
 //!
-//! A comment names the paragraph after it: `<!-- figure: NAME -->` is a still picture, and
-//! `<!-- finding: NAME KEY -->` states a measured value. The page has empty places for both, which
-//! `report/script/course.js` fills with what the document holds.
+//! A comment says what the page makes of the paragraph after it:
+//!
+//! | comment | in the page |
+//! |---|---|
+//! | `figure: NAME` | a figure, with handles if it has some |
+//! | `finding: FIGURE KEY` | a measured value |
+//! | `question: FIGURE slider KEY LOW HIGH STEP UNIT` | a question, answered with a slider |
+//! | `question: FIGURE largest KEY KEY..` | a question, answered by a choice from the list after it |
+//! | `toy: FIGURE RULE KEY [HANDLE] [times N UNIT]` | a goal for the handles of a figure |
+//! | `learnt` | shown once the goal is reached |
+//! | `stop: QUERY` | a link to a state of the figure `stop` |
+//! | `hands: NAME` | an exercise to program |
+//! | `cost: METHOD` | the operations that a picture takes |
+//!
+//! The page has places with the paragraphs of the text, or with values of the document. They are
+//! what a reader without scripts sees; `report/script/course.js` fills them.
 
-use super::document::{list, text};
+use super::document::{list, number, text};
+use crate::compare::comparison::table::significant;
 use crate::compare::table::html_text;
+use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 use alloc::{format, vec};
 use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
 use serde_json::Value;
 
-/// A chapter, on one section of the lecture.
+/// A chapter of the course.
 struct Chapter {
-    /// The number of the section.
-    section: &'static str,
+    /// The section of the lecture, or a name: its part of an address.
+    part: &'static str,
     /// The name of the file.
     file: &'static str,
     /// The text, in Markdown.
     text: &'static str,
 }
 
-/// Reads files of `docs/course`, whose names are section and topic.
+/// Reads files of `docs/course`.
 macro_rules! chapters {
-    ($($section:literal $topic:literal)*) => {
+    ($($part:literal in $file:literal)*) => {
         &[$(Chapter {
-            section: $section,
-            file: concat!($section, "-", $topic, ".md"),
-            text: include_str!(concat!("../../docs/course/", $section, "-", $topic, ".md")),
+            part: $part,
+            file: $file,
+            text: include_str!(concat!("../../docs/course/", $file)),
         }),*]
     };
 }
 
 /// All chapters, in order.
 static CHAPTERS: &[Chapter] = chapters!(
-    "1" "introduction"
-    "2" "uniform-shading"
-    "3" "gouraud-shading"
-    "4.1" "naive-phong-shading"
-    "4.2" "diffuse-reflection"
-    "4.3" "specular-reflection"
-    "4.4" "spherical-interpolation"
-    "5" "summary"
+    "0" in "0-one-scan-line.md"
+    "1" in "1-introduction.md"
+    "2" in "2-uniform-shading.md"
+    "3" in "3-gouraud-shading.md"
+    "4.1" in "4.1-naive-phong-shading.md"
+    "4.2" in "4.2-diffuse-reflection.md"
+    "4.3" in "4.3-specular-reflection.md"
+    "4.4" in "4.4-spherical-interpolation.md"
+    "5" in "5-summary.md"
+    "teaching" in "teaching.md"
 );
+
+/// The heading of findings, which the page folds until the question before them is answered.
+const MEASURED: &str = "\n## Measured\n";
+
+/// What stands before a table, which may be wider than the page.
+const SCROLLING: &str =
+    "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table\">\n";
 
 /// Writes links to all chapters, and the chapters; nothing unless the document has all figures that
 /// they name.
 pub(super) fn html(data: &Value) -> String {
     let made = list(data, "/figures");
     let is_made = |name| made.iter().any(|figure| text(figure, "/name") == name);
-    let comments = CHAPTERS.iter().flat_map(|chapter| chapter.text.lines());
-    if !comments
-        .filter_map(named)
-        .all(|[figure, _]| is_made(figure))
-    {
+    let lines = CHAPTERS.iter().flat_map(|chapter| chapter.text.lines());
+    if !lines.filter_map(figure_of).all(is_made) {
         return String::new();
     }
     let link = |chapter: &Chapter| {
-        let (section, title) = (chapter.section, html_text(chapter.title()));
-        format!("<a href=\"#course/{section}\"><span>{title}</span></a>")
+        let (part, title) = (chapter.part, html_text(chapter.title()));
+        format!("<a href=\"#course/{part}\"><span>{title}</span></a>")
     };
     let links: String = CHAPTERS.iter().map(link).collect();
-    let articles: String = CHAPTERS.iter().map(Chapter::html).collect();
+    let articles: String = CHAPTERS.iter().map(|chapter| chapter.html(data)).collect();
     format!("<nav class=\"list\" aria-label=\"Chapters\">{links}</nav>\n<div>\n{articles}</div>")
 }
 
-/// Returns figure and finding of a comment. Of a comment that names a figure alone the finding is
-/// empty.
-fn named(line: &str) -> Option<[&str; 2]> {
-    let comment = line.trim_end().strip_prefix("<!-- ")?;
-    let (kind, names) = comment.strip_suffix(" -->")?.split_once(": ")?;
-    match kind {
-        "figure" => Some([names, ""]),
-        "finding" => names.split_once(' ').map(<[&str; 2]>::from),
+/// Returns kind and words of a comment.
+fn comment(line: &str) -> Option<(&str, &str)> {
+    let inside = line.trim_end().strip_prefix("<!-- ")?;
+    let inside = inside.strip_suffix(" -->")?;
+    Some(inside.split_once(": ").unwrap_or((inside, "")))
+}
+
+/// Returns the figure that a comment names.
+fn figure_of(line: &str) -> Option<&str> {
+    match comment(line)? {
+        ("figure" | "finding" | "question" | "toy", words) => words.split(' ').next(),
         _ => None,
     }
 }
 
-/// Writes the place that the page fills with a figure or with a finding of it.
-fn place([figure, finding]: [&str; 2]) -> String {
-    match finding {
-        "" => format!("<div class=\"live\" data-figure=\"{figure}\"></div>\n"),
-        key => {
-            format!("<div class=\"found\" data-figure=\"{figure}\" data-finding=\"{key}\"></div>\n")
-        }
+/// The place that a comment makes of the paragraph after it.
+struct Place {
+    /// What stands before the paragraph.
+    open: String,
+    /// What stands after it.
+    close: &'static str,
+    /// True if the paragraph stands in it.
+    keeps: bool,
+    /// True if the list after the paragraph is a part of it.
+    has_list: bool,
+}
+
+impl Place {
+    /// Makes the place of a comment, if the comment asks for one.
+    fn of(line: &str, data: &Value) -> Option<Place> {
+        let (kind, words) = comment(line)?;
+        let block = |class: &str, attributes: String| Place {
+            open: format!("<div class=\"{class}\"{attributes}>\n"),
+            close: "</div>\n",
+            keeps: true,
+            has_list: false,
+        };
+        let named = |attribute: &str| format!(" data-{attribute}=\"{}\"", html_text(words));
+        let place = match kind {
+            "figure" => block("live", named("figure")),
+            "finding" => {
+                let (figure, key) = words.split_once(' ')?;
+                let mut place = block(
+                    "found",
+                    format!(" data-figure=\"{figure}\" data-finding=\"{key}\""),
+                );
+                place.open += &finding(data, figure, key);
+                place.keeps = false;
+                place
+            }
+            "question" => Place {
+                has_list: words.contains(" largest "),
+                ..block("ask", named("question"))
+            },
+            "toy" => block("toy", named("toy")),
+            "learnt" => block("learnt", String::new()),
+            "hands" => block("hands", named("hands")),
+            "cost" => block("cost", named("cost")),
+            "stop" => Place {
+                open: format!(
+                    "<a class=\"go-stop\" href=\"#course/stop?{}\">\n",
+                    html_text(words)
+                ),
+                close: "</a>\n",
+                keeps: true,
+                has_list: false,
+            },
+            _ => return None,
+        };
+        Some(place)
     }
+}
+
+/// Writes a finding of the document; nothing if the document lacks it.
+fn finding(data: &Value, figure: &str, key: &str) -> String {
+    let mut figures = list(data, "/figures").iter();
+    let figure = figures.find(|made| text(made, "/name") == figure);
+    let findings = figure.map_or(&[][..], |figure| list(figure, "/findings"));
+    let Some(found) = findings.iter().find(|found| text(found, "/key") == key) else {
+        return String::new();
+    };
+    let value = number(found, "/value").map_or_else(String::new, significant);
+    let measured = [&*value, text(found, "/unit")].join(" ");
+    let words = ["/label", "/verdict"].map(|at| html_text(text(found, at)));
+    let [label, verdict] = words;
+    format!("<p>{label}: <b>{}</b>. {verdict}</p>\n", measured.trim())
 }
 
 impl Chapter {
@@ -95,44 +182,100 @@ impl Chapter {
         heading.unwrap_or_default().trim_start_matches("# ")
     }
 
-    /// Writes the chapter as an article.
-    fn html(&self) -> String {
-        let mut article = format!("<article data-part=\"{}\">\n", self.section);
-        html::push_html(&mut article, self.events().into_iter());
-        article + "</article>\n"
-    }
-
-    /// Parses the chapter: places stand for paragraphs that comments name, headings are a level
-    /// lower, as the page has a title, and links lead to chapters of the page.
-    fn events(&self) -> Vec<Event<'static>> {
-        let mut events = vec![];
-        // The place for the next paragraph, and whether that paragraph has begun.
-        let (mut filled, mut is_inside) = (None, false);
-        for event in Parser::new_ext(self.text, Options::ENABLE_SMART_PUNCTUATION) {
-            match event {
-                Event::Html(line) if line.starts_with("<!--") => filled = named(&line).map(place),
-                Event::Start(Tag::Paragraph) if filled.is_some() => is_inside = true,
-                Event::End(TagEnd::Paragraph) if is_inside => {
-                    is_inside = false;
-                    events.extend(filled.take().map(raw));
-                }
-                _ if is_inside => {}
-                Event::Start(Tag::CodeBlock(_)) => events.push(raw("<pre tabindex=\"0\"><code>")),
-                Event::End(TagEnd::CodeBlock) => events.push(raw("</code></pre>\n")),
-                other => events.push(moved(other)),
+    /// Writes the chapter as an article. What follows the heading of findings is a section of it,
+    /// but for the last paragraph, which leads to other chapters.
+    fn html(&self, data: &Value) -> String {
+        let part = self.part;
+        let mut article = format!("<article id=\"course/{part}\" data-part=\"{part}\">\n");
+        let write = |text: &'static str, article: &mut String| {
+            html::push_html(article, events(text, data).into_iter());
+        };
+        match self.text.split_once(MEASURED) {
+            None => write(self.text, &mut article),
+            Some((before, after)) => {
+                let end = after.trim_end().rfind("\n\n").unwrap_or(after.len());
+                let (measured, links) = after.split_at(end);
+                write(before, &mut article);
+                article += "<section class=\"measured\">\n<h3>Measured</h3>\n";
+                write(measured, &mut article);
+                article += "</section>\n";
+                write(links, &mut article);
             }
         }
-        events
+        article + "</article>\n"
     }
+}
+
+/// Parses a text: places are made of paragraphs that comments name, pictures are their alternative
+/// texts, headings are a level lower, as the page has a title, and links lead to chapters of the
+/// page.
+fn events(text: &'static str, data: &Value) -> Vec<Event<'static>> {
+    let mut events = vec![];
+    // The place for the next paragraph, whether its paragraph is left out, and its end.
+    let mut place: Option<Place> = None;
+    let (mut is_dropped, mut close) = (false, None);
+    let mut is_link = false;
+    let options = Options::ENABLE_SMART_PUNCTUATION | Options::ENABLE_TABLES;
+    for event in Parser::new_ext(text, options) {
+        match event {
+            Event::Html(line) if line.starts_with("<!--") => place = Place::of(&line, data),
+            Event::Start(Tag::Paragraph) if place.is_some() => {
+                let made = place.take();
+                is_dropped = made.as_ref().is_some_and(|place| !place.keeps);
+                close = made.as_ref().map(|place| (place.close, place.has_list));
+                events.extend(made.map(|place| raw(place.open)));
+                events.extend((!is_dropped).then_some(Event::Start(Tag::Paragraph)));
+            }
+            Event::End(TagEnd::Paragraph) if is_dropped => {
+                is_dropped = false;
+                events.extend(close.take().map(|(text, _)| raw(text)));
+            }
+            _ if is_dropped => {}
+            Event::End(end @ (TagEnd::Paragraph | TagEnd::List(_))) => {
+                events.push(Event::End(end));
+                let waits = end == TagEnd::Paragraph && close.is_some_and(|(_, has_list)| has_list);
+                events.extend(close.take_if(|_| !waits).map(|(text, _)| raw(text)));
+            }
+            Event::Start(Tag::Image { .. }) | Event::End(TagEnd::Image) => {}
+            Event::Start(Tag::Table(_)) => events.extend([raw(SCROLLING), event]),
+            Event::End(TagEnd::Table) => events.extend([event, raw("</div>\n")]),
+            Event::Start(Tag::CodeBlock(_)) => events.push(raw("<pre tabindex=\"0\"><code>")),
+            Event::End(TagEnd::CodeBlock) => events.push(raw("</code></pre>\n")),
+            Event::Code(code) if code.starts_with('#') => events.push(address(&code)),
+            Event::Start(Tag::Link { dest_url, .. }) => {
+                let link =
+                    in_page(&dest_url).map(|to| raw(format!("<a href=\"{}\">", html_text(&to))));
+                is_link = link.is_some();
+                events.extend(link);
+            }
+            Event::End(TagEnd::Link) => events.extend(is_link.then(|| raw("</a>"))),
+            other => events.push(lowered(other)),
+        }
+    }
+    events
 }
 
 /// Makes an event of HTML.
 fn raw(html: impl Into<CowStr<'static>>) -> Event<'static> {
-    Event::Html(html.into())
+    Event::InlineHtml(html.into())
 }
 
-/// Lowers a heading by a level, and leads a link to a chapter to its place in the page.
-fn moved(event: Event<'static>) -> Event<'static> {
+/// Writes an address of the page as a link to it.
+fn address(code: &str) -> Event<'static> {
+    let to = html_text(code);
+    raw(format!("<a href=\"{to}\"><code>{to}</code></a>"))
+}
+
+/// Returns where a link of a chapter leads in the page: to another chapter, or to a site. Other
+/// files of the repository are not there.
+fn in_page(to: &str) -> Option<String> {
+    let chapter = CHAPTERS.iter().find(|chapter| chapter.file == to);
+    let chapter = chapter.map(|chapter| format!("#course/{}", chapter.part));
+    chapter.or_else(|| to.starts_with("https://").then(|| to.to_owned()))
+}
+
+/// Lowers a heading by a level.
+fn lowered(event: Event<'static>) -> Event<'static> {
     let lower = |level| HeadingLevel::try_from(level as usize + 1).unwrap_or(level);
     match event {
         Event::Start(Tag::Heading {
@@ -147,21 +290,6 @@ fn moved(event: Event<'static>) -> Event<'static> {
             attrs,
         }),
         Event::End(TagEnd::Heading(level)) => Event::End(TagEnd::Heading(lower(level))),
-        Event::Start(Tag::Link {
-            link_type,
-            dest_url,
-            title,
-            id,
-        }) => {
-            let chapter = CHAPTERS.iter().find(|chapter| *chapter.file == *dest_url);
-            let in_page = chapter.map(|chapter| format!("#course/{}", chapter.section).into());
-            Event::Start(Tag::Link {
-                link_type,
-                dest_url: in_page.unwrap_or(dest_url),
-                title,
-                id,
-            })
-        }
         other => other,
     }
 }
@@ -170,7 +298,6 @@ fn moved(event: Event<'static>) -> Event<'static> {
 mod tests {
     use super::*;
     use crate::lectures::FIGURES;
-    use alloc::string::ToString;
 
     /// Returns a document with all figures but `without`.
     fn document(without: &str) -> Value {
@@ -179,45 +306,104 @@ mod tests {
         serde_json::json!({ "figures": made.map(|name| serde_json::json!({ "name": name })).collect::<Vec<_>>() })
     }
 
+    /// Returns how many comments of a kind a text has.
+    fn count(text: &str, kind: &str) -> usize {
+        let comments = text.lines().filter_map(comment);
+        comments.filter(|(found, _)| *found == kind).count()
+    }
+
     #[test]
-    fn every_chapter_has_its_figure_and_its_findings_in_place_of_paragraphs() {
+    fn comments_become_places_and_links_stay_in_the_page() {
         let page = html(&document(""));
         for chapter in CHAPTERS {
-            let html = chapter.html();
+            let html = chapter.html(&document(""));
             assert!(page.contains(&html), "{}", chapter.file);
-            let comments: Vec<_> = chapter.text.lines().filter_map(named).collect();
-            let places = |kind: &str| html.matches(&format!("class=\"{kind}\"")).count();
-            assert_eq!(places("live"), 1, "{}", chapter.file);
-            assert_eq!(places("found"), comments.len() - 1, "{}", chapter.file);
-            // Neither comments nor pictures nor paragraphs of values are left, and links stay in the page.
-            for gone in [
-                "<!--", "<img", "href=\"1", "href=\"2", "href=\"3", "href=\"4", "href=\"5",
-            ] {
+            let classes = [
+                ("figure", "live"),
+                ("finding", "found"),
+                ("question", "ask"),
+                ("toy", "toy"),
+                ("learnt", "learnt"),
+                ("hands", "hands"),
+                ("cost", "cost"),
+                ("stop", "go-stop"),
+            ];
+            for (kind, class) in classes {
+                let places = html.matches(&format!("class=\"{class}\"")).count();
+                assert_eq!(
+                    places,
+                    count(chapter.text, kind),
+                    "{}: {kind}",
+                    chapter.file
+                );
+            }
+            let folded = html.matches("<section class=\"measured\">").count();
+            assert_eq!(folded, count(chapter.text, "question"), "{}", chapter.file);
+            // Neither comments nor pictures are left, and no link leads to a file.
+            for gone in ["<!--", "<img", ".md\""] {
                 assert!(!html.contains(gone), "{}: {gone}", chapter.file);
             }
+            let opened = html.matches("<div").count();
+            assert_eq!(opened, html.matches("</div>").count(), "{}", chapter.file);
         }
-        let links = CHAPTERS
-            .iter()
-            .map(|c| format!("href=\"#course/{}\"", c.section));
-        for link in links {
+        for chapter in CHAPTERS {
             // In the list, and in the chapter before or after.
+            let link = format!("href=\"#course/{}\"", chapter.part);
             assert!(page.matches(&link).count() >= 2, "{link}");
         }
     }
 
+    /// Writes a chapter of this text, with a document that has one finding.
+    fn written(text: &'static str) -> String {
+        let chapter = Chapter {
+            part: "9",
+            file: "9-test.md",
+            text,
+        };
+        let found = serde_json::json!({
+            "key": "turned", "label": "turned", "value": 12.25, "unit": "levels", "verdict": "So it is.",
+        });
+        let figure = serde_json::json!({ "name": "square", "findings": [found] });
+        chapter.html(&serde_json::json!({ "figures": [figure] }))
+    }
+
     #[test]
     fn a_value_is_taken_from_the_document_and_not_from_the_text() {
-        let chapter = Chapter {
-            section: "9",
-            file: "9-test.md",
-            text: "# 9 Test\n\n<!-- finding: square turned -->\nIt changes by 7 levels.\n\nText stays.\n",
-        };
         assert_eq!(
-            chapter.html(),
-            "<article data-part=\"9\">\n<h2>9 Test</h2>\n<div class=\"found\" data-figure=\"square\" \
-             data-finding=\"turned\"></div>\n<p>Text stays.</p>\n</article>\n"
-                .to_string()
+            written(
+                "# 9 Test\n\n<!-- finding: square turned -->\nIt changes by 7 levels.\n\nText stays.\n"
+            ),
+            "<article id=\"course/9\" data-part=\"9\">\n<h2>9 Test</h2>\n<div class=\"found\" \
+             data-figure=\"square\" data-finding=\"turned\">\n<p>turned: <b>12.2 levels</b>. \
+             So it is.</p>\n</div>\n<p>Text stays.</p>\n</article>\n"
         );
+    }
+
+    #[test]
+    fn a_question_has_its_list_and_what_was_measured_is_a_section() {
+        let html = written(
+            "# 9 Test\n\n<!-- question: square largest a b -->\nWhich?\n\n- one\n- two\n\n\
+             After.\n\n## Measured\n\nThis.\n\n[← 5](5-summary.md)\n",
+        );
+        let question = "<div class=\"ask\" data-question=\"square largest a b\">\n<p>Which?</p>\n\
+                        <ul>\n<li>one</li>\n<li>two</li>\n</ul>\n</div>\n<p>After.</p>";
+        assert!(html.contains(question), "{html}");
+        let measured = "<section class=\"measured\">\n<h3>Measured</h3>\n<p>This.</p>\n</section>\n\
+                        <p><a href=\"#course/5\">← 5</a></p>";
+        assert!(html.contains(measured), "{html}");
+    }
+
+    #[test]
+    fn links_lead_into_the_figure_and_addresses_are_links() {
+        let html = written(
+            "# 9 Test\n\n<!-- stop: method=gouraud&line=6 -->\n**Stop** there.\n\nOpen `#course/3`, \
+             not [a file](../obj.md).\n",
+        );
+        let link = "<a class=\"go-stop\" href=\"#course/stop?method=gouraud&amp;line=6\">\n<p>\
+                    <strong>Stop</strong> there.</p>\n</a>";
+        assert!(html.contains(link), "{html}");
+        let open = "<p>Open <a href=\"#course/3\"><code>#course/3</code></a>, not a file.</p>";
+        assert!(html.contains(open), "{html}");
     }
 
     #[test]

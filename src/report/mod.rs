@@ -52,6 +52,7 @@ pub use shard::{PartOf, Shard, check_whole};
 use crate::compare::comparison::Comparison;
 use crate::lectures::{FigureBlock, FigureContent};
 use crate::picture::encoding::store;
+use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use document::{NOT_COMPARABLE, OLDER};
@@ -60,6 +61,21 @@ use serde_json::{Value, json};
 
 /// Methods whose small pictures stand in Markdown: those that the lecture's Programming Project compares.
 const PROJECT: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "slerp-phong"];
+
+/// Packs the traces of all figures: one object in JSON, a trace by each method.
+fn packed_traces(document: &Document) -> String {
+    let blocks = document.figures.iter().flat_map(|f| &f.content.blocks);
+    let traces = blocks.filter_map(|block| match block {
+        FigureBlock::Trace { method, trace } => Some((&**method, &**trace)),
+        _ => None,
+    });
+    let traces: BTreeMap<&str, _> = traces.collect();
+    match traces.is_empty() {
+        true => String::new(),
+        // Not by way of a `Value`, whose floats are wider and would be written with digits that the engine's have not.
+        false => live::packed(&serde_json::to_vec(&traces).expect("numbers and texts")),
+    }
+}
 
 /// A document, and the pictures that belong to it.
 #[derive(Clone, Debug)]
@@ -74,6 +90,8 @@ pub struct Report {
     pictures: Vec<ScenePictures>,
     /// PNG files of the figures' pictures, a list per figure.
     figures: Vec<Vec<Vec<u8>>>,
+    /// The traces of the figures, by their methods, as the page unpacks them; empty if there are none.
+    traces: String,
 }
 
 /// The pictures of one scene.
@@ -137,6 +155,7 @@ impl Report {
             beside: Vec::new(),
             pictures,
             figures: figures.collect::<Result<_, _>>()?,
+            traces: packed_traces(document),
         })
     }
 
@@ -153,6 +172,7 @@ impl Report {
             beside: Vec::new(),
             pictures: Vec::new(),
             figures: Vec::new(),
+            traces: String::new(),
         })
     }
 
@@ -213,6 +233,7 @@ impl Report {
             beside: Vec::new(),
             pictures: Vec::new(),
             figures: Vec::new(),
+            traces: String::new(),
         }
     }
 

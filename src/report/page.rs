@@ -28,8 +28,9 @@ const SCRIPT: &str = script!(
     "probe" "row" "scene-table" "scenes"
     "formulas" "methods"
     "corners" "growth" "small" "beside" "speed"
-    "figure" "lectures"
-    "course"
+    "terms" "traces" "steps" "stop-words" "stop-stage" "stop-strip" "stop-ask" "stop-panel" "stop"
+    "spheres" "figure" "lectures"
+    "hands" "questions" "goals" "costs" "course"
     "measured"
     // All views.
     "views" "link" "keys" "page"
@@ -48,7 +49,7 @@ pub(super) fn page(report: &Report) -> String {
     };
     let parts = [
         ("title", html_text(title)),
-        ("style", STYLE.to_string()),
+        ("style", bare(STYLE)),
         ("answer", answer::html(&answer::answer(data))),
         (
             "remarks",
@@ -60,7 +61,7 @@ pub(super) fn page(report: &Report) -> String {
         ("data", script_text(&json(report))),
         ("pictures", pictures(report)),
         ("viewer", VIEWER.to_string()),
-        ("script", SCRIPT.to_string()),
+        ("script", bare(SCRIPT)),
     ];
     filled(TEMPLATE, &parts)
 }
@@ -74,6 +75,22 @@ pub(super) fn filled(template: &str, parts: &[(&str, String)]) -> String {
         let part = parts.iter().find(|(key, _)| *key == name);
         text += &part.expect("every place has a part").1;
         text += rest;
+    }
+    text
+}
+
+/// Leaves out what a browser does not read of a script or a style: indentation, empty lines, and
+/// comments, which stand on lines of their own. No text of the script has lines like them.
+fn bare(script: &str) -> String {
+    let mut text = String::new();
+    let mut is_comment = false;
+    for line in script.lines().map(|line| line.trim_start_matches('\t')) {
+        let begins = line.starts_with("/*");
+        if !(is_comment || begins || line.starts_with("//") || line.is_empty()) {
+            text += line;
+            text.push('\n');
+        }
+        is_comment = (is_comment || begins) && !line.ends_with("*/");
     }
     text
 }
@@ -146,12 +163,16 @@ fn pictures(report: &Report) -> String {
         .map(uris)
         .collect::<Vec<Value>>()
         .into();
-    text + &live + &module + &element("figure-pictures".into(), &files.to_string())
+    let traces = match &*report.traces {
+        "" => String::new(),
+        packed => element("figure-traces".into(), &format!("\"{packed}\"")),
+    };
+    text + &live + &module + &element("figure-pictures".into(), &files.to_string()) + &traces
 }
 
 /// Returns pictures and tables for readers without JavaScript.
 fn readable(report: &Report) -> String {
-    let mut html = String::new();
+    let mut html = spheres(report);
     let shown = report
         .pictures
         .first()
@@ -175,6 +196,30 @@ fn readable(report: &Report) -> String {
         html.extend(rest.iter().map(folded));
     }
     html
+}
+
+/// Returns the first two pictures of the figure that the page begins with, and what was measured
+/// on them.
+fn spheres(report: &Report) -> String {
+    let figures = list(&report.data, "/figures").iter().zip(&report.figures);
+    let found = figures
+        .into_iter()
+        .find(|(figure, _)| text(figure, "/name") == "spheres");
+    let Some((figure, files)) = found else {
+        return String::new();
+    };
+    let blocks = list(figure, "/blocks").iter();
+    let shown = blocks.flat_map(|block| list(block, "/pictures/shown"));
+    let picture = |(png, panel): (&Vec<u8>, &Value)| {
+        let [alt, caption] = ["/alt", "/caption"].map(|part| html_text(text(panel, part)));
+        let uri = data_uri(png);
+        format!(
+            "<figure><img src=\"{uri}\" alt=\"{alt}\"><figcaption>{caption}</figcaption></figure>"
+        )
+    };
+    let pictures: String = files.iter().zip(shown).take(2).map(picture).collect();
+    let verdict = html_text(text(figure, "/findings/0/verdict"));
+    format!("{pictures}<p>{verdict}</p>")
 }
 
 /// Says how, when and on which machine the page was made, in one line.
@@ -236,6 +281,27 @@ mod tests {
         for file in files.map(|entry| entry.expect("a readable folder").path()) {
             let text = std::fs::read_to_string(&file).expect("a file of text");
             assert!(SCRIPT.contains(&text), "{} is not listed", file.display());
+        }
+    }
+
+    #[test]
+    fn the_page_has_the_script_without_comments() {
+        let script =
+            "/* A sum,\n   of two. */\n\tconst sum = a + b; // here\n\n// no\n/* no */\n\t\tsum;\n";
+        assert_eq!(bare(script), "const sum = a + b; // here\nsum;\n");
+        for text in [SCRIPT, STYLE] {
+            let page = bare(text);
+            assert!(!page.contains("\n\t") && !page.contains("\n/*") && page.len() < text.len());
+        }
+        // A comment that ends within a line would swallow all lines up to the next one.
+        let comments = SCRIPT
+            .lines()
+            .chain(STYLE.lines())
+            .map(str::trim_start)
+            .filter(|line| line.starts_with("/*"));
+        for line in comments {
+            let end = line.find("*/").map(|at| at + 2);
+            assert!(end.is_none_or(|end| end == line.len()), "{line}");
         }
     }
 

@@ -288,7 +288,7 @@ fn remarks_count_gains_and_losses_and_name_what_was_left_out() {
     assert!(
         text.starts_with(
             "Duff Phong is faster in 2 of 3 scenes, slower in 1; worst in prism. \
-             Faster but off by 90.0 levels or more: Gouraud. Scalar:"
+             Another is faster, but off by 90.0 grey levels or more: Gouraud. Scalar:"
         ),
         "{text}"
     );

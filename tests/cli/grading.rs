@@ -8,6 +8,9 @@ use std::process::{Command, Output};
 /// The page.
 const PAGE: &str = include_str!("../../docs/course/check-your-own.md");
 
+/// The page for teachers.
+const TEACHING: &str = include_str!("../../docs/course/teaching.md");
+
 /// Returns the code block with the name `name`, or panics.
 fn script(name: &str) -> &'static str {
     let (_, rest) = PAGE
@@ -161,4 +164,30 @@ fn commands_and_scene_of_the_page_are_understood() {
         }
     }
     assert!(count >= 8, "only {count} commands");
+}
+
+#[test]
+fn the_commands_for_teachers_do_what_the_page_says() {
+    let folder = Folder::new();
+    let (_, block) = TEACHING
+        .split_once("draw a right picture and a wrong one:\n\n```sh\n")
+        .expect("commands to try");
+    let block = block.split("\n```").next().expect("an end");
+    let commands: Vec<_> = block
+        .lines()
+        .map(|line| &line["fastphong ".len()..])
+        .collect();
+    let [right, wrong, agrees, named] = commands[..] else {
+        panic!("not four commands")
+    };
+    folder.run(right).done();
+    folder.run(wrong).done();
+    folder.run(agrees).done();
+    let named = folder.run(named).differs();
+    named.prints("lit at the vertices");
+
+    assert!(TEACHING.contains("`fastphong figure --all -o course.html`"));
+    folder.run("figure --all -o course.html").done();
+    let page = String::from_utf8(folder.read("course.html")).expect("a page");
+    assert!(page.contains("href=\"#course/teaching\""));
 }

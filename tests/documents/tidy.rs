@@ -118,6 +118,34 @@ fn every_equation_leads_to_its_line_and_its_test() {
     );
 }
 
+/// The figure that one can stop, and what readers write themselves, show equations with their numbers in brackets.
+#[test]
+fn equations_of_the_page_stand_in_the_table() {
+    let table = read("docs/equations.md");
+    let keys: BTreeSet<String> = rows(&table).iter().map(|row| row[0].to_string()).collect();
+    let mut shown = 0;
+    for file in ["report/script/stop-words.js", "report/script/hands.js"] {
+        for text in read(file).split('(').skip(1) {
+            let Some((inside, _)) = text.split_once(')') else {
+                continue;
+            };
+            let ends: Vec<&str> = inside.split('\u{2013}').collect();
+            let is_number = |end: &&str| {
+                let (section, equation) = end.split_once('.').unwrap_or(("", ""));
+                let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
+                section.len() == 1 && digits(section) && digits(equation)
+            };
+            if ends.iter().all(is_number) {
+                for number in ends {
+                    assert!(keys.contains(number), "{file}: ({inside})");
+                    shown += 1;
+                }
+            }
+        }
+    }
+    assert!(shown > 20, "{shown} equations");
+}
+
 #[test]
 fn every_numbered_line_stands_in_the_table() {
     let table = read("docs/equations.md");

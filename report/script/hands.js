@@ -1,0 +1,370 @@
+/* Your own hands: exercises that the reader programs. Their text runs in a worker, and is graded against the engine's values. */
+
+/* Milliseconds that the reader's text may run, and within which a worker starts. */
+const HANDS_LIMIT = 500;
+const HANDS_START = 5000;
+
+/* A list of n values: the first one, and what a function makes of the one before. */
+const walked = (n, first, next) => {
+	const list = [first];
+	for (let k = 1; k < n; k++) list.push(next(list[k - 1], k));
+	return list;
+};
+
+/* What readers often make of a value that grows by Δ a pixel: what it then is, and why. */
+const slips = (name, n, first, by) => {
+	const steps = (from, step) => walked(n, from, v => v + step);
+	return [
+		[steps(first, 0), `nothing was added${name && ` to ${name}`}`],
+		[steps(first, 2 * by), `Δ${name} was added twice`],
+		[steps(first, -by), `Δ${name} was subtracted`],
+		[steps(first + by, by), `Δ${name} was added before the pixel was given`],
+	];
+};
+
+/* A column of the table of Lecture 21's exercises, a value a pixel. */
+function column(name) {
+	const { blocks } = FIGURES.find(f => f.name === "exercises");
+	const { head, rows } = blocks.find(b => b.table?.head[0] === "pixel").table;
+	return rows.map(row => [+row[head.indexOf(name)]]);
+}
+
+/* A run of a trace: its pixels, and its edges where they cross the line. */
+async function runOf(variant, y, x) {
+	const { active, runs, spans } = (await tracesOf())[variant].lines[y];
+	const run = runs.find(r => r.x === x);
+	const { left, right } = spans[run.span];
+	const ends = [left, right].map(id => {
+		const { pixel, rest, at } = active.find(a => a.edge === id);
+		return [pixel + 0.5 - rest[0] / rest[1], at[0]];
+	});
+	return { ...run, n: run.pixels, ends };
+}
+
+const loop = (before, ...body) =>
+	`${before}\nfor (let i = 0; i < n; i++) {\n${body.map(l => `\t${l}\n`).join("")}}`;
+
+/* The exercises. Each has what is given, the text to start with and a solution, what a pixel has and the engine's values, slips
+   for each of these, and what is learnt. */
+const EXERCISES = {
+	"3.6": async () => {
+		const { x, n, at, by, values, ends } = await runOf("gouraud", 6, 3);
+		const [[x1, I1], [x2, I2]] = ends;
+		const [first, ΔI] = [at[0], by[0]];
+		const steps = (from, step) => walked(n, from, v => v + step);
+		const text = (Δ, next) =>
+			loop(`const ΔI = ${Δ};  // (3.5)\nlet current = first;  // at the first pixel`, "pixel(current);", `const next = ${next};  // (3.6)`, "current = next;");
+		return {
+			given: { I1, I2, x1, x2, first, n },
+			texts: [text(0, "current"), text("(I2 - I1) / (x2 - x1)", "current + ΔI")],
+			names: ["I"],
+			x,
+			values,
+			range: [0, 0.6],
+			slips: [
+				[
+					...slips("I", n, first, ΔI),
+					[steps(I1, ΔI), "I starts at x₁, and not at the centre of the first pixel"],
+					[steps(first, (I2 - I1) / n), "I₂ − I₁ was divided by the number of pixels, and not by x₂ − x₁"],
+					[steps(first, I2 - I1), "I₂ − I₁ was not divided by x₂ − x₁"],
+				],
+			],
+			learnt: "One addition a pixel, and nothing else.",
+		};
+	},
+	"4.4": async () => {
+		const { x, n, at, by, values } = await runOf("fast-phong:steps=1", 9, 5);
+		const [[J, K, ...N], [ΔJ, ΔK, ...ΔN], [, , d]] = [at, by, values[0]];
+		const D = values.map(v => v[3]);
+		const F = (v, k) => v * v - D[k];
+		const newton = (v, k) => v - F(v, k) / (2 * v);
+		const text = (...parts) =>
+			loop(
+				"// In place of the root: one step of Newton’s method for x² = D",
+				"pixel(J, K, d);",
+				...["J = ", "K = ", "N = N.map((v, k) => "].map((l, i) => l + parts[i]),
+				"const D = N[0] * N[0] + N[1] * N[1] + N[2] * N[2];",
+				`d = ${parts[3]};`,
+			);
+		return {
+			given: { J, ΔJ, K, ΔK, N, ΔN, d, n },
+			texts: [text("J;", "K;", "v);", "d"), text("J + ΔJ;", "K + ΔK;", "v + ΔN[k]);", "d - (d * d - D) / (2 * d)")],
+			names: ["J", "K", "d"],
+			x,
+			values,
+			slips: [
+				slips("J", n, J, ΔJ),
+				slips("K", n, K, ΔK),
+				[
+					[walked(n, d, v => v), "d or N was not changed"],
+					[D.map(Math.sqrt), "this is the root itself, to which Newton’s step only comes near"],
+					[walked(n, d, (v, k) => v - F(v, k)), "F(x) was not divided by 2x"],
+					[walked(n, d, (v, k) => v - F(v, k) / v), "F(x) was divided by x, and not by 2x"],
+					[walked(n, d, (v, k) => v + F(v, k) / (2 * v)), "F(x) / 2x was added, and not subtracted"],
+					[walked(n, d, (v, k) => newton(v, k - 1)), "D is that of the pixel before: step N first"],
+					[walked(n, d, (v, k) => newton(newton(v, k), k)), "these are two of Newton’s steps"],
+				],
+			],
+			learnt: "Five additions and one of Newton’s steps, and no root. Here N turns fast, so that a single step comes late: the engine’s d does so too.",
+		};
+	},
+	"exercise 1": async () => {
+		const values = column("intensity");
+		const n = values.length;
+		const [sin24, sin25] = [0.40674, 0.42262];
+		const text = (Δ, next) => loop(`const Δ = ${Δ};\nlet current = sin24;`, "pixel(current);", `current = ${next};`);
+		return {
+			given: { sin24, sin25, n },
+			texts: [text(0, "current"), text("(sin25 - sin24) / 10", "current + Δ")],
+			names: ["sin"],
+			x: 0,
+			values,
+			range: [0.4, 0.425],
+			slips: [
+				[
+					...slips("", n, sin24, (sin25 - sin24) / 10),
+					[walked(n, sin24, v => v + sin25 - sin24), "a whole degree was added: a pixel is a tenth of one"],
+					[values.map((_, k) => Math.sin((24 + k / 10) / DEGREES)), "this is the sine itself: read between the lines of the table"],
+				],
+			],
+			learnt: `Pixel 3 answers the exercise: sin 24.3° is about ${values[3][0].toFixed(4)}.`,
+		};
+	},
+	"exercise 2": async () => {
+		const values = column("e to the t");
+		const [n, Δt, factor] = [values.length, -0.25, Math.exp(-0.25)];
+		const text = (factor, next) => loop(`const factor = ${factor};\nlet current = 1;`, "pixel(current);", `current = ${next};`);
+		return {
+			given: { Δt, n },
+			texts: [text(1, "current"), text("Math.exp(Δt)", "current * factor")],
+			names: ["eᵗ"],
+			x: 0,
+			values,
+			slips: [
+				[
+					[walked(n, 1, v => v), "nothing was multiplied"],
+					[walked(n, 1, v => v * Δt), "the factor is Δt: it should be e to the Δt"],
+					[walked(n, 1, v => v + Δt), "Δt was added: eᵗ grows by a factor"],
+					[walked(n, 1, v => v / factor), "t grows: it should fall by a quarter a pixel"],
+					[walked(n, factor, v => v * factor), "the factor came in before the pixel was given"],
+				],
+			],
+			learnt: "One multiplication a pixel. So fog costs no exponential.",
+		};
+	},
+};
+
+/* How far a right value may be from the engine's, at pixel k of values of this size. The engine works in f32: each of k additions
+   rounds by half a unit in the last place, 2⁻²⁴ of the value; of k products the factor is rounded, too, which makes 2k. At most eight
+   roundings come before: of t₀, Δt, differences, and Newton's step. The reader's f64 adds nothing that counts. Three components of N
+   carry their roundings into d, √3 times as many at most. 2 · (2k + 8) · 2⁻²⁴ holds for all. */
+const handsTolerance = (k, size) => 2 * (2 * k + 8) * 2 ** -24 * size;
+
+/* The first wrong value of what the reader's text gave, and why; nothing if all are right. */
+function firstWrong({ names, values, slips }, all) {
+	const size = Math.max(...values.flat().map(Math.abs));
+	for (const [k, given] of all.slice(0, values.length).entries())
+		for (const [c, name] of names.entries()) {
+			const [is, should] = [given[c], values[k][c]];
+			if (Math.abs(is - should) <= handsTolerance(k, size)) continue;
+			const isAlike = (v, i) => i >= all.length || Math.abs(v - all[i][c]) < 1e-5;
+			const slip = Number.isFinite(is) ? slips[c].find(([list]) => list.every(isAlike)) : [0, /^“/.test(is) ? "this is a text, not a number" : "this is no number"];
+			return { k, c, name, is, should, why: slip?.[1] };
+		}
+}
+
+/* Two values with as many digits as tell them apart. */
+function apart(...pair) {
+	const shown = digits => pair.map(v => (Number.isFinite(v) ? v.toFixed(digits).replace("-", "−") : String(v)));
+	const enough = [4, 5, 6, 7].find(digits => shown(digits)[0] !== shown(digits)[1]);
+	return shown(enough ?? 8);
+}
+
+/* A worker that runs a text, which is its third line and those below, with some values given by their names. The page's policy
+   holds in it, too: it reaches no network. It posts little. */
+function handsWorker(given, text) {
+	const source = `"use strict";onerror=(m,u,line)=>{postMessage({says:m.slice(0,120),line});return true};postMessage("begins");const all=[];let exps=0;{const e=Math.exp;Math.exp=x=>(exps++,e(x))}const plain=x=>typeof x=="number"?x:typeof x=="string"?"“"+x.slice(0,20)+"”":Array.isArray(x)?"a list":typeof x;
+(function({${Object.keys(given)}},pixel){
+${text}
+})(${JSON.stringify(given)},(...v)=>{if(all.push(v.slice(0,5).map(plain))>999)throw Error("pixel() was called more than 999 times")});postMessage({all,exps})`;
+	const url = URL.createObjectURL(new Blob([source]));
+	setTimeout(() => URL.revokeObjectURL(url), HANDS_START);
+	return new Worker(url);
+}
+
+/* Runs a text, until a signal ends it: what it gave, or an error with its line. */
+const runHands = (given, text, signal) =>
+	new Promise((done, fail) => {
+		const worker = handsWorker(given, text);
+		let timer;
+		const end = (settle, value) => {
+			clearTimeout(timer);
+			worker.terminate();
+			settle(value);
+		};
+		const limit = (ms, says) => {
+			clearTimeout(timer);
+			timer = setTimeout(() => end(fail, Error(says)), ms);
+		};
+		// Firefox does not say where a syntax error is.
+		const fails = (says, at) => {
+			if (!Number.isFinite(at)) return end(fail, Error("This is no JavaScript yet: look for a missing bracket or quote"));
+			const line = clamp(at - 2, 1, text.split("\n").length);
+			const short = says.replace("Uncaught ", "").replace(/(?<=^[^]{90})[^]+/, "…");
+			end(fail, Object.assign(Error(`Line ${line}: ${short}`), { line }));
+		};
+		limit(HANDS_START, "No worker starts here");
+		signal.onabort = () => end(() => {});
+		worker.onmessage = ({ data }) => {
+			if (data === "begins") limit(HANDS_LIMIT, "It was stopped after half a second: does the loop end?");
+			else if (Array.isArray(data?.all)) end(done, data);
+			else if (data?.says) fails(String(data.says), data.line);
+		};
+		worker.onerror = e => {
+			e.preventDefault();
+			fails(e.message, e.lineno);
+		};
+	});
+
+/* Bars for what the reader's text gave, over dots for the engine's values: a row for each name. */
+function handsStrip({ names, values, x, range: [low, high] = [0, 1] }, all, wrong) {
+	const [W, H, l] = [44, 74, 34];
+	const at = k => l + W * k;
+	const y = v => H - 10 - (H - 18) * clamp((v - low) / (high - low), -0.05, 1.1);
+	const bar = (v, k, c) => {
+		const grey = Math.round(255 * clamp(v, 0, 1));
+		const isWrong = wrong?.k === k && wrong.c === c;
+		return html`<rect ${isWrong && html`class="wrong"`} x="${at(k) + 3}" y="${Math.min(y(v), y(low))}" width="${W - 6}" height="${Math.abs(y(v) - y(low))}" fill="rgb(${grey},${grey},${grey})"/>`;
+	};
+	const row = (name, c) => html`
+		<g transform="translate(0,${c * H})">
+			${text(l - 8, H / 2, name, "end")}
+			${line(l, y(low), at(values.length), y(low), "range")}
+			${all.slice(0, values.length).map((v, k) => Number.isFinite(v[c]) && bar(v[c], k, c))}
+			${values.map((v, k) => html`<circle cx="${at(k + 0.5)}" cy="${y(v[c])}" r="4.5"/>`)}
+		</g>`;
+	const below = values.map((_, k) => text(at(k + 0.5), H * names.length + 6, x + k, "tick mid"));
+	const list = (all, c) => all.slice(0, values.length).map(v => +v[c]?.toFixed?.(4)).join(", ") || "none";
+	const told = names.map((name, c) => ` ${name} from pixel ${x} on: yours ${list(all, c)}; the engine’s ${list(values, c)}.`);
+	return svg(at(values.length) + 4, H * names.length + 12, `Bars: your pixels. Dots: the engine’s.${told.join("")}`, [names.map(row), below]);
+}
+
+/* What was found, in a sentence or two. */
+function judgement(own, { all, exps }, wrong) {
+	const n = own.values.length;
+	if (wrong) {
+		const [should, is] = apart(wrong.should, wrong.is);
+		const name = own.names.length > 1 && html`, ${wrong.name}`;
+		return html`Pixel ${own.x + wrong.k}${name}: it should be <b>${should}</b>, yours is <b>${is}</b>${wrong.why && `: ${Number.isFinite(wrong.is) ? "it seems that " : ""}${wrong.why}`}.`;
+	}
+	if (all.length !== n) return `${all.length} pixels were given, and not ${n}.`;
+	if (exps > 2) return `All ${n} pixels are right, but the exponential was called ${exps} times: once is enough.`;
+}
+
+/* A text that is kept while the window is open, where that is allowed. */
+function handsKept(name, text) {
+	try {
+		if (text != null) sessionStorage.setItem(name, text);
+		return sessionStorage.getItem(name);
+	} catch {
+		return null; // a file opened from disk may have no storage
+	}
+}
+
+/* Puts an exercise into an element, once; what was there stays where it cannot run. */
+async function handsInto(el, name) {
+	if (!EXERCISES[name] || !("Worker" in window) || el.dataset.made) return;
+	el.dataset.made = name;
+	const own = await EXERCISES[name]().catch(() => null);
+	if (!own) return;
+	const shown = v => (Array.isArray(v) ? `[${v.map(shown).join(", ")}]` : +v.toFixed(5));
+	const given = Object.entries(own.given).map(([key, v]) => html`<code>${key} = ${shown(v)}</code> `);
+	const rows = Math.max(...own.texts.map(t => t.split("\n").length)) + 1;
+	const key = `fastphong-hands-${name}`;
+	el.insertAdjacentHTML(
+		"beforeend",
+		html`
+			<div class="own">
+				<p class="given">Given: ${given}<br><code>pixel(…)</code> gives the next pixel.</p>
+				<div class="editor">
+					<div class="lines" aria-hidden="true"></div>
+					<textarea rows="${rows}" spellcheck="false" autocapitalize="off" wrap="off" aria-label="Your code: it gives ${own.names.join(", ")} at each pixel"></textarea>
+				</div>
+				<p class="acts">
+					<button data-do="run">Run</button>
+					<button data-do="anew">Start again</button>
+					<button data-do="solve" disabled>Show a solution</button>
+				</p>
+				<div class="chartbox"></div>
+				<p class="said" role="status"></p>
+			</div>`,
+	);
+	const [area, lines, strip, said, solve] = ["textarea", ".lines", ".chartbox", ".said", "[data-do=solve]"].map(s => $(`.own ${s}`, el));
+	let mine = null;
+	const write = text => {
+		if (area.value !== text) area.value = text;
+		lines.textContent = text.split("\n").map((_, i) => i + 1).join("\n");
+	};
+	const say = (kind, markup) => {
+		said.className = `said ${kind}`;
+		const asks = kind === "bad" && /\b(fetch|import\w*|XMLHttpRequest|WebSocket)\s*\(/.test(area.value);
+		fill(said, html`${markup}${asks && " Code here has no network."}`);
+	};
+	let runs = new AbortController();
+	const forget = () => {
+		mine = null;
+		solve.textContent = "Show a solution";
+	};
+	const draw = (all, wrong) => fill(strip, handsStrip(own, all, wrong));
+	const run = async () => {
+		runs.abort();
+		runs = new AbortController();
+		try {
+			const result = await runHands(own.given, area.value, runs.signal);
+			const wrong = firstWrong(own, result.all);
+			const fault = judgement(own, result, wrong);
+			draw(result.all, wrong);
+			say(fault ? "bad" : "good", fault ?? `Right: all pixels are the engine’s. ${own.learnt}`);
+		} catch (error) {
+			say("bad", error.message.replace(/[.!?…]*$/, marks => marks[0] ?? "."));
+			if (error.line) select(error.line);
+		}
+		solve.disabled = false;
+		el.dataset.ran = (+el.dataset.ran || 0) + 1;
+	};
+	const select = line => {
+		const all = area.value.split("\n");
+		const from = all.slice(0, line - 1).join("\n").length + (line > 1);
+		area.setSelectionRange(from, from + all[line - 1].length);
+	};
+	const acts = {
+		run,
+		anew: () => {
+			runs.abort();
+			forget();
+			write(handsKept(key, own.texts[0]) ?? own.texts[0]);
+			draw([]);
+			say("", "");
+		},
+		solve: () => {
+			const text = mine ?? own.texts[1];
+			if (mine == null) {
+				mine = area.value;
+				solve.textContent = "Back to mine";
+			} else forget();
+			write(text);
+			run();
+		},
+	};
+	area.oninput = () => {
+		write(area.value);
+		handsKept(key, area.value);
+	};
+	// Tab leaves the editor, like any other control.
+	area.onkeydown = e => {
+		if (e.key === "Enter" && (e.ctrlKey || e.metaKey)) run();
+	};
+	$(".own .acts", el).onclick = e => acts[e.target.dataset.do]?.();
+	write(handsKept(key) ?? own.texts[0]);
+	draw([]);
+}

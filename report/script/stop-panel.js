@@ -1,0 +1,329 @@
+/* The panel beside the stage: what happens now, the active edges, the pixel by each method, and the program. */
+
+/* The page of the figure, empty. Icons are drawn, as not every machine has their letters. */
+const ICON = {
+	"line-back": "M2 3h2v10H2zM14 3v10L8.7 8zM9 3v10L3.7 8z",
+	back: "M11.5 3v10L4.5 8z",
+	forth: "M4.5 3v10l7-5z",
+	"line-forth": "M12 3h2v10h-2zM2 3l5.3 5L2 13zM7 3l5.3 5L7 13z",
+};
+const drive = (what, label, key) => html`
+	<button class="s-go" data-do="${what}" title="${label} (${key})" aria-label="${label}">
+		<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${ICON[what]}"/></svg>
+	</button>`;
+
+const TRIES = [
+	[
+		"highlight",
+		"Where did the highlight go?",
+		"Finish the picture with Gouraud. Then let naive Phong draw it.",
+	],
+	[
+		"newton",
+		"Watch Newton run after the root",
+		"The normals of D nearly oppose each other: d falls fast, and one step is late.",
+	],
+	["edge", "A centre exactly on an edge", "B and C both touch it. Who may draw the pixel?"],
+	["depth", "D pierces A", "Half of it is in front. Each pixel decides for itself."],
+];
+
+const speedButtons = ["slow", "brisk", "fast"].map(
+	(name, i) => html`<button data-speed="${i}">${name}</button>`,
+);
+
+const STOP_PAGE = html`
+	<p class="s-answer"></p>
+	<div class="s-frame">
+		<div class="s-bar">
+			<div class="seg s-methods" role="group" aria-label="Method"></div>
+			<div class="s-variants"><span></span><div class="seg" role="group" aria-label="Newton’s steps a pixel"></div></div>
+			<span class="s-gap"></span>
+			<button data-do="bare" title="The figure alone, with larger type (T)" aria-pressed="false">Talk</button>
+			<button data-do="full">Full screen</button>
+		</div>
+		<div class="s-body">
+			<div class="s-stage"><svg role="group" aria-label="The picture, pixel by pixel, with its polygons; at the left is the edge table"></svg></div>
+			<div class="s-strip"><svg role="img" aria-label="Values along the scan line"></svg><div class="s-legend"></div></div>
+			<div class="s-time"><div class="s-track"></div><input type="range" min="0" aria-label="Step"></div>
+			<div class="s-side">
+				<div class="s-what">
+					<p class="s-kicker"></p>
+					<h3></h3>
+					<p class="s-text"></p>
+					<div class="s-eqs"></div>
+					<div class="s-ask" hidden></div>
+				</div>
+				<div class="s-sec">
+					<h4>Active edges <small></small></h4>
+					<div class="s-scroll" tabindex="0" role="region" aria-label="Active edges"><table class="s-active"></table></div>
+				</div>
+				<div class="s-sec"><h4>This pixel by each method <small>grey levels, of 255</small></h4><div class="s-four"></div></div>
+			</div>
+			<div class="s-sec s-fan" hidden>
+				<h4>Normals of this run <small></small></h4>
+				<svg viewBox="0 0 400 136" role="img" aria-label="The normals of the run in their plane, and the circle of length 1"></svg>
+			</div>
+			<div class="s-sec s-program"><h4>The program <small>at the right: equations of Lecture 21</small></h4><ol></ol></div>
+			<div class="s-keys" role="group" aria-label="Driving">
+				${drive("line-back", "Line before", "P")}${drive("back", "Step back", "←")}
+				<button class="s-go s-primary" data-do="play" title="Play or stop (space)">▶ Play</button>
+				${drive("forth", "Step", "→")}${drive("line-forth", "Next line", "N")}
+				<div class="seg" role="group" aria-label="Speed">${speedButtons}</div>
+				<button data-do="first">First corners</button>
+				<span class="s-where"></span>
+			</div>
+		</div>
+	</div>
+	<p class="s-hint"></p>
+	<div class="s-tries">${TRIES.map(([key, title, text]) => html`<button data-try="${key}"><b>${title}</b> ${text}</button>`)}</div>
+	<p class="s-say" aria-live="polite"></p>`;
+
+/* Puts markup into an element if it is not there already: what stays the same costs nothing. */
+function renew(el, markup) {
+	const text = String(markup ?? "");
+	if (el.written === text) return;
+	el.written = text;
+	el.innerHTML = text;
+}
+
+class Panel {
+	constructor(figure, root) {
+		this.figure = figure;
+		for (const name of [
+			"answer",
+			"methods",
+			"variants",
+			"what",
+			"kicker",
+			"text",
+			"eqs",
+			"ask",
+			"active",
+			"four",
+			"track",
+			"where",
+			"say",
+			"legend",
+			"hint",
+			"program",
+		])
+			this[name] = $(`.s-${name}`, root);
+		this.head = $("h3", this.what);
+		this.count = $("h4 small", this.active.closest(".s-sec"));
+		this.range = $(".s-time input", root);
+		this.drives = Object.fromEntries($$(".s-go", root).map(b => [b.dataset.do, b]));
+		this.speeds = $$("[data-speed]", root);
+		renew(
+			$("ol", this.program),
+			html`${PROGRAM.map(([code, number]) => html`<li><code>${code}</code><span>${number}</span></li>`)}`,
+		);
+		this.lines = $$("li", this.program);
+		wireAsk(this.ask, figure);
+	}
+
+	/* Lays out what belongs to a trace: its methods, its time line. */
+	lay() {
+		const { figure } = this;
+		const { events, method, variant } = figure;
+		const variants = figure.variantsOf(method);
+		renew(this.answer, answerOf(figure));
+		renew(
+			this.methods,
+			html`${figure.methods.map(m => html`<button data-method="${m}">${wordsOf(m).label}<i></i></button>`)}`,
+		);
+		this.swatches = $$("button", this.methods);
+		this.variants.hidden = variants.length < 2;
+		$("span", this.variants).textContent = method === "fast-phong" ? "Newton’s steps" : "";
+		renew(
+			$(".seg", this.variants),
+			html`${variants.map(v => html`<button data-variant="${v}">${variantLabel(v)}</button>`)}`,
+		);
+		for (const b of this.swatches) b.ariaPressed = b.dataset.method === method;
+		for (const b of $$("button", this.variants)) b.ariaPressed = b.dataset.variant === variant;
+		this.layTrack(events);
+		this.range.max = events.length - 1;
+		renew(this.hint, this.hintText());
+	}
+
+	/* The lines on the time line, and the questions on it. */
+	layTrack(events) {
+		const last = events.length - 1;
+		const starts = events.filter((e, i) => e.row !== events[i - 1]?.row).map(e => e.i);
+		const percent = i => round((1000 * i) / last) / 10;
+		this.segments = starts.map((from, i) => ({ from, end: starts[i + 1] ?? last }));
+		const parts = this.segments.map(
+			({ from, end }) =>
+				html`<i style="left:${percent(from)}%;width:calc(${percent(end - from)}% - 2px)"></i>`,
+		);
+		const asks = events
+			.filter(e => e.k === "ask")
+			.map(
+				e =>
+					html`<button style="left:${percent(e.i)}%" data-go="${e.i}" data-ask="${e.ask}"></button>`,
+			);
+		renew(this.track, html`${parts}${asks}`);
+		this.parts = $$("i", this.track);
+		this.asks = $$("button", this.track);
+	}
+
+	hintText() {
+		const { figure } = this;
+		const keys = list => [...list].map(k => html`<kbd>${k}</kbd> `);
+		const move = figure.canMove
+			? figure.problem || "Drag any corner: its value goes with it."
+			: "Corners cannot be dragged here without WebAssembly; the numbers are stored ones.";
+		const asks = figure.events.filter(e => e.ask).length;
+		const last = String(Math.min(9, figure.methods.length));
+		return html`
+			${move} ${keys("←→")}a step, ${keys("PN")}a line, ${keys(["space"])}play, ${keys("1")}to ${keys(last)}methods,
+			or ${keys("T")}talk. The bar below a method’s name is this pixel
+			as that method shades it. ${asks > 0 && `On the way: ${plural(asks, "question")}.`}`;
+	}
+
+	draw(e) {
+		const { figure } = this;
+		const told = TELL[e.k](e, figure);
+		const isAsking = e.k === "ask";
+		renew(this.kicker, html`${told.kicker}`);
+		renew(this.head, html`${told.head}`);
+		renew(this.text, html`${told.text}`);
+		this.drawLegend(e);
+		renew(this.eqs, told.eqs);
+		this.text.hidden = isAsking;
+		this.ask.hidden = !isAsking;
+		this.what.classList.toggle("s-asking", isAsking);
+		if (isAsking) this.drawAsk(e);
+		this.lines.forEach((li, i) => {
+			const current = i === told.line ? "step" : null;
+			if (li.ariaCurrent !== current) li.ariaCurrent = current;
+		});
+		renew(this.active, this.activeTable(e));
+		this.active.classList.toggle("s-wide", figure.method !== "gouraud");
+		renew(this.count, html`${e.active.length ? plural(e.active.length, "edge") : ""}`);
+		renew(this.four, this.byEach(e));
+		this.drawDrive(e);
+		if (!figure.timer) this.announce(e, told);
+	}
+
+	drawLegend(e) {
+		const { method, names } = this.figure;
+		const legend = STRIP_TERMS[showsDepth(e) ? "depth" : method] ?? [
+			["I", "bars: I"],
+			...names.pixel.slice(0, 3).map(n => [n, n]),
+		];
+		const entry = ([name, text]) =>
+			name ? html`<button data-term="${name}">${text}</button>` : html`<span>${text}</span>`;
+		renew(this.legend, html`${legend.map(entry)}`);
+	}
+
+	/* One sentence for those who listen; what was said already is not said again. */
+	announce({ p, ask }, { kicker, head }) {
+		const isDone = this.figure.answers[ask]?.done;
+		const text = isDone
+			? $(".s-verdict", this.ask).innerText
+			: `${kicker}: ${head}${p ? `, and the pixel is ${fixed(p.colour[0])}` : ""}`;
+		const said = /[.?]$/.test(text) ? text : `${text}.`;
+		if (this.say.textContent !== said) this.say.textContent = said;
+	}
+
+	drawAsk(e) {
+		const { figure } = this;
+		const question = QUESTIONS[e.ask];
+		const mine = (figure.answers[e.ask] ??= { done: false });
+		question.prepare(e, mine, figure);
+		renew(this.ask, question.markup(e, mine, figure));
+	}
+
+	/* The active edges, as the trace has them. */
+	activeTable(e) {
+		const { figure } = this;
+		const rows = e.k === "retire" ? e.before : e.active;
+		if (!rows.length)
+			return html`<tr><td>${e.k === "bucket" ? "none yet: the table is being built" : "none"}</td></tr>`;
+		const { values, shown, grown } = figure.words;
+		const names = values.map(v => html`<th scope="col">${formulaOf(v)}</th>`);
+		const span = e.span ?? e.run?.span;
+		const gone = new Set(e.gone?.map(g => g.id));
+		const row = (a, i) => {
+			const isFresh = a === e.a || a === span?.left || a === span?.right;
+			const isFirst = a.edge.polygon !== rows[i - 1]?.edge.polygon;
+			const kind = [gone.has(a.edge.id) && "s-gone", isFresh && "s-fresh", isFirst && "s-first"]
+				.filter(Boolean)
+				.join(" ");
+			return html`
+				<tr class="${kind}" style="--c:${polygonHue(a.edge.polygon)}">
+					<th scope="row"><span class="s-chip">${a.edge.name}</span></th>
+					<td>${a.edge.first}–${a.edge.end - 1}</td><td>${fixed(a.x, 2)}</td><td>${plus(a.dx, 2)}</td>
+					<td>${shown(a, figure)}</td><td>${grown(a, figure)}</td>
+				</tr>`;
+		};
+		return html`
+			<thead><tr><th scope="col">edge</th><th scope="col">lines</th><th scope="col">${term("x")}</th><th scope="col">${term("Δx")}</th>${names}</tr></thead>
+			<tbody>${rows.map(row)}</tbody>`;
+	}
+
+	/* The colour of the pixel by each method, and how far it is from naive Phong's. */
+	byEach(e) {
+		const { figure } = this;
+		const truth = e.p && figure.truth(e.row, e.p.x);
+		const cards = figure.methods.map((m, i) => {
+			const colour = e.p && figure.pixelBy(figure.chosen[m], e.row, e.p.x)?.colour;
+			const look = colour ? `background:${screenColour(colour)}` : "visibility:hidden";
+			this.swatches[i].firstElementChild.style = look;
+			const off = colour && truth ? levels(colour[0], truth.colour[0]) : null;
+			// Where normals are far apart, the circle is another path: that is no error.
+			const isFar = Math.abs(off) > 0.5;
+			const isOther = isFar && m === "slerp-phong";
+			const text =
+				off == null
+					? ""
+					: m === REFERENCE
+						? "reference"
+						: Math.abs(off) < 0.05
+							? "same"
+							: `${off < 0 ? "−" : "+"}${fixed(Math.abs(off), 1)}${isOther ? ", another path" : ""}`;
+			return html`
+				<div class="${m === figure.method && "s-on"}">
+					<i style="${look}"></i><b>${colour ? fixed(colour[0]) : "–"}</b>
+					<small>${wordsOf(m).label.replace(" Phong", "")}</small>
+					<small class="${isFar && !isOther && "bad"}">${text}</small>
+				</div>`;
+		});
+		return html`${cards}`;
+	}
+
+	drawDrive(e) {
+		const { figure, range, drives } = this;
+		const last = figure.events.length - 1;
+		if (+range.value !== e.i) range.value = e.i;
+		range.setAttribute(
+			"aria-valuetext",
+			`step ${e.i + 1} of ${last + 1}, ${e.row >= 0 ? `line ${e.row}` : "edge table"}`,
+		);
+		this.where.textContent = `step ${e.i + 1} of ${last + 1}`;
+		renew(drives.play, figure.timer ? "❚❚ Stop" : "▶ Play");
+		// Not `disabled`, which would take the focus away from who is there.
+		drives.back.ariaDisabled = drives["line-back"].ariaDisabled = e.i === 0;
+		drives.forth.ariaDisabled = drives["line-forth"].ariaDisabled = e.i === last;
+		this.segments.forEach(({ end }, i) => this.parts[i].classList.toggle("s-done", end <= e.i));
+		for (const b of this.asks) this.drawMark(b);
+		for (const b of this.speeds) b.ariaPressed = +b.dataset.speed === figure.speed;
+	}
+
+	/* A question on the time line, and how it was answered. */
+	drawMark(button) {
+		const { ask } = button.dataset;
+		const { done, shown, ok } = this.figure.answers[ask] ?? {};
+		const [sign, kind, text] = !done
+			? ["?", "", "waits"]
+			: shown
+				? ["·", "s-seen", "was shown"]
+				: ok
+					? ["✓", "s-ok", "answered right"]
+					: ["✗", "s-no", "answered wrong"];
+		if (button.textContent === sign) return;
+		button.textContent = sign;
+		button.className = kind;
+		button.ariaLabel = `${QUESTIONS[ask].title}: the question ${text}`;
+	}
+}

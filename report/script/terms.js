@@ -1,0 +1,52 @@
+/* Terms: each quantity of the course has one colour, in texts, cards and strips. Pointing at one lights all of it up. */
+
+/* A term in a text: alone, or with what says which one of it (I_next, J₁, t₀). */
+const TERM =
+	/(?<![\p{Nd}_'’]|(?!t(?=φ))\p{L})(Δ[INJKx]|[INJKdDφxt])(?![\p{Nd}'’]|(?!φ)\p{L}|_(?!next|current))/u;
+
+/* A term, marked. */
+const term = (name, text = name) => html`<span data-term="${name}">${text}</span>`;
+
+/* A formula: its terms are marked, and what follows a low line stands low. */
+const formulaOf = text => {
+	const low = part => new Markup(put(part).replace(/_(\w+)/g, "<sub>$1</sub>"));
+	return html`${text.split(TERM).map((part, i) => (i % 2 ? term(part) : low(part)))}`;
+};
+
+/* Marks the terms in the texts of an element. */
+function markTerms(el) {
+	const skipped = "a,button,summary,h2,h3,h4,svg,math,table,label,.stop,.live,.hands,[data-term]";
+	const walker = document.createTreeWalker(el, NodeFilter.SHOW_TEXT);
+	const texts = [];
+	while (walker.nextNode())
+		if (!walker.currentNode.parentElement.closest(skipped)) texts.push(walker.currentNode);
+	for (const node of texts) {
+		const parts = node.data.split(TERM);
+		if (parts.length < 2) continue;
+		const marked = parts.map((part, i) => {
+			if (i % 2 === 0) return part;
+			const span = create("span");
+			span.dataset.term = span.textContent = part;
+			return span;
+		});
+		node.replaceWith(...marked);
+	}
+}
+
+let litScope;
+const litRule = document.head.appendChild(create("style"));
+
+/* Lights a term up in the chapter or figure around it; nothing puts it out. */
+function lightTerm(el) {
+	const scope = el && (el.closest("article") ?? el.closest(".stop"));
+	if (!scope && !litScope) return;
+	litScope?.removeAttribute("data-lit");
+	scope?.setAttribute("data-lit", "");
+	litScope = scope;
+	const look =
+		"background:color-mix(in srgb,var(--t) 20%,#0000);box-shadow:0 2px var(--t);stroke-width:4";
+	litRule.textContent = scope ? `[data-lit] [data-term="${el.dataset.term}"]{${look}}` : "";
+}
+
+for (const type of ["pointerover", "focusin"])
+	addEventListener(type, e => lightTerm(e.target.closest?.("[data-term]")));

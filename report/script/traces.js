@@ -1,0 +1,52 @@
+/* Traces: what the engine did on each line of a picture, by each method (schema fastphong.trace/1). Those of the figure that
+   can be stopped are stored in the page; the module makes them anew for corners that were moved. */
+
+let storedTraces;
+
+/* True if the page brings traces, and this browser can unpack them. */
+const hasTraces = () => !!$("#figure-traces") && "DecompressionStream" in window;
+
+/* Unpacks the stored traces, once: a trace for each variant of a method. */
+const tracesOf = () =>
+	(storedTraces ??= inflate(jsonOf("figure-traces")).then(bytes =>
+		JSON.parse(new TextDecoder().decode(bytes)),
+	));
+
+/* Traces the mesh with its corners at x1 y1 x2 y2 …, in pixels, by a variant of a method. */
+async function traceBy(variant, corners) {
+	const studio = await (figureStudio ??= Studio.make());
+	return studio.trace(variant, corners);
+}
+
+/* Edges with a name for people: the letter of the polygon, and which of its edges it is. */
+const letterOf = polygon => String.fromCharCode(65 + (polygon % 26));
+const edgesOf = trace =>
+	trace.edges.map((edge, id) => ({
+		...edge,
+		id,
+		name: letterOf(edge.polygon) + (edge.corner + 1),
+	}));
+
+/* Where a crossing is, in pixels, and how far it moves in a line: both are fractions of whole numbers in the trace. */
+const crossingOf = ({ pixel, rest: [rest, whole], step: [pixels, more] }) => ({
+	x: pixel + 0.5 - rest / whole,
+	dx: pixels + more / whole,
+});
+
+/* The pixels of a run, each with all that the trace has of it. */
+const pixelsOf = ({ x, pixels, values, colours, inside = {} }) =>
+	Array.from({ length: pixels }, (_, i) => ({
+		x: x + i,
+		i,
+		values: values?.[i] ?? [],
+		colour: colours[i],
+		// The first pixel takes a true root: what Newton makes of it afterwards is the same.
+		guess: (i && inside.guess?.[i]) || [],
+		d: [inside.d?.[i]].flat()[0],
+		D: [inside.D?.[i]].flat()[0],
+		t: inside.t?.[i],
+		rest: inside.rest?.[i],
+		step: inside.step?.[i],
+		from: inside.from?.[i],
+		to: inside.to?.[i],
+	}));
