@@ -25,5 +25,21 @@
   const [frames, before] = [v1.turn, v1.hand.rounds];
   await wait(1000);
   console.log(`FRAMES at rest: ${v1.turn - frames} pictures and ${v1.hand.rounds - before} rounds in a second`, rounds);
+  // A step of the figure that can be stopped, with the layout that it asks for.
+  if (FIGURES.some(isTraced)) {
+    location.hash = "lectures/stop";
+    while (!stopFigures.get("lectures")?.width) await wait(50);
+    const figure = stopFigures.get("lectures");
+    for (const variant of figure.variants) {
+      figure.show(variant, figure.now);
+      const times = Array.from({ length: 300 }, (_, i) => {
+        const before = performance.now();
+        figure.go(30 + i);
+        figure.root.getBoundingClientRect();
+        return performance.now() - before;
+      }).sort((a, b) => a - b);
+      console.log(`FRAMES stop, ${variant}: a step takes ${times[150].toFixed(1)} ms, 95 % within ${times[285].toFixed(1)} ms`);
+    }
+  }
   console.log("FRAMES done");
 })();

@@ -79,6 +79,17 @@
       await drag([x, y], [x - 40, y - 40]);
       await until("one finger moves the light", "!!v2.view.light && !v2.hand.moves");
     }
+    if (await run("hasTraces() && CAN_DRAW")) {
+      await run("location.hash = 'stop'");
+      await until("the figure that can be stopped shows", "!!stopFigures.get('lectures')?.width");
+      await run("stopFigures.get('lectures').hands.nodes[2].scrollIntoView({ block: 'center' })");
+      await wait(200);
+      const hand = await run("(() => { const b = stopFigures.get('lectures').hands.nodes[2].querySelector('.s-dot').getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()");
+      const [from, corner] = [await run("scrollY"), await run("stopFigures.get('lectures').corners[2][1]")];
+      await drag(hand, [hand[0], hand[1] - 60]);
+      await until("one finger drags a corner up", `stopFigures.get('lectures').corners[2][1] < ${corner} - 2`);
+      check("and the page stays", await run("scrollY") === from);
+    }
     // The accessibility tree, as a screen reader gets it.
     for (const view of ["overview", "scenes", "methods", "speed", "lectures", "measured"]) {
       await run(`location.hash = "${view}"`);
