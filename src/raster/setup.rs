@@ -9,8 +9,8 @@ use crate::scene::Interpolation;
 use crate::shading::light::Uniforms;
 use crate::shading::walks::GreatCircle;
 use crate::shading::{
-    Carried, Corner, Corners, Extras, Kernels, LitAt, Local, MethodRow, Perspective, Pixels,
-    PolygonConstants, RunList, UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
+    Carried, Corner, Corners, Extras, Kernels, LitAt, Local, Perspective, Pixels, PolygonConstants,
+    RunList, UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
 };
 use alloc::borrow::Cow;
 use alloc::vec;
@@ -129,20 +129,21 @@ impl<'a> SetUp<'a> {
         scale: f32,
         memory: Vec<f32>,
     ) -> Self {
-        let entry = variant.row().on(frame);
-        let kernels = entry.kernels(frame.light_count(), frame.is_local());
-        SetUp::by(kernels, entry, variant, frame, (level, scale, memory))
+        let row = variant.row().on(frame);
+        let kernels = row.kernels(frame.light_count(), frame.is_local());
+        SetUp::by(kernels, variant, frame, level, scale, memory)
     }
 
-    /// Computes uniforms and varyings of a row of the method table, for these kernels of its own.
+    /// Computes them for these kernels of the method's, which may be for more lights than there are.
     pub fn by(
         kernels: &'static Kernels,
-        entry: &MethodRow,
         variant: &'a Variant,
         frame: &'a Frame,
-        (level, scale, memory): (Level, f32, Vec<f32>),
+        level: Level,
+        scale: f32,
+        memory: Vec<f32>,
     ) -> Self {
-        let is_local = frame.is_local();
+        let (entry, is_local) = (variant.row().on(frame), frame.is_local());
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
         let lightings = frame.lightings().iter();
         let mut uniforms: Vec<Uniforms> = lightings.map(|l| variant.uniforms(l, scale)).collect();

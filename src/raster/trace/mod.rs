@@ -45,8 +45,7 @@ impl Variant {
         }
         let row = self.row().on(frame);
         let kernels = row.walked_kernels(frame.is_local());
-        let how = (Level::Scalar, 1.0, Vec::new());
-        let setup = SetUp::by(kernels, row, self, frame, how);
+        let setup = SetUp::by(kernels, self, frame, Level::Scalar, 1.0, Vec::new());
         let walked = &row.walked[usize::from(frame.is_local())];
         Ok(record::record(self, &setup, walked, line))
     }

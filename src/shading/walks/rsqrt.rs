@@ -106,8 +106,8 @@ impl<F: Num> Walk<F> for WarmRsqrt<F> {
     /// The guesses, the last of which is 1/d; none where roots are true.
     fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
         if self.steps > 0 {
-            let square = { self.square }.next();
-            self.next_root(square, |root| see("guess", root));
+            let mut square = self.square;
+            self.next_root(square.next(), |root| see("guess", root));
         }
     }
 }
