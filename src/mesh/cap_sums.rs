@@ -1,5 +1,6 @@
-//! Sums of those unit normals that are within an angle of a given one, among many.
+//! Weighted sums of those unit normals that are within an angle of a given one, among many.
 
+use super::vertex_normals::weight::{Sum, Term};
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -16,16 +17,18 @@ const SLACK: f64 = 8.0 * f64::EPSILON;
 /// sphere the border of a cap cuts some √n of n boxes, and a handful where the normals lie along a curve, as around the tip
 /// of a cone.
 pub(super) struct CapSums {
-    normals: Vec<DVec3>,
+    terms: Vec<Term>,
+    /// The sum of nothing.
+    none: Sum,
     nodes: Vec<Node>,
 }
 
-/// A box around some of the normals, and their sum.
+/// A box around some of the normals, and the sum of their terms.
 struct Node {
     low: DVec3,
     high: DVec3,
-    sum: DVec3,
-    /// The range of normals.
+    sum: Sum,
+    /// The range of terms.
     first: usize,
     end: usize,
     /// The second half; the first one is the next node. `None` for a leaf.
@@ -33,21 +36,23 @@ struct Node {
 }
 
 impl CapSums {
-    /// Sorts `normals` into a tree.
-    pub fn new(normals: Vec<DVec3>) -> Self {
+    /// Sorts `terms` by the normals of their polygons into a tree. `none` is the sum of nothing.
+    pub fn new(terms: Vec<Term>, none: Sum) -> Self {
         let mut sums = CapSums {
-            nodes: Vec::with_capacity(2 * normals.len() / LEAF + 1),
-            normals,
+            nodes: Vec::with_capacity(2 * terms.len() / LEAF + 1),
+            terms,
+            none,
         };
-        sums.node(0, sums.normals.len());
+        sums.node(0, sums.terms.len());
         sums
     }
 
     fn node(&mut self, first: usize, end: usize) -> usize {
-        let part = &mut self.normals[first..end];
+        let part = &mut self.terms[first..end];
         let (low, high) = part
             .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &n| {
+            .map(|term| term.polygon)
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), n| {
                 (low.min(n), high.max(n))
             });
         let sides = high - low;
@@ -55,13 +60,15 @@ impl CapSums {
         if !is_leaf {
             let axis = sides.max_position();
             let half = part.len() / 2;
-            part.select_nth_unstable_by(half, |a, b| a[axis].total_cmp(&b[axis]));
+            part.select_nth_unstable_by(half, |a, b| a.polygon[axis].total_cmp(&b.polygon[axis]));
         }
+        let mut sum = self.none;
+        part.iter().for_each(|term| sum.add_term(term));
         let number = self.nodes.len();
         self.nodes.push(Node {
             low,
             high,
-            sum: part.iter().sum(),
+            sum,
             first,
             end,
             second: None,
@@ -74,9 +81,9 @@ impl CapSums {
         number
     }
 
-    /// Returns the sum of all normals whose dot product with `own` is at least `least_cosine`, and their number.
-    pub fn within(&self, own: DVec3, least_cosine: f64) -> (DVec3, u32) {
-        let (mut sum, mut count) = (DVec3::ZERO, 0);
+    /// Returns the sum over all polygons whose normals' dot product with `own` is at least `least_cosine`.
+    pub fn within(&self, own: DVec3, least_cosine: f64) -> Sum {
+        let mut sum = self.none;
         let mut open: Vec<usize> = Vec::from([0]);
         while let Some(number) = open.pop() {
             let node = &self.nodes[number];
@@ -87,22 +94,20 @@ impl CapSums {
                 continue;
             }
             if least >= least_cosine + SLACK {
-                sum += node.sum;
-                count += (node.end - node.first) as u32;
+                sum.add_sum(&node.sum);
                 continue;
             }
             if let Some(second) = node.second {
                 open.extend([second, number + 1]);
                 continue;
             }
-            for normal in &self.normals[node.first..node.end] {
-                if own.dot(*normal) >= least_cosine {
-                    sum += normal;
-                    count += 1;
+            for term in &self.terms[node.first..node.end] {
+                if own.dot(term.polygon) >= least_cosine {
+                    sum.add_term(term);
                 }
             }
         }
-        (sum, count)
+        sum
     }
 }
 
@@ -124,19 +129,35 @@ mod tests {
         for (count, repeats) in [(0, 1), (1, 1), (16, 1), (17, 3), (500, 1), (3, 200)] {
             let once = directions(count);
             let normals = once.repeat(repeats);
-            let sums = CapSums::new(normals.clone());
+            // Weights that are not in the order of the normals, 1 on average.
+            let weights: Vec<f64> = (0..normals.len())
+                .map(|i| 0.5 + (7 * i % 11) as f64 / 10.0)
+                .collect();
+            let terms = normals
+                .iter()
+                .zip(&weights)
+                .map(|(&polygon, &weight)| Term {
+                    polygon,
+                    vector: polygon * weight,
+                    weight,
+                });
+            let sums = CapSums::new(terms.collect(), Sum::default());
             for degrees in [0.0f64, 10.0, 60.0, 90.0, 180.0] {
                 let least = libm::cos(degrees.to_radians()) - 16.0 * f64::EPSILON;
                 for own in directions(40)
                     .into_iter()
                     .chain(once.iter().copied().take(40))
                 {
-                    let near = normals.iter().filter(|n| own.dot(**n) >= least);
-                    let expected: DVec3 = near.clone().sum();
-                    let (sum, found) = sums.within(own, least);
-                    assert_eq!(found as usize, near.count(), "{count} {degrees}");
-                    // Two orders of up to 600 additions of unit vectors.
-                    assert!((sum - expected).length() < 600.0 * 600.0 * f64::EPSILON);
+                    let near = normals.iter().zip(&weights);
+                    let near = near.filter(|(n, _)| own.dot(**n) >= least);
+                    let expected: DVec3 = near.clone().map(|(n, w)| *n * *w).sum();
+                    let total: f64 = near.clone().map(|(_, w)| w).sum();
+                    let sum = sums.within(own, least);
+                    assert_eq!(sum.count as usize, near.count(), "{count} {degrees}");
+                    // Two orders of up to 600 additions of vectors whose lengths add up to at most 900.
+                    let bound = 600.0 * 900.0 * f64::EPSILON;
+                    assert!((sum.vector - expected).length() < bound);
+                    assert!((sum.weight - total).abs() < bound);
                 }
             }
         }

@@ -1,14 +1,21 @@
 //! Vertex normals: averaged (L21 3.1), given, or averaged up to a crease.
 
+mod arc;
+pub(super) mod weight;
+
+pub use weight::NormalWeight;
+
 use super::cap_sums::CapSums;
 use super::fans::{FanCorner, Fans, Smoothing, SurfaceFinder};
 use super::newell::{polygon_normals, unit_normal};
 use super::weld::weld;
 use super::{GivenNormals, PolygonMesh};
-use crate::number::parallel::collect;
+use crate::number::parallel::{collect, join};
+use alloc::borrow::Cow;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
+use weight::{Sum, Term, Weights};
 
 /// The source of vertex normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,6 +32,23 @@ pub enum NormalSource {
     /// As averaged, but regardless of smoothing groups, and only over polygons whose normals differ from this one's by at
     /// most so many degrees.
     Crease(f64),
+}
+
+/// The source of vertex normals, and the weight of polygons where they are averaged.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NormalRule {
+    /// The source.
+    pub source: NormalSource,
+    /// The weight, where `source` averages.
+    pub weight: NormalWeight,
+}
+
+impl From<NormalSource> for NormalRule {
+    /// Takes the source with uniform weights, as the lecture does.
+    fn from(source: NormalSource) -> Self {
+        let weight = NormalWeight::Uniform;
+        NormalRule { source, weight }
+    }
 }
 
 /// A unit normal for every corner of a mesh.
@@ -48,12 +72,13 @@ const NO_NORMAL: DVec3 = DVec3::Z;
 /// So two sheets back to back, shapes that touch at a corner, and neighbours that are wound differently (somewhere on a
 /// Möbius strip) do not smooth one another.
 ///
-/// A polygon counts once at a vertex, even if it passes it twice; a polygon without a normal does not count, though it links.
-/// Where the sum vanishes, each corner has the normal of its own polygon, and (0, 0, 1) if that polygon has none.
+/// A polygon counts once at a vertex, even if it passes it twice, or with each of its corners there where weights are those of
+/// corners ([`NormalWeight::Angle`], [`NormalWeight::Max`]). One without a normal does not count, though it links. Normals do not
+/// depend on the scale of the mesh. Where all weights vanish, all count alike. Where the sum vanishes, each corner has the normal of its own polygon, and (0, 0, 1) if that polygon has none.
 ///
 /// Takes time in proportion to the mesh; under [`NormalSource::Crease`], a vertex with n polygons takes up to n √n.
-pub fn vertex_normals(mesh: &PolygonMesh, source: NormalSource) -> VertexNormals {
-    corner_normals(mesh, source, None).by_corner(mesh)
+pub fn vertex_normals(mesh: &PolygonMesh, rule: impl Into<NormalRule>) -> VertexNormals {
+    corner_normals(mesh, rule.into(), None).by_corner(mesh)
 }
 
 /// Returns the unit normals at all corners of a mesh, said as shortly as they can be.
@@ -93,35 +118,23 @@ fn corners_of(mesh: &PolygonMesh, positions: &[u32]) -> Vec<u32> {
 /// Computes [`vertex_normals`], from the normals of all polygons where these are known already.
 pub(crate) fn corner_normals(
     mesh: &PolygonMesh,
-    source: NormalSource,
+    rule: NormalRule,
     polygons: Option<&[DVec3]>,
 ) -> CornerNormals {
-    let own;
-    let polygons = match (source, mesh.given_normals(), polygons) {
-        (_, _, Some(normals)) => normals,
-        // Needed only where the mesh leaves something out.
-        (NormalSource::Given | NormalSource::Auto, Some(given), None)
-            if !given.values.contains(&Vec3::ZERO) =>
-        {
-            &[]
-        }
-        _ => {
-            own = polygon_normals(mesh);
-            &own
-        }
-    };
+    let NormalRule { source, weight } = rule;
+    let averaged = |smoothing| averaged(mesh, polygons, weight, smoothing);
     match (source, mesh.given_normals()) {
-        (NormalSource::Auto, Some(given)) => from_given(mesh, given, polygons, Smoothing::Groups),
+        (NormalSource::Auto, Some(given)) => {
+            from_given(mesh, given, || averaged(Smoothing::Groups))
+        }
         (NormalSource::Given, Some(given)) => {
-            from_given(mesh, given, polygons, Smoothing::Surfaces)
+            from_given(mesh, given, || averaged(Smoothing::Surfaces))
         }
         (NormalSource::Crease(degrees), _) => {
-            CornerNormals::ByCorner(creased(mesh, degrees, polygons))
+            CornerNormals::ByCorner(creased(mesh, degrees, polygons, weight))
         }
-        (NormalSource::Given, None) => averaged(mesh, polygons, Smoothing::Surfaces),
-        (NormalSource::Averaged, _) | (NormalSource::Auto, None) => {
-            averaged(mesh, polygons, Smoothing::Groups)
-        }
+        (NormalSource::Given, None) => averaged(Smoothing::Surfaces),
+        (NormalSource::Averaged, _) | (NormalSource::Auto, None) => averaged(Smoothing::Groups),
     }
 }
 
@@ -163,48 +176,64 @@ impl NormalUse {
     }
 }
 
-/// Returns the direction of a sum of `count` unit normals; `None` where the sum vanishes.
-///
-/// A unit normal is off by at most 4ε (two roundings of its components, the root and the division) and each addition by
-/// at most ε times the partial sum, so a sum that vanishes exactly stays below `count · (4 + count) · ε`.
-fn direction(sum: DVec3, count: u32) -> Option<DVec3> {
-    let count = count as f64;
-    let length = libm::sqrt(sum.length_squared());
-    (length > count * (4.0 + count) * f64::EPSILON).then(|| sum / length)
-}
-
 /// Returns the unit normals of all polygons, zero for one that has none.
 fn unit_normals(polygons: &[DVec3]) -> Vec<DVec3> {
     let unit = |p: usize| unit_normal(polygons[p]).unwrap_or(DVec3::ZERO);
     collect(polygons.len(), 4096, unit)
 }
 
-/// The sum of unit normals over some of the polygons at a vertex (L21 3.1).
-#[derive(Clone, Copy, Default)]
-struct Sum {
-    normal: DVec3,
-    count: u32,
-    /// The polygon that was added last, counted from 1: one that passes twice counts once.
-    latest: u32,
+/// What averages over the polygons of a mesh are made of.
+struct Around<'a> {
+    mesh: &'a PolygonMesh,
+    /// The vertex at each position.
+    vertex: Vec<u32>,
+    /// The number of vertices.
+    count: usize,
+    fans: Fans,
+    polygons: Cow<'a, [DVec3]>,
+    normals: Vec<DVec3>,
+    triangles: Vec<[f64; 3]>,
+    weight: NormalWeight,
 }
 
-impl Sum {
-    fn add(&mut self, polygon: u32, normals: &[DVec3]) {
-        let normal = normals[polygon as usize];
-        if normal != DVec3::ZERO && self.latest != polygon + 1 {
-            self.latest = polygon + 1;
-            self.normal += normal; // 3.1
-            self.count += 1;
+impl<'a> Around<'a> {
+    /// Collects the corners around each vertex, and at the same time the normals of polygons, where these are not known already.
+    fn new(mesh: &'a PolygonMesh, polygons: Option<&'a [DVec3]>, weight: NormalWeight) -> Self {
+        let corners = || {
+            let (vertex, count) = weld(mesh.positions());
+            let fans = Fans::new(mesh, &vertex, count);
+            (vertex, count, fans)
+        };
+        let weighed = || {
+            let polygons = match polygons {
+                Some(known) => Cow::Borrowed(known),
+                None => Cow::Owned(polygon_normals(mesh)),
+            };
+            let normals = unit_normals(&polygons);
+            let triangles = weight::of_triangles(mesh, &polygons, weight);
+            (polygons, normals, triangles)
+        };
+        let ((vertex, count, fans), (polygons, normals, triangles)) = join(corners, weighed);
+        Around {
+            mesh,
+            vertex,
+            count,
+            fans,
+            polygons,
+            normals,
+            triangles,
+            weight,
         }
     }
 
-    /// Returns the direction of the sum, [`NO_NORMAL`] for that of nothing; `None` where the sum vanishes.
-    fn average(&self) -> Option<Vec3> {
-        let average = match self.count {
-            0 => Some(NO_NORMAL),
-            count => direction(self.normal, count),
-        };
-        average.map(|normal| normal.as_vec3())
+    fn weights(&self) -> Weights<'_> {
+        Weights {
+            mesh: self.mesh,
+            polygons: &self.polygons,
+            normals: &self.normals,
+            triangles: &self.triangles,
+            weight: self.weight,
+        }
     }
 }
 
@@ -216,22 +245,26 @@ struct AveragedRun {
     numbers: Vec<u32>,
 }
 
-fn averaged(mesh: &PolygonMesh, polygons: &[DVec3], smoothing: Smoothing) -> CornerNormals {
-    const RUN: usize = 1024;
-    let (vertex, count) = weld(mesh.positions());
-    let normals = unit_normals(polygons);
-    let fans = Fans::new(mesh, &vertex, count);
+/// The vertices of a run, which one thread looks at.
+const RUN: usize = 1024;
+
+fn averaged(
+    mesh: &PolygonMesh,
+    polygons: Option<&[DVec3]>,
+    weight: NormalWeight,
+    smoothing: Smoothing,
+) -> CornerNormals {
+    let around = Around::new(mesh, polygons, weight);
+    let (count, fans, weights) = (around.count, &around.fans, around.weights());
     let runs = collect(count.div_ceil(RUN), 1, |run| {
         let vertices = run * RUN..count.min(run * RUN + RUN);
-        let mut finder = SurfaceFinder::new(mesh, &vertex, &normals);
+        let mut finder = SurfaceFinder::new(mesh, &around.vertex, &around.normals);
         let simple = vertices.clone().map(|v| {
             let fan = fans.of(v);
-            let mut sum = Sum::default();
-            fan.iter().for_each(|item| sum.add(item.polygon, &normals));
             // The pole of a sphere has too many corners to be seen quickly.
             let has_one_value =
                 finder.is_simple(v, fan, smoothing) || finder.find_groups(v, fan, smoothing) == 1;
-            has_one_value.then(|| sum.average()).flatten()
+            has_one_value.then(|| weights.sum(fan).average()).flatten()
         });
         if let Some(values) = simple.collect() {
             let numbers = Vec::new();
@@ -241,19 +274,31 @@ fn averaged(mesh: &PolygonMesh, polygons: &[DVec3], smoothing: Smoothing) -> Cor
         for v in vertices {
             let fan = fans.of(v);
             let groups = finder.find_groups(v, fan, smoothing);
-            of_run.add_vertex(fan, &finder.surfaces, groups, &normals);
+            of_run.add_vertex(fan, &finder.surfaces, groups, &weights);
         }
         of_run
     });
-    let is_simple = runs.iter().all(|run| run.numbers.is_empty());
-    let mut corners = vec![0; if is_simple { 0 } else { mesh.corners().len() }];
+    match runs.iter().all(|run| run.numbers.is_empty()) {
+        true => CornerNormals::ByPosition {
+            values: runs.into_iter().flat_map(|run| run.values).collect(),
+            positions: around.vertex,
+        },
+        false => CornerNormals::ByCorner(join_runs(mesh, fans, count, runs)),
+    }
+}
+
+/// Returns the values of all runs, and the one of each corner around the `count` vertices.
+fn join_runs(
+    mesh: &PolygonMesh,
+    fans: &Fans,
+    count: usize,
+    runs: Vec<AveragedRun>,
+) -> VertexNormals {
+    let mut corners = vec![0; mesh.corners().len()];
     let mut values = Vec::with_capacity(count);
     for (run, of_run) in runs.into_iter().enumerate() {
         let first = values.len() as u32;
         values.extend(of_run.values);
-        if is_simple {
-            continue;
-        }
         let vertices = run * RUN..count.min(run * RUN + RUN);
         let mut numbers = of_run.numbers.iter();
         for v in vertices.clone() {
@@ -264,34 +309,26 @@ fn averaged(mesh: &PolygonMesh, polygons: &[DVec3], smoothing: Smoothing) -> Cor
             }
         }
     }
-    match is_simple {
-        true => CornerNormals::ByPosition {
-            values,
-            positions: vertex,
-        },
-        false => CornerNormals::ByCorner(VertexNormals { values, corners }),
-    }
+    VertexNormals { values, corners }
 }
 
 impl AveragedRun {
     /// Adds the averages of `count` groups of the corners in `fan`; where one vanishes, the normals of its polygons.
-    fn add_vertex(&mut self, fan: &[FanCorner], groups: &[u32], count: usize, normals: &[DVec3]) {
-        let mut sums = vec![Sum::default(); count];
-        for (item, &group) in fan.iter().zip(groups) {
-            sums[group as usize].add(item.polygon, normals);
-        }
+    fn add_vertex(&mut self, fan: &[FanCorner], groups: &[u32], count: usize, weights: &Weights) {
         let mut add = |value: Vec3| {
             self.values.push(value);
             self.values.len() as u32 - 1
         };
-        let averages: Vec<Option<u32>> =
-            sums.iter().map(|sum| sum.average().map(&mut add)).collect();
+        let averages: Vec<Option<u32>> = group_sums(fan, groups, count, weights)
+            .iter()
+            .map(|sum| sum.average().map(&mut add))
+            .collect();
         let mut own = (u32::MAX, 0);
         for (item, &group) in fan.iter().zip(groups) {
             let number = averages[group as usize].unwrap_or_else(|| {
                 // The corners of one polygon stand next to each other.
                 if own.0 != item.polygon {
-                    let normal = normals[item.polygon as usize];
+                    let normal = weights.normals[item.polygon as usize];
                     let normal = if normal == DVec3::ZERO {
                         NO_NORMAL
                     } else {
@@ -306,12 +343,30 @@ impl AveragedRun {
     }
 }
 
-/// Returns the given normals; where there is none, averaged ones over what `smoothing` says.
+/// Returns the sum of each of `count` groups of the corners in `fan`. Where no corner of a group weighs anything, all of them
+/// count alike.
+fn group_sums(fan: &[FanCorner], groups: &[u32], count: usize, weights: &Weights) -> Vec<Sum> {
+    let mut sums = vec![Sum::new(weights.weight); count];
+    let each = || fan.iter().zip(groups);
+    each().for_each(|(item, &group)| sums[group as usize].add(item, weights));
+    if sums.iter().any(Sum::is_without_weight) {
+        let uniform = weights.uniform();
+        let mut alike = vec![Sum::default(); count];
+        each().for_each(|(item, &group)| alike[group as usize].add(item, &uniform));
+        for (sum, alike) in sums.iter_mut().zip(alike) {
+            if sum.is_without_weight() {
+                *sum = alike;
+            }
+        }
+    }
+    sums
+}
+
+/// Returns the given normals; where there is none, that of `averaged`.
 fn from_given(
     mesh: &PolygonMesh,
     given: &GivenNormals,
-    polygons: &[DVec3],
-    smoothing: Smoothing,
+    averaged: impl FnOnce() -> CornerNormals,
 ) -> CornerNormals {
     let corners = given.corners.as_deref().unwrap_or(mesh.corners());
     let missing = |n: u32| given.values[n as usize] == Vec3::ZERO;
@@ -329,7 +384,7 @@ fn from_given(
     }
     let mut corners = corners.to_vec();
     if is_any_missing {
-        let fallback = averaged(mesh, polygons, smoothing).by_corner(mesh);
+        let fallback = averaged().by_corner(mesh);
         let offset = values.len() as u32;
         values.extend_from_slice(&fallback.values);
         for (corner, &other) in corners.iter_mut().zip(&fallback.corners) {
@@ -341,37 +396,57 @@ fn from_given(
     CornerNormals::ByCorner(VertexNormals { values, corners })
 }
 
-fn creased(mesh: &PolygonMesh, degrees: f64, polygons: &[DVec3]) -> VertexNormals {
+fn creased(
+    mesh: &PolygonMesh,
+    degrees: f64,
+    polygons: Option<&[DVec3]>,
+    weight: NormalWeight,
+) -> VertexNormals {
     // A dot product of unit normals that are off by 4ε each is off by less than 16ε: a crease of exactly the angle of an
     // edge does not break it.
     let least_cosine = libm::cos(degrees.clamp(0.0, 180.0).to_radians()) - 16.0 * f64::EPSILON;
-    let (vertex, count) = weld(mesh.positions());
-    let normals = unit_normals(polygons);
-    let fans = Fans::new(mesh, &vertex, count);
-    let mut finder = SurfaceFinder::new(mesh, &vertex, &normals);
-    let mut values: Vec<Vec3> = Vec::with_capacity(count);
-    let mut corners = vec![0u32; mesh.corners().len()];
-    let (mut fan, mut found) = (Vec::new(), Vec::new());
-    for v in 0..count {
-        fan.clear();
-        found.clear();
-        fan.extend(fans.of(v).iter().copied().enumerate());
-        if finder.find(v, fans.of(v)) > 1 {
-            fan.sort_by_key(|&(item, _)| finder.surfaces[item]);
+    let around = Around::new(mesh, polygons, weight);
+    let (count, fans, weights) = (around.count, &around.fans, around.weights());
+    let runs = collect(count.div_ceil(RUN), 1, |run| {
+        let mut finder = SurfaceFinder::new(mesh, &around.vertex, &around.normals);
+        let mut of_run = AveragedRun::default();
+        for v in run * RUN..count.min(run * RUN + RUN) {
+            let fan = fans.of(v);
+            let surfaces = finder.find(v, fan);
+            of_run.add_creased(fan, (&finder.surfaces, surfaces), &weights, least_cosine);
         }
-        for surface in fan.chunk_by(|a, b| finder.surfaces[a.0] == finder.surfaces[b.0]) {
-            creased_surface(surface, &normals, least_cosine, &mut found);
+        of_run
+    });
+    join_runs(mesh, fans, count, runs)
+}
+
+impl AveragedRun {
+    /// Adds the normals of the corners in `fan`, each of which is on one of `count` surfaces.
+    fn add_creased(
+        &mut self,
+        fan: &[FanCorner],
+        (surfaces, count): (&[u32], usize),
+        weights: &Weights,
+        least_cosine: f64,
+    ) {
+        let mut fan: Vec<(usize, FanCorner)> = fan.iter().copied().enumerate().collect();
+        if count > 1 {
+            fan.sort_by_key(|&(item, _)| surfaces[item]);
+        }
+        let mut found = Vec::with_capacity(fan.len());
+        for surface in fan.chunk_by(|a, b| surfaces[a.0] == surfaces[b.0]) {
+            creased_surface(surface, weights, least_cosine, &mut found);
         }
         let (numbers, _) = weld(&found);
-        let first = values.len();
-        for ((&(_, item), &value), &number) in fan.iter().zip(&found).zip(&numbers) {
-            corners[item.corner as usize] = first as u32 + number;
-            if values.len() == first + number as usize {
-                values.push(value);
+        let (first, first_number) = (self.values.len(), self.numbers.len());
+        self.numbers.resize(first_number + fan.len(), 0);
+        for ((&(item, _), &value), &number) in fan.iter().zip(&found).zip(&numbers) {
+            self.numbers[first_number + item] = first as u32 + number;
+            if self.values.len() == first + number as usize {
+                self.values.push(value);
             }
         }
     }
-    VertexNormals { values, corners }
 }
 
 /// The number of polygons around a vertex from which on their sums are looked up in a tree.
@@ -381,33 +456,58 @@ const MANY: usize = 128;
 /// crease away.
 fn creased_surface(
     surface: &[(usize, FanCorner)],
-    normals: &[DVec3],
+    weights: &Weights,
     least_cosine: f64,
     found: &mut Vec<Vec3>,
 ) {
-    // The corners of one polygon stand next to each other, so that one that passes twice is counted once.
-    let mut around: Vec<u32> = surface.iter().map(|(_, item)| item.polygon).collect();
-    around.dedup();
-    let around = around.iter().map(|&p| normals[p as usize]);
-    let around: Vec<DVec3> = around.filter(|&normal| normal != DVec3::ZERO).collect();
-    let add = |(sum, count): (DVec3, u32), normal: &DVec3| (sum + normal, count + 1); // 3.1
-    let all = around.iter().fold((DVec3::ZERO, 0), add);
-    let tree = (around.len() > MANY).then(|| CapSums::new(around.clone()));
+    let around = terms(surface, weights);
+    // Where no corner weighs anything, all count alike.
+    let weighs = around.iter().any(|term| term.weight > 0.0);
+    let (around, weights) = match weighs || around.is_empty() {
+        true => (around, *weights),
+        false => (terms(surface, &weights.uniform()), weights.uniform()),
+    };
+    let add = |mut sum: Sum, term: &Term| {
+        sum.add_term(term);
+        sum
+    };
+    let none = Sum::new(weights.weight);
+    let all = around.iter().fold(none, add);
+    let tree = (around.len() > MANY).then(|| CapSums::new(around.clone(), none));
     for (_, item) in surface {
-        let own = normals[item.polygon as usize];
+        let own = weights.normals[item.polygon as usize];
         let has_normal = own != DVec3::ZERO;
-        let (sum, count) = match &tree {
+        let sum = match &tree {
             _ if !has_normal => all,
             Some(tree) => tree.within(own, least_cosine),
             None => {
-                let near = around.iter().filter(|n| own.dot(**n) >= least_cosine);
-                near.fold((DVec3::ZERO, 0), add)
+                let near = around.iter();
+                let near = near.filter(|term| own.dot(term.polygon) >= least_cosine);
+                near.fold(none, add)
             }
         };
-        let value = direction(sum, count).or(has_normal.then_some(own));
+        let value = sum.direction().or(has_normal.then_some(own));
         found.push(value.unwrap_or(NO_NORMAL).as_vec3());
     }
 }
+
+/// Returns what the corners of a surface add. Where a polygon counts once, its first corner does.
+fn terms(surface: &[(usize, FanCorner)], weights: &Weights) -> Vec<Term> {
+    let mut latest = u32::MAX;
+    let mut terms = Vec::with_capacity(surface.len());
+    for (_, corner) in surface {
+        // The corners of one polygon stand next to each other.
+        let is_again = latest == corner.polygon && weights.is_by_polygon();
+        if let (Some(term), false) = (weights.term(corner), is_again) {
+            latest = corner.polygon;
+            terms.push(term);
+        }
+    }
+    terms
+}
+
+#[cfg(test)]
+mod weight_tests;
 
 #[cfg(test)]
 mod tests {

@@ -107,6 +107,61 @@ fn by_hash(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> Option<(Vec<u32>, us
     Some((number, count))
 }
 
+/// Returns what [`weld`] does, sooner where most positions are repeated: its table holds the different ones alone, and grows with them.
+#[cfg(feature = "io")]
+pub(super) fn weld_repeated(positions: &[Vec3]) -> (Vec<u32>, usize) {
+    repeated(positions).unwrap_or_else(|| weld(positions))
+}
+
+/// Numbers positions by a table that grows; `None` where that takes more than a few steps a position.
+#[cfg(feature = "io")]
+fn repeated(positions: &[Vec3]) -> Option<(Vec<u32>, usize)> {
+    const NONE: u32 = u32::MAX;
+    let mut steps = 16 * positions.len() + 64;
+    // A vertex of a closed surface is in six triangles on average.
+    let mut bits = (positions.len() / 4)
+        .next_power_of_two()
+        .trailing_zeros()
+        .max(10);
+    let mut table = vec![NONE; 1 << bits];
+    let mut keys: Vec<[u32; 3]> = Vec::new();
+    let mut numbers = Vec::with_capacity(positions.len());
+    for position in positions {
+        let own = key(position);
+        let mut slot = (hash(own) >> (64 - bits)) as usize;
+        loop {
+            steps = steps.checked_sub(1)?;
+            let number = table[slot];
+            if number == NONE {
+                table[slot] = keys.len() as u32;
+                numbers.push(keys.len() as u32);
+                keys.push(own);
+                break;
+            }
+            if keys[number as usize] == own {
+                numbers.push(number);
+                break;
+            }
+            slot = (slot + 1) & (table.len() - 1);
+        }
+        // At most half full.
+        if 2 * keys.len() > table.len() {
+            bits += 1;
+            table = vec![NONE; 1 << bits];
+            for (number, key) in keys.iter().enumerate() {
+                let mut slot = (hash(*key) >> (64 - bits)) as usize;
+                while table[slot] != NONE {
+                    steps = steps.checked_sub(1)?;
+                    slot = (slot + 1) & (table.len() - 1);
+                }
+                table[slot] = number as u32;
+            }
+        }
+    }
+    let count = keys.len();
+    Some((numbers, count))
+}
+
 /// Hashes three words: the highest bits depend on all bits of all of them.
 fn hash([x, y, z]: [u32; 3]) -> u64 {
     const ODD: [u64; 2] = [0x9E37_79B9_7F4A_7C15, 0xD6E8_FEB8_6659_FD93];
@@ -208,6 +263,8 @@ mod tests {
             };
             let by_comparing: Vec<u32> = (0..count).map(&mut number).collect();
             assert_eq!(by_hash, (by_comparing, distinct.len()));
+            #[cfg(feature = "io")]
+            assert_eq!(repeated(&all), Some(by_hash));
         }
     }
 
@@ -225,5 +282,7 @@ mod tests {
         let key = |i: usize| key(&all[i]);
         assert_eq!(by_hash(all.len(), &key), None);
         assert_eq!(weld(&all), by_sorting(all.len(), &key));
+        #[cfg(feature = "io")]
+        assert_eq!((repeated(&all), weld_repeated(&all)), (None, weld(&all)));
     }
 }
