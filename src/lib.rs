@@ -14,7 +14,7 @@
 //! use fastphong::scene::Scene;
 //! use fastphong::shading::Variant;
 //!
-//! // A mesh: polygons of any number of sides. `mesh::obj` reads them from files.
+//! // A mesh: polygons of any number of sides. `mesh::read` reads them from files.
 //! let mesh = builtin("teapot?res=6")?;
 //! // A scene: the mesh, a camera that sees it, a light. All fields are public.
 //! let mut scene = Scene::of_mesh(mesh);
@@ -38,7 +38,7 @@
 //! |---|---|
 //! | pictures | [`picture::Picture`], [`picture::encoding`], `picture::image_file` |
 //! | arithmetic | [`number::Num`]: scalar, SIMD or counting, behind one trait |
-//! | shapes | [`mesh::builtin::builtin`], `mesh::obj::load_obj`, [`mesh::MeshBuilder`], [`mesh::vertex_normals`] (L21 1.1, 3.1) |
+//! | shapes | [`mesh::builtin::builtin`], `mesh::read::load_mesh`, [`mesh::MeshBuilder`], [`mesh::vertex_normals`] (L21 1.1, 3.1) |
 //! | scenes | [`scene::Scene::of_mesh`], [`scene::Camera`], [`scene::Light`], `scene::file::SceneFile`, `scene::input::load` |
 //! | frames | [`frame::Frame`], the interface between geometry and shading: from [`scene::Scene::frame`], [`frame::PreparedScene`] for many frames, [`frame::FrameBuilder`] for polygons from elsewhere |
 //! | the reference | [`mod@reference`]: four closed forms in `f64` |
@@ -58,7 +58,7 @@
 //! Without features the crate is [`integer`] alone: `no_std` without an allocator, for processors without a floating-point unit.
 //! `alloc` adds all else that needs no operating system: no files, no clocks, and the same bits on every platform, as all
 //! functions beyond + − × ÷ and the root are from `libm`. `std` takes roots from the hardware. `io` reads and writes
-//! files: scenes (TOML), meshes (OBJ), pictures (PNG, PPM, PFM). `threads` works on several threads, those of rayon's
+//! files: scenes (TOML), meshes (OBJ, STL, PLY, OFF; glTF with the feature `gltf`), pictures (PNG, PPM, PFM). `threads` works on several threads, those of rayon's
 //! current pool, and changes no bit. `cli`, the default, is the command-line tool, and `view` adds its
 //! window.
 #![no_std]

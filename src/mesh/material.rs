@@ -15,8 +15,18 @@ pub struct Material {
     pub shininess: f32,
 }
 
+impl Material {
+    /// A grey surface, for vertex colours that are lit: those of at most 1 stay below 1 under a light of 1.
+    pub(crate) const NEUTRAL: Material = Material {
+        ambient: [0.1; 3],
+        diffuse: [0.7; 3],
+        specular: [0.2; 3],
+        shininess: 32.0,
+    };
+}
+
 impl Default for Material {
-    /// Returns a warm, slightly glossy surface: the one that a mesh without a material gets.
+    /// Returns a warm, slightly glossy surface: the one that a mesh without materials and colours gets.
     fn default() -> Self {
         Material {
             ambient: [0.08, 0.07, 0.06],

@@ -9,15 +9,20 @@ mod cap_sums;
 pub mod edges;
 mod fans;
 pub mod newell;
-#[cfg(feature = "io")]
-pub mod obj;
+#[doc(hidden)]
 pub mod orientation;
 mod origin;
+#[cfg(feature = "io")]
+pub mod read;
 pub mod shapes;
 pub mod vertex_normals;
+#[doc(hidden)]
 pub mod weld;
 pub(crate) mod winding;
 
+use self::vertex_normals::NormalRule;
+#[cfg(feature = "io")]
+use self::vertex_normals::{NormalSource, NormalWeight};
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
@@ -53,6 +58,9 @@ pub struct PolygonMesh {
     material_names: Vec<String>,
     polygon_materials: Vec<u32>,
     was_read: bool,
+    /// The axis that is up by the custom of the file's format.
+    up_by_custom: Option<char>,
+    normal_rule: NormalRule,
 }
 
 impl PolygonMesh {
@@ -139,6 +147,11 @@ impl PolygonMesh {
         &self.colours
     }
 
+    /// True if positions have colours, and no attributes in their place: a scene may light them.
+    pub(crate) fn has_lit_colours(&self) -> bool {
+        self.attributes.is_empty() && !self.colours.is_empty()
+    }
+
     /// Returns four numbers for each position, for methods outside this crate; empty where the mesh has none.
     pub fn attributes(&self) -> &[[f32; 4]] {
         &self.attributes
@@ -160,6 +173,18 @@ impl PolygonMesh {
     /// True if the mesh was read from a file. Nobody vouches for the winding of its polygons then, as shapes by formula do.
     pub(crate) fn was_read(&self) -> bool {
         self.was_read
+    }
+
+    /// Returns the axis that is up by the custom of the format of the file, if it has one: `z` for STL, `y` for glTF.
+    #[doc(hidden)]
+    pub fn up_by_custom(&self) -> Option<char> {
+        self.up_by_custom
+    }
+
+    /// Returns the rule for the vertex normals of the mesh when it is drawn on its own and nothing else is said: uniform averages
+    /// for a shape by formula or a mesh that a program builds, what its format has for one that was read from a file.
+    pub fn normal_rule(&self) -> NormalRule {
+        self.normal_rule
     }
 
     /// Returns the name that the file of the mesh gives a material, if it gives it one.
@@ -334,6 +359,8 @@ impl MeshBuilder {
                 material_names: Vec::new(),
                 polygon_materials: Vec::new(),
                 was_read: false,
+                up_by_custom: None,
+                normal_rule: NormalRule::default(),
             },
         }
     }
@@ -390,11 +417,43 @@ impl MeshBuilder {
         self
     }
 
-    /// Notes that the mesh is read from a file: see [`PolygonMesh::was_read`].
+    /// Notes that the mesh is read from a file: see [`PolygonMesh::was_read`]. Its normals are those of the file, or averages
+    /// by angle.
     #[cfg(feature = "io")]
-    pub(crate) fn read_from_file(&mut self) -> &mut Self {
+    #[doc(hidden)]
+    pub fn read_from_file(&mut self) -> &mut Self {
         self.mesh.was_read = true;
+        self.normal_rule(NormalRule {
+            source: NormalSource::Auto,
+            weight: NormalWeight::Angle,
+        })
+    }
+
+    /// Sets the rule for the vertex normals of the mesh on its own: see [`PolygonMesh::normal_rule`].
+    #[cfg(feature = "io")]
+    pub(crate) fn normal_rule(&mut self, rule: NormalRule) -> &mut Self {
+        self.mesh.normal_rule = rule;
         self
+    }
+
+    /// Notes which axis is up by the custom of the format of the file.
+    #[cfg(feature = "io")]
+    pub(crate) fn up_by_custom(&mut self, axis: char) -> &mut Self {
+        self.mesh.up_by_custom = Some(axis);
+        self
+    }
+
+    /// Sets all polygons: their corners one after the other, and the number of them up to the end of each.
+    #[cfg(feature = "io")]
+    pub(crate) fn set_polygons(&mut self, corners: Vec<u32>, ends: Vec<u32>) -> &mut Self {
+        (self.mesh.corners, self.mesh.ends) = (corners, ends);
+        self
+    }
+
+    /// Returns the number of polygons so far.
+    #[cfg(feature = "io")]
+    pub(crate) fn polygon_count(&self) -> usize {
+        self.mesh.ends.len()
     }
 
     /// Notes that the file of the mesh says what is smooth.

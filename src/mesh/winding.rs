@@ -14,7 +14,7 @@ const AGAINST: f64 = -1e-3;
 /// Counts of what makes the winding of a mesh doubtful; all are 0 where it is sound.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct WindingDoubts {
-    /// Edges of one polygon.
+    /// Edges of one polygon, or of copies of it alone.
     pub open_edges: usize,
     /// Edges of more polygons, not as many of which pass them in one direction as in the other.
     pub uneven_edges: usize,
@@ -53,12 +53,32 @@ impl WindingDoubts {
         let (vertex, count) = weld(mesh.positions());
         for uses in Edges::new(mesh, &vertex, count).iter() {
             let ascending = uses.iter().filter(|of| of.ascends).count();
-            match uses.len() {
-                1 => self.open_edges += 1,
-                passes => self.uneven_edges += usize::from(2 * ascending != passes),
+            if 2 * ascending == uses.len() {
+                continue;
+            }
+            // Copies run along it in one direction, as neighbours that are wound differently do.
+            let is_of_one = (ascending == 0 || ascending == uses.len())
+                && uses[1..]
+                    .iter()
+                    .all(|of| is_copy(mesh, &vertex, uses[0].polygon, of.polygon));
+            match is_of_one {
+                true => self.open_edges += 1,
+                false => self.uneven_edges += 1,
             }
         }
     }
+}
+
+/// True if polygons `a` and `b` have the same corners in the same order, wherever it begins; `vertex` has the number of each position.
+fn is_copy(mesh: &PolygonMesh, vertex: &[u32], a: u32, b: u32) -> bool {
+    let corners = |p: u32| mesh.polygon(p as usize).iter().map(|&c| vertex[c as usize]);
+    let (count, first) = (corners(a).len(), corners(a).next());
+    let is_turned = |by: usize| corners(a).eq(corners(b).cycle().skip(by).take(count));
+    // Only where the first corner is found can the others follow it.
+    count == corners(b).len()
+        && (0..count)
+            .zip(corners(b))
+            .any(|(by, corner)| Some(corner) == first && is_turned(by))
 }
 
 /// True if the normals `given` for the corners of polygon `p` point away from `normal`, the polygon's own.
@@ -121,6 +141,26 @@ mod tests {
         assert_eq!(doubts(cube(|_| false, 1)).open_edges, 4);
         let one = doubts(cube(|p| p == 2, 0));
         assert_eq!((one.open_edges, one.uneven_edges), (0, 4));
+    }
+
+    #[test]
+    fn edges_of_a_polygon_and_its_copies_are_open() {
+        let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::NEG_Y, Vec3::ZERO];
+        let polygons = [[0, 1, 2], [1, 2, 4], [2, 0, 1]];
+        for copies in 1..=3 {
+            let mut builder = MeshBuilder::new(corners.clone());
+            polygons[..copies].iter().for_each(|polygon| {
+                builder.polygon(polygon);
+            });
+            let of = doubts(builder);
+            assert_eq!((of.open_edges, of.uneven_edges), (3, 0), "{copies}");
+        }
+        // One that is wound differently runs along the same edge in the same direction.
+        let mut builder = MeshBuilder::new(corners);
+        builder.polygon(&[0, 1, 2]);
+        builder.polygon(&[0, 1, 3]);
+        let of = doubts(builder);
+        assert_eq!((of.open_edges, of.uneven_edges), (4, 1));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! | input | is |
 //! |---|---|
 //! | `path/to/scene.toml` | a scene file |
-//! | `path/to/mesh.obj` | a mesh file, seen as [`SceneFile::for_mesh`] says |
+//! | `path/to/mesh.obj`, `.stl`, `.ply`, `.off`, `.gltf`, `.glb` | a mesh file, seen as [`SceneFile::for_mesh`] says |
 //! | any other file, device or pipe | one or the other, as its bytes say |
 //! | `builtin:NAME?key=value&key=value` | a built-in mesh, seen likewise |
 //! | `teapot` | the shipped scene of that name: one of [`SCENES`] |
@@ -26,8 +26,11 @@ use super::file::resolve::{LoadedMesh, Resolved};
 use super::file::value::{Data, Value};
 use super::file::{BUILTIN, STANDARD_INPUT, SceneFile, shown};
 use crate::mesh::builtin::{BUILTINS, builtin};
-use crate::mesh::obj::content::foreign;
-use crate::mesh::obj::{ObjError, ObjProblem, cause, gzip, load_obj_by, parse_obj};
+#[cfg(feature = "gltf")]
+use crate::mesh::read::view;
+use crate::mesh::read::{
+    ReadError, cause, gzip, is_no_scene, load_mesh_by, mesh_endings, parse_mesh,
+};
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
 use std::collections::BTreeMap;
@@ -74,8 +77,8 @@ const SHIPPED: &str = "shipped:";
 /// The format of a text that no name tells: on standard input, or in a file of another ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputFormat {
-    /// A mesh file.
-    Obj,
+    /// A mesh file, of whatever format.
+    Mesh,
     /// A scene file.
     Toml,
 }
@@ -85,8 +88,8 @@ impl InputFormat {
     /// reader of meshes, which says what it is instead.
     fn of(bytes: &[u8]) -> InputFormat {
         let text = &*gzip::start(bytes, ENOUGH);
-        if foreign(text).is_some() {
-            return InputFormat::Obj;
+        if is_no_scene(text) {
+            return InputFormat::Mesh;
         }
         let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
         let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
@@ -98,7 +101,7 @@ impl InputFormat {
         let has_key = !key.is_empty() && !key.iter().any(u8::is_ascii_whitespace);
         match has_key || first.starts_with(b"[") {
             true => InputFormat::Toml,
-            false => InputFormat::Obj,
+            false => InputFormat::Mesh,
         }
     }
 }
@@ -211,7 +214,7 @@ pub fn load_by(
     };
     let format = match () {
         _ if has_ending(path, "toml") => InputFormat::Toml,
-        _ if has_ending(path, "obj") => InputFormat::Obj,
+        _ if mesh_endings().any(|ending| has_ending(path, ending)) => InputFormat::Mesh,
         _ => match read(path) {
             Ok(bytes) => InputFormat::of(&bytes),
             Err(error) => {
@@ -230,8 +233,36 @@ pub fn load_by(
             })
         }
         InputFormat::Toml => SceneFile::load_by(path, read),
-        InputFormat::Obj => Ok(SceneFile::for_mesh(input.to_owned())),
+        InputFormat::Mesh => Ok(mesh_alone(input, path, read)),
     }
+}
+
+/// Returns the scene of the mesh file `input` at `path` alone, with the camera and the lights of the file if it has some.
+#[cfg(feature = "gltf")]
+fn mesh_alone(
+    input: &str,
+    path: &Path,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> SceneFile {
+    let mut file = SceneFile::for_mesh(input.to_owned());
+    // Files of other formats have none, and need not be read twice.
+    let may_have_some = ["gltf", "glb", "gz"];
+    let is_other = mesh_endings().any(|ending| has_ending(path, ending));
+    if !is_other || may_have_some.iter().any(|ending| has_ending(path, ending)) {
+        let bytes = read(path).ok();
+        let bytes = bytes.as_deref().map(gzip::unpacked);
+        if let Some(Ok(bytes)) = bytes
+            && let Some(view) = view(&bytes)
+        {
+            file.see_as(&view);
+        }
+    }
+    file
+}
+
+#[cfg(not(feature = "gltf"))]
+fn mesh_alone(input: &str, _: &Path, _: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>) -> SceneFile {
+    SceneFile::for_mesh(input.to_owned())
 }
 
 /// Returns what messages call a scene that comes from a pipe or a device. It is in no folder: its meshes are relative to the current one,
@@ -261,7 +292,7 @@ pub fn load_standard_input(
         SceneError::new(Origin::Program, problem, "")
     })?;
     match format.unwrap_or_else(|| InputFormat::of(&bytes)) {
-        InputFormat::Obj => Ok(SceneFile::for_mesh(STANDARD_INPUT)),
+        InputFormat::Mesh => Ok(mesh_alone(STANDARD_INPUT, path, read)),
         InputFormat::Toml => {
             SceneFile::load_by(Path::new(shown(STANDARD_INPUT)), &mut |_| Ok(bytes.clone()))
         }
@@ -288,7 +319,11 @@ fn missing(input: &str, path: &Path, error: io::Error) -> SceneError {
         Some(meant) => format!("; did you mean `{meant}`?"),
         None if has_known_ending(path) => String::new(),
         None => format!(
-            " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of {})",
+            " (expected a scene file .toml, a mesh file ({}), builtin:NAME, or one of {})",
+            mesh_endings()
+                .map(|ending| format!(".{ending}"))
+                .collect::<Vec<_>>()
+                .join(" "),
             scenes().collect::<Vec<_>>().join(", ")
         ),
     };
@@ -307,7 +342,7 @@ pub fn is_mesh_file(mesh: &str) -> bool {
 
 /// True if `path` ends as scene files and mesh files do.
 pub fn has_known_ending(path: &Path) -> bool {
-    has_ending(path, "toml") || has_ending(path, "obj")
+    has_ending(path, "toml") || mesh_endings().any(|ending| has_ending(path, ending))
 }
 
 /// True if `path` ends in a point and `ending`, in any case.
@@ -333,19 +368,19 @@ pub fn resolve_by(
     file: &SceneFile,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<Resolved, SceneError> {
-    file.resolve(|name, folder| load_mesh_by(name, folder, read, file.draws_materials_of(name)))
+    file.resolve(|name, folder| load_named(name, folder, read, file.draws_materials_of(name)))
 }
 
-/// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…`, `-` or an OBJ file, relative to `folder`.
+/// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…`, `-` or a mesh file, relative to `folder`.
 ///
 /// # Errors
 /// What is wrong with which file, in which line, and what was expected: one line, and one for each thing that was odd before.
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
-    load_mesh_by(name, folder, &mut read_input, true)
+    load_named(name, folder, &mut read_input, true)
 }
 
 /// Loads a mesh; without `draws_materials` nothing is said of its materials, which others replace.
-fn load_mesh_by(
+fn load_named(
     name: &str,
     folder: &Path,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
@@ -364,20 +399,20 @@ fn load_mesh_by(
                 "no mesh `{file}` is shipped: expected one of {meshes}"
             ));
         };
-        parse_obj(name, bytes, |name| {
+        parse_mesh(name, bytes, |name| {
             let bytes = shipped_file(name).map(<[u8]>::to_vec);
             bytes.ok_or(std::io::ErrorKind::NotFound.into())
         })
     } else if name == STANDARD_INPUT {
-        load_obj_by(Path::new(name), read).map_err(|error| ObjError {
+        load_mesh_by(Path::new(name), read).map_err(|error| ReadError {
             path: shown(name).into(),
             ..error
         })
     } else {
         let path: PathBuf = folder.join(name);
-        let loaded = load_obj_by(&path, read);
+        let loaded = load_mesh_by(&path, read);
         let is_shape = is_builtin(name.split('?').next().unwrap_or_default());
-        if is_shape && matches!(&loaded, Err(error) if is_unreadable(&error.problem)) {
+        if is_shape && matches!(&loaded, Err(error) if error.is_unreadable) {
             let hint = format!("did you mean `{BUILTIN}{name}`?");
             return Err(format!("`{name}` is not a mesh file; {hint}"));
         }
@@ -392,10 +427,6 @@ fn load_mesh_by(
     let warnings = (0..loaded.warnings.len()).filter(is_told);
     let warnings = warnings.map(|i| format!("{name}: {}", loaded.warnings[i]));
     Ok((Arc::new(loaded.mesh), warnings.collect()))
-}
-
-fn is_unreadable(problem: &ObjProblem) -> bool {
-    matches!(problem, ObjProblem::Unreadable(_))
 }
 
 /// Makes the meshes of `file` findable from the current folder, so that the scene may be written down anywhere in it.
@@ -481,17 +512,17 @@ mod tests {
     #[test]
     fn the_format_of_a_text_is_seen() {
         for (text, format) in [
-            ("", InputFormat::Obj),
-            ("# a=1\n\nv 0 0 0\n", InputFormat::Obj),
-            ("o a = b\r[\r", InputFormat::Obj),
-            ("=\n", InputFormat::Obj),
+            ("", InputFormat::Mesh),
+            ("# a=1\n\nv 0 0 0\n", InputFormat::Mesh),
+            ("o a = b\r[\r", InputFormat::Mesh),
+            ("=\n", InputFormat::Mesh),
             ("\u{feff}# scene\n[image]\nwidth = 3\n", InputFormat::Toml),
             ("  camera.fit=1\n", InputFormat::Toml),
             ("title = \"a\"\r\n", InputFormat::Toml),
             ("[[object]]", InputFormat::Toml),
             ("[a\0b\0", InputFormat::Toml),
-            ("[\0a\0b\0", InputFormat::Obj),
-            ("{\"a\"=", InputFormat::Obj),
+            ("[\0a\0b\0", InputFormat::Mesh),
+            ("{\"a\"=", InputFormat::Mesh),
         ] {
             assert_eq!(InputFormat::of(text.as_bytes()), format, "{text:?}");
         }
@@ -512,7 +543,7 @@ mod tests {
             ),
             (
                 "nothing-like-it",
-                "is neither a file nor the name of a shipped scene (expected a scene file .toml, a mesh file .obj,",
+                "is neither a file nor the name of a shipped scene (expected a scene file .toml, a mesh file (.obj .stl .ply .off",
             ),
             (
                 "src",

@@ -284,6 +284,11 @@ pub const BUILTINS: &[Builtin] = &[
             integer("seed", 1, 0, u32::MAX as f64, "which terrain"),
             integer("segments", 128, 1, MOST, "cells from left to right"),
             integer("rows", 128, 1, MOST, "cells from front to back"),
+            switch(
+                "colours",
+                false,
+                "vertex colours by height: grass, rock, snow",
+            ),
             TRIANGLES,
         ],
         resolution: Some(Resolution {
@@ -298,12 +303,16 @@ pub const BUILTINS: &[Builtin] = &[
                 octaves: v.integer("octaves"),
                 seed: v.integer("seed") as u64,
             };
-            shapes::terrain(
+            let mut mesh = shapes::terrain(
                 terrain,
                 v.integer("segments"),
                 v.integer("rows"),
                 v.switch("triangles"),
-            )
+            )?;
+            if v.switch("colours") {
+                mesh.colour_by_height();
+            }
+            Ok(mesh)
         },
     },
     Builtin {

@@ -4,7 +4,7 @@ use super::grid::{ParameterGrid, Topology};
 use super::noise::fractal_noise;
 use crate::mesh::{MeshError, PolygonMesh};
 use core::f64::consts::PI;
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// Coordinates of grid line `k` of `n` over −1..=1.
 fn across(k: usize, n: usize) -> f64 {
@@ -72,4 +72,22 @@ pub fn terrain(
             DVec3::new(-slope.x, 1.0, -slope.y).normalize(),
         )
     })
+}
+
+impl PolygonMesh {
+    /// Gives each position the colour of its height among all: from grass over rock to snow.
+    pub(in crate::mesh) fn colour_by_height(&mut self) {
+        const GRASS: Vec3 = Vec3::new(0.2, 0.5, 0.1);
+        const ROCK: Vec3 = Vec3::new(0.5, 0.4, 0.3);
+        const SNOW: Vec3 = Vec3::ONE;
+        let heights = self.positions.iter().map(|p| p.y);
+        let low = heights.clone().fold(f32::INFINITY, f32::min);
+        let high = heights.clone().fold(f32::NEG_INFINITY, f32::max);
+        let over = if high > low { 2.0 / (high - low) } else { 0.0 };
+        let colour = |y: f32| match (y - low) * over {
+            t if t < 1.0 => GRASS.lerp(ROCK, t),
+            t => ROCK.lerp(SNOW, t - 1.0),
+        };
+        self.colours = heights.map(colour).collect();
+    }
 }

@@ -6,187 +6,64 @@
 //! the file; positions that no face uses are dropped, the others keep the order in which faces first name them.
 //! Numbers are read as `f64`: a mesh far from 0 is rounded relative to [`PolygonMesh::origin`].
 //!
-//! Files that gzip packed are unpacked. `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of
-//! [`MeshBuilder`]. What cannot be read is an [`ObjError`]; what can be read only in part is a warning.
+//! `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of [`MeshBuilder`].
 
-pub(crate) mod content;
 mod corner;
 mod error;
-pub(crate) mod gzip;
 mod lines;
 mod mtl;
 mod parser;
 mod prescan;
-mod rounding;
 #[cfg(test)]
 mod tests;
 
-pub use error::{ObjError, ObjProblem, VectorProblem};
-
-use super::newell::unit_normal;
-use super::{GivenNormals, Material, MeshBuilder, PolygonMesh};
+use super::error::{Place, Refusal};
+use super::polygons::LIKE_BYTES;
+use super::{Beside, MeshFormat, Parts};
+use crate::mesh::newell::unit_normal;
+use crate::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
+use error::ObjProblem;
 use glam::{DVec3, Vec3};
 use mtl::Library;
 use prescan::{MeshLimits, Prescan};
 use std::collections::HashMap;
-use std::ffi::OsStr;
 use std::hash::Hash;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::vec::Vec;
-use std::{format, fs, io, vec};
+use std::{format, vec};
 
-/// A mesh from a file, and what the file held that the mesh does not.
-#[derive(Clone, Debug)]
-pub struct LoadedObj {
-    /// The mesh. Its materials are those that its polygons use; a polygon without one has the default material.
-    pub mesh: PolygonMesh,
-    /// One line for each kind of thing that was passed over, most with the number of the first line concerned.
-    pub warnings: Vec<String>,
-    /// Those of the warnings that say nothing where other materials replace those of the file.
-    #[doc(hidden)]
-    pub material_warnings: Range<usize>,
-}
+/// The format.
+pub(super) struct Obj;
 
-/// Reads the OBJ file at `path`, and from the same directory the MTL files that it names.
-///
-/// A missing MTL file is a warning.
-///
-/// # Errors
-/// [`ObjError`] with the line where there is one: the file cannot be read, is not OBJ text, has no polygons, has a face with a
-/// position that is not three finite numbers or does not exist, or is larger than a [`PolygonMesh`] may be.
-pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
-    load_obj_by(path, &mut |path| fs::read(path))
-}
-
-/// Reads the OBJ file at `path` and its MTL files as [`load_obj`] does, all by `read`: which may note what a mesh is made of. It is
-/// asked for files that are not there, too.
-///
-/// # Errors
-/// As [`load_obj`].
-pub fn load_obj_by(
-    path: &Path,
-    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-) -> Result<LoadedObj, ObjError> {
-    let failed = |problem| ObjError {
-        path: path.into(),
-        line: None,
-        problem,
-        warnings: Vec::new(),
-    };
-    if path.is_dir() {
-        return Err(failed(ObjProblem::Directory));
+impl MeshFormat for Obj {
+    fn name(&self) -> &'static str {
+        "an OBJ file"
     }
-    let unreadable = |error| failed(ObjProblem::Unreadable(cause(path, error).to_string()));
-    let bytes = read(path).map_err(unreadable)?;
-    let directory = path.parent().unwrap_or(Path::new(""));
-    let mut in_other_case = Vec::new();
-    let loaded = parse_obj(path, &bytes, |name| {
-        read_library(directory, name, read, &mut in_other_case)
-    });
-    loaded.map(|mut loaded| {
-        loaded.warnings.append(&mut in_other_case);
-        loaded
-    })
-}
 
-/// Returns why `path` could not be read: `error`, unless it is a link to what is not there.
-pub(crate) fn cause(path: &Path, error: io::Error) -> io::Error {
-    match fs::read_link(path) {
-        Ok(target) if error.kind() == io::ErrorKind::NotFound => io::Error::other(format!(
-            "a link to {}, which is not there",
-            target.display()
-        )),
-        _ => error,
+    fn endings(&self) -> &'static [&'static str] {
+        &["obj"]
     }
-}
 
-/// Reads the material library `name` by `read`, looked for from `directory`, and last by its bare file name there, in any case if
-/// only one file has it: `warnings` tell then.
-fn read_library(
-    directory: &Path,
-    name: &str,
-    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    warnings: &mut Vec<String>,
-) -> io::Result<Vec<u8>> {
-    // A device or a pipe might never end.
-    let mut read = |file: &Path| match fs::metadata(file) {
-        Ok(found) if !found.is_file() => Err(io::Error::other("not a file")),
-        _ => read(file),
-    };
-    // Exporters write paths of the machine they ran on, often with the other separator.
-    let path = directory.join(name.replace('\\', "/"));
-    read(&path).or_else(|error| {
-        let Some(bare) = path.file_name() else {
-            return Err(error);
+    /// Returns false: any text may be OBJ, which is what a file of no other format counts as.
+    fn recognises(&self, _: &[u8]) -> bool {
+        false
+    }
+
+    fn read(&self, bytes: &[u8], load_mtl: Beside) -> Result<Parts, Refusal> {
+        let limits = MeshLimits {
+            polygons: PolygonMesh::MAX_POLYGONS,
+            corners: PolygonMesh::MAX_CORNERS,
         };
-        read(&directory.join(bare)).or_else(|_| {
-            let folders = [path.parent().unwrap_or(directory), directory];
-            let found = folders.iter().find_map(|folder| in_any_case(folder, bare));
-            // A link that leads nowhere is in its folder, too.
-            let Some(found) = found.filter(|found| found.exists()) else {
-                return Err(cause(&path, error));
-            };
-            let bytes = read(&found).map_err(|_| error)?;
-            let (name, found) = (error::quote(name), found.display());
-            warnings.push(format!(
-                "material library `{name}` is not there: {found} is read"
-            ));
-            Ok(bytes)
-        })
-    })
-}
-
-/// Returns the only file in `folder` whose name is `name` but for the case of ASCII letters.
-fn in_any_case(folder: &Path, name: &OsStr) -> Option<PathBuf> {
-    let folder = match folder.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => folder,
-    };
-    let entries = fs::read_dir(folder).ok()?.flatten();
-    let mut found = entries.filter(|entry| entry.file_name().eq_ignore_ascii_case(name));
-    let first = found.next()?;
-    found.next().is_none().then(|| first.path())
-}
-
-/// Reads the OBJ text `bytes`; `path` stands in errors only.
-///
-/// `load_mtl` is asked for the bytes of each material library, by the name that the text gives it; when it has none under
-/// the whole rest of an `mtllib` line, it is asked for the names that the line may be made of.
-///
-/// # Errors
-/// As [`load_obj`].
-pub fn parse_obj(
-    path: impl AsRef<Path>,
-    bytes: &[u8],
-    load_mtl: impl FnMut(&str) -> io::Result<Vec<u8>>,
-) -> Result<LoadedObj, ObjError> {
-    let limits = MeshLimits {
-        polygons: PolygonMesh::MAX_POLYGONS,
-        corners: PolygonMesh::MAX_CORNERS,
-    };
-    parse_limited(path.as_ref(), bytes, load_mtl, limits)
-}
-
-fn parse_limited(
-    path: &Path,
-    bytes: &[u8],
-    mut load_mtl: impl FnMut(&str) -> io::Result<Vec<u8>>,
-    limits: MeshLimits,
-) -> Result<LoadedObj, ObjError> {
-    let failed = |line, problem, warnings| ObjError {
-        path: path.into(),
-        line,
-        problem,
-        warnings,
-    };
-    let bytes = gzip::unpacked(bytes);
-    let bytes = &*bytes
-        .map_err(|error| failed(None, ObjProblem::Unreadable(error.to_string()), Vec::new()))?;
-    if let Some(what) = content::foreign(bytes) {
-        return Err(failed(None, ObjProblem::OtherFormat(what), Vec::new()));
+        read_limited(bytes, load_mtl, limits)
     }
+}
+
+fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Result<Parts, Refusal> {
+    let failed = |line: Option<usize>, problem: ObjProblem, notes| Refusal {
+        place: line.map(Place::Line),
+        problem: problem.to_string(),
+        notes,
+    };
     let text = lines::decode(bytes);
     if text.trim().is_empty() {
         let problem = match bytes.contains(&b'\0') {
@@ -233,6 +110,9 @@ fn parse_limited(
             corners: Some(parsed.normal_indices),
         });
     }
+    if scan.has_colours_like_bytes() {
+        warnings.push(LIKE_BYTES.into());
+    }
     if let Some(colours) = scan.used_colours() {
         builder.colours(colours);
     }
@@ -253,13 +133,11 @@ fn parse_limited(
         builder.material_names(names);
     }
     let material_warnings = first..warnings.len();
-    let mesh = builder.finish();
-    let mesh = mesh.map_err(|error| failed(None, ObjProblem::Mesh(error), warnings.clone()))?;
-    warnings.extend(rounding::told(&mesh, &positions));
-    Ok(LoadedObj {
-        mesh,
-        warnings,
-        material_warnings,
+    Ok(Parts {
+        builder,
+        positions,
+        notes: warnings,
+        material_notes: material_warnings,
     })
 }
 

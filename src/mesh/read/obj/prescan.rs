@@ -5,6 +5,7 @@
 //! that is out of range, and starts again with other vertices at each `g`. So it is given positions, normals and faces only,
 //! with absolute indices, as one group; groups, materials and smoothing are followed here.
 
+use super::super::polygons::look_like_bytes;
 use super::corner::{Entries, ObjCorner, WrittenCorner};
 use super::error::{ObjProblem, VectorProblem, quote};
 use super::lines::{
@@ -185,7 +186,7 @@ fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Pr
         }
         0 if scan.unknown_word.eq_ignore_ascii_case("newmtl") => {
             let what = "a material library, and not the mesh that names it";
-            Err(scan.refusal(None, ObjProblem::OtherFormat(what)))
+            Err(scan.refusal(None, ObjProblem::OtherFile(what)))
         }
         0 if scan.has(Oddity::PointOrLine) => {
             Err(scan.refusal(None, ObjProblem::OnlyPointsOrLines))
@@ -201,9 +202,19 @@ impl Prescan {
         self.normals > 0 && self.corners_with_normal > 0
     }
 
+    /// True if the colours that faces use look like those from 0 to 255.
+    pub(super) fn has_colours_like_bytes(&self) -> bool {
+        let colours = self.used_positions.iter().map(|&at| self.colour(at));
+        self.has(Oddity::ColourOutOfRange)
+            && !self.has(Oddity::NoColour)
+            && look_like_bytes(colours)
+    }
+
     /// Returns the colours of the positions that faces use, in the order of the parser's mesh; `None` if they are not all there.
     pub(super) fn used_colours(&self) -> Option<Vec<Vec3>> {
-        let colours = self.used_positions.iter().map(|&at| self.colour(at));
+        // A surface does not reflect less than nothing.
+        let colour = |&at: &u32| self.colour(at).max(Vec3::ZERO);
+        let colours = self.used_positions.iter().map(colour);
         let is_whole = !self.colours.is_empty() && !self.has(Oddity::NoColour);
         is_whole.then(|| colours.collect())
     }

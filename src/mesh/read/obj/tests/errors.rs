@@ -1,19 +1,21 @@
 //! Invalid files: each error with its line and what was expected.
 
+use super::super::prescan::MeshLimits;
+use super::super::read_limited;
 use super::*;
-use crate::mesh::obj::prescan::MeshLimits;
-use crate::mesh::obj::{ObjProblem, load_obj, parse_limited};
+use crate::mesh::read::error::Place;
+use crate::mesh::read::load_mesh;
 use glam::Vec3;
 use std::error::Error;
 use std::path::Path;
 use std::string::ToString;
-use std::vec;
 
 /// Checks that `text` gives an error at `line` (0: none) with `message` after its place.
 #[track_caller]
 fn assert_error(text: impl AsRef<[u8]>, line: usize, message: &str) {
     let error = parse(text).unwrap_err();
-    assert_eq!(error.line, (line > 0).then_some(line), "{error}");
+    let expected = (line > 0).then_some(Place::Line(line));
+    assert_eq!(error.place, expected, "{error}");
     assert_eq!(error.path, Path::new("t.obj"));
     let place = if line > 0 {
         format!("t.obj:{line}: ")
@@ -31,7 +33,7 @@ fn assert_error_after_points(text: &str, line: usize, message: &str) {
 
 #[test]
 fn missing_files_and_directories() {
-    let missing = load_obj(Path::new("no/such/file.obj")).unwrap_err();
+    let missing = load_mesh(Path::new("no/such/file.obj")).unwrap_err();
     assert!(
         missing
             .to_string()
@@ -40,12 +42,11 @@ fn missing_files_and_directories() {
     );
     assert!(missing.source().is_none());
     let directory = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let error = load_obj(directory).unwrap_err();
-    assert_eq!(error.problem, ObjProblem::Directory);
+    let error = load_mesh(directory).unwrap_err();
     assert_eq!(
         error.to_string(),
         format!(
-            "{}: is a directory: expected an OBJ file",
+            "{}: is a directory: expected a mesh file (OBJ, STL, PLY, OFF or glTF)",
             directory.display()
         )
     );
@@ -192,9 +193,11 @@ fn what_was_odd_before_an_error_is_shown_with_it() {
     let error = parse("Not Found\n").unwrap_err();
     let told = "`Not` is no OBJ statement and is passed over (line 1)";
     assert_eq!(
-        (error.problem, error.warnings),
-        (ObjProblem::NoPolygons, vec![told.to_string()])
+        error.problem,
+        "has no polygon: expected OBJ text with an `f` line of at least three corners"
     );
+    assert_eq!(error.warnings, [told]);
+    assert_eq!(parse("Not Found\n").unwrap_err().place, None);
 }
 
 #[test]
@@ -213,7 +216,7 @@ fn files_of_other_formats_are_told_as_such() {
         ),
     ];
     for (bytes, what) in files {
-        let message = format!("is {what}: expected OBJ text with `v` and `f` lines");
+        let message = format!("is {what}: expected a mesh file (OBJ, STL, PLY, OFF or glTF)");
         assert_error(bytes, 0, &message);
     }
 }
@@ -279,7 +282,7 @@ fn indices() {
 #[test]
 fn a_normal_that_does_not_exist_is_none() {
     let told = "a corner names a normal that does not exist and counts as without a normal";
-    let own = |loaded: &LoadedObj| {
+    let own = |loaded: &LoadedMesh| {
         let given = loaded.mesh.given_normals().expect("normals");
         let corners = given.corners.as_ref().expect("of corners");
         let normals = corners.iter().map(|&n| given.values[n as usize] == Vec3::Z);
@@ -348,31 +351,25 @@ fn limits() {
     let load = |polygons, corners| {
         let text = format!("{POINTS}f 1 2 3\nf 1 2 3 4\nf 3 4 5\n");
         let none = |_: &str| Err(io::ErrorKind::NotFound.into());
-        parse_limited(
-            Path::new("t.obj"),
-            text.as_bytes(),
-            none,
-            MeshLimits { polygons, corners },
-        )
+        let limits = MeshLimits { polygons, corners };
+        read_limited(text.as_bytes(), &mut { none }, limits).map(|_| ())
     };
     assert!(load(3, 10).is_ok());
     let error = load(2, 10).unwrap_err();
     assert_eq!(
-        (error.line, error.problem.clone()),
-        (Some(8), ObjProblem::TooManyPolygons)
-    );
-    assert_eq!(
-        error.to_string(),
-        "t.obj:8: too many polygons: expected at most 16777216"
+        (error.place, &*error.problem),
+        (
+            Some(Place::Line(8)),
+            "too many polygons: expected at most 16777216"
+        )
     );
     let error = load(3, 6).unwrap_err();
     assert_eq!(
-        (error.line, error.problem.clone()),
-        (Some(7), ObjProblem::TooManyCorners)
-    );
-    assert_eq!(
-        error.to_string(),
-        "t.obj:7: too many corners: expected at most 134217728"
+        (error.place, &*error.problem),
+        (
+            Some(Place::Line(7)),
+            "too many corners: expected at most 134217728"
+        )
     );
 }
 

@@ -1,36 +1,14 @@
-//! The errors of reading an OBJ file.
+//! What can be wrong with an OBJ file.
 
-use super::super::{MeshError, PolygonMesh};
+use super::super::error::hint;
+pub(super) use super::super::error::quote;
+use crate::mesh::PolygonMesh;
 use core::fmt;
-use std::format;
-use std::path::PathBuf;
-use std::string::{String, ToString};
-use std::vec::Vec;
-
-/// An OBJ file that could not be read: which file, which line, what is wrong and what was expected.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{}{}: {problem}", path.display(), line.map(|line| format!(":{line}")).unwrap_or_default())]
-pub struct ObjError {
-    /// The file, as it was named when it was asked for.
-    pub path: PathBuf,
-    /// The line, counted from 1; `None` when the whole file is meant.
-    pub line: Option<usize>,
-    /// The problem.
-    pub problem: ObjProblem,
-    /// What was odd in the lines before it, as in [`LoadedObj::warnings`](super::LoadedObj::warnings): often its cause.
-    pub warnings: Vec<String>,
-}
+use std::string::String;
 
 /// A problem with an OBJ file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ObjProblem {
-    /// The file cannot be opened or read; the operating system's words.
-    #[error("cannot be read ({0}): expected an OBJ file")]
-    Unreadable(String),
-    /// The path names a directory.
-    #[error("is a directory: expected an OBJ file")]
-    Directory,
+pub(super) enum ObjProblem {
     /// The file has no bytes, or white space only.
     #[error("is empty: expected OBJ text with `v` and `f` lines")]
     Empty,
@@ -39,7 +17,7 @@ pub enum ObjProblem {
     NotText,
     /// The file is of another format; a few words for it.
     #[error("is {0}: expected OBJ text with `v` and `f` lines")]
-    OtherFormat(&'static str),
+    OtherFile(&'static str),
     /// The file is text, but has no face of three corners or more.
     #[error("has no polygon: expected OBJ text with an `f` line of at least three corners")]
     NoPolygons,
@@ -77,15 +55,11 @@ pub enum ObjProblem {
     /// The parser refused text that had passed every check here.
     #[error("the OBJ parser gave up ({0}): expected plain polygons")]
     Parser(String),
-    /// The mesh refused its data.
-    #[error("{0}: expected a mesh within its limits")]
-    Mesh(MeshError),
 }
 
 /// A problem with the numbers of a position.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum VectorProblem {
+pub(super) enum VectorProblem {
     /// There are fewer than three.
     #[error("`v` has too few numbers: expected three, found {found}")]
     TooFewNumbers {
@@ -111,18 +85,6 @@ fn slash_hint(corner: &str) -> &'static str {
     }
 }
 
-/// Returns a hint for numbers whose decimals follow a comma, and for those past the range of an `f32`.
-fn hint(found: &str) -> &'static str {
-    let is_number = |text: &str| text.parse().is_ok_and(f64::is_finite);
-    match is_number(found) {
-        true => ", at most 3.4e38, and in a scene 1e15",
-        false if found.contains(',') && is_number(&found.replacen(',', ".", 1)) => {
-            " with a decimal point"
-        }
-        false => "",
-    }
-}
-
 /// Writes [`ObjProblem::IndexOutOfRange`], with the range that there is.
 fn index_out_of_range(
     what: &str,
@@ -140,30 +102,4 @@ fn index_out_of_range(
         (..0, count) => write!(f, "-{count} to -1 at this line"),
         (_, count) => write!(f, "1 to {count}"),
     }
-}
-
-/// At most this many characters of a file are quoted in an error: more would not be read.
-const QUOTED: usize = 32;
-
-/// Returns `text` as it can stand in a one-line message: control characters escaped, long text cut.
-pub(super) fn quote(text: &str) -> String {
-    if text.is_empty() {
-        return "nothing".to_string();
-    }
-    let mut characters = text.chars();
-    let start = characters.by_ref().take(QUOTED);
-    let mut quoted = String::new();
-    for character in start {
-        match character {
-            // Names hold these as they are.
-            '\\' | '"' | '\'' => quoted.push(character),
-            // Not `\0`, which may be a part of a name.
-            '\0' => quoted.push_str("\\u{0}"),
-            _ => quoted.extend(character.escape_debug()),
-        }
-    }
-    if characters.next().is_some() {
-        quoted.push('…');
-    }
-    quoted
 }

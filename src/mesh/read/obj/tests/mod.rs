@@ -6,7 +6,7 @@ mod fuzz;
 mod geometry;
 mod materials;
 
-use super::{LoadedObj, ObjError, parse_obj};
+use crate::mesh::read::{LoadedMesh, ReadError, parse_mesh};
 use std::string::String;
 use std::vec::Vec;
 use std::{format, io};
@@ -14,23 +14,23 @@ use std::{format, io};
 /// Five positions: a unit square and a point above its first corner.
 const POINTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
 
-fn parse(text: impl AsRef<[u8]>) -> Result<LoadedObj, ObjError> {
-    parse_obj("t.obj", text.as_ref(), |_| {
+fn parse(text: impl AsRef<[u8]>) -> Result<LoadedMesh, ReadError> {
+    parse_mesh("t.obj", text.as_ref(), |_| {
         Err(io::ErrorKind::NotFound.into())
     })
 }
 
 /// Loads five points, then `text`.
-fn after_points(text: &str) -> LoadedObj {
+fn after_points(text: &str) -> LoadedMesh {
     parse(format!("{POINTS}{text}")).unwrap()
 }
 
-fn polygons(loaded: &LoadedObj) -> Vec<Vec<u32>> {
+fn polygons(loaded: &LoadedMesh) -> Vec<Vec<u32>> {
     loaded.mesh.polygons().map(<[u32]>::to_vec).collect()
 }
 
 /// Returns the only warning.
-fn warning(loaded: &LoadedObj) -> &String {
+fn warning(loaded: &LoadedMesh) -> &String {
     assert_eq!(loaded.warnings.len(), 1, "{:?}", loaded.warnings);
     &loaded.warnings[0]
 }

@@ -102,7 +102,7 @@ fn changed_files_end_in_a_mesh_or_an_error() {
             series.change(&mut mtl);
         }
         let result = catch_unwind(AssertUnwindSafe(|| {
-            parse_obj("t.obj", &obj, |_| Ok(mtl.clone()))
+            parse_mesh("t.obj", &obj, |_| Ok(mtl.clone()))
         }));
         let parsed = result.unwrap_or_else(|_| panic!("panic at {obj:?} with {mtl:?}"));
         match &parsed {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::mesh::PolygonMesh;
 use crate::mesh::newell::polygon_normal;
-use crate::mesh::obj::load_obj;
+use crate::mesh::read::load_mesh;
 use glam::{DVec3, Vec3};
 use std::collections::HashSet;
 use std::path::Path;
@@ -431,7 +431,7 @@ fn shipped_meshes() {
             .join("scenes")
             .join(name)
             .with_extension("obj");
-        let loaded = load_obj(&path).unwrap();
+        let loaded = load_mesh(&path).unwrap();
         assert_eq!(loaded.warnings, Vec::<String>::new(), "{name}");
         let mesh = &loaded.mesh;
         assert_eq!(
@@ -527,6 +527,13 @@ fn colours_are_used_if_all_positions_of_faces_have_one() {
     assert_eq!(loaded.warnings.len(), 1);
     assert!(
         loaded.warnings[0].contains("not within 0 to 1") && loaded.warnings[0].contains("2 times")
+    );
+    let bytes = "v 0 0 0 255 0 0\nv 1 0 0 0 128 0\nv 0 1 0 0 0 64\nf 1 2 3\n";
+    let loaded = parse(bytes).unwrap();
+    assert_eq!(loaded.mesh.colours()[1], Vec3::new(0.0, 128.0, 0.0));
+    assert_eq!(
+        loaded.warnings[1..],
+        ["the colours look like 0 to 255: divide them by 255"]
     );
     // Numbers after a colour, such as alpha, are ignored; four numbers are a position with a weight, five are no colour.
     let loaded =

@@ -2,15 +2,15 @@
 
 use super::*;
 use crate::mesh::Material;
-use crate::mesh::obj::read_library;
+use crate::mesh::read::read_beside;
 use std::cell::RefCell;
 use std::path::Path;
 use std::string::ToString;
 use std::vec;
 
 /// Loads five points and `obj` with the given libraries.
-fn load(obj: &str, libraries: &[(&str, &str)]) -> LoadedObj {
-    parse_obj("t.obj", format!("{POINTS}{obj}").as_bytes(), |name| {
+fn load(obj: &str, libraries: &[(&str, &str)]) -> LoadedMesh {
+    parse_mesh("t.obj", format!("{POINTS}{obj}").as_bytes(), |name| {
         let found = libraries.iter().find(|(file, _)| *file == name);
         found
             .map(|(_, text)| text.as_bytes().to_vec())
@@ -288,7 +288,7 @@ fn a_library_that_is_no_mtl_text_is_told_as_such() {
     ];
     for (bytes, told) in files {
         let text = format!("{POINTS}mtllib a.mtl\nusemtl m\nf 1 2 3\n");
-        let loaded = parse_obj("t.obj", text.as_bytes(), |_| Ok(bytes.to_vec())).unwrap();
+        let loaded = parse_mesh("t.obj", text.as_bytes(), |_| Ok(bytes.to_vec())).unwrap();
         let expected = "expected MTL text with `newmtl` lines";
         assert_eq!(
             warning(&loaded),
@@ -376,7 +376,7 @@ fn several_libraries() {
 fn missing_libraries_are_told_once() {
     let asked = RefCell::new(Vec::new());
     let text = format!("{POINTS}mtllib no.mtl\nmtllib no.mtl\nusemtl m\nf 1 2 3\n");
-    let loaded = parse_obj("t.obj", text.as_bytes(), |name| {
+    let loaded = parse_mesh("t.obj", text.as_bytes(), |name| {
         asked.borrow_mut().push(name.to_string());
         Err(io::Error::other("gone"))
     })
@@ -411,7 +411,7 @@ fn a_library_in_latin_1() {
         b"mtllib gr\xfcn.mtl\nusemtl gr\xfcn\nf 1 2 3\n",
     ]
     .concat();
-    let loaded = parse_obj("t.obj", &text, |name| {
+    let loaded = parse_mesh("t.obj", &text, |name| {
         assert_eq!(name, "grün.mtl");
         Ok(b"newmtl gr\xfcn\nKd 0 1 0\n".to_vec())
     })
@@ -422,7 +422,7 @@ fn a_library_in_latin_1() {
 #[test]
 fn paths_of_libraries() {
     let read = |folder: &Path, name: &str| {
-        read_library(
+        read_beside(
             folder,
             name,
             &mut |path| std::fs::read(path),
@@ -454,7 +454,7 @@ fn a_nul_in_a_library_refuses_nothing() {
         "\u{feff}newmtl red\n\u{feff}Kd 1 0 0\n",
         "newmtl red\nKd 1 \\\n\n0 0\n",
     ] {
-        let loaded = parse_obj("t.obj", obj.as_bytes(), |_| Ok(mtl.into())).unwrap();
+        let loaded = parse_mesh("t.obj", obj.as_bytes(), |_| Ok(mtl.into())).unwrap();
         assert_eq!(loaded.warnings, Vec::<String>::new(), "{mtl:?}");
         assert_eq!(
             loaded.mesh.materials()[0].diffuse,
@@ -462,7 +462,7 @@ fn a_nul_in_a_library_refuses_nothing() {
             "{mtl:?}"
         );
     }
-    let loaded = parse_obj("t.obj", obj.as_bytes(), |_| Ok(vec![1, 0, 0, 2, 0])).unwrap();
+    let loaded = parse_mesh("t.obj", obj.as_bytes(), |_| Ok(vec![1, 0, 0, 2, 0])).unwrap();
     assert!(
         loaded.warnings[0].contains("holds binary data"),
         "{:?}",
@@ -476,7 +476,7 @@ fn one_library_by_two_names_is_read_once_and_several_paths_are_several_files() {
     let ask = |lines: &str| {
         asked.borrow_mut().clear();
         let text = format!("{POINTS}{lines}\nusemtl m\nf 1 2 3\n");
-        let loaded = parse_obj("t.obj", text.as_bytes(), |name| {
+        let loaded = parse_mesh("t.obj", text.as_bytes(), |name| {
             asked.borrow_mut().push(name.to_string());
             match name.ends_with("b.mtl") {
                 true => Ok(b"Kd 9 9 9\nnewmtl n\n".to_vec()),

@@ -1,7 +1,7 @@
 //! What a file that should hold text holds instead, told by its bytes.
 
 /// The first bytes of files that are met under the names of meshes and of material libraries.
-const SIGNATURES: [(&[u8], &str); 27] = [
+const SIGNATURES: [(&[u8], &str); 29] = [
     // Before UTF-16, whose mark is the beginning of this one.
     (b"\xff\xfe\0\0", UTF_32),
     (b"\0\0\xfe\xff", UTF_32),
@@ -11,7 +11,6 @@ const SIGNATURES: [(&[u8], &str); 27] = [
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"GIF8", "a GIF picture"),
     (b"\x1f\x8b", "a gzip archive in a gzip archive"),
-    (b"PK\x03\x04", "a ZIP archive"),
     (b"\xfd7zXZ\0", "an xz archive"),
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive"),
     (b"BZh", "a bzip2 archive"),
@@ -27,6 +26,9 @@ const SIGNATURES: [(&[u8], &str); 27] = [
     (b"#VRML", "a VRML file"),
     (b"ISO-10303-21", "a STEP file"),
     (b"xof ", "a DirectX file"),
+    (b"# vtk DataFile", "a VTK file"),
+    (b"$MeshFormat", "a Gmsh file"),
+    (b"MeshVersionFormatted", "a Medit file"),
     (b"\0\0\xff\xff", COFF),
     (b"!<arch>\n", "a library of object files"),
     (
@@ -48,6 +50,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
         .iter()
         .find(|(start, _)| bytes.starts_with(start));
     match bytes {
+        _ if bytes.starts_with(b"PK\x03\x04") => Some(archive(bytes)),
         _ if known.is_some() => known.map(|(_, what)| *what),
         // The ASCII characters of UTF-32 and UTF-16 without a byte-order mark.
         [1..=127, 0, 0, 0, 1..=127, 0, 0, 0, ..] | [0, 0, 0, 1..=127, 0, 0, 0, 1..=127, ..] => {
@@ -57,6 +60,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
         _ if is_binary_stl(bytes) => Some(BINARY_STL),
         _ if is_3ds(bytes) => Some("a 3DS file"),
         _ if is_coff(bytes) => Some(COFF),
+        _ if is_iges(bytes) => Some("an IGES file"),
         _ if bytes.get(257..262) == Some(b"ustar") => Some("a tar archive"),
         _ => foreign_text(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
     }
@@ -69,7 +73,7 @@ fn number(bytes: &[u8], at: usize) -> Option<u64> {
 }
 
 /// True if the size of the file is what the number of triangles behind its header says: 50 bytes each.
-fn is_binary_stl(bytes: &[u8]) -> bool {
+pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {
     let triangles = number(bytes, 80).filter(|triangles| *triangles > 0);
     triangles.is_some_and(|triangles| bytes.len() as u64 == 84 + 50 * triangles)
 }
@@ -77,6 +81,64 @@ fn is_binary_stl(bytes: &[u8]) -> bool {
 /// True if the first chunk is a whole 3DS file.
 fn is_3ds(bytes: &[u8]) -> bool {
     bytes.starts_with(b"MM") && number(bytes, 2) == Some(bytes.len() as u64)
+}
+
+/// Returns what a ZIP archive is, by the names of the files in it, which stand in it as they are.
+fn archive(bytes: &[u8]) -> &'static str {
+    let ends = [
+        bytes.len().min(1 << 12),
+        bytes.len().saturating_sub(1 << 14),
+    ];
+    let parts = [&bytes[..ends[0]], &bytes[ends[1]..]];
+    let holds = |name: &[u8]| {
+        let mut parts = parts.iter();
+        parts.any(|part| part.windows(name.len()).any(|window| window == name))
+    };
+    match () {
+        _ if holds(b"3D/3dmodel.model") => "a 3MF file",
+        _ if holds(b".usdc") || holds(b".usda") => "a USDZ file",
+        _ => "a ZIP archive",
+    }
+}
+
+/// True if the first line is one of the start section of an IGES file: 72 columns, `S` and its number.
+fn is_iges(bytes: &[u8]) -> bool {
+    let is_line = bytes.get(72..80) == Some(b"S      1") || bytes.get(72..80) == Some(b"S0000001");
+    is_line && bytes[..72].is_ascii()
+}
+
+/// Returns what to do with a file that is `what`, behind the words that say what was expected: empty for what is no shape.
+pub(super) fn advice(what: &str) -> &'static str {
+    /// Words of the names above, and what makes a mesh file of such a file.
+    const ADVICE: [(&str, &str); 14] = [
+        (
+            "glTF",
+            " (this program was built without the feature `gltf`)",
+        ),
+        ("FBX", "; Blender or assimp converts it"),
+        ("COLLADA", "; Blender or assimp converts it"),
+        ("3DS", "; assimp converts it"),
+        ("DirectX", "; assimp converts it"),
+        ("Blender", "; Blender itself exports one"),
+        ("USD", "; Blender converts it"),
+        ("VRML", "; MeshLab converts it"),
+        ("X3D", "; MeshLab converts it"),
+        (
+            "3MF",
+            "; a slicer such as PrusaSlicer, or MeshLab, converts it",
+        ),
+        ("AMF", "; assimp converts it"),
+        ("VTK", "; meshio or ParaView converts it"),
+        ("STEP", "; Gmsh or FreeCAD makes a mesh of it"),
+        ("IGES", "; Gmsh or FreeCAD makes a mesh of it"),
+    ];
+    const MESHES: [&str; 2] = ["Gmsh", "Medit"];
+    if MESHES.iter().any(|name| what.contains(name)) {
+        return "; meshio converts it";
+    }
+    let mut known = ADVICE.iter();
+    let found = known.find(|(word, _)| what.contains(word));
+    found.map_or("", |(_, advice)| *advice)
 }
 
 /// True if the header is that of a COFF object for x86, ARM or their 64-bit successors: some sections, symbols within the file, and
@@ -140,6 +202,8 @@ fn foreign_markup(text: &[u8]) -> Option<&'static str> {
     match () {
         _ if holds(b"<COLLADA") => Some("a COLLADA file"),
         _ if holds(b"<X3D") => Some("an X3D file"),
+        _ if holds(b"<VTKFile") => Some("a VTK file"),
+        _ if holds(b"<amf") => Some("an AMF file"),
         _ if begins(b"<!doctype html") || begins(b"<html") || begins(b"<head") => {
             Some("a page of HTML")
         }
@@ -189,6 +253,9 @@ mod tests {
             (&marked, UTF_32),
             (b"\xff\xfev\0 \0", UTF_16),
             (b"<?xml version=\"1.0\"?>\n<COLLADA>", "a COLLADA file"),
+            (b"PK\x03\x04..3D/3dmodel.model", "a 3MF file"),
+            (b"PK\x03\x04", "a ZIP archive"),
+            (b"# vtk DataFile Version 3.0", "a VTK file"),
         ] {
             assert_eq!(foreign(bytes), Some(what), "{bytes:?}");
         }

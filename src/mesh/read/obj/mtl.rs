@@ -1,8 +1,8 @@
 //! Materials: MTL files read into [`Material`], and what they ask for that is not drawn.
 
-use super::content::foreign;
+use super::super::content::foreign;
+use super::super::gzip::unpacked;
 use super::error::quote;
-use super::gzip::unpacked;
 use super::lines::{Statements, decode, keyword, name_candidates, without_comment};
 use crate::mesh::Material;
 use crate::picture::Rgb;

@@ -1,0 +1,355 @@
+//! The numbers of a glTF file: accessors, through views, in buffers that are beside the file or within it.
+
+use super::super::Beside;
+use super::super::error::{Refusal, quote};
+use base64::Engine;
+use base64::engine::DecodePaddingMode;
+use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
+use gltf::accessor::DataType;
+use gltf::accessor::sparse::IndexType;
+use gltf::buffer::{Source, View};
+use gltf::{Accessor, Document};
+use std::collections::HashMap;
+use std::format;
+use std::string::String;
+use std::vec;
+use std::vec::Vec;
+
+/// The most bytes of all buffers together: many may be one file.
+const MOST: usize = 1 << 30;
+
+/// The buffers of a file.
+pub(super) struct Buffers {
+    bytes: HashMap<usize, Vec<u8>>,
+    /// The bytes of all of them: no accessor without bytes of its own has more elements.
+    total: usize,
+}
+
+impl Buffers {
+    /// Reads the buffers of `document`; `bin` is the one within a GLB file.
+    ///
+    /// # Errors
+    /// When one cannot be read.
+    pub(super) fn read(
+        document: &Document,
+        bin: Option<Vec<u8>>,
+        beside: Beside,
+    ) -> Result<Buffers, Refusal> {
+        let mut bin = bin;
+        let mut buffers = Buffers {
+            bytes: HashMap::new(),
+            total: 0,
+        };
+        for buffer in document.buffers() {
+            let index = buffer.index();
+            let bytes = match buffer.source() {
+                Source::Bin => bin.take().ok_or_else(|| {
+                    let expected = "expected a binary chunk or a `uri`";
+                    Refusal::whole(format!("buffer {index} has no bytes: {expected}"))
+                })?,
+                Source::Uri(uri) => read_uri(index, uri, beside)?,
+            };
+            buffers.total = buffers.total.saturating_add(bytes.len());
+            if buffers.total > MOST {
+                let most = MOST >> 20;
+                let problem = format!("its buffers have over {most} MiB: expected at most that");
+                return Err(Refusal::whole(problem));
+            }
+            buffers.bytes.insert(index, bytes);
+        }
+        Ok(buffers)
+    }
+
+    /// Returns the bytes of a view from `offset` on, as far as they are there.
+    fn view(&self, view: &View, offset: usize) -> &[u8] {
+        let all = self.bytes.get(&view.buffer().index());
+        let all = all.map_or(&[][..], |bytes| &bytes[..]);
+        let own = all.get(view.offset()..).unwrap_or_default();
+        let own = &own[..own.len().min(view.length())];
+        own.get(offset..).unwrap_or_default()
+    }
+
+    /// Checks that a view is within its buffer.
+    fn check_view(&self, view: &View) -> Result<(), Refusal> {
+        let held = self.bytes.get(&view.buffer().index()).map_or(0, Vec::len);
+        match view.offset().checked_add(view.length()) {
+            Some(end) if end <= held => Ok(()),
+            _ => {
+                let index = view.index();
+                let expected = format!("expected all of it in {held} bytes");
+                let problem = format!("buffer view {index} reaches beyond its buffer: {expected}");
+                Err(Refusal::whole(problem))
+            }
+        }
+    }
+
+    /// Reads the elements of an accessor as `N` numbers each: normalised ones as fractions, others as they are.
+    ///
+    /// # Errors
+    /// When they have fewer numbers, or reach beyond their view.
+    pub(super) fn read_vectors<const N: usize>(
+        &self,
+        accessor: &Accessor,
+    ) -> Result<Vec<[f32; N]>, Refusal> {
+        let found = accessor.dimensions().multiplicity();
+        if found < N {
+            let index = accessor.index();
+            let problem = format!("accessor {index} has {found} numbers an element: expected {N}");
+            return Err(Refusal::whole(problem));
+        }
+        let kind = accessor.data_type();
+        let divisor = match (accessor.normalized(), kind) {
+            (true, DataType::I8) => 127.0,
+            (true, DataType::U8) => 255.0,
+            (true, DataType::I16) => 32_767.0,
+            (true, DataType::U16) => 65_535.0,
+            _ => 1.0,
+        };
+        let size = kind.size();
+        let decode = |element: &[u8]| {
+            let mut numbers = [0.0; N];
+            for (number, bytes) in numbers.iter_mut().zip(element.chunks_exact(size)) {
+                let value = (value(kind, bytes) / divisor) as f32;
+                // The least of a signed number is -1, too.
+                *number = if divisor > 1.0 {
+                    value.max(-1.0)
+                } else {
+                    value
+                };
+            }
+            numbers
+        };
+        let mut elements: Vec<[f32; N]> = match accessor.view() {
+            Some(view) => {
+                self.check_view(&view)?;
+                let stride = view.stride().unwrap_or(accessor.size());
+                let bytes = self.view(&view, accessor.offset());
+                let bytes = checked(bytes, accessor, stride)?;
+                let elements = bytes.chunks(stride.max(1)).take(accessor.count());
+                elements.map(decode).collect()
+            }
+            None if accessor.count() > self.total => {
+                let (index, count) = (accessor.index(), accessor.count());
+                let problem = format!("accessor {index} says {count} elements and has no bytes");
+                return Err(Refusal::whole(problem));
+            }
+            None => vec![[0.0; N]; accessor.count()],
+        };
+        self.replace_sparse(accessor, &mut elements, decode)?;
+        Ok(elements)
+    }
+
+    /// Replaces the elements that an accessor lists one by one.
+    fn replace_sparse<const N: usize>(
+        &self,
+        accessor: &Accessor,
+        elements: &mut [[f32; N]],
+        decode: impl Fn(&[u8]) -> [f32; N],
+    ) -> Result<(), Refusal> {
+        let Some(sparse) = accessor.sparse() else {
+            return Ok(());
+        };
+        let (indices, values) = (sparse.indices(), sparse.values());
+        let (kind, width) = match indices.index_type() {
+            IndexType::U8 => (DataType::U8, 1),
+            IndexType::U16 => (DataType::U16, 2),
+            IndexType::U32 => (DataType::U32, 4),
+        };
+        let stride = indices.view().stride().unwrap_or(width);
+        let numbers = self.view(&indices.view(), indices.offset());
+        let own = self.view(&values.view(), values.offset());
+        let own_stride = values.view().stride().unwrap_or(accessor.size());
+        let numbers = numbers.chunks(stride.max(1)).filter(|n| n.len() >= width);
+        let own = own.chunks(own_stride.max(1));
+        let own = own.filter(|element| element.len() >= accessor.size());
+        let mut replaced = 0;
+        for (number, element) in numbers.zip(own).take(sparse.count()) {
+            let number = value(kind, &number[..width]) as usize;
+            let Some(place) = elements.get_mut(number) else {
+                let index = accessor.index();
+                let problem =
+                    format!("accessor {index} replaces element {number}, which it does not have");
+                return Err(Refusal::whole(problem));
+            };
+            *place = decode(element);
+            replaced += 1;
+        }
+        match replaced == sparse.count() {
+            true => Ok(()),
+            false => Err(beyond(accessor)),
+        }
+    }
+
+    /// Reads the elements of an accessor as indices.
+    ///
+    /// # Errors
+    /// When they are no whole numbers, or reach beyond their view.
+    pub(super) fn read_indices(&self, accessor: &Accessor) -> Result<Vec<u32>, Refusal> {
+        let kind = accessor.data_type();
+        let view = accessor.view();
+        let is_whole = matches!(kind, DataType::U8 | DataType::U16 | DataType::U32);
+        let (true, Some(view)) = (is_whole && accessor.sparse().is_none(), view) else {
+            let index = accessor.index();
+            let problem =
+                format!("accessor {index} has no indices: expected whole numbers from 0 on");
+            return Err(Refusal::whole(problem));
+        };
+        let size = kind.size();
+        self.check_view(&view)?;
+        let stride = view.stride().unwrap_or(size);
+        let bytes = checked(self.view(&view, accessor.offset()), accessor, stride)?;
+        let elements = bytes.chunks(stride.max(1)).take(accessor.count());
+        Ok(elements
+            .map(|own| value(kind, &own[..size]) as u32)
+            .collect())
+    }
+}
+
+/// Returns `bytes` if they hold the elements of an accessor.
+fn checked<'a>(bytes: &'a [u8], accessor: &Accessor, stride: usize) -> Result<&'a [u8], Refusal> {
+    let size = accessor.size();
+    let before = accessor.count().saturating_sub(1).checked_mul(stride);
+    let needed = before.and_then(|before| before.checked_add(size));
+    let is_there = needed.is_some_and(|needed| needed <= bytes.len()) && stride >= size;
+    match accessor.count() == 0 || is_there {
+        true => Ok(bytes),
+        false => Err(beyond(accessor)),
+    }
+}
+
+/// Makes the error for an accessor whose bytes are not there.
+fn beyond(accessor: &Accessor) -> Refusal {
+    let (index, count) = (accessor.index(), accessor.count());
+    Refusal::whole(format!(
+        "accessor {index} of {count} elements reaches beyond its buffer view: expected all of them in it"
+    ))
+}
+
+/// Returns a number of a kind, little-endian.
+fn value(kind: DataType, bytes: &[u8]) -> f64 {
+    match (kind, bytes) {
+        (DataType::I8, &[a, ..]) => f64::from(a as i8),
+        (DataType::U8, &[a, ..]) => f64::from(a),
+        (DataType::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
+        (DataType::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
+        (DataType::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+        (DataType::F32, &[a, b, c, d, ..]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+        _ => 0.0,
+    }
+}
+
+/// Reads a buffer by its address: of data in the address itself, or of a file beside this one.
+fn read_uri(index: usize, uri: &str, beside: Beside) -> Result<Vec<u8>, Refusal> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        /// Some writers leave the signs at the end out.
+        const ANY: GeneralPurpose = GeneralPurpose::new(
+            &base64::alphabet::STANDARD,
+            GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+        );
+        let text = data.split_once(";base64,").map(|(_, text)| text);
+        let bytes = text.and_then(|text| ANY.decode(text.trim_ascii()).ok());
+        return bytes.ok_or_else(|| {
+            let problem = format!("buffer {index} has a data address that is not base64");
+            Refusal::whole(problem)
+        });
+    }
+    let name = unescaped(uri);
+    if name.contains("://") {
+        let (name, expected) = (quote(&name), "expected a file beside this one");
+        return Err(Refusal::whole(format!(
+            "buffer {index} is at `{name}`: {expected}"
+        )));
+    }
+    if let Some(bare) = bare_of_outside(&name) {
+        // Exporters write paths of the machine they ran on. No other folder is read.
+        return beside(bare).map_err(|error| {
+            let (name, bare) = (quote(&name), quote(bare));
+            Refusal::whole(format!(
+                "buffer `{name}` is outside the folder of this file, and `{bare}` in it cannot be read ({error}): expected it there"
+            ))
+        });
+    }
+    beside(&name).map_err(|error| {
+        let name = quote(&name);
+        Refusal::whole(format!(
+            "buffer `{name}` cannot be read ({error}): expected it beside this file"
+        ))
+    })
+}
+
+/// Returns the bare file name of a path that leaves the folder it starts from; `None` if the path stays within.
+fn bare_of_outside(path: &str) -> Option<&str> {
+    let parts = || path.split(['/', '\\']);
+    let mut depth = 0i64;
+    let is_outside = parts().enumerate().any(|(i, part)| {
+        match part {
+            ".." => depth -= 1,
+            "." => {}
+            "" => {
+                // A path that begins with a separator is of the whole machine.
+                if i == 0 {
+                    depth = -1;
+                }
+            }
+            _ => depth += 1,
+        }
+        // As is one that begins with a drive.
+        depth < 0 || (i == 0 && part.ends_with(':'))
+    });
+    let bare = parts()
+        .next_back()
+        .filter(|bare| !matches!(*bare, "" | "." | ".."));
+    is_outside.then(|| bare.unwrap_or("nothing"))
+}
+
+/// Returns a relative address with `%20` and the like as the characters that they stand for.
+fn unescaped(uri: &str) -> String {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let [first, others @ ..] = rest {
+        let digits = others.get(..2).filter(|_| *first == b'%');
+        let digits = digits.and_then(|two| std::str::from_utf8(two).ok());
+        match digits.and_then(|two| u8::from_str_radix(two, 16).ok()) {
+            Some(byte) => {
+                bytes.push(byte);
+                rest = &others[2..];
+            }
+            None => {
+                bytes.push(*first);
+                rest = others;
+            }
+        }
+    }
+    String::from_utf8(bytes).unwrap_or_else(|_| uri.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_that_leave_the_folder_are_known() {
+        for path in [
+            "../../etc/a",
+            "/etc/a",
+            "a/../../a",
+            r"C:\b\a",
+            r"\\host\a",
+            "c:/a",
+            "./../a",
+        ] {
+            assert_eq!(bare_of_outside(path), Some("a"), "{path}");
+        }
+        for path in ["a", "./a", "b/a", "b/../a", r"b\a", "b//a", "..a"] {
+            assert_eq!(bare_of_outside(path), None, "{path}");
+        }
+        assert_eq!(bare_of_outside("../.."), Some("nothing"));
+    }
+
+    #[test]
+    fn addresses_are_unescaped() {
+        assert_eq!(unescaped("a%20b%C3%A9.bin"), "a bé.bin");
+        assert_eq!(unescaped("100%.bin%2"), "100%.bin%2");
+        assert_eq!(unescaped("%ff"), "%ff");
+    }
+}

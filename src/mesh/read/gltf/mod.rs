@@ -1,0 +1,559 @@
+//! glTF 2.0, as JSON with buffers or as one GLB file.
+//!
+//! The crate `gltf` reads and checks the JSON. All nodes of the scene become one mesh, in the coordinates of the scene: transforms are
+//! multiplied in `f64`. Its format has no other polygons than triangles. What has no normals is flat, as the specification says.
+
+mod accessors;
+mod primitives;
+mod view;
+
+pub(crate) use view::{FileLight, FileView, view};
+
+use super::error::{Place, Refusal, quote};
+use super::polygons::{Polygons, coloured, is_position};
+use super::words::text_end;
+use super::{Beside, MeshFormat, Parts};
+use crate::mesh::{Material, PolygonMesh};
+use accessors::Buffers;
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, Vec3};
+use gltf::json::validation::Checked;
+use gltf::material::AlphaMode;
+use gltf::scene::Transform;
+use gltf::{Document, Node, Semantic};
+use primitives::Triangles;
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
+use std::string::{String, ToString};
+use std::vec::Vec;
+use std::{format, vec};
+
+/// The format.
+pub(super) struct Gltf;
+
+/// The first bytes of a GLB file.
+const GLB: &[u8] = b"glTF";
+
+/// Extensions that a file may require though they are not read: of textures and materials, which are drawn by their colours, and of
+/// numbers in fewer bits, which are read as any others.
+const HARMLESS: [&str; 5] = [
+    "KHR_mesh_quantization",
+    "KHR_texture_",
+    "KHR_materials_",
+    "EXT_texture_",
+    "MSFT_texture_",
+];
+
+impl MeshFormat for Gltf {
+    fn name(&self) -> &'static str {
+        "a glTF file"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["gltf", "glb"]
+    }
+
+    fn recognises(&self, bytes: &[u8]) -> bool {
+        let is_json = super::content::foreign(bytes) == Some("a glTF file (JSON)");
+        bytes.starts_with(GLB) || is_json
+    }
+
+    fn read(&self, bytes: &[u8], beside: Beside) -> Result<Parts, Refusal> {
+        let (document, bin) = parse(bytes)?;
+        let buffers = Buffers::read(&document, bin, beside)?;
+        let mut reader = Reader::default();
+        let nodes = placed(&document)?;
+        let worlds = nodes.iter().map(|(node, world)| (node.index(), *world));
+        let worlds: HashMap<usize, DAffine3> = worlds.collect();
+        for (node, transform) in nodes {
+            let pose = pose(&node, transform, &worlds, &buffers)?;
+            reader.node(&node, &pose, &buffers)?;
+        }
+        if reader.polygons.count() == 0 {
+            let problem = match reader.oddities.contains(&Oddity::PointOrLine) {
+                true => {
+                    "has points or lines but no triangle: expected a scene with meshes of triangles"
+                }
+                false => "has no triangle: expected a scene with meshes",
+            };
+            return Err(Refusal::whole(problem));
+        }
+        Ok(reader.finish())
+    }
+}
+
+/// Reads and checks the JSON.
+fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Refusal> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let bytes = match bytes.starts_with(GLB) {
+        true => bytes,
+        false => text_end(bytes),
+    };
+    if bytes.is_empty() {
+        return Err(Refusal::whole("is empty: expected a glTF file"));
+    }
+    check_lengths(bytes)?;
+    let read = gltf::Gltf::from_slice_without_validation(bytes);
+    let read = read.map_err(|error| match is_version_1(bytes) {
+        true => Refusal::whole("is glTF 1.0: expected glTF 2.0 (`gltf-pipeline` converts it)"),
+        false => refusal(error, bytes),
+    })?;
+    let bin = read.blob;
+    let mut json = read.document.into_json();
+    let is_harmless = |name: &String| HARMLESS.iter().any(|start| name.starts_with(start));
+    json.extensions_required.retain(|name| !is_harmless(name));
+    let lacking = json.extensions_required.iter();
+    let mut lacking = lacking.filter(|name| *name != "KHR_lights_punctual");
+    if let Some(name) = lacking.next() {
+        let advice = match name.contains("draco") || name.contains("meshopt") {
+            true => {
+                ": expected a file that is not compressed (`gltf-transform copy`, or an export from Blender, writes one)"
+            }
+            false => ": expected a file that does without it",
+        };
+        let name = quote(name);
+        let problem = format!("requires the extension {name}, which is not read{advice}");
+        return Err(Refusal::whole(problem));
+    }
+    // The crate takes these for granted where it checks what they lead to.
+    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut positions = primitives.filter_map(|primitive| {
+        let positions = Checked::Valid(Semantic::Positions);
+        primitive.attributes.get(&positions)
+    });
+    if let Some(index) = positions.find(|index| index.value() >= json.accessors.len()) {
+        let (index, count) = (index.value(), json.accessors.len());
+        let problem = format!("accessor {index} is named, and there are {count}");
+        return Err(Refusal::whole(problem));
+    }
+    let document = Document::from_json(json).map_err(|error| refusal(error, bytes))?;
+    Ok((document, bin))
+}
+
+/// Checks that a GLB file has as many bytes as it says that it and its chunks have.
+///
+/// # Errors
+/// For the first length that the file does not have, and for one that is less than its headers take.
+fn check_lengths(bytes: &[u8]) -> Result<(), Refusal> {
+    const HEADER: usize = 12;
+    const OF_CHUNK: usize = 8;
+    // The first version has another header.
+    if !bytes.starts_with(GLB) || is_version_1(bytes) {
+        return Ok(());
+    }
+    let have = bytes.len();
+    let number = |at: usize| {
+        let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
+        four.map(|four| u32::from_le_bytes(*four) as usize)
+    };
+    let Some(length) = number(8) else {
+        let problem =
+            format!("the file ends after {have} bytes: expected {HEADER} of a GLB header");
+        return Err(Refusal::at(Place::Byte(have), problem));
+    };
+    if length > have {
+        let problem = format!("the file says {length} bytes and has {have}: expected all of them");
+        return Err(Refusal::at(Place::Byte(8), problem));
+    }
+    let least = HEADER + OF_CHUNK;
+    if length < least {
+        let problem = format!("the file says {length} bytes: expected at least {least}");
+        return Err(Refusal::at(Place::Byte(8), problem));
+    }
+    let mut at = HEADER;
+    for name in ["JSON", "binary"] {
+        let Some(length) = number(at).filter(|_| have - at >= OF_CHUNK) else {
+            break;
+        };
+        let left = have - at - OF_CHUNK;
+        if length > left {
+            let problem = format!(
+                "its {name} chunk says {length} bytes and has {left}: expected all of them"
+            );
+            return Err(Refusal::at(Place::Byte(at), problem));
+        }
+        at += OF_CHUNK + length;
+    }
+    Ok(())
+}
+
+/// True if a file says that it is of the first version, whose JSON is another.
+fn is_version_1(bytes: &[u8]) -> bool {
+    if bytes.starts_with(GLB) {
+        return bytes.get(4..8) == Some(&[1, 0, 0, 0]);
+    }
+    let json = gltf::json::deserialize::from_slice::<gltf::json::Value>(bytes);
+    json.is_ok_and(|json| {
+        let asset = &json["asset"];
+        // Its first drafts state the version beside the profile, and all of it have names where 2.0 has numbers.
+        let mut versions = [&asset["version"], &asset["profile"]["version"]].into_iter();
+        json["meshes"].is_object()
+            || versions.any(|version| {
+                let text = version.as_str();
+                text.is_some_and(|version| version.starts_with("1."))
+            })
+    })
+}
+
+/// Makes the error for what the crate refuses.
+fn refusal(error: gltf::Error, bytes: &[u8]) -> Refusal {
+    match error {
+        gltf::Error::Deserialize(error) => {
+            let text = error.to_string();
+            let what = text.split(" at line ").next().unwrap_or_default();
+            // Only a scene must have this key.
+            let problem = match what {
+                "missing field `nodes`" => {
+                    "its scene has no `nodes`: nothing is drawn; expected a list of them".into()
+                }
+                _ => format!("{}: expected the JSON of glTF 2.0", long_quote(what)),
+            };
+            match bytes.starts_with(GLB) || error.line() == 0 {
+                true => Refusal::whole(problem),
+                false => Refusal::at(Place::Line(error.line()), problem),
+            }
+        }
+        gltf::Error::Validation(errors) => {
+            let more = match errors.len() {
+                0 | 1 => String::new(),
+                n => format!(" (and {} more)", n - 1),
+            };
+            let first = errors.first();
+            let first = first.map(|(path, error)| format!("{path}: {error}"));
+            let first = long_quote(&first.unwrap_or_default());
+            Refusal::whole(format!("is no valid glTF 2.0: {first}{more}"))
+        }
+        error => Refusal::whole(format!(
+            "{}: expected glTF 2.0",
+            long_quote(&error.to_string())
+        )),
+    }
+}
+
+/// Returns a message of the crate in one line, which may quote a name of the file.
+fn long_quote(text: &str) -> String {
+    let text: String = text.chars().take(160).collect();
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+/// Returns the nodes of the scene, with their transforms into it.
+///
+/// # Errors
+/// When a node is reached twice: nodes must form a tree.
+fn placed(document: &Document) -> Result<Vec<(Node<'_>, DAffine3)>, Refusal> {
+    let scene = document
+        .default_scene()
+        .or_else(|| document.scenes().next());
+    let mut open: Vec<(Node, DAffine3)> = match &scene {
+        Some(scene) => scene
+            .nodes()
+            .map(|node| (node, DAffine3::IDENTITY))
+            .collect(),
+        None => {
+            let children = document.nodes().flat_map(|node| node.children());
+            let children: BTreeSet<usize> = children.map(|node| node.index()).collect();
+            let roots = document
+                .nodes()
+                .filter(|node| !children.contains(&node.index()));
+            roots.map(|node| (node, DAffine3::IDENTITY)).collect()
+        }
+    };
+    open.reverse();
+    let mut seen = vec![false; document.nodes().len()];
+    let mut found = Vec::new();
+    while let Some((node, above)) = open.pop() {
+        let index = node.index();
+        if seen[index] {
+            let problem = format!(
+                "node {index} is its own ancestor, or has two parents: expected a tree of nodes"
+            );
+            return Err(Refusal::whole(problem));
+        }
+        seen[index] = true;
+        let transform = above * local(&node);
+        let before = open.len();
+        open.extend(node.children().map(|child| (child, transform)));
+        open[before..].reverse();
+        found.push((node, transform));
+    }
+    Ok(found)
+}
+
+/// Returns the transform of a node into its parent.
+fn local(node: &Node) -> DAffine3 {
+    let three = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+    match node.transform() {
+        Transform::Matrix { matrix } => {
+            let [x, y, z, w] = matrix.map(|[x, y, z, _]| three([x, y, z]));
+            DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), w)
+        }
+        Transform::Decomposed {
+            translation,
+            rotation,
+            scale,
+        } => {
+            let turn = DQuat::from_array(rotation.map(f64::from));
+            let is_turn = turn.length_squared() > 0.0 && turn.is_finite();
+            let turn = if is_turn {
+                turn.normalize()
+            } else {
+                DQuat::IDENTITY
+            };
+            DAffine3::from_scale_rotation_translation(three(scale), turn, three(translation))
+        }
+    }
+}
+
+/// How a node places the vertices of its mesh.
+struct Pose {
+    /// All of them, if there is no skin.
+    transform: DAffine3,
+    /// By the joints of its skin.
+    joints: Vec<DAffine3>,
+}
+
+/// Returns how a node whose transform into the scene is `transform` places its mesh; `worlds` are those of all nodes.
+fn pose(
+    node: &Node,
+    transform: DAffine3,
+    worlds: &HashMap<usize, DAffine3>,
+    buffers: &Buffers,
+) -> Result<Pose, Refusal> {
+    let mut joints = Vec::new();
+    if let Some(skin) = node.skin().filter(|_| node.mesh().is_some()) {
+        let world = |joint: Node| worlds.get(&joint.index()).copied();
+        joints.extend(skin.joints().map(|joint| world(joint).unwrap_or(transform)));
+        if let Some(accessor) = skin.inverse_bind_matrices() {
+            let matrices = buffers.read_vectors::<16>(&accessor)?;
+            for (joint, matrix) in joints.iter_mut().zip(&matrices) {
+                let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
+                *joint *= DAffine3::from_mat4(matrix);
+            }
+        }
+    }
+    Ok(Pose { transform, joints })
+}
+
+impl Pose {
+    /// Returns the transform of vertex `v`: with a skin, the weighted mean of those of its joints.
+    fn of_vertex(&self, own: &Triangles, v: usize) -> DAffine3 {
+        let (Some(joints), Some(weights)) = (own.joints.get(v), own.weights.get(v)) else {
+            return self.transform;
+        };
+        let (mut matrix, mut translation, mut sum) = (DMat3::ZERO, DVec3::ZERO, 0.0);
+        for (joint, weight) in joints.iter().zip(weights) {
+            let weight = f64::from(*weight);
+            if let Some(joint) = self.joints.get(*joint as usize) {
+                matrix += weight * joint.matrix3;
+                translation += weight * joint.translation;
+                sum += weight;
+            }
+        }
+        match sum > 0.0 {
+            true => DAffine3::from_mat3_translation(matrix * (1.0 / sum), translation / sum),
+            false => self.transform,
+        }
+    }
+}
+
+/// A thing that a file asks for and that is not drawn, or drawn otherwise: one note.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+enum Oddity {
+    #[error("points and lines are not drawn")]
+    PointOrLine,
+    #[error("morph targets are not applied")]
+    Morph,
+    #[error("textures are not drawn")]
+    Texture,
+    #[error("transparency is not drawn, all surfaces are opaque")]
+    Transparency,
+    #[error("emission is not drawn")]
+    Emission,
+}
+
+/// Polygons as far as nodes were read.
+#[derive(Default)]
+struct Reader {
+    polygons: Polygons,
+    /// The triangles of primitives that were drawn once already: mesh and primitive.
+    known: HashMap<(usize, usize), Option<Triangles>>,
+    materials: HashMap<usize, u32>,
+    oddities: BTreeSet<Oddity>,
+    has_normals: bool,
+    has_colours: bool,
+    /// The number of primitives, and of those without normals.
+    primitives: usize,
+    flat: usize,
+}
+
+impl Reader {
+    fn node(&mut self, node: &Node, pose: &Pose, buffers: &Buffers) -> Result<(), Refusal> {
+        let Some(mesh) = node.mesh() else {
+            return Ok(());
+        };
+        let weights = node.weights().or_else(|| mesh.weights());
+        if weights.is_some_and(|weights| weights.iter().any(|weight| *weight != 0.0)) {
+            self.oddities.insert(Oddity::Morph);
+        }
+        for primitive in mesh.primitives() {
+            let key = (mesh.index(), primitive.index());
+            if let Entry::Vacant(unread) = self.known.entry(key) {
+                unread.insert(primitives::read(&primitive, buffers)?);
+            }
+            let material = primitive.material();
+            let material = material.index().map(|index| {
+                let known = self.materials.get(&index).copied();
+                known.unwrap_or_else(|| self.material(index, &material))
+            });
+            match self.known.remove(&key).flatten() {
+                Some(triangles) => {
+                    self.place(&triangles, pose, material)?;
+                    self.known.insert(key, Some(triangles));
+                }
+                None => {
+                    self.known.insert(key, None);
+                    self.oddities.insert(Oddity::PointOrLine);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a material of the file.
+    fn material(&mut self, index: usize, material: &gltf::Material) -> u32 {
+        let metallic = material.pbr_metallic_roughness();
+        let specular = material.pbr_specular_glossiness();
+        let [r, g, b, _] = match &specular {
+            Some(specular) => specular.diffuse_factor(),
+            None => metallic.base_color_factor(),
+        };
+        let has_texture = match &specular {
+            Some(specular) => specular.diffuse_texture().is_some(),
+            None => metallic.base_color_texture().is_some(),
+        };
+        if has_texture || material.normal_texture().is_some() {
+            self.oddities.insert(Oddity::Texture);
+        }
+        if material.alpha_mode() != AlphaMode::Opaque {
+            self.oddities.insert(Oddity::Transparency);
+        }
+        if material.emissive_factor() != [0.0; 3] {
+            self.oddities.insert(Oddity::Emission);
+        }
+        let channel = |channel: f32| match channel.is_finite() {
+            true => channel.clamp(0.0, 1.0),
+            false => 1.0,
+        };
+        let own: Material = coloured([r, g, b].map(channel));
+        let name = material.name().map(quote).unwrap_or_default();
+        let number = self.polygons.add_material(own, name);
+        self.materials.insert(index, number);
+        number
+    }
+
+    /// Adds triangles where a node places them.
+    fn place(
+        &mut self,
+        own: &Triangles,
+        pose: &Pose,
+        material: Option<u32>,
+    ) -> Result<(), Refusal> {
+        let before = self.polygons.positions.len();
+        let most = PolygonMesh::MAX_CORNERS;
+        if own.positions.len() > most - before {
+            let problem = format!("too many corners: expected at most {most}");
+            return Err(Refusal::whole(problem));
+        }
+        self.place_vertices(own, pose)?;
+        let is_flat = own.normals.is_empty();
+        self.primitives += 1;
+        self.flat += usize::from(is_flat);
+        let is_mirrored = pose.of_vertex(own, 0).matrix3.determinant() < 0.0;
+        let polygons = &mut self.polygons;
+        for triangle in &own.triangles {
+            let mut corners = triangle.map(|corner| before as u32 + corner);
+            if is_mirrored {
+                corners.swap(1, 2);
+            }
+            polygons.corners.extend(corners);
+            if polygons.end_polygon(Place::Byte(0))? {
+                polygons.set_flat(is_flat);
+                if let Some(material) = material {
+                    polygons.set_material(material);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the vertices of triangles.
+    fn place_vertices(&mut self, own: &Triangles, pose: &Pose) -> Result<(), Refusal> {
+        let polygons = &mut self.polygons;
+        let before = polygons.positions.len();
+        let three = |v: &[f32; 3]| DVec3::from_array(v.map(f64::from));
+        for (v, position) in own.positions.iter().enumerate() {
+            let position = pose.of_vertex(own, v).transform_point3(three(position));
+            if !is_position(position) {
+                let problem =
+                    "a position is not three finite numbers, or its node moves it too far";
+                return Err(Refusal::whole(problem));
+            }
+            polygons.positions.push(position);
+        }
+        self.has_normals |= !own.normals.is_empty();
+        if self.has_normals {
+            // Of the vertices before, which have none.
+            polygons.normals.resize(before, DVec3::ZERO);
+            // The inverse transpose but for a factor, which may be negative.
+            let turned = |(v, n): (usize, &[f32; 3])| {
+                let matrix = pose.of_vertex(own, v).matrix3;
+                let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+                let (n, sign) = (three(n), matrix.determinant().signum());
+                sign * (y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z)
+            };
+            let turned = own.normals.iter().enumerate().map(turned);
+            polygons.normals.extend(turned);
+            polygons
+                .normals
+                .resize(polygons.positions.len(), DVec3::ZERO);
+        }
+        self.has_colours |= !own.colours.is_empty();
+        if self.has_colours {
+            // A vertex without a colour is as one whose colour changes nothing.
+            polygons.colours.resize(before, Vec3::ONE);
+            let colours = own.colours.iter().map(|c| Vec3::from_array(*c));
+            polygons.colours.extend(colours);
+            polygons.colours.resize(polygons.positions.len(), Vec3::ONE);
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Parts {
+        let mut notes = Vec::new();
+        if self.flat > 0 {
+            let (flat, all) = (self.flat, self.primitives);
+            let which = match flat == all {
+                true => "the file has no normals".into(),
+                false => format!("{flat} of {all} parts have no normals"),
+            };
+            notes.push(format!(
+                "{which}: drawn flat, as glTF says; --normals averaged or crease=40 smooths"
+            ));
+        }
+        let is_of_materials = |oddity: &&Oddity| **oddity >= Oddity::Texture;
+        let others = self
+            .oddities
+            .iter()
+            .filter(|oddity| !is_of_materials(oddity));
+        notes.extend(others.map(ToString::to_string));
+        let first = notes.len();
+        let of_materials = self.oddities.iter().filter(is_of_materials);
+        notes.extend(of_materials.map(ToString::to_string));
+        let material_notes = first..notes.len();
+        let mut parts = self.polygons.finish(notes);
+        parts.material_notes = material_notes;
+        parts.builder.up_by_custom('y');
+        parts
+    }
+}

@@ -1,0 +1,252 @@
+//! OFF, the object file format of Geomview: text, with colours and normals of vertices, and colours of faces.
+
+use super::error::{Place, Refusal, quote};
+use super::polygons::{Polygons, is_position};
+use super::words::{Words, number, text};
+use super::{Beside, MeshFormat, Parts};
+use glam::DVec3;
+use std::format;
+use std::vec::Vec;
+
+/// The format.
+pub(super) struct Off;
+
+impl MeshFormat for Off {
+    fn name(&self) -> &'static str {
+        "an OFF file"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["off"]
+    }
+
+    fn recognises(&self, bytes: &[u8]) -> bool {
+        let head = &bytes[..bytes.len().min(1 << 12)];
+        let first = words(head).next();
+        first.is_some_and(|word| split_keyword(word).is_some())
+    }
+
+    fn read(&self, bytes: &[u8], _: Beside) -> Result<Parts, Refusal> {
+        let mut words = words(bytes);
+        let (kind, [vertices, faces]) = read_head(&mut words)?;
+        let mut polygons = Polygons::default();
+        read_vertices(&mut words, kind, vertices, &mut polygons)?;
+        read_faces(&mut words, vertices, faces, &mut polygons)?;
+        if polygons.count() == 0 {
+            let problem = "has no polygon: expected faces of at least three corners";
+            return Err(Refusal::whole(problem));
+        }
+        Ok(polygons.finish(Vec::new()))
+    }
+}
+
+/// Returns the words of a file. Comments begin with `#`.
+fn words(bytes: &[u8]) -> Words<'_> {
+    let start = if bytes.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
+    };
+    Words::new(bytes, start, 1).with_comments()
+}
+
+/// What vertices have beside their positions, in this order, as the letters before `OFF` say.
+#[derive(Clone, Copy)]
+struct Kind {
+    has_normals: bool,
+    has_colours: bool,
+    /// True for a fourth coordinate.
+    has_weight: bool,
+    /// True for `n`: the number of coordinates comes first.
+    has_dimension: bool,
+}
+
+/// Returns the letters before `OFF` in the first word, and what follows: files of a known collection have the first count there.
+fn split_keyword(word: &[u8]) -> Option<(&[u8], &[u8])> {
+    let at = word.windows(3).position(|three| three == b"OFF")?;
+    let (letters, rest) = (&word[..at], &word[at + 3..]);
+    let is_known = letters.iter().all(|letter| b"STCN4n".contains(letter));
+    let is_count = rest.iter().all(u8::is_ascii_digit);
+    (is_known && is_count).then_some((letters, rest))
+}
+
+/// Reads the keyword and the numbers of vertices and faces.
+fn read_head(words: &mut Words) -> Result<(Kind, [usize; 2]), Refusal> {
+    let expected = "expected OFF, COFF, NOFF or CNOFF";
+    let Some(word) = words.next() else {
+        return Err(Refusal::whole(format!("is empty: {expected}")));
+    };
+    let Some((letters, glued)) = split_keyword(word) else {
+        let problem = format!("`{}`: {expected}", quote(&text(word)));
+        return Err(Refusal::at(words.place(), problem));
+    };
+    let has = |letter: u8| letters.contains(&letter);
+    let kind = Kind {
+        has_normals: has(b'N'),
+        has_colours: has(b'C'),
+        has_weight: has(b'4'),
+        has_dimension: has(b'n'),
+    };
+    let mut before = words.clone();
+    if before.next_in_line().is_some_and(|word| word == b"BINARY") {
+        let problem = "is a binary OFF file: expected OFF text (meshconv and geomview write that)";
+        return Err(Refusal::whole(problem));
+    }
+    if kind.has_dimension {
+        let dimension = words.finite("the number of coordinates")?;
+        if dimension != 3.0 {
+            let problem = format!("{dimension} coordinates a vertex: expected 3");
+            return Err(Refusal::at(words.place(), problem));
+        }
+    }
+    let vertices = read_count(words, glued, "the number of vertices")?;
+    let faces = read_count(words, b"", "the number of faces")?;
+    // The number of edges follows in the line, or nothing.
+    words.end_line();
+    Ok((kind, [vertices, faces]))
+}
+
+/// Reads how many there are of `what`: the next word, or what is glued to the keyword.
+fn read_count(words: &mut Words, glued: &[u8], what: &str) -> Result<usize, Refusal> {
+    let word = match glued {
+        b"" => words.next().ok_or_else(|| words.ends_before(what))?,
+        digits => digits,
+    };
+    let count = number(word).filter(|count| count.is_finite());
+    let count = count.ok_or_else(|| words.no_number(word))?;
+    let expected = match count.fract() == 0.0 && count >= 0.0 {
+        true if count < 4e9 => return Ok(count as usize),
+        true => "less than 4000000000",
+        false => "a whole number",
+    };
+    let problem = format!("`{}`: expected {what}, {expected}", quote(&text(word)));
+    Err(Refusal::at(words.place(), problem))
+}
+
+/// Reads the numbers of a line that is not blank, of which there must be `least`, into `numbers`. Returns the line.
+fn read_line(
+    words: &mut Words,
+    least: usize,
+    what: &str,
+    numbers: &mut Vec<f64>,
+) -> Result<Place, Refusal> {
+    numbers.clear();
+    let mut word = words.next();
+    while let Some(found) = word {
+        match number(found).filter(|number| number.is_finite()) {
+            Some(number) => numbers.push(number),
+            // What follows may be anything.
+            None if numbers.len() >= least => break,
+            None => return Err(words.no_number(found)),
+        }
+        word = words.next_in_line();
+    }
+    match numbers.len() {
+        0 => Err(words.ends_before(what)),
+        found if found < least => {
+            let problem = format!("{found} numbers: expected {least}");
+            Err(Refusal::at(words.place(), problem))
+        }
+        _ => {
+            let place = words.place();
+            words.end_line();
+            Ok(place)
+        }
+    }
+}
+
+fn read_vertices(
+    words: &mut Words,
+    kind: Kind,
+    count: usize,
+    polygons: &mut Polygons,
+) -> Result<(), Refusal> {
+    let normal = 3 + usize::from(kind.has_weight);
+    let colour = normal + 3 * usize::from(kind.has_normals);
+    let least = colour + 3 * usize::from(kind.has_colours);
+    let mut numbers = Vec::new();
+    let (mut colours, mut is_in_bytes) = (Vec::new(), false);
+    for _ in 0..count {
+        let place = read_line(words, least, "its last vertex", &mut numbers)?;
+        let mut position = DVec3::from_slice(&numbers);
+        if kind.has_weight {
+            if numbers[3] == 0.0 {
+                let problem =
+                    "a vertex with w = 0: expected another number, by which x, y and z are divided";
+                return Err(Refusal::at(place, problem));
+            }
+            position /= numbers[3];
+        }
+        if !is_position(position) {
+            let [x, y, z] = position.to_array();
+            let problem = format!("a vertex at {x}, {y}, {z}: expected numbers of at most 3.4e38");
+            return Err(Refusal::at(place, problem));
+        }
+        polygons.positions.push(position);
+        if kind.has_normals {
+            let own = DVec3::from_slice(&numbers[normal..]);
+            polygons.normals.push(own);
+        }
+        if kind.has_colours {
+            let own = DVec3::from_slice(&numbers[colour..]);
+            is_in_bytes |= own.max_element() > 1.0;
+            colours.push(own);
+        }
+    }
+    // 0 to 255 or 0 to 1: only the whole file tells.
+    let full = if is_in_bytes { 255.0 } else { 1.0 };
+    let colours = colours.iter().map(|own: &DVec3| (*own / full).as_vec3());
+    polygons.colours = colours.collect();
+    Ok(())
+}
+
+/// Reads faces: the number of corners and each of them, which may stand in several lines, and the colour behind them in the last.
+fn read_faces(
+    words: &mut Words,
+    vertices: usize,
+    count: usize,
+    polygons: &mut Polygons,
+) -> Result<(), Refusal> {
+    const LAST: &str = "the end of its last face";
+    let mut colour = Vec::new();
+    for _ in 0..count {
+        let sides = words.finite(LAST)?;
+        if sides.fract() != 0.0 || sides < 0.0 {
+            let problem = format!("a face of {sides} corners: expected a whole number");
+            return Err(Refusal::at(words.place(), problem));
+        }
+        for _ in 0..sides as u64 {
+            let corner = words.finite(LAST)?;
+            if corner.fract() != 0.0 || !(0.0..vertices as f64).contains(&corner) {
+                let last = vertices.saturating_sub(1);
+                let problem =
+                    format!("vertex index {corner} is out of range: expected 0 to {last}");
+                return Err(Refusal::at(words.place(), problem));
+            }
+            polygons.corners.push(corner as u32);
+        }
+        colour.clear();
+        while let Some(number) = words.next_in_line().and_then(number) {
+            colour.push(number);
+        }
+        let is_kept = polygons.end_polygon(words.place())?;
+        words.end_line();
+        if let (true, Some(colour)) = (is_kept, face_colour(&colour)) {
+            polygons.set_colour(colour);
+        }
+    }
+    Ok(())
+}
+
+/// Returns the colour that the numbers behind a face's corners say: three or four of them, all of 0 to 1 or of 0 to 255. One number is
+/// an entry of a table that the file does not have.
+fn face_colour(numbers: &[f64]) -> Option<DVec3> {
+    let (&[r, g, b] | &[r, g, b, _]) = numbers else {
+        return None;
+    };
+    let full = match [r, g, b].iter().any(|channel| *channel > 1.0) {
+        true => 255.0,
+        false => 1.0,
+    };
+    Some(DVec3::new(r, g, b) / full)
+}

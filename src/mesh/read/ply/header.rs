@@ -1,0 +1,206 @@
+//! The header of a PLY file: what its elements have, and how they are written.
+
+use super::super::error::{Place, Refusal, quote};
+use super::super::words::text;
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+/// The type of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Type {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Type {
+    fn named(name: &str) -> Option<Type> {
+        Some(match name {
+            "char" | "int8" => Type::I8,
+            "uchar" | "uint8" => Type::U8,
+            "short" | "int16" => Type::I16,
+            "ushort" | "uint16" => Type::U16,
+            "int" | "int32" => Type::I32,
+            "uint" | "uint32" => Type::U32,
+            "float" | "float32" => Type::F32,
+            "double" | "float64" => Type::F64,
+            _ => return None,
+        })
+    }
+
+    /// Returns the bytes of a number.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Type::I8 | Type::U8 => 1,
+            Type::I16 | Type::U16 => 2,
+            Type::I32 | Type::U32 | Type::F32 => 4,
+            Type::F64 => 8,
+        }
+    }
+
+    /// Returns the value of a channel that is full.
+    pub(super) fn full(self) -> f64 {
+        match self {
+            Type::F32 | Type::F64 => 1.0,
+            Type::U16 => 65_535.0,
+            _ => 255.0,
+        }
+    }
+}
+
+/// A property of an element: a number, or a list of them with the type of its count.
+#[derive(Clone, Debug)]
+pub(super) struct Property {
+    pub name: String,
+    pub kind: Type,
+    pub count: Option<Type>,
+}
+
+/// An element, and how often it comes.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    pub name: String,
+    pub count: usize,
+    pub properties: Vec<Property>,
+}
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Coding {
+    Text,
+    LittleEndian,
+    BigEndian,
+}
+
+/// The header of a file, and where its numbers begin.
+pub(super) struct Header {
+    pub coding: Coding,
+    pub elements: Vec<Element>,
+    /// True if a comment names a texture.
+    pub has_texture: bool,
+    /// The byte and the line behind the header.
+    pub end: (usize, usize),
+}
+
+/// Returns the bytes of the first line without its end, and how many there are with it. The whole header ends its lines as the first
+/// one does, as the first number behind it may begin with the byte of an LF.
+fn split_line(bytes: &[u8], end: u8) -> (&[u8], usize) {
+    let length = bytes.iter().position(|byte| *byte == end);
+    let length = length.unwrap_or(bytes.len());
+    (&bytes[..length], bytes.len().min(length + 1))
+}
+
+/// A header as far as it was read.
+#[derive(Default)]
+struct Reading {
+    coding: Option<Coding>,
+    elements: Vec<Element>,
+    has_texture: bool,
+}
+
+impl Reading {
+    /// Reads the words of a line. Returns true for the last one of the header.
+    ///
+    /// # Errors
+    /// What was expected.
+    fn line(&mut self, words: &[&str]) -> Result<bool, &'static str> {
+        match *words {
+            ["comment" | "obj_info", ref rest @ ..] => {
+                self.has_texture |= rest.first().is_some_and(|word| *word == "TextureFile");
+            }
+            [] => {}
+            ["format", name, ..] => {
+                self.coding = Some(match name {
+                    "ascii" => Coding::Text,
+                    "binary_little_endian" => Coding::LittleEndian,
+                    "binary_big_endian" => Coding::BigEndian,
+                    _ => return Err("ascii, binary_little_endian or binary_big_endian"),
+                });
+            }
+            ["element", name, count] => {
+                let is_whole = count.bytes().all(|byte| byte.is_ascii_digit());
+                let expected = match is_whole {
+                    true => "`element`, a name and a number below 2^64",
+                    false => "`element`, a name and a whole number",
+                };
+                let count = count.parse();
+                self.elements.push(Element {
+                    name: name.into(),
+                    count: count.map_err(|_| expected)?,
+                    properties: Vec::new(),
+                });
+            }
+            ["property", ref rest @ ..] => {
+                let element = self.elements.last_mut();
+                let element = element.ok_or("`element` before its properties")?;
+                let property = property(rest);
+                let expected = "a type and a name, or `list`, two types and a name";
+                element.properties.push(property.ok_or(expected)?);
+            }
+            ["end_header"] => return Ok(true),
+            _ => return Err("format, comment, element, property or end_header"),
+        }
+        Ok(false)
+    }
+}
+
+/// Reads a header.
+///
+/// # Errors
+/// For the first line that is wrong.
+pub(super) fn read(bytes: &[u8]) -> Result<Header, Refusal> {
+    let first = bytes.iter().position(|b| matches!(b, b'\n' | b'\r'));
+    let is_lone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+    let end = match first {
+        Some(at) if is_lone(at) => b'\r',
+        _ => b'\n',
+    };
+    let (mut at, mut line) = (0, 0);
+    let mut reading = Reading::default();
+    while at < bytes.len() {
+        let (statement, length) = split_line(&bytes[at..], end);
+        at += length;
+        line += 1;
+        // What lets the file be recognised.
+        if line == 1 {
+            continue;
+        }
+        let statement = text(statement);
+        let wrong = |expected: &str| {
+            let problem = format!("`{}`: expected {expected}", quote(statement.trim()));
+            Refusal::at(Place::Line(line), problem)
+        };
+        let words: Vec<&str> = statement.split_ascii_whitespace().collect();
+        if reading.line(&words).map_err(wrong)? {
+            let expected = "`format` before the end of the header";
+            return Ok(Header {
+                coding: reading.coding.ok_or_else(|| wrong(expected))?,
+                elements: reading.elements,
+                has_texture: reading.has_texture,
+                end: (at, line + 1),
+            });
+        }
+    }
+    let problem = "the file ends in its header: expected `end_header`";
+    Err(Refusal::at(Place::Line(line.max(1)), problem))
+}
+
+/// Reads the words of a property.
+fn property(words: &[&str]) -> Option<Property> {
+    let (count, kind, name) = match *words {
+        ["list", count, kind, name] => (Some(Type::named(count)?), kind, name),
+        [kind, name] => (None, kind, name),
+        _ => return None,
+    };
+    Some(Property {
+        name: name.into(),
+        kind: Type::named(kind)?,
+        count,
+    })
+}

@@ -1,0 +1,351 @@
+//! PLY, the polygon file format of Stanford: text, or binary in either order of bytes.
+//!
+//! Read are positions, normals and colours of vertices, faces of any number of sides with their colours, and strips of triangles.
+//! Whatever else the header lists is passed over.
+
+mod body;
+mod header;
+
+use super::error::{Place, Refusal};
+use super::polygons::{Polygons, is_position};
+use super::{Beside, MeshFormat, Parts};
+use body::{Body, decode};
+use glam::DVec3;
+use header::{Coding, Element, Header, Property};
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+/// The format.
+pub(super) struct Ply;
+
+impl MeshFormat for Ply {
+    fn name(&self) -> &'static str {
+        "a PLY file"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["ply"]
+    }
+
+    fn recognises(&self, bytes: &[u8]) -> bool {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let head = &bytes[..bytes.len().min(80)];
+        let first = head.split(|byte| matches!(byte, b'\n' | b'\r')).next();
+        first.is_some_and(|line| line.trim_ascii() == b"ply")
+    }
+
+    fn read(&self, bytes: &[u8], _: Beside) -> Result<Parts, Refusal> {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if bytes.is_empty() {
+            return Err(Refusal::whole("is empty: expected a PLY file"));
+        }
+        if !self.recognises(bytes) {
+            return Err(Refusal::whole(
+                "does not begin with `ply`: expected a PLY file",
+            ));
+        }
+        let header = header::read(bytes)?;
+        let mut notes = Vec::new();
+        if header.has_texture {
+            notes.push(String::from("textures are not drawn"));
+        }
+        let mut polygons = read_body(bytes, &header, false);
+        // Words that are left over, or that do not fit: more of them in each line than the header says.
+        let is_whole = matches!(&polygons, Ok((_, true)));
+        if header.coding == Coding::Text
+            && !is_whole
+            && let Ok((by_lines, true)) = read_body(bytes, &header, true)
+            && by_lines.count() > 0
+        {
+            notes.push("lines have more words than the header says: they are passed over".into());
+            polygons = Ok((by_lines, true));
+        }
+        let (polygons, _) = polygons?;
+        if polygons.count() == 0 {
+            return Err(no_polygon(&polygons));
+        }
+        Ok(polygons.finish(notes))
+    }
+}
+
+/// Makes the error for a file without polygons.
+fn no_polygon(polygons: &Polygons) -> Refusal {
+    Refusal::whole(match polygons.positions.len() {
+        0 => "has no polygon: expected elements `vertex` and `face`".into(),
+        points => format!(
+            "has {points} points and no polygon: expected faces (MeshLab and Open3D make a surface of points)"
+        ),
+    })
+}
+
+/// Reads all elements, and returns whether they are all that there is. With `by_lines`, those of a text begin a line each, and what is
+/// left of the line before is passed over.
+fn read_body(bytes: &[u8], header: &Header, by_lines: bool) -> Result<(Polygons, bool), Refusal> {
+    let vertices = header.elements.iter().filter(|e| e.name == "vertex");
+    let vertices = vertices.map(|element| element.count).sum();
+    let mut body = Body::new(bytes, header, by_lines);
+    let mut polygons = Polygons::default();
+    // An element without properties has no bytes, however often it comes.
+    let elements = header.elements.iter();
+    for element in elements.filter(|element| !element.properties.is_empty()) {
+        match element.name.as_str() {
+            "vertex" => read_vertices(&mut body, element, &mut polygons)?,
+            "face" => read_faces(&mut body, element, vertices, &mut polygons)?,
+            "tristrips" => read_strips(&mut body, element, vertices, &mut polygons)?,
+            _ => {
+                for _ in 0..element.count {
+                    body.end_element();
+                    skip_all(&mut body, &element.properties)?;
+                }
+            }
+        }
+    }
+    body.end_element();
+    let is_whole = body.is_at_its_end();
+    Ok((polygons, is_whole))
+}
+
+fn skip_all(body: &mut Body, properties: &[Property]) -> Result<(), Refusal> {
+    properties
+        .iter()
+        .try_for_each(|property| body.skip(property))
+}
+
+/// The properties of vertices that are read: position, normal, colour.
+const VERTEX: [&[&str]; 9] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx", "normal_x"],
+    &["ny", "normal_y"],
+    &["nz", "normal_z"],
+    &["red", "r", "diffuse_red"],
+    &["green", "g", "diffuse_green"],
+    &["blue", "b", "diffuse_blue"],
+];
+
+/// The names of the list of a face's or a strip's corners.
+fn is_corners(property: &Property) -> bool {
+    property.count.is_some() && matches!(&*property.name, "vertex_indices" | "vertex_index")
+}
+
+/// Returns the place of each property in [`VERTEX`], from the place `first` on.
+fn slots(element: &Element, first: usize) -> Vec<Option<usize>> {
+    let slot = |property: &Property| {
+        let names = VERTEX.iter().skip(first);
+        let mut names = names.map(|names| names.contains(&&*property.name));
+        let found = names.position(|is_own| is_own);
+        found
+            .filter(|_| property.count.is_none())
+            .map(|slot| first + slot)
+    };
+    element.properties.iter().map(slot).collect()
+}
+
+/// Returns what channels of colours are multiplied by, so that full ones are 1.
+fn scales(element: &Element, slots: &[Option<usize>]) -> [f64; 3] {
+    [6, 7, 8].map(|channel| {
+        let property = slots.iter().position(|slot| *slot == Some(channel));
+        property.map_or(1.0, |at| 1.0 / element.properties[at].kind.full())
+    })
+}
+
+/// Returns the bytes of an element without lists.
+fn row_size(element: &Element) -> Option<usize> {
+    let sizes = element
+        .properties
+        .iter()
+        .map(|property| match property.count {
+            Some(_) => None,
+            None => Some(property.kind.size()),
+        });
+    sizes.sum()
+}
+
+/// Makes the error for a vertex that begins at `place` in a binary file.
+fn no_position(body: &Body, place: Place, number: usize, position: DVec3) -> Refusal {
+    let [x, y, z] = position.to_array();
+    let problem =
+        format!("vertex {number} is {x}, {y}, {z}: expected finite numbers, at most 3.4e38");
+    let place = match body {
+        Body::Text { words, .. } => words.place(),
+        Body::Binary { .. } => place,
+    };
+    Refusal::at(place, problem)
+}
+
+/// Returns what is read of a vertex whose bytes are `row`.
+#[inline]
+fn values_of_row(row: &[u8], is_big: bool, element: &Element, slots: &[Option<usize>]) -> [f64; 9] {
+    let (mut values, mut rest) = ([0.0; 9], row);
+    for (property, slot) in element.properties.iter().zip(slots) {
+        let (own, others) = rest.split_at(property.kind.size().min(rest.len()));
+        if let Some(slot) = slot {
+            values[*slot] = decode(own, property.kind, is_big);
+        }
+        rest = others;
+    }
+    values
+}
+
+/// Reads what is read of a vertex in a text, or with lists.
+#[inline]
+fn values_one_by_one(
+    body: &mut Body,
+    element: &Element,
+    slots: &[Option<usize>],
+) -> Result<[f64; 9], Refusal> {
+    let mut values = [0.0; 9];
+    for (property, slot) in element.properties.iter().zip(slots) {
+        match slot {
+            Some(slot) => values[*slot] = body.value(property.kind)?,
+            None => body.skip(property)?,
+        }
+    }
+    Ok(values)
+}
+
+fn read_vertices(
+    body: &mut Body,
+    element: &Element,
+    polygons: &mut Polygons,
+) -> Result<(), Refusal> {
+    let slots = slots(element, 0);
+    let has = |first: usize| (first..first + 3).all(|slot| slots.contains(&Some(slot)));
+    if !has(0) {
+        let problem = "its vertices have no x, y and z: expected properties of these names";
+        return Err(Refusal::whole(problem));
+    }
+    let scales = scales(element, &slots);
+    let (has_normals, has_colours) = (has(3), has(6));
+    let row_size = row_size(element);
+    let room = body.room(element);
+    polygons.positions.reserve(room);
+    polygons.normals.reserve(if has_normals { room } else { 0 });
+    polygons.colours.reserve(if has_colours { room } else { 0 });
+    for _ in 0..element.count {
+        body.end_element();
+        let place = body.place();
+        let values = match row_size.map(|size| body.row(size)).transpose()?.flatten() {
+            Some((row, is_big)) => values_of_row(row, is_big, element, &slots),
+            None => values_one_by_one(body, element, &slots)?,
+        };
+        let [x, y, z, nx, ny, nz, r, g, b] = values;
+        let position = DVec3::new(x, y, z);
+        if !is_position(position) {
+            return Err(no_position(body, place, polygons.positions.len(), position));
+        }
+        polygons.positions.push(position);
+        if has_normals {
+            polygons.normals.push(DVec3::new(nx, ny, nz));
+        }
+        if has_colours {
+            let [r_scale, g_scale, b_scale] = scales;
+            let colour = DVec3::new(r * r_scale, g * g_scale, b * b_scale);
+            polygons.colours.push(colour.as_vec3());
+        }
+    }
+    Ok(())
+}
+
+/// Reads an index of one of `vertices`; `None` for a negative one, which ends a strip.
+#[inline]
+fn read_index(
+    body: &mut Body,
+    property: &Property,
+    vertices: usize,
+) -> Result<Option<u32>, Refusal> {
+    let index = body.value(property.kind)?;
+    if index == -1.0 {
+        return Ok(None);
+    }
+    match index.fract() == 0.0 && index >= 0.0 && index < vertices as f64 {
+        true => Ok(Some(index as u32)),
+        false => Err(body.no_index(index, vertices)),
+    }
+}
+
+fn read_faces(
+    body: &mut Body,
+    element: &Element,
+    vertices: usize,
+    polygons: &mut Polygons,
+) -> Result<(), Refusal> {
+    if !element.properties.iter().any(is_corners) {
+        return match element.count {
+            0 => Ok(()),
+            _ => Err(Refusal::whole(
+                "its faces have no list `vertex_indices`: expected a property of this name",
+            )),
+        };
+    }
+    let slots = slots(element, 6);
+    // Where lines have other words than the header says, those behind the corners may be anything.
+    let has_colours =
+        !body.is_by_lines() && [6, 7, 8].iter().all(|slot| slots.contains(&Some(*slot)));
+    let scales = scales(element, &slots);
+    for _ in 0..element.count {
+        body.end_element();
+        let mut colour = [0.0; 3];
+        for (property, slot) in element.properties.iter().zip(&slots) {
+            match (slot, property.count) {
+                (Some(slot), _) => colour[slot - 6] = body.value(property.kind)?,
+                (None, Some(kind)) if is_corners(property) => {
+                    for _ in 0..body.count(kind)? {
+                        match read_index(body, property, vertices)? {
+                            Some(index) => polygons.corners.push(index),
+                            None => return Err(body.no_index(-1.0, vertices)),
+                        }
+                    }
+                }
+                _ => body.skip(property)?,
+            }
+        }
+        if polygons.end_polygon(body.place())? && has_colours {
+            polygons.set_colour(DVec3::from(colour) * DVec3::from(scales));
+        }
+    }
+    Ok(())
+}
+
+/// Reads strips of triangles: each corner from the third on makes one with the two before it, every other one the other way round. A
+/// negative index begins a new strip.
+fn read_strips(
+    body: &mut Body,
+    element: &Element,
+    vertices: usize,
+    polygons: &mut Polygons,
+) -> Result<(), Refusal> {
+    for _ in 0..element.count {
+        body.end_element();
+        for property in &element.properties {
+            let kind = match property.count {
+                Some(kind) if is_corners(property) => kind,
+                _ => {
+                    body.skip(property)?;
+                    continue;
+                }
+            };
+            let (mut before, mut length) = ([0; 2], 0usize);
+            for _ in 0..body.count(kind)? {
+                let Some(corner) = read_index(body, property, vertices)? else {
+                    length = 0;
+                    continue;
+                };
+                let [a, b] = before;
+                if length >= 2 {
+                    let triangle = match length % 2 {
+                        0 => [a, b, corner],
+                        _ => [b, a, corner],
+                    };
+                    polygons.corners.extend(triangle);
+                    polygons.end_polygon(body.place())?;
+                }
+                before = [b, corner];
+                length += 1;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,374 @@
+//! What readers fill: polygons with what their corners have, made into a mesh by one set of rules.
+
+use super::Parts;
+use super::error::{Place, Refusal};
+use crate::mesh::newell::unit_normal;
+use crate::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
+use crate::picture::Rgb;
+use core::mem::take;
+use glam::{DVec3, Vec3};
+use std::collections::HashMap;
+use std::format;
+use std::string::String;
+use std::vec;
+use std::vec::Vec;
+
+/// Polygons of a file, as far as it was read.
+#[derive(Default)]
+pub(super) struct Polygons {
+    pub positions: Vec<DVec3>,
+    /// One normal a position, of any length; empty if the file has none.
+    pub normals: Vec<DVec3>,
+    /// One colour a position, linear; empty if the file has none.
+    pub colours: Vec<Vec3>,
+    /// Corners, polygon after polygon, and behind them those of the polygon that is being read.
+    pub corners: Vec<u32>,
+    ends: Vec<u32>,
+    materials: Vec<Material>,
+    material_names: Vec<String>,
+    /// The material of each polygon up to the last one that has one; `u32::MAX` for none.
+    of_polygons: Vec<u32>,
+    numbers: HashMap<[u32; 3], u32>,
+    /// The smoothing group of each polygon; empty if the file says nothing of what is smooth.
+    groups: Vec<u32>,
+    /// The number of polygons of fewer than three different corners, which are left out, and of those with a corner twice in a row.
+    small: usize,
+    repeated: usize,
+    /// The number of polygons whose colour is not three finite numbers, and of those whose colour is out of range.
+    without_colour: usize,
+    clamped: usize,
+}
+
+/// The index of no material.
+const NONE: u32 = u32::MAX;
+
+impl Polygons {
+    /// Returns the number of polygons.
+    pub(super) fn count(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Returns the number of corners of whole polygons.
+    fn whole(&self) -> usize {
+        self.ends.last().map_or(0, |&end| end as usize)
+    }
+
+    /// Ends the polygon whose corners were pushed. Like one of an OBJ file, it is left out if it has fewer than three different corners,
+    /// and so is a corner that repeats the one before it. Returns false if the polygon is left out.
+    ///
+    /// # Errors
+    /// When the mesh is larger than one may be.
+    pub(super) fn end_polygon(&mut self, place: Place) -> Result<bool, Refusal> {
+        let start = self.whole();
+        let own = &self.corners[start..];
+        let is_sound = match *own {
+            [a, b, c] => a != b && b != c && c != a,
+            [first, .., last] if own.len() > 3 => {
+                first != last && own.windows(2).all(|two| two[0] != two[1])
+            }
+            _ => false,
+        };
+        if !is_sound {
+            let mut kept = self.corners.split_off(start);
+            let written = kept.len();
+            kept.dedup();
+            while kept.len() > 1 && kept[0] == kept[kept.len() - 1] {
+                kept.pop();
+            }
+            if kept.len() < 3 {
+                self.small += 1;
+                return Ok(false);
+            }
+            self.repeated += usize::from(kept.len() < written);
+            self.corners.append(&mut kept);
+        }
+        let most = PolygonMesh::MAX_POLYGONS;
+        if self.ends.len() >= most {
+            let problem = format!("too many polygons: expected at most {most}");
+            return Err(Refusal::at(place, problem));
+        }
+        let most = PolygonMesh::MAX_CORNERS;
+        if self.corners.len() > most {
+            let problem = format!("too many corners: expected at most {most}");
+            return Err(Refusal::at(place, problem));
+        }
+        self.ends.push(self.corners.len() as u32);
+        Ok(true)
+    }
+
+    /// Returns the index of `material`, which is added. Empty names are none.
+    pub(super) fn add_material(&mut self, material: Material, name: String) -> u32 {
+        self.materials.push(material);
+        self.material_names.push(name);
+        self.materials.len() as u32 - 1
+    }
+
+    /// Returns the index of the material of a colour of polygons, linear.
+    pub(super) fn material_of_colour(&mut self, colour: Rgb) -> u32 {
+        let key = colour.map(|channel| (channel + 0.0).to_bits());
+        if let Some(number) = self.numbers.get(&key) {
+            return *number;
+        }
+        let number = self.add_material(coloured(colour), String::new());
+        self.numbers.insert(key, number);
+        number
+    }
+
+    /// Gives a material to the last polygon.
+    pub(super) fn set_material(&mut self, material: u32) {
+        self.of_polygons.resize(self.ends.len(), NONE);
+        if let Some(last) = self.of_polygons.last_mut() {
+            *last = material;
+        }
+    }
+
+    /// Gives the last polygon the material of a colour, linear. One that is not finite is none; what is out of range is clamped.
+    pub(super) fn set_colour(&mut self, colour: DVec3) {
+        if !colour.is_finite() {
+            self.without_colour += 1;
+            return;
+        }
+        let within = colour.clamp(DVec3::ZERO, DVec3::ONE);
+        self.clamped += usize::from(within != colour);
+        let material = self.material_of_colour(within.as_vec3().to_array());
+        self.set_material(material);
+    }
+
+    /// Says whether the last polygon is flat.
+    #[cfg(feature = "gltf")]
+    pub(super) fn set_flat(&mut self, is_flat: bool) {
+        const SMOOTH: u32 = PolygonMesh::FACETED + 1;
+        self.groups.resize(self.ends.len(), SMOOTH);
+        if let (true, Some(last)) = (is_flat, self.groups.last_mut()) {
+            *last = PolygonMesh::FACETED;
+        }
+    }
+
+    /// Makes the mesh of these polygons; `notes` tell what was odd before.
+    pub(super) fn finish(mut self, mut notes: Vec<String>) -> Parts {
+        self.drop_unused();
+        let mut builder = MeshBuilder::from_f64(&self.positions);
+        builder.read_from_file();
+        builder.set_polygons(take(&mut self.corners), take(&mut self.ends));
+        self.tell_counts(&mut notes);
+        if !self.normals.is_empty() {
+            let unit = |normal: &DVec3| unit_normal(*normal).map_or(Vec3::ZERO, |n| n.as_vec3());
+            let values: Vec<Vec3> = self.normals.iter().map(unit).collect();
+            let is_flat = !self.groups.is_empty();
+            let zeros = values.iter().filter(|normal| **normal == Vec3::ZERO);
+            let zeros = if is_flat { 0 } else { zeros.count() };
+            if zeros == values.len() {
+                notes.push("the normals of the file have no direction: none is used".into());
+            } else {
+                if zeros > 0 {
+                    notes.push(format!(
+                        "{zeros} of {} normals of the file have no direction and count as none",
+                        values.len()
+                    ));
+                }
+                let corners = None;
+                builder.normals(GivenNormals { values, corners });
+            }
+        }
+        self.add_colours(&mut builder, &mut notes);
+        builder.stating_smoothing(!self.groups.is_empty());
+        if self.groups.contains(&PolygonMesh::FACETED) {
+            builder.smoothing_groups(take(&mut self.groups));
+        }
+        if !self.of_polygons.is_empty() {
+            let polygons = builder.polygon_count();
+            self.of_polygons.resize(polygons, NONE);
+            builder.materials(self.materials, self.of_polygons);
+            if self.material_names.iter().any(|name| !name.is_empty()) {
+                builder.material_names(self.material_names);
+            }
+        }
+        Parts {
+            builder,
+            positions: self.positions,
+            material_notes: notes.len()..notes.len(),
+            notes,
+        }
+    }
+
+    /// Tells how many polygons were odd, for each way of being so.
+    fn tell_counts(&self, notes: &mut Vec<String>) {
+        let counts = [
+            (
+                self.small,
+                "a face of fewer than three different corners is left out",
+            ),
+            (
+                self.repeated,
+                "a corner that repeats the one before it is left out",
+            ),
+            (
+                self.without_colour,
+                "a colour of a face is not three finite numbers: the face has none",
+            ),
+            (
+                self.clamped,
+                "a colour of a face is out of range and is clamped to it",
+            ),
+        ];
+        for (count, what) in counts {
+            match count {
+                0 => {}
+                1 => notes.push(what.into()),
+                _ => notes.push(format!("{what} ({count} times)")),
+            }
+        }
+    }
+
+    /// Gives the builder the colours of positions, if all are numbers.
+    fn add_colours(&mut self, builder: &mut MeshBuilder, notes: &mut Vec<String>) {
+        if self.colours.is_empty() {
+            return;
+        }
+        if self.colours.iter().any(|colour| !colour.is_finite()) {
+            notes.push("a colour is not three finite numbers: the colours are not used".into());
+            return;
+        }
+        let is_outside = |c: &Vec3| c.min_element() < 0.0 || c.max_element() > 1.0;
+        if self.colours.iter().any(is_outside) {
+            notes.push(
+                "a colour is not within 0 to 1: what is shown is clamped at each pixel".into(),
+            );
+            if look_like_bytes(self.colours.iter().copied()) {
+                notes.push(LIKE_BYTES.into());
+            }
+        }
+        // A surface does not reflect less than nothing.
+        let colours = take(&mut self.colours).into_iter();
+        builder.colours(colours.map(|colour| colour.max(Vec3::ZERO)).collect());
+    }
+
+    /// Drops positions that no polygon uses: they count neither for the view nor for rounding.
+    fn drop_unused(&mut self) {
+        self.corners.truncate(self.whole());
+        let Some(new) = indices_of_used(&self.corners, self.positions.len()) else {
+            return;
+        };
+        keep(&mut self.positions, &new);
+        keep(&mut self.normals, &new);
+        keep(&mut self.colours, &new);
+        let corners = self.corners.iter_mut();
+        corners.for_each(|corner| *corner = new[*corner as usize]);
+    }
+}
+
+/// Returns the index that each of `count` entries has once those that no corner uses are dropped, and [`NONE`] for these; `None` where
+/// all are used.
+pub(super) fn indices_of_used(corners: &[u32], count: usize) -> Option<Vec<u32>> {
+    let mut new = vec![NONE; count];
+    corners.iter().for_each(|&corner| new[corner as usize] = 0);
+    if !new.contains(&NONE) {
+        return None;
+    }
+    let used = new.iter_mut().filter(|index| **index == 0);
+    used.zip(0..).for_each(|(index, used)| *index = used);
+    Some(new)
+}
+
+/// Keeps the entries that have a new index: see [`indices_of_used`].
+pub(super) fn keep<T>(entries: &mut Vec<T>, new: &[u32]) {
+    let mut numbers = new.iter();
+    entries.retain(|_| numbers.next().is_some_and(|number| *number != NONE));
+}
+
+/// What is said of colours that [`look_like_bytes`].
+pub(super) const LIKE_BYTES: &str = "the colours look like 0 to 255: divide them by 255";
+
+/// True if linear colours look like bytes: most channels that are not 0 are over 1, and none is over 255. One has to be over 8, as
+/// colours that are a little too bright are none.
+pub(super) fn look_like_bytes(colours: impl Iterator<Item = Vec3>) -> bool {
+    let (mut most, mut over, mut lit) = (0f32, 0usize, 0usize);
+    for channel in colours.flat_map(|colour| colour.to_array()) {
+        most = most.max(channel);
+        over += usize::from(channel > 1.0);
+        lit += usize::from(channel > 0.0);
+    }
+    most > 8.0 && most <= 255.0 && 2 * over > lit
+}
+
+/// True for three finite numbers that a mesh can have.
+pub(super) fn is_position(position: DVec3) -> bool {
+    // The largest element of a vector with a NaN may be another one.
+    position.is_finite() && position.abs().max_element() <= f64::from(f32::MAX)
+}
+
+/// Returns a surface of a colour that a file gives, with a faint highlight. White reflects no more than falls on it, so that nothing is
+/// clamped under one light of strength 1.
+pub(super) fn coloured(colour: Rgb) -> Material {
+    const AMBIENT: f32 = 0.1;
+    const DIFFUSE: f32 = 0.8;
+    const SPECULAR: f32 = 0.1;
+    Material {
+        ambient: colour.map(|channel| AMBIENT * channel),
+        diffuse: colour.map(|channel| DIFFUSE * channel),
+        specular: [SPECULAR; 3],
+        ..Material::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_of_bytes_are_known() {
+        let look = |colours: &[[f32; 3]]| look_like_bytes(colours.iter().copied().map(Vec3::from));
+        assert!(look(&[
+            [255.0, 0.0, 0.0],
+            [0.0, 255.0, 0.0],
+            [0.0; 3],
+            [1.0, 9.0, 2.0]
+        ]));
+        assert!(look(&[[9.0, 0.0, 0.0]]));
+        assert!(!look(&[[256.0, 9.0, 9.0]]));
+        assert!(!look(&[[255.0, 0.5, 0.5]]));
+        assert!(!look(&[[1.5, 2.0, 8.0]]));
+        assert!(!look(&[[1.0; 3]]) && !look(&[]));
+    }
+
+    #[test]
+    fn polygons_are_cleaned_and_positions_without_one_are_dropped() {
+        let mut polygons = Polygons {
+            positions: (0..6)
+                .map(|i| DVec3::new(i.into(), (i * i).into(), 0.0))
+                .collect(),
+            normals: vec![DVec3::Z; 6],
+            colours: (0..6).map(|i| Vec3::splat(i as f32 / 8.0)).collect(),
+            ..Polygons::default()
+        };
+        let mut kept = Vec::new();
+        for corners in [&[1, 2, 4][..], &[1, 1, 2], &[1, 2], &[2, 2, 4, 5, 2], &[]] {
+            polygons.corners.extend_from_slice(corners);
+            kept.push(
+                polygons
+                    .end_polygon(Place::Line(1))
+                    .expect("within the limits"),
+            );
+        }
+        assert_eq!(kept, [true, false, false, true, false]);
+        let red = polygons.material_of_colour([1.0, 0.0, 0.0]);
+        polygons.set_material(red);
+        assert_eq!(polygons.material_of_colour([1.0, -0.0, 0.0]), red);
+        let parts = polygons.finish(Vec::new());
+        let mesh = parts.builder.finish().expect("a mesh");
+        let found: Vec<&[u32]> = mesh.polygons().collect();
+        assert_eq!(found, [&[0, 1, 2], &[1, 2, 3]]);
+        assert_eq!(mesh.positions()[2], Vec3::new(4.0, 16.0, 0.0));
+        assert_eq!(mesh.colours()[3], Vec3::splat(5.0 / 8.0));
+        assert_eq!(
+            mesh.given_normals().map(|given| given.values.len()),
+            Some(4)
+        );
+        assert_eq!([0, 1].map(|p| mesh.polygon_material(p)), [None, Some(0)]);
+        let told = [
+            "a face of fewer than three different corners is left out (3 times)",
+            "a corner that repeats the one before it is left out",
+        ];
+        assert_eq!(parts.notes, told);
+    }
+}

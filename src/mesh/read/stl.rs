@@ -1,0 +1,304 @@
+//! STL: triangles one by one, binary or as text.
+//!
+//! A file repeats the position of a vertex in each triangle around it, so positions that are equal exactly are made one. It says
+//! nothing of what is smooth: a mesh on its own has creases, and angles as weights. The normals of facets are passed over, as most
+//! programs do: they say no more than the vertices, and many files have zeros there.
+
+use super::content::is_binary_stl;
+use super::error::{Place, Refusal, quote};
+use super::polygons::Polygons;
+use super::words::{Words, number, text, text_end};
+use super::{Beside, MeshFormat, Parts};
+use crate::mesh::PolygonMesh;
+use crate::mesh::origin::origin;
+use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalWeight};
+use crate::mesh::weld::weld_repeated;
+use glam::{DVec3, Vec3};
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+/// The angle in degrees between polygons from which on their edge is sharp.
+const CREASE: f64 = 40.0;
+/// The bytes of the header of a binary file, of all before its triangles, and of a triangle.
+const HEADER: usize = 80;
+const START: usize = HEADER + 4;
+const TRIANGLE: usize = 50;
+
+/// The format.
+pub(super) struct Stl;
+
+impl MeshFormat for Stl {
+    fn name(&self) -> &'static str {
+        "an STL file"
+    }
+
+    fn endings(&self) -> &'static [&'static str] {
+        &["stl"]
+    }
+
+    fn recognises(&self, bytes: &[u8]) -> bool {
+        is_binary_stl(bytes) || begins_with_solid(bytes)
+    }
+
+    fn read(&self, bytes: &[u8], _: Beside) -> Result<Parts, Refusal> {
+        let mut notes = Vec::new();
+        let text = text_end(bytes);
+        let soup = match is_text(text) && !is_binary_stl(bytes) {
+            true => read_text(text)?,
+            false => read_binary(bytes, &mut notes)?,
+        };
+        if soup.ends.is_empty() {
+            let expected = "expected triangles, binary or as `facet` statements";
+            return Err(Refusal::whole(format!("has no triangle: {expected}")));
+        }
+        let mut parts = soup.welded()?.finish(notes);
+        parts.builder.normal_rule(NormalRule {
+            source: NormalSource::Crease(CREASE),
+            weight: NormalWeight::Angle,
+        });
+        parts.builder.up_by_custom('z');
+        Ok(parts)
+    }
+}
+
+/// Facets whose corners have positions of their own.
+#[derive(Default)]
+struct Soup {
+    positions: Vec<DVec3>,
+    /// The number of corners up to the end of each facet.
+    ends: Vec<u32>,
+}
+
+impl Soup {
+    /// Returns the polygons, with equal positions as one: equal once they are rounded as those of a mesh are.
+    fn welded(self) -> Result<Polygons, Refusal> {
+        let origin = origin(&self.positions);
+        let rounded = self.positions.iter().map(|&p| (p - origin).as_vec3());
+        let (corners, count) = weld_repeated(&rounded.collect::<Vec<Vec3>>());
+        let mut polygons = Polygons::default();
+        polygons.positions.reserve(count);
+        polygons.corners.reserve(corners.len());
+        let mut start = 0;
+        for &end in &self.ends {
+            let facet = start..end as usize;
+            for (&corner, &position) in corners[facet.clone()].iter().zip(&self.positions[facet]) {
+                // Indices go by first occurrence.
+                if corner as usize == polygons.positions.len() {
+                    polygons.positions.push(position);
+                }
+                polygons.corners.push(corner);
+            }
+            start = end as usize;
+            polygons.end_polygon(Place::Line(0))?;
+        }
+        Ok(polygons)
+    }
+}
+
+/// True if the first word is `solid`.
+fn begins_with_solid(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    // Some writers put comments first, though the format has none.
+    let first = Words::new(&bytes[..bytes.len().min(1 << 12)], 0, 1)
+        .with_comments()
+        .next();
+    first.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+}
+
+/// True if a file is text: `solid`, and no byte 0 near it, which headers of binary files that begin with `solid` have.
+fn is_text(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(1024)];
+    begins_with_solid(bytes) && !head.contains(&0)
+}
+
+/// Reads the triangles of a binary file.
+fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
+    let Some(stated) = bytes.get(HEADER..START).and_then(|four| four.first_chunk()) else {
+        let length = bytes.len();
+        return Err(Refusal::whole(format!(
+            "is {length} bytes long: expected text that begins with `solid`, or a header of {START} bytes"
+        )));
+    };
+    let stated = u32::from_le_bytes(*stated);
+    let body = &bytes[START..];
+    let held = body.len() / TRIANGLE;
+    let count = match stated {
+        // Programs that write to a pipe do not know yet how many will come.
+        0 | u32::MAX if held > 0 => {
+            notes.push(format!("says {stated} triangles: all {held} are read"));
+            held
+        }
+        _ => stated as usize,
+    };
+    if count > held {
+        let problem = format!("the file ends in triangle {} of {count}", held + 1);
+        return Err(Refusal::at(Place::Byte(bytes.len()), problem));
+    }
+    if count > PolygonMesh::MAX_POLYGONS {
+        let most = PolygonMesh::MAX_POLYGONS;
+        return Err(Refusal::whole(format!(
+            "too many polygons: expected at most {most}"
+        )));
+    }
+    let mut positions = Vec::with_capacity(3 * count);
+    let mut has_attributes = false;
+    for (i, triangle) in body.chunks_exact(TRIANGLE).take(count).enumerate() {
+        // The normal first, which is passed over.
+        for corner in triangle[12..48].chunks_exact(12) {
+            let mut vertex = [0.0; 3];
+            for (value, four) in vertex.iter_mut().zip(corner.chunks_exact(4)) {
+                *value = f64::from(f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
+            }
+            positions.push(DVec3::from_array(vertex));
+        }
+        let last = &positions[3 * i..];
+        if !last.iter().all(|p| p.is_finite()) {
+            let place = Place::Byte(START + TRIANGLE * i);
+            let problem = format!(
+                "triangle {} has a coordinate that is no finite number",
+                i + 1
+            );
+            return Err(Refusal::at(place, problem));
+        }
+        has_attributes |= triangle[48..] != [0, 0];
+    }
+    if has_attributes {
+        notes.push(
+            "the two bytes after each triangle, which some programs give colours, are not read"
+                .into(),
+        );
+    }
+    let ends = (1..=count as u32).map(|triangle| 3 * triangle).collect();
+    Ok(Soup { positions, ends })
+}
+
+/// Reads the facets of a text, word by word: lines mean nothing but in names, and keywords have any case.
+fn read_text(bytes: &[u8]) -> Result<Soup, Refusal> {
+    let start = if bytes.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
+    };
+    let mut words = Words::new(bytes, start, 1).with_comments();
+    let mut soup = Soup::default();
+    let mut is_inside = false;
+    while let Some(word) = words.next() {
+        match keyword(word) {
+            Some(Keyword::Solid) => pass_over_name(&mut words),
+            Some(Keyword::Facet) if !is_inside => {
+                is_inside = true;
+                pass_over_normal(&mut words);
+            }
+            Some(Keyword::Vertex) if is_inside => {
+                let mut vertex = [0.0; 3];
+                for value in &mut vertex {
+                    *value = words.finite("the end of a vertex")?;
+                }
+                soup.positions.push(DVec3::from_array(vertex));
+            }
+            Some(Keyword::Loop) if is_inside => {}
+            Some(Keyword::EndFacet) if is_inside => {
+                is_inside = false;
+                end_facet(&mut soup, &words)?;
+            }
+            _ => {
+                let expected = match is_inside {
+                    true => "`outer loop`, `vertex`, `endloop` or `endfacet`",
+                    false => "`facet`, `solid` or `endsolid`",
+                };
+                let problem = format!("`{}`: expected {expected}", quote(&text(word)));
+                return Err(Refusal::at(words.place(), problem));
+            }
+        }
+    }
+    match is_inside {
+        true => Err(words.ends_before("`endfacet`")),
+        false => Ok(soup),
+    }
+}
+
+/// Ends a facet.
+fn end_facet(soup: &mut Soup, words: &Words) -> Result<(), Refusal> {
+    let start = soup.ends.last().map_or(0, |&end| end as usize);
+    let found = soup.positions.len() - start;
+    if found < 3 {
+        let problem = format!("a facet of {found} vertices: expected three");
+        return Err(Refusal::at(words.place(), problem));
+    }
+    let most = PolygonMesh::MAX_POLYGONS;
+    if soup.ends.len() == most {
+        let problem = format!("too many polygons: expected at most {most}");
+        return Err(Refusal::at(words.place(), problem));
+    }
+    let most = PolygonMesh::MAX_CORNERS;
+    if soup.positions.len() > most {
+        let problem = format!("too many corners: expected at most {most}");
+        return Err(Refusal::at(words.place(), problem));
+    }
+    soup.ends.push(soup.positions.len() as u32);
+    Ok(())
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Keyword {
+    /// `solid` or `endsolid`, after which a name may stand.
+    Solid,
+    Facet,
+    Vertex,
+    /// `outer`, `loop` or `endloop`.
+    Loop,
+    EndFacet,
+}
+
+/// Returns the keyword that `word` is.
+fn keyword(word: &[u8]) -> Option<Keyword> {
+    const KEYWORDS: [(&[u8], Keyword); 8] = [
+        (b"vertex", Keyword::Vertex),
+        (b"outer", Keyword::Loop),
+        (b"loop", Keyword::Loop),
+        (b"endloop", Keyword::Loop),
+        (b"facet", Keyword::Facet),
+        (b"endfacet", Keyword::EndFacet),
+        (b"solid", Keyword::Solid),
+        (b"endsolid", Keyword::Solid),
+    ];
+    let mut known = KEYWORDS.iter();
+    let found = known.find(|(known, _)| known.eq_ignore_ascii_case(word));
+    found.map(|(_, keyword)| *keyword)
+}
+
+/// Passes over the name of a solid: the rest of the line, or up to what must be the next statement where the file is one line. A
+/// solid may be called `facet normal things`.
+fn pass_over_name(words: &mut Words) {
+    loop {
+        let before = words.clone();
+        let Some(word) = words.next_in_line() else {
+            return;
+        };
+        let mut ahead = words.clone();
+        let mut next = || ahead.next_in_line().unwrap_or_default();
+        let is_statement = match keyword(word) {
+            Some(Keyword::Facet) => {
+                next().eq_ignore_ascii_case(b"normal") && number(next()).is_some()
+            }
+            Some(Keyword::Solid) => true,
+            _ => false,
+        };
+        if is_statement {
+            *words = before;
+            return;
+        }
+    }
+}
+
+/// Passes over `normal` and what follows it, up to the next keyword.
+fn pass_over_normal(words: &mut Words) {
+    for _ in 0..4 {
+        let before = words.clone();
+        if words.next().is_none_or(|word| keyword(word).is_some()) {
+            *words = before;
+            return;
+        }
+    }
+}

@@ -1,0 +1,384 @@
+//! glTF and GLB.
+
+use super::*;
+use crate::mesh::{PolygonMesh, vertex_normals};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use glam::Vec3;
+use std::format;
+use std::string::{String, ToString};
+use vertex_normals::NormalSource;
+
+/// The bytes of three positions, three indices, three normals and three colours of bytes.
+fn buffer() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut vectors = |vectors: [[f32; 3]; 3]| {
+        bytes.extend(vectors.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+    };
+    vectors([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    vectors([[0.0, 0.0, 1.0]; 3]);
+    bytes.extend([0u16, 1, 2, 0].iter().flat_map(|x| x.to_le_bytes()));
+    bytes.extend([255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255]);
+    bytes
+}
+
+/// The JSON of a triangle: what its buffer, its primitive and the node of its mesh have, and whatever else.
+fn json(buffer: &str, primitive: &str, node: &str, more: &str) -> String {
+    format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
+"nodes": [{{"children": [1], "translation": [0, 0, 5]}}, {{"mesh": 0{node}}}],
+"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0{primitive}}}]}}],
+"materials": [{{"name": "red", "pbrMetallicRoughness": {{"baseColorFactor": [1, 0, 0, 1]}}}}],
+"accessors": [
+{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}},
+{{"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"}},
+{{"bufferView": 2, "componentType": 5123, "count": 3, "type": "SCALAR"}},
+{{"bufferView": 3, "componentType": 5121, "normalized": true, "count": 3, "type": "VEC4"}}],
+"bufferViews": [{{"buffer": 0, "byteLength": 36}}, {{"buffer": 0, "byteOffset": 36, "byteLength": 36}},
+{{"buffer": 0, "byteOffset": 72, "byteLength": 6}}, {{"buffer": 0, "byteOffset": 80, "byteLength": 12}}],
+"buffers": [{{"byteLength": 92{buffer}}}]{more}}}"#
+    )
+}
+
+/// The address of the buffer as data.
+fn data() -> String {
+    let text = STANDARD.encode(buffer());
+    format!(r#", "uri": "data:application/octet-stream;base64,{text}""#)
+}
+
+fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
+    let mut json = json.as_bytes().to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut bytes = b"glTF".to_vec();
+    let length = 12 + 8 + json.len() + 8 + bin.len();
+    for number in [2, length as u32, json.len() as u32] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.extend(b"JSON");
+    bytes.extend(json);
+    bytes.extend((bin.len() as u32).to_le_bytes());
+    bytes.extend(b"BIN\0");
+    bytes.extend(bin);
+    bytes
+}
+
+const ALL: &str = r#", "NORMAL": 1, "COLOR_0": 3}, "indices": 2, "material": 0"#;
+
+/// A file of each kind, with all that is read.
+pub(super) fn files() -> (String, Vec<u8>) {
+    let node = r#", "scale": [-2, 2, 2]"#;
+    let whole = json(&data(), ALL, node, "");
+    (whole, glb(&json("", ALL, node, ""), &buffer()))
+}
+
+#[test]
+fn nodes_place_triangles_with_normals_colours_and_materials() {
+    let (text, binary) = files();
+    let mesh = parse(&text).expect("a mesh").mesh;
+    let corner = |c: usize| mesh.positions()[mesh.polygon(0)[c] as usize];
+    // Turned inside out by the negative scale, and back by the order of its corners.
+    assert_eq!(corner(0), Vec3::new(0.0, 0.0, 5.0));
+    assert_eq!(corner(1), Vec3::new(0.0, 2.0, 5.0));
+    assert_eq!(corner(2), Vec3::new(-2.0, 0.0, 5.0));
+    assert_eq!(mesh.given_normals().expect("normals").values, [Vec3::Z; 3]);
+    assert_eq!(mesh.colours(), [Vec3::X, Vec3::Y, Vec3::Z]);
+    let material = mesh.polygon_material(0).expect("a material");
+    let red = crate::mesh::read::polygons::coloured([1.0, 0.0, 0.0]);
+    assert_eq!(mesh.materials()[material], red);
+    assert_eq!(mesh.material_name(material), Some("red"));
+    assert_eq!(mesh.up_by_custom(), Some('y'));
+    assert_eq!(parse(binary).expect("a mesh").mesh, mesh);
+    // Beside it, under a name with a blank.
+    let beside = json(
+        r#", "uri": "a%20b.bin""#,
+        ALL,
+        r#", "scale": [-2, 2, 2]"#,
+        "",
+    );
+    let loaded = parse_mesh("t.gltf", beside.as_bytes(), |name| match name {
+        "a b.bin" => Ok(buffer()),
+        _ => Err(ErrorKind::NotFound.into()),
+    });
+    assert_eq!(loaded.expect("a mesh").mesh, mesh);
+    let error = parse(&beside).expect_err("no buffer").to_string();
+    assert!(
+        error.starts_with("t: buffer `a b.bin` cannot be read (entity not found)"),
+        "{error}"
+    );
+}
+
+#[test]
+fn what_has_no_normals_is_flat_and_it_is_said() {
+    let bare = json(&data(), r#"}, "indices": 2"#, "", "");
+    let loaded = parse(&bare).expect("a mesh");
+    let said = "the file has no normals: drawn flat, as glTF says; --normals averaged or crease=40 smooths";
+    assert_eq!(loaded.warnings, [said]);
+    assert_eq!(loaded.mesh.smoothing_group(0), Some(PolygonMesh::FACETED));
+    let two = bare.replace(
+        r#""primitives": ["#,
+        r#""primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}}, "#,
+    );
+    let loaded = parse(&two).expect("a mesh");
+    assert!(loaded.warnings[0].starts_with("1 of 2 parts have no normals"));
+    let mesh = &loaded.mesh;
+    let groups = [0, 1].map(|p| mesh.smoothing_group(p));
+    assert_eq!(
+        groups,
+        [Some(2), Some(PolygonMesh::FACETED)].map(|g| g.map(|g| g.min(1)))
+    );
+    let normals = vertex_normals::vertex_normals(mesh, NormalSource::Auto);
+    assert_eq!(normals.values[normals.corners[5] as usize], Vec3::Z);
+}
+
+#[test]
+fn strips_and_fans_are_triangles() {
+    let of = |mode: u32| {
+        let primitive = format!(r#"}}, "mode": {mode}"#);
+        let text = json(&data(), &primitive, "", "");
+        // Six positions: those of the normals are the last three.
+        let text = text.replacen(r#""byteLength": 36}"#, r#""byteLength": 72}"#, 1);
+        polygons(text.replacen(r#""count": 3"#, r#""count": 5"#, 1))
+    };
+    assert_eq!(of(5), [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
+    assert_eq!(of(6), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+    assert_eq!(of(4), [[0, 1, 2]]);
+    let points = json(&data(), r#"}, "mode": 0"#, "", "");
+    let said = "t: has points or lines but no triangle: expected a scene with meshes of triangles";
+    assert_refused(points, said);
+}
+
+#[test]
+fn sparse_accessors_replace_elements() {
+    // The first position becomes that of the first normal, (0, 0, 1).
+    let sparse = r#""sparse": {"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 1}}, "#;
+    let text = json(&data(), r#"}, "indices": 2"#, "", "");
+    let with = text.replacen(
+        r#""componentType": 5126"#,
+        &format!("{sparse}{}", r#""componentType": 5126"#),
+        1,
+    );
+    let mesh = parse(&with).expect("a mesh").mesh;
+    assert_eq!(mesh.positions()[0], Vec3::new(0.0, 0.0, 6.0));
+    let many = with.replace(r#""sparse": {"count": 1"#, r#""sparse": {"count": 9"#);
+    assert!(parse(&many).is_err());
+}
+
+#[test]
+fn files_are_refused_with_what_is_wrong() {
+    let own = |node: &str, more: &str| json(&data(), r#"}, "indices": 2"#, node, more);
+    let text = own("", "");
+    let beyond = "reaches beyond its buffer view: expected all of them in it";
+    assert_refused(
+        text.replacen(r#""count": 3"#, r#""count": 4000000000"#, 1),
+        &format!("t: accessor 0 of 4000000000 elements {beyond}"),
+    );
+    let no_bytes = text.replacen(
+        r#"{"bufferView": 0, "componentType""#,
+        r#"{"sparse": {"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 1}}, "componentType""#,
+        1,
+    );
+    assert_refused(
+        no_bytes.replacen(r#""count": 3"#, r#""count": 4000000000"#, 1),
+        "t: accessor 0 says 4000000000 elements and has no bytes",
+    );
+    assert_refused(
+        text.replacen(r#""byteLength": 36}"#, r#""byteLength": 24}"#, 1)
+            .replace(
+                r#""count": 3, "type": "VEC3", "min""#,
+                r#""count": 2, "type": "VEC3", "min""#,
+            ),
+        "t: vertex index 2 in accessor 2 is out of range: expected 0 to 1",
+    );
+    assert_refused(
+        text.replace(r#""POSITION": 0"#, r#""POSITION": 9"#),
+        "t: accessor 9 is named, and there are 4",
+    );
+    assert_refused(
+        r#"{"asset": {"version": "1.0"}, "meshes": {}}"#,
+        "t: is glTF 1.0: expected glTF 2.0 (`gltf-pipeline` converts it)",
+    );
+    assert_refused(
+        own(r#", "children": [0]"#, ""),
+        "t: node 0 is its own ancestor, or has two parents: expected a tree of nodes",
+    );
+    let draco = own(
+        "",
+        r#", "extensionsRequired": ["KHR_draco_mesh_compression"]"#,
+    );
+    let error = parse(draco).expect_err("compressed").to_string();
+    assert!(
+        error
+            .starts_with("t: requires the extension KHR_draco_mesh_compression, which is not read"),
+        "{error}"
+    );
+    let harmless = own(
+        "",
+        r#", "extensionsRequired": ["KHR_texture_transform", "KHR_mesh_quantization"]"#,
+    );
+    assert!(parse(harmless).is_ok());
+    let error = parse(text.replace(r#""scene": 0"#, r#""scene": 7"#))
+        .expect_err("no scene")
+        .to_string();
+    assert!(
+        error.starts_with("t: is no valid glTF 2.0: scene: "),
+        "{error}"
+    );
+    let error = parse(text.replace(r#""meshes": ["#, r#""meshes": [,"#)).expect_err("no JSON");
+    assert_eq!(error.place, Some(crate::mesh::read::Place::Line(3)));
+}
+
+#[test]
+fn cameras_and_lights_are_where_their_nodes_are() {
+    let lights = r#", "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3, "color": [1, 0.5, 0]},
+        {"type": "point", "intensity": 4}]}}, "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]"#;
+    let text = json(&data(), r#"}, "indices": 2"#, "", lights);
+    let nodes = r#""nodes": [{"camera": 0, "translation": [0, 0, 9]}, {"rotation": [0.70710678, 0, 0, -0.70710678],
+        "extensions": {"KHR_lights_punctual": {"light": 0}}}, {"translation": [0.5, 2.5, 0],
+        "extensions": {"KHR_lights_punctual": {"light": 1}}}, "#;
+    let text = text.replacen(
+        r#""nodes": [{"children""#,
+        &format!("{nodes}{}", r#"{"children""#),
+        1,
+    );
+    let text = text.replacen(r#"[{"nodes": [0]}]"#, r#"[{"nodes": [0, 1, 2, 4]}]"#, 1);
+    let text = text.replacen(r#"{"children": [1], "translation": [0, 0, 5]}, "#, "", 1);
+    let text = text.replacen(r#""nodes": [0, 1, 2, 4]"#, r#""nodes": [0, 1, 2, 3]"#, 1);
+    let view = crate::mesh::read::view(text.as_bytes()).expect("a view");
+    let camera = view.camera.expect("a camera");
+    // The middle of the triangle's box is (0.5, 0.5, 0).
+    let distance = 81.5f64.sqrt();
+    assert!((camera.target - glam::DVec3::new(0.0, 0.0, 9.0 - distance)).length() < 1e-12);
+    assert!((camera.fovy - 0.5f64.to_degrees()).abs() < 1e-6);
+    assert_eq!((camera.eye.z, camera.up), (9.0, glam::DVec3::Y));
+    let [sun, lamp] = view.lights[..] else {
+        panic!("{:?}", view.lights)
+    };
+    // −z of the node turned by −90 degrees about x, and back: its z leads up.
+    let toward = sun.toward.expect("a direction");
+    assert!((toward - glam::DVec3::Y).length() < 1e-6, "{toward}");
+    // 3/π and 4/4π together are 1.27: more than 1, so that both are divided by it.
+    let sum = 3.0 / core::f64::consts::PI + 1.0 / core::f64::consts::PI;
+    let expected = 3.0 / core::f64::consts::PI / sum;
+    assert!(
+        (f64::from(sun.colour[0]) - expected).abs() < 1e-6 && sun.colour[1] == 0.5 * sun.colour[0]
+    );
+    assert_eq!(
+        (lamp.toward, lamp.place),
+        (None, glam::DVec3::new(0.5, 2.5, 0.0))
+    );
+    assert!((f64::from(lamp.colour[0]) - 4.0 / core::f64::consts::PI / sum).abs() < 1e-6);
+}
+
+#[test]
+fn a_skin_moves_vertices_by_their_joints() {
+    // The colours of bytes are weights of 1 for joint 0, 1 and 2; the joints are normalised bytes of nothing: 0 for all.
+    let text = json(
+        &data(),
+        r#", "JOINTS_0": 4, "WEIGHTS_0": 3}, "indices": 2"#,
+        r#", "skin": 0"#,
+        r#", "skins": [{"joints": [0]}]"#,
+    );
+    let joints = r#""accessors": [{"componentType": 5121, "count": 3, "type": "VEC4", "sparse": {"count": 1,
+        "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 0}}},"#;
+    let text = text.replacen(r#""accessors": ["#, joints, 1);
+    // The new accessor is the first one.
+    let text = text
+        .replace(r#""JOINTS_0": 4"#, r#""JOINTS_0": 0"#)
+        .replace(r#""POSITION": 0"#, r#""POSITION": 1"#);
+    let text = text
+        .replace(r#""WEIGHTS_0": 3"#, r#""WEIGHTS_0": 4"#)
+        .replace(r#""indices": 2"#, r#""indices": 3"#);
+    let mesh = parse(&text).expect("a mesh").mesh;
+    // Joint 0 is the root, at z = 5, whatever the node of the mesh does; its scale is not there.
+    assert_eq!(
+        mesh.positions(),
+        [
+            Vec3::new(0.0, 0.0, 5.0),
+            Vec3::new(1.0, 0.0, 5.0),
+            Vec3::new(0.0, 1.0, 5.0)
+        ]
+    );
+    let scaled = text.replace(r#""skin": 0"#, r#""skin": 0, "scale": [7, 7, 7]"#);
+    assert_eq!(
+        parse(&scaled).expect("a mesh").mesh.positions(),
+        mesh.positions()
+    );
+}
+
+#[test]
+fn glb_files_with_wrong_lengths_are_refused_with_both_lengths() {
+    let (_, whole) = files();
+    let have = whole.len();
+    let cut = &whole[..have - 30];
+    let less = have - 30;
+    assert_refused(
+        cut,
+        &format!("t: byte 8: the file says {have} bytes and has {less}: expected all of them"),
+    );
+    assert_refused(
+        &whole[..10],
+        "t: byte 10: the file ends after 10 bytes: expected 12 of a GLB header",
+    );
+    let with = |at: usize, number: u32| {
+        let mut bytes = whole.clone();
+        bytes[at..at + 4].copy_from_slice(&number.to_le_bytes());
+        bytes
+    };
+    assert_refused(
+        with(8, 7),
+        "t: byte 8: the file says 7 bytes: expected at least 20",
+    );
+    let left = have - 20;
+    assert_refused(
+        with(12, 99_999),
+        &format!(
+            "t: byte 12: its JSON chunk says 99999 bytes and has {left}: expected all of them"
+        ),
+    );
+    let bin = have - 8 - buffer().len();
+    assert_refused(
+        with(bin, 93),
+        &format!("t: byte {bin}: its binary chunk says 93 bytes and has 92: expected all of them"),
+    );
+}
+
+#[test]
+fn what_is_no_scene_of_the_second_version_is_told_as_such() {
+    for first in [
+        r#"{"asset": {"profile": {"version": "1.0.3"}}, "meshes": []}"#,
+        r#"{"asset": {}, "meshes": {"a": {}}}"#,
+    ] {
+        assert_refused(
+            first,
+            "t: is glTF 1.0: expected glTF 2.0 (`gltf-pipeline` converts it)",
+        );
+    }
+    let text = json(&data(), ALL, "", "").replace(r#"[{"nodes": [0]}]"#, "[{}]");
+    let problem = parse(text).expect_err("nothing").problem;
+    assert!(
+        problem.starts_with("its scene has no `nodes`: nothing is drawn"),
+        "{problem}"
+    );
+    for name in ["t.glb", "t.gltf"] {
+        let none = |_: &str| Err(ErrorKind::NotFound.into());
+        let error = crate::mesh::read::parse_mesh(name, b"", none).expect_err("nothing");
+        assert_eq!(error.problem, "is empty: expected a glTF file");
+    }
+}
+
+/// A path that leaves the folder of the file is asked for by its bare name alone.
+#[test]
+fn no_buffer_outside_the_folder_is_read() {
+    let text = json(r#", "uri": "../../etc/secret""#, ALL, "", "");
+    let mut asked = Vec::new();
+    let loaded = parse_mesh("t", text.as_bytes(), |name| {
+        asked.push(String::from(name));
+        Err(ErrorKind::NotFound.into())
+    });
+    let problem = loaded.expect_err("no buffer").problem;
+    assert!(
+        problem.starts_with("buffer `../../etc/secret` is outside the folder"),
+        "{problem}"
+    );
+    assert_eq!(asked, ["secret"]);
+}

@@ -1,0 +1,32 @@
+//! Files of all formats but OBJ, whose tests stand beside its reader.
+
+mod files;
+#[cfg(feature = "gltf")]
+mod gltf;
+mod mutants;
+mod off;
+mod ply;
+mod stl;
+
+use super::{LoadedMesh, ReadError, parse_mesh};
+use std::io::ErrorKind;
+use std::vec::Vec;
+
+/// Reads a file of no name that tells its format, and nothing beside it.
+fn parse(bytes: impl AsRef<[u8]>) -> Result<LoadedMesh, ReadError> {
+    parse_mesh("t", bytes.as_ref(), |_| Err(ErrorKind::NotFound.into()))
+}
+
+/// Returns the polygons of a file that can be read.
+#[track_caller]
+fn polygons(bytes: impl AsRef<[u8]>) -> Vec<Vec<u32>> {
+    let loaded = parse(bytes).expect("a mesh");
+    loaded.mesh.polygons().map(<[u32]>::to_vec).collect()
+}
+
+/// Checks the message of a file that is refused.
+#[track_caller]
+fn assert_refused(bytes: impl AsRef<[u8]>, message: &str) {
+    let error = parse(bytes).expect_err("no mesh");
+    assert_eq!(std::string::ToString::to_string(&error), message);
+}

@@ -1,0 +1,128 @@
+//! STL, binary and text.
+
+use super::*;
+use crate::mesh::vertex_normals::{NormalSource, NormalWeight};
+use std::format;
+use std::string::String;
+
+/// The vertices of two triangles of a unit square.
+const SQUARE: [[f32; 9]; 2] = [
+    [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0],
+    [1.0, 1.0, 0.0, -0.0, 1.0, 0.0, -0.0, 0.0, 0.0],
+];
+
+/// A binary file that says that it has `count` triangles.
+pub(super) fn binary(header: &[u8], count: u32, triangles: &[[f32; 9]]) -> Vec<u8> {
+    let mut bytes = header.to_vec();
+    bytes.resize(80, 0);
+    bytes.extend(count.to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0; 12]);
+        bytes.extend(triangle.iter().flat_map(|x| x.to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+/// The text of a facet.
+fn facet(corners: &str) -> String {
+    let vertices = corners
+        .split(',')
+        .map(|corner| format!("vertex {corner}\n"));
+    let vertices: String = vertices.collect();
+    format!("facet normal 0 0 1\nouter loop\n{vertices}endloop\nendfacet\n")
+}
+
+fn read_stl(bytes: &[u8]) -> Result<LoadedMesh, ReadError> {
+    parse_mesh("t.stl", bytes, |_| Err(ErrorKind::NotFound.into()))
+}
+
+#[test]
+fn equal_positions_are_one_and_edges_are_creased() {
+    let loaded = parse(binary(b"solid by hand", 2, &SQUARE)).expect("a mesh");
+    let mesh = &loaded.mesh;
+    let polygons: Vec<&[u32]> = mesh.polygons().collect();
+    assert_eq!(polygons, [[0, 1, 2], [2, 3, 0]]);
+    assert_eq!(mesh.positions().len(), 4);
+    assert_eq!(mesh.normal_rule().source, NormalSource::Crease(40.0));
+    assert_eq!(mesh.normal_rule().weight, NormalWeight::Angle);
+    assert!(loaded.warnings.is_empty() && mesh.given_normals().is_none());
+    // As a text far from 0, where 32 bits are too coarse to tell its corners apart.
+    let far = "4000000 0 0.001,4000000.001 0 0.001,4000000 0.001 0.001";
+    let loaded = parse(format!("solid far\n{}", facet(far))).expect("a mesh");
+    assert_eq!(loaded.mesh.positions().len(), 3);
+}
+
+#[test]
+fn the_number_of_triangles_may_be_wrong() {
+    for count in [0, u32::MAX] {
+        let loaded = read_stl(&binary(b"x", count, &SQUARE)).expect("a mesh");
+        assert_eq!(loaded.mesh.polygon_count(), 2);
+        let said = format!("says {count} triangles: all 2 are read");
+        assert_eq!(loaded.warnings, [said]);
+    }
+    let trailing = [binary(b"x", 2, &SQUARE), b"abc".to_vec()].concat();
+    let loaded = read_stl(&trailing).expect("a mesh");
+    assert_eq!(loaded.mesh.polygon_count(), 2);
+    let error =
+        |bytes: &[u8]| std::string::ToString::to_string(&read_stl(bytes).expect_err("no mesh"));
+    let cut = binary(b"x", 3, &SQUARE);
+    assert_eq!(
+        error(&cut),
+        "t.stl: byte 184: the file ends in triangle 3 of 3"
+    );
+    let short =
+        "t.stl: is 3 bytes long: expected text that begins with `solid`, or a header of 84 bytes";
+    assert_eq!(error(b"abc"), short);
+    let none = "t.stl: has no triangle: expected triangles, binary or as `facet` statements";
+    assert_eq!(error(&binary(b"x", 0, &[])), none);
+    let mut nan = SQUARE;
+    nan[1][4] = f32::NAN;
+    let said = "t.stl: byte 134: triangle 2 has a coordinate that is no finite number";
+    assert_eq!(error(&binary(b"x", 2, &nan)), said);
+}
+
+#[test]
+fn text_is_read_word_by_word() {
+    let own = facet("0 0 0,1 0 0,0 1 0");
+    let square = facet("0 0 0,1 0 0,1 1 0,0 1 0");
+    for (text, corners) in [
+        (format!("solid a\n{own}endsolid a\n"), 3),
+        (format!("solid a\n{own}").replace('\n', "\r"), 3),
+        (format!("solid a {own} endsolid").replace('\n', " "), 3),
+        (format!("SOLID\n{}", own.to_uppercase()), 3),
+        (
+            format!("\u{feff}# by hand\nsolid facet normal things\n{own}"),
+            3,
+        ),
+        (format!("solid a\n{own}endsolid a\nsolid b\n{own}"), 6),
+        (
+            format!("solid endsolid\n{}", own.replace("normal 0 0 1", "")),
+            3,
+        ),
+        (
+            format!("solid a\n{}", own.replace("0 0 1", "nan nan nan")),
+            3,
+        ),
+        (format!("solid a\n{square}"), 4),
+    ] {
+        let found = polygons(&text).concat();
+        assert_eq!(found.len(), corners, "{text}");
+    }
+    assert_refused(
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 1,5 0\n",
+        "t:4: `1,5`: expected a finite number with a decimal point",
+    );
+    assert_refused(
+        format!("solid a\n{}", facet("0 0 0,1 0 0")),
+        "t:7: a facet of 2 vertices: expected three",
+    );
+    assert_refused(
+        format!("solid a\n{own}hello\n"),
+        "t:9: `hello`: expected `facet`, `solid` or `endsolid`",
+    );
+    assert_refused(
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0",
+        "t:4: the file ends here, before `endfacet`",
+    );
+}
