@@ -1,5 +1,7 @@
 #![no_main]
 
+#[path = "../inputs/mesh.rs"]
+mod mesh;
 #[path = "../inputs/obj.rs"]
 mod obj;
 

@@ -2,6 +2,8 @@
 
 #![cfg(feature = "cli")]
 
+#[path = "../../fuzz/inputs/mesh.rs"]
+mod mesh;
 #[path = "../../fuzz/inputs/obj.rs"]
 mod obj;
 #[path = "../../fuzz/inputs/picture.rs"]
@@ -36,6 +38,14 @@ fn replay(target: &str, run: fn(&[u8])) {
 #[test]
 fn obj_files() {
     replay("obj", obj::run);
+}
+
+#[test]
+fn mesh_files() {
+    replay("stl", |bytes| mesh::run("stl", bytes));
+    replay("ply", |bytes| mesh::run("ply", bytes));
+    replay("off", |bytes| mesh::run("off", bytes));
+    replay("gltf", |bytes| mesh::run("gltf", bytes));
 }
 
 #[test]
