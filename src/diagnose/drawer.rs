@@ -294,6 +294,15 @@ pub fn drawn_by(frame: &Frame, method: &Variant) -> Option<LinearPicture> {
     picture.ok()
 }
 
+/// A point of the surface, as it is lit.
+#[derive(Clone, Copy, Default)]
+struct Point {
+    normal: DVec3,
+    position: DVec3,
+    /// The vertex colour, by which some materials are multiplied.
+    colour: DVec3,
+}
+
 /// A recipe's shading of the pixels of some hits.
 struct Shader<'a> {
     surface: &'a Surface<'a>,
@@ -329,7 +338,7 @@ impl Shader<'_> {
             );
             *lit.entry(key).or_insert_with(|| {
                 let n = self.vertex_normal(i, vertex);
-                let terms = self.lit(i, n, self.surface.positions[vertex as usize], None);
+                let terms = self.lit(i, self.at_vertex(n, vertex), None);
                 let sum: DVec3 = terms.iter().sum();
                 match self.shading.rate {
                     Rate::Vertex => sum.clamp(DVec3::ZERO, DVec3::ONE),
@@ -362,26 +371,31 @@ impl Shader<'_> {
             sum / corners.len() as f64
         };
         let interpolated = || {
-            let zero = (DVec3::ZERO, DVec3::ZERO);
-            weights.fold(zero, |(n, p), &(v, weight)| {
-                let own = self.vertex_normal(i, v);
-                (n + own * weight, p + position(v) * weight)
+            weights.fold(Point::default(), |sum, &(v, weight)| {
+                let own = self.at_vertex(self.vertex_normal(i, v), v);
+                Point {
+                    normal: sum.normal + own.normal * weight,
+                    position: sum.position + own.position * weight,
+                    colour: sum.colour + own.colour * weight,
+                }
             })
         };
+        let whole = |normal: DVec3| {
+            let sum: DVec3 = corners.iter().map(|&v| surface.colour(v)).sum();
+            Point {
+                normal,
+                position: middle(),
+                colour: sum / corners.len() as f64,
+            }
+        };
         match self.shading.rate {
-            Rate::Pixel | Rate::Method(_) => {
-                let (n, p) = interpolated();
-                self.lit(i, n, p, None)
-            }
-            Rate::ConstantVectors => {
-                let (n, p) = interpolated();
-                self.lit(i, n, p, Some(middle()))
-            }
-            Rate::Face => self.lit(i, self.face(i), middle(), None),
+            Rate::Pixel | Rate::Method(_) => self.lit(i, interpolated(), None),
+            Rate::ConstantVectors => self.lit(i, interpolated(), Some(middle())),
+            Rate::Face => self.lit(i, whole(self.face(i)), None),
             Rate::FaceMean => {
                 let normals = corners.iter().map(|&v| self.vertex_normal(i, v));
                 let n: DVec3 = normals.sum();
-                self.lit(i, n.normalize_or_zero(), middle(), None)
+                self.lit(i, whole(n.normalize_or_zero()), None)
             }
             Rate::FirstVertex => {
                 // Corners of mirrored objects stand in the reverse order; triangles begin as in the file.
@@ -392,13 +406,13 @@ impl Shader<'_> {
                     corners[0]
                 };
                 let first = self.front(first);
-                self.lit(i, self.vertex_normal(i, first), position(first), None)
+                self.lit(i, self.at_vertex(self.vertex_normal(i, first), first), None)
             }
             // Terms are asked for amounts, which are linear in colours of vertices, too.
             Rate::Vertex | Rate::VertexUnclamped => {
                 let mut sum = [DVec3::ZERO; 3];
                 for &(v, weight) in self.hits.weights(i) {
-                    let terms = self.lit(i, self.vertex_normal(i, v), position(v), None);
+                    let terms = self.lit(i, self.at_vertex(self.vertex_normal(i, v), v), None);
                     for (sum, term) in sum.iter_mut().zip(terms) {
                         *sum += term * weight;
                     }
@@ -408,13 +422,28 @@ impl Shader<'_> {
         }
     }
 
-    fn lit(&self, i: usize, n: DVec3, p: DVec3, at: Option<DVec3>) -> Terms {
+    fn at_vertex(&self, normal: DVec3, vertex: u32) -> Point {
+        Point {
+            normal,
+            position: self.surface.positions[vertex as usize],
+            colour: self.surface.colour(vertex),
+        }
+    }
+
+    fn lit(&self, i: usize, point: Point, at: Option<DVec3>) -> Terms {
         let material = match self.shading.materials {
             MaterialUse::Own => self.materials[self.hits.materials[i] as usize],
             MaterialUse::First => self.materials[0],
             MaterialUse::Default => Material::default(),
         };
-        self.illumination.terms(&material, n, p, at.unwrap_or(p))
+        let (n, p) = (point.normal, point.position);
+        let terms = self.illumination.terms(&material, n, p, at.unwrap_or(p));
+        // Weights that add up to 1 but for rounding make no white.
+        if !self.surface.is_coloured(self.hits.materials[i]) {
+            return terms;
+        }
+        let [ambient, diffuse, specular] = terms;
+        [ambient * point.colour, diffuse * point.colour, specular]
     }
 
     fn front(&self, vertex: u32) -> u32 {

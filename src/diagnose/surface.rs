@@ -63,6 +63,17 @@ impl<'a> Surface<'a> {
         self.stated.len()
     }
 
+    /// True if a material is multiplied by vertex colours.
+    pub fn is_coloured(&self, material: u32) -> bool {
+        self.prepared.is_coloured(material)
+    }
+
+    /// Returns the colour of a vertex, by which some materials are multiplied.
+    pub fn colour(&self, vertex: u32) -> DVec3 {
+        let [r, g, b, _] = self.prepared.geometry().attributes(vertex);
+        DVec3::new(r.into(), g.into(), b.into())
+    }
+
     /// Returns the vertex normals that the scene states.
     pub fn stated(&self) -> &[DVec3] {
         &self.stated

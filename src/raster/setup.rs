@@ -9,8 +9,8 @@ use crate::scene::Interpolation;
 use crate::shading::light::Uniforms;
 use crate::shading::walks::GreatCircle;
 use crate::shading::{
-    Carried, Corner, Corners, Extras, Kernels, LitAt, Local, Perspective, Pixels, PolygonConstants,
-    RunList, UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
+    Carried, Corner, Corners, Extras, Kernels, LitAt, Local, Pixels, PolygonConstants, RunList,
+    UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
 };
 use alloc::borrow::Cow;
 use alloc::vec;
@@ -34,7 +34,7 @@ pub(super) struct Varyings<'a> {
     /// Numbers of each varying.
     pub count: usize,
     pub per: Per,
-    /// True for unit normals, which edges carry along great circles.
+    /// True for unit normals, which edges carry along great circles; extras may follow them.
     pub great_circles: bool,
     /// True if runs start from the varyings at both ends of their spans, and know their places there.
     pub keeps_ends: bool,
@@ -115,7 +115,7 @@ struct Item {
     uniforms: UniformsIndex,
     normal: [f32; 3],
     position: [f32; 3],
-    /// Its attributes, if the method reads them.
+    /// Its attributes, if the method or its material reads them.
     attributes: [f32; 4],
 }
 
@@ -151,7 +151,7 @@ impl<'a> SetUp<'a> {
         if is_by_polygon {
             uniforms = by_polygon(frame, uniforms);
         }
-        let extras = entry.extras(is_local, is_perspective);
+        let extras = entry.extras(is_local, is_perspective, frame.is_coloured());
         let vertices = (kernels.simd)(level).and_then(|simd| simd.vertices);
         let [own, ..] = (kernels.counts)(frame.light_count());
         let mut varyings = Varyings::of_vertices(&[][..], own + extras.count());
@@ -168,11 +168,7 @@ impl<'a> SetUp<'a> {
             constants: PolygonConstants::default(),
             light: vertices.unwrap_or(kernels.vertices),
         };
-        let is_weighted = is_perspective
-            && matches!(
-                entry.needs.perspective,
-                Perspective::Free | Perspective::Divides
-            );
+        let is_weighted = is_perspective && entry.needs.perspective.is_weighted();
         (all.varyings.values, all.varyings.per) = match entry.needs.lit_at {
             LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(entry.needs.lit_at, memory),
             _ if is_by_polygon && !kernels.needs.great_circles() => {
@@ -325,7 +321,7 @@ impl<'a> SetUp<'a> {
             return (normals.as_flattened().into(), Per::Vertex);
         }
         // Normals of one material need not be gathered.
-        let reads_attributes = self.kernels.carries == Carried::Attributes;
+        let reads_attributes = self.reads_attributes();
         let ready = alone.filter(|_| has_one_material && !is_local && !reads_attributes);
         let item = |i: usize| {
             let vertex = i as u32;
@@ -353,12 +349,17 @@ impl<'a> SetUp<'a> {
         self.kernels.carries == Carried::Normal && !self.varyings.great_circles
     }
 
-    /// Returns the attributes of a vertex, if the method reads them.
+    /// True if the method or a material reads the attributes of vertices.
+    fn reads_attributes(&self) -> bool {
+        self.kernels.carries == Carried::Attributes || self.frame.is_coloured()
+    }
+
+    /// Returns the attributes of a vertex, if anything reads them.
     #[inline(always)]
     fn attributes(&self, vertex: u32) -> [f32; 4] {
-        match self.kernels.carries {
-            Carried::Attributes => self.frame.attributes(vertex),
-            _ => [0.0; 4],
+        match self.reads_attributes() {
+            true => self.frame.attributes(vertex),
+            false => [0.0; 4],
         }
     }
 
@@ -385,7 +386,13 @@ impl<'a> SetUp<'a> {
                 uniforms: self.uniforms_of(number as u32),
                 normal,
                 position: [0.0; 3],
-                attributes: [0.0; 4],
+                attributes: match frame.is_coloured() {
+                    true => {
+                        let [r, g, b] = frame.mean(polygon).colour;
+                        [r, g, b, 1.0]
+                    }
+                    false => [0.0; 4],
+                },
             }
         };
         let values = self.lit(memory, frame.polygons().len(), &[], &item);
@@ -479,15 +486,11 @@ impl<'a> SetUp<'a> {
                 let vectors = [&normals[..padded], &points[..padded]];
                 self.light(number, vectors, &attributes[..padded], to);
                 let (here, others) = rest.split_at_mut(k * stride);
-                // The engine's own varyings (position, 1/w) follow the method's.
+                // The engine's own varyings follow the method's.
                 for (k, to) in here.chunks_exact_mut(stride).enumerate() {
                     to[..own].copy_from_slice(&lit[k * own..][..own]);
-                    if extras.point {
-                        to[own..own + 3].copy_from_slice(&points[k]);
-                    }
-                    if extras.weight {
-                        to[stride - 1] = 1.0;
-                    }
+                    let [r, g, b, _] = attributes[k];
+                    extras.write(&mut to[own..], points[k], [r, g, b]);
                 }
                 (rest, first) = (others, first + k);
             }
@@ -564,14 +567,13 @@ fn all_corners(frame: &Frame) -> (Vec<u32>, Vec<(u32, u32)>) {
 /// Stores what a corner that clipping made carries: what lies between the ends of its edge, which are never lit again.
 fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &mut [f32]) {
     let [a, b] = ends;
+    for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
+        [*to, _] = ramp(*a, *b, corner.t, 0.0);
+    }
     if great_circle {
         let normals = [unit(a), unit(b)];
         let circle = GreatCircle::new(vec3(corner.face), normals, corner.t, 0.0);
-        to.copy_from_slice(&circle.normal().array());
-        return;
-    }
-    for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
-        [*to, _] = ramp(*a, *b, corner.t, 0.0);
+        to[..3].copy_from_slice(&circle.normal().array());
     }
 }
 

@@ -1,7 +1,7 @@
 //! Colours and normals: at the vertices, and between them.
 
 use super::coverage::{Crossing, Scanline, SpanPlace, VertexWeights};
-use super::illumination::{sum, wide};
+use super::illumination::{Point, sum, wide};
 use super::{ClosedForm, Model};
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::scene::{Interpolation, Power};
@@ -57,6 +57,8 @@ pub(crate) struct VertexAttributes<'a> {
     is_local: bool,
     /// Positions, where each pixel sees light and eye from its own.
     positions: Vec<DVec3>,
+    /// Vertex colours, where pixels are lit and a material is multiplied by them.
+    colours: Vec<DVec3>,
 }
 
 impl<'a> VertexAttributes<'a> {
@@ -71,8 +73,11 @@ impl<'a> VertexAttributes<'a> {
             sum(
                 &frame.lightings()[frame.material(number) as usize],
                 power,
-                normal(number),
-                position(number),
+                Point {
+                    normal: normal(number),
+                    position: position(number),
+                    colour: wide(frame.colour(number)),
+                },
             )
         };
         let colour = |number: u32| unclamped(number).clamp(DVec3::ZERO, DVec3::ONE);
@@ -89,6 +94,14 @@ impl<'a> VertexAttributes<'a> {
         let is_followed = model == Model::Phong && is_local;
         let mut positions = if is_followed {
             all(&position)
+        } else {
+            Vec::new()
+        };
+        let is_lit_at_pixels = matches!(model, Model::Phong | Model::PhongConstant | Model::Slerp);
+        let is_coloured =
+            is_lit_at_pixels && (frame.lightings().iter()).any(|lighting| lighting.vertex_colours);
+        let mut colours = if is_coloured {
+            all(&|number| wide(frame.colour(number)))
         } else {
             Vec::new()
         };
@@ -112,6 +125,9 @@ impl<'a> VertexAttributes<'a> {
             if is_followed {
                 positions[to] = lerp(positions[a], positions[b], t);
             }
+            if is_coloured {
+                colours[to] = lerp(colours[a], colours[b], t);
+            }
         }
         VertexAttributes {
             frame,
@@ -120,6 +136,7 @@ impl<'a> VertexAttributes<'a> {
             values,
             is_local,
             positions,
+            colours,
         }
     }
 
@@ -136,15 +153,25 @@ impl<'a> VertexAttributes<'a> {
                 DVec3::ZERO
             }
         };
-        let at_mean = |n: DVec3| sum(lighting, self.power, n, place());
+        let at_mean = |normal: DVec3, colour: DVec3| {
+            let point = Point {
+                normal,
+                position: place(),
+                colour,
+            };
+            sum(lighting, self.power, point)
+        };
         Some(match self.model {
             Model::Flat => {
                 scanline.edges(x)?;
-                at_mean(wide(self.frame.polygon_normal(polygon)))
+                at_mean(
+                    wide(self.frame.polygon_normal(polygon)),
+                    wide(mean().colour),
+                )
             }
             Model::FlatAverage => {
                 scanline.edges(x)?;
-                at_mean(unit(wide(mean().normal)))
+                at_mean(unit(wide(mean().normal)), wide(mean().colour))
             }
             // Gouraud's values were clamped at the vertices.
             Model::Gouraud | Model::GouraudSeparate => {
@@ -157,21 +184,37 @@ impl<'a> VertexAttributes<'a> {
                 } else {
                     self.interpolated(&self.positions, &weights)
                 };
-                sum(
-                    lighting,
-                    self.power,
-                    unit(self.interpolated(&self.values, &weights)),
+                let point = Point {
+                    normal: unit(self.interpolated(&self.values, &weights)),
                     position,
-                )
+                    colour: self.colour(&weights),
+                };
+                sum(lighting, self.power, point)
             }
             Model::PhongConstant => {
-                at_mean(unit(self.interpolated(&self.values, &scanline.weights(x)?)))
+                let weights = scanline.weights(x)?;
+                let normal = unit(self.interpolated(&self.values, &weights));
+                at_mean(normal, self.colour(&weights))
             }
-            Model::Slerp => at_mean(self.slerped(
-                &scanline.place(x)?,
-                wide(self.frame.polygon_normal(polygon)),
-            )),
+            Model::Slerp => {
+                let place = scanline.place(x)?;
+                let normal = self.slerped(&place, wide(self.frame.polygon_normal(polygon)));
+                // It does not know of depth: colours are linear on the screen, as all else is.
+                let colour = match self.colours.is_empty() {
+                    true => DVec3::ONE,
+                    false => scanline.weights(x)?.sum(|v| self.colours[v]),
+                };
+                at_mean(normal, colour)
+            }
         })
+    }
+
+    /// Returns the vertex colour between the corners; white where no material reads it.
+    fn colour(&self, weights: &VertexWeights) -> DVec3 {
+        match self.colours.is_empty() {
+            true => DVec3::ONE,
+            false => self.interpolated(&self.colours, weights),
+        }
     }
 
     /// Blends the corners' values: linear on the screen, or in space, where value/w and 1/w are linear on the

@@ -58,16 +58,31 @@ fn halfway(l: DVec3, v: DVec3) -> DVec3 {
     }
 }
 
-/// The colour of a surface with the unit normal `n` at the point `p` under all lights, not clamped:
+/// A point of a surface, as light falls on it.
+#[derive(Clone, Copy)]
+pub(crate) struct Point {
+    /// The unit normal N.
+    pub normal: DVec3,
+    pub position: DVec3,
+    /// The vertex colour c, which only some materials read ([`Lighting::vertex_colours`]).
+    pub colour: DVec3,
+}
+
+/// The colour of a point of a surface under all lights, not clamped:
 /// ```text
-/// I = I_a k_a + Σ (I_p k_d (L·N) + I_p k_s (R·V)ⁿ)      (L21 2.1)
+/// I = I_a k_a c + Σ (I_p k_d c (L·N) + I_p k_s (R·V)ⁿ)      (L21 2.1; c = 1 where materials have one colour)
 /// R = 2 (L·N) N − L                                     or N·H, H = (L + V) / |L + V|      (CS171 2)
 /// ```
 /// A light behind the surface (L·N ≤ 0) adds nothing, no highlight either unless the scene asks for it; R·V and N·H count
 /// from 0 up. 0⁰ is 1. The zero vector has no direction: ambient light only. Another function than a power may stand for it.
-pub(crate) fn sum(lighting: &Lighting, power: Power, n: DVec3, p: DVec3) -> DVec3 {
+pub(crate) fn sum(lighting: &Lighting, power: Power, point: Point) -> DVec3 {
+    let (n, p) = (point.normal, point.position);
+    let c = match lighting.vertex_colours {
+        true => point.colour,
+        false => DVec3::ONE,
+    };
     let (v, _) = toward(lighting.view, p);
-    let mut intensity = wide(lighting.ambient);
+    let mut intensity = wide(lighting.ambient) * c;
     for light in &lighting.lights {
         let (l, r) = toward(light.place, p);
         let l_n = l.dot(n);
@@ -90,7 +105,7 @@ pub(crate) fn sum(lighting: &Lighting, power: Power, n: DVec3, p: DVec3) -> DVec
             1.0
         };
         intensity +=
-            (wide(light.diffuse) * l_n.max(0.0) + wide(light.specular) * highlight) * falloff; // 2.1
+            (wide(light.diffuse) * c * l_n.max(0.0) + wide(light.specular) * highlight) * falloff; // 2.1
     }
     intensity
 }
@@ -103,8 +118,13 @@ mod tests {
 
     const Z: [f32; 3] = [0.0, 0.0, 1.0];
 
-    fn lit(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
-        sum(lighting, Power::Squaring, n, p).clamp(DVec3::ZERO, DVec3::ONE)
+    fn lit(lighting: &Lighting, normal: DVec3, position: DVec3) -> DVec3 {
+        let point = Point {
+            normal,
+            position,
+            colour: DVec3::new(0.5, 2.0, 0.0),
+        };
+        sum(lighting, Power::Squaring, point).clamp(DVec3::ZERO, DVec3::ONE)
     }
 
     fn lighting(lights: Vec<LightTerm>, view: [f32; 3], shininess: f32) -> Lighting {
@@ -115,6 +135,7 @@ mod tests {
             shininess,
             specular: SpecularModel::Phong,
             gate: SpecularGate::Gated,
+            vertex_colours: false,
         }
     }
 
@@ -139,6 +160,22 @@ mod tests {
             lit(&lighting(vec![light], Z, 7.0), DVec3::Z, DVec3::ZERO),
             DVec3::new(0.625, 0.75, 0.75)
         );
+    }
+
+    #[test]
+    fn a_vertex_colour_multiplies_ambient_and_diffuse_light_where_the_material_asks_for_it() {
+        let light = LightTerm {
+            diffuse: [0.5, 0.25, 0.75],
+            specular: [0.0, 0.25, 0.5],
+            ..white(Z, 0.0, 0.0)
+        };
+        let mut lighting = lighting(vec![light], Z, 7.0);
+        let plain = lit(&lighting, DVec3::Z, DVec3::ZERO);
+        assert_eq!(plain, DVec3::new(0.625, 0.5, 1.0));
+        lighting.vertex_colours = true;
+        // (0.125 + 0.5) / 2, 2 · 0.25 + 0.25, nothing but the highlight.
+        let coloured = lit(&lighting, DVec3::Z, DVec3::ZERO);
+        assert_eq!(coloured, DVec3::new(0.3125, 0.75, 0.5));
     }
 
     #[test]

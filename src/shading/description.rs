@@ -216,6 +216,11 @@ pub enum Perspective {
 }
 
 impl Perspective {
+    /// True if varyings are multiplied by the weight of perspective at the corners.
+    pub(crate) const fn is_weighted(self) -> bool {
+        matches!(self, Perspective::Free | Perspective::Divides)
+    }
+
     /// Returns a sentence for people.
     pub fn sentence(self) -> &'static str {
         match self {

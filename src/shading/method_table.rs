@@ -248,13 +248,17 @@ impl MethodRow {
     }
 
     /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
-    /// position (`is_local`) or not.
-    pub(crate) fn extras(&self, is_local: bool, perspective: bool) -> Extras {
+    /// position (`is_local`) or not, with vertex colours that materials are multiplied by (`is_coloured`) or not.
+    pub(crate) fn extras(&self, is_local: bool, perspective: bool, is_coloured: bool) -> Extras {
         let point = is_local && self.needs.local == Local::PerPixel && self.positional[0].linear;
+        let albedo = is_coloured && self.needs.lit_at == LitAt::Pixel;
         let divides = self.needs.perspective == Perspective::Divides;
+        let divides = perspective && (divides || point);
         Extras {
             point,
-            weight: perspective && (divides || point),
+            albedo,
+            weight: divides || albedo && perspective && self.needs.perspective.is_weighted(),
+            divides,
         }
     }
 

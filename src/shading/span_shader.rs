@@ -1,11 +1,14 @@
 //! Shading for a rasterizer of your own: a line of pixels from its two ends, by the scalar kernels of any method.
 
+use super::kernels::gbuffer_cell::CellLayout;
+use super::kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
 use super::light::Uniforms;
 use super::{
-    Corners, Extras, Kernels, Local, On, Perspective, Pixels, PolygonConstants, Run, RunList,
-    SpanPlace, UniformsIndex, Variant, Vertices,
+    Corners, Extras, Kernels, Local, On, Pixels, PolygonConstants, Run, RunList, SpanPlace,
+    UniformsIndex, Variant, Vertices,
 };
 use crate::frame::{FrameError, guard};
+use crate::number::{BLOCK, Level};
 use crate::scene::{Interpolation, Lighting};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -65,6 +68,9 @@ impl core::error::Error for SpanShaderError {}
 /// normal for fast Phong shading. Carry them along edges as you carry depth, linearly; [`SpanShader::shade`] takes them at both ends of a
 /// line of pixels. `examples/own_rasterizer.rs` is a whole rasterizer.
 ///
+/// A shader keeps its memory: [`SpanShader::vertex_into`], [`SpanShader::polygon`] and [`SpanShader::shade`] allocate nothing once the
+/// longest line was shaded. It is scalar, and its bits are the same on every machine, until [`SpanShader::on`] chooses an instruction set.
+///
 /// A method is always drawn as it is, also where another one draws whole frames in its place: `adaptive-phong` plans each polygon, however small.
 ///
 /// ```
@@ -103,7 +109,26 @@ pub struct SpanShader {
     wants_polygon: bool,
     is_by_polygon: bool,
     list: RunList,
+    simd: Option<SimdSpans>,
 }
+
+/// The pixel loops of an instruction set, and memory for a line.
+#[derive(Clone, Debug)]
+struct SimdSpans {
+    level: Level,
+    kernels: &'static SimdKernels,
+    /// True if the method remembers the pixel before: its walk then goes first.
+    is_walked: bool,
+    cell: CellLayout,
+    /// The pixels that the walk returned, value after value.
+    walked: Vec<f32>,
+    /// The line as a row of the G-buffer.
+    cells: Vec<f32>,
+    channels: [Vec<f32>; 3],
+}
+
+/// Pixels that kernels take at a time, at most.
+const STEP: usize = 2 * BLOCK;
 
 impl SpanShader {
     /// Prepares a method on a material with its lights, whose varyings you interpolate linearly on the screen, or in perspective: then
@@ -129,16 +154,12 @@ impl SpanShader {
             interpolation == Interpolation::Perspective,
         );
         let kernels = entry.kernels(lights, is_local);
-        let extras = entry.extras(is_local, is_perspective);
+        let extras = entry.extras(is_local, is_perspective, lighting.vertex_colours);
         let [own, _, constants] = (kernels.counts)(lights);
         let uniforms = variant.uniforms(lighting, 1.0);
         let is_by_polygon = is_local && entry.needs.local == Local::PerPolygon;
         Ok(SpanShader {
-            is_weighted: is_perspective
-                && matches!(
-                    entry.needs.perspective,
-                    Perspective::Free | Perspective::Divides
-                ),
+            is_weighted: is_perspective && entry.needs.perspective.is_weighted(),
             varyings: own + extras.count(),
             uniforms: [uniforms.clone(), uniforms],
             constants: PolygonConstants {
@@ -151,7 +172,47 @@ impl SpanShader {
             variant: variant.clone(),
             kernels,
             extras,
+            simd: None,
         })
+    }
+
+    /// Shades pixels by an instruction set from now on, 16 at a time: [`Level::best`] on a line of many pixels.
+    /// It stays scalar where the machine does not have that set, or the method has no loops for it
+    /// ([`SpanShader::level`] tells).
+    ///
+    /// Colours then are those of the row engine's loops, and differ from scalar ones by roundings: varyings are
+    /// computed at each pixel, where scalar code adds their growth from pixel to pixel. Both are
+    /// within [`Variant::bound`] of the closed form, so that they differ by twice the bound at most.
+    pub fn on(mut self, level: Level) -> Self {
+        let model = &self.uniforms[0].model;
+        let is_scalar = !level.is_available() || self.variant.row().scalar_only().is_some();
+        let kernels = (self.kernels.simd)(level).filter(|_| !is_scalar);
+        let is_walked = (self.kernels.walks_along_runs)(self.variant.parameters(), model);
+        let [_, pixel, _] = (self.kernels.counts)(self.uniforms[0].lights.len());
+        let extras = self.extras.count();
+        let (varyings, extras) = match is_walked {
+            true => (pixel, 0),
+            false => (self.varyings - extras, extras),
+        };
+        self.simd = kernels.map(|kernels| SimdSpans {
+            level,
+            kernels,
+            is_walked,
+            cell: CellLayout {
+                varyings,
+                extras,
+                has_uniforms: false,
+            },
+            walked: Vec::new(),
+            cells: Vec::new(),
+            channels: Default::default(),
+        });
+        self
+    }
+
+    /// Returns the instruction set that shades pixels: [`Level::Scalar`] unless [`SpanShader::on`] chose another.
+    pub fn level(&self) -> Level {
+        self.simd.as_ref().map_or(Level::Scalar, |simd| simd.level)
     }
 
     /// Returns the count of a vertex's varyings.
@@ -174,17 +235,28 @@ impl SpanShader {
                     *mean += c / corners.all.len() as f32;
                 }
             }
-            self.uniforms[1] = self.uniforms[0].seen_from(mean);
+            let [anywhere, seen] = &mut self.uniforms;
+            *seen = anywhere.seen_from_in(mean, core::mem::take(&mut seen.lights));
         }
         let (parameters, values) = (self.variant.parameters(), &mut self.constants.values);
         let kind = (self.kernels.polygon)(parameters, &self.uniforms[1], corners, values);
-        self.constants.kinds = vec![kind];
+        self.constants.kinds[0] = kind;
         self.wants_polygon = false;
     }
 
     /// Returns the varyings of a vertex: for methods that light vertices this lights one.
     pub fn vertex(&self, vertex: SpanVertex) -> Vec<f32> {
         let mut to = vec![0.0; self.varyings];
+        self.vertex_into(vertex, &mut to);
+        to
+    }
+
+    /// Writes the varyings of a vertex, as [`SpanShader::vertex`] returns them, where you keep them.
+    ///
+    /// # Panics
+    /// When there is not room for as many varyings as [`SpanShader::varyings`] says.
+    pub fn vertex_into(&self, vertex: SpanVertex, to: &mut [f32]) {
+        assert_eq!(to.len(), self.varyings, "one place for each varying");
         let normal = match vertex.normal.iter().all(|n| n.is_finite()) {
             true => guard::unit(vertex.normal),
             false => [0.0; 3],
@@ -197,16 +269,12 @@ impl SpanShader {
             attributes: &[vertex.attributes],
         };
         (self.kernels.vertices)(&job, &mut to[..own]);
-        if self.extras.point {
-            to[own..own + 3].copy_from_slice(&vertex.position);
-        }
-        if self.extras.weight {
-            to[self.varyings - 1] = 1.0;
-        }
+        let [r, g, b, _] = vertex.attributes;
+        self.extras
+            .write(&mut to[own..], vertex.position, [r, g, b]);
         if self.is_weighted {
             to.iter_mut().for_each(|value| *value *= vertex.inv_w);
         }
-        to
     }
 
     /// Shades the pixels of a line from a column and a row on: linear and not clamped. `ends` are the columns where the
@@ -260,6 +328,64 @@ impl SpanShader {
             constants: &self.constants,
             list: &self.list,
         };
-        (self.kernels.pixels)(&job, colours);
+        match &mut self.simd {
+            Some(simd) => simd.shade(&job, colours),
+            None => (self.kernels.pixels)(&job, colours),
+        }
+    }
+}
+
+impl SimdSpans {
+    /// Shades the one run of `job`, as a row of the G-buffer.
+    fn shade(&mut self, job: &Pixels<'_>, colours: &mut [[f32; 3]]) {
+        let length = colours.len().next_multiple_of(STEP);
+        self.cells.resize(length * self.cell.count(), 0.0);
+        match self.kernels.walk.filter(|_| self.is_walked) {
+            Some(walk) => self.walk(walk, job, colours.len().next_multiple_of(BLOCK)),
+            None => self.interpolate(job.list.starts.of(0)),
+        }
+        let row = ShadeRow {
+            parameters: job.parameters,
+            uniforms: &job.uniforms[0],
+            extras: job.extras,
+            cell: self.cell,
+        };
+        let channels = self.channels.each_mut().map(|channel| {
+            channel.resize(length, 0.0);
+            &mut channel[..]
+        });
+        (self.kernels.shade)(&row, &self.cells, &mut RowColours::Linear(channels));
+        let [r, g, b] = &self.channels;
+        for (((to, r), g), b) in colours.iter_mut().zip(r).zip(g).zip(b) {
+            *to = [*r, *g, *b];
+        }
+    }
+
+    /// Writes the varyings at each pixel, from those at the first one and their growth.
+    fn interpolate(&mut self, [at, step]: [&[f32]; 2]) {
+        let blocks = self.cells.chunks_exact_mut(self.cell.stride());
+        for (number, block) in blocks.enumerate() {
+            let x = (number * BLOCK) as f32;
+            let varyings = block[BLOCK * CellLayout::varying(0)..].as_chunks_mut().0;
+            for (to, (at, step)) in varyings.iter_mut().zip(at.iter().zip(step)) {
+                let to: &mut [f32; BLOCK] = to;
+                for (k, to) in to.iter_mut().enumerate() {
+                    *to = at + (x + k as f32) * step;
+                }
+            }
+        }
+    }
+
+    /// Walks along the run, and writes the pixel at each place.
+    fn walk(&mut self, walk: WalkKernel, job: &Pixels<'_>, length: usize) {
+        self.walked.resize(self.cell.varyings * length, 0.0);
+        walk(job, &mut self.walked);
+        let blocks = self.cells.chunks_exact_mut(self.cell.stride());
+        for (number, block) in blocks.take(length / BLOCK).enumerate() {
+            for i in 0..self.cell.varyings {
+                let from = &self.walked[i * length + number * BLOCK..][..BLOCK];
+                block[BLOCK * CellLayout::varying(i)..][..BLOCK].copy_from_slice(from);
+            }
+        }
     }
 }

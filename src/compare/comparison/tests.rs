@@ -37,7 +37,7 @@ fn frame_of(mesh: &str) -> Frame {
             mesh: mesh.into(),
             transform: DAffine3::IDENTITY,
             material: None,
-            normals: NormalSource::Averaged,
+            normals: NormalSource::Averaged.into(),
         }],
         ..Scene::new(camera)
     };
@@ -470,7 +470,7 @@ fn a_flat_face_with_equal_normals_stays_as_it_is() {
     let mut scene = Scene::of_mesh(builtin("prism").unwrap());
     (scene.width, scene.height) = (64, 48);
     for object in &mut scene.objects {
-        object.normals = NormalSource::Crease(10.0);
+        object.normals = NormalSource::Crease(10.0).into();
     }
     let cut = errors_only(&scene.frame().unwrap(), &[])
         .triangulation

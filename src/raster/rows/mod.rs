@@ -243,9 +243,9 @@ impl<'a> RowEngine<'a> {
             .filter(|_| setup.uniforms.first().is_some_and(walks_along));
         let only = only_uniforms(&setup, variant.row().needs.lit_at);
         let extras = setup.extras.count();
-        let (varyings, extras) = match walk {
-            Some(_) => (walked, 0),
-            None => (setup.varyings.count - extras, extras),
+        let varyings = match walk {
+            Some(_) => walked,
+            None => setup.varyings.count - extras,
         };
         let cell = CellLayout {
             varyings,

@@ -105,8 +105,8 @@ impl RunQueue {
         }
     }
 
-    /// Draws the runs, in order, with the varyings of `cell`: those that `walk` returns, if the method has a walk, else those that it
-    /// interpolates, and extras.
+    /// Draws the runs, in order, with the varyings and extras of `cell`: as `walk` returns them, if the method has a walk, else
+    /// interpolated.
     #[inline(always)]
     pub fn draw<S: Simd>(
         &mut self,
@@ -116,9 +116,9 @@ impl RunQueue {
         cell: CellLayout,
         mut writer: Writer<'_, S, 0>,
     ) {
-        let (planes, count) = (cell.varyings, cell.varyings + cell.extras);
+        let count = cell.varyings + cell.extras;
         if let Some(walk) = walk {
-            let room = self.blocks * BLOCK * planes;
+            let room = self.blocks * BLOCK * count;
             // Padding of a block before and after: block loads may overrun, and those lanes are masked.
             let len = self.walked.len().max(room + 2 * BLOCK);
             self.walked.resize(len, 0.0);
@@ -134,7 +134,7 @@ impl RunQueue {
             );
             if walk.is_some() {
                 let length = pixels.len().next_multiple_of(BLOCK);
-                let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
+                let from = &self.walked[walked - BLOCK..walked + length * count + BLOCK];
                 draw_run(
                     m,
                     (*place, pixels),
@@ -147,7 +147,7 @@ impl RunQueue {
                         _ => uniforms,
                     },
                 );
-                walked += length * planes;
+                walked += length * count;
             } else {
                 let [at, step] = self.list.starts.of(i);
                 draw_run(

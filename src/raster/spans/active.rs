@@ -23,7 +23,7 @@ struct ActiveEdge {
     crossing: EdgeCrossing,
     /// Depth here, and its growth.
     depth: [f32; 2],
-    /// The first varyings.
+    /// The first varyings; those behind the normal where that follows a great circle.
     varyings: Group,
     /// The place of the others in [`EdgeVaryings`].
     slot: u32,
@@ -49,7 +49,7 @@ pub(crate) struct EdgeState {
     pub depth: [f32; 2],
     /// The varyings here, or the normal of a great circle.
     pub at: Vec<f32>,
-    /// Their growth; none of a great circle.
+    /// Their growth; that of a great circle's normal is left out.
     pub by: Vec<f32>,
     pub circle: Option<GreatCircle<f32>>,
 }
@@ -282,7 +282,9 @@ impl<'a> ActiveEdges<'a> {
             let polygon = &self.frame.polygons()[edge.polygon as usize];
             let face = vec3(self.frame.polygon_normal(polygon));
             slot = self.more.enter_circle(face, [a, b], parameter);
-            return (Group::default(), slot);
+            // Behind the normal there is a vertex colour at most.
+            let ends = [first_of(&a[3..]), first_of(&b[3..])];
+            return (Group::new(ends, parameter), slot);
         }
         if self.has_slots {
             slot = self.more.enter([&a[GROUP..], &b[GROUP..]], parameter);
@@ -358,6 +360,9 @@ impl<'a> ActiveEdges<'a> {
                 let circle = self.more.circles[edge.slot as usize];
                 state.at.extend(circle.normal().array());
                 state.circle = Some(circle);
+                let extras = self.varyings.count - 3;
+                state.at.extend(&edge.varyings.at[..extras]);
+                state.by.extend(&edge.varyings.step[..extras]);
                 return state;
             }
             let more = match self.has_slots {
@@ -448,7 +453,16 @@ impl<'a> ActiveEdges<'a> {
             let circles = &self.more.circles;
             let of = |edge: &ActiveEdge| circles[edge.slot as usize].normal().array(); // 4.8
             debug_assert!(self.varyings.keeps_ends, "circles are no straight lines");
-            to.push(of(left), of(right));
+            if self.varyings.count == 3 {
+                to.push(of(left), of(right));
+                return;
+            }
+            let ends = to.add();
+            for (to, edge) in ends.into_iter().zip([left, right]) {
+                let (normal, extras) = to.split_at_mut(3);
+                normal.copy_from_slice(&of(edge));
+                extras.copy_from_slice(&edge.varyings.at[..extras.len()]);
+            }
             return;
         }
         let [first, second] = to.add();

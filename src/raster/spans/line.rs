@@ -1,7 +1,7 @@
 //! The visible line: the span seen at each pixel of a scanline, by a depth buffer of one line and the span engine's depth test.
 
 use super::active::PolygonSpan;
-use crate::raster::depth::{SampleDepth, hide};
+use crate::raster::depth::{CallersDepth, DepthTest, SampleDepth};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::mem::take;
@@ -76,14 +76,26 @@ impl VisibleLine {
         self.spans.push(span);
     }
 
-    /// Empties those pixels that are not nearer than the depths `stored`, and stores the depths of the others there.
-    pub fn hide_behind(&mut self, stored: &mut [f32]) {
+    /// Empties those pixels that do not pass the test against the caller's depth, and stores the depths of the others there.
+    pub fn hide_behind(&mut self, depth: CallersDepth<'_>) {
+        match depth.test.test {
+            DepthTest::Less => self.hide::<false, false>(depth),
+            DepthTest::LessOrEqual => self.hide::<false, true>(depth),
+            DepthTest::Greater => self.hide::<true, false>(depth),
+            DepthTest::GreaterOrEqual => self.hide::<true, true>(depth),
+        }
+    }
+
+    fn hide<const REVERSED: bool, const EQUAL: bool>(
+        &mut self,
+        CallersDepth { stored, test }: CallersDepth<'_>,
+    ) {
         let drawn = self.drawn.clone();
         for (pixel, stored) in self.pixels[drawn.clone()]
             .iter_mut()
             .zip(&mut stored[drawn])
         {
-            if hide(&mut pixel.0, stored) {
+            if test.hide::<REVERSED, EQUAL>(&mut pixel.0, stored) {
                 *pixel = EMPTY;
             }
         }

@@ -390,7 +390,7 @@ impl Recorder<'_> {
         inside
     }
 
-    /// Writes names for the frame's lights, and those of position and weight.
+    /// Writes names for the frame's lights, and those of the extras.
     fn named(&self, names: &[&str]) -> Vec<String> {
         let lights = self.setup.frame.light_count();
         let mut all = Vec::new();
@@ -406,6 +406,9 @@ impl Recorder<'_> {
         }
         if self.setup.extras.point {
             all.extend(["Px", "Py", "Pz"].map(String::from));
+        }
+        if self.setup.extras.albedo {
+            all.extend(["Cr", "Cg", "Cb"].map(String::from));
         }
         if self.setup.extras.weight {
             all.push("w".into());

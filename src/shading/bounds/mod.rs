@@ -90,6 +90,10 @@ impl Variant {
     /// the size of the polygon over the longest. A falloff of at most its strength
     /// where the light is nearest multiplies colours and their errors, and is off by as much as the square itself.
     ///
+    /// **Vertex colours** of at most A multiply ambient and diffuse light M, so that errors of the latter grow by A. Interpolated, they
+    /// are off by as much as any stepped colour, and by 4 roundings before: A M times that is added. The mean of a polygon's colours
+    /// takes a rounding, a product another.
+    ///
     /// A faint highlight is left out: `I_p k_s (R·V)^n` of at most 2⁻²⁴ a light. Its threshold `t = (2⁻²⁴ / k)^(1/n)` is rounded,
     /// so that t^n is off by a share of `(43 + n) 2⁻²³`; the roundings of a highlight, n times 4 · 2⁻²⁴, leave room for that.
     /// An exponent below 1 has its threshold below all errors of cosines, and (4 e)^n holds there as elsewhere.
@@ -115,8 +119,9 @@ impl Variant {
     pub fn approximation(&self, frame: &Frame) -> f64 {
         let spread = Spread::of(frame);
         let materials = frame.lightings().iter().zip(&spread.materials);
+        let albedo = largest_colour(frame);
         let materials: Vec<MaterialBound<'_>> = materials
-            .map(|(lighting, seen)| self.material_bound(lighting, seen))
+            .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let info = self.row().on(frame).info;
         // Once per material: an error takes thousands of powers.
@@ -131,9 +136,10 @@ impl Variant {
             let material = &materials[polygon.material as usize];
             let highlights = highlights[polygon.material as usize];
             let error = (info.approximation)(frame, polygon, self.parameters());
+            let colour = error.colour * material.albedo.max(1.0);
             let by_method = match error.cosine + error.length {
-                0.0 => error.colour + material.jump(error),
-                cosines => material.of(cosines, 0.0) + material.jump(error) + error.colour,
+                0.0 => colour + material.jump(error),
+                cosines => material.of(cosines, [0.0; 2]) + material.jump(error) + colour,
             };
             f64::min(1.0, by_method + highlights)
         };
@@ -144,24 +150,35 @@ impl Variant {
     pub fn polygon_bounds<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = f64> + 'a {
         let spread = Spread::of(frame);
         let materials = frame.lightings().iter().zip(&spread.materials);
+        let albedo = largest_colour(frame);
         let materials: Vec<MaterialBound<'a>> = materials
-            .map(|(lighting, seen)| self.material_bound(lighting, seen))
+            .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let polygons = frame.polygons().iter().enumerate();
         let entry = self.row().on(frame);
         polygons.map(move |(index, polygon)| {
-            let (cosine, colour) = errors(entry, frame, polygon, spread.on(index));
+            let (cosine, colours) = errors(entry, frame, polygon, spread.on(index));
             let material = &materials[polygon.material as usize];
             let error = (entry.info.approximation)(frame, polygon, self.parameters());
             let cosine = cosine + error.cosine + error.length;
-            let bound = material.of(cosine, colour) + material.jump(error) + error.colour;
+            let colour = error.colour * material.albedo.max(1.0);
+            let bound = material.of(cosine, colours) + material.jump(error) + colour;
             // No channel differs by more.
             if bound <= 1.0 { bound } else { 1.0 }
         })
     }
 
-    /// Returns what the light model makes of errors on a material.
-    fn material_bound<'a>(&self, lighting: &'a Lighting, seen: &SeenLights) -> MaterialBound<'a> {
+    /// Returns what the light model makes of errors on a material, where vertex colours are at most `albedo`.
+    fn material_bound<'a>(
+        &self,
+        lighting: &'a Lighting,
+        seen: &SeenLights,
+        albedo: f64,
+    ) -> MaterialBound<'a> {
+        let albedo = match lighting.vertex_colours {
+            true => albedo,
+            false => 1.0,
+        };
         let diffuse_error = self.length_error(lighting);
         // (1 − E)ⁿ is 1 − n E at least, and 1 − E for an exponent below 1.
         let power = match lighting.specular {
@@ -178,12 +195,13 @@ impl Variant {
             all.map(|(light, strength)| strength * f64::from(colour(light)[c]))
                 .sum()
         };
-        let diffuse = [0, 1, 2].map(|c| sum(|l| l.diffuse, c));
+        let diffuse = [0, 1, 2].map(|c| albedo * sum(|l| l.diffuse, c));
         let specular = [0, 1, 2].map(|c| sum(|l| l.specular, c));
         let of_channels =
             |of: &dyn Fn(usize) -> f64| [0, 1, 2].map(of).into_iter().fold(0.0, f64::max);
         let lost = |c: usize| lost(diffuse_error, diffuse[c]) + lost(specular_error, specular[c]);
-        let most = |c: usize| f64::from(lighting.ambient[c]) + diffuse[c] + specular[c];
+        let dull = |c: usize| albedo * f64::from(lighting.ambient[c]) + diffuse[c];
+        let most = |c: usize| dull(c) + specular[c];
         MaterialBound {
             lighting,
             power: self.power(),
@@ -193,6 +211,11 @@ impl Variant {
                 _ => 1.0,
             },
             other: of_channels(&lost) + ROUNDING * lighting.lights.len() as f64,
+            albedo,
+            dull: match lighting.vertex_colours {
+                true => of_channels(&dull),
+                false => 0.0,
+            },
             diffuse,
             specular,
         }
@@ -208,14 +231,25 @@ impl Variant {
     }
 }
 
-/// Returns the error of the cosines that the light model sees on a polygon, and that of colours of at most 1 which are stepped
-/// over it.
+/// Returns the largest channel of a vertex colour; 1 where no material is multiplied by them.
+fn largest_colour(frame: &Frame) -> f64 {
+    match frame.is_coloured() {
+        true => {
+            let all = (0..frame.vertices().len() as u32).map(|v| frame.colour(v));
+            f64::from(all.flatten().fold(0.0, f32::max))
+        }
+        false => 1.0,
+    }
+}
+
+/// Returns the error of the cosines that the light model sees on a polygon, that of lit colours of at most 1 which are stepped over
+/// it, and that of vertex colours of at most 1.
 fn errors(
     entry: &MethodRow,
     frame: &Frame,
     polygon: &Polygon,
     spread: PolygonSpread,
-) -> (f64, f64) {
+) -> (f64, [f64; 2]) {
     let info = entry.info;
     let Roundings { start, step, of } = info.roundings;
     let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
@@ -274,7 +308,15 @@ fn errors(
         Stepped::Colours | Stepped::Sums => rounding * stepped(step),
         _ => 0.0,
     };
-    (cosine, colours)
+    let albedo = match entry.needs.lit_at {
+        LitAt::Pixel => {
+            let spans = extent.steps + 8.0;
+            let triangles = extent.triangle_roundings(1.0, 1.0);
+            rounding * (4.0 + spans.max(triangles).max(BARYCENTRIC))
+        }
+        _ => 2.0 * ROUNDING,
+    };
+    (cosine, [colours, albedo])
 }
 
 /// The light model on a material, as it passes errors on.
@@ -287,14 +329,19 @@ struct MaterialBound<'a> {
     most: f64,
     /// The errors that no polygon changes: faint highlights, and the loss that lengths are allowed.
     other: f64,
+    /// The largest channel of a vertex colour; 1 without.
+    albedo: f64,
+    /// All ambient and diffuse light, which vertex colours multiply; 0 without.
+    dull: f64,
     /// The greatest sums of all lights, by channel.
     diffuse: [f64; 3],
     specular: [f64; 3],
 }
 
 impl MaterialBound<'_> {
-    /// Returns the bound where cosines are off by `cosine`, and colours of at most 1 that are stepped by `stepped`.
-    fn of(&self, cosine: f64, stepped: f64) -> f64 {
+    /// Returns the bound where cosines are off by `cosine`, lit colours of at most 1 that are stepped by `stepped`, and vertex colours of
+    /// at most 1 by `albedo`.
+    fn of(&self, cosine: f64, [stepped, albedo]: [f64; 2]) -> f64 {
         let highlight = highlight_error(self.lighting, self.power, self.half, cosine);
         // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
         let falls = if self.lighting.is_attenuated() {
@@ -307,7 +354,7 @@ impl MaterialBound<'_> {
             (diffuse + falls * (diffuse + specular)) * cosine + highlight * specular
         };
         let lit = [0, 1, 2].map(off).into_iter().fold(cosine, f64::max);
-        lit + stepped * self.most + self.other
+        lit + stepped * self.most + albedo * self.dull + self.other
     }
 
     /// Returns the most that a highlight may be where an error moves L·N from 0: there it ends with a jump, if it is gated.

@@ -43,58 +43,147 @@ pub struct UniformsIndex(pub u32);
 pub(crate) struct Extras {
     /// The position of the point, where lights are seen from each pixel.
     pub point: bool,
-    /// The weight of perspective, 1/w, where varyings must be divided by it.
+    /// The vertex colour, where materials are multiplied by it at each pixel.
+    pub albedo: bool,
+    /// The weight of perspective, 1/w, where varyings or extras must be divided by it.
     pub weight: bool,
+    /// True if the method's own varyings are divided by the weight, too.
+    pub divides: bool,
+}
+
+/// The values of the extras at a pixel; those that are not there mean nothing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extra<F> {
+    pub point: Vec3<F>,
+    pub albedo: Vec3<F>,
+    pub weight: F,
 }
 
 impl Extras {
     /// Returns how many values they have.
     pub fn count(self) -> usize {
-        3 * usize::from(self.point) + usize::from(self.weight)
+        3 * (usize::from(self.point) + usize::from(self.albedo)) + usize::from(self.weight)
     }
 
-    /// Returns position and weight from their values; a missing one is `none`.
+    /// Returns the extras as literals tell of them, so that loops are compiled without those that are not there.
     #[inline(always)]
-    fn of<F: Num>(self, none: F, value: impl Fn(usize) -> F) -> (Vec3<F>, F) {
-        let (mut point, mut weight) = (vec3([none; 3]), none);
+    fn known(self, general: bool, coloured: bool) -> Extras {
+        debug_assert_eq!(self.albedo, coloured, "colours have loops of their own");
+        Extras {
+            point: general && self.point,
+            albedo: coloured,
+            weight: general && self.weight,
+            divides: general && self.divides,
+        }
+    }
+
+    /// Returns the extras from their values, which stand in the order of the fields; a missing one is `none`.
+    #[inline(always)]
+    fn of<F: Num>(self, none: F, value: impl Fn(usize) -> F) -> Extra<F> {
+        let none = Extra {
+            point: vec3([none; 3]),
+            albedo: vec3([none; 3]),
+            weight: none,
+        };
+        let mut extra = none;
         if self.point {
-            point = vec3([value(0), value(1), value(2)]);
+            extra.point = vec3([value(0), value(1), value(2)]);
+        }
+        if self.albedo {
+            let first = 3 * usize::from(self.point);
+            extra.albedo = vec3([value(first), value(first + 1), value(first + 2)]);
         }
         if self.weight {
-            weight = value(self.count() - 1);
+            extra.weight = value(self.count() - 1);
         }
-        (point, weight)
+        extra
     }
 
-    /// Starts the walk of position and weight, which stand behind `own` varyings of the method.
+    /// Writes the extras of a vertex behind the method's own varyings.
+    pub(crate) fn write(self, to: &mut [f32], point: [f32; 3], albedo: [f32; 3]) {
+        let mut rest = to;
+        for (_, vector) in [(self.point, point), (self.albedo, albedo)]
+            .into_iter()
+            .filter(|(is_there, _)| *is_there)
+        {
+            let (here, others) = rest.split_at_mut(3);
+            here.copy_from_slice(&vector);
+            rest = others;
+        }
+        if self.weight {
+            rest[0] = 1.0;
+        }
+    }
+
+    /// Starts the walk of the extras, which stand behind `own` varyings of the method.
     #[inline(always)]
-    pub(crate) fn start<F: Num<One = F>>(
+    pub(crate) fn start<F: Num>(
         self,
         own: usize,
-        run: &RunStart<'_, F>,
+        run: &RunStart<'_, F::One>,
         zero: F,
-    ) -> Linear<(Vec3<F>, F)> {
-        Linear {
-            at: self.of(zero, |i| run.ramp(own + i)[0]),
-            step: self.of(zero, |i| run.ramp(own + i)[1]),
+    ) -> ExtraWalk<F> {
+        let at = self.of(zero, |i| run.block_ramp(own + i, zero)[0]);
+        let step = self.of(zero, |i| run.block_ramp(own + i, zero)[1]);
+        ExtraWalk {
+            place: Linear {
+                at: (at.point, at.weight),
+                step: (step.point, step.weight),
+            },
+            albedo: Linear {
+                at: at.albedo,
+                step: step.albedo,
+            },
+            has_albedo: self.albedo,
         }
     }
 
-    /// Divides the varyings of a pixel and its position by the weight of perspective, if there is one.
+    /// Divides the extras of a pixel by the weight of perspective if there is one, and its varyings if the method asks for it.
     #[inline(always)]
     pub(crate) fn divided<F: Num, P: Values<F>>(
         self,
         pixel: P,
-        (mut point, weight): (Vec3<F>, F),
-    ) -> (P, Vec3<F>) {
+        mut extra: Extra<F>,
+    ) -> (P, Extra<F>) {
         if !self.weight {
-            return (pixel, point);
+            return (pixel, extra);
         }
-        let w = weight.broadcast(1.0) / weight;
+        let w = extra.weight.broadcast(1.0) / extra.weight;
         if self.point {
-            point = point * w;
+            extra.point = extra.point * w;
         }
-        (scaled(pixel, w), point)
+        if self.albedo {
+            extra.albedo = extra.albedo * w;
+        }
+        match self.divides {
+            true => (scaled(pixel, w), extra),
+            false => (pixel, extra),
+        }
+    }
+}
+
+/// The walk of the extras along a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ExtraWalk<F: Num> {
+    place: Linear<(Vec3<F>, F)>,
+    albedo: Linear<Vec3<F>>,
+    has_albedo: bool,
+}
+
+impl<F: Num> ExtraWalk<F> {
+    /// Returns the extras here, and steps to the next pixel or block.
+    #[inline(always)]
+    pub fn next(&mut self) -> Extra<F> {
+        let (point, weight) = self.place.next();
+        let albedo = match self.has_albedo {
+            true => self.albedo.next(),
+            false => self.albedo.at,
+        };
+        Extra {
+            point,
+            albedo,
+            weight,
+        }
     }
 }
 
@@ -105,7 +194,7 @@ pub(crate) struct Vertices<'a> {
     pub normals: &'a [[f32; 3]],
     /// Positions, one a normal; any vectors if nothing is lit from a position.
     pub points: &'a [[f32; 3]],
-    /// Attributes, one a normal; none if the method does not read them.
+    /// Attributes, one a normal; none if neither the method nor the material reads them.
     pub attributes: &'a [[f32; 4]],
 }
 
@@ -318,10 +407,14 @@ fn light<C: Carries, F: Num>(
         let n = gather(normals);
         let mut lit = Lit::new(stored, n.x, general);
         lit = lit.at(if general { gather(points) } else { n });
-        if matches!(C::FROM, Carried::Attributes) {
+        let has_albedo = general && stored.model.has_albedo;
+        if has_albedo || matches!(C::FROM, Carried::Attributes) {
             let all = &job.attributes[block * F::WIDTH..][..F::WIDTH];
             let of = |i: usize| n.x.of_each(|k| n.x.one(all[k][i]));
             lit = lit.with_attributes([of(0), of(1), of(2), of(3)]);
+            if has_albedo {
+                lit = lit.with_albedo(vec3([of(0), of(1), of(2)]));
+            }
         }
         let varying = carried::<C, F>(job.uniforms, &lit, n);
         each(
@@ -340,10 +433,10 @@ fn light<C: Carries, F: Num>(
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = if is_general::<M>(job, uniforms) {
-            shade_runs::<M>(job, uniforms, true, runs, out)
-        } else {
-            shade_fast_runs::<M>(job, uniforms, runs, out)
+        out = match is_general::<M>(job, uniforms) {
+            true if job.extras.albedo => shade_coloured_runs::<M>(job, uniforms, runs, out),
+            true => shade_runs::<M>(job, uniforms, [true, false], runs, out),
+            false => shade_fast_runs::<M>(job, uniforms, runs, out),
         };
     }
 }
@@ -362,25 +455,32 @@ fn shade_fast_runs<'a, 'b, M: Method>(
     runs: impl Iterator<Item = (usize, &'a Run)>,
     out: &'b mut [[f32; 3]],
 ) -> &'b mut [[f32; 3]] {
-    shade_runs::<M>(job, uniforms, false, runs, out)
+    shade_runs::<M>(job, uniforms, [false, false], runs, out)
 }
 
-/// Shades runs of the same uniforms, and returns the pixels after them. Without `general`, a literal, there are no extras and
-/// no general light.
+/// Shades runs with vertex colours: a function of its own, so that others pay nothing for them.
+#[inline(never)]
+fn shade_coloured_runs<'a, 'b, M: Method>(
+    job: &Pixels<'_>,
+    uniforms: &Uniforms,
+    runs: impl Iterator<Item = (usize, &'a Run)>,
+    out: &'b mut [[f32; 3]],
+) -> &'b mut [[f32; 3]] {
+    shade_runs::<M>(job, uniforms, [true, true], runs, out)
+}
+
+/// Shades runs of the same uniforms, and returns the pixels after them. `general` and `coloured` are literals: without the first
+/// there are no extras and no general light, without the second no vertex colours.
 #[inline(always)]
 fn shade_runs<'a, 'b, M: Method>(
     job: &Pixels<'_>,
     uniforms: &Uniforms,
-    general: bool,
+    [general, coloured]: [bool; 2],
     runs: impl Iterator<Item = (usize, &'a Run)>,
     mut out: &'b mut [[f32; 3]],
 ) -> &'b mut [[f32; 3]] {
     let stored = uniforms.stored();
-    let extras = if general {
-        job.extras
-    } else {
-        Extras::default()
-    };
+    let extras = job.extras.known(general, coloured);
     let lights = stored.lights.len();
     let own = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
     let method = M::new(job.parameters, &stored.model);
@@ -405,7 +505,7 @@ fn shade_runs<'a, 'b, M: Method>(
 /// The loop over a run's pixels, for the polygon's kind.
 struct RunLoop<'a> {
     start: RunStart<'a, f32>,
-    extra: Linear<(Vec3<f32>, f32)>,
+    extra: ExtraWalk<f32>,
     directional: Lit<'a, f32>,
     extras: Extras,
     here: &'a mut [[f32; 3]],
@@ -431,10 +531,14 @@ pub(crate) fn colour<M: Shader, F: Num>(
     method: M,
     lit: Lit<'_, F>,
     extras: Extras,
-    (pixel, extra): (Pixel<M, F>, (Vec3<F>, F)),
+    (pixel, extra): (Pixel<M, F>, Extra<F>),
 ) -> Vec3<F> {
-    let (pixel, point) = extras.divided(pixel, extra);
-    method.shade(&lit.at_pixel(point, extras.point), pixel)
+    let (pixel, extra) = extras.divided(pixel, extra);
+    let mut lit = lit.at_pixel(extra.point, extras.point);
+    if extras.albedo {
+        lit = lit.with_albedo(extra.albedo);
+    }
+    method.shade(&lit, pixel)
 }
 
 /// A row of the G-buffer to be shaded.
@@ -469,7 +573,7 @@ impl SimdKernels {
                 true => Some(walk::<M, T>),
                 false => None,
             },
-            shade: shade::<M, S>,
+            shade: shade::<M, T, S>,
         }
     }
 }
@@ -496,7 +600,9 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
 #[cfg(feature = "simd")]
 fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
     let (simd, lights) = (S::get(), job.lights());
-    let planes = count::<Pixel<M, f32>>(lights);
+    let own = count::<Varying<M, f32>>(lights);
+    let walked = count::<Pixel<M, f32>>(lights);
+    let planes = walked + job.extras.count();
     vectorize(
         simd,
         #[inline(always)]
@@ -518,6 +624,14 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
                             |i, block| block.store_slice(&mut here[i * length + x..][..BLOCK]),
                         );
                     }
+                    for (i, plane) in (own..).zip(here[walked * length..].chunks_exact_mut(length))
+                    {
+                        let [mut at, step] = start.block_ramp(i, zero);
+                        for block in plane.chunks_exact_mut(BLOCK) {
+                            at.store_slice(block);
+                            at += step;
+                        }
+                    }
                 }
             }
         },
@@ -526,8 +640,15 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
 
 /// Shades a row of the G-buffer: whole [`Token::Block`]s of its cells.
 #[cfg(feature = "simd")]
-fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowColours<'_>) {
+fn shade<M: Shader, T: Token, S: Token>(
+    job: &ShadeRow<'_>,
+    cells: &[f32],
+    out: &mut RowColours<'_>,
+) {
     let stored = job.uniforms.stored();
+    if job.extras.albedo {
+        return shade_coloured::<M, T>(job, cells, out);
+    }
     vectorize(
         S::get(),
         #[inline(always)]
@@ -536,36 +657,51 @@ fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowCo
             let is_fast = job.uniforms.model.is_fast && job.extras == Extras::default();
             match stored.lights {
                 _ if M::NEEDS.general_only || !(is_bytes && is_fast) => {
-                    shade_blocks::<M, S>(job, stored, true, cells, out)
+                    shade_blocks::<M, S>(job, stored, [true, false], cells, out)
                 }
                 // One light as a slice of length 1: its loop is unrolled.
                 [one] => {
                     let lights = &[*one];
-                    shade_blocks::<M, S>(job, Stored { lights, ..stored }, false, cells, out)
+                    let stored = Stored { lights, ..stored };
+                    shade_blocks::<M, S>(job, stored, [false, false], cells, out)
                 }
-                _ => shade_blocks::<M, S>(job, stored, false, cells, out),
+                _ => shade_blocks::<M, S>(job, stored, [false, false], cells, out),
             }
         },
     );
 }
 
-/// Shades a row, a block at a time. Without `general`, a literal, there are no extras, and the model is fast. Cells hold pixels that
+/// Shades a row of the G-buffer with vertex colours: a loop of its own, so that others pay nothing for them, and one for all machines
+/// with `T`, so that the program stays small.
+#[cfg(feature = "simd")]
+#[inline(never)]
+fn shade_coloured<M: Shader, T: Token>(
+    job: &ShadeRow<'_>,
+    cells: &[f32],
+    out: &mut RowColours<'_>,
+) {
+    let stored = job.uniforms.stored();
+    vectorize(
+        T::get(),
+        #[inline(always)]
+        || shade_blocks::<M, T>(job, stored, [true, true], cells, out),
+    );
+}
+
+/// Shades a row, a block at a time. `general` and `coloured` are literals: without the first there are no extras, and the model is
+/// fast; without the second there are no vertex colours. Cells hold pixels that
 /// were walked to, or varyings, each the start of a walk of one block.
 #[cfg(feature = "simd")]
 #[inline(always)]
 fn shade_blocks<M: Shader, S: Token>(
     job: &ShadeRow<'_>,
     stored: Stored<'_>,
-    general: bool,
+    [general, coloured]: [bool; 2],
     row: &[f32],
     out: &mut RowColours<'_>,
 ) {
     let (simd, lights) = (S::get(), stored.lights.len());
-    let extras = if general {
-        job.extras
-    } else {
-        Extras::default()
-    };
+    let extras = job.extras.known(general, coloured);
     let method = M::new(job.parameters, &stored.model);
     // Known when compiled, but for methods that may choose.
     let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();

@@ -191,22 +191,14 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
                     none,
                     #[inline(always)]
                     |i, value| {
-                        let [at, step] = run.ramp(i);
-                        *value = match F::WIDTH {
-                            1 => value.of_each(|_| at),
-                            _ => value.of_each(|k| at + step * k as f32),
-                        };
+                        [*value, _] = run.block_ramp(i, *value);
                     },
                 ),
                 step: each(
                     none,
                     #[inline(always)]
                     |i, value| {
-                        let [_, step] = run.ramp(i);
-                        *value = match F::WIDTH {
-                            1 => value.of_each(|_| step),
-                            width => value.of_each(|_| step) * width as f32,
-                        };
+                        [_, *value] = run.block_ramp(i, *value);
                     },
                 ),
             },
@@ -297,6 +289,19 @@ impl<T: Num> RunStart<'_, T> {
         match self.place {
             None => values,
             Some(SpanPlace { t0, dt, .. }) => ramp(values[0], values[1], t0, dt),
+        }
+    }
+
+    /// Returns a varying at each pixel of the first block, and its growth from block to block. `zero` may be any value.
+    #[inline(always)]
+    pub fn block_ramp<F: Num<One = T>>(&self, varying: usize, zero: F) -> [F; 2] {
+        let [at, step] = self.ramp(varying);
+        match F::WIDTH {
+            1 => [zero.of_each(|_| at), zero.of_each(|_| step)],
+            width => [
+                zero.of_each(|k| at + step * k as f32),
+                zero.of_each(|_| step) * width as f32,
+            ],
         }
     }
 }

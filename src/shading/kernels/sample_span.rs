@@ -154,7 +154,7 @@ impl SpanBench {
     /// Returns the varyings that kernels add to those of a method.
     pub(crate) fn extras(&self, variant: &Variant) -> Extras {
         let entry = variant.row();
-        entry.extras(self.is_local(), self.perspective)
+        entry.extras(self.is_local(), self.perspective, false)
     }
 }
 

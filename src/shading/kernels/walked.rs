@@ -1,10 +1,9 @@
 //! Walks that tell what they find: the values of each pixel of a run, for traces. Nothing here is in a loop that draws.
 
-use super::{Extras, Pixels, is_general};
-use crate::number::Vec3;
+use super::{Extra, ExtraWalk, Extras, Pixels, is_general};
 use crate::shading::kernels::runs::RunStart;
+use crate::shading::walks::Walk;
 use crate::shading::walks::values::{Values, count, each};
-use crate::shading::walks::{Linear, Walk};
 use crate::shading::{Carries, CarriesOf, Kinds, Lit, Method, Shader, Span, Visit};
 use alloc::vec::Vec;
 
@@ -52,7 +51,7 @@ pub(crate) struct WalkedRun {
     pub kind: Option<&'static str>,
     /// The names of a pixel's values: [`Shader::VALUES`].
     pub names: &'static [&'static str],
-    /// The values of each pixel, then its position and weight where there are such ([`Extras`]).
+    /// The values of each pixel, then its position, colour and weight where they are there ([`Extras`]).
     pub values: Vec<Vec<f32>>,
     /// What each pixel was found by, by name: [`Walk::inside`].
     pub inside: Vec<(&'static str, Vec<Vec<f32>>)>,
@@ -84,7 +83,7 @@ fn walked<M: Method>(job: &Pixels<'_>, to: &mut dyn FnMut(WalkedRun)) {
 struct Walking<'a, 'to> {
     kind: Option<&'static str>,
     start: RunStart<'a, f32>,
-    extra: Linear<(Vec3<f32>, f32)>,
+    extra: ExtraWalk<f32>,
     extras: Extras,
     lit: Lit<'a, f32>,
     to: &'to mut dyn FnMut(WalkedRun),
@@ -115,14 +114,17 @@ fn read<V: Values<f32>>(group: V, to: &mut dyn FnMut(f32)) {
 }
 
 impl WalkedRun {
-    /// Adds position and weight to the values of the last pixel, where there are such.
-    fn add_extra(&mut self, extras: Extras, (point, weight): (Vec3<f32>, f32)) {
+    /// Adds the extras that are there to the values of the last pixel.
+    fn add_extra(&mut self, extras: Extras, extra: Extra<f32>) {
         let values = self.values.last_mut().expect("a pixel was added");
         if extras.point {
-            values.extend(point.array());
+            values.extend(extra.point.array());
+        }
+        if extras.albedo {
+            values.extend(extra.albedo.array());
         }
         if extras.weight {
-            values.push(weight);
+            values.push(extra.weight);
         }
     }
 

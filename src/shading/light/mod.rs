@@ -14,7 +14,8 @@
 //! - all lights are summed, then the sum is clamped to 0..=1 once;
 //! - with [`SpecularModel::Blinn`] the cosine is `N·H`, `H = (L + V) / |L + V|` (CS171 2); where light and eye are opposite, H has
 //!   no direction, and there is no highlight;
-//! - a light that falls off does so in both terms, and ambient light does not (CS171 2, Attenuation).
+//! - a light that falls off does so in both terms, and ambient light does not (CS171 2, Attenuation);
+//! - vertex colours multiply `k_a` and `k_d` and not `k_s`, where the material asks for it, as OpenGL's `GL_AMBIENT_AND_DIFFUSE` does.
 //!
 //! A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
 
@@ -70,7 +71,9 @@ pub struct LightModel {
     pub(crate) exponent: Exponent,
     /// Cosines up to this have no highlight: `k_s cos^n ≤ 2⁻²⁴` for the strongest light.
     pub(crate) faint: f32,
-    /// True if anything is asked for beside directional lights, R·V, and highlights that end where L·N = 0.
+    /// True if `k_a` and `k_d` are multiplied by the vertex colour: [`Lighting::vertex_colours`].
+    pub(crate) has_albedo: bool,
+    /// True if anything is asked for beside directional lights, R·V, highlights that end where L·N = 0, and one colour a material.
     pub is_general: bool,
     /// True if blocks may take the fast path: not general, an exponent of a few squarings, no colour of 2³⁰ or more.
     pub is_fast: bool,
@@ -126,6 +129,7 @@ impl Uniforms {
             shininess: lighting.shininess,
             exponent: Exponent::Whole(0),
             faint: faint(power, lighting.shininess, scale, &lights),
+            has_albedo: lighting.vertex_colours,
             is_general: true,
             is_fast: false,
         };
@@ -147,6 +151,11 @@ impl Uniforms {
 
     /// Returns the same light as directional lights: as `point` sees it. The lecture assumes so along a polygon (L21 1).
     pub fn seen_from(&self, point: [f32; 3]) -> Uniforms {
+        self.seen_from_in(point, Vec::new())
+    }
+
+    /// Does the same in memory that other lights had.
+    pub(crate) fn seen_from_in(&self, point: [f32; 3], mut memory: Vec<LightUniforms>) -> Uniforms {
         let lit = Lit::new(self.stored(), 0.0, true).at(vec3(point));
         let lights = lit.lights().map(|seen| {
             let strength = seen.strength.unwrap_or(1.0);
@@ -160,7 +169,9 @@ impl Uniforms {
         });
         let eye = Place::Infinite(lit.view);
         let model = LightModel { eye, ..self.model };
-        let seen = Uniforms::derived(model, lights.collect(), self.powers.clone());
+        memory.clear();
+        memory.extend(lights);
+        let seen = Uniforms::derived(model, memory, self.powers.clone());
         match self.eye_frame {
             Some(_) => seen.turned(),
             None => seen,
@@ -194,6 +205,7 @@ impl Uniforms {
             || lights.iter().any(|light| light.place.is_local())
             || model.specular != SpecularModel::Phong
             || model.gate != SpecularGate::Gated
+            || model.has_albedo
             || model.exponent.is_lit_at_zero();
         let is_few_squarings = matches!(model.exponent, Exponent::Squarings(_));
         model.is_fast = !model.is_general && is_few_squarings && most < MOST_LEVELS;
@@ -359,6 +371,10 @@ pub struct Lit<'a, F> {
     /// True if it is the light of a walk, which knows nothing of places; false for a vertex, a polygon or a pixel.
     is_of_walk: bool,
     attributes: [F; 4],
+    /// The vertex colour at the point; white until it is known.
+    albedo: Vec3<F>,
+    /// True if `k_a` and `k_d` are multiplied by it.
+    has_albedo: bool,
     general: bool,
     zero: F,
 }
@@ -398,6 +414,8 @@ impl<'a, F: Num> Lit<'a, F> {
             has_point: false,
             is_of_walk: true,
             attributes: [zero; 4],
+            albedo: vec3([zero.broadcast(1.0); 3]),
+            has_albedo: false,
             general,
             zero,
         }
@@ -429,6 +447,29 @@ impl<'a, F: Num> Lit<'a, F> {
     #[inline(always)]
     pub fn attributes(&self) -> [F; 4] {
         self.attributes
+    }
+
+    /// Returns the light on a point of this vertex colour, by which `k_a` and `k_d` are multiplied where the material asks for it.
+    #[inline(always)]
+    pub(crate) fn with_albedo(self, albedo: Vec3<F>) -> Self {
+        Lit {
+            albedo,
+            has_albedo: self.model.has_albedo,
+            ..self
+        }
+    }
+
+    /// Returns ambient or diffuse light times the vertex colour, where the material asks for it.
+    #[inline(always)]
+    pub(crate) fn times_albedo(&self, light: Vec3<F>) -> Vec3<F> {
+        match self.general && self.has_albedo {
+            true => vec3([
+                light.x * self.albedo.x,
+                light.y * self.albedo.y,
+                light.z * self.albedo.z,
+            ]),
+            false => light,
+        }
     }
 
     /// Returns 0 in this backend.
@@ -590,10 +631,10 @@ impl<'a, F: Num> Lit<'a, F> {
         colour
     }
 
-    /// Returns `I_a k_a`.
+    /// Returns `I_a k_a`, `k_a` times the vertex colour where the material asks for it.
     #[inline(always)]
     pub fn ambient(&self) -> Vec3<F> {
-        self.model.ambient.broadcast(self.zero)
+        self.times_albedo(self.model.ambient.broadcast(self.zero))
     }
 
     /// Returns a colour with each channel clamped to 0..=1: for vertices whose pixels need no clamp.
@@ -642,7 +683,16 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns `colour` and the diffuse term of a light, from L·N, 0 or more.
     #[inline(always)]
     pub fn add_diffuse(&self, colour: Vec3<F>, light: &Seen<'a, F>, diffuse: F) -> Vec3<F> {
-        colour.plus(light.times_strength(diffuse), light.light.diffuse) // 2.1
+        self.plus_diffuse(colour, light.times_strength(diffuse), light) // 2.1
+    }
+
+    /// Returns `colour` plus `factor` times `I_p k_d`, `k_d` times the vertex colour where the material asks for it.
+    #[inline(always)]
+    fn plus_diffuse(&self, colour: Vec3<F>, factor: F, light: &Seen<'a, F>) -> Vec3<F> {
+        match self.general && self.has_albedo {
+            true => colour + self.times_albedo(light.light.diffuse.broadcast(factor) * factor),
+            false => colour.plus(factor, light.light.diffuse),
+        }
     }
 
     /// Returns `colour` and the highlight of a light, from L·N, 0 or more, and from the cosine of the highlight.
@@ -663,7 +713,7 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns `colour` and what a light of these two terms adds to it: for highlights of a method's own.
     #[inline(always)]
     pub fn plus(&self, colour: Vec3<F>, light: &Seen<'a, F>, diffuse: F, specular: F) -> Vec3<F> {
-        let colour = colour.plus(light.times_strength(diffuse), light.light.diffuse);
+        let colour = self.plus_diffuse(colour, light.times_strength(diffuse), light);
         colour.plus(light.times_strength(specular), light.light.specular)
     }
 
@@ -696,7 +746,7 @@ impl<'a, F: Num> Lit<'a, F> {
         for light in self.lights() {
             let l_n = n.dot(light.to);
             let diffuse = l_n.max(0.0);
-            dull = dull.plus(light.times_strength(diffuse), light.light.diffuse);
+            dull = self.add_diffuse(dull, &light, diffuse);
             let cosine = self.reflection(&light, n, l_n);
             if let Some(specular) = self.power(&light, diffuse, cosine) {
                 bright = bright.plus(specular, light.light.specular);

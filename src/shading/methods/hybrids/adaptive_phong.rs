@@ -39,12 +39,12 @@ const LEAST_RUN: f64 = 4.0;
 /// The polygons by which a frame is judged.
 const SAMPLES: usize = 256;
 
-/// True if plans pay on a frame: lights and eye are at infinity, some highlights are gated, and runs are not too short, judged by some polygons
+/// True if plans pay on a frame: lights and eye are at infinity, a material has one colour, some highlights are gated, and runs are not too short, judged by some polygons
 /// spread over all.
 fn is_worth_planning(frame: &Frame) -> bool {
     // Highlights of other gates are drawn by the root: see `plan`.
     let is_gated = |lighting: &Lighting| lighting.gate == SpecularGate::Gated;
-    if frame.is_local() || !frame.lightings().iter().any(is_gated) {
+    if frame.is_local() || frame.is_coloured() || !frame.lightings().iter().any(is_gated) {
         return false;
     }
     let (width, height) = (frame.width() as f64, frame.height() as f64);
@@ -146,6 +146,9 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
         match on {
             On::Frame(frame) if !is_worth_planning(frame) => {
                 Fit::LeavesTo(<PhongRsqrt as Shader>::INFO.name)
+            }
+            On::Spans(lighting, _) if lighting.vertex_colours => {
+                Fit::Refuses("its plans hold one colour a material, and none of vertices")
             }
             _ => Fit::Draws,
         }

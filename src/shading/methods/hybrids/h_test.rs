@@ -22,7 +22,8 @@ use glam::DVec3;
 /// ```text
 /// N·H ≥ T      or      R·V = 2 (L·N)(V·N) − L·V ≥ T,  so that  (N·H)² ≥ (T + L·V)/(1 + L·V)   as  (L·N)(V·N) ≤ (N·H |L + V|/2)²
 /// ```
-/// A polygon is dull if the angle between m and H is over w + acos of that bound, or, unless highlights are ungated, if the light is behind all of its corners.
+/// A polygon is dull if the angle between m and H is over w + acos of that bound, or, unless highlights are ungated, if the light is
+/// behind all of its corners. Ungated, a surface that both light and eye are behind shines as well: there −H counts, too, for R·V.
 ///
 /// **Its error.** Of a light whose J is p at most and −q at least at the corners the interpolated diffuse term is too dark by J (1/|N| − 1)
 /// ≤ p (1/ℓ − 1) where it is in front, ℓ the least length; and the chord of max(0, J) is p q/(p + q) over it at most.
@@ -66,7 +67,13 @@ fn may_shine<F: Num>(lit: &Lit<'_, F>, normals: impl Iterator<Item = Vec3<f32>> 
         let sines = (1.0 - cosine * cosine) * (1.0 - bound * bound);
         let farthest = cosine * bound - Num::sqrt(sines);
         let h = (to + view) * light.half;
-        mean.dot(h) >= farthest - ROUNDINGS
+        let toward = mean.dot(h);
+        // With light and eye both behind, R·V is as it is in front: the square forgets the sign.
+        let toward = match is_gated || is_halfway {
+            true => toward,
+            false => toward.abs(),
+        };
+        toward >= farthest - ROUNDINGS
     })
 }
 
@@ -152,8 +159,8 @@ impl Shader for Dull {
         }
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Vec3<F>) -> Vec3<F> {
-        colour
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, colour: Vec3<F>) -> Vec3<F> {
+        lit.times_albedo(colour)
     }
 }
 
@@ -173,7 +180,8 @@ impl Shader for Shining {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (mut colour, n): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, (colour, n): Pixel<Self, F>) -> Vec3<F> {
+        let mut colour = lit.times_albedo(colour);
         let n = n.unit();
         let v_n = n.dot(lit.view()); // K = V · N
         for light in lit.lights() {
@@ -191,6 +199,8 @@ impl Carries for HTest {
 
     #[inline(always)]
     fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+        // Pixels multiply by the vertex colour, as the reference does.
+        let lit = &lit.with_albedo(vec3([n.x.broadcast(1.0); 3]));
         let mut colour = lit.ambient();
         for light in lit.lights() {
             colour = lit.add_diffuse(colour, &light, n.dot(light.to).max(0.0));

@@ -195,6 +195,11 @@ pub(crate) fn refuses(
             _ => "in integers, it has at most four lights",
         });
     }
+    if lighting.vertex_colours {
+        return Some(
+            "in integers, a material has one colour (`--colours off` leaves out those of vertices)",
+        );
+    }
     if lighting.gate != SpecularGate::Gated {
         return Some("in integers, highlights end where L·N = 0");
     }
