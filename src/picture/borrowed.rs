@@ -6,6 +6,9 @@ use super::{LinearPicture, Picture8};
 /// of four formats. Any [`Picture8`] and [`LinearPicture`] is one: `(&mut picture).into()`.
 ///
 /// Alpha is straight, 0 where nothing was drawn. Sizes are compared where it is drawn into, not here.
+///
+/// Rows need not touch ([`PictureMut::stride`]), and a *viewport* is a part of a picture ([`PictureMut::part`]): nothing
+/// outside of it is written.
 #[derive(Debug)]
 pub struct PictureMut<'a> {
     pub(crate) pixels: PixelsMut<'a>,
@@ -59,6 +62,49 @@ impl<'a> PictureMut<'a> {
         PictureMut { stride, ..self }
     }
 
+    /// Returns a part of the picture, the viewport of a frame: `width` × `height` pixels from column `x` and row `y` on. What reaches
+    /// beyond the picture is cut off, so that the part is smaller and no frame of the size that was meant is drawn
+    /// ([`DrawError::Size`](crate::raster::DrawError::Size)).
+    ///
+    /// ```
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::picture::{Picture8, PictureMut};
+    /// use fastphong::raster::DrawOptions;
+    /// use fastphong::scene::Scene;
+    /// use fastphong::shading::methods;
+    ///
+    /// // Two views side by side, with a margin of 8 pixels.
+    /// let mut picture = Picture8::new(152, 64, [9; 4]);
+    /// let mut scene = Scene::of_mesh(builtin("teapot?res=4")?);
+    /// (scene.width, scene.height) = (64, 48);
+    /// let frame = scene.frame()?;
+    /// for (x, method) in [(8, methods::GOURAUD), (80, methods::PHONG_RSQRT)] {
+    ///     let part = PictureMut::from(&mut picture).part([x, 8], [64, 48]);
+    ///     method.variant().draw(&frame, part, DrawOptions::default())?;
+    /// }
+    /// assert_eq!([picture.get(7, 30), picture.get(75, 30)], [[9; 4]; 2], "the margin");
+    /// assert_eq!([picture.get(40, 32)[3], picture.get(112, 32)[3]], [255; 2]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn part(self, [x, y]: [usize; 2], [width, height]: [usize; 2]) -> Self {
+        let PictureMut { pixels, stride, .. } = self;
+        let (x, y) = (x.min(self.width), y.min(self.height));
+        let (width, height) = (width.min(self.width - x), height.min(self.height - y));
+        let first = y.saturating_mul(stride).saturating_add(x);
+        PictureMut {
+            pixels: match pixels {
+                PixelsMut::Rgba8(pixels) => PixelsMut::Rgba8(from(pixels, first)),
+                PixelsMut::Bgra8(pixels) => PixelsMut::Bgra8(from(pixels, first)),
+                PixelsMut::Argb(pixels) => PixelsMut::Argb(from(pixels, first)),
+                PixelsMut::Linear(pixels) => PixelsMut::Linear(from(pixels, first)),
+            },
+            width,
+            height,
+            stride,
+        }
+    }
+
     /// Returns the number of pixels that it was given.
     pub(crate) fn len(&self) -> usize {
         match &self.pixels {
@@ -67,6 +113,11 @@ impl<'a> PictureMut<'a> {
             PixelsMut::Linear(pixels) => pixels.len(),
         }
     }
+}
+
+/// Returns the pixels from one on; none where the picture has fewer.
+fn from<P>(pixels: &mut [P], first: usize) -> &mut [P] {
+    pixels.get_mut(first..).unwrap_or_default()
 }
 
 impl<'a> From<&'a mut Picture8> for PictureMut<'a> {

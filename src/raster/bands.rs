@@ -1,5 +1,6 @@
 //! A picture as bands of scanlines, which are drawn independently, on several threads.
 
+use super::depth::DepthTest;
 use super::target::{Format, Rows, Surface, Target};
 use crate::number::parallel::{for_each_chunk, threads};
 use alloc::vec;
@@ -36,6 +37,7 @@ pub(super) fn stream_bands<F: Format<Pixel = [u8; 4]>>(
             stride: width,
             count,
             depth: None,
+            test: DepthTest::Less,
             samples: frame.width() * frame.samples(),
         };
         draw_bands(surface, (height, first / a_band), rows, draw);

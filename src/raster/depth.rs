@@ -148,16 +148,67 @@ impl SampleDepth {
     }
 }
 
-/// Compares the depth of a pixel with the one that the caller of an engine keeps for it: stores it there if it is less, and makes it
-/// infinite, as if nothing had been drawn, if it is not. Returns true if the pixel is hidden.
-#[inline(always)]
-pub(super) fn hide(depth: &mut f32, stored: &mut f32) -> bool {
-    let is_seen = *depth < *stored;
-    (*stored, *depth) = match is_seen {
-        true => (*depth, *depth),
-        false => (*stored, f32::INFINITY),
-    };
-    !is_seen
+/// The test that a sample of a frame must pass against the depth that the caller keeps for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DepthTest {
+    /// It is drawn where its depth is less: it is nearer.
+    #[default]
+    Less,
+    /// It is drawn where its depth is less or equal: over the same frame again, as for a second light, or over a coplanar one.
+    LessOrEqual,
+    /// The buffer is reversed, and the sample drawn where its value is greater: it is nearer. Values are 1/w under perspective, else
+    /// from 1 at the near plane down to 0 at the far one; −∞ where there is nothing yet, or 0.
+    Greater,
+    /// The buffer is reversed, and the sample drawn where its value is greater or equal.
+    GreaterOrEqual,
+}
+
+/// The depth that the caller of an engine keeps for a row of samples.
+pub(super) struct CallersDepth<'a> {
+    pub stored: &'a mut [f32],
+    pub test: CallersTest,
+}
+
+/// The test of pixels against the caller's depth, by which they are drawn or left out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CallersTest {
+    pub test: DepthTest,
+    /// The sum of a depth and the reversed one: 0 under perspective, else 1.
+    end: f32,
+}
+
+impl CallersTest {
+    pub fn new(frame: &Frame, test: DepthTest) -> Self {
+        let end = match frame.depth_range() {
+            DepthRange::Perspective { .. } => 0.0,
+            DepthRange::Orthographic { .. } => 1.0,
+        };
+        CallersTest { test, end }
+    }
+
+    /// Compares the depth of a pixel with the one that the caller keeps for it: stores it there if it passes the test, and becomes
+    /// infinite, as if nothing had been drawn, if it does not. Returns true if the pixel is hidden.
+    ///
+    /// Literals choose the test, outside of the loop over pixels.
+    #[inline(always)]
+    pub fn hide<const REVERSED: bool, const EQUAL: bool>(
+        self,
+        depth: &mut f32,
+        stored: &mut f32,
+    ) -> bool {
+        let own = if REVERSED { self.end - *depth } else { *depth };
+        let is_seen = match (REVERSED, EQUAL) {
+            (false, false) => own < *stored,
+            (false, true) => own <= *stored,
+            (true, false) => own > *stored,
+            (true, true) => own >= *stored,
+        };
+        (*stored, *depth) = match is_seen {
+            true => (own, *depth),
+            false => (*stored, f32::INFINITY),
+        };
+        !is_seen
+    }
 }
 
 /// Returns the depths `z` of a block as levels of a depth buffer whose largest is `most`, which is below 2²⁴: exactly as

@@ -1,5 +1,6 @@
 //! Drawing into what the caller owns: the options, and what cannot be drawn.
 
+use super::depth::DepthTest;
 use super::engine::Renderer;
 use super::target::{Argb, Bgra, Eight, Floats, Format, Rgba, Rows, Surface};
 use crate::frame::Frame;
@@ -21,18 +22,23 @@ pub enum Background {
 }
 
 /// How [`Variant::draw`] draws. `DrawOptions::default()` is the lecture's engine over the frame's background.
+///
+/// There is no viewport and no scissor among them: [`Variant::draw`] says what to do in their place.
 #[derive(Debug, Default)]
 pub struct DrawOptions<'a> {
     /// The engine and instruction set: [`Renderer::fastest`], or the default, whose bits are the same on every machine.
     pub renderer: Renderer,
     /// What becomes of pixels that nothing covers.
     pub background: Background,
-    /// A depth buffer of the caller's: [`Frame::width`] × [`Frame::height`] numbers, one a sample, row by row from the top. They are
+    /// A depth buffer of the caller's: [`Frame::width`] × [`Frame::height`] values, one a sample, row by row from the top. They are
     /// depths as [`Vertex::depth`](crate::frame::Vertex::depth) is: −1/w under perspective, else from 0 to 1; infinite where there is
-    /// nothing yet. A sample is drawn
-    /// where its depth is less than the number, which then becomes its depth: so several frames share a picture, and
-    /// a rasterizer of one's own may draw between them. Wants a frame with a depth buffer of 32 bits.
+    /// nothing yet. A sample is drawn where its depth passes [`DrawOptions::depth_test`] against the value, which then becomes its
+    /// depth: so several frames share a picture, and your own rasterizer may draw between them. Wants a frame with a depth
+    /// buffer of 32 bits.
     pub depth: Option<&'a mut [f32]>,
+    /// The comparison with [`DrawOptions::depth`], and whether that buffer is reversed. Within a frame the nearest polygon hides
+    /// the others in any case.
+    pub depth_test: DepthTest,
 }
 
 impl DrawOptions<'_> {
@@ -193,6 +199,17 @@ impl Variant {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// # A viewport, a scissor, a stencil
+    ///
+    /// A frame always fills the picture that it is given, and nothing beyond it is written:
+    ///
+    /// - **Viewport**: give it a part of the picture, [`PictureMut::part`], and a frame of that size.
+    /// - **Scissor**: polygons are cut off at the edges of their frame, exactly. So a scissor rectangle is a frame of its size, whose
+    ///   vertices are moved by its corner (of a [`FrameBuilder`](crate::frame::FrameBuilder), by whole pixels), in that part of
+    ///   the picture.
+    /// - **Stencil**, of any shape, and a scissor for scenes: a depth buffer that holds −∞ where nothing is to be drawn (+∞ if
+    ///   it is reversed), with [`Background::Kept`].
+    ///
     /// # Errors
     /// [`DrawError`] where picture, depth buffer and frame do not go together, or the method is not for the frame.
     pub fn draw<'p>(
@@ -214,6 +231,7 @@ impl Variant {
             keeps_background: options.background == Background::Kept,
             stride: picture.stride,
             depth: options.depth,
+            test: options.depth_test,
         };
         match picture.pixels {
             PixelsMut::Rgba8(pixels) => drawing.into(Eight::<Rgba>::new(encoder), pixels),
@@ -233,6 +251,7 @@ struct Drawing<'a> {
     keeps_background: bool,
     stride: usize,
     depth: Option<&'a mut [f32]>,
+    test: DepthTest,
 }
 
 impl Drawing<'_> {
@@ -248,6 +267,7 @@ impl Drawing<'_> {
             stride: self.stride,
             count: frame.picture_height(),
             depth: self.depth,
+            test: self.test,
             samples: frame.width() * frame.samples(),
         };
         self.variant.draw_rows(self.renderer, surface, rows);

@@ -48,6 +48,7 @@ pub mod trace;
 pub(crate) use aov::for_each_polygon_row;
 pub use aov::{checkerboard, coverage, depth, normals, polygon_numbers, vertex_colours};
 pub use barycentric::{Edges, barycentric_polygon_numbers};
+pub use depth::DepthTest;
 pub use draw::{Background, DrawError, DrawOptions};
 pub use engine::{Engine, Plan, PolygonKind, Renderer};
 pub use spans::{EdgeCrossing, NOTHING};

@@ -2,6 +2,7 @@
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine draws levels
 
+use super::depth::{CallersDepth, CallersTest, DepthTest};
 use crate::frame::Frame;
 use crate::number::parallel::Parts;
 use crate::picture::encoding::{Encoder, quantise};
@@ -179,6 +180,8 @@ pub(super) struct Rows<'a, P> {
     pub count: usize,
     /// The depth buffer of the caller, if there is one: the samples of a row of pixels, then those of the next.
     pub depth: Option<&'a mut [f32]>,
+    /// The test against that depth.
+    pub test: DepthTest,
     /// The samples of a row of pixels.
     pub samples: usize,
 }
@@ -189,7 +192,10 @@ impl<P: Send> Parts for Rows<'_, P> {
     }
     fn split(self, at: usize) -> (Self, Self) {
         let Rows {
-            stride, samples, ..
+            stride,
+            samples,
+            test,
+            ..
         } = self;
         let (above, below) = self.pixels.split_at_mut(at * stride);
         let depth = self.depth.map(|depth| depth.split_at_mut(at * samples));
@@ -199,6 +205,7 @@ impl<P: Send> Parts for Rows<'_, P> {
             stride,
             count,
             depth,
+            test,
             samples,
         };
         (
@@ -222,7 +229,7 @@ pub(super) trait Target {
     #[cfg(feature = "simd")]
     fn finish(&mut self, _row: usize) {}
     /// Returns the depth of the samples of row `row` that the caller keeps.
-    fn depth(&mut self, row: usize) -> Option<&mut [f32]>;
+    fn depth(&mut self, row: usize) -> Option<CallersDepth<'_>>;
 }
 
 /// A picture of a frame in some format, of which rows are drawn.
@@ -280,15 +287,20 @@ impl<F: Format> Target for Direct<'_, F> {
         }
         self.line = line;
     }
-    fn depth(&mut self, row: usize) -> Option<&mut [f32]> {
+    fn depth(&mut self, row: usize) -> Option<CallersDepth<'_>> {
         depth_row(&mut self.rows, self.surface.frame, row)
     }
 }
 
 /// Returns the depth of a row of samples.
-fn depth_row<'r, P>(rows: &'r mut Rows<'_, P>, frame: &Frame, row: usize) -> Option<&'r mut [f32]> {
-    let width = frame.width();
-    Some(&mut rows.depth.as_deref_mut()?[row * width..][..width])
+fn depth_row<'r, P>(
+    rows: &'r mut Rows<'_, P>,
+    frame: &Frame,
+    row: usize,
+) -> Option<CallersDepth<'r>> {
+    let (width, test) = (frame.width(), CallersTest::new(frame, rows.test));
+    let stored = &mut rows.depth.as_deref_mut()?[row * width..][..width];
+    Some(CallersDepth { stored, test })
 }
 
 /// A box filter in linear light: the mean of each pixel's covered samples, or of all n × n, where the background stands for
@@ -351,7 +363,7 @@ impl<F: Format> Target for BoxFilter<'_, F> {
             *covered += 1;
         }
     }
-    fn depth(&mut self, row: usize) -> Option<&mut [f32]> {
+    fn depth(&mut self, row: usize) -> Option<CallersDepth<'_>> {
         depth_row(&mut self.rows, self.surface.frame, row)
     }
 }
@@ -441,6 +453,7 @@ pub(super) fn rows_of<'a, P: Copy>(frame: &Frame, picture: &'a mut Picture<P>) -
         count: picture.height(),
         pixels: picture.pixels_mut(),
         depth: None,
+        test: DepthTest::Less,
         samples: frame.width() * frame.samples(),
     }
 }

@@ -8,6 +8,7 @@ use crate::mesh::builtin::builtin;
 use crate::number::simd::{BLOCK, tests::on_each_level};
 use crate::number::test_random::Random;
 use crate::picture::Picture8;
+use crate::raster::depth::CallersDepth;
 use crate::raster::target::Target;
 use crate::raster::{DrawOptions, Renderer, coverage, polygon_numbers};
 use crate::scene::{Light, Lighting, Scene};
@@ -314,7 +315,7 @@ impl Target for Levels<'_> {
         let width = self.0.width();
         Some(&mut self.0.pixels_mut()[row * width..][..width])
     }
-    fn depth(&mut self, _: usize) -> Option<&mut [f32]> {
+    fn depth(&mut self, _: usize) -> Option<CallersDepth<'_>> {
         None
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
-use crate::raster::depth::{SampleDepth, hide, level_of};
+use crate::raster::depth::{CallersDepth, DepthTest, SampleDepth, level_of};
 use crate::shading::CellLayout;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -74,8 +74,21 @@ impl Tile {
         &self.values[first..first + blocks.len() * self.stride()]
     }
 
-    /// Empties those pixels of a row that are not nearer than the depths `stored`, and stores the depths of the others there.
-    pub fn hide_behind(&mut self, row: usize, stored: &mut [f32]) {
+    /// Empties those pixels of a row that do not pass the test against the caller's depth, and stores the depths of the others there.
+    pub fn hide_behind(&mut self, row: usize, depth: CallersDepth<'_>) {
+        match depth.test.test {
+            DepthTest::Less => self.hide::<false, false>(row, depth),
+            DepthTest::LessOrEqual => self.hide::<false, true>(row, depth),
+            DepthTest::Greater => self.hide::<true, false>(row, depth),
+            DepthTest::GreaterOrEqual => self.hide::<true, true>(row, depth),
+        }
+    }
+
+    fn hide<const REVERSED: bool, const EQUAL: bool>(
+        &mut self,
+        row: usize,
+        CallersDepth { stored, test }: CallersDepth<'_>,
+    ) {
         let (drawn, stride) = (self.drawn(), self.stride());
         let first = (row * self.blocks + drawn.start) * stride;
         let stored = stored.get_mut(drawn.start * BLOCK..).unwrap_or_default();
@@ -83,7 +96,7 @@ impl Tile {
         for (block, stored) in blocks.zip(stored.chunks_mut(BLOCK)) {
             let depths = &mut block[BLOCK * CellLayout::DEPTH..][..BLOCK];
             for (depth, stored) in depths.iter_mut().zip(stored) {
-                hide(depth, stored);
+                test.hide::<REVERSED, EQUAL>(depth, stored);
             }
         }
     }
