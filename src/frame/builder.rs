@@ -2,25 +2,71 @@
 
 use super::guard::{self, Checked, FINITE, POSITION};
 use super::painter_order::back_to_front;
-use super::projection::Scratch;
+use super::projection::{ClipSpace, Scratch};
 use super::{
     ClipCorner, DepthRange, Frame, FrameError, FrameItem, FrameStats, Geometry, Mean, Polygon,
     ScreenVertex, Vertex,
 };
 use crate::picture::{Alpha, Encoding, Rgb};
-use crate::scene::ranges::{COORDINATE, DISTANCE, NumberRange, PIXEL};
+use crate::scene::ranges::{COORDINATE, DISTANCE, NumberRange, PIXEL, STRENGTH};
 use crate::scene::{Clipping, HiddenSurfaces, Interpolation, Lighting, Scene};
 use crate::sync::Arc;
 use alloc::vec::Vec;
+use glam::DVec4;
 
 /// A builder of a frame: collects vertices and polygons, then checks them once, so no reader of the frame needs to.
 ///
-/// `examples/own_triangles.rs` is a whole program.
+/// `examples/own_triangles.rs` is a whole program. For one frame after another keep the builder: [`FrameBuilder::frame`] lends its
+/// frame, and [`FrameBuilder::clear`] empties it. The next frame is made in the memory of the last: from the second frame of a
+/// size on nothing is allocated, but what clipping and sorting take.
+///
+/// ```
+/// use fastphong::frame::{FrameBuilder, Vertex, sub_pixel};
+/// use fastphong::glam::DVec3;
+/// use fastphong::mesh::Material;
+/// use fastphong::picture::Picture8;
+/// use fastphong::raster::DrawOptions;
+/// use fastphong::scene::{Light, Lighting};
+/// use fastphong::shading::methods;
+///
+/// let mut builder = FrameBuilder::new(64, 64);
+/// let light = Light::directional(DVec3::Z, [1.0; 3]);
+/// let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z));
+/// let mut picture = Picture8::new(64, 64, [0; 4]);
+/// for step in 0..3 {
+///     builder.clear();
+///     let corners = [[8, 8], [24, 56], [40, 8]].map(|[x, y]| {
+///         builder.vertex(Vertex {
+///             x: sub_pixel(x + 8 * step),
+///             y: sub_pixel(y),
+///             depth: 0.5,
+///             inv_w: 1.0,
+///             normal: [0.0, 0.0, 1.0],
+///             material,
+///         })
+///     });
+///     builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
+///     let frame = builder.frame()?;
+///     methods::PHONG_RSQRT.variant().draw(frame, &mut picture, DrawOptions::default())?;
+/// }
+/// assert_eq!(picture.get(16, 16)[3], 0, "where the triangle was at first");
+/// assert_eq!(picture.get(40, 16)[3], 255);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct FrameBuilder {
+    /// Settings and materials as they were given, and the frame that was made last. Its first vertices are those that were given; what
+    /// clipping added stands behind them.
     frame: Frame,
     /// True for each vertex that was given a position; empty if none was.
     has_position: Vec<bool>,
+    /// The vertices that were given in clip space, in ascending order, and their positions.
+    in_clip_space: Vec<(u32, DVec4)>,
+    /// Polygons, means, clip corners and counts as they were given.
+    polygons: Vec<Polygon>,
+    means: Vec<(u32, Mean)>,
+    clip_corners: Vec<ClipCorner>,
+    stats: FrameStats,
 }
 
 impl FrameBuilder {
@@ -30,7 +76,52 @@ impl FrameBuilder {
         FrameBuilder {
             frame: Frame::empty(width, height),
             has_position: Vec::new(),
+            in_clip_space: Vec::new(),
+            polygons: Vec::new(),
+            means: Vec::new(),
+            clip_corners: Vec::new(),
+            stats: FrameStats::default(),
         }
+    }
+
+    /// Removes all vertices and polygons, and keeps their memory. Settings and materials stay as they are.
+    pub fn clear(&mut self) -> &mut Self {
+        let geometry = self.geometry();
+        let Geometry {
+            normals,
+            materials,
+            attributes,
+            positions,
+            corners,
+            faces,
+            ..
+        } = geometry;
+        normals.clear();
+        materials.clear();
+        attributes.clear();
+        positions.clear();
+        corners.clear();
+        faces.clear();
+        self.has_position.clear();
+        self.in_clip_space.clear();
+        self.polygons.clear();
+        self.means.clear();
+        self.clip_corners.clear();
+        self.take_back();
+        self.frame.polygons.clear();
+        self
+    }
+
+    /// Removes all materials: for lights that change, before they are added anew.
+    pub fn clear_lightings(&mut self) -> &mut Self {
+        self.frame.lightings.clear();
+        self
+    }
+
+    /// Sets the size of the frame in samples, as [`FrameBuilder::new`].
+    pub fn size(&mut self, width: u32, height: u32) -> &mut Self {
+        (self.frame.width, self.frame.height) = (width, height);
+        self
     }
 
     /// Sets the samples of a pixel along each side: 1, 2, 4 or 8. Width and height of the frame must be multiples of it.
@@ -75,16 +166,15 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the counts of the scene's polygons by their fate.
+    /// Sets the counts of the scene's polygons by their fate, to which clipping of this frame adds.
     pub fn stats(&mut self, stats: FrameStats) -> &mut Self {
-        self.frame.stats = stats;
+        self.stats = stats;
         self
     }
 
     /// Adds a material with the light on it; returns its number. Directions of any length become unit vectors.
     pub fn lighting(&mut self, mut lighting: Lighting) -> u32 {
         guard::make_unit(&mut lighting);
-        self.frame.is_local |= lighting.is_local();
         self.frame.lightings.push(lighting);
         (self.frame.lightings.len() - 1) as u32
     }
@@ -105,13 +195,71 @@ impl FrameBuilder {
             normal,
             material,
         } = vertex;
-        self.frame
-            .vertices
-            .push(ScreenVertex { x, y, depth, inv_w });
+        self.add(ScreenVertex { x, y, depth, inv_w }, normal, material)
+    }
+
+    /// Adds a vertex by its position in clip space, `[x, y, z, w]`; returns its number. Polygons of such vertices are clipped as those
+    /// of scenes are: each at the planes of the view and at the guard band, whole polygons in clip space and not triangle by
+    /// triangle. A vertex behind the eye, whose w is not over 0, is one like any other. A normal of any length becomes a unit vector.
+    ///
+    /// Clip space is that of [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix): x and y go from −w to w, from left to right
+    /// and from bottom to top. What else counts depends on [`FrameBuilder::depth_range`]:
+    ///
+    /// - perspective: w is the distance from the eye along the line of sight, and is cut at the near and the far distance. z is
+    ///   not read, so that matrices with depths from −1 to 1, reversed ones and those without a far plane all do;
+    /// - orthographic, and without a range: w is 1, and z is cut at 0, the near plane, and at 1.
+    ///
+    /// Vertices on the screen and in clip space may be in one frame, but not in one polygon that must be cut. A polygon that is
+    /// outside the view is left out, as one without an area: see [`Frame::stats`]. No side is culled.
+    ///
+    /// ```
+    /// use fastphong::frame::{DepthRange, FrameBuilder};
+    /// use fastphong::glam::{DMat4, DVec3};
+    /// use fastphong::mesh::Material;
+    /// use fastphong::scene::{Interpolation, Light, Lighting};
+    ///
+    /// let mut builder = FrameBuilder::new(64, 48);
+    /// let light = Light::directional(DVec3::Y, [1.0; 3]);
+    /// let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z));
+    /// builder.depth_range(DepthRange::Perspective { near: 0.1, far: 100.0 });
+    /// builder.interpolation(Interpolation::Perspective);
+    /// // A floor from far before the eye to far behind it.
+    /// let projection = DMat4::from_cols_array(&[
+    ///     0.75, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, -1.0, 0.0, 0.0, -0.1, 0.0,
+    /// ]);
+    /// let corners = [[-9.0, -50.0], [-9.0, 50.0], [9.0, 50.0], [9.0, -50.0]].map(|[x, z]| {
+    ///     let position = projection * DVec3::new(x, -1.0, z).extend(1.0);
+    ///     builder.vertex_from_clip(position.to_array(), [0.0, 1.0, 0.0], material)
+    /// });
+    /// builder.polygon(&corners, [0.0, 1.0, 0.0], 0);
+    /// let frame = builder.finish()?;
+    /// assert_eq!((frame.stats().clipped, frame.polygons().len()), (1, 1));
+    /// # Ok::<(), fastphong::frame::FrameError>(())
+    /// ```
+    pub fn vertex_from_clip(&mut self, position: [f64; 4], normal: [f32; 3], material: u32) -> u32 {
+        let vertex = self.add(ScreenVertex::default(), normal, material);
+        let position = DVec4::from_array(position);
+        self.in_clip_space.push((vertex, position));
+        vertex
+    }
+
+    fn add(&mut self, vertex: ScreenVertex, normal: [f32; 3], material: u32) -> u32 {
+        self.take_back();
         let geometry = self.geometry();
         geometry.normals.push(guard::unit(normal));
         geometry.materials.push(material);
+        self.frame.vertices.push(vertex);
         (self.frame.vertices.len() - 1) as u32
+    }
+
+    /// Removes what making the last frame added to what was given.
+    fn take_back(&mut self) {
+        let frame = &mut self.frame;
+        frame.vertices.truncate(frame.geometry.normals.len());
+        frame.cut_materials.clear();
+        frame.cut_corners.clear();
+        frame.clip_corners.clear();
+        frame.means.clear();
     }
 
     /// Returns the frame's geometry, which is shared with no other yet.
@@ -171,16 +319,15 @@ impl FrameBuilder {
         if square > 1.0 {
             mean.normal = guard::unit(mean.normal);
         }
-        self.frame
-            .means
-            .push((self.frame.geometry.corners.len() as u32, mean));
+        let next = self.frame.geometry.corners.len() as u32;
+        self.means.push((next, mean));
         self
     }
 
     /// Declares that a vertex lies between two others; vertices must be named in ascending order.
     pub fn clip_corner(&mut self, corner: ClipCorner) -> &mut Self {
         let face = guard::unit(corner.face);
-        self.frame.clip_corners.push(ClipCorner { face, ..corner });
+        self.clip_corners.push(ClipCorner { face, ..corner });
         self
     }
 
@@ -199,7 +346,7 @@ impl FrameBuilder {
         );
         geometry.faces.push(guard::unit(normal));
         geometry.corners.extend_from_slice(corners);
-        self.frame.polygons.push(Polygon {
+        self.polygons.push(Polygon {
             first,
             count,
             material,
@@ -214,11 +361,32 @@ impl FrameBuilder {
     /// # Errors
     /// [`FrameError`] for the first size, count, number or index that is outside its range, a normal or a direction of length 0 or not
     /// finite, and a vertex without a position where one is needed: it names the item and the number.
-    pub fn finish(self) -> Result<Frame, FrameError> {
-        let FrameBuilder {
-            mut frame,
-            has_position,
-        } = self;
+    pub fn finish(mut self) -> Result<Frame, FrameError> {
+        self.make()?;
+        Ok(self.frame)
+    }
+
+    /// Checks and lends the frame, as [`FrameBuilder::finish`] returns it; the builder keeps what it was given, and may be given more.
+    ///
+    /// A clone of the frame keeps its geometry, which the builder then copies when it changes.
+    ///
+    /// # Errors
+    /// [`FrameError`] as [`FrameBuilder::finish`].
+    pub fn frame(&mut self) -> Result<&Frame, FrameError> {
+        self.make()?;
+        Ok(&self.frame)
+    }
+
+    /// Makes the frame of what was given.
+    fn make(&mut self) -> Result<(), FrameError> {
+        self.take_back();
+        let frame = &mut self.frame;
+        frame.polygons.clear();
+        frame.polygons.extend_from_slice(&self.polygons);
+        frame.clip_corners.extend_from_slice(&self.clip_corners);
+        frame.means.extend_from_slice(&self.means);
+        frame.stats = self.stats;
+        frame.is_local = frame.lightings.iter().any(Lighting::is_local);
         frame.check_settings()?;
         if frame.geometry.corners.len() > u32::MAX as usize
             || frame.vertices.len() > u32::MAX as usize
@@ -228,22 +396,27 @@ impl FrameBuilder {
         }
         frame.check_lightings()?;
         frame.check_clip_corners()?;
+        let clip_space = ClipSpace::new(frame, &self.in_clip_space);
+        clip_space.place(frame)?;
         for index in 0..frame.vertices.len() {
             frame.check_vertex(index)?;
         }
-        check_positions(&frame, &has_position)?;
+        check_positions(frame, &self.has_position)?;
         for (index, polygon) in frame.polygons.iter().enumerate() {
             frame.check_polygon(index, polygon)?;
         }
         frame.check_means()?;
-        let weights = || frame.vertices.iter().map(|v| v.inv_w).filter(|w| *w > 0.0);
+        clip_space.clip(frame, &self.polygons)?;
+        // A vertex without a place on the picture has no weight.
+        let weights = frame.vertices.iter().map(|v| v.inv_w);
+        let weights = weights.filter(|w| *w > f64::MIN_POSITIVE);
         let [least, largest] = [
-            weights().fold(f64::INFINITY, f64::min),
-            weights().fold(0.0, f64::max),
+            weights.clone().fold(f64::INFINITY, f64::min),
+            weights.fold(0.0, f64::max),
         ];
         frame.scale_weights(least, largest)?;
         frame.sort();
-        Ok(frame)
+        Ok(())
     }
 }
 
@@ -370,6 +543,11 @@ impl Frame {
         }
         if let Some(attributes) = geometry.attributes.get(index) {
             guard::numbers(item, ["an attribute"; 4], *attributes, &FINITE)?;
+            let material = self.lightings.get(vertex.material as usize);
+            if material.is_some_and(|lighting| lighting.vertex_colours) {
+                let [r, g, b, _] = *attributes;
+                guard::numbers(item, guard::COLOUR, [r, g, b], &STRENGTH)?;
+            }
         }
         let materials = NumberRange::new(
             0.0,
@@ -399,6 +577,7 @@ impl Frame {
             let item = FrameItem::Polygon(index);
             guard::numbers(item, names, mean.position, &DISTANCE)?;
             guard::numbers(item, NORMAL_MEAN, mean.normal, &FINITE)?;
+            guard::numbers(item, guard::COLOUR, mean.colour, &FINITE)?;
         }
         Ok(())
     }

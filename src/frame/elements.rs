@@ -133,4 +133,6 @@ pub struct Mean {
     pub position: [f32; 3],
     /// The mean of the corners' normals; not a unit vector.
     pub normal: [f32; 3],
+    /// The mean of the corners' colours: [`Frame::colour`].
+    pub colour: [f32; 3],
 }

@@ -109,7 +109,8 @@ pub enum FrameError {
         /// The number of the vertex.
         index: usize,
     },
-    /// A polygon has fewer than three corners, or names a vertex or a material that does not exist, or vertices of two materials.
+    /// A polygon has fewer than three corners, or names a vertex or a material that does not exist, or vertices of two materials; or it
+    /// must be cut, and not all of its vertices were given in clip space.
     Polygon {
         /// The number of the polygon.
         index: usize,
@@ -184,7 +185,7 @@ impl fmt::Display for FrameError {
                 write!(
                     f,
                     "polygon {index} has fewer than three corners, or refers to a vertex or a material that does not exist, \
-                     or to vertices of two materials"
+                     or to vertices of two materials, or must be cut but has vertices that are only on the screen"
                 )
             }
             FrameError::ClipCorner { index } => write!(

@@ -174,7 +174,7 @@ pub(super) const POSITION: [&str; 3] = [
     "y of its position",
     "z of its position",
 ];
-const COLOUR: [&str; 3] = [
+pub(super) const COLOUR: [&str; 3] = [
     "red of its colour",
     "green of its colour",
     "blue of its colour",
@@ -217,7 +217,7 @@ pub(super) fn materials(materials: &[Material]) -> Checked {
 /// Checks an object's transform, and its way of averaging normals.
 pub(super) fn object(index: usize, object: &Object) -> Checked {
     let item = FrameItem::Object(index);
-    if let NormalSource::Crease(degrees) = object.normals {
+    if let NormalSource::Crease(degrees) = object.normals.source {
         number(item, "the crease angle of its normals", degrees, &CREASE)?;
     }
     let linear = object.transform.matrix3;
@@ -239,6 +239,18 @@ pub(super) fn object(index: usize, object: &Object) -> Checked {
     numbers(item, names, translation, &COORDINATE)
 }
 
+/// Checks the vertex colours of an object, by which its materials are multiplied.
+pub(super) fn colours(index: usize, object: &Object) -> Checked {
+    let item = FrameItem::Object(index);
+    let names = [
+        "red of a vertex colour",
+        "green of a vertex colour",
+        "blue of a vertex colour",
+    ];
+    let mut colours = object.mesh.colours().iter();
+    colours.try_for_each(|colour| numbers(item, names, colour.to_array(), &STRENGTH))
+}
+
 /// Checks where an object is in the world: the positions that its polygons use.
 pub(super) fn positions(index: usize, object: &Object, model: &PlacedModel) -> Checked {
     // Its bounds are there already. Only where they reach too far it is asked which position does.
@@ -256,15 +268,15 @@ pub(super) fn positions(index: usize, object: &Object, model: &PlacedModel) -> C
     points.try_for_each(|point| numbers(item, names, point.to_array(), &COORDINATE))
 }
 
-/// Checks that no light stands at a vertex of `objects`.
-pub(super) fn lights_off_vertices(scene: &Scene) -> Checked {
+/// Checks that no light of `scene` stands at a vertex of `objects`.
+pub(super) fn lights_off_vertices(scene: &Scene, objects: &[Object]) -> Checked {
     let lights = scene.lights.iter().enumerate();
     let at = lights.filter_map(|(index, light)| match light.place {
         Place::Local(at) => Some((index, at)),
         Place::Infinite(_) => None,
     });
     for (light, at) in at {
-        let mut points = scene.objects.iter().flat_map(Object::world_points);
+        let mut points = objects.iter().flat_map(Object::world_points);
         if let Some(point) = points.find(|&point| stands_at(at, point, scene.camera.eye)) {
             let point = point.to_array();
             return Err(FrameError::LightAtVertex { light, point });

@@ -292,19 +292,32 @@ impl Frame {
 
     pub(crate) fn mean_of(&self, corners: &[u32]) -> Mean {
         let share = 1.0 / corners.len() as f64;
-        let mut sum = [[0.0f64; 3]; 2];
+        let mut sum = [[0.0f64; 3]; 3];
         for &corner in corners {
-            for (sum, v) in sum
-                .iter_mut()
-                .zip([self.position(corner), self.normal(corner)])
-            {
+            let vectors = [
+                self.position(corner),
+                self.normal(corner),
+                self.colour(corner),
+            ];
+            for (sum, v) in sum.iter_mut().zip(vectors) {
                 for (sum, c) in sum.iter_mut().zip(v) {
                     *sum += share * f64::from(c);
                 }
             }
         }
-        let [position, normal] = sum.map(|v| v.map(|c| c as f32));
-        Mean { position, normal }
+        let [position, normal, colour] = sum.map(|v| v.map(|c| c as f32));
+        Mean {
+            position,
+            normal,
+            colour,
+        }
+    }
+
+    /// True if a material is multiplied by vertex colours.
+    pub(crate) fn is_coloured(&self) -> bool {
+        self.lightings
+            .iter()
+            .any(|lighting| lighting.vertex_colours)
     }
 
     /// True if the vectors toward a light or toward the eye differ from point to point.

@@ -5,13 +5,13 @@ use super::polygons::{Piece, PolygonTable};
 use super::side::{Side, eye_side};
 use super::view::View;
 use super::winding::doubled_area;
-use crate::frame::{ClipCorner, Frame};
+use crate::frame::{ClipCorner, Frame, Mean};
 use crate::scene::{Culling, Interpolation};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::DMat4;
 
-/// A cutter of polygons, which adds the pieces to the frame.
+/// A cutter of a scene's polygons, which adds the pieces to the frame.
 pub(super) struct Cutting<'a> {
     pub view: &'a View<'a>,
     pub table: &'a PolygonTable,
@@ -48,17 +48,46 @@ impl Cutting<'_> {
             face,
         };
         let ends = corners.iter().map(clip_position).zip(&whole);
-        let mut pieces = vec![
-            ends.map(|(position, &vertex)| HomogeneousCorner { position, vertex })
-                .collect::<Vec<_>>(),
-        ];
+        let ends = ends.map(|(position, &vertex)| HomogeneousCorner { position, vertex });
+        let mean = self.frame.mean_of(&whole);
+        let mut cutter = Cutter {
+            view: self.view,
+            frame: self.frame,
+        };
+        for (first, count) in cutter.pieces(ends.collect(), mean, &edge) {
+            self.pieces.push(Piece {
+                source: polygon as u32,
+                first,
+                count,
+                is_back: side == Side::Back,
+            });
+        }
+    }
+}
+
+/// A cutter of polygons in clip space, wherever they come from: the vertices, corners and means of their pieces go into the frame.
+pub(in crate::frame) struct Cutter<'a> {
+    pub view: &'a View<'a>,
+    pub frame: &'a mut Frame,
+}
+
+impl Cutter<'_> {
+    /// Cuts a polygon whose whole has this mean, and counts it as clipped, or as outside if nothing of it is inside all planes.
+    /// Returns the first corner and the corner count of each piece that is drawn.
+    pub fn pieces(
+        &mut self,
+        corners: Vec<HomogeneousCorner>,
+        mean: Mean,
+        edge: &EdgeOf,
+    ) -> Vec<(u32, u32)> {
+        let mut pieces = vec![corners];
         for plane in self.view.planes {
             let mut inside = Vec::new();
             for piece in &pieces {
                 clip(
                     piece,
                     &plane,
-                    |cut| self.vertex(cut, &plane, &edge),
+                    |cut| self.vertex(cut, &plane, edge),
                     |part| inside.push(part.to_vec()),
                 );
             }
@@ -74,18 +103,19 @@ impl Cutting<'_> {
         };
         if !pieces.iter().flatten().all(is_placed) {
             self.frame.stats.unprojected += 1;
-            return;
+            return Vec::new();
         }
         match pieces.is_empty() {
             true => self.frame.stats.outside += 1,
             false => self.frame.stats.clipped += 1,
         }
-        for piece in pieces {
-            let area = doubled_area(piece.iter().map(|c| self.view.snap(c.position)));
-            if self.is_drawn(area) {
-                self.piece(polygon, side, &whole, &piece);
-            }
-        }
+        pieces.retain(|piece| {
+            self.is_drawn(doubled_area(
+                piece.iter().map(|c| self.view.snap(c.position)),
+            ))
+        });
+        let pieces = pieces.iter();
+        pieces.map(|piece| self.piece(piece, mean)).collect()
     }
 
     /// True if a piece of this signed area on the picture is drawn; counts it if not.
@@ -100,22 +130,16 @@ impl Cutting<'_> {
         !culled && area != 0
     }
 
-    fn piece(&mut self, polygon: usize, side: Side, whole: &[u32], corners: &[HomogeneousCorner]) {
+    /// Adds the corners of a piece to the frame. Returns the first of them and their count.
+    fn piece(&mut self, corners: &[HomogeneousCorner], mean: Mean) -> (u32, u32) {
         debug_assert!(corners.len() >= 3, "clipping leaves polygons");
-        let mean = self.frame.mean_of(whole);
         let frame = &mut *self.frame;
         let first = (frame.geometry.corners.len() + frame.cut_corners.len()) as u32;
         frame.means.push((first, mean));
         frame
             .cut_corners
             .extend(corners.iter().map(|corner| corner.vertex));
-        let (source, count) = (polygon as u32, corners.len() as u32);
-        self.pieces.push(Piece {
-            source,
-            first,
-            count,
-            is_back: side == Side::Back,
-        });
+        (first, corners.len() as u32)
     }
 
     /// Makes the vertex where a plane cuts an edge: its attributes lie between those of the edge's ends.
@@ -143,16 +167,16 @@ impl Cutting<'_> {
 }
 
 /// The attributes that a vertex on an edge takes from the edge's polygon.
-struct EdgeOf {
-    material: u32,
-    face: [f32; 3],
+pub(in crate::frame) struct EdgeOf {
+    pub material: u32,
+    pub face: [f32; 3],
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::frame::FrameStats;
-    use crate::mesh::vertex_normals::NormalSource;
+    use crate::mesh::vertex_normals::NormalRule;
     use crate::mesh::{Material, MeshBuilder};
     use crate::scene::{Camera, Object, Projection, Scene};
     use alloc::sync::Arc;
@@ -181,7 +205,7 @@ mod tests {
                 mesh: Arc::new(builder.finish().expect("a mesh")),
                 transform: DAffine3::IDENTITY,
                 material: None,
-                normals: NormalSource::default(),
+                normals: NormalRule::default(),
             }],
             ..Scene::new(Camera {
                 eye: DVec3::ZERO,

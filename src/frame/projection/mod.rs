@@ -4,10 +4,15 @@
 //! normals of polygons. [`PreparedScene::frame_into`] does for each picture what does: all vertices through the camera in
 //! blocks; then one bit for each polygon that is seen; then the polygons of those bits, in the order of the scene. Bits
 //! first, because then it is known where each polygon of the frame stands, and parts can be made on several threads.
+//!
+//! `moving.rs` moves an object of a prepared scene. `clip_space.rs` places and clips what a frame builder was given in clip space, by the
+//! same planes.
 
 mod clip;
+mod clip_space;
 mod cut;
 mod light;
+mod moving;
 mod ndc_cube;
 mod polygons;
 mod prepare;
@@ -23,8 +28,10 @@ use crate::mesh::Material;
 use crate::scene::{Camera, Light, Lighting, Scene};
 use crate::sync::Arc;
 use alloc::vec::Vec;
+pub(super) use clip_space::ClipSpace;
 use cut::Cutting;
 use glam::DVec3;
+use moving::Moving;
 use polygons::{Chunk, Filling, Piece, PolygonTable, Sight, add_up, for_each_cut};
 use prepare::Preparation;
 use vertices::Placed;
@@ -79,13 +86,21 @@ impl Scene {
             geometry,
             table,
             materials,
+            coloured,
         } = Preparation::new(self)?;
         guard::materials(&materials)?;
+        if self.colours {
+            let objects = self.objects.iter().enumerate();
+
+            objects
+                .filter(|(_, object)| object.mesh.has_lit_colours())
+                .try_for_each(|(index, object)| guard::colours(index, object))?;
+        }
         let objects = self.objects.iter().zip(&geometry.models.objects);
         for (index, (object, model)) in objects.enumerate() {
             guard::positions(index, object, model)?;
         }
-        guard::lights_off_vertices(self)?;
+        guard::lights_off_vertices(self, &self.objects)?;
         // Only the settings of the scene are left.
         let settings = Scene {
             objects: Vec::new(),
@@ -97,14 +112,16 @@ impl Scene {
             geometry: Arc::new(geometry),
             table,
             materials,
+            coloured,
+            moving: Moving::new(self.objects.clone()),
         })
     }
 }
 
 /// A scene ready to be drawn by any camera: its objects as distinct vertices and corner lists.
 ///
-/// Made by [`Scene::prepare`]. Objects and materials are those of that moment; camera, size and lights may change from
-/// frame to frame.
+/// Made by [`Scene::prepare`]. Its objects are those of that moment; camera, size, lights, materials and the objects' transforms
+/// may change from frame to frame.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
     /// A scene without its objects.
@@ -112,6 +129,9 @@ pub struct PreparedScene {
     geometry: Arc<Geometry>,
     table: PolygonTable,
     materials: Vec<Material>,
+    /// True for materials of meshes with vertex colours.
+    coloured: Vec<bool>,
+    moving: Moving,
 }
 
 /// Memory that making a frame needs and that the next one needs again.
@@ -155,6 +175,11 @@ impl PreparedScene {
         self.settings.lights = lights;
     }
 
+    /// True if a material is multiplied by vertex colours.
+    pub(crate) fn is_coloured(&self, material: u32) -> bool {
+        self.settings.colours && self.coloured[material as usize]
+    }
+
     /// The materials of all objects, which may be changed.
     pub fn materials_mut(&mut self) -> &mut [Material] {
         &mut self.materials
@@ -193,6 +218,9 @@ impl PreparedScene {
         guard::materials(&self.materials)?;
         self.settings
             .light(&self.materials, origin, &mut frame.lightings);
+        for (material, lighting) in (0..).zip(&mut frame.lightings) {
+            lighting.vertex_colours = self.is_coloured(material);
+        }
         frame.is_local = frame.lightings.iter().any(Lighting::is_local);
         frame.check_settings()?;
         frame.check_lightings()?;

@@ -3,14 +3,14 @@
 use super::polygons::PolygonTable;
 use crate::frame::{FrameError, Geometry, Models, PlacedModel, Polygon};
 use crate::mesh::newell::{areas_cancel, polygon_normals, unit_normal};
-use crate::mesh::vertex_normals::{CornerNormals, NormalSource, corner_normals};
+use crate::mesh::vertex_normals::{CornerNormals, NormalSource, VertexNormals, corner_normals};
 use crate::mesh::weld::number_distinct;
 use crate::mesh::winding::is_against;
 use crate::mesh::{Material, PolygonMesh};
 use crate::number::parallel::{collect, for_each_chunk};
 use crate::scene::{Object, Scene};
 use alloc::vec::Vec;
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// Elements that one thread takes at a time.
 const CHUNK: usize = 4096;
@@ -21,14 +21,14 @@ pub(super) struct Preparation {
     pub geometry: Geometry,
     pub table: PolygonTable,
     pub materials: Vec<Material>,
+    /// True for materials of meshes with vertex colours, which may be lit.
+    pub coloured: Vec<bool>,
 }
 
 /// One object on its way.
 struct Source<'a> {
     mesh: &'a PolygonMesh,
-    /// Normals of the model to normals in the world, up to their lengths.
-    normal_matrix: DMat3,
-    mirrored: bool,
+    normals: NormalMap,
     /// The lighting of the first material of the mesh; after the last follows that of polygons without one.
     first_material: u32,
 }
@@ -65,33 +65,28 @@ impl Preparation {
 
     fn add(&mut self, object: &Object) {
         let mesh = &*object.mesh;
-        let linear = object.transform.matrix3;
-        let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
-        let determinant = x.dot(y.cross(z));
-        // The inverse transpose is the cofactor matrix over the determinant: its sign is enough, normals are
-        // normalised, and a singular matrix still has cofactors.
-        let sign = if determinant < 0.0 { -1.0 } else { 1.0 };
         let source = Source {
             mesh,
-            normal_matrix: DMat3::from_cols(
-                y.cross(z) * sign,
-                z.cross(x) * sign,
-                x.cross(y) * sign,
-            ),
-            mirrored: determinant < 0.0,
+            normals: NormalMap::new(&object.transform),
             first_material: self.materials.len() as u32,
         };
         let default = Material::default();
         let of_mesh = mesh.materials().iter().chain([&default]);
         self.materials
             .extend(of_mesh.map(|material| *object.material.as_ref().unwrap_or(material)));
+        self.coloured
+            .resize(self.materials.len(), mesh.has_lit_colours());
         let normals = polygon_normals(mesh);
         let first_polygon = self.geometry.faces.len();
         let cancels = |p: &usize| normals[*p] == DVec3::ZERO && areas_cancel(mesh, *p);
         let cancelling = (0..mesh.polygon_count()).filter(cancels);
         let cancelling = cancelling.map(|p| (first_polygon + p) as u32);
         self.table.cancelling.extend(cancelling);
-        self.faces(&source, &normals);
+        self.geometry
+            .faces
+            .resize(first_polygon + normals.len(), [0.0; 3]);
+        let faces = &mut self.geometry.faces[first_polygon..];
+        source.normals.polygons(&normals, faces);
         if self.geometry.two_sided {
             self.turn_against_normals(object, &normals, first_polygon);
         }
@@ -107,12 +102,8 @@ impl Preparation {
             }
             normals => self.vertices_by_corner(&source, normals),
         }
-        if source.mirrored {
-            for polygon in 0..mesh.polygon_count() {
-                let range = mesh.corner_range(polygon);
-                self.geometry.corners[first_corner + range.start..first_corner + range.end]
-                    .reverse();
-            }
+        if source.normals.mirrored {
+            reverse_corners(mesh, &mut self.geometry.corners[first_corner..]);
         }
         let models = &mut self.geometry.models;
         let extent = |all: &[f32]| {
@@ -131,28 +122,13 @@ impl Preparation {
         });
     }
 
-    /// Adds the unit normals of polygons in the world; zero for a polygon that has none.
-    fn faces(&mut self, source: &Source<'_>, normals: &[DVec3]) {
-        let first = self.geometry.faces.len();
-        self.geometry.faces.resize(first + normals.len(), [0.0; 3]);
-        let all = (&mut self.geometry.faces[first..], normals);
-        for_each_chunk(all, CHUNK, &|_,
-                                     (faces, normals): (
-            &mut [[f32; 3]],
-            &[DVec3],
-        )| {
-            for (face, &normal) in faces.iter_mut().zip(normals) {
-                // Newell's sum is one of cross products, which the cofactor matrix carries to world space.
-                let in_world = unit_normal(source.normal_matrix * normal).unwrap_or(DVec3::ZERO);
-                *face = in_world.as_vec3().to_array();
-            }
-        });
-    }
-
     /// Turns polygons whose winding contradicts the normals that are given for their corners: these say where the front is.
     fn turn_against_normals(&mut self, object: &Object, normals: &[DVec3], first: usize) {
         let mesh = &*object.mesh;
-        let takes_given = matches!(object.normals, NormalSource::Auto | NormalSource::Given);
+        let takes_given = matches!(
+            object.normals.source,
+            NormalSource::Auto | NormalSource::Given
+        );
         let Some(given) = mesh.given_normals().filter(|_| takes_given) else {
             return;
         };
@@ -170,7 +146,7 @@ impl Preparation {
         let mesh = source.mesh;
         let geometry = &mut self.geometry;
         let first = geometry.normals.len();
-        let in_world = collect(values.len(), CHUNK, |i| source.normal(values[i]));
+        let in_world = collect(values.len(), CHUNK, |i| source.normals.vertex(values[i]));
         geometry
             .normals
             .extend(normal_of.iter().map(|&n| in_world[n as usize]));
@@ -211,17 +187,10 @@ impl Preparation {
         let normals = normals.by_corner(mesh);
         let geometry = &mut self.geometry;
         let first = geometry.normals.len();
-        let mut keys = Vec::with_capacity(mesh.corners().len());
-        for polygon in 0..mesh.polygon_count() {
-            let material = source.material(polygon);
-            keys.extend(mesh.corner_range(polygon).map(|corner| {
-                let (position, normal) = (mesh.corners()[corner], normals.corners[corner]);
-                [position, normal, material]
-            }));
-        }
+        let keys = source.corner_keys(&normals);
         let (numbers, count) = number_distinct(keys.len(), |corner| keys[corner]);
         let in_world = collect(normals.values.len(), CHUNK, |i| {
-            source.normal(normals.values[i])
+            source.normals.vertex(normals.values[i])
         });
         if has_attributes(mesh) {
             geometry.attributes.resize(first, Geometry::NO_ATTRIBUTES);
@@ -244,11 +213,7 @@ impl Preparation {
         let geometry = &mut self.geometry;
         let faces = &geometry.faces;
         self.table.has_normal = collect(faces.len().div_ceil(64), CHUNK / 64, |word| {
-            let faces = &faces[64 * word..faces.len().min(64 * word + 64)];
-            faces
-                .iter()
-                .rev()
-                .fold(0, |bits, face| bits << 1 | u64::from(*face != [0.0; 3]))
+            bits_of_normals(faces, word)
         });
         if self.table.materials.iter().all(|&material| material == 0) {
             self.table.materials = Vec::new();
@@ -283,11 +248,138 @@ impl Source<'_> {
             || (1..self.mesh.polygon_count()).all(|p| self.material(p) == self.material(0))
     }
 
+    /// Returns position, normal and material of each corner: corners that agree are one vertex.
+    fn corner_keys(&self, normals: &VertexNormals) -> Vec<[u32; 3]> {
+        let mesh = self.mesh;
+        let mut keys = Vec::with_capacity(mesh.corners().len());
+        for polygon in 0..mesh.polygon_count() {
+            let material = self.material(polygon);
+            keys.extend(mesh.corner_range(polygon).map(|corner| {
+                let (position, normal) = (mesh.corners()[corner], normals.corners[corner]);
+                [position, normal, material]
+            }));
+        }
+        keys
+    }
+}
+
+/// The map from normals of a model to normals in the world.
+pub(super) struct NormalMap {
+    /// Normals of the model to normals in the world, up to their lengths.
+    matrix: DMat3,
+    /// True if the transform mirrors, so that corners change their winding.
+    pub mirrored: bool,
+}
+
+impl NormalMap {
+    pub fn new(transform: &DAffine3) -> Self {
+        let linear = transform.matrix3;
+        let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+        let determinant = x.dot(y.cross(z));
+        // The inverse transpose is the cofactor matrix over the determinant: its sign is enough, normals are
+        // normalised, and a singular matrix still has cofactors.
+        let sign = if determinant < 0.0 { -1.0 } else { 1.0 };
+        NormalMap {
+            matrix: DMat3::from_cols(y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign),
+            mirrored: determinant < 0.0,
+        }
+    }
+
     /// Returns a vertex normal in the world.
-    fn normal(&self, normal: Vec3) -> [f32; 3] {
-        let direction = self.normal_matrix * normal.as_dvec3();
+    pub fn vertex(&self, normal: Vec3) -> [f32; 3] {
+        let direction = self.matrix * normal.as_dvec3();
         direction.normalize_or(DVec3::Z).as_vec3().to_array()
     }
+
+    /// Writes the unit normals of polygons in the world; zero for a polygon that has none.
+    pub fn polygons(&self, normals: &[DVec3], faces: &mut [[f32; 3]]) {
+        for_each_chunk((faces, normals), CHUNK, &|_,
+                                                  (faces, normals): (
+            &mut [[f32; 3]],
+            &[DVec3],
+        )| {
+            for (face, &normal) in faces.iter_mut().zip(normals) {
+                // Newell's sum is one of cross products, which the cofactor matrix carries to world space.
+                let in_world = unit_normal(self.matrix * normal).unwrap_or(DVec3::ZERO);
+                *face = in_world.as_vec3().to_array();
+            }
+        });
+    }
+}
+
+/// The normals of an object in model space, as [`Preparation`] made its polygons and vertices of them.
+#[derive(Debug)]
+pub(super) struct ModelNormals {
+    /// Sums of Newell's formula.
+    pub polygons: Vec<DVec3>,
+    /// Unit vectors.
+    values: Vec<Vec3>,
+    /// The entry of `values` that each vertex of the geometry has.
+    of_vertices: Vec<u32>,
+}
+
+impl ModelNormals {
+    /// Computes the normals of an object anew.
+    pub fn new(object: &Object) -> Self {
+        let mesh = &*object.mesh;
+        let source = Source {
+            mesh,
+            normals: NormalMap::new(&object.transform),
+            first_material: 0,
+        };
+        let polygons = polygon_normals(mesh);
+        let (values, of_vertices) = match corner_normals(mesh, object.normals, Some(&polygons)) {
+            CornerNormals::ByPosition { values, positions } if source.has_one_material() => {
+                (values, positions)
+            }
+            normals => {
+                let normals = normals.by_corner(mesh);
+                let keys = source.corner_keys(&normals);
+                let (numbers, count) = number_distinct(keys.len(), |corner| keys[corner]);
+                let mut of_vertices = Vec::with_capacity(count);
+                for (number, [_, normal, _]) in numbers.iter().zip(&keys) {
+                    if of_vertices.len() == *number as usize {
+                        of_vertices.push(*normal);
+                    }
+                }
+                (normals.values, of_vertices)
+            }
+        };
+        ModelNormals {
+            polygons,
+            values,
+            of_vertices,
+        }
+    }
+
+    /// Writes the normals of all vertices of the object in the world.
+    pub fn vertices(&self, map: &NormalMap, normals: &mut [[f32; 3]]) {
+        debug_assert_eq!(normals.len(), self.of_vertices.len(), "the same vertices");
+        let all = (normals, &self.of_vertices[..]);
+        for_each_chunk(
+            all,
+            CHUNK,
+            &|_, (normals, of): (&mut [[f32; 3]], &[u32])| {
+                for (normal, &value) in normals.iter_mut().zip(of) {
+                    *normal = map.vertex(self.values[value as usize]);
+                }
+            },
+        );
+    }
+}
+
+/// Reverses the corner list of each polygon of `mesh`; `corners` begins with the first of them.
+pub(super) fn reverse_corners(mesh: &PolygonMesh, corners: &mut [u32]) {
+    for polygon in 0..mesh.polygon_count() {
+        corners[mesh.corner_range(polygon)].reverse();
+    }
+}
+
+/// Returns a bit for each of 64 polygons from 64 `word` on: 1 if it has a normal.
+pub(super) fn bits_of_normals(faces: &[[f32; 3]], word: usize) -> u64 {
+    let faces = &faces[64 * word..faces.len().min(64 * word + 64)];
+    let bits = faces.iter().rev();
+    bits.fold(0, |bits, face| bits << 1 | u64::from(*face != [0.0; 3]))
 }
 
 impl Models {
@@ -309,6 +401,7 @@ fn starts<'a>(meshes: impl Iterator<Item = &'a PolygonMesh>, polygons: usize) ->
     starts.push(first);
     starts
 }
+
 /// True if vertices of the mesh have attributes.
 fn has_attributes(mesh: &PolygonMesh) -> bool {
     !(mesh.attributes().is_empty() && mesh.colours().is_empty())

@@ -2,17 +2,23 @@
 
 use super::side::eye_side;
 use super::view::{BEYOND_PLANES, View};
-use crate::frame::{Frame, FrameError, FrameItem, FrameStats, Polygon, Vertex};
+use super::winding::doubled_area;
+use crate::frame::{
+    DepthRange, Frame, FrameBuilder, FrameError, FrameItem, FrameStats, Polygon, SubPixel, Vertex,
+};
+use crate::mesh::builtin::builtin;
 use crate::mesh::newell::{polygon_normal, unit_normal};
-use crate::mesh::vertex_normals::vertex_normals;
+use crate::mesh::vertex_normals::{NormalSource, vertex_normals};
+use crate::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use crate::scene::input::{SCENES, resolve};
 use crate::scene::{
     Camera, Clipping, Culling, HiddenSurfaces, Interpolation, Object, Projection, Scene,
 };
 use alloc::collections::BTreeSet;
+use alloc::string::ToString;
 use alloc::vec;
 use alloc::vec::Vec;
-use glam::{DMat3, DMat4, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 
 /// A corner with all its frame data: vertex, position from the eye, colour.
 type PlainCorner = (Vertex, [f32; 3], [f32; 3]);
@@ -475,4 +481,375 @@ fn a_frame_is_local_if_a_light_or_the_eye_is() {
         .lights
         .push(crate::scene::Light::positional(DVec3::splat(9.0), [1.0; 3]));
     assert!(is_local(&scene));
+}
+
+/// Transforms to move an object by, some of which mirror it.
+fn moves(object: &Object) -> [DAffine3; 5] {
+    let turned = DAffine3::from_rotation_x(0.3) * object.transform;
+    let mirrored = object.transform * DAffine3::from_scale(DVec3::new(-1.0, 1.25, 1.0));
+    let up = DAffine3::from_translation(DVec3::new(0.01, 0.2, -0.1));
+    [
+        turned,
+        mirrored,
+        up * mirrored,
+        up * turned,
+        object.transform,
+    ]
+}
+
+/// Returns a sphere with its normals, of which every second polygon runs clockwise seen from outside.
+fn half_against_its_normals() -> PolygonMesh {
+    let sphere = builtin("sphere?rings=8&segments=9").expect("a shape");
+    let mut builder = MeshBuilder::new(sphere.positions().to_vec());
+    for (number, polygon) in sphere.polygons().enumerate() {
+        let mut polygon = polygon.to_vec();
+        if number % 2 == 1 {
+            polygon.reverse();
+        }
+        builder.polygon(&polygon);
+    }
+    let values = sphere.positions().iter().map(|p| p.normalize());
+    builder.normals(GivenNormals {
+        values: values.collect(),
+        corners: None,
+    });
+    builder.finish().expect("a mesh")
+}
+
+/// A prepared scene whose objects move equals the scene prepared anew, whichever of them moved last and whether frames share what it
+/// had; and frames that were made before stay as they were.
+#[test]
+fn a_scene_whose_objects_move_equals_a_new_one() {
+    let mut count = 0;
+    let scenes = SCENES.iter().map(|scene| shipped(scene.name));
+    for scene in scenes.filter(|scene| scene.objects.len() > 1) {
+        for (number, mut scene) in variants(&scene).into_iter().enumerate() {
+            if number == 1 {
+                scene.objects[1].normals = NormalSource::Crease(25.0).into();
+            }
+            if scene.two_sided {
+                scene.objects[0].mesh = half_against_its_normals().into();
+                scene.objects[0].normals = NormalSource::Given.into();
+            }
+            let mut prepared = scene.prepare().expect("a scene");
+            let first = prepared.frame().expect("a frame");
+            let mut frame = first.clone();
+            let unmoved = scene.frame().expect("a frame");
+            for (step, object) in [1, 0, 1, 1, 0].into_iter().enumerate() {
+                let transform = moves(&scene.objects[object])[step];
+                scene.objects[object].transform = transform;
+                prepared.set_transform(object, transform).expect("a place");
+                if step == 2 {
+                    // Twice before a frame is made, and in a scene that shares all with another.
+                    let again = prepared.clone();
+                    prepared.set_transform(object, transform).expect("a place");
+                    drop(again);
+                }
+                prepared.frame_into(&mut frame).expect("a frame");
+                let new = scene.frame().expect("a frame");
+                let name = alloc::format!("variant {number}, step {step}");
+                assert_same(&frame, &new, &name);
+                let positions = |frame: &Frame| -> Vec<[f32; 3]> {
+                    let vertices = 0..frame.vertices().len() as u32;
+                    vertices.map(|v| frame.position(v)).collect()
+                };
+                assert!(positions(&frame) == positions(&new), "{name}");
+                count += frame.polygons().len();
+            }
+            assert_same(&first, &unmoved, "before");
+        }
+    }
+    assert!(count > 10_000, "the test asks little: {count} polygons");
+}
+
+/// From the third move on nothing is copied: the two geometries of a scene whose frames are made again take turns.
+#[test]
+fn moving_an_object_again_and_again_copies_nothing() {
+    let scene = shipped("polygons");
+    let mut prepared = scene.prepare().expect("a scene");
+    let mut frame = prepared.frame().expect("a frame");
+    let mut places = Vec::new();
+    for step in 0..8 {
+        let turn = DAffine3::from_rotation_y(0.1 * f64::from(step));
+        prepared
+            .set_transform(2, turn * scene.objects[2].transform)
+            .expect("a place");
+        prepared.frame_into(&mut frame).expect("a frame");
+        places.push(frame.geometry.normals.as_ptr());
+    }
+    assert_ne!(places[0], places[1]);
+    assert!(places.iter().skip(2).zip(&places).all(|(a, b)| a == b));
+}
+
+/// What a scene with the object there refuses is refused, by the same error, and nothing has moved.
+#[test]
+fn an_object_goes_nowhere_that_a_scene_refuses() {
+    let mut scene = shipped("local-lights");
+    let mut prepared = scene.prepare().expect("a scene");
+    let before = prepared.frame().expect("a frame");
+    let object = scene.objects[1].clone();
+    let point = object.world_points().next().expect("a vertex");
+    let light = scene.lights.iter().find_map(|light| match light.place {
+        crate::scene::Place::Local(at) => Some(at),
+        crate::scene::Place::Infinite(_) => None,
+    });
+    let to_light = light.expect("a light at a position") - point;
+    for transform in [
+        DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0)),
+        DAffine3::from_scale(DVec3::splat(f64::NAN)),
+        DAffine3::from_translation(DVec3::splat(1e300)),
+        DAffine3::from_translation(to_light) * object.transform,
+    ] {
+        scene.objects[1].transform = transform;
+        let expected = scene.frame().expect_err("a wrong transform");
+        let found = prepared.set_transform(1, transform).expect_err("the same");
+        // By their texts: NaN is not equal to itself.
+        assert_eq!(alloc::format!("{found}"), alloc::format!("{expected}"));
+    }
+    let error = prepared
+        .set_transform(2, DAffine3::IDENTITY)
+        .expect_err("no such object");
+    assert_eq!(
+        alloc::format!("{error}"),
+        "the scene: the index of the object to move is 2: expected that of an object of the scene, from 0"
+    );
+    assert_same(&prepared.frame().expect("a frame"), &before, "unmoved");
+}
+
+/// Builds the frame of a scene from the clip coordinates of its vertices, as a program does that has a matrix and polygons.
+fn from_clip_space(scene: &Scene) -> Frame {
+    let prepared = scene.prepare().expect("a scene");
+    let seen = prepared.frame().expect("a frame");
+    let geometry = &prepared.geometry;
+    let (width, height) = (scene.width * scene.samples, scene.height * scene.samples);
+    let mut builder = FrameBuilder::new(width, height);
+    builder
+        .samples(scene.samples)
+        .interpolation(scene.interpolation)
+        .hidden_surfaces(scene.hidden_surfaces)
+        .clipping(scene.clipping)
+        .depth_range(DepthRange::from(&scene.camera))
+        .origin(seen.origin());
+    for lighting in seen.lightings() {
+        builder.lighting(lighting.clone());
+    }
+    let to_clip = scene
+        .camera
+        .clip_matrix(f64::from(scene.width) / f64::from(scene.height));
+    for vertex in 0..geometry.models.len() {
+        let object = geometry.models.object_of(vertex);
+        let to_clip = to_clip * DMat4::from(geometry.models.objects[object].transform);
+        let position = to_clip * geometry.models.position(vertex).extend(1.0);
+        let v = vertex as u32;
+        let material = geometry.material(v).expect("a vertex of the scene");
+        builder.vertex_from_clip(position.to_array(), geometry.normal(v), material);
+        builder.position(v, geometry.position(v, seen.origin()));
+    }
+    for polygon in 0..prepared.table.count {
+        let face = geometry.faces[polygon];
+        if face != [0.0; 3] {
+            let (first, count) = prepared.table.corners(polygon);
+            let corners = &geometry.corners[first as usize..][..count as usize];
+            builder.polygon(corners, face, polygon as u32);
+        }
+    }
+    builder.finish().expect("a frame")
+}
+
+/// Polygons that a builder is given in clip space are placed and cut as those of the scene are, to the bit.
+#[test]
+fn polygons_in_clip_space_are_those_of_a_scene() {
+    let (mut cut, mut whole) = (0, 0);
+    for name in [
+        "teapot",
+        "football",
+        "polygons",
+        "perspective",
+        "terrain",
+        "local-lights",
+    ] {
+        for (number, mut scene) in variants(&shipped(name)).into_iter().enumerate() {
+            let name = alloc::format!("{name}, variant {number}");
+            (scene.culling, scene.two_sided) = (Culling::None, false);
+            let (expected, found) = (scene.frame().expect("a frame"), from_clip_space(&scene));
+            let [a, b] = [expected.stats(), found.stats()];
+            assert_eq!(
+                (a.outside, a.clipped, a.unprojected),
+                (b.outside, b.clipped, b.unprojected),
+                "{name}"
+            );
+            assert!(expected.vertices() == found.vertices(), "{name}");
+            assert!(expected.clip_corners() == found.clip_corners(), "{name}");
+            // Scenes leave out whole polygons that have no area; nothing is drawn of them.
+            let has_area = |p: &&Polygon| {
+                let corners = found
+                    .corners(p)
+                    .iter()
+                    .map(|&v| &found.vertices[v as usize]);
+                doubled_area(corners.map(|v| [v.x, v.y])) != 0
+            };
+            let mut polygons = found.polygons().iter().filter(has_area);
+            for p in expected.polygons() {
+                let q = polygons.next().expect("as many polygons");
+                assert_eq!((p.source, p.material), (q.source, q.material), "{name}");
+                assert_eq!(expected.corners(p), found.corners(q), "{name}");
+                assert_eq!(expected.mean(p), found.mean(q), "{name}");
+                assert_eq!(
+                    expected.polygon_normal(p),
+                    found.polygon_normal(q),
+                    "{name}"
+                );
+                let is_piece = expected.stated_mean(p).is_some();
+                *[&mut whole, &mut cut][usize::from(is_piece)] += 1;
+            }
+            assert!(polygons.next().is_none(), "{name}");
+            if scene.interpolation == Interpolation::Perspective {
+                assert_eq!(expected.weight_scale, found.weight_scale, "{name}");
+            }
+        }
+    }
+    assert!(
+        cut > 500 && whole > 5000,
+        "the test asks little: {cut}, {whole}"
+    );
+}
+
+/// What no place in clip space is names its vertex and its number; what is behind the eye is cut away.
+#[test]
+fn places_in_clip_space_are_checked() {
+    let made = |range: DepthRange, places: [[f64; 4]; 3], on_screen: bool| {
+        let mut builder = FrameBuilder::new(8, 8);
+        builder.depth_range(range);
+        let to_eye = crate::scene::Lighting::new(&Default::default(), [1.0; 3], &[], DVec3::Z);
+        let material = builder.lighting(to_eye);
+        let mut corners: Vec<u32> = places
+            .iter()
+            .map(|&place| builder.vertex_from_clip(place, [0.0, 0.0, 1.0], material))
+            .collect();
+        if on_screen {
+            let v = builder.frame().expect("a frame").vertex(corners[0]);
+            corners.push(builder.vertex(v));
+        }
+        builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
+        builder.finish()
+    };
+    let perspective = DepthRange::Perspective {
+        near: 1.0,
+        far: 9.0,
+    };
+    let plain = DepthRange::default();
+    let text = |made: Result<Frame, FrameError>| made.map(|_| ()).expect_err("wrong").to_string();
+    let with = |place: [f64; 4]| [[0.0, 0.0, 0.5, 1.0], [0.5, 0.0, 0.5, 1.0], place];
+    assert_eq!(
+        text(made(perspective, with([0.0, f64::NAN, 0.5, 1.0]), false)),
+        "vertex 2: y of its place in clip space is NaN: expected a number from -1e140 to 1e140"
+    );
+    assert_eq!(
+        text(made(plain, with([0.0, 0.5, f64::INFINITY, 1.0]), false)),
+        "vertex 2: z of its place in clip space is inf: expected a number from -1e140 to 1e140"
+    );
+    assert_eq!(
+        text(made(plain, with([0.0, 0.5, 0.5, 2.0]), false)),
+        "vertex 2: w of its place in clip space is 2: expected 1, as the frame's depth range is orthographic"
+    );
+    for w in [0.0, -0.0, -3.0, -30.0] {
+        let places = [
+            [0.0, 0.0, 0.0, 2.0],
+            [0.5, 0.0, 0.0, 2.0],
+            [0.0, 0.5, 0.0, w],
+        ];
+        let frame = made(perspective, places, false).expect("a frame");
+        assert_eq!(
+            (frame.stats().clipped, frame.polygons().len()),
+            (1, 1),
+            "{w}: {:?}",
+            frame.stats()
+        );
+        let polygon = &frame.polygons()[0];
+        assert_eq!(polygon.count, 4, "{w}");
+        let nearest = frame.corners(polygon).iter();
+        let depths = nearest.map(|&v| frame.vertices()[v as usize].depth);
+        assert!(
+            depths
+                .into_iter()
+                .all(|depth| (-1.0..=-0.5).contains(&depth)),
+            "{w}"
+        );
+    }
+    // Of vertices that are only on the screen nothing is known beyond a plane.
+    let mixed = made(perspective, with([0.0, 0.5, 0.5, 1.5]), true);
+    assert_eq!(mixed.expect("uncut").polygons().len(), 1);
+    let mixed = made(perspective, with([0.0, 0.5, 0.5, -1.0]), true);
+    assert_eq!(mixed.map(|_| ()), Err(FrameError::Polygon { index: 0 }));
+}
+
+/// A builder that is kept makes the same frames as new ones, and stays where its memory is, whatever errors come between.
+#[test]
+fn a_builder_that_is_kept_makes_the_same_frames() {
+    let fill = |builder: &mut FrameBuilder, turn: f64| {
+        let (sin, cos) = (libm::sin(turn), libm::cos(turn));
+        for k in 0..40 {
+            let x = f64::from(k) * 0.1 - 2.0;
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.5]].map(|[a, b]| {
+                let (a, b) = (cos * a - sin * b, sin * a + cos * b);
+                builder.vertex_from_clip([x + a, b, 0.5, 1.0 + a], [0.0, 0.0, 1.0], 0)
+            });
+            builder.polygon(&corners, [0.0, 0.0, 1.0], k);
+            let x = SubPixel::from_num(k % 8);
+            let corners = [[0, 0], [1, 4], [2, 0]].map(|[a, b]| {
+                builder.vertex(Vertex {
+                    x: x + SubPixel::from_num(a),
+                    y: SubPixel::from_num(b),
+                    depth: -0.5,
+                    inv_w: 0.5,
+                    normal: [0.0, 0.0, 1.0],
+                    material: 0,
+                })
+            });
+            builder
+                .mean_of(&corners[..2])
+                .polygon(&corners, [0.0, 0.0, 1.0], 40 + k);
+        }
+    };
+    let builder = || {
+        let mut builder = FrameBuilder::new(32, 16);
+        builder.depth_range(DepthRange::Perspective {
+            near: 0.5,
+            far: 9.0,
+        });
+        let to_eye = crate::scene::Lighting::new(&Default::default(), [1.0; 3], &[], DVec3::Z);
+        builder.lighting(to_eye);
+        builder
+    };
+    let mut kept = builder();
+    let mut cut = 0;
+    for step in 0..9 {
+        let mut new = builder();
+        fill(&mut new, 0.2 * f64::from(step));
+        kept.clear();
+        fill(&mut kept, 0.2 * f64::from(step));
+        if step == 4 {
+            let lost = kept.vertex_from_clip([f64::NAN; 4], [0.0, 0.0, 1.0], 0);
+            assert!(kept.frame().is_err(), "vertex {lost}");
+            kept.clear();
+            fill(&mut kept, 0.2 * f64::from(step));
+        }
+        let expected = new.finish().expect("a frame");
+        // Twice: what was given is still there.
+        for _ in 0..2 {
+            let frame = kept.frame().expect("a frame");
+            assert_same(frame, &expected, "kept");
+            cut += frame.stats().clipped;
+        }
+    }
+    assert!(cut > 100, "the test asks little: {cut}");
+    // A frame that someone keeps stays as it was.
+    let before = kept.frame().expect("a frame").clone();
+    let again = before.clone();
+    kept.clear().size(16, 16);
+    fill(&mut kept, 1.0);
+    assert_eq!(kept.frame().expect("a frame").width(), 16);
+    assert_same(&before, &again, "a clone");
+    kept.clear_lightings();
+    assert!(kept.frame().is_err(), "no material");
 }

@@ -1,0 +1,173 @@
+//! Vertices that a frame builder was given in clip space: placed on the picture and clipped as those of scenes are.
+
+use super::clip::HomogeneousCorner;
+use super::cut::{Cutter, EdgeOf};
+use super::view::{BEYOND_PLANES, Codes, View};
+use crate::frame::guard::{self, Checked};
+use crate::frame::{DepthRange, Frame, FrameError, FrameItem, Polygon};
+use crate::scene::ranges::NumberRange;
+use crate::scene::{Camera, Clipping, Culling, Projection, Scene};
+use alloc::vec::Vec;
+use glam::{DVec3, DVec4};
+
+/// Coordinates with which clipping can compute: see [`View::is_in_range`].
+const CLIP: NumberRange = NumberRange::new(-1e140, 1e140, "a number from -1e140 to 1e140");
+/// The w of vertices of a frame without perspective.
+const ONE: NumberRange =
+    NumberRange::new(1.0, 1.0, "1, as the frame's depth range is orthographic");
+
+const NAMES: [&str; 4] = [
+    "x of its place in clip space",
+    "y of its place in clip space",
+    "z of its place in clip space",
+    "w of its place in clip space",
+];
+
+/// Vertices in clip space, and the settings of the frame that they are in.
+pub(in crate::frame) struct ClipSpace<'a> {
+    /// The vertices, in ascending order, and their positions.
+    vertices: &'a [(u32, DVec4)],
+    /// The frame's settings as those of a scene; its camera stands anywhere.
+    settings: Scene,
+}
+
+impl<'a> ClipSpace<'a> {
+    pub fn new(frame: &Frame, vertices: &'a [(u32, DVec4)]) -> Self {
+        let (near, far) = frame.depth_range.ends();
+        let projection = match frame.depth_range {
+            DepthRange::Orthographic { .. } => Projection::Orthographic { half_height: 1.0 },
+            DepthRange::Perspective { .. } => Projection::Perspective { fovy: 90.0 },
+        };
+        let camera = Camera {
+            eye: DVec3::ZERO,
+            target: -DVec3::Z,
+            up: DVec3::Y,
+            projection,
+            near,
+            far,
+        };
+        let settings = Scene {
+            width: frame.width / frame.samples.max(1),
+            height: frame.height / frame.samples.max(1),
+            samples: frame.samples,
+            interpolation: frame.interpolation,
+            hidden_surfaces: frame.hidden_surfaces,
+            clipping: frame.clipping,
+            culling: Culling::None,
+            ..Scene::new(camera)
+        };
+        ClipSpace { vertices, settings }
+    }
+
+    /// Places all vertices on the picture; those beyond a plane have no place, like those of scenes.
+    ///
+    /// # Errors
+    /// [`FrameError::Number`] for the first coordinate that is outside its range, and [`FrameError::Vertex`] for a vertex whose place
+    /// no number of a frame holds.
+    pub fn place(&self, frame: &mut Frame) -> Checked {
+        if self.vertices.is_empty() {
+            return Ok(());
+        }
+        let view = View::new(&self.settings)?;
+        for &(vertex, position) in self.vertices {
+            let item = FrameItem::Vertex(vertex as usize);
+            guard::numbers(item, NAMES, position.to_array(), &CLIP)?;
+            if !view.is_perspective() {
+                guard::number(item, NAMES[3], position.w, &ONE)?;
+            }
+            let position = self.position(position);
+            let placed = match view.codes(position) & BEYOND_PLANES {
+                0 => view.vertex(position),
+                _ => view.nowhere(),
+            };
+            if !view.is_valid(&placed) {
+                let index = vertex as usize;
+                return Err(FrameError::Vertex { index });
+            }
+            frame.vertices[vertex as usize] = placed;
+        }
+        Ok(())
+    }
+
+    /// Returns a position as scenes clip it: see [`Camera::precise_clip_matrix`](crate::scene::Camera).
+    fn position(&self, position: DVec4) -> DVec4 {
+        let Camera { near, far, .. } = self.settings.camera;
+        match self.settings.camera.projection {
+            Projection::Orthographic { .. } => position,
+            Projection::Perspective { .. } => DVec4 {
+                z: (far - position.w) / (far - near),
+                ..position
+            },
+        }
+    }
+
+    /// Makes the frame's polygons of those that it was given: those outside the view are left out, and pieces stand in the place of
+    /// those that were cut.
+    ///
+    /// # Errors
+    /// [`FrameError::Polygon`] for a polygon that must be cut and has vertices that are only on the screen.
+    pub fn clip(&self, frame: &mut Frame, polygons: &[Polygon]) -> Checked {
+        if self.vertices.is_empty() {
+            return Ok(());
+        }
+        let view = View::new(&self.settings)?;
+        let mut codes = core::mem::take(&mut frame.scratch.codes);
+        codes.clear();
+        codes.resize(frame.vertices.len(), 0);
+        for &(vertex, position) in self.vertices {
+            codes[vertex as usize] = view.codes(self.position(position));
+        }
+        let mut seen = core::mem::take(&mut frame.polygons);
+        seen.clear();
+        let mut clipped = polygons.iter().enumerate().map(|(index, polygon)| {
+            let corners = frame.corners(polygon).iter().map(|&v| codes[v as usize]);
+            let (all, any) = corners.fold((Codes::MAX, 0), |(all, any), c| (all & c, any | c));
+            match any & BEYOND_PLANES {
+                _ if all & !BEYOND_PLANES != 0 => frame.stats.outside += 1,
+                0 => seen.push(*polygon),
+                _ if self.settings.clipping == Clipping::NdcCube => frame.stats.unprojected += 1,
+                _ => self.cut(&view, frame, (index, polygon), &mut seen)?,
+            }
+            Ok(())
+        });
+        let clipped = clipped.find(Result::is_err).unwrap_or(Ok(()));
+        frame.polygons = seen;
+        frame.scratch.codes = codes;
+        clipped
+    }
+
+    /// Adds to `to` the pieces of a polygon that are inside all planes.
+    fn cut(
+        &self,
+        view: &View<'_>,
+        frame: &mut Frame,
+        (index, polygon): (usize, &Polygon),
+        to: &mut Vec<Polygon>,
+    ) -> Checked {
+        let corners = frame.corners(polygon).iter();
+        let corners: Option<Vec<HomogeneousCorner>> = corners.map(|&v| self.corner(v)).collect();
+        let corners = corners.ok_or(FrameError::Polygon { index })?;
+        let edge = EdgeOf {
+            material: polygon.material,
+            face: frame.polygon_normal(polygon),
+        };
+        let mean = frame.mean(polygon);
+        let pieces = Cutter { view, frame }.pieces(corners, mean, &edge);
+        to.extend(pieces.into_iter().map(|(first, count)| Polygon {
+            first,
+            count,
+            ..*polygon
+        }));
+        Ok(())
+    }
+
+    /// Returns a vertex on its way through the planes; `None` for one that is only on the screen.
+    fn corner(&self, vertex: u32) -> Option<HomogeneousCorner> {
+        let place = self.vertices.binary_search_by_key(&vertex, |&(v, _)| v);
+        let (_, position) = self.vertices[place.ok()?];
+        Some(HomogeneousCorner {
+            position: self.position(position),
+            vertex,
+        })
+    }
+}
