@@ -145,6 +145,9 @@ pub struct Lighting {
     pub specular: SpecularModel,
     /// The treatment of highlights from behind.
     pub gate: SpecularGate,
+    /// True if `k_a` and `k_d` are multiplied by the colours of vertices ([`Frame::colour`](crate::frame::Frame::colour)), which are
+    /// interpolated as normals are. Methods that light polygons take the mean of the corners' colours.
+    pub vertex_colours: bool,
 }
 
 impl Lighting {
@@ -168,6 +171,7 @@ impl Lighting {
             shininess: material.shininess,
             specular: SpecularModel::Phong,
             gate: SpecularGate::Gated,
+            vertex_colours: false,
         }
     }
 

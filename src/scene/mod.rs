@@ -24,7 +24,7 @@ pub use settings::{
     PainterKey,
 };
 
-use crate::mesh::vertex_normals::NormalSource;
+use crate::mesh::vertex_normals::NormalRule;
 use crate::mesh::{Material, PolygonMesh};
 use crate::picture::{Encoding, Rgb};
 use crate::sync::Arc;
@@ -42,8 +42,8 @@ pub struct Object {
     pub transform: DAffine3,
     /// Replaces the materials of the mesh.
     pub material: Option<Material>,
-    /// The source of the vertex normals.
-    pub normals: NormalSource,
+    /// The source of the vertex normals, and the weight of averages.
+    pub normals: NormalRule,
 }
 
 impl Object {
@@ -109,6 +109,9 @@ pub struct Scene {
     pub shininess_for: SpecularModel,
     /// The treatment of highlights where the light is behind the surface.
     pub gate: SpecularGate,
+    /// True if `k_a` and `k_d` are multiplied by the vertex colours of meshes that have some, and no
+    /// [attributes](crate::mesh::MeshBuilder::attributes): colours are then lit, and interpolated as normals are.
+    pub colours: bool,
     /// The variation of attributes over the screen.
     pub interpolation: Interpolation,
     /// The sides that are left out.
@@ -144,6 +147,7 @@ impl Scene {
             specular: SpecularModel::Phong,
             shininess_for: SpecularModel::Phong,
             gate: SpecularGate::Gated,
+            colours: false,
             interpolation: Interpolation::Screen,
             culling: Culling::Back,
             hidden_surfaces: HiddenSurfaces::default(),

@@ -2,7 +2,6 @@
 
 use super::direction::unit;
 use super::{Camera, Culling, Fit, Light, Object, Projection, Scene};
-use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::winding::WindingDoubts;
 use crate::mesh::{Material, PolygonMesh};
 use crate::sync::Arc;
@@ -20,8 +19,11 @@ impl Scene {
     pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
 
     /// Makes a scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
-    /// for polygons that have none, averaged vertex normals (L21 3.1). A mesh that was read from a file, and that is open, not wound
-    /// alike everywhere, or wound against its own normals, is drawn and lit on both sides; any other with its back culled.
+    /// for polygons that have none, averaged vertex normals (L21 3.1). A mesh that was read from a file has its own normals, or
+    /// averages by angle ([`PolygonMesh::normal_rule`]); if it is open, not wound alike everywhere, or wound against its own
+    /// normals, it is drawn and lit on both sides. Any other is drawn with its back culled.
+    /// Vertex colours, where the mesh has some, multiply the material's ambient and diffuse
+    /// coefficients, those of a grey one by default.
     ///
     /// The fields are there to be changed; a mesh without polygons gives an empty picture.
     ///
@@ -57,7 +59,13 @@ impl Scene {
             near: 0.0,
             far: 2.0,
         });
-        let own = mesh.materials().is_empty().then(Material::default);
+        let own = mesh
+            .materials()
+            .is_empty()
+            .then(|| match mesh.has_lit_colours() {
+                true => Material::NEUTRAL,
+                false => Material::default(),
+            });
         let two_sided = mesh.was_read() && WindingDoubts::of(&mesh).any();
         Scene {
             width,
@@ -67,16 +75,17 @@ impl Scene {
                 [1.0; 3],
             )],
             objects: vec![Object {
+                normals: mesh.normal_rule(),
                 mesh: Arc::new(mesh),
                 transform: DAffine3::IDENTITY,
                 material: own,
-                normals: NormalSource::Averaged,
             }],
             culling: match two_sided {
                 true => Culling::None,
                 false => Culling::Back,
             },
             two_sided,
+            colours: true,
             ..Scene::new(camera)
         }
     }
@@ -95,7 +104,12 @@ mod tests {
     #[cfg(feature = "io")]
     #[test]
     fn a_mesh_gets_the_frame_that_its_scene_file_gives() {
-        for spec in ["teapot?res=4", "gear", "sphere?rings=6&segments=8"] {
+        for spec in [
+            "teapot?res=4",
+            "gear",
+            "sphere?rings=6&segments=8",
+            "terrain?segments=8&rows=8&colours=true",
+        ] {
             let mesh = builtin(spec).unwrap();
             let from_file = SceneFile::for_mesh(std::format!("builtin:{spec}"));
             let from_file = from_file
@@ -152,13 +166,53 @@ mod tests {
 
     #[cfg(feature = "io")]
     #[test]
+    fn a_mesh_file_gets_its_own_normals_or_averages_by_angle_through_either_door() {
+        use crate::mesh::read::parse_mesh;
+        use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalWeight};
+        let corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+        let none = |_: &str| Err(std::io::ErrorKind::NotFound.into());
+        for faces in [
+            "f 1 2 4\nf 1 4 3\n",
+            "vn 1 0 0\nf 1//1 2//1 4//1\nf 1 4 3\n",
+        ] {
+            let text = std::format!("{corner}{faces}");
+            let mesh = parse_mesh("t.obj", text.as_bytes(), none).unwrap().mesh;
+            let mut file = SceneFile::for_mesh("t.obj");
+            let load = |file: &SceneFile| {
+                file.resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
+                    .unwrap()
+            };
+            let resolved = load(&file);
+            let rule = NormalRule {
+                source: NormalSource::Auto,
+                weight: NormalWeight::Angle,
+            };
+            let scene = Scene::of_mesh(mesh.clone());
+            assert_eq!(scene.objects[0].normals, rule);
+            assert_eq!(resolved.scene.objects[0].normals, rule);
+            let (a, b) = (scene.frame().unwrap(), resolved.scene.frame().unwrap());
+            assert_eq!(std::format!("{a:?}"), std::format!("{b:?}"), "{faces}");
+            // What is chosen is said where the scene is written down, and means the same there.
+            file.overlay(resolved.chosen);
+            let written = file.to_toml();
+            assert!(written.contains("normals = \"auto\"\nnormals_weight = \"angle\"\n"));
+            let again = SceneFile::parse(&written, "t.toml").unwrap();
+            assert_eq!(load(&again).scene.objects[0].normals, rule);
+            // In a scene file that does not say so, averages are the lecture's.
+            let named = SceneFile::parse("[[object]]\nmesh = 't.obj'", "t.toml").unwrap();
+            assert_eq!(load(&named).scene.objects[0].normals, NormalRule::default());
+        }
+    }
+
+    #[cfg(feature = "io")]
+    #[test]
     fn an_open_mesh_is_drawn_on_both_sides_if_it_was_read_from_a_file() {
-        use crate::mesh::obj::parse_obj;
+        use crate::mesh::read::parse_mesh;
         let sides = |scene: Scene| (scene.culling, scene.two_sided);
         let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
         let read = |text: &str| {
             let none = |_: &str| Err(std::io::ErrorKind::NotFound.into());
-            parse_obj("t.obj", text.as_bytes(), none).unwrap().mesh
+            parse_mesh("t.obj", text.as_bytes(), none).unwrap().mesh
         };
         let open = read(text);
         let mut builder = MeshBuilder::new(open.positions().to_vec());

@@ -4,7 +4,9 @@
 //! values from files and from command-line flags alike.
 
 mod check;
+mod colours;
 pub mod diagnostics;
+mod file_view;
 mod lights;
 mod normal_source;
 pub mod resolve;
@@ -19,8 +21,8 @@ mod visibility;
 
 use super::Scene;
 use crate::mesh::Material;
-use crate::mesh::obj::content::foreign;
-use crate::mesh::obj::{cause, gzip};
+use crate::mesh::read::content::foreign;
+use crate::mesh::read::{cause, gzip};
 use diagnostics::{Origin, SceneError, SourceText};
 use glam::DVec3;
 use schema::SCENE;
@@ -50,6 +52,10 @@ pub fn shown(name: &str) -> &str {
 pub struct SceneFile {
     table: SceneTable,
     source: Option<Arc<SourceText>>,
+    /// What a mesh file has and the scene cannot have.
+    notes: Vec<String>,
+    /// What a mesh file has given: its camera and its lights.
+    of_mesh_file: SceneTable,
 }
 
 impl PartialEq for SceneFile {
@@ -72,7 +78,12 @@ impl SceneFile {
         let source = Some(Arc::new(SourceText { path, text }));
         let text = source.as_ref().map_or("", |source| &source.text);
         match SceneTable::parse(text) {
-            Ok(table) => Ok(SceneFile { table, source }),
+            Ok(table) => Ok(SceneFile {
+                table,
+                source,
+                notes: Vec::new(),
+                of_mesh_file: SceneTable::default(),
+            }),
             Err(error) => Err(error.within(&source)),
         }
     }
@@ -113,8 +124,10 @@ impl SceneFile {
 
     /// Returns the scene that a mesh alone gets: a fitted three-quarter view, one white light, [`Material::default`].
     ///
-    /// A mesh file has its own normals and smoothing (`normals = "auto"`), a built-in mesh averaged ones. Every default that
-    /// matters is spelt out, so that the printed scene shows what there is to change.
+    /// Its vertex normals are those of
+    /// [`PolygonMesh::normal_rule`](crate::mesh::PolygonMesh::normal_rule), unless keys are added: of a
+    /// mesh file its own, or averaged by angle, of a built-in mesh averaged ones. Every other default
+    /// that matters is spelt out, so that the printed scene shows what there is to change.
     pub fn for_mesh(mesh: impl Into<String>) -> SceneFile {
         let (width, height) = Scene::DEFAULT_SIZE;
         let (fit, direction) = (Scene::DEFAULT_FIT, Scene::DEFAULT_DIRECTION);
@@ -124,6 +137,7 @@ impl SceneFile {
         let shininess = material.shininess;
         let text = format!(
             "ambient = 1\n\
+             colours = 'on'\n\
              image = {{ width = {width}, height = {height}, background = 0 }}\n\
              camera = {{ fit = {fit}, direction = {direction:?} }}\n\
              material = {{ ka = {ka:?}, kd = {kd:?}, ks = {ks:?}, shininess = {shininess} }}\n\
@@ -133,13 +147,12 @@ impl SceneFile {
         let mut file = SceneFile {
             table: SceneTable::parse(&text).expect("a scene in which all is right"),
             source: None,
+            notes: Vec::new(),
+            of_mesh_file: SceneTable::default(),
         };
         // Set apart, as the name may hold quotes.
         let mesh = mesh.into();
         let object = &mut file.objects_mut()[0];
-        if !mesh.starts_with(BUILTIN) {
-            object.set("normals", Data::Text("auto".into()), Origin::Program);
-        }
         object.set("mesh", Data::Text(mesh), Origin::Program);
         file
     }
@@ -205,11 +218,12 @@ impl SceneFile {
                 // The inverse of a rotation is its transpose.
                 let turn = upright::turn(Some(camera)) * before.transpose();
                 upright::turn_default(self.table.table_mut("camera"), turn);
-                if let Some(Data::Tables(lights)) = self
-                    .table
-                    .entries
-                    .get_mut("light")
-                    .map(|value| &mut value.data)
+                if !self.has_lights_of_mesh_file()
+                    && let Some(Data::Tables(lights)) = self
+                        .table
+                        .entries
+                        .get_mut("light")
+                        .map(|value| &mut value.data)
                 {
                     lights
                         .iter_mut()

@@ -1,20 +1,66 @@
 //! The source of vertex normals that a scene file asks for, and notes on what of a mesh file it leaves unused.
 
 use super::check::Section;
-use super::diagnostics::SceneError;
+use super::diagnostics::{Origin, SceneError};
+use super::value::{Data, SceneTable};
 use crate::mesh::PolygonMesh;
-use crate::mesh::vertex_normals::{NormalSource, NormalUse};
+use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
 use crate::scene::ranges::CREASE;
 use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-/// Returns the source of the vertex normals of an object.
-pub(super) fn normals(object: &Section) -> Result<NormalSource, SceneError> {
-    let why = "expected one of them: `crease` averages up to an angle";
-    object.exclude("crease", "normals", why)?;
-    let crease = object.number("crease", &CREASE)?;
-    Ok(crease.map_or_else(|| object.word("normals"), NormalSource::Crease))
+/// What an object says of its vertex normals: a source, a weight, both, or neither.
+#[derive(Clone, Copy)]
+pub(super) struct StatedNormals {
+    source: Option<NormalSource>,
+    weight: Option<NormalWeight>,
+}
+
+impl StatedNormals {
+    /// Reads the keys of an object.
+    pub fn new(object: &Section) -> Result<Self, SceneError> {
+        let why = "expected one of them: `crease` averages up to an angle";
+        object.exclude("crease", "normals", why)?;
+        let crease = object.number("crease", &CREASE)?.map(NormalSource::Crease);
+        Ok(StatedNormals {
+            source: crease.or_else(|| object.choice("normals")),
+            weight: object.choice("normals_weight"),
+        })
+    }
+
+    /// Returns the rule for the object, which takes from `usual` what it does not say itself.
+    pub fn or(self, usual: NormalRule) -> NormalRule {
+        NormalRule {
+            source: self.source.unwrap_or(usual.source),
+            weight: self.weight.unwrap_or(usual.weight),
+        }
+    }
+}
+
+/// Writes into the table of an object what it leaves open and `rule` says otherwise than scene files do. True if there is something.
+pub(super) fn spell_out(rule: NormalRule, object: &mut SceneTable) -> bool {
+    let is_open = |key: &str| object.get(key).is_none();
+    let source = match rule.source {
+        _ if !is_open("normals") || !is_open("crease") => None,
+        NormalSource::Averaged => None,
+        NormalSource::Auto => Some(("normals", Data::Text("auto".into()))),
+        NormalSource::Given => Some(("normals", Data::Text("given".into()))),
+        NormalSource::Crease(degrees) => Some(("crease", Data::Number(degrees))),
+    };
+    let word = match rule.weight {
+        _ if !is_open("normals_weight") => None,
+        NormalWeight::Uniform => None,
+        NormalWeight::Area => Some("area"),
+        NormalWeight::Angle => Some("angle"),
+        NormalWeight::Max => Some("max"),
+    };
+    let weight = word.map(|word| ("normals_weight", Data::Text(word.into())));
+    let given = source.into_iter().chain(weight);
+    given
+        .map(|(key, data)| object.set(key, data, Origin::Program))
+        .count()
+        > 0
 }
 
 /// Adds a note, once, for normals and smoothing groups of the mesh file `name` that `source` leaves unused.

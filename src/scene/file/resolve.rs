@@ -1,9 +1,10 @@
 //! From a scene file to a scene: values are checked, meshes loaded, the camera is fitted.
 
 use super::check::Section;
+use super::colours::take_neutral_material;
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
-use super::normal_source::{normals, note_unused};
+use super::normal_source::{StatedNormals, note_unused, spell_out};
 use super::sides::Sides;
 use super::upright::turn;
 use super::value::{Data, SceneTable};
@@ -11,7 +12,7 @@ use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
 use super::{BUILTIN, SceneFile, shown};
 use crate::mesh::orientation::inside_out;
-use crate::mesh::vertex_normals::NormalSource;
+use crate::mesh::vertex_normals::{NormalRule, NormalSource};
 use crate::mesh::{Material, PolygonMesh};
 use crate::number::Written;
 use crate::scene::direction::{length, unit};
@@ -72,7 +73,8 @@ impl SceneFile {
             name: "",
         };
         let image = file.section("image", "image");
-        let (mut warnings, mut notes) = (Vec::new(), Vec::new());
+        let (mut warnings, mut notes) = (Vec::new(), self.notes.clone());
+        notes.extend(self.view_note());
         let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
         let height = image.side("height")?.unwrap_or(Scene::DEFAULT_SIZE.1);
         let background = image.channels("background", &PIXEL)?.unwrap_or([0.0; 3]);
@@ -83,20 +85,32 @@ impl SceneFile {
         let samples = samples(&image, [width, height])?;
         let clipping = clipping(&file)?;
         let hidden_surfaces = hidden_surfaces(&file, &mut warnings)?;
-        let objects = self.objects(&file, load_mesh, &mut warnings)?;
-        let sides = Sides::new(
+        let mut objects = self.objects(&file, load_mesh, &mut warnings)?;
+        let colours = file.table.text("colours") == Some("on");
+        let mut sides = Sides::new(
             &file,
             self.mesh_alone(&file, &objects),
             &mut warnings,
             &mut notes,
         );
+        let is_named = file
+            .sections("object", "object")
+            .any(|object| is_named_in_file(&object));
+        if let [object] = &mut objects[..]
+            && !is_named
+            && colours
+            && object.mesh.has_lit_colours()
+            && object.mesh.materials().is_empty()
+        {
+            take_neutral_material(&file, object, &mut sides.chosen);
+        }
         // What a built-in mesh has is right, and nothing that the user stated.
         let from_files = objects.iter().zip(self.meshes());
         // Objects that share a mesh and take the same normals share what is odd about them.
         let mut looked_at = BTreeSet::new();
         for (object, name) in from_files.filter(|(_, name)| !name.starts_with(BUILTIN)) {
             let name = shown(name);
-            let normals = match object.normals {
+            let normals = match object.normals.source {
                 NormalSource::Averaged => (0, 0),
                 NormalSource::Auto => (1, 0),
                 NormalSource::Given => (2, 0),
@@ -105,7 +119,7 @@ impl SceneFile {
             if !looked_at.insert((Arc::as_ptr(&object.mesh), normals)) {
                 continue;
             }
-            note_unused(name, &object.mesh, object.normals, &mut notes);
+            note_unused(name, &object.mesh, object.normals.source, &mut notes);
             let outside = match sides.culling {
                 Culling::Back => "so that its outside is not drawn",
                 // Its outside is shown, and lit on both sides.
@@ -118,6 +132,10 @@ impl SceneFile {
         let camera = viewpoint.camera(points.iter().copied(), &mut warnings)?;
         file.sections("light", "light")
             .try_for_each(|light| check_distance(&light, &points, camera.eye))?;
+        let mut chosen = sides.chosen;
+        if let Some(tables) = normals_spelt_out(&file, &objects) {
+            chosen.set("object", Data::Tables(tables), Origin::Program);
+        }
         let specular = file.word("specular");
         let scene = Scene {
             width,
@@ -130,6 +148,7 @@ impl SceneFile {
             specular,
             shininess_for: file.choice("shininess_for").unwrap_or(specular),
             gate: file.word("specular_gate"),
+            colours,
             interpolation: file.word("interpolation"),
             culling: sides.culling,
             hidden_surfaces,
@@ -143,7 +162,7 @@ impl SceneFile {
             scene,
             warnings,
             notes,
-            chosen: sides.chosen,
+            chosen,
         })
     }
 
@@ -174,7 +193,7 @@ impl SceneFile {
             Ok((
                 section,
                 placement(&section)?,
-                (normals(&section)?, weld),
+                (StatedNormals::new(&section)?, weld),
                 own,
             ))
         });
@@ -197,6 +216,10 @@ impl SceneFile {
             };
             let [Some(loaded), with_default] = mesh else {
                 unreachable!("a mesh is there once it was loaded");
+            };
+            let usual = match is_named_in_file(&section) {
+                true => NormalRule::default(),
+                false => loaded.normal_rule(),
             };
             let has_default = own.is_none() && lacks_material(loaded);
             let own = own.or(loaded.materials().is_empty().then_some(default));
@@ -230,7 +253,7 @@ impl SceneFile {
                 mesh,
                 transform,
                 material: own,
-                normals,
+                normals: normals.or(usual),
             };
             if !object.world_points().all(|p| COORDINATE.holds_all(p)) {
                 let problem = format!("`{spec}` reaches too far");
@@ -288,6 +311,20 @@ fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
         .zip(1..)
         .map(|(section, number)| light(&section, number))
         .collect()
+}
+
+/// Returns the tables of all objects, with what meshes that no scene file names choose of their vertex normals; `None` if they
+/// choose nothing that is not stated.
+fn normals_spelt_out(file: &Section, objects: &[Object]) -> Option<Vec<SceneTable>> {
+    let mut tables = file.table.tables("object").to_vec();
+    let mut is_any_open = false;
+    let sections = file.sections("object", "object");
+    for ((section, object), table) in sections.zip(objects).zip(&mut tables) {
+        if !is_named_in_file(&section) {
+            is_any_open |= spell_out(object.mesh.normal_rule(), table);
+        }
+    }
+    is_any_open.then_some(tables)
 }
 
 /// True if a scene file names the mesh of `object`. Else the input itself does: there is no line of a scene file, and no key.

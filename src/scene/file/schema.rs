@@ -6,7 +6,7 @@ use ValueKind::{
     Axis, Matrix, Number, OneOrThree, Switch, Table, Tables, Text, Triple, Turns, Whole, Word,
 };
 
-use crate::mesh::vertex_normals::NormalSource;
+use crate::mesh::vertex_normals::{NormalSource, NormalWeight};
 use crate::picture::Encoding;
 use crate::scene::{
     Clipping, Culling, DepthSource, Falloff, Interpolation, PainterKey, SpecularGate, SpecularModel,
@@ -185,6 +185,7 @@ words! {
     GATE: SpecularGate { "gated" => Self::Gated, "ungated" => Self::Ungated, "weighted" => Self::Weighted }
     INTERPOLATION: Interpolation { "screen" => Self::Screen, "perspective" => Self::Perspective }
     NORMALS: NormalSource { "averaged" => Self::Averaged, "auto" => Self::Auto, "given" => Self::Given }
+    NORMALS_WEIGHT: NormalWeight { "uniform" => Self::Uniform, "area" => Self::Area, "angle" => Self::Angle, "max" => Self::Max }
     PAINTER_KEY: PainterKey { "mean" => Self::Mean, "farthest" => Self::Farthest }
     SPECULAR: SpecularModel { "phong" => Self::Phong, "blinn" => Self::Blinn }
 }
@@ -285,6 +286,10 @@ pub static KEYS: &[Key] = &[
         "Highlights where the light is behind the surface: gated (none), ungated (as the lecture's formula gives) or weighted (times L.N)",
         "gated", ["fine-sphere --light 1,0.3,-0.8 --shininess 4 --specular blinn",
                   "fine-sphere --light 1,0.3,-0.8 --shininess 4 --specular blinn --specular-gate ungated"]),
+    key("colours", Word(&["off", "on"])).flag("colours", "off|on",
+        "Light the vertex colours of mesh files: the ambient and the diffuse reflection are multiplied by them \
+         [default: the scene's, else on for a mesh file]",
+        "", ["builtin:terrain?colours=true --resolution 80x60 --view 30,30 --colours off", "builtin:terrain?colours=true --resolution 80x60 --view 30,30"]),
     key("image.alpha", Word(&["coverage", "opaque"])).flag("alpha", "ALPHA",
         "Alpha of a PNG file: the covered share of each pixel, or opaque everywhere",
         "coverage", ["fine-sphere", "fine-sphere --alpha opaque"]),
@@ -320,6 +325,11 @@ pub static KEYS: &[Key] = &[
          `given` with the mesh; or averaged up to an angle, `crease=30` \
          [default: the scene's, else `auto` for a mesh file and `averaged` for a built-in mesh]",
         "", ["football", "football --normals crease=10"]),
+    key("object.normals_weight", NORMALS_WEIGHT).flag("normals-weight", "WEIGHT",
+        "Weight of polygons where vertex normals are averaged: `uniform`, all alike, as in the lecture; `area` of the polygon; its `angle` at \
+         the vertex; or `max`, Max's weights, exact on spheres [default: the scene's, else `angle` for a mesh file and `uniform` for a \
+         built-in mesh]",
+        "", ["vase --resolution 80x60", "vase --resolution 80x60 --normals-weight area"]),
     key("object.crease", Number),
     key("object.weld", Number).flag("weld", "PART",
         "Take positions that are nearer than this part of the mesh's size for one, so that normals are averaged over them, 1e-12 to 0.1 \

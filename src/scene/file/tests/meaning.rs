@@ -1,5 +1,5 @@
 use super::{cube, cubes, resolve, with_object};
-use crate::mesh::vertex_normals::NormalSource;
+use crate::mesh::vertex_normals::{NormalSource, NormalWeight};
 use crate::mesh::{Material, MeshBuilder, PolygonMesh};
 use crate::picture::Encoding;
 use crate::scene::file::SceneFile;
@@ -53,7 +53,7 @@ fn defaults() {
     ));
     assert_eq!(scene.lights[0].colour, [1.0; 3]);
     assert_eq!(scene.objects[0].material, Some(Material::default()));
-    assert_eq!(scene.objects[0].normals, NormalSource::Averaged);
+    assert_eq!(scene.objects[0].normals.source, NormalSource::Averaged);
     assert!(near(
         scene.camera.view(),
         DVec3::from_array(Scene::DEFAULT_DIRECTION).normalize()
@@ -92,8 +92,27 @@ fn every_choice() {
         ("crease = 30", NormalSource::Crease(30.0)),
     ] {
         assert_eq!(
-            resolve(&(with_object("") + words)).scene.objects[0].normals,
+            resolve(&(with_object("") + words)).scene.objects[0]
+                .normals
+                .source,
             source
+        );
+    }
+    for (words, weight) in [
+        ("", NormalWeight::Uniform),
+        ("normals_weight = 'uniform'", NormalWeight::Uniform),
+        ("normals_weight = 'area'", NormalWeight::Area),
+        ("crease = 30\nnormals_weight = 'angle'", NormalWeight::Angle),
+        (
+            "normals = 'auto'\nnormals_weight = 'max'",
+            NormalWeight::Max,
+        ),
+    ] {
+        let normals = resolve(&(with_object("") + words)).scene.objects[0].normals;
+        assert_eq!(normals.weight, weight);
+        assert_eq!(
+            normals.source == NormalSource::Averaged,
+            !words.contains('\n')
         );
     }
 }

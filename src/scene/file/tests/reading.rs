@@ -9,7 +9,7 @@ fn invalid_toml_and_unknown_keys() {
         "[«camra»]\nfit = 1\n",
         "unknown key `camra`",
         "expected one of `title`, `description`, `ambient`, `interpolation`, `viewer`, `specular`, `shininess_for`, \
-         `specular_gate`, `cull`, `visibility`, `depth_bits`, `depth`, `painter_key`, `clipping`, `two_sided`, `image`, \
+         `specular_gate`, `colours`, `cull`, `visibility`, `depth_bits`, `depth`, `painter_key`, `clipping`, `two_sided`, `image`, \
          `camera`, `material`, `light`, `object`",
         Some("did you mean `camera`?"),
     );

@@ -89,6 +89,8 @@ impl Random {
         SceneFile {
             table,
             source: None,
+            notes: Vec::new(),
+            of_mesh_file: SceneTable::default(),
         }
     }
 }
@@ -115,6 +117,7 @@ fn the_scene_of_a_mesh_is_spelt_out() {
         scene.to_toml(),
         "\
 ambient = 1.0
+colours = \"on\"
 
 [image]
 width = 640
@@ -136,11 +139,10 @@ direction = [0.4, 0.7, 0.9]
 
 [[object]]
 mesh = \"teapot.obj\"
-normals = \"auto\"
 "
     );
-    // The written defaults equal a scene that names only the mesh and its normals.
-    let bare = "[[object]]\nmesh = 'teapot.obj'\nnormals = 'auto'";
+    // The written defaults equal a scene that names only the mesh.
+    let bare = "colours = 'on'\n[[object]]\nmesh = 'teapot.obj'";
     let bare = SceneFile::parse(bare, "bare.toml").expect("valid");
     let resolved = |file: &SceneFile| format!("{:?}", file.resolve(super::cubes).expect("valid"));
     assert_eq!(resolved(&scene), resolved(&bare));

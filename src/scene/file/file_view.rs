@@ -1,0 +1,99 @@
+//! The camera and the lights that a mesh file has, in the scene of it alone.
+
+use super::SceneFile;
+#[cfg(feature = "gltf")]
+use super::value::SceneTable;
+#[cfg(feature = "gltf")]
+use crate::mesh::read::{FileLight, FileView};
+#[cfg(feature = "gltf")]
+use crate::scene::ranges::{COORDINATE, FOVY};
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+impl SceneFile {
+    /// Takes camera and lights from a mesh file, where the scene can have them.
+    #[cfg(feature = "gltf")]
+    pub(in crate::scene) fn see_as(&mut self, view: &FileView) {
+        let mut text = String::new();
+        self.notes.extend(view.left_out.iter().cloned());
+        if let Some(camera) = view.camera {
+            let is_near = COORDINATE.holds_all(camera.eye) && COORDINATE.holds_all(camera.target);
+            if is_near && FOVY.holds(camera.fovy) {
+                let [eye, target, up] =
+                    [camera.eye, camera.target, camera.up].map(|v| v.to_array());
+                let fovy = camera.fovy;
+                text = format!(
+                    "camera = {{ eye = {eye:?}, target = {target:?}, up = {up:?}, fovy = {fovy:?} }}\n"
+                );
+            } else {
+                let why = "expected coordinates up to 1e15 and 0.001 to 179.999 degrees";
+                let note = format!("the file's camera is left out: {why}");
+                self.notes.push(note);
+            }
+        }
+        let is_near = |light: &&FileLight| COORDINATE.holds_all(light.place);
+        let lights: Vec<String> = view.lights.iter().filter(is_near).map(table).collect();
+        if lights.len() < view.lights.len() {
+            let note = "lights of the file are left out: expected coordinates up to 1e15";
+            self.notes.push(note.into());
+        }
+        if !lights.is_empty() {
+            text += &format!("light = [{}]\n", lights.join(", "));
+        }
+        if let Ok(table) = SceneTable::parse(&text) {
+            self.of_mesh_file = table.clone();
+            self.overlay(table);
+        }
+    }
+
+    /// True if the lights are those of the mesh file, and nothing has replaced them.
+    #[doc(hidden)]
+    pub fn has_lights_of_mesh_file(&self) -> bool {
+        let lights = self.of_mesh_file.get("light");
+        lights.is_some() && lights == self.table.get("light")
+    }
+
+    /// True if the eye is where the mesh file's camera has it, and looks where that does.
+    fn has_camera_of_mesh_file(&self) -> bool {
+        let (Some(given), Some(camera)) = (
+            self.of_mesh_file.table("camera"),
+            self.table.table("camera"),
+        ) else {
+            return false;
+        };
+        let is_same = |key: &&str| camera.get(key) == given.get(key);
+        ["eye", "target", "up"].iter().all(is_same) && camera.get("fit").is_none()
+    }
+
+    /// Returns what the scene has of the mesh file's view now, in a sentence.
+    pub(super) fn view_note(&self) -> Option<String> {
+        let mut taken = Vec::new();
+        if self.has_camera_of_mesh_file() {
+            taken.push("seen by the file's own camera (--view 27,15 and other angles fit the mesh instead)".into());
+        }
+        if self.has_lights_of_mesh_file() {
+            taken.push(match self.table.tables("light").len() {
+                1 => String::from("lit by its light"),
+                count => format!("lit by its {count} lights"),
+            });
+        }
+        (!taken.is_empty()).then(|| taken.join(", "))
+    }
+}
+
+/// Returns a light as TOML.
+#[cfg(feature = "gltf")]
+fn table(light: &FileLight) -> String {
+    let colour = light.colour;
+    match light.toward {
+        Some(toward) => {
+            let toward = toward.to_array();
+            format!("{{ direction = {toward:?}, colour = {colour:?} }}")
+        }
+        None => {
+            let place = light.place.to_array();
+            format!("{{ position = {place:?}, colour = {colour:?}, falloff = 'inverse-square' }}")
+        }
+    }
+}
