@@ -3,11 +3,13 @@
 use super::engines::LectureFlags;
 use super::input_name;
 use super::measured::{Measurement, TimingFlags, command_line};
+use super::memory;
 use super::scene_flags::SceneFlags;
-use super::{CliError, Log, Outcome, done};
+use super::{CliError, Log, Outcome, done, files, weights};
 use fastphong::compare::comparison::{TableKind, table};
 use fastphong::raster::Renderer;
 use fastphong::report::Document;
+use fastphong::scene::file::shown;
 
 /// Compare methods on one scene: error against the reference, time, ratios
 #[derive(clap::Args, Debug)]
@@ -25,6 +27,9 @@ pub struct CompareArgs {
     /// Print everything as JSON
     #[arg(long, conflicts_with = "all_columns")]
     json: bool,
+    /// Compare the weights of vertex normals, in place of methods
+    #[arg(long, conflicts_with_all = ["all_columns", "json", "methods", "normals-weight"])]
+    weights: bool,
     #[command(flatten)]
     scene: SceneFlags,
 }
@@ -32,6 +37,9 @@ pub struct CompareArgs {
 impl CompareArgs {
     /// Compares, times, and prints the table.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        if self.weights {
+            return self.compare_weights(log);
+        }
         let renderer = self.drawn.renderer()?;
         let perceives = self.json || self.all_columns;
         let measurement = Measurement {
@@ -56,5 +64,14 @@ impl CompareArgs {
             log.note("note: drawn as in the lecture, by scalar code; --simd auto compares on the engine that `render` uses");
         }
         Ok(outcome)
+    }
+
+    /// Prints the table of weights.
+    fn compare_weights(&self, log: Log) -> Result<Outcome, CliError> {
+        let file = self.scene.load(&self.input)?;
+        let resolved = files::resolve(&file)?;
+        self.scene.warn_without_hints(&file, &resolved, log);
+        memory::check_frame(&resolved.scene)?;
+        done(&weights::table(shown(&self.input), &resolved.scene)?)
     }
 }

@@ -9,6 +9,7 @@
 
 use super::input_name::{is_stand_in, path_behind};
 use super::{CliError, memory, signals};
+use fastphong::mesh::read::mesh_endings;
 use fastphong::picture::image_file::{
     FilePicture, ImageFileError, place, read_picture, write_file_by, write_files_by,
 };
@@ -124,7 +125,7 @@ pub fn will_read_stdin(part: &'static str) {
 pub fn will_read_of_scene(path: &Path) {
     let part = match path {
         path if has_ending(path, "toml") => "the scene",
-        path if has_ending(path, "obj") => "the mesh",
+        path if mesh_endings().any(|ending| has_ending(path, ending)) => "the mesh",
         path if has_ending(path, "mtl") => "the material library",
         // A scene, a mesh or a library, as its bytes say.
         _ => "a file of the scene",

@@ -57,7 +57,8 @@ impl InfoArgs {
             let of_mesh = || {
                 let mut found = Vec::new();
                 if !mesh.starts_with("builtin:") {
-                    found.extend(lies_on_its_side(&object.mesh));
+                    let lies = lies_on_its_side(&object.mesh);
+                    found.extend(lies.filter(|_| !self.scene.gives(Some("camera"), "up")));
                     found.extend(hints("it", object));
                 }
                 (MeshFacts::of(&object.mesh), found)
@@ -264,7 +265,7 @@ impl ObjectFacts<'_> {
             n => format!(", {} that cross themselves, their areas cancel", grouped(n)),
         };
         let colours = match facts.colours {
-            true => "\n  colours     one a position; render --aov colours shows them",
+            true => "\n  colours     one a position; --colours off leaves them out of the light",
             false => "",
         };
         let hints = self

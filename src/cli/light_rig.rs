@@ -44,7 +44,7 @@ impl SceneFlags {
     }
 
     /// Returns the scene that `file` describes, as [`files::resolve`] does. If it is a mesh alone, adds the lights of the
-    /// rig, and smooth edges where they cost little, unless flags gave others.
+    /// rig, unless the mesh file has some or flags gave others, and smooth edges where they cost little.
     ///
     /// # Errors
     /// As [`files::resolve`].
@@ -56,7 +56,7 @@ impl SceneFlags {
         }
         let scene = &resolved.scene;
         let mut over = SceneTable::default();
-        if !self.gives(None, "light") {
+        if !self.gives(None, "light") && !file.has_lights_of_mesh_file() {
             over.set("light", lights(&scene.camera), Origin::Program);
         }
         if !self.gives(Some("image"), "samples") && is_quick(scene) {

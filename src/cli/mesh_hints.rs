@@ -1,5 +1,6 @@
 //! Hints about mesh files: what of a mesh may look otherwise than was meant, and the flag to try.
 
+use super::normal_text::by_weight;
 use super::text::counted;
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::edges::EdgeCounts;
@@ -12,18 +13,27 @@ const CREASE: f64 = 40.0;
 /// programs write of a number in 32 bits.
 const ROUNDED: f64 = 1e-6;
 
+/// The hint for meshes of a format whose custom is that z is up.
+pub const Z_IS_UP: &str = "z is up in most STL files: --up z";
+
 /// Returns hints about the normals of an object, whose mesh file is called `name`.
 pub fn hints(name: &str, object: &Object) -> Vec<String> {
     let mesh = &*object.mesh;
-    let used = NormalUse::of(mesh, object.normals);
+    let used = NormalUse::of(mesh, object.normals.source);
     let counts = EdgeCounts::of(mesh, CREASE, ROUNDED);
     let mut hints = Vec::new();
     // Who asked for averages gets them.
-    let is_left_open = object.normals == NormalSource::Auto;
+    let is_left_open = object.normals.source == NormalSource::Auto;
     if is_left_open && used.given == 0 && !mesh.states_smoothing() && counts.sharp > 0 {
         let edges = counted(counts.sharp, "edge that turns", "edges that turn");
+        let by = by_weight(object.normals.weight);
+        // `vn` and `s` are words of OBJ.
+        let lack = match is_obj(name) {
+            true => "neither normals (vn) nor smoothing groups (s)",
+            false => "no normals",
+        };
         hints.push(format!(
-            "{name}: has neither normals (vn) nor smoothing groups (s): normals are averaged, over {edges} by more than {CREASE} \
+            "{name}: has {lack}: normals are averaged{by}, over {edges} by more than {CREASE} \
              degrees too; --normals crease={CREASE} keeps these sharp"
         ));
     }
@@ -43,10 +53,21 @@ pub fn hints(name: &str, object: &Object) -> Vec<String> {
     hints
 }
 
+/// True for the name of an OBJ file, packed or not.
+fn is_obj(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    name.strip_suffix(".gz").unwrap_or(&name).ends_with(".obj")
+}
+
 /// Guesses from the bounds of a mesh that it lies on its side, and says how to raise it.
 pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<String> {
     /// The part of the size that counts as nothing.
     const NEAR: f64 = 1e-3;
+    match mesh.up_by_custom() {
+        Some('z') => return Some(Z_IS_UP.to_owned()),
+        Some(_) => return None,
+        None => {}
+    }
     let (low, high) = mesh.bounds()?;
     let (low, high) = (low.to_array(), high.to_array());
     let sides = [0, 1, 2].map(|i| high[i] - low[i]);
@@ -105,6 +126,12 @@ mod tests {
             .polygon(&[0, 2, 7])
             .polygon(&[0, 4, 7]);
         builder.finish().expect("a mesh")
+    }
+
+    #[test]
+    fn names_of_obj_files_are_known() {
+        assert!(is_obj("a.obj") && is_obj("d/A.OBJ.gz"));
+        assert!(!is_obj("a.ply") && !is_obj("it") && !is_obj("obj"));
     }
 
     #[test]

@@ -53,6 +53,7 @@ mod values;
 #[cfg(feature = "view")]
 mod view;
 mod watch;
+mod weights;
 
 pub use error::{CliError, Outcome};
 use log::{Log, done};
@@ -72,14 +73,14 @@ pub struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage or input.\n\
-    INPUT is a scene file (.toml), a mesh file (.obj), builtin:NAME?key=value&key=value, the name of a\n\
-    shipped scene, or `-`: a scene or a mesh on standard input.";
+    INPUT is a scene file (.toml), a mesh file (.obj .stl .ply .off .gltf .glb), a shape\n\
+    builtin:NAME?key=value&key=value, the name of a shipped scene, or `-`: a scene or a mesh on standard input.";
 
 /// Five commands to try, and where help is: what the program says when it is given nothing to do.
 pub const FIRST_STEPS: &str = "\
 Draw, time and check 38 ways to shade polygons, from flat to Phong. Five things to try:
 
-  fastphong render builtin:teapot -o teapot.png          a picture; or use your own bunny.obj
+  fastphong render builtin:teapot -o teapot.png          a picture; or use your own bunny.ply
   fastphong render two-lights -m fast-phong -o fast.png  lights nearby: fast Phong shows facets
   fastphong compare teapot                               one row per method: error and time
   fastphong explain fast-phong                           formula, cost, where it fails

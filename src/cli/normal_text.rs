@@ -1,25 +1,52 @@
 //! The source of vertex normals in words.
 
 use super::text::grouped;
-use fastphong::mesh::vertex_normals::{NormalSource, NormalUse};
+use fastphong::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
 use fastphong::scene::Object;
+
+/// Returns what is said of averages by weight.
+pub fn by_weight(weight: NormalWeight) -> &'static str {
+    match weight {
+        NormalWeight::Uniform => "",
+        NormalWeight::Area => " by area",
+        NormalWeight::Angle => " by angle",
+        NormalWeight::Max => " by Max's weights",
+    }
+}
 
 /// Describes the source of an object's vertex normals.
 pub fn describe(object: &Object) -> String {
     let mesh = &object.mesh;
-    let used = NormalUse::of(mesh, object.normals);
+    let used = NormalUse::of(mesh, object.normals.source);
     let faceted = Some(fastphong::mesh::PolygonMesh::FACETED);
     let is_faceted = |p| mesh.smoothing_group(p) == faceted;
-    let averaged = match object.normals {
-        NormalSource::Crease(angle) => format!("averaged up to a crease of {angle} degrees"),
+    let by = by_weight(object.normals.weight);
+    let averaged = match object.normals.source {
+        NormalSource::Crease(angle) => format!("averaged{by} up to a crease of {angle} degrees"),
+        // Only of glTF files the custom is known to be that y is up.
+        _ if used.obeys_groups
+            && (0..mesh.polygon_count()).all(is_faceted)
+            && mesh.up_by_custom() == Some('y') =>
+        {
+            "those of polygons: glTF without normals is flat by its specification".to_owned()
+        }
         _ if used.obeys_groups && (0..mesh.polygon_count()).all(is_faceted) => {
             "those of polygons: its smoothing is off".to_owned()
         }
-        _ if used.obeys_groups => "averaged within its smoothing groups".to_owned(),
-        _ => "averaged".to_owned(),
+        _ if used.obeys_groups => format!("averaged{by} within its smoothing groups"),
+        _ => format!("averaged{by}"),
     };
     let found = match (used.given, used.averaged) {
-        (0, _) if object.normals == NormalSource::Given => format!("{averaged}: the mesh has none"),
+        (0, _) if object.normals.source == NormalSource::Given => {
+            format!("{averaged}: the mesh has none")
+        }
+        (0, _) if object.normals.source == NormalSource::Auto && !mesh.states_smoothing() => {
+            let is_shape = mesh.normal_rule() == NormalRule::default();
+            format!(
+                "{averaged}, as the {} has none",
+                if is_shape { "mesh" } else { "file" }
+            )
+        }
         (0, _) => averaged,
         (_, 0) => "given with the mesh".to_owned(),
         (given, others) => {
@@ -27,7 +54,7 @@ pub fn describe(object: &Object) -> String {
             format!("given with the mesh at {given} of {all} corners, elsewhere {averaged}")
         }
     };
-    match object.normals {
+    match object.normals.source {
         NormalSource::Auto => format!("{found} (chosen by auto)"),
         _ => found,
     }

@@ -1,10 +1,10 @@
 //! Flags that change the scene: each gives a value to a key of a scene file, whose row in the schema says its name and meaning. The
 //! values replace those of the file, and are checked together with the rest.
 
-use super::mesh_hints::hints;
+use super::mesh_hints::{Z_IS_UP, hints};
 use super::normal_text::describe;
 use super::{CliError, Log, files};
-use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
@@ -154,15 +154,16 @@ pub struct SceneFlags {
 const INPUT_FORMAT: &str = "input-format";
 
 fn input_format_arg() -> Arg {
-    let names = PossibleValuesParser::new(["obj", "toml"]);
+    let mesh = PossibleValue::new("mesh").alias("obj");
+    let names = PossibleValuesParser::new([mesh, PossibleValue::new("toml")]);
     let format = |name: String| match &*name {
-        "obj" => InputFormat::Obj,
-        _ => InputFormat::Toml,
+        "toml" => InputFormat::Toml,
+        _ => InputFormat::Mesh,
     };
     Arg::new(INPUT_FORMAT)
         .long(INPUT_FORMAT)
         .value_name("FORMAT")
-        .help("Format of the input `-`, standard input: mesh or scene [default: by its text]")
+        .help("Format of the input `-`, standard input: mesh or scene [default: by its bytes]")
         .value_parser(names.map(format))
 }
 
@@ -270,14 +271,15 @@ impl SceneFlags {
         table.is_some_and(|table| table.get(key).is_some())
     }
 
-    /// Says that mesh files have colours, which nothing but `--aov colours` shows.
+    /// Says that mesh files have colours, where nothing but `--aov colours` shows them.
     pub fn note_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         let objects = resolved.scene.objects.iter().zip(file.meshes());
+        let objects = objects.filter(|_| !resolved.scene.colours);
         let mut told = Vec::new();
         for (_, mesh) in objects.filter(|(object, _)| !object.mesh.colours().is_empty()) {
             if !mesh.starts_with("builtin:") && !told.contains(&mesh) {
-                let has = "has vertex colours, which shading leaves out";
-                log.note(&format!("{}: {has}; --aov colours shows them", shown(mesh)));
+                let has = "has vertex colours, which are not lit";
+                log.note(&format!("{}: {has}: --colours on lights them", shown(mesh)));
                 told.push(mesh);
             }
         }
@@ -305,7 +307,11 @@ impl SceneFlags {
             return;
         }
         let mut looked_at = HashSet::new();
+        let is_alone = file.path().is_none() && !self.gives(Some("camera"), "up");
         for (object, mesh) in resolved.scene.objects.iter().zip(file.meshes()) {
+            if is_alone && object.mesh.up_by_custom() == Some('z') {
+                log.note(&format!("{}: {Z_IS_UP}", shown(mesh)));
+            }
             if !mesh.starts_with("builtin:") && looked_at.insert(Arc::as_ptr(&object.mesh)) {
                 hints(shown(mesh), object)
                     .iter()

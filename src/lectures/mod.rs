@@ -26,6 +26,7 @@ mod constant_vectors;
 mod content;
 mod cs171;
 mod depth;
+mod diagonal;
 mod duff;
 mod error;
 mod exercises;
@@ -67,6 +68,7 @@ pub static FIGURES: &[&Figure] = &[
     &stop::FIGURE,
     &spheres::FIGURE,
     &newell::FIGURE,
+    &diagonal::FIGURE,
     &mach_bands::FIGURE,
     &highlight::FIGURE,
     &square::FIGURE,
@@ -97,6 +99,7 @@ pub static LIVE: &[(&str, &Live)] = &[
     ("stop", &stop::LIVE),
     ("spheres", &spheres::LIVE),
     ("newell", &newell::LIVE),
+    ("diagonal", &diagonal::LIVE),
     ("mach-bands", &mach_bands::LIVE),
     ("highlight", &highlight::LIVE),
     ("square", &square::LIVE),

@@ -397,7 +397,7 @@ mod tests {
     fn links_lead_into_the_figure_and_addresses_are_links() {
         let html = written(
             "# 9 Test\n\n<!-- stop: method=gouraud&line=6 -->\n**Stop** there.\n\nOpen `#course/3`, \
-             not [a file](../obj.md).\n",
+             not [a file](../meshes.md).\n",
         );
         let link = "<a class=\"go-stop\" href=\"#course/stop?method=gouraud&amp;line=6\">\n<p>\
                     <strong>Stop</strong> there.</p>\n</a>";
