@@ -78,7 +78,7 @@ fn turned(degrees: f64) -> Result<Frame> {
     // unlit faces are.
     cube.camera.eye = DVec3::new(2.8, 2.2, 3.4);
     cube.background = [0.3; 3];
-    cube.objects[0].normals = NormalSource::Crease(30.0);
+    cube.objects[0].normals = NormalSource::Crease(30.0).into();
     cube.objects[0].transform = DAffine3::from_rotation_z(-degrees.to_radians());
     Ok(cube.frame()?)
 }

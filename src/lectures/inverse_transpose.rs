@@ -84,7 +84,7 @@ fn lit(mesh: PolygonMesh, normals: NormalSource, transform: DAffine3) -> Result<
     scene.objects = vec![Object {
         mesh: Arc::new(mesh),
         material: Some(material),
-        normals,
+        normals: normals.into(),
         transform,
     }];
     draw(&scene.frame()?, "naive-phong")

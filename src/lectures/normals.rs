@@ -20,7 +20,7 @@ fn angles(spec: &str) -> Result<(usize, Vec<f64>)> {
     let by = |source: NormalSource| -> Result<Frame> {
         let mut scene = Scene::of_mesh(builtin(spec)?);
         scene.culling = Culling::None;
-        scene.objects[0].normals = source;
+        scene.objects[0].normals = source.into();
         Ok(scene.frame()?)
     };
     let (averaged, given) = (by(NormalSource::Averaged)?, by(NormalSource::Given)?);
