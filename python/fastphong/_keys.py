@@ -1,0 +1,158 @@
+"""Keys of a scene, written as TOML: the crate reads and checks them."""
+
+from __future__ import annotations
+
+import json
+import numbers
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._types import Keys, Light, Normals, Size, Vector, View
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def toml(value: object) -> str:
+    """Return `value` as it stands on the right of an equals sign."""
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(_pair(*item) for item in value.items()) + "}"
+    if isinstance(value, (Sequence, np.ndarray)) and not isinstance(value, (bytes, bytearray)):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    raise TypeError(f"a key of a scene cannot be {type(value).__name__}: expected what TOML has")
+
+
+def _pair(key: object, value: object) -> str:
+    if not isinstance(key, str):
+        raise TypeError(f"a key of a scene cannot be {type(key).__name__}: expected a str")
+    key = key if _BARE.fullmatch(key) else toml(key)
+    return f"{key} = {toml(value)}"
+
+
+def _lights(light: Any) -> list[Any]:
+    """Return the lights as tables: `light` is a direction, a table of a light, or a list of these."""
+    def table(one: Any) -> Any:
+        return one if isinstance(one, Mapping) else {"direction": _numbers("light", one, 3)}
+
+    if isinstance(light, Mapping):
+        return [light]
+    light = list(light)
+    if len(light) == 3 and all(isinstance(c, numbers.Real) for c in light):
+        return [table(light)]
+    return [table(one) for one in light]
+
+
+def _numbers(name: str, value: Any, count: int) -> list[float]:
+    """Return `count` numbers, or raise a `TypeError` or `ValueError` that names the argument."""
+    try:
+        found = [float(c) for c in value]
+    except (TypeError, ValueError):
+        raise TypeError(f"`{name}` is {value!r}: expected {count} numbers") from None
+    if len(found) != count:
+        raise ValueError(f"`{name}` is {value!r}: expected {count} numbers")
+    return found
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, (str, bytes)):
+        raise TypeError(f"`{name}` is {value!r}: expected a number")
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"`{name}` is {value!r}: expected a number") from None
+
+
+def whole(name: str, value: object) -> int:
+    """Return a whole number."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Integral):
+        raise TypeError(f"`{name}` is {value!r}: expected a whole number")
+    return int(value)
+
+
+def source(normals: Normals | None) -> tuple[str | None, float | None]:
+    """Return the source of vertex normals and the angle of creases, one of which is None."""
+    if normals is None:
+        return None, None
+    if isinstance(normals, str):
+        if normals.startswith("crease="):
+            try:
+                return None, float(normals[len("crease="):])
+            except ValueError:
+                raise ValueError(f"`normals` is {normals!r}: expected crease=DEGREES") from None
+        return normals, None
+    return None, _number("normals", normals)
+
+
+def settings(
+    *,
+    size: Size | None = None,
+    view: View | None = None,
+    up: str | Vector | None = None,
+    fovy: float | None = None,
+    light: Light | None = None,
+    background: float | Vector | None = None,
+    normals: Normals | None = None,
+    weight: str | None = None,
+    colours: bool | None = None,
+    samples: int | None = None,
+    scene: Keys | None = None,
+) -> str:
+    """Return the arguments of `render` as keys of a scene, in TOML."""
+    if not isinstance(scene, (Mapping, type(None))):
+        raise TypeError(f"`scene` is {scene!r}: expected a mapping of keys")
+    keys: dict[str, Any] = dict(scene or {})
+    if "object" in keys:
+        raise ValueError("`scene` has the key `object`: expected keys of the scene, as the mesh is its object")
+
+    def put(table: str, key: str, value: Any) -> None:
+        given = keys.get(table, {})
+        if not isinstance(given, Mapping):
+            raise TypeError(f"`scene` has {given!r} for `{table}`: expected a mapping of keys")
+        keys[table] = {**given, key: value}
+
+    if size is not None:
+        try:
+            width, height = size
+        except (TypeError, ValueError):
+            raise TypeError(f"`size` is {size!r}: expected (width, height)") from None
+        put("image", "width", whole("size", width))
+        put("image", "height", whole("size", height))
+    if view is not None:
+        if hasattr(view, "__len__") and len(view) == 2:
+            azimuth, elevation = _numbers("view", view, 2)
+            put("camera", "azimuth", azimuth)
+            put("camera", "elevation", elevation)
+        else:
+            put("camera", "direction", _numbers("view", view, 3))
+    if up is not None:
+        put("camera", "up", up if isinstance(up, str) else _numbers("up", up, 3))
+    if fovy is not None:
+        put("camera", "fovy", _number("fovy", fovy))
+    if light is not None:
+        keys["light"] = _lights(light)
+    if background is not None:
+        plain = isinstance(background, numbers.Real)
+        put("image", "background", background if plain else _numbers("background", background, 3))
+        # Who asks for a background wants to see it.
+        keys["image"].setdefault("alpha", "opaque")
+    if samples is not None:
+        put("image", "samples", whole("samples", samples))
+    if colours is not None:
+        keys["colours"] = "on" if colours else "off"
+    name, crease = source(normals)
+    every = {"normals": name, "crease": crease, "normals_weight": weight}
+    every = {key: value for key, value in every.items() if value is not None}
+    if every:
+        keys["object"] = [{"mesh": "", **every}]
+    return "\n".join(_pair(*item) for item in keys.items())

@@ -1,0 +1,68 @@
+"""The types of arguments, for who checks them: nothing here is imported when pictures are drawn."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._meshes import Mesh
+
+
+class TrimeshLike(Protocol):
+    """A `trimesh.Trimesh`."""
+
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
+
+class PolyDataLike(Protocol):
+    """A `pyvista.PolyData`."""
+
+    @property
+    def points(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
+
+class MeshioLike(Protocol):
+    """A `meshio.Mesh`, or one of pyvista's grids."""
+
+    @property
+    def points(self) -> Any: ...
+    @property
+    def cells(self) -> Any: ...
+
+
+class TrimeshSceneLike(Protocol):
+    """A `trimesh.Scene`."""
+
+    @property
+    def geometry(self) -> Any: ...
+    def to_mesh(self) -> Any: ...
+
+
+Faces = Union[ArrayLike, Sequence[Sequence[int]], Sequence[NDArray[Any]]]
+PathLike = Union[str, bytes, os.PathLike[str]]
+MeshLike = Union[
+    PathLike,
+    Mesh,
+    "tuple[ArrayLike, Faces]",
+    "tuple[ArrayLike, Faces, ArrayLike]",
+    TrimeshLike,
+    TrimeshSceneLike,
+    PolyDataLike,
+    MeshioLike,
+]
+Vector = Union["tuple[float, float, float]", Sequence[float], NDArray[Any]]
+View = Union["tuple[float, float]", Vector]
+Light = Union[Vector, Mapping[str, Any], Sequence[Any]]
+Normals = Union[str, float]
+Size = Union["tuple[int, int]", Sequence[int]]
+Keys = Mapping[str, Any]
+Image = Union[NDArray[np.uint8], PathLike]

@@ -1,0 +1,53 @@
+//! The crate's errors as Python's.
+
+use pyo3::PyErr;
+use pyo3::exceptions::{
+    PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyPermissionError, PyValueError,
+};
+use std::fmt::Display;
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// Returns a `ValueError` with the crate's message.
+pub fn value_error(error: impl Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// Returns the error about the input `path`: an `OSError` of its kind where the system does not let
+/// the file be opened, else a `ValueError`. The message is the crate's.
+pub fn input_error(error: impl Display, path: &Path) -> PyErr {
+    if path.to_string_lossy().starts_with("builtin:") {
+        return value_error(error);
+    }
+    match std::fs::File::open(path) {
+        Err(cause) if cause.raw_os_error().is_some() => os_error(&cause, error.to_string(), path),
+        Err(_) => value_error(error),
+        Ok(_) if path.is_dir() => {
+            PyIsADirectoryError::new_err((libc_code(ErrorKind::IsADirectory), error.to_string()))
+        }
+        Ok(_) => value_error(error),
+    }
+}
+
+/// Returns the `OSError` of the kind of `cause`, with a message of the crate.
+pub fn os_error(cause: &std::io::Error, message: String, path: &Path) -> PyErr {
+    // The crate's own errors have a kind only.
+    let code = cause.raw_os_error().unwrap_or(match cause.kind() {
+        ErrorKind::NotFound => 2,
+        ErrorKind::PermissionDenied => 13,
+        _ => 5,
+    });
+    let path = path.to_string_lossy().into_owned();
+    match cause.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => {
+            PyFileNotFoundError::new_err((code, message, path))
+        }
+        ErrorKind::PermissionDenied => PyPermissionError::new_err((code, message, path)),
+        _ => PyOSError::new_err((code, message, path)),
+    }
+}
+
+/// Returns the number of an error that has no cause to ask.
+fn libc_code(kind: ErrorKind) -> i32 {
+    std::io::Error::from(kind).raw_os_error().unwrap_or(21)
+}

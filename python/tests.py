@@ -1,0 +1,801 @@
+"""Tests of the Python package: `python3 tests.py`, with the package importable. Wants numpy alone.
+
+Where trimesh, pyvista and meshio are installed, their own meshes are drawn too.
+"""
+
+import ast
+import contextlib
+import gzip
+import importlib.util
+import io
+import json
+import os
+import pathlib
+import re
+import sys
+import tempfile
+import threading
+import time
+import types
+import unittest
+import warnings
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+# The package beside this file may not be built: what is tested is the one that is installed, or on PYTHONPATH.
+if pathlib.Path(sys.path[0]).resolve() == HERE:
+    del sys.path[0]
+
+import fastphong as fp  # noqa: E402
+
+ROOT = HERE.parent
+SIZE = (96, 72)
+
+#: A cube of quads, counter-clockwise seen from outside.
+CUBE = (
+    np.array([(x, y, z) for x in (-1.0, 1) for y in (-1.0, 1) for z in (-1.0, 1)]),
+    np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]),
+)
+
+
+def triangles(faces):
+    """Return quads cut into triangles."""
+    return np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+
+
+def sphere(rings=12, segments=24):
+    """Return vertices and triangles of a sphere around the z axis; no vertex is there twice."""
+    polar = np.pi * np.arange(1, rings) / rings
+    azimuth = 2 * np.pi * np.arange(segments) / segments
+    p, a = np.meshgrid(polar, azimuth, indexing="ij")
+    around = np.stack([np.sin(p) * np.cos(a), np.sin(p) * np.sin(a), np.cos(p)], axis=-1).reshape(-1, 3)
+    vertices = np.concatenate([[(0, 0, 1)], around, [(0, 0, -1)]])
+    faces = []
+    for s in range(segments):
+        t = (s + 1) % segments
+        faces.append((0, 1 + s, 1 + t))
+        for r in range(rings - 2):
+            a, b = 1 + r * segments, 1 + (r + 1) * segments
+            faces += [(a + s, b + s, b + t), (a + s, b + t, a + t)]
+        last = 1 + (rings - 2) * segments
+        faces.append((last + s, len(vertices) - 1, last + t))
+    return vertices, np.array(faces)
+
+
+def same(test, a, b):
+    """Fail unless two pictures are equal, byte by byte."""
+    test.assertEqual(a.shape, b.shape)
+    test.assertTrue((np.asarray(a) == np.asarray(b)).all(), repr(fp.diff(a, b)))
+
+
+class Pictures(unittest.TestCase):
+    def test_a_picture_is_an_array_that_may_be_written_to(self):
+        picture = fp.render("builtin:sphere", size=SIZE)
+        self.assertIsInstance(picture, np.ndarray)
+        self.assertEqual((picture.shape, picture.dtype), ((72, 96, 4), np.dtype(np.uint8)))
+        self.assertTrue(picture.flags.writeable and picture.flags.c_contiguous)
+        self.assertEqual(picture[36, 48, 3], 255)
+        self.assertEqual(tuple(picture[0, 0]), (0, 0, 0, 0))
+        picture[:] = 7
+        self.assertTrue((picture == 7).all())
+        # What numpy looks at is what was drawn into.
+        base = picture
+        while isinstance(base, np.ndarray):
+            base = base.base
+        self.assertIsInstance(memoryview(base).obj if isinstance(base, memoryview) else base, bytearray)
+
+    def test_notebooks_get_a_png(self):
+        picture = fp.render("builtin:sphere", size=SIZE)
+        self.assertTrue(picture._repr_png_().startswith(b"\x89PNG\r\n"))
+        self.assertTrue(picture[10:40, 20:60]._repr_png_().startswith(b"\x89PNG\r\n"))
+        for part in (picture[..., 0], picture[:0], picture.astype(float), picture[..., :3]):
+            self.assertIsNone(part._repr_png_())
+
+    def test_what_numpy_makes_of_pictures(self):
+        picture = fp.render("builtin:sphere", size=SIZE)
+        for result in (picture[10:40], picture.copy(), np.hstack([picture, picture]), picture // 2,
+                       np.concatenate([picture, np.zeros_like(picture)]), np.where(picture > 9, picture, 0)):
+            self.assertIsInstance(result, fp.Picture)
+        for result in (picture + 0.5, picture == picture, np.asarray(picture), picture.astype(int) - 1):
+            self.assertIs(type(result), np.ndarray)
+        self.assertIs(type(picture.max()), np.uint8)
+        self.assertIs(type(picture.mean()), np.float64)
+
+    def test_a_picture_goes_into_a_file_and_back(self):
+        picture = fp.render("builtin:sphere", size=SIZE, samples=2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "a picture.png")
+            picture.save(path)
+            same(self, fp.read_picture(path), picture)
+            self.assertEqual(path.read_bytes()[:4], b"\x89PNG")
+            self.assertTrue(fp.diff(path, picture).equal)
+            with self.assertRaisesRegex(ValueError, "expected .png, .ppm or .pfm"):
+                picture.save(pathlib.Path(folder, "a.jpg"))
+            with self.assertRaises(FileNotFoundError):
+                picture.save(pathlib.Path(folder, "none", "a.png"))
+            with self.assertRaises(FileNotFoundError):
+                fp.read_picture(pathlib.Path(folder, "none.png"))
+            path.write_bytes(b"nothing")
+            with self.assertRaisesRegex(ValueError, "not a picture that can be read"):
+                fp.read_picture(path)
+
+    def test_a_background_is_seen(self):
+        plain = fp.render("builtin:sphere", size=SIZE)
+        white = fp.render("builtin:sphere", size=SIZE, background=1)
+        blue = fp.render("builtin:sphere", size=SIZE, background=(0, 0, 1), samples=2)
+        self.assertEqual(tuple(white[0, 0]), (255, 255, 255, 255))
+        self.assertTrue((blue[..., 3] == 255).all())
+        covered = plain[..., 3] == 255
+        self.assertTrue((white[covered] == plain[covered]).all() and (white[~covered] == 255).all())
+
+    def test_pictures_are_those_that_the_project_keeps(self):
+        kept = ROOT / "tests" / "references"
+        if not kept.is_dir():
+            self.skipTest("the project's pictures are not here")
+        for scene in ("teapot", "football", "perspective", "local-lights"):
+            reference = fp.read_picture(kept / scene / "reference-phong.png")
+            size = reference.shape[1::-1]
+            # A stored picture may differ from one that is drawn by a level: both are rounded.
+            fp.diff(reference, fp.render(scene, "reference", size=size)).assert_below(1.5)
+            fp.diff(reference, fp.render(scene, "naive-phong", size=size)).assert_below(2.5)
+
+
+class Meshes(unittest.TestCase):
+    def test_all_ways_to_give_a_mesh_give_one_picture(self):
+        vertices, quads = CUBE
+        drawn = fp.render(CUBE, size=SIZE)
+        self.assertGreater(int((drawn[..., 3] == 255).sum()), 1000)
+        for mesh in (
+            list(CUBE),
+            (vertices.tolist(), quads.tolist()),
+            (vertices, [tuple(quad) for quad in quads]),
+            (vertices, list(quads)),
+            fp.Mesh(vertices, quads),
+            fp.Mesh(fp.Mesh(CUBE)),
+        ):
+            same(self, fp.render(mesh, size=SIZE), drawn)
+
+    def test_any_kind_of_numbers_will_do(self):
+        vertices, quads = CUBE
+        drawn = fp.render(CUBE, size=SIZE)
+        padded = np.zeros((16, 6))
+        padded[::2, ::2] = vertices
+        frozen = vertices.copy()
+        frozen.flags.writeable = False
+        for other in (vertices.astype("<f4"), vertices.astype(">f8"), vertices.astype(np.int8),
+                      np.asfortranarray(vertices), padded[::2, ::2], vertices[::-1].copy()[::-1], frozen):
+            same(self, fp.render((other, quads), size=SIZE), drawn)
+        for other in (quads.astype(np.int32), quads.astype(np.uint8), quads.astype(">i8"), quads.astype(np.uint64),
+                      np.asfortranarray(quads), quads[::-1].copy()[::-1]):
+            same(self, fp.render((vertices, other), size=SIZE), drawn)
+
+    def test_faces_may_have_any_number_of_corners(self):
+        vertices, quads = CUBE
+        mixed = [*quads[:3], *triangles(quads[3:])]
+        mesh = fp.Mesh(vertices, mixed)
+        self.assertEqual([len(face) for face in mesh.faces], [4, 4, 4, 3, 3, 3, 3, 3, 3])
+        self.assertEqual(repr(mesh), "<Mesh: 8 vertices, 9 faces>")
+        # A cube of flat faces looks the same however it is cut.
+        flat = fp.render(mesh, "flat", size=SIZE)
+        same(self, flat, fp.render(CUBE, "flat", size=SIZE))
+        self.assertTrue((fp.Mesh(CUBE).faces == quads).all())
+        self.assertTrue((fp.Mesh(CUBE).vertices == vertices).all())
+
+    def test_what_is_wrong_with_arrays_is_told_with_its_row(self):
+        vertices, quads = CUBE
+        nan = vertices.copy()
+        nan[5, 1] = np.nan
+        far = quads.copy()
+        far[2, 3] = 8
+        negative = quads.copy()
+        negative[4, 0] = -1
+        for mesh, kind, text in (
+            ((nan, quads), ValueError, r"vertices: row 5 is \(1, nan, 1\): expected finite numbers"),
+            ((vertices[:, :2], quads), ValueError, r"vertices: an array of shape \(8, 2\): expected \(n, 3\)"),
+            ((vertices + 1j, quads), TypeError, "vertices: an array of complex128: expected numbers"),
+            (([["a", "b", "c"]], quads), TypeError, "vertices: an array of .*: expected numbers"),
+            ((vertices, far), IndexError, "faces: row 2 has the index 8: expected 0 to 7"),
+            ((vertices, negative), IndexError, "faces: row 4 has the index -1: expected 0 to 7"),
+            ((vertices, [(0, 1, 2), (0, 1, 2, 9)]), IndexError, "faces: row 1 has the index 9"),
+            ((vertices, [(0, 1, 2), (0, 1)]), ValueError, "faces: row 1 has 2 corners: expected three or more"),
+            ((vertices, quads[:, :2]), ValueError, r"faces: an array of shape \(6, 2\)"),
+            ((vertices, quads.astype(float)), TypeError, "faces: indices of float64: expected whole numbers"),
+            ((vertices, quads == 0), TypeError, "faces: indices of bool"),
+            ((vertices, [1, 2, 3]), TypeError, "faces: expected rows of indices"),
+            ((np.zeros((0, 3)), quads), IndexError, "faces: row 0 has the index 0: there are no vertices"),
+            ((vertices, quads, vertices[:3]), ValueError, "normals: 3 rows: expected one for each of 8 vertices"),
+            ((vertices, quads, nan), ValueError, "normals: row 5 is"),
+            ((vertices,), TypeError, "a mesh of 1 parts"),
+            (7, TypeError, "builtins.int is no mesh"),
+            (None, TypeError, "builtins.NoneType is no mesh"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(kind, text):
+                fp.render(mesh, size=SIZE)
+
+    def test_a_mesh_without_faces_is_an_error_that_says_so(self):
+        for mesh in (([], []), (np.zeros((0, 3)), np.zeros((0, 3), int)), (CUBE[0], [])):
+            self.assertEqual(len(fp.Mesh(*mesh).faces), 0)
+            with self.assertRaisesRegex(ValueError, "no polygons"):
+                fp.render(mesh, size=SIZE)
+
+    def test_normals_may_come_with_vertices_or_corners(self):
+        vertices, faces = sphere()
+        own = fp.render((vertices, faces, vertices), size=SIZE)
+        same(self, own, fp.render((vertices, faces, 1e-200 * vertices), size=SIZE))
+        same(self, own, fp.render((vertices, faces, vertices[faces]), size=SIZE))
+        same(self, own, fp.render((vertices, faces, vertices[faces].reshape(-1, 3)), size=SIZE))
+        self.assertFalse(fp.diff(own, fp.render((vertices, faces), size=SIZE, weight="uniform")).equal)
+        same(self, fp.render((vertices, faces, vertices), size=SIZE, normals="averaged"),
+             fp.render((vertices, faces), size=SIZE))
+
+    def test_colours_are_lit(self):
+        vertices, quads = CUBE
+        matt = {"material": {"ka": 0, "kd": 0.6, "ks": 0}}
+        red = fp.Mesh(vertices, quads, colours=np.tile((1.0, 0, 0), (8, 1)))
+        lit = fp.render(red, size=SIZE, scene=matt)
+        self.assertTrue(lit[..., 0].any())
+        self.assertFalse(lit[..., 1:3].any())
+        # Without an alpha and with one, by vertex and by face, as bytes and as floats: one picture.
+        for colours in (np.tile((255, 0, 0), (8, 1)), np.tile((1.0, 0, 0, 0.5), (6, 1)),
+                        np.tile(np.array((255, 0, 0, 7), np.uint8), (8, 1))):
+            same(self, fp.render(fp.Mesh(vertices, quads, colours=colours), size=SIZE, scene=matt), lit)
+        same(self, fp.render(red, size=SIZE, colours=True, scene=matt), lit)
+        same(self, fp.render(red, size=SIZE, colours=False), fp.render(CUBE, size=SIZE))
+        # The same shades, in grey.
+        white = fp.render(fp.Mesh(vertices, quads, colours=np.ones((8, 3))), size=SIZE, scene=matt)
+        self.assertTrue((white[..., 0] == lit[..., 0]).all() and (white[..., 1] == lit[..., 0]).all())
+
+    def test_colours_are_those_of_the_mesh(self):
+        vertices, quads = CUBE
+        # On the brown of meshes without colours, white would be brown.
+        white = fp.render(fp.Mesh(vertices, quads, colours=np.ones((8, 3))), size=SIZE)
+        self.assertTrue((white[..., 0] == white[..., 1]).all() and (white[..., 1] == white[..., 2]).all())
+        self.assertGreater(int(white[..., 0].max()), 100)
+
+    def test_files_of_every_format_are_read(self):
+        vertices, quads = CUBE
+        threes = triangles(quads)
+        body = "".join("%g %g %g\n" % tuple(vertex) for vertex in vertices)
+        rows = "".join("4 %d %d %d %d\n" % tuple(quad) for quad in quads)
+        facets = np.zeros(12, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]))
+        facets["corners"] = vertices[threes]
+        files = {
+            "cube.obj": "".join(f"v {line}\n" for line in body.splitlines())
+                        + "".join("f %d %d %d %d\n" % tuple(quad + 1) for quad in quads),
+            "cube.off": f"OFF\n8 6 0\n{body}{rows}",
+            "cube.ply": "ply\nformat ascii 1.0\nelement vertex 8\n"
+                        "property float x\nproperty float y\nproperty float z\n"
+                        f"element face 6\nproperty list uchar int vertex_indices\nend_header\n{body}{rows}",
+            "cube.stl": b"\0" * 80 + np.uint32(12).tobytes() + facets.tobytes(),
+            "no ending": b"\0" * 80 + np.uint32(12).tobytes() + facets.tobytes(),
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content in files.items():
+                content = content.encode() if isinstance(content, str) else content
+                path, packed = pathlib.Path(folder, name), pathlib.Path(folder, name + ".gz")
+                path.write_bytes(content)
+                packed.write_bytes(gzip.compress(content))
+                is_soup = isinstance(files[name], bytes)
+                given = {"mesh": (vertices, threes), "normals": 40} if is_soup else {"mesh": CUBE}
+                expected = fp.render(size=SIZE, **given)
+                with self.subTest(name):
+                    same(self, fp.render(path, size=SIZE), expected)
+                    same(self, fp.render(str(packed), size=SIZE), expected)
+                    same(self, fp.render(fp.Mesh(path), size=SIZE), expected)
+
+    def test_a_file_keeps_its_own_normals(self):
+        for mesh in ("builtin:cube", fp.Mesh(CUBE)):
+            with self.assertRaisesRegex(TypeError, "has its own faces, normals and colours: expected arrays"):
+                fp.Mesh(mesh, normals=CUBE[0])
+
+    def test_an_open_mesh_is_drawn_on_both_sides(self):
+        vertices, quads = CUBE
+        scene = fp.Scene((vertices, quads[:1]), view=(-1, 0, 0), size=SIZE)
+        behind = fp.Scene((vertices, quads[:1]), view=(1, 0, 0), size=SIZE)
+        self.assertIn("both sides", scene.notes[0])
+        self.assertTrue(scene.render().any() and behind.render().any())
+        only = fp.render((vertices, quads[:1]), view=(1, 0, 0), size=SIZE, scene={"cull": "back"})
+        self.assertFalse(only.any())
+        self.assertEqual(fp.Scene(CUBE).notes, [])
+
+    def test_an_odd_mesh_is_warned_about_where_it_is_drawn(self):
+        vertices, quads = CUBE
+        for draw in (lambda mesh: fp.render(mesh, size=SIZE), fp.Scene):
+            with warnings.catch_warnings(record=True) as found:
+                warnings.simplefilter("always")
+                draw((vertices, quads[:, ::-1]))
+            self.assertRegex(str(found[0].message), "wound inside out")
+            self.assertEqual(pathlib.Path(found[0].filename).resolve(), pathlib.Path(__file__).resolve())
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "odd.obj")
+            path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nhello\n")
+            for read in (lambda: fp.render(path, size=SIZE), lambda: fp.Mesh(path)):
+                with warnings.catch_warnings(record=True) as found:
+                    warnings.simplefilter("always")
+                    read()
+                self.assertRegex(str(found[0].message), "`hello` is no OBJ statement")
+                self.assertEqual(pathlib.Path(found[0].filename).resolve(), pathlib.Path(__file__).resolve())
+
+    def test_files_that_cannot_be_used_are_errors_of_their_kind(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "broken.obj")
+            path.write_text("v 0 0 0\nf 1 2 3\n")
+            for draw in (lambda name: fp.render(name, size=SIZE), fp.Mesh):
+                with self.assertRaisesRegex(ValueError, "2: position index 2 is out of range"):
+                    draw(path)
+                with self.assertRaises(FileNotFoundError) as raised:
+                    draw(str(path) + "x.obj")
+                self.assertEqual(raised.exception.errno, 2)
+                with self.assertRaises(IsADirectoryError):
+                    draw(folder)
+                with self.assertRaisesRegex(ValueError, "neither a file nor|cannot be read"):
+                    draw("nothing\0.obj")
+        with self.assertRaisesRegex(FileNotFoundError, "did you mean `teapot`"):
+            fp.render("taepot")
+        with self.assertRaisesRegex(ValueError, "did you mean `sphere`"):
+            fp.render("builtin:spere")
+        with self.assertRaisesRegex(ValueError, "did you mean `sphere`"):
+            fp.Mesh("builtin:spere")
+
+
+class OtherLibraries(unittest.TestCase):
+    """What objects of other libraries look like, without the libraries."""
+
+    def trimesh(self, kind=None, **colours):
+        vertices, quads = CUBE
+        visual = types.SimpleNamespace(kind=kind, **colours)
+        return types.SimpleNamespace(vertices=vertices, faces=triangles(quads), visual=visual)
+
+    def test_trimesh(self):
+        drawn = fp.render((CUBE[0], triangles(CUBE[1])), size=SIZE)
+        mesh = self.trimesh()
+        same(self, fp.render(mesh, size=SIZE), drawn)
+        scene = types.SimpleNamespace(geometry={}, to_mesh=lambda: mesh)
+        same(self, fp.render(scene, size=SIZE), drawn)
+
+    def test_trimesh_with_colours(self):
+        by_vertex = np.random.default_rng(1).integers(0, 256, (8, 4), dtype=np.uint8)
+        by_face = np.repeat(by_vertex[:6], 2, axis=0)
+        for mesh, expected in (
+            (self.trimesh("vertex", vertex_colors=by_vertex), 8),
+            (self.trimesh("face", face_colors=by_face), 36),
+        ):
+            mesh = fp.Mesh(mesh)
+            self.assertTrue(mesh._mesh.has_colours)
+            self.assertEqual(len(mesh.vertices), expected)
+        # Vertices at one place share their normal.
+        corners = fp.vertex_normals(mesh, per="corner")
+        self.assertTrue(np.allclose(abs(corners), 3 ** -0.5, atol=1e-6))
+
+    def test_pyvista(self):
+        vertices, quads = CUBE
+        threes = triangles(quads)
+        flat = np.insert(quads, 0, 4, axis=1).ravel()
+        mixed = np.concatenate([np.insert(quads[:3], 0, 4, axis=1).ravel(),
+                                np.insert(triangles(quads[3:]), 0, 3, axis=1).ravel()])
+        empty = np.zeros(0, int)
+        for faces, strips, same_as in (
+            (flat, empty, quads),
+            (flat, None, quads),
+            (np.insert(threes, 0, 3, axis=1).ravel(), empty, threes),
+            (mixed, empty, [*quads[:3], *triangles(quads[3:])]),
+            # The last face as a strip: 1 5 3 7 zigzags over it.
+            (np.insert(quads[:5], 0, 4, axis=1).ravel(), np.array([4, 1, 5, 3, 7]),
+             [*quads[:5], (1, 5, 3), (7, 3, 5)]),
+        ):
+            mesh = types.SimpleNamespace(points=vertices.astype(np.float32), faces=faces, strips=strips, point_data={})
+            same(self, fp.render(mesh, size=SIZE), fp.render((vertices, same_as), size=SIZE))
+            grid = types.SimpleNamespace(points=vertices, extract_surface=lambda mesh=mesh: mesh)
+            same(self, fp.render(grid, size=SIZE), fp.render((vertices, same_as), size=SIZE))
+        mesh.faces = np.array([3, 0, 1, 2, 4, 0, 1])
+        with self.assertRaisesRegex(ValueError, "faces: entry 4 counts 4 corners"):
+            fp.render(mesh)
+
+    def test_pyvista_with_normals_and_colours(self):
+        vertices, faces = sphere()
+        data = {"Normals": vertices.astype(np.float32), "RGB": np.full((len(vertices), 3), 100, np.uint8)}
+        mesh = types.SimpleNamespace(points=vertices, faces=np.insert(faces, 0, 3, axis=1).ravel(), point_data=data)
+        taken = fp.Mesh(mesh)
+        self.assertTrue(taken._mesh.has_normals and taken._mesh.has_colours)
+        self.assertTrue(np.allclose(fp.vertex_normals(taken), vertices, atol=1e-6))
+
+    def meshio(self, *cells, points=CUBE[0], **point_data):
+        cells = [types.SimpleNamespace(type=kind, data=data) for kind, data in cells]
+        return types.SimpleNamespace(points=points, cells=cells, point_data=point_data)
+
+    def test_meshio(self):
+        vertices, quads = CUBE
+        drawn = fp.render(CUBE, size=SIZE)
+        same(self, fp.render(self.meshio(("line", quads[:, :2]), ("quad", quads)), size=SIZE), drawn)
+        mixed = self.meshio(("quad", quads[:3]), ("triangle", triangles(quads[3:])), ("vertex", quads[:, :1]))
+        same(self, fp.render(mixed, "flat", size=SIZE), fp.render(CUBE, "flat", size=SIZE))
+        polygons = self.meshio(("polygon", [list(quad) for quad in quads]))
+        same(self, fp.render(polygons, size=SIZE), drawn)
+        flat = self.meshio(("triangle", triangles(quads)[:1]), points=vertices[:, :2])
+        self.assertEqual(fp.Mesh(flat).vertices.shape, (8, 3))
+        with self.assertRaisesRegex(ValueError, "a mesh of line: expected triangles"):
+            fp.render(self.meshio(("line", quads[:, :2])))
+
+    def test_solids_of_meshio_show_their_surface(self):
+        # Two cubes side by side share a face, which is inside.
+        points = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], float)
+        cell = np.array([0, 1, 4, 3, 6, 7, 10, 9])
+        mesh = fp.Mesh(self.meshio(("hexahedron", np.array([cell, cell + 1])), points=points))
+        self.assertEqual(len(mesh.faces), 10)
+        self.assertEqual(fp.Scene(mesh).notes, [])
+        corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float)
+        wedge = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)], float)
+        pyramid = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)])
+        for kind, points, count in (("tetra", corners, 4), ("wedge", wedge, 5), ("pyramid", pyramid, 5)):
+            with warnings.catch_warnings():
+                # One that is inside out would be warned about.
+                warnings.simplefilter("error")
+                mesh = fp.Mesh(self.meshio((kind, np.arange(len(points))[None]), points=points))
+                self.assertEqual(len(mesh.faces), count)
+                self.assertEqual(fp.Scene(mesh).notes, [])
+
+    def test_colours_and_normals_of_meshio(self):
+        vertices, faces = sphere()
+        n = {"nx": vertices[:, 0], "ny": vertices[:, 1], "nz": vertices[:, 2]}
+        c = {name: np.full(len(vertices), 9, np.uint8) for name in ("red", "green", "blue")}
+        mesh = fp.Mesh(self.meshio(("triangle", faces), points=vertices, **n, **c))
+        self.assertTrue(mesh._mesh.has_normals and mesh._mesh.has_colours)
+
+    def test_colours_that_are_none(self):
+        vertices, quads = CUBE
+        for colours, text in (
+            (np.full((8, 3), 1.5), r"colours: row 0 is \(1.5, 1.5, 1.5\): expected 0 to 1"),
+            (np.full((8, 3), -1), r"colours: row 0 is \(-1, -1, -1\): expected 0 to 255"),
+            (np.zeros((5, 3)), "colours: 5 rows: expected one for each of 8 vertices or 6 faces"),
+            (np.zeros(8), r"colours: an array of shape \(8,\)"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                fp.Mesh(vertices, quads, colours=colours)
+
+    @unittest.skipUnless(importlib.util.find_spec("trimesh"), "trimesh is not installed")
+    def test_trimesh_itself(self):
+        import trimesh
+        ball = trimesh.creation.icosphere(subdivisions=3)
+        same(self, fp.render(ball, size=SIZE), fp.render((ball.vertices, ball.faces), size=SIZE))
+        scene = trimesh.Scene([ball, trimesh.creation.box()])
+        self.assertTrue(fp.render(scene, size=SIZE).any())
+        ball.visual.vertex_colors = np.full((len(ball.vertices), 4), 200, np.uint8)
+        self.assertTrue(fp.Mesh(ball)._mesh.has_colours)
+        with self.assertRaisesRegex(TypeError, "trimesh.PointCloud is no mesh"):
+            fp.render(trimesh.PointCloud(ball.vertices))
+
+    @unittest.skipUnless(importlib.util.find_spec("pyvista"), "pyvista is not installed")
+    def test_pyvista_itself(self):
+        import pyvista
+        for mesh in (pyvista.Sphere(), pyvista.Cube(), pyvista.Plane(), pyvista.Sphere().strip(),
+                     pyvista.Dodecahedron(), pyvista.ImageData(dimensions=(3, 4, 5))):
+            self.assertTrue(fp.render(mesh, size=SIZE, up="z").any())
+        self.assertTrue(fp.Mesh(pyvista.Sphere())._mesh.has_normals)
+
+    @unittest.skipUnless(importlib.util.find_spec("meshio"), "meshio is not installed")
+    def test_meshio_itself(self):
+        import meshio
+        same(self, fp.render(meshio.Mesh(CUBE[0], {"quad": CUBE[1]}), size=SIZE), fp.render(CUBE, size=SIZE))
+
+
+class Arguments(unittest.TestCase):
+    def test_methods(self):
+        names = fp.methods()
+        self.assertIn("phong-rsqrt", names)
+        self.assertLess(len(names), len(fp.methods(all=True)))
+        truth = fp.render("builtin:sphere", "reference", size=SIZE)
+        for name in fp.methods(all=True):
+            try:
+                picture = fp.render("builtin:sphere", name, size=SIZE)
+            except ValueError as refused:
+                self.assertRegex(str(refused), "the method is not for this frame")
+                continue
+            self.assertTrue((picture[..., 3] == truth[..., 3]).all(), name)
+        # The default draws Phong's picture: rounding is all that differs.
+        fp.diff(truth, fp.render("builtin:sphere", size=SIZE)).assert_below(2)
+        for name in ("reference:gouraud", "reference:model=gouraud"):
+            fp.diff(fp.render("builtin:sphere", name, size=SIZE),
+                    fp.render("builtin:sphere", "gouraud", size=SIZE)).assert_below(2)
+        for name, text in (
+            ("fast-pong", "did you mean `fast-phong`"),
+            ("reference:pong", "no closed form is named `pong`: expected flat,"),
+            ("fast-phong:steps=99", "steps"),
+        ):
+            with self.assertRaisesRegex(ValueError, text):
+                fp.render("builtin:sphere", name, size=SIZE)
+        with self.assertRaises(TypeError):
+            fp.render("builtin:sphere", 3)
+        with self.assertRaisesRegex(MemoryError, "the reference would take 80 bytes for each of 268435456 samples"):
+            fp.render("builtin:sphere", "reference", size=(16384, 16384))
+
+    def test_wrong_arguments_are_called_by_their_names(self):
+        for arguments, kind, text in (
+            ({"size": (0, 5)}, ValueError, "`size` is 0"),
+            ({"size": 640}, TypeError, r"`size` is 640: expected \(width, height\)"),
+            ({"size": (640.5, 480)}, TypeError, "`size` is 640.5: expected a whole number"),
+            ({"size": (10**30, 5)}, ValueError, "."),
+            ({"fovy": 180}, ValueError, "`fovy` is 180"),
+            ({"fovy": "wide"}, TypeError, "`fovy` is 'wide': expected a number"),
+            ({"fovy": float("nan")}, ValueError, "`fovy`"),
+            ({"view": (0, 0, 0)}, ValueError, "`view`"),
+            ({"view": (1, 2, 3, 4)}, ValueError, "`view` is .*expected 3 numbers"),
+            ({"view": (0, 100)}, ValueError, "`view` is 100"),
+            ({"up": "w"}, ValueError, "expected"),
+            ({"up": (0.5, 0.3, 1)}, ValueError, "`up` is parallel to the line of sight"),
+            ({"background": "white"}, TypeError, "`background` is 'white': expected 3 numbers"),
+            ({"background": 2}, ValueError, "`background`"),
+            ({"samples": 3}, ValueError, "`samples` is 3"),
+            ({"normals": "smooth"}, ValueError, "."),
+            ({"normals": 200}, ValueError, "`normals` is 200"),
+            ({"light": (0, 0, 0)}, ValueError, "`light`"),
+            ({"light": 3}, TypeError, "."),
+            ({"scene": {"specula": 1}}, ValueError, "unknown key `specula`: expected one of"),
+            ({"view": 3}, TypeError, "`view` is 3: expected 3 numbers"),
+            ({"weight": "sine"}, ValueError, "expected one of `uniform`"),
+            ({"scene": "specular"}, TypeError, "`scene` is 'specular': expected a mapping"),
+            ({"scene": {"image": 3}}, TypeError, "`scene` has 3 for `image`"),
+            ({"scene": {"object": []}}, ValueError, "`scene` has the key `object`"),
+            ({"scene": {"specular": object()}}, TypeError, "cannot be object"),
+            ({"scene": {3: 1}}, TypeError, "cannot be int"),
+            ({"wieght": 1}, TypeError, "unexpected keyword"),
+        ):
+            with self.subTest(str(arguments)), self.assertRaisesRegex(kind, text):
+                fp.render("builtin:cube", **{"size": SIZE, **arguments})
+
+    def test_arguments_say_what_keys_of_a_scene_say(self):
+        draw = lambda **arguments: fp.render("builtin:teapot?res=4", size=SIZE, **arguments)
+        plain = draw()
+        for a, b in (
+            ({"fovy": 40}, {"scene": {"camera": {"fovy": 40}}}),
+            ({"view": (30, 20)}, {"scene": {"camera": {"azimuth": 30, "elevation": 20}}}),
+            ({"view": np.array([1, 2, 3])}, {"view": (2.0, 4.0, 6.0)}),
+            ({"light": (1, 0, 0)}, {"light": [{"direction": (1, 0, 0)}]}),
+            ({"light": [(1, 0, 0), (0, 1, 0)]},
+             {"scene": {"light": [{"direction": [1, 0, 0]}, {"direction": [0, 1, 0]}]}}),
+            ({"light": []}, {"scene": {"light": []}}),
+            ({"samples": 2}, {"scene": {"image": {"samples": 2}}}),
+            ({"normals": 30}, {"normals": "crease=30"}),
+            ({"up": "z"}, {"scene": {"camera": {"up": "z"}}}),
+            ({"background": 0.5}, {"scene": {"image": {"background": 0.5, "alpha": "opaque"}}}),
+        ):
+            with self.subTest(str(a)):
+                same(self, draw(**a), draw(**b))
+                self.assertFalse(fp.diff(plain, draw(**a)).equal)
+
+    def test_scene_files_are_scenes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.toml")
+            path.write_text('image = { width = 40, height = 30 }\n[[object]]\nmesh = "builtin:sphere"\n')
+            scene = fp.Scene(path)
+            self.assertEqual((scene.size, scene.render().shape), ((40, 30), (30, 40, 4)))
+            self.assertEqual(fp.render(os.fsencode(path), size=(8, 6)).shape, (6, 8, 4))
+            path.write_text('[[object]]\nmesh = "sphere"\n')
+            with self.assertRaisesRegex(ValueError, r"scene.toml:2:8: .*did you mean `builtin:sphere`"):
+                fp.render(path)
+
+
+class KeptScenes(unittest.TestCase):
+    def test_a_kept_scene_draws_what_render_draws(self):
+        for mesh in (CUBE, "builtin:teapot?res=4", "football"):
+            scene = fp.Scene(mesh, size=SIZE)
+            for arguments in (
+                {}, {"view": (40, 10)}, {"view": (0.2, 0.1, 1), "up": "z"}, {"fovy": 50}, {"size": (50, 90)},
+                {"light": (0, 0, 1)}, {"samples": 2}, {},
+            ):
+                with self.subTest(f"{mesh} {arguments}"):
+                    same(self, scene.render("phong-rsqrt", **arguments),
+                         fp.render(mesh, "phong-rsqrt", **{"size": SIZE, **arguments}))
+
+    def test_a_turntable_keeps_its_scale(self):
+        # A cube is wider over its diagonal: fitted, both views are as wide.
+        scene = fp.Scene(CUBE, view=(0, 0), size=SIZE)
+        width = lambda picture: int((picture[..., 3] > 0).any(axis=0).sum())
+        front, fitted = scene.render(), scene.render(view=(45, 0))
+        kept = scene.render(view=(45, 0), keep_scale=True)
+        self.assertAlmostEqual(width(kept), 2 ** 0.5 * width(front), delta=2)
+        self.assertLess(width(fitted), width(kept))
+        same(self, scene.render(view=(0, 0), keep_scale=True), front)
+
+    def test_wrong_arguments_leave_the_scene_as_it_was(self):
+        scene = fp.Scene(CUBE, size=SIZE)
+        before = scene.render()
+        with self.assertRaisesRegex(ValueError, "`fovy` is 999"):
+            scene.render(fovy=999)
+        with self.assertRaisesRegex(ValueError, "did you mean"):
+            scene.render("gourod")
+        same(self, scene.render(), before)
+
+    def test_threads_share_a_scene(self):
+        scene = fp.Scene("builtin:torus", size=SIZE)
+        views = [(10 * i, 5 * i) for i in range(8)]
+        alone = [scene.render(view=view) for view in views]
+        together = [None] * len(views)
+
+        def draw(i):
+            for _ in range(5):
+                together[i] = scene.render(view=views[i])
+
+        threads = [threading.Thread(target=draw, args=(i,)) for i in range(len(views))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for a, b in zip(alone, together):
+            same(self, a, b)
+
+    def test_pythons_lock_is_free_while_a_picture_is_drawn(self):
+        begun, done = threading.Event(), []
+        scene = fp.Scene("builtin:teapot", size=(1600, 1200))
+
+        def draw():
+            begun.set()
+            scene.render("reference")
+            done.append(True)
+
+        interval = sys.getswitchinterval()
+        # No thread is interrupted: the other one runs only if this one lets go of the lock.
+        sys.setswitchinterval(1000)
+        try:
+            thread = threading.Thread(target=draw)
+            thread.start()
+            begun.wait()
+            was_done = bool(done)
+        finally:
+            sys.setswitchinterval(interval)
+        thread.join()
+        self.assertFalse(was_done)
+
+    @unittest.skipUnless(hasattr(os, "fork"), "no processes are forked here")
+    def test_a_forked_process_draws_too(self):
+        picture = fp.render("builtin:sphere", size=SIZE)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)
+            child = os.fork()
+        if child == 0:
+            os._exit(0 if (fp.render("builtin:sphere", size=SIZE) == picture).all() else 1)
+        for _ in range(600):
+            ended, status = os.waitpid(child, os.WNOHANG)
+            if ended:
+                self.assertEqual(status, 0)
+                return
+            time.sleep(0.1)
+        os.kill(child, 9)
+        os.waitpid(child, 0)
+        self.fail("the child of a process that has drawn waits for ever")
+
+
+class Differences(unittest.TestCase):
+    def test_equal_pictures(self):
+        picture = fp.render("builtin:sphere", size=SIZE)
+        found = fp.diff(picture, picture)
+        self.assertEqual((found.equal, found.max, found.rms, found.differing, found.worst), (True, 0, 0, 0, None))
+        found.assert_below(1)
+        with self.assertRaises(AssertionError):
+            found.assert_below(0)
+
+    def test_pictures_that_differ(self):
+        a = fp.render("builtin:sphere", size=SIZE)
+        b = a.copy()
+        b[36, 48, 1] ^= 5
+        b[0, 3] = (9, 9, 9, 255)
+        found = fp.diff(a, b)
+        self.assertEqual((found.equal, found.differing, found.coverage_mismatches), (False, 2, 1))
+        self.assertEqual((found.max, found.worst), (255, (3, 0)))
+        with self.assertRaisesRegex(AssertionError, r"255 grey levels apart, expected less than 2: \(0, 0, 0, 0\) and "
+                                                    r"\(9, 9, 9, 255\) in column 3, row 0; <Difference: max 255"):
+            found.assert_below(2)
+        b[0, 3] = a[0, 3]
+        found = fp.diff(a, b)
+        step = abs(int(a[36, 48, 1]) - int(b[36, 48, 1]))
+        self.assertAlmostEqual(found.max, step)
+        covered = int((a[..., 3] > 0).sum())
+        self.assertAlmostEqual(found.rms, (step ** 2 / (3 * covered)) ** 0.5)
+        self.assertEqual(found.map.shape, (72, 96, 4))
+        self.assertEqual(int((found.map[..., :3] > 0).any(axis=2).sum()), 1)
+        self.assertTrue(found._repr_png_().startswith(b"\x89PNG"))
+        self.assertIn("1 of", repr(found))
+
+    def test_what_is_no_picture(self):
+        picture = fp.render("builtin:sphere", size=SIZE)
+        self.assertTrue(fp.diff(picture[..., :3], picture[..., :3]).equal)
+        for a, b, kind, text in (
+            (picture, picture[1:], ValueError, "96x72 and 96x71 pixels"),
+            (picture, picture / 255.0, TypeError, "b: an array of float64: expected uint8"),
+            (picture[..., 0], picture, ValueError, r"a: an array of shape \(72, 96\)"),
+            (picture[:0], picture[:0], ValueError, "a: an array of shape"),
+            ("no-such-file.png", picture, FileNotFoundError, "no-such-file.png"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(kind, text):
+                fp.diff(a, b)
+
+
+class Normals(unittest.TestCase):
+    def test_a_cube_by_symmetry(self):
+        vertices, quads = CUBE
+        faces = triangles(quads)
+        exact = vertices / 3 ** 0.5
+        # Rounded to f32: half a unit in the last place of numbers below 1.
+        self.assertLess(abs(fp.vertex_normals((vertices, faces)) - exact).max(), 2 ** -24)
+        self.assertGreater(abs(fp.vertex_normals((vertices, faces), weight="uniform") - exact).max(), 0.1)
+
+    def test_creases_have_a_normal_for_each_corner(self):
+        corners = fp.vertex_normals(CUBE, 40, per="corner")
+        self.assertEqual((corners.shape, corners.dtype), ((24, 3), np.dtype(np.float32)))
+        self.assertTrue((np.sort(abs(corners), axis=1) == (0, 0, 1)).all())
+        with self.assertRaisesRegex(ValueError, "the corners at vertex 0 have different normals: ask for per='corner'"):
+            fp.vertex_normals(CUBE, 40)
+        for arguments, text in (
+            ({"per": "face"}, "`per` is 'face'"),
+            ({"weight": "sine"}, "expected uniform, area, angle or max"),
+            ({"normals": "smooth"}, "expected auto, averaged"),
+            ({"normals": "crease=x"}, "expected crease=DEGREES"),
+            ({"normals": -1}, "expected degrees between 0 and 180"),
+        ):
+            with self.assertRaisesRegex(ValueError, text):
+                fp.vertex_normals(CUBE, **arguments)
+
+    def test_vertices_that_no_face_uses_have_none(self):
+        vertices, quads = CUBE
+        more = np.concatenate([vertices, [(9, 9, 9)]])
+        self.assertEqual(fp.vertex_normals((more, quads)).shape, (9, 3))
+        self.assertFalse(fp.vertex_normals((more, quads))[8].any())
+
+
+def run_cells(cells):
+    """Run pieces of code one after the other in one module, as a notebook does, and return it."""
+    module = {"__name__": "__main__", "display": lambda *shown: None}
+    for number, cell in enumerate(cells, 1):
+        tree = ast.parse(cell, f"<cell {number}>")
+        with contextlib.redirect_stdout(io.StringIO()):
+            exec(compile(tree, f"<cell {number}>", "exec"), module)
+    return module
+
+
+class Documents(unittest.TestCase):
+    def test_notebooks_run(self):
+        notebooks = sorted((HERE / "examples").glob("*.ipynb"))
+        self.assertTrue(notebooks)
+        for path in notebooks:
+            cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+            cells = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+            self.in_a_new_folder(cells)
+
+    def test_the_page_runs(self):
+        page = ROOT / "docs" / "python.md"
+        if not page.is_file():
+            self.skipTest("docs/python.md is not here")
+        blocks = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.S | re.M)
+        self.assertGreater(len(blocks), 3)
+        shown = fp.read_picture(ROOT / "docs" / "images" / "python" / "knot.png")
+        # What the page shows is what its first lines draw: where machines differ, they round differently.
+        self.in_a_new_folder(blocks, lambda: fp.diff("knot.png", shown).assert_below(1.5))
+
+    def in_a_new_folder(self, cells, check=lambda: None):
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                run_cells(cells)
+                check()
+            finally:
+                os.chdir(before)
+
+    def test_the_stubs_name_what_is_there(self):
+        package = pathlib.Path(fp.__file__).parent
+        for name, module in [("_fastphong", fp._fastphong)]:
+            tree = ast.parse((package / f"{name}.pyi").read_text(encoding="utf-8"))
+            stubs = {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+            # A type of its results is no name of the module.
+            stubs = {stub: node for stub, node in stubs.items() if not stub.startswith("_")}
+            self.assertEqual(set(stubs), {n for n in dir(module) if not n.startswith("__")})
+            for stub, node in stubs.items():
+                there = getattr(module, stub)
+                if isinstance(node, ast.ClassDef):
+                    for member in node.body:
+                        if isinstance(member, ast.FunctionDef):
+                            self.assertTrue(hasattr(there, member.name), f"{stub}.{member.name}")
+
+
+if __name__ == "__main__":
+    unittest.main()
