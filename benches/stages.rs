@@ -7,6 +7,8 @@ use fastphong::frame::triangulate::triangulated;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
 use fastphong::raster::{coverage, polygon_numbers};
+use fastphong::scene::Object;
+use glam::{DAffine3, DVec3};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -76,12 +78,48 @@ fn projection(c: &mut Criterion) {
     }
 }
 
+/// Times a spinning part among others: from its next transform to the frame, moved in a prepared scene and with all prepared anew.
+fn moving(c: &mut Criterion) {
+    let mut scene = scenes::scene("sphere?polygons=5000&triangles=true");
+    for part in 1..40 {
+        let place = DVec3::new(f64::from(part % 8) - 3.5, f64::from(part / 8) - 2.0, 0.0);
+        scene.objects.push(Object {
+            transform: DAffine3::from_translation(3.0 * place),
+            ..scene.objects[0].clone()
+        });
+    }
+    let still = scene.objects[7].transform;
+    let mut spins = (0..).map(|step| still * DAffine3::from_rotation_y(0.01 * f64::from(step)));
+    let mut spin = || spins.next().expect("a turn");
+    let mut prepared = scene.prepare().expect("a valid scene");
+    let mut frame = prepared.frame().expect("a valid scene");
+    let mut group = c.benchmark_group("moving/one of 40");
+    group.sampling_mode(SamplingMode::Flat);
+    group.bench_function("set_transform", |b| {
+        b.iter(|| prepared.set_transform(7, spin()))
+    });
+    group.bench_function("set_transform, frame_into", |b| {
+        b.iter(|| {
+            let moved = prepared.set_transform(7, spin());
+            prepared.frame_into(&mut frame).and(moved)
+        });
+    });
+    group.bench_function("frame_into", |b| b.iter(|| prepared.frame_into(&mut frame)));
+    group.bench_function("prepare, frame_into", |b| {
+        b.iter(|| {
+            scene.objects[7].transform = spin();
+            scene.prepare()?.frame_into(&mut frame)
+        });
+    });
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_millis(1500));
-    targets = stages, projection
+    targets = stages, projection, moving
 }
 criterion_main!(benches);

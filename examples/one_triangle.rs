@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 shininess: 60.0,
                 ..Material::default()
             }),
-            normals: NormalSource::Given,
+            normals: NormalSource::Given.into(),
         }],
         ..Scene::new(camera)
     };

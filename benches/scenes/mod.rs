@@ -84,7 +84,7 @@ pub fn lit(mesh: &str, lights: usize) -> Scene {
             mesh: mesh.into(),
             transform: DAffine3::IDENTITY,
             material: None,
-            normals: NormalSource::Averaged,
+            normals: NormalSource::Averaged.into(),
         }],
         ..Scene::new(camera)
     }
