@@ -126,29 +126,177 @@ fn packed_libraries_are_read_and_damaged_ones_told() {
         .refused(&["twice.obj: is a gzip archive in a gzip archive"]);
 }
 
+/// The triangle of [`TRIANGLE`] in every other format.
+fn triangles() -> [(&'static str, Vec<u8>); 4] {
+    let stl = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let gltf = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+    [
+        ("stl", stl.into()),
+        ("ply", ply.into()),
+        ("off", off.into()),
+        ("gltf", gltf.into()),
+    ]
+}
+
+#[test]
+fn every_format_is_drawn_from_a_file_a_pipe_and_a_scene() {
+    let folder = Folder::new();
+    folder.write("mesh.obj", TRIANGLE);
+    let picture = draw(&folder, "mesh.obj", None);
+    for (ending, bytes) in triangles() {
+        let name = format!("mesh.{ending}");
+        let packed_name = format!("{name}.gz");
+        folder.write(&name, &bytes);
+        folder.write(&packed_name, packed(&bytes));
+        folder.write("nameless", &bytes);
+        folder.write("misnamed.obj", &bytes);
+        for input in [&name, &packed_name, "nameless", "misnamed.obj"] {
+            assert_eq!(draw(&folder, input, None), picture, "{input}");
+        }
+        assert_eq!(draw(&folder, "-", Some(&name)), picture, "{name}");
+        let told = folder.run("info misnamed.obj").done();
+        told.says("misnamed.obj: is a")
+            .says("whatever its ending says");
+        folder.write("scene.toml", format!("[[object]]\nmesh = \"{name}\"\n"));
+        folder.run("info scene.toml").done();
+    }
+    folder
+        .run("info mesh.gltf")
+        .done()
+        .prints("those of polygons: glTF without normals is flat by its specification");
+    folder.run("info mesh.stl").done().prints("--up z");
+    folder
+        .run("render mesh.stl --size 8x6 -o a.png")
+        .done()
+        .says("--up z");
+    let silent = folder
+        .run("render mesh.stl --up z --size 8x6 -o a.png")
+        .done();
+    assert!(!silent.err.contains("z is up"), "{}", silent.err);
+}
+
+/// The triangle as a glTF file with `camera`, 9 before it, and with `lights`, at 2 before it.
+fn seen_gltf(camera: &str, lights: &[&str]) -> String {
+    let [.., (_, bytes)] = triangles();
+    let text = String::from_utf8(bytes).expect("text");
+    let (mut nodes, mut numbers) = (String::new(), String::from("0, 1"));
+    for light in 0..lights.len() {
+        nodes += &format!(
+            r#", {{"translation": [0.3, 0.3, 2], "extensions": {{"KHR_lights_punctual": {{"light": {light}}}}}}}"#
+        );
+        numbers += &format!(", {}", light + 2);
+    }
+    let nodes =
+        format!(r#""nodes": [{{"mesh": 0}}, {{"camera": 0, "translation": [0, 0, 9]}}{nodes}]"#);
+    let lights = lights.join(", ");
+    let more = format!(
+        r#""extensions": {{"KHR_lights_punctual": {{"lights": [{lights}]}}}},
+        "cameras": [{camera}], "accessors""#
+    );
+    text.replace(
+        r#"[{"nodes": [0]}]"#,
+        &format!(r#"[{{"nodes": [{numbers}]}}]"#),
+    )
+    .replace(r#""nodes": [{"mesh": 0}]"#, &nodes)
+    .replace(r#""accessors""#, &more)
+}
+
+const CAMERA: &str = r#"{"type": "perspective", "perspective": {"yfov": 0.2, "znear": 0.1}}"#;
+
+#[test]
+fn a_gltf_file_is_seen_by_its_camera_under_its_lights() {
+    let folder = Folder::new();
+    for (kind, of_light) in [
+        ("point", "falloff = \"inverse-square\""),
+        ("directional", "direction = [0.0, 0.0, 1.0]"),
+    ] {
+        let light = format!(r#"{{"type": "{kind}", "intensity": 20, "color": [1, 0, 0]}}"#);
+        folder.write("seen.gltf", seen_gltf(CAMERA, &[&light]));
+        let command = "render seen.gltf --size 9x9";
+        let seen = folder.run(&format!("{command} -o a.png")).done();
+        seen.says("seen by the file's own camera")
+            .says("lit by its light");
+        // Neither green nor blue is lit but by the surroundings, where the studio's lights are nearly white.
+        let [r, g, b, _] = picture(&folder.path("a.png")).get(5, 3);
+        assert!(r > 180 && g < 110 && b < 110, "{kind}: {r} {g} {b}");
+        let printed = folder.run(&format!("{command} --print-scene")).done();
+        assert_eq!(printed.out.matches("[[light]]").count(), 1);
+        let printed = printed.prints("eye = [0.0, 0.0, 9.0]").prints(of_light);
+        folder.write("again.toml", printed.out.as_bytes());
+        folder.run("render again.toml -o b.png").done();
+        assert!(folder.read("a.png") == folder.read("b.png"), "{kind}");
+    }
+}
+
+#[test]
+fn flags_stand_over_camera_and_lights_of_a_gltf_file_and_over_their_notes() {
+    let folder = Folder::new();
+    let light = r#"{"type": "point", "intensity": 20}"#;
+    folder.write("seen.gltf", seen_gltf(CAMERA, &[light]));
+    for (flags, camera, lit, lights) in [
+        ("", true, true, 1),
+        ("--view 27,15", false, true, 1),
+        ("--eye 1,2,9", false, true, 1),
+        ("--fit 0.5", false, true, 1),
+        ("--light 0,0,1", true, false, 1),
+        ("--light 0,1,1 --light-at 0,0,3", true, false, 2),
+        ("--no-lights", true, false, 0),
+        ("--fovy 20", true, true, 1),
+    ] {
+        let command = format!("render seen.gltf {flags} --size 8x6 --print-scene");
+        let ended = folder.run(&command).done();
+        let (out, err) = (&ended.out, &ended.err);
+        let is_seen = err.contains("seen by the file's own camera");
+        assert_eq!(
+            (is_seen, err.contains("lit by its light")),
+            (camera, lit),
+            "{flags}: {err}"
+        );
+        assert_eq!(out.matches("[[light]]").count(), lights, "{flags}: {out}");
+    }
+}
+
+#[test]
+fn what_a_gltf_file_has_that_cannot_be_taken_is_told_once() {
+    let folder = Folder::new();
+    let flat = r#"{"type": "perspective", "perspective": {"yfov": 0, "znear": 0.1}}"#;
+    let lights = [
+        r#"{"type": "point", "intensity": -1}"#,
+        r#"{"type": "point", "color": [2, -1, 0]}"#,
+        r#"{"type": "directional", "intensity": 0}"#,
+    ];
+    folder.write("seen.gltf", seen_gltf(flat, &lights));
+    let ended = folder
+        .run("render seen.gltf --size 8x6 --print-scene")
+        .done()
+        .says("camera 0 is left out: its `yfov` is 0")
+        .says("light 0 is left out: its intensity is -1, its colour 1,1,1: expected")
+        .says("light 1 is left out: its intensity is 1, its colour 2,-1,0: expected")
+        .says("light 2 is left out: its intensity is 0, its colour 1,1,1, so that");
+    assert_eq!(ended.err.matches("left out").count(), 4, "{}", ended.err);
+    assert!(!ended.err.contains("lit by"), "{}", ended.err);
+    assert!(!ended.err.contains("seen by"), "{}", ended.err);
+    // The studio's.
+    assert_eq!(ended.out.matches("[[light]]").count(), 2);
+}
+
 #[test]
 fn files_of_other_formats_are_called_by_their_names() {
-    let mut stl = vec![0; 80];
-    stl.extend(1u32.to_le_bytes());
-    stl.extend([0; 50]);
     let mut coff = vec![0x64, 0x86, 1, 0];
     coff.extend([0; 40]);
     let utf_32 = TRIANGLE.chars().flat_map(|c| u32::from(c).to_be_bytes());
     let utf_32: Vec<u8> = [0, 0, 0xfe, 0xff].into_iter().chain(utf_32).collect();
     let folder = Folder::new();
     for (bytes, what) in [
-        (&b"solid part\nfacet normal 0 0 1\n"[..], "a text STL file"),
-        (&stl, "a binary STL file"),
-        (
-            b"ply\nformat binary_little_endian 1.0\n\xff\0",
-            "a PLY file",
-        ),
-        (b"OFF\n3 1 3\n", "an OFF file"),
-        (
-            b"{ \"asset\": { \"version\": \"2.0\" } }",
-            "a glTF file (JSON)",
-        ),
-        (b"glTF\x02\0\0\0", "a binary glTF file"),
+        (&b"ISO-10303-21;\n"[..], "a STEP file"),
+        (b"<COLLADA>", "a COLLADA file"),
         (b"Kaydara FBX Binary  \0\x1a\0", "a binary FBX file"),
         (&coff, "a compiled object file (COFF)"),
         (&utf_32, "UTF-32 text (not UTF-8)"),
@@ -162,7 +310,8 @@ fn files_of_other_formats_are_called_by_their_names() {
                     bytes.to_vec()
                 },
             );
-            let told = format!("{name}: is {what}: expected OBJ text");
+            let told =
+                format!("{name}: is {what}: expected a mesh file (OBJ, STL, PLY, OFF or glTF)");
             folder
                 .run(&format!("render {name} -o out.png"))
                 .refused(&[&told]);

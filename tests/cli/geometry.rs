@@ -222,15 +222,19 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
         (
             "groups",
             &groups,
-            "averaged within its smoothing groups (chosen by auto)",
+            "averaged by angle within its smoothing groups (chosen by auto)",
         ),
         (
             "mixed",
             &mixed,
             "given with the mesh at 20 of 24 corners, elsewhere those of polygons: its smoothing is off (chosen by auto)",
         ),
-        ("smooth", &smooth, "averaged (chosen by auto)"),
-        ("on", &on, "averaged (chosen by auto)"),
+        (
+            "smooth",
+            &smooth,
+            "averaged by angle, as the file has none (chosen by auto)",
+        ),
+        ("on", &on, "averaged by angle (chosen by auto)"),
     ] {
         folder.write(&format!("{name}.obj"), text);
         let described = folder.run(&format!("info {name}.obj")).done();
@@ -624,4 +628,79 @@ fn a_ground_that_is_linear_on_the_screen_is_told_unless_it_was_asked_for() {
         .replace("--viewer local", "");
     let ended = folder.run(&format!("render ground.obj {far} -o a.png --size 80x60"));
     assert!(!ended.done().err.contains(told));
+}
+
+/// A cube as triangles without normals: the diagonal of its first face does not end where the others do.
+const TRIANGLES: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
+    f 2 4 8\nf 2 8 6\nf 4 3 7\nf 4 7 8\nf 7 5 6\nf 7 6 8\nf 1 5 7\nf 1 7 3\nf 1 2 6\nf 1 6 5\nf 1 3 4\nf 1 4 2\n";
+
+#[test]
+fn weights_of_normals_are_set_beside_each_other() {
+    let folder = Folder::new();
+    folder.write("cube.obj", TRIANGLES);
+    let compared = folder.run("compare cube.obj --weights --size 96x72").done();
+    let compared = compared.prints("against averages by angle\n");
+    let numbers = |word: &str| {
+        let line = compared.out.lines().find(|line| line.starts_with(word));
+        let cells = line.expect("a line").split_whitespace().skip(1);
+        cells
+            .map(|cell| cell.parse().expect("a number"))
+            .collect::<Vec<f64>>()
+    };
+    // (2, 1, 1) in place of (1, 1, 1): 19.47°; by angle and by Max the diagonals do not matter.
+    for word in ["uniform", "area"] {
+        assert_eq!(numbers(word)[1], 19.5, "{word}");
+        assert!(numbers(word)[3] > 10.0, "{word}");
+    }
+    for word in ["angle", "max"] {
+        assert_eq!(numbers(word), [0.0; 4], "{word}");
+    }
+    // Shapes by formula have normals to compare with.
+    folder
+        .run("compare builtin:sphere?triangles=true --weights --size 96x72")
+        .done()
+        .prints("against the normals of the mesh\n");
+    folder
+        .run("compare cube.obj --weights --json")
+        .refused(&["cannot be used with"]);
+}
+
+#[test]
+fn the_weight_of_a_mesh_file_is_the_angle_unless_it_is_said() {
+    let folder = Folder::new();
+    folder.write("cube.obj", TRIANGLES);
+    for (flags, normals) in [
+        (
+            "",
+            "averaged by angle, as the file has none (chosen by auto)",
+        ),
+        (
+            "--normals-weight uniform",
+            "averaged, as the file has none (chosen by auto)",
+        ),
+        ("--normals averaged", "averaged by angle"),
+        (
+            "--normals crease=40",
+            "averaged by angle up to a crease of 40 degrees",
+        ),
+        (
+            "--normals crease=100 --normals-weight area",
+            "averaged by area up to a crease of 100 degrees",
+        ),
+        (
+            "--normals averaged --normals-weight max",
+            "averaged by Max's weights",
+        ),
+    ] {
+        folder
+            .run(&format!("info cube.obj {flags}"))
+            .done()
+            .prints(&format!("normals     {normals}\n"));
+    }
+    folder
+        .run("info builtin:cube")
+        .done()
+        .prints("normals     averaged\n");
+    let printed = folder.run("render cube.obj --print-scene").done();
+    printed.prints("normals = \"auto\"\nnormals_weight = \"angle\"\n");
 }

@@ -230,10 +230,16 @@ fn a_mesh_that_states_no_smoothing_and_has_sharp_edges_gets_a_hint() {
         let arguments = format!("render {arguments} -o a.png --size 32x24");
         folder.run(&arguments).done().err
     };
-    let hint = "cube.obj: has neither normals (vn) nor smoothing groups (s): normals are averaged, over 12 edges that turn by more than \
+    let hint = "cube.obj: has neither normals (vn) nor smoothing groups (s): normals are averaged by angle, over 12 edges that turn by more than \
                 40 degrees too; --normals crease=40 keeps these sharp\n";
     assert!(render("cube.obj").contains(hint), "{}", render("cube.obj"));
     assert_eq!(render("cube.obj").matches("crease=40").count(), 1);
+    // The words of OBJ are not those of other formats.
+    let off = "OFF 8 6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n\
+               4 2 3 7 6\n4 3 0 4 7\n";
+    folder.write("cube.off", off);
+    let hint = "cube.off: has no normals: normals are averaged by angle, over 12 edges that turn by more than 40 degrees";
+    assert!(render("cube.off").contains(hint), "{}", render("cube.off"));
     for silent in [
         "cube.obj --normals crease=40",
         "cube.obj --normals averaged",

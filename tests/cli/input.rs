@@ -1,6 +1,7 @@
 //! Missing, broken or too large inputs: one error each, with its place, and nothing written.
 
 use super::Folder;
+use crate::picture;
 
 fn refused(files: &[(&str, &[u8])], input: &str, parts: &[&str]) {
     let folder = Folder::new();
@@ -30,7 +31,9 @@ fn missing_inputs() {
     refused(
         &[],
         "xyzzy",
-        &["expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of coarse-sphere"],
+        &[
+            "expected a scene file .toml, a mesh file (.obj .stl .ply .off .gltf .glb), builtin:NAME, or one of coarse-sphere",
+        ],
     );
     refused(
         &[],
@@ -45,7 +48,7 @@ fn missing_inputs() {
     refused(
         &[("mesh.stl", b"solid")],
         "mesh.stl",
-        &["mesh.stl: is a text STL file: expected OBJ text with `v` and `f` lines"],
+        &["mesh.stl: has no triangle: expected triangles, binary or as `facet` statements"],
     );
     refused(
         &[],
@@ -130,7 +133,7 @@ fn broken_mesh_files() {
         ),
         (
             b"<!DOCTYPE html>\n<p>Not Found".to_vec(),
-            &["mesh.obj: is a page of HTML: expected OBJ text"],
+            &["mesh.obj: is a page of HTML: expected a mesh file"],
         ),
     ] {
         refused(&[("mesh.obj", &text)], "mesh.obj", parts);
@@ -345,26 +348,41 @@ fn bad_standard_input_is_told_with_its_line() {
 }
 
 #[test]
-fn vertex_colours_are_told_where_nothing_shows_them() {
+fn vertex_colours_are_lit_or_told() {
     let folder = Folder::new();
     let points = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\n";
     folder.write("mesh.obj", format!("{points}f 1 2 3\n"));
-    let told = "mesh.obj: has vertex colours, which shading leaves out; --aov colours shows them";
+    let told = "mesh.obj: has vertex colours, which are not lit: --colours on lights them";
     folder
-        .run("render mesh.obj --size 8x6 -o a.png")
+        .run("render mesh.obj --size 64x48 --colours off -o off.png")
         .done()
         .says(told);
-    piped(&folder, "mesh.obj", "render - --size 8x6 -o a.png")
-        .done()
-        .says("standard input: has vertex colours");
-    let shown = folder
-        .run("render mesh.obj --size 8x6 --aov colours -o a.png")
-        .done();
-    assert!(!shown.err.contains("vertex colours"), "{}", shown.err);
+    piped(
+        &folder,
+        "mesh.obj",
+        "render - --size 8x6 --colours off -o piped.png",
+    )
+    .done()
+    .says("standard input: has vertex colours");
+    for flags in ["-o on.png", "--aov colours -o a.png"] {
+        let shown = folder
+            .run(&format!("render mesh.obj --size 64x48 {flags}"))
+            .done();
+        assert!(!shown.err.contains("vertex colours"), "{}", shown.err);
+    }
+    let is_red = |name: &str| {
+        let picture = picture(&folder.path(name));
+        let mut pixels = picture.pixels().iter();
+        pixels.any(|p| u32::from(p[0]) > 4 * u32::from(p[2]))
+    };
+    assert!(is_red("on.png") && !is_red("off.png"));
     folder
         .run("info mesh.obj")
         .done()
-        .prints("colours     one a position; render --aov colours");
+        .prints("colours     one a position; --colours off");
+    folder
+        .run("render mesh.obj --size 8x6 --method integer-naive -o b.png")
+        .refused(&["--colours off"]);
     assert_eq!(
         folder.run("info mesh.obj --json").json()["objects"][0]["colours"],
         true

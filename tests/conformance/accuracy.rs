@@ -53,7 +53,9 @@ fn check(drawing: &Drawing) -> Result<f64, String> {
 }
 
 /// Checks every drawing of these cases. Returns the span engine's errors as shares of their bounds, with case and method.
-fn check_all<'a>(cases: impl IntoIterator<Item = &'a Case>) -> Vec<(&'a Case, &'static str, f64)> {
+pub fn check_all<'a>(
+    cases: impl IntoIterator<Item = &'a Case>,
+) -> Vec<(&'a Case, &'static str, f64)> {
     let found = for_each_drawing(cases, |drawing| {
         let name = drawing.variant.info().name;
         let share = check(drawing)?;
@@ -199,6 +201,7 @@ fn ends_of_highlights(specular: SpecularModel, gate: SpecularGate, colours: &[f3
         shininess: 1.0,
         specular,
         gate,
+        vertex_colours: false,
     });
     for number in 0..SIDE * SIDE {
         let (x, y) = (f64::from(number % SIDE), f64::from(number / SIDE));
@@ -304,6 +307,7 @@ fn apart(cosine: f64, corners: [[i32; 2]; 4], is_cut: bool) -> Frame {
         specular: SpecularModel::Phong,
         // Continuous, so that rounding alone makes differences.
         gate: SpecularGate::Ungated,
+        vertex_colours: false,
     });
     for number in 0..SIDE * SIDE {
         // The golden angle: directions that do not repeat, and round each in another way.

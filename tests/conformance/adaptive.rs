@@ -125,6 +125,7 @@ impl Reader<'_> {
                 false => SpecularModel::Phong,
             },
             gate: SpecularGate::Gated,
+            vertex_colours: false,
             lights: (0..setting.lights)
                 .map(|_| LightTerm {
                     place: self.direction(),

@@ -15,6 +15,10 @@ use fastphong::shading::{
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
+#[allow(dead_code)] // its `main`
+#[path = "../../examples/texture.rs"]
+mod texture;
+
 const WIDTH: usize = 96;
 const HEIGHT: usize = 72;
 
@@ -38,7 +42,7 @@ fn scene_of(mesh: PolygonMesh, interpolation: Interpolation) -> Scene {
         mesh: Arc::new(mesh),
         transform: DAffine3::IDENTITY,
         material: None,
-        normals: NormalSource::Averaged,
+        normals: NormalSource::Averaged.into(),
     };
     Scene {
         width: WIDTH as u32,
@@ -383,7 +387,7 @@ fn attributes_are_four_a_position_or_none() {
         scene
             .objects
             .iter_mut()
-            .for_each(|object| object.normals = normals);
+            .for_each(|object| object.normals = normals.into());
         scene.two_sided = true;
         let frame = scene.frame().expect("a frame");
         let vertices = frame.vertices().len() as u32;
@@ -421,4 +425,87 @@ fn attributes_are_four_a_position_or_none() {
     assert_eq!(frame.colour(b), [2.0, -3.0, 4.0]);
     builder.attributes(a, [0.0, 0.0, 0.0, f32::INFINITY]);
     assert!(builder.finish().is_err());
+}
+
+/// Pixels of the floor in `examples/texture.rs` have the colour of the bricks where the ray through the pixel's centre meets the floor,
+/// on every renderer.
+#[test]
+fn a_texture_is_looked_up_where_the_ray_meets_it() {
+    let scene = texture::scene().expect("a scene");
+    let Projection::Perspective { fovy } = scene.camera.projection else {
+        panic!("the example shows perspective");
+    };
+    let [right, up, forward] = scene.camera.axes();
+    let reach = (fovy.to_radians() / 2.0).tan();
+    // On the floor, where lights and eye are far away, light is the same everywhere: a multiple of the bricks' colour, and a highlight.
+    let light = |n: DVec3| {
+        let frame = scene.frame().expect("a frame");
+        let lit = &frame.lightings()[frame.polygons()[0].material as usize];
+        let to = scene.lights[0].place;
+        let fastphong::scene::Place::Infinite(to) = to else {
+            panic!("a light far away");
+        };
+        let l_n = to.normalize().dot(n);
+        let r_v = (2.0 * l_n * n - to.normalize())
+            .dot(scene.camera.view())
+            .max(0.0);
+        let bright = r_v.powf(f64::from(lit.shininess));
+        [0, 1, 2].map(|c| {
+            let one = &lit.lights[0];
+            let dull = f64::from(lit.ambient[c]) + f64::from(one.diffuse[c]) * l_n;
+            (dull, f64::from(one.specular[c]) * bright)
+        })
+    };
+    let floor = light(DVec3::Y);
+    let texel = |u: f64, v: f64, c: usize| {
+        // Linear between four pixels of a picture of 64 × 64 that repeats.
+        let place = [u, v].map(|at| at.rem_euclid(1.0) * 64.0);
+        let [column, row] = place.map(|at| at.floor() as usize);
+        let [a, b] = place.map(f64::fract);
+        let at = |x: usize, y: usize| f64::from(texture::BRICKS[c][(y % 64) * 65 + x % 64]);
+        let upper = at(column, row) * (1.0 - a) + at(column + 1, row) * a;
+        let lower = at(column, row + 1) * (1.0 - a) + at(column + 1, row + 1) * a;
+        upper * (1.0 - b) + lower * b
+    };
+    for renderer in renderers() {
+        let pixels = texture::picture(renderer).expect("a picture");
+        let (mut compared, mut largest, mut levels) = (0, 0.0f64, [u8::MAX, 0]);
+        // Below the box, left and right of it.
+        let rows = (170..240).step_by(3);
+        for (x, y) in rows.flat_map(|y| (0..320).map(move |x| (x, y))) {
+            let ray = |x: f64, y: f64| {
+                let [across, down] = [x - 160.0, y - 120.0].map(|at| at / 120.0 * reach);
+                forward + across * right - down * up
+            };
+            let on_floor = |ray: DVec3| scene.camera.eye - ray * (scene.camera.eye.y / ray.y);
+            let centre = [x, y].map(|at| f64::from(at) + 0.5);
+            let next = on_floor(ray(centre[0] + 1.0, centre[1] + 1.0));
+            let ray = ray(centre[0], centre[1]);
+            let hit = on_floor(ray);
+            // True if the ray is in the box where it is so high above the floor.
+            let is_in_box = |height: f64| {
+                let at = hit + ray * (height / ray.y);
+                at.x.abs() < 1.1 && at.z.abs() < 1.1
+            };
+            if ray.y >= 0.0 || (0..=40).any(|step| is_in_box(0.05 * f64::from(step))) {
+                continue;
+            }
+            let found = pixels[(320 * y + x) as usize];
+            levels = [levels[0].min(found[1]), levels[1].max(found[1])];
+            for (c, (dull, bright)) in floor.into_iter().enumerate() {
+                let colour = dull * texel(hit.x * 0.5, -hit.z * 0.5, c) + bright;
+                // Half a level by rounding. Corners are rounded to 1/256 pixel, and places of the table to 2⁻¹² in `f32` after
+                // some roundings; pixels of a brick that touch differ by up to 0.6 along each axis.
+                let texels = 32.0 * ((next.x - hit.x).abs() + (next.z - hit.z).abs());
+                let most = 0.5 + 255.0 * dull * 0.6 * (texels / 256.0 + 2f64.powi(-9));
+                let off = (f64::from(found[c]) - 255.0 * colour.min(1.0)).abs();
+                let who = name(renderer);
+                assert!(off <= most, "{who}: {x}, {y}: {found:?}, {colour}");
+                (largest, compared) = (most.max(largest), compared + 1);
+            }
+        }
+        assert!(compared > 9000, "the test asks little: {compared} channels");
+        assert!(levels[1] - levels[0] > 40, "no bricks: {levels:?}");
+        assert!(largest < 3.0, "the test asks little: {largest} levels");
+    }
 }

@@ -29,7 +29,7 @@ fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
             mesh: Arc::new(mesh),
             transform: DAffine3::IDENTITY,
             material: Some(material),
-            normals: NormalSource::Given,
+            normals: NormalSource::Given.into(),
         }],
         ..Scene::new(camera)
     }
@@ -271,7 +271,7 @@ fn a_comb_is_cut_into_its_teeth() {
         builder.polygon(&corners);
         let mesh = builder.finish().expect("a mesh");
         let mut scene = scene(mesh, above_ground(0.1));
-        scene.objects[0].normals = NormalSource::Averaged;
+        scene.objects[0].normals = NormalSource::Averaged.into();
         if !bar_in_front {
             // From the other side the tips are in front and the bar is behind the eye.
             scene.camera.eye.z = -2.5;

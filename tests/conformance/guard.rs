@@ -150,7 +150,7 @@ fn what_flags_refuse_a_scene_refuses_by_the_item_and_the_number() {
             "object 0: x of a position in the world is ",
         ),
         (
-            |s| s.objects[0].normals = NormalSource::Crease(f64::NAN),
+            |s| s.objects[0].normals = NormalSource::Crease(f64::NAN).into(),
             "object 0: the crease angle of its normals is NaN: expected degrees between 0 and 180",
         ),
     ];
@@ -331,6 +331,7 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
                 b.mean(Mean {
                     position: [0.0; 3],
                     normal: [f32::NAN, 0.0, 0.0],
+                    colour: [1.0; 3],
                 });
             },
             "polygon 1: x of its mean normal is NaN: expected a finite number",

@@ -378,7 +378,7 @@ fn side_by_side(shape: &str, count: usize, hidden: std::ops::Range<usize>) -> Sc
                         specular: [0.4; 3],
                         shininess: 4.0 + 3.0 * i as f32,
                     }),
-                    normals: NormalSource::Given,
+                    normals: NormalSource::Given.into(),
                 }
             })
             .collect();

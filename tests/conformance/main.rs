@@ -9,6 +9,7 @@ mod any_numbers;
 mod attributes;
 mod auto;
 mod clipping;
+mod colours;
 mod counts;
 mod coverage;
 mod cs171;

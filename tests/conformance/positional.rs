@@ -194,6 +194,7 @@ fn given(
             shininess: 12.0,
             specular,
             gate: SpecularGate::Gated,
+            vertex_colours: false,
             lights: vec![
                 light(Place::Local([1.0, 2.0, 4.0]), falloff, 1.0),
                 light(Place::Infinite([0.6, 0.0, 0.8]), Falloff::None, 0.3),
@@ -326,6 +327,7 @@ fn random_triangle(random: &mut Random) -> Triangle {
             shininess: [1.0, 2.0, 8.0][random.below(3) as usize],
             specular: [SpecularModel::Phong, SpecularModel::Blinn][random.below(2) as usize],
             gate: SpecularGate::Gated,
+            vertex_colours: false,
             lights,
         },
     }

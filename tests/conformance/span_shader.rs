@@ -1,9 +1,11 @@
 //! Spans that a rasterizer outside of the crate asks for: the colours are those of the span engine.
 
+use crate::support::renderers::renderers;
 use crate::support::{floats, floats_on};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
-use fastphong::number::vec3;
+use fastphong::number::{Level, vec3};
+use fastphong::raster::Renderer;
 use fastphong::scene::{Interpolation, Light, Lighting};
 use fastphong::shading::{Corner, Corners, SpanShader, SpanShaderError, SpanVertex, Variant};
 use glam::{DVec3, Vec3};
@@ -67,16 +69,35 @@ impl Rectangle {
         builder.finish().expect("a frame")
     }
 
-    /// Shades columns `first` on of row 2 without an engine.
-    fn shade(&self, variant: &Variant, first: u32, colours: &mut [[f32; 3]]) {
-        let mut shader = SpanShader::new(variant, &self.lighting, self.interpolation)
-            .expect("a method for any light");
-        let all: [Corner<f32>; 4] = [0, 1, 2, 3].map(|i| Corner {
+    fn corners(&self) -> [Corner<f32>; 4] {
+        [0, 1, 2, 3].map(|i| Corner {
             normal: vec3(self.vertices[i].normal),
             place: [self.vertices[i].x, self.vertices[i].y].map(|at| at.to_num()),
             weight: self.vertices[i].inv_w as f32,
             position: vec3(self.positions[i]),
-        });
+        })
+    }
+
+    /// Shades columns `first` on of row 2 without an engine.
+    fn shade(&self, variant: &Variant, first: u32, colours: &mut [[f32; 3]]) {
+        let shader = SpanShader::new(variant, &self.lighting, self.interpolation);
+        self.shade_by(
+            &mut shader.expect("a method for any light"),
+            variant,
+            first,
+            colours,
+        );
+    }
+
+    /// Shades the same by any shader of the method.
+    fn shade_by(
+        &self,
+        shader: &mut SpanShader,
+        variant: &Variant,
+        first: u32,
+        colours: &mut [[f32; 3]],
+    ) {
+        let all = self.corners();
         let whole = all.map(|corner| corner.normal);
         let frame = self.frame();
         let mean = vec3(frame.mean(&frame.polygons()[0]).normal);
@@ -165,6 +186,90 @@ fn spans_are_those_of_the_engine() {
     assert!(compared >= 3 * 2 * (floats().len() - 8) * 48);
 }
 
+/// On SIMD colours are those of scalar code but for roundings, whatever the number of pixels and whichever came before; the
+/// shader says what it draws by, and it is what the row engine draws by.
+#[test]
+fn simd_colours_are_those_of_scalar_code() {
+    let directional = [Light::directional(DVec3::new(0.3, 0.4, 0.9).normalize(), [0.5; 3]); 2];
+    let near = [Light::positional(DVec3::new(0.3, 0.5, 2.0), [0.6; 3])];
+    let levels = renderers().into_iter().map(|renderer| renderer.level());
+    let (mut same, mut other, mut scalar) = (0, 0, 0);
+    for level in levels {
+        for lights in [&directional[..1], &directional[..], &near[..]] {
+            for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
+                let rectangle = Rectangle::new(lights, interpolation);
+                let frame = rectangle.frame();
+                for variant in floats_on(&frame).map(|entry| entry.variant()) {
+                    let shader = SpanShader::new(&variant, &rectangle.lighting, interpolation);
+                    let mut shader = shader.expect("a method for any light").on(level);
+                    let plan = variant.plan(&frame, Renderer::on(level)).renderer();
+                    assert_eq!(Some(Renderer::on(shader.level())), plan, "{variant}");
+                    scalar += usize::from(shader.level() == Level::Scalar);
+                    let most = 2.0 * variant.bound(&frame) as f32;
+                    for (first, pixels) in [(30, 20), (8, 48), (8, 1), (9, 16), (11, 7)] {
+                        let mut expected = vec![[0.0; 3]; pixels];
+                        rectangle.shade(&variant, first, &mut expected);
+                        let mut found = vec![[9.0; 3]; pixels];
+                        rectangle.shade_by(&mut shader, &variant, first, &mut found);
+                        for (x, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                            let off = (0..3).map(|c| (found[c] - expected[c]).abs());
+                            let off = off.fold(0.0, f32::max);
+                            let who = format!("{variant} on {level}, {interpolation:?}");
+                            assert!(off <= most, "{who}: {off:e} at {x} from {first}");
+                            *[&mut other, &mut same][usize::from(off == 0.0)] += 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(scalar > 0 && same > 1000);
+    assert!(other > 0 || renderers().len() == 1, "SIMD rounds elsewhere");
+}
+
+/// A shader that is kept allocates nothing, for vertices, polygons or lines, of any method.
+#[test]
+fn a_shader_that_is_kept_allocates_nothing() {
+    let near = [Light::positional(DVec3::new(0.3, 0.5, 2.0), [0.6; 3])];
+    let far = [Light::directional(DVec3::Z, [0.6; 3])];
+    for lights in [&near[..], &far[..]] {
+        let rectangle = Rectangle::new(lights, Interpolation::Perspective);
+        let frame = rectangle.frame();
+        for variant in floats_on(&frame).map(|entry| entry.variant()) {
+            for level in [Level::Scalar, Level::best()] {
+                let shader =
+                    SpanShader::new(&variant, &rectangle.lighting, Interpolation::Perspective);
+                let mut shader = shader.expect("a method for any light").on(level);
+                let mut ends = [[0.0; 96]; 2];
+                let mut colours = [[0.0; 3]; 48];
+                let mut line = || {
+                    let all = rectangle.corners();
+                    let whole = all.map(|corner| corner.normal);
+                    if shader.wants_polygons() {
+                        shader.polygon(&Corners {
+                            all: &all,
+                            face: vec3(FACE),
+                            is_whole: true,
+                            whole: &whole,
+                            mean: vec3(FACE),
+                        });
+                    }
+                    let count = shader.varyings();
+                    for (end, x) in ends.iter_mut().zip([-0.4, 0.4]) {
+                        let normal = Vec3::new(x, 0.2, 0.9).to_array();
+                        shader.vertex_into(SpanVertex::of_normal(normal), &mut end[..count]);
+                    }
+                    let ends = [(8.0, &ends[0][..count]), (56.0, &ends[1][..count])];
+                    shader.shade(ends, [8, 2], &mut colours);
+                };
+                line();
+                let counted = allocation_counter::measure(line);
+                assert_eq!(counted.count_total, 0, "{variant} on {level}");
+            }
+        }
+    }
+}
+
 #[test]
 #[should_panic(expected = "wants every polygon to be set up")]
 fn a_polygon_that_is_wanted_is_asked_for() {
@@ -174,6 +279,42 @@ fn a_polygon_that_is_wanted_is_asked_for() {
         .expect("a method for any light");
     let end = shader.vertex(SpanVertex::of_normal(FACE));
     shader.shade([(0.0, &end), (1.0, &end)], [0, 0], &mut [[0.0; 3]]);
+}
+
+/// A builder that is kept makes its second frame without a single allocation, of vertices on the screen and in clip space.
+#[test]
+fn a_builder_that_is_kept_allocates_nothing() {
+    let lighting = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
+    let mut builder = FrameBuilder::new(WIDTH, 48);
+    builder.lighting(lighting);
+    let mut fill = |shift: i32| {
+        builder.clear();
+        for k in 0..200 {
+            let corner = |x: i32, y: i32| Vertex {
+                x: SubPixel::from_num(x + k % 40 + shift),
+                y: SubPixel::from_num(y),
+                depth: 0.5,
+                inv_w: 1.0,
+                normal: FACE,
+                material: 0,
+            };
+            let on_screen = [corner(0, 0), corner(8, 9), corner(4, 20)].map(|v| builder.vertex(v));
+            let x = f64::from(k % 10) * 0.1;
+            let in_clip_space = [[-0.5, 0.0], [0.0, 0.5], [0.0, 0.0]]
+                .map(|[a, b]| builder.vertex_from_clip([x + a, b, 0.25, 1.0], FACE, 0));
+            for corners in [on_screen, in_clip_space] {
+                for corner in corners {
+                    builder.position(corner, FACE).colour(corner, FACE);
+                }
+                builder.mean_of(&corners).polygon(&corners, FACE, 1);
+            }
+        }
+        builder.frame().map(|frame| frame.polygons().len())
+    };
+    assert_eq!(fill(0), Ok(400));
+    let mut again = Ok(0);
+    let counted = allocation_counter::measure(|| again = fill(3));
+    assert_eq!((again, counted.count_total), (Ok(400), 0));
 }
 
 /// A method that is not for a material says why, as it does for frames.

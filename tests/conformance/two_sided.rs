@@ -188,7 +188,7 @@ fn polygons_wound_against_their_own_normals_are_lit_by_these() {
         views(|scene: &mut Scene| {
             scene.culling = Culling::None;
             let object = &mut scene.objects[0];
-            object.normals = NormalSource::Given;
+            object.normals = NormalSource::Given.into();
             object.mesh = Arc::new(with_own_normals(&object.mesh, is_half_turned));
         })
     };

@@ -36,7 +36,7 @@ const OTHERS: &[&str] = &[
 const PAGE: &str = "docs/flags.md";
 const PICTURES: &str = "docs/images/flags";
 /// Largest size of all pictures together, in bytes.
-const MOST_BYTES: usize = 400_000;
+const MOST_BYTES: usize = 410_000;
 
 const HEAD: &str = "# Flags and what they do to the picture
 

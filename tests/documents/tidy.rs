@@ -508,7 +508,7 @@ fn commands_open_files_in_one_module() {
         "input::load(",
         "input::resolve(",
         "SceneFile::load",
-        "load_obj",
+        "load_mesh",
     ];
     let mut found = 0;
     for path in files("src/cli", "rs") {

@@ -48,7 +48,7 @@ impl<'a> Placed<'a> {
         Placed {
             mesh: &object.mesh,
             camera,
-            normals: normals(&object.mesh, object.normals, options),
+            normals: normals(&object.mesh, object.normals.source, options),
             positions: positions.collect(),
             normal_matrix,
             normal_offset,

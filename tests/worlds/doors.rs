@@ -5,7 +5,7 @@ use super::scene;
 use super::wild::{Change, changed, changes};
 use super::world::World;
 use fastphong::frame::Frame;
-use fastphong::mesh::vertex_normals::NormalSource;
+use fastphong::mesh::vertex_normals::{NormalSource, NormalWeight};
 use fastphong::picture::{Encoding, LinearPicture};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{
@@ -206,12 +206,19 @@ fn text(scene: &Scene) -> String {
         let row = |i: usize| [m.x_axis[i], m.y_axis[i], m.z_axis[i], t[i]];
         let rows = [row(0), row(1), row(2)];
         let _ = writeln!(text, "[[object]]\nmesh = '{number}'\nmatrix = {rows:?}");
-        let _ = match object.normals {
+        let _ = match object.normals.source {
             NormalSource::Auto => writeln!(text, "normals = 'auto'"),
             NormalSource::Averaged => writeln!(text, "normals = 'averaged'"),
             NormalSource::Given => writeln!(text, "normals = 'given'"),
             NormalSource::Crease(degrees) => writeln!(text, "crease = {degrees:?}"),
         };
+        let weight = match object.normals.weight {
+            NormalWeight::Uniform => "uniform",
+            NormalWeight::Area => "area",
+            NormalWeight::Angle => "angle",
+            NormalWeight::Max => "max",
+        };
+        let _ = writeln!(text, "normals_weight = '{weight}'");
         if let Some(material) = object.material {
             let _ = writeln!(
                 text,

@@ -2,7 +2,7 @@
 
 use super::mesh::obj;
 use super::{WORLDS, assert_none, setting, try_all};
-use fastphong::mesh::obj::{LoadedObj, ObjError, parse_obj};
+use fastphong::mesh::read::{LoadedMesh, ReadError, parse_mesh};
 use fastphong::picture::Picture8;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::value::SceneTable;
@@ -90,8 +90,8 @@ impl Sheet {
     }
 }
 
-fn parse(obj: &str) -> Result<LoadedObj, ObjError> {
-    parse_obj("sheet.obj", obj.as_bytes(), |_| {
+fn parse(obj: &str) -> Result<LoadedMesh, ReadError> {
+    parse_mesh("sheet.obj", obj.as_bytes(), |_| {
         Err(ErrorKind::NotFound.into())
     })
 }

@@ -1,7 +1,7 @@
 //! A world: the files of a random scene, as a person would write them.
 
 use fastphong::mesh::builtin::builtin;
-use fastphong::mesh::obj::parse_obj;
+use fastphong::mesh::read::parse_mesh;
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use std::fmt;
@@ -33,7 +33,7 @@ impl World {
             Some(spec) => builtin(spec)
                 .map(|mesh| (Arc::new(mesh), Vec::new()))
                 .map_err(|error| error.to_string()),
-            None => parse_obj(name, self.mesh.as_bytes(), |library| match library {
+            None => parse_mesh(name, self.mesh.as_bytes(), |library| match library {
                 "world.mtl" => Ok(self.materials.clone().into_bytes()),
                 _ => Err(ErrorKind::NotFound.into()),
             })

@@ -60,7 +60,7 @@ fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
 /// A kind of frame: its name and the change of the scene that makes it.
 type Kind = (&'static str, fn(&mut Scene));
 
-const KINDS: [Kind; 20] = [
+const KINDS: [Kind; 21] = [
     ("one material", |scene| scene.objects.truncate(1)),
     ("two materials", |_| ()),
     ("triangles", |scene| drop(scene.objects.remove(0))),
@@ -85,6 +85,9 @@ const KINDS: [Kind; 20] = [
     }),
     ("a light that falls off", |scene| {
         near_light(scene, Falloff::Attenuation(0.2))
+    }),
+    ("parallel rays", |scene| {
+        scene.camera.projection = Projection::Orthographic { half_height: 1.4 }
     }),
     ("perspective", |scene| {
         scene.interpolation = Interpolation::Perspective

@@ -1,10 +1,11 @@
 //! Drawing into memory of the caller: formats, strides, backgrounds that are kept, and depth buffers.
 
 use super::frames::{kinds, parts};
-use crate::support::renderers::{distinct, name, on_threads};
-use fastphong::frame::Frame;
+use crate::support::renderers::{depth_rounding, distinct, name, on_threads};
+use fastphong::frame::{DepthRange, Frame};
 use fastphong::picture::{Alpha, LinearPicture, Picture, Picture8, PictureMut};
-use fastphong::raster::{Background, DrawError, DrawOptions, Renderer, depth};
+use fastphong::raster::{Background, DepthTest, DrawError, DrawOptions, Renderer, depth};
+use fastphong::reference::visibility;
 use fastphong::scene::{DepthBits, DepthBuffer, HiddenSurfaces};
 use fastphong::shading::Variant;
 
@@ -77,6 +78,61 @@ fn all_formats_hold_the_same_picture_and_leave_what_lies_between_rows() {
                 false => ([9; 4], [9; 4], 9, [9.0; 4]),
             };
             assert_eq!(found, pixels, "{who}: {x}, {y}");
+        }
+    });
+}
+
+/// A part of a picture holds the picture of its size, and nothing else is written; a part that reaches beyond is refused.
+#[test]
+fn a_part_of_a_picture_is_drawn_alone() {
+    const SIZE: [usize; 2] = [70, 50];
+    each_way(|who, frame, variant, renderer| {
+        let [width, height] = [frame.picture_width(), frame.picture_height()];
+        let expected = variant
+            .render_with(frame, renderer)
+            .expect("a method for the frame");
+        for [left, top] in [[0, 0], [5, 3], [SIZE[0] - width, SIZE[1] - height]] {
+            let (mut picture, mut argb) = (
+                Picture8::new(SIZE[0], SIZE[1], [9; 4]),
+                vec![9; 80 * SIZE[1]],
+            );
+            let part = PictureMut::from(&mut picture).part([left, top], [width, height]);
+            draw(variant, frame, part, DrawOptions::by(renderer));
+            // A part of a part, in rows that are 80 pixels apart.
+            let part = PictureMut::argb(&mut argb, SIZE[0], SIZE[1]).stride(80);
+            let part = part
+                .part([left, 0], [width, SIZE[1]])
+                .part([0, top], [width, height]);
+            draw(variant, frame, part, DrawOptions::by(renderer));
+            for (x, y) in (0..SIZE[1]).flat_map(|y| (0..80).map(move |x| (x, y))) {
+                let is_inside =
+                    (left..left + width).contains(&x) && (top..top + height).contains(&y);
+                let [r, g, b, alpha] = match is_inside {
+                    true => expected.get(x - left, y - top),
+                    false => [9; 4],
+                };
+                let number = match is_inside {
+                    true => u32::from_be_bytes([alpha, r, g, b]),
+                    false => 9,
+                };
+                assert_eq!(argb[80 * y + x], number, "{who}: {x}, {y}");
+                if x < SIZE[0] {
+                    assert_eq!(picture.get(x, y), [r, g, b, alpha], "{who}: {x}, {y}");
+                }
+            }
+        }
+        for (at, found) in [
+            ([SIZE[0] - width + 1, 0], [width - 1, height]),
+            ([0, SIZE[1] - height + 2], [width, height - 2]),
+            ([usize::MAX, usize::MAX], [0, 0]),
+        ] {
+            let mut picture = Picture8::new(SIZE[0], SIZE[1], [9; 4]);
+            let part = PictureMut::from(&mut picture).part(at, [width, height]);
+            let expected = [width, height];
+            assert_eq!(
+                variant.draw(frame, part, DrawOptions::by(renderer)),
+                Err(DrawError::Size { found, expected })
+            );
         }
     });
 }
@@ -172,6 +228,7 @@ fn two_frames_compose_as_one() {
                             renderer,
                             background: [Background::Drawn, Background::Kept][number],
                             depth: Some(&mut depths),
+                            ..DrawOptions::default()
                         };
                         on_threads(threads, || draw(&variant, frame, &mut picture, options));
                     }
@@ -188,6 +245,123 @@ fn two_frames_compose_as_one() {
         }
     }
     assert!(compared > 100, "{compared} pictures");
+}
+
+const DEPTH_TESTS: [DepthTest; 4] = [
+    DepthTest::Less,
+    DepthTest::LessOrEqual,
+    DepthTest::Greater,
+    DepthTest::GreaterOrEqual,
+];
+
+fn is_reversed(test: DepthTest) -> bool {
+    matches!(test, DepthTest::Greater | DepthTest::GreaterOrEqual)
+}
+
+/// Returns a depth buffer that holds nothing yet.
+fn no_depths(test: DepthTest, frame: &Frame) -> Vec<f32> {
+    let nothing = match is_reversed(test) {
+        true => f32::NEG_INFINITY,
+        false => f32::INFINITY,
+    };
+    vec![nothing; frame.width() * frame.height()]
+}
+
+/// Calls `check` with a name, two balls, each a frame of its own, with depth buffers of floats, a method and a renderer.
+fn each_pair(mut check: impl FnMut(&str, [&Frame; 2], &Variant, Renderer)) {
+    let pairs = parts(48, 36).filter(|(_, both, _)| {
+        let floats = HiddenSurfaces::ZBuffer(DepthBuffer::default());
+        both.hidden_surfaces() == floats && both.samples() == 1
+    });
+    for (kind, _, [first, second]) in pairs {
+        for method in ["gouraud", "phong-rsqrt"] {
+            let variant = Variant::parse(method).expect("a method");
+            for renderer in distinct(&variant, &first) {
+                let who = format!("{kind}, {method} by {}", name(renderer));
+                check(&who, [&first, &second], &variant, renderer);
+            }
+        }
+    }
+}
+
+/// Each test shows at each sample the ball that is nearer by the reference's depths in `f64`, and stores its depth; reversed buffers
+/// hold 1/w, or 1 − z.
+#[test]
+fn each_depth_test_shows_what_is_nearer_by_the_reference() {
+    let mut decided = [0; 2];
+    each_pair(|who, [first, second], variant, renderer| {
+        let seen = [first, second].map(visibility);
+        for test in DEPTH_TESTS {
+            let mut depths = no_depths(test, first);
+            let [first_picture, second_picture] = [first, second].map(|frame| {
+                let mut picture = Picture8::new(48, 36, [7; 4]);
+                let options = DrawOptions {
+                    depth: Some(&mut depths),
+                    depth_test: test,
+                    ..kept(renderer)
+                };
+                draw(variant, frame, &mut picture, options);
+                picture
+            });
+            let range = first.depth_range();
+            let is_perspective = matches!(range, DepthRange::Perspective { .. });
+            for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
+                let z = [&seen[0], &seen[1]].map(|seen| seen.depth.get(x, y));
+                let is_drawn = [&first_picture, &second_picture].map(|p| p.get(x, y) != [7; 4]);
+                assert_eq!(is_drawn[0], z[0].is_finite(), "{who}, {test:?}: {x}, {y}");
+                // Depths of both are rounded: see `is_decided`.
+                let gain = match range {
+                    DepthRange::Perspective { near, far } => far / (far - near),
+                    DepthRange::Orthographic { .. } => 1.0,
+                };
+                let most = gain * depth_rounding(first);
+                if z[0].is_finite() && z[1].is_finite() && (z[0] - z[1]).abs() > most {
+                    decided[usize::from(z[1] < z[0])] += 1;
+                    assert_eq!(is_drawn[1], z[1] < z[0], "{who}, {test:?}: {x}, {y}");
+                }
+                let nearest = z[0].min(z[1]);
+                let stored = f64::from(depths[48 * y + x]);
+                if nearest.is_finite() {
+                    let found = match (is_reversed(test), is_perspective) {
+                        (false, _) => range.z(stored),
+                        (true, true) => range.z(-stored),
+                        (true, false) => 1.0 - stored,
+                    };
+                    assert!((found - nearest).abs() <= most, "{who}, {test:?}: {x}, {y}");
+                } else {
+                    assert!(stored.is_infinite(), "{who}, {test:?}: {x}, {y}");
+                }
+            }
+        }
+    });
+    assert!(decided.iter().all(|count| *count > 100), "{decided:?}");
+}
+
+/// A frame drawn again has equal depths everywhere: the strict tests show nothing of it, the others all.
+#[test]
+fn equal_depths_pass_the_tests_that_say_so() {
+    each_pair(|who, [frame, _], variant, renderer| {
+        for test in DEPTH_TESTS {
+            let mut depths = no_depths(test, frame);
+            let mut drawn = || {
+                let mut picture = Picture8::new(48, 36, [7; 4]);
+                let options = DrawOptions {
+                    depth: Some(&mut depths),
+                    depth_test: test,
+                    ..kept(renderer)
+                };
+                draw(variant, frame, &mut picture, options);
+                (picture, depths.clone())
+            };
+            let ((first, before), (second, after)) = (drawn(), drawn());
+            let expected = match test {
+                DepthTest::Less | DepthTest::Greater => Picture8::new(48, 36, [7; 4]),
+                DepthTest::LessOrEqual | DepthTest::GreaterOrEqual => first,
+            };
+            assert!(second == expected, "{who}, {test:?}");
+            assert_eq!(before, after, "{who}, {test:?}");
+        }
+    });
 }
 
 /// What the caller has drawn hides what is behind it, sample by sample, and nothing is written there.

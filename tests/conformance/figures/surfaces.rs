@@ -53,6 +53,34 @@ fn normals_are_averages_and_shorten_in_between() {
 }
 
 #[test]
+fn diagonals_move_normals_but_not_by_angle() {
+    let content = made("diagonal");
+    // Two triangles of one face at a corner, and one of each other: (2, 1, 1) in place of (1, 1, 1). Normals are rounded to f32.
+    let moved = (4.0 / 18f64.sqrt()).acos().to_degrees();
+    let rounding = f64::from(f32::EPSILON).to_degrees();
+    for (key, expected) in [
+        ("uniform", moved),
+        ("area", moved),
+        ("angle", 0.0),
+        ("max", 0.0),
+    ] {
+        let found = value(&content, key);
+        assert!((found - expected).abs() < rounding, "{key}: {found}");
+        let seen = value(&content, &format!("{key}-levels"));
+        assert_eq!(seen > 1.0, expected > 0.0, "{key}: {seen}");
+    }
+    // π/2 (x + (x + y)/√2 + (x + z)/√2) + π/3 (x + y + z)/√3, against x.
+    let (half, third) = (std::f64::consts::FRAC_PI_2, std::f64::consts::PI / 3.0);
+    let across = half / 2f64.sqrt() + third / 3f64.sqrt();
+    let along = half + 2.0 * half / 2f64.sqrt() + third / 3f64.sqrt();
+    let expected = (2f64.sqrt() * across / along).atan().to_degrees();
+    // Positions of one digit are rounded to f32, and edges are 0.2 long.
+    let bound = (8.0 / f64::from(1 << 24) / 0.2).to_degrees();
+    assert!((value(&content, "bevelled") - expected).abs() < bound);
+    assert!(value(&content, "smooth-angle") < value(&content, "smooth"));
+}
+
+#[test]
 fn normals_want_the_inverse_transpose() {
     let content = made("inverse-transpose");
     // The error is largest at 45° of the circle: tan⁻¹ s − tan⁻¹ 1/s.

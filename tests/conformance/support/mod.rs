@@ -13,7 +13,7 @@ use cases::Size;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
-use fastphong::mesh::obj::load_obj;
+use fastphong::mesh::read::load_mesh;
 use fastphong::picture::LinearPicture;
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
@@ -84,7 +84,7 @@ pub fn scene(name: &str, size: Size) -> Scene {
         Some(spec) => builtin(spec)
             .map(|mesh| (Arc::new(mesh), vec![]))
             .map_err(|e| e.to_string()),
-        None => load_obj(&folder.join(spec))
+        None => load_mesh(&folder.join(spec))
             .map(|l| (Arc::new(l.mesh), l.warnings))
             .map_err(|e| e.to_string()),
     };

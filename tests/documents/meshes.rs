@@ -1,19 +1,20 @@
-//! `docs/obj.md` says what happens to each statement of OBJ and MTL files: its examples are read, its list is compared with
-//! the code.
+//! `docs/meshes.md` says what happens to mesh files: its examples are read, its lists are compared with the code.
 
-use crate::markdown::{quoted, read, rows};
-use fastphong::mesh::obj::parse_obj;
+use crate::markdown::{quoted, read, root, rows};
+use fastphong::mesh::read::{mesh_endings, parse_mesh};
 use std::collections::BTreeSet;
-use std::io;
+use std::{fs, io};
 
-const PAGE: &str = "docs/obj.md";
+const PAGE: &str = "docs/meshes.md";
 const POINTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
 const FACE: &str = "f 1 2 3\n";
 
 /// The rows of a table: statement, example and answer.
 fn table(heading: &str) -> Vec<[String; 3]> {
     let page = read(PAGE);
-    let (_, part) = page.split_once(heading).expect("a heading of the page");
+    let (_, part) = page
+        .split_once(&format!("\n{heading}\n"))
+        .expect("a heading of the page");
     let part = part.split("\n## ").next().unwrap_or_default();
     let rows = rows(part).into_iter().skip(1);
     let rows = rows.map(|row| <[String; 3]>::try_from(row).expect("three cells"));
@@ -23,7 +24,7 @@ fn table(heading: &str) -> Vec<[String; 3]> {
 /// Reads an OBJ file with a library; returns what was told, or the error.
 fn answer(obj: &str, mtl: Option<&str>) -> Result<Vec<String>, String> {
     let library = |_: &str| mtl.map(|text| text.as_bytes().to_vec());
-    let loaded = parse_obj("t.obj", obj.as_bytes(), |name| {
+    let loaded = parse_mesh("t.obj", obj.as_bytes(), |name| {
         library(name).ok_or_else(|| io::ErrorKind::NotFound.into())
     });
     let loaded = loaded.map_err(|error| error.to_string())?;
@@ -62,6 +63,42 @@ fn every_example_is_answered_as_the_page_says() {
     }
 }
 
+/// Every example of a format whose files are in the corpora, and every format of the code in the first table.
+#[test]
+fn every_file_is_answered_as_the_page_says() {
+    let mut formats = vec!["STL", "PLY", "OFF"];
+    if cfg!(feature = "gltf") {
+        formats.push("glTF");
+    }
+    for format in formats {
+        let mut count = 0;
+        for [_, files, said] in table(&format!("## {format}")) {
+            for file in quoted(&files) {
+                let bytes = fs::read(root().join("fuzz/corpus").join(file));
+                let bytes = bytes.unwrap_or_else(|error| panic!("{file}: {error}"));
+                // The ending counts where bytes do not tell.
+                let name = format!("t.{}", format.to_lowercase());
+                let none = |_: &str| Err(io::ErrorKind::NotFound.into());
+                let loaded = parse_mesh(name, &bytes, none);
+                let loaded = loaded.map_err(|error| error.to_string());
+                check(file, &said, loaded.map(|loaded| loaded.warnings));
+                count += 1;
+            }
+        }
+        assert!(count > 10, "{count} files of {format}");
+    }
+    let page = read(PAGE);
+    let (_, first) = page.split_once("| format |").expect("the table");
+    let first = first.split("\n\n").next().unwrap_or_default();
+    for ending in mesh_endings().filter(|ending| ending.len() == 3) {
+        let is_there = first.contains(&format!("`.{ending}`"));
+        assert!(
+            is_there || ending == "vrm",
+            "{PAGE} does not list .{ending}"
+        );
+    }
+}
+
 /// Returns the words between quotes in the part of a source from `start` to `end`.
 fn literals(path: &str, start: &str, end: &str) -> BTreeSet<String> {
     let source = read(path);
@@ -77,10 +114,10 @@ fn literals(path: &str, start: &str, end: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_statement_of_the_code_is_on_the_page() {
-    let obj = "src/mesh/obj/prescan.rs";
+    let obj = "src/mesh/read/obj/prescan.rs";
     let mut statements = literals(obj, "match &*word {", "fn vector");
-    statements.extend(literals("src/mesh/obj/lines.rs", "FREE_FORM", "];"));
-    let mtl = "src/mesh/obj/mtl.rs";
+    statements.extend(literals("src/mesh/read/obj/lines.rs", "FREE_FORM", "];"));
+    let mtl = "src/mesh/read/obj/mtl.rs";
     let mut keys = literals(mtl, "let read = match word {", "fn read_colour");
     keys.extend(literals(mtl, "fn is_texture", "}"));
     assert!(
