@@ -109,8 +109,8 @@ class LiveScene {
 
 /* A mesh file of the reader's as a scene, with the material libraries that come with it. */
 async function ownScene(list, s) {
-	const file = list.find(f => /\.obj$/i.test(f.name));
-	if (!file) throw Error(`${list[0].name}: expected a mesh file that ends in .obj`);
+	const file = list.find(f => /\.(obj|stl|ply|off)$/i.test(f.name));
+	if (!file) throw Error(`${list[0].name}: expected a mesh file that ends in .obj, .stl, .ply or .off`);
 	if (sum(list.map(f => f.size)) > 5e7) throw Error(`${file.name}: over 50 MB`);
 	const read = async f => [f.name, new Uint8Array(await f.arrayBuffer())];
 	const own = { scene: file.name, files: await Promise.all(list.map(read)) };

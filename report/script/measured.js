@@ -45,7 +45,7 @@ function measured() {
 	const again = [
 		command,
 		scene &&
-			!/:|\.obj$/i.test(scene.name) &&
+			!/:|\.(obj|stl|ply|off|gltf|glb)$/i.test(scene.name) &&
 			`fastphong compare ${quoted(scene.name)} --size ${scene.w}x${scene.h}`,
 		`fastphong explain ${BEST ?? BASE}`,
 	];
