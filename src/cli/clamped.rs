@@ -93,6 +93,12 @@ fn reason(shown: &ShownFrame, material: usize) -> String {
         number(diffuse),
         number(highlight)
     );
+    if lighting.vertex_colours {
+        let most = number(largest_colour(shown, material as u32));
+        text += &format!(
+            ", of which ambient and diffuse are multiplied by vertex colours of up to {most}"
+        );
+    }
     let shininess = lighting.shininess;
     if shininess < 1.0 && highlight > 0.0 {
         let most = "covers all that the light reaches";
@@ -106,6 +112,18 @@ fn reason(shown: &ShownFrame, material: usize) -> String {
         text += &format!(", under {lights} {} in all", number(light.into()));
     }
     text
+}
+
+/// Returns the largest channel of a vertex colour on a material.
+fn largest_colour(shown: &ShownFrame, material: u32) -> f64 {
+    let frame = shown.frame;
+    let polygons = frame.polygons().iter();
+    let polygons = polygons.filter(|polygon| polygon.material == material);
+    // Clipping gives its corners no colours of their own.
+    let corners = polygons.flat_map(|polygon| frame.corners(polygon));
+    let corners = corners.filter(|vertex| frame.clip_corner(**vertex).is_none());
+    let channels = corners.flat_map(|vertex| frame.colour(*vertex));
+    channels.fold(0.0, f32::max).into()
 }
 
 /// Returns the ambient, diffuse and specular light of the channel with the most, where all lights fall straight on it.

@@ -376,6 +376,12 @@ fn vertex_colours_are_lit_or_told() {
         pixels.any(|p| u32::from(p[0]) > 4 * u32::from(p[2]))
     };
     assert!(is_red("on.png") && !is_red("off.png"));
+    let points = "v 0 0 0 9 9 9\nv 1 0 0 9 9 9\nv 0 1 0 9 9 9\n";
+    folder.write("bright.obj", format!("{points}f 1 2 3\n"));
+    folder
+        .run("render bright.obj --size 64x48 -o bright.png")
+        .done()
+        .says("multiplied by vertex colours of up to 9");
     folder
         .run("info mesh.obj")
         .done()
