@@ -5,6 +5,8 @@ use super::newell::{polygon_normal, unit_normal};
 use super::orientation::inside_out;
 use super::weld::weld;
 use super::{GivenNormals, PolygonMesh};
+use crate::number::split_mix::SplitMix;
+use alloc::vec::Vec;
 use glam::DVec3;
 
 /// The mean cosine between a polygon's normal and those given for its corners, below which they contradict each other. Files
@@ -51,16 +53,22 @@ impl WindingDoubts {
 
     fn count_edges(&mut self, mesh: &PolygonMesh) {
         let (vertex, count) = weld(mesh.positions());
+        // Of all polygons at once, and only for a mesh that needs them: a polygon may have as many edges as there are.
+        let mut prints = None;
         for uses in Edges::new(mesh, &vertex, count).iter() {
             let ascending = uses.iter().filter(|of| of.ascends).count();
             if 2 * ascending == uses.len() {
                 continue;
             }
             // Copies run along it in one direction, as neighbours that are wound differently do.
-            let is_of_one = (ascending == 0 || ascending == uses.len())
-                && uses[1..]
-                    .iter()
-                    .all(|of| is_copy(mesh, &vertex, uses[0].polygon, of.polygon));
+            let is_one_way = ascending == 0 || ascending == uses.len();
+            let is_of_one = uses.len() == 1
+                || is_one_way && {
+                    let all = prints.get_or_insert_with(|| fingerprints(mesh, &vertex));
+                    let print = |polygon: u32| all[polygon as usize];
+                    uses.iter()
+                        .all(|of| print(of.polygon) == print(uses[0].polygon))
+                };
             match is_of_one {
                 true => self.open_edges += 1,
                 false => self.uneven_edges += 1,
@@ -69,16 +77,12 @@ impl WindingDoubts {
     }
 }
 
-/// True if polygons `a` and `b` have the same corners in the same order, wherever it begins; `vertex` has the number of each position.
-fn is_copy(mesh: &PolygonMesh, vertex: &[u32], a: u32, b: u32) -> bool {
-    let corners = |p: u32| mesh.polygon(p as usize).iter().map(|&c| vertex[c as usize]);
-    let (count, first) = (corners(a).len(), corners(a).next());
-    let is_turned = |by: usize| corners(a).eq(corners(b).cycle().skip(by).take(count));
-    // Only where the first corner is found can the others follow it.
-    count == corners(b).len()
-        && (0..count)
-            .zip(corners(b))
-            .any(|(by, corner)| Some(corner) == first && is_turned(by))
+/// Returns a value for each polygon that those of the same corners share, in any order, and others by a chance of 2⁻⁶⁴; `vertex` has
+/// the index of each position.
+fn fingerprints(mesh: &PolygonMesh, vertex: &[u32]) -> Vec<u64> {
+    let print = |corner: &u32| SplitMix(vertex[*corner as usize].into()).next();
+    let sum = |corners: &[u32]| corners.iter().map(print).fold(0, u64::wrapping_add);
+    mesh.polygons().map(sum).collect()
 }
 
 /// True if the normals `given` for the corners of polygon `p` point away from `normal`, the polygon's own.
@@ -104,7 +108,6 @@ mod tests {
     use crate::mesh::MeshBuilder;
     use crate::mesh::builtin::builtin;
     use alloc::vec;
-    use alloc::vec::Vec;
     use glam::Vec3;
 
     /// A cube whose polygons are reversed where `reversed` says so, without the first `without` ones.
@@ -141,6 +144,21 @@ mod tests {
         assert_eq!(doubts(cube(|_| false, 1)).open_edges, 4);
         let one = doubts(cube(|p| p == 2, 0));
         assert_eq!((one.open_edges, one.uneven_edges), (0, 4));
+    }
+
+    /// Comparing the polygons again at each of their edges would take minutes here.
+    #[test]
+    fn copies_of_a_polygon_of_many_corners_take_time_in_proportion() {
+        let count = 100_000;
+        let corner = |k: u32| {
+            let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::TAU / f64::from(count));
+            DVec3::new(cos, sin, 0.0).as_vec3()
+        };
+        let mut builder = MeshBuilder::new((0..count).map(corner).collect());
+        let polygon: Vec<u32> = (0..count).collect();
+        builder.polygon(&polygon).polygon(&polygon);
+        let of = doubts(builder);
+        assert_eq!((of.open_edges, of.uneven_edges), (count as usize, 0));
     }
 
     #[test]
