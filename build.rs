@@ -1,5 +1,4 @@
-//! Passes the compiler's version and options to the crate, for the machine block of benchmark
-//! results.
+//! Passes the compiler's version and options to the crate. Benchmark results name them.
 
 use std::env;
 use std::process::Command;

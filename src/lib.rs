@@ -1,30 +1,55 @@
-//! Phong shading on a scanline rasterizer: 38 methods to run, time, look at and check against an f64 reference.
+//! Phong shading on a scanline rasterizer: 38 methods to run, time, look at and check against an
+//! `f64` reference.
 //!
-//! *Lecture 21: Shading* (L21) shades polygons on a scan-line rasterizer: flat, with vertex colours (Gouraud), with interpolated normals
-//! (Phong), and then draws Phong's picture for a few additions per pixel. Each of these is a *method* here: one file and one
-//! line of [`shading::METHODS`]. All methods draw the same [`frame::Frame`], so their pictures differ by shading and by nothing
-//! else. Each is measured against a closed form in `f64` that shares no arithmetic with it.
+//! *Lecture 21: Shading* (L21) shades polygons scanline by scanline: flat, with interpolated
+//! colours (Gouraud), with interpolated normals (Phong). Then it draws Phong's picture with a few
+//! additions per pixel. Each of these is a *method* here. Every method draws the same
+//! [`frame::Frame`] through the same engine, so two pictures differ by shading and nothing else.
+//! The [`mod@reference`] defines the correct picture. It shares no arithmetic with the methods.
 //!
-//! # From a mesh to a number
+//! To use the library without the command-line tool, turn its features off:
+//!
+//! ```toml
+//! [dependencies]
+//! fastphong = { version = "0.1", default-features = false, features = ["std"] }
+//! ```
+//!
+//! # Example
+//!
+//! Draw a mesh with the lecture's fast method:
 //!
 //! ```
-//! use fastphong::compare::metrics::compare;
 //! use fastphong::mesh::builtin::builtin;
-//! use fastphong::reference::{self, Model};
 //! use fastphong::scene::Scene;
-//! use fastphong::shading::Variant;
+//! use fastphong::shading::methods;
 //!
 //! // A mesh: polygons of any number of sides. `mesh::read` reads them from files.
 //! let mesh = builtin("teapot?res=6")?;
-//! // A scene: the mesh, a camera that sees it, a light. All fields are public.
+//! // A scene: the mesh, a camera that sees all of it, and a light. All fields are public.
 //! let mut scene = Scene::of_mesh(mesh);
 //! (scene.width, scene.height) = (160, 120);
 //! // A frame: the polygons that the camera sees, projected, clipped and checked.
 //! let frame = scene.frame()?;
-//! // A picture, by the lecture's fast method with one step of Newton's. All that can fail from here on is a method that is not for
-//! // such a frame, and says why.
-//! let fast = Variant::parse("fast-phong:steps=1")?.render(&frame)?;
-//! // The reference picture, and the difference from it.
+//! // A picture: red, green, blue and alpha in bytes.
+//! let picture = methods::FAST_PHONG.variant().render(&frame)?;
+//! assert_eq!(picture.get(80, 60)[3], 255, "the teapot is in the middle");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Then measure how far a picture is from the correct one:
+//!
+//! ```
+//! use fastphong::compare::metrics::compare;
+//! use fastphong::reference::{self, Model};
+//! # use fastphong::mesh::builtin::builtin;
+//! # use fastphong::scene::Scene;
+//! # use fastphong::shading::methods;
+//! # let mut scene = Scene::of_mesh(builtin("teapot?res=6")?);
+//! # (scene.width, scene.height) = (160, 120);
+//! # let frame = scene.frame()?;
+//!
+//! // One step of Newton's method per pixel.
+//! let fast = methods::FAST_PHONG.variant().with("steps", 1)?.render(&frame)?;
 //! let exact = reference::render(&frame, Model::Phong).to_picture8();
 //! let difference = compare(&exact, &fast)?;
 //! assert_eq!(difference.coverage_mismatches, 0);
@@ -32,36 +57,65 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # Where things are
+//! The [examples](https://docs.rs/crate/fastphong/latest/source/examples/) are whole programs: one
+//! triangle, your own triangles, rasterizer, shader, texture and window.
 //!
-//! | for | items |
+//! # Where to start
+//!
+//! | to | use |
 //! |---|---|
-//! | pictures | [`picture::Picture`], [`picture::encoding`], `picture::image_file` |
-//! | arithmetic | [`number::Num`]: scalar, SIMD or counting, behind one trait |
-//! | shapes | [`mesh::builtin::builtin`], `mesh::read::load_mesh`, [`mesh::MeshBuilder`], [`mesh::vertex_normals`] (L21 1.1, 3.1) |
-//! | scenes | [`scene::Scene::of_mesh`], [`scene::Camera`], [`scene::Light`], `scene::file::SceneFile`, `scene::input::load` |
-//! | frames | [`frame::Frame`], the interface between geometry and shading: from [`scene::Scene::frame`], [`frame::PreparedScene`] for many frames, [`frame::FrameBuilder`] for polygons from elsewhere |
-//! | the reference | [`mod@reference`]: four closed forms in `f64` |
-//! | methods | [`shading::Variant::render`], [`shading::methods`], [`shading::METHODS`]; [`shading::Shader`] to add one from outside this crate |
-//! | a window, a depth buffer of your own | [`shading::Variant::draw`] into a [`picture::PictureMut`] |
-//! | a rasterizer of your own | [`shading::SpanShader`]: a method without an engine |
-//! | numbers of your own at vertices | [`mesh::MeshBuilder::attributes`], [`frame::FrameBuilder::attributes`], [`shading::Lit::attributes`] |
-//! | engines | [`raster`]: scan lines as in the lecture, SIMD rows, barycentric coordinates to compare with |
-//! | a processor without a floating-point unit | [`integer`]: spans and triangles in fixed point |
-//! | errors, times | [`compare::metrics::compare`], [`compare::metrics::difference_map`], [`shading::Variant::operations`] |
+//! | make or read a mesh | [`mesh::MeshBuilder`], [`mesh::builtin::builtin`], `mesh::read::load_mesh` |
+//! | choose vertex normals (L21 1.1, 3.1) | [`mesh::vertex_normals`] |
+//! | set up camera and lights | [`scene::Scene`], [`scene::Camera`], [`scene::Light`] |
+//! | draw many frames of one scene | [`scene::Scene::prepare`], [`frame::PreparedScene`] |
+//! | draw polygons that your own renderer has projected | [`frame::FrameBuilder`] |
+//! | choose a method | [`shading::methods`], [`shading::Variant`]; all of them are in [`shading::METHODS`] |
+//! | get the fastest method for a picture | [`shading::Variant::auto`] |
+//! | draw into your own memory, with your own depth buffer | [`shading::Variant::draw`], [`picture::PictureMut`] |
+//! | choose an engine: scalar spans or SIMD rows | [`raster`] |
+//! | save a picture | `picture::image_file::write_picture` |
+//! | shade the spans of your own rasterizer | [`shading::SpanShader`] |
+//! | write a method | [`shading::Shader`], [`shading::walks`] |
+//! | interpolate your own vertex attributes | [`frame::FrameBuilder::attributes`], [`shading::LightAt::attributes`] |
+//! | get the correct picture | [`mod@reference`] |
+//! | compare two pictures | [`compare::metrics`] |
+//! | count the operations of a pixel | [`shading::Variant::operations`] |
+//! | shade without a floating-point unit | [`integer`] |
+//! | read scene files and pictures | `scene::file::SceneFile`, `picture::image_file` |
 //!
-//! Vectors of scenes and meshes are those of [`glam`], coordinates on the picture numbers of [`fixed`]: both are re-exported, so that
-//! versions agree. A shader computes with [`number::Vec3`], whose components may be blocks of pixels.
+//! Scenes and meshes use the vectors of `glam`, and pixel coordinates are fixed-point types of
+//! `fixed`. Both crates are re-exported so that versions agree. A shader computes with
+//! [`number::Vec3`], whose components may be blocks of pixels.
+//!
+//! # Limits
+//!
+//! - A picture has at most 16,384 samples a side ([`scene::Scene::MAX_SIDE`]); with one sample per
+//!   pixel these are pixels.
+//! - A scene has at most 64 lights ([`scene::Scene::MAX_LIGHTS`]). They cast no shadows.
+//! - A mesh has at most 16 million polygons ([`mesh::PolygonMesh::MAX_POLYGONS`]).
+//! - All surfaces are opaque. Alpha is the share of a pixel that polygons cover.
+//! - No built-in method reads textures. A shader of your own can: `examples/texture.rs` is one.
 //!
 //! # Features
 //!
-//! Without features the crate is [`integer`] alone: `no_std` without an allocator, for processors without a floating-point unit.
-//! `alloc` adds all else that needs no operating system: no files, no clocks, and the same bits on every platform, as all
-//! functions beyond + − × ÷ and the root are from `libm`. `std` takes roots from the hardware. `io` reads and writes
-//! files: scenes (TOML), meshes (OBJ, STL, PLY, OFF; glTF with the feature `gltf`), pictures (PNG, PPM, PFM). `threads` works on several threads, those of rayon's
-//! current pool, and changes no bit. `cli`, the default, is the command-line tool, and `view` adds its
-//! window.
-#![no_std]
+//! | feature | adds |
+//! |---|---|
+//! | none | [`integer`] only: `no_std`, no allocator, no floating-point unit |
+//! | `alloc` | everything that needs no operating system, with the same bits on every platform: roots and other functions are from `libm` |
+//! | `std` | square roots by the hardware |
+//! | `io` | files: scenes (TOML), meshes (OBJ, STL, PLY, OFF), pictures (PNG, PPM, PFM) |
+//! | `gltf` | glTF and GLB meshes |
+//! | `threads` | rayon's current thread pool; pictures do not change |
+//! | `simd` | AVX2, AVX-512 or NEON, chosen at run time |
+//! | `lectures` | the lectures' figures, for the command-line tool and the report |
+//! | `cli` (default) | the command-line tool |
+//! | `view` | its window |
+//!
+//! The crate needs Rust 1.95 or later. Only a minor release (0.x) raises this version.
+// Only the command-line tool (`cli`) relies on the prelude of `std`. All other rooms import from
+// `core` and `alloc`.
+#![cfg_attr(not(feature = "cli"), no_std)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #[cfg(feature = "alloc")]
 extern crate alloc;
 #[cfg(any(feature = "std", test))]
@@ -71,6 +125,9 @@ pub use fixed;
 #[cfg(feature = "alloc")]
 pub use glam;
 
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod cli;
 #[cfg(feature = "alloc")]
 pub mod compare;
 #[cfg(feature = "cli")]
@@ -101,8 +158,8 @@ pub mod scene;
 pub mod shading;
 // Its tests need no display: they run with all others.
 #[cfg(any(feature = "view", all(test, feature = "cli")))]
-#[doc(hidden)]
-pub mod view;
+#[cfg_attr(not(feature = "view"), allow(dead_code, unused_imports))]
+mod view;
 
 /// Shared ownership and atomics, also on processors without compare-and-swap.
 #[cfg(feature = "alloc")]

@@ -1,4 +1,5 @@
-//! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
+//! `fastphong bench`: times methods against each other in interleaved rounds, or whole frames, one
+//! method after the other.
 
 use super::contents::Contents;
 use super::engines::{self, ScanlineEngine, Simd, SimdList, ThreadFlags, renderer};
@@ -9,41 +10,47 @@ use super::output::{self, Output};
 use super::scene_flags::SceneFlags;
 use super::span_times::span_times;
 use super::{CliError, Log, Outcome, done};
-use fastphong::compare::comparison::{TableKind, table};
-use fastphong::compare::timing::Machine;
-use fastphong::number::Level;
-use fastphong::raster::Renderer;
-use fastphong::report::Document;
+use crate::compare::comparison::{TableKind, table};
+use crate::compare::timing::Machine;
+use crate::number::SimdLevel;
+use crate::raster::Renderer;
+use crate::report::Document;
 use std::path::PathBuf;
 
-/// Time methods on scenes: interleaved rounds, medians with their spread, ratios; or whole frames
+/// Time methods on scenes: in interleaved rounds, with medians, spread and speed-ups; or whole
+/// frames
 #[derive(clap::Args, Debug)]
 pub struct BenchArgs {
-    /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for standard input [default: all shipped scenes]
+    /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for
+    /// standard input [default: all shipped scenes]
     #[arg(value_name = "INPUT", value_parser = input_name::parser())]
     inputs: Vec<String>,
     #[command(flatten)]
     timing: TimingFlags,
-    /// Time whole frames, from the prepared scene to the stored picture, one method after the other: a line each, with
-    /// `ms_median` and `ms_min`
+    /// Time whole frames, from the prepared scene to the stored picture, one method after the
+    /// other; print a line for each, with `ms_median` and `ms_min`
     #[arg(long, conflicts_with = "time_budget")]
     frame_times: bool,
-    /// Time single spans of 1 to 1024 pixels, shaded by the methods' scalar loops alone, with one light and with four
+    /// Time single spans of 1 to 1024 pixels with one light and with four, shaded by the methods'
+    /// scalar loops without an engine
     #[arg(long, conflicts_with_all = ["inputs", "frame_times", "time_budget", "engine", "simd"])]
     spans: bool,
     #[command(flatten)]
     count: FrameCount,
-    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
-    /// where it can draw the frame [default: span; auto with --frame-times]
+    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time on one thread;
+    /// `row`, with SIMD; or `auto`, which is `row` if it can draw the frame, else `span` [default:
+    /// span; auto with --frame-times]
     #[arg(long, value_parser = engines::scanline_engine)]
     engine: Option<ScanlineEngine>,
-    /// Instruction sets of the pixel loops between commas, or `all` of this machine; `scalar` selects the span engine, any other
-    /// the row engine, and each is timed for itself [default: scalar; auto with --frame-times]
+    /// Instruction sets of the pixel loops, separated by commas, or `all` of this machine; each is
+    /// timed separately. `scalar` selects the span engine, any other the row engine [default:
+    /// scalar; auto with --frame-times]
     #[arg(long, value_name = "ISA,…", value_parser = engines::simd_list)]
     simd: Option<SimdList>,
     #[command(flatten)]
     threads: ThreadFlags,
-    /// Also write all times to this file, as described in docs/bench-json.md; `-` prints them in place of the tables
+    /// Also write all times to this file, as described in docs/bench-json.md; `-` prints them
+    /// instead of the tables
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     #[command(flatten)]
@@ -51,7 +58,7 @@ pub struct BenchArgs {
 }
 
 impl BenchArgs {
-    /// Times, and prints the tables.
+    /// Times the methods and prints the tables.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let json_to = self.json.as_deref();
         let json_to = json_to.map(|path| Output::new("--json", path, Contents::Json));
@@ -85,11 +92,12 @@ impl BenchArgs {
         done(&text)
     }
 
-    /// Returns a renderer for each instruction set that was asked for, each once. Without one, methods are compared by the
-    /// lecture's span engine; whole frames are drawn the fastest way.
+    /// Returns a renderer for each instruction set that was asked for, without duplicates. If none
+    /// was, methods are compared in the lecture's span engine, and whole frames are drawn the
+    /// fastest way.
     ///
     /// # Errors
-    /// When engine and instruction sets contradict each other.
+    /// If the engine and the instruction sets contradict each other.
     fn renderers(&self) -> Result<Vec<Renderer>, CliError> {
         let default = match self.frame_times {
             true => Renderer::fastest(),
@@ -99,10 +107,11 @@ impl BenchArgs {
             return Ok(vec![renderer(self.engine, None, default)?]);
         };
         let on = |simd: &Simd| renderer(self.engine, Some(*simd), default);
-        let levels = Level::available().map(Some);
+        let levels = SimdLevel::available().map(Some);
         let possible: SimdList = levels.filter(|simd| on(simd).is_ok()).collect();
         let asked = match (&list[..], &possible[..]) {
-            // A machine without any of them gives the error of `auto`.
+            // `all` with an engine that no instruction set fits: asking for `auto` returns the
+            // error to print.
             ([], []) => &[None],
             ([], all) => all,
             (named, _) => named,

@@ -1,18 +1,19 @@
-//! The part of a picture whose light is over 1 and clamped, and the materials that it is due to.
+//! The warning about light over 1, which is clamped: how much of the picture it affects, and which
+//! materials cause it.
 
 use super::shown_frame::ShownFrame;
-use fastphong::reference::clamping;
-use fastphong::scene::{Light, Lighting};
+use crate::reference::clamping;
+use crate::scene::{Light, Lighting};
 use std::collections::BTreeSet;
 
-/// The most materials that are named.
+/// How many materials the warning names at most.
 const MOST_NAMED: usize = 3;
 
-/// The least highlight without an end that is told: what a tenth of white adds is seen.
+/// The weakest unbounded highlight to warn of: a tenth of white is visible.
 const LEAST_TOLD: f64 = 0.1;
 
-/// Says how much of a frame is clamped, and of which materials why; or which highlights have no end. `None` if there is little of
-/// either.
+/// Returns the warning about a frame that is too bright: how much of it is clamped, and why in
+/// which materials; or which highlights cover everything that is lit. `None` if neither matters.
 pub fn too_bright_text(shown: &ShownFrame) -> Option<String> {
     clamped_text(shown).or_else(|| endless_highlight_text(shown))
 }
@@ -50,12 +51,13 @@ fn clamped_text(shown: &ShownFrame) -> Option<String> {
         why.push(format!("{others} more materials"));
     }
     Some(format!(
-        "about {share:.0} % of what is seen is clamped: its light is over 1 in {channels}; {}",
+        "about {share:.0} % of the covered picture is clamped: its light is over 1 in {channels}; {}",
         why.join("; ")
     ))
 }
 
-/// Names materials that are drawn with a highlight as wide as the light, which is white where it does not pass 1, too.
+/// Names the materials whose exponent is under 1, so that the highlight covers everything that is
+/// lit. This looks wrong even where the light stays under 1.
 fn endless_highlight_text(shown: &ShownFrame) -> Option<String> {
     let lightings = shown.frame.lightings();
     let is_endless = |material: &u32| {
@@ -75,33 +77,33 @@ fn endless_highlight_text(shown: &ShownFrame) -> Option<String> {
     }
     let shininess = lightings[*materials.first()? as usize].shininess;
     Some(format!(
-        "an exponent (Ns, shininess) of {shininess} makes a highlight of all that the light reaches: {}",
+        "an exponent (Ns, shininess) of {shininess} makes a highlight of everything that is lit: {}",
         names.join("; ")
     ))
 }
 
-/// Names a material, by its index in the frame, and says why its light is over 1.
+/// Names the material at an index of the frame, and says why its light is over 1.
 fn reason(shown: &ShownFrame, material: usize) -> String {
     let lighting = &shown.frame.lightings()[material];
     let name = name(shown, material as u32);
     let (ambient, diffuse, highlight) = terms(lighting);
-    let number = |x: f64| format!("{}", (1e3 * x).round() / 1e3);
+    let decimal = |x: f64| format!("{}", (1e3 * x).round() / 1e3);
     let mut text = format!(
         "{name} reaches {}: ambient {} + diffuse {} + highlight {}",
-        number(ambient + diffuse + highlight),
-        number(ambient),
-        number(diffuse),
-        number(highlight)
+        decimal(ambient + diffuse + highlight),
+        decimal(ambient),
+        decimal(diffuse),
+        decimal(highlight)
     );
     if lighting.vertex_colours {
-        let most = number(largest_colour(shown, material as u32));
+        let most = decimal(largest_colour(shown, material as u32));
         text += &format!(
             ", of which ambient and diffuse are multiplied by vertex colours of up to {most}"
         );
     }
     let shininess = lighting.shininess;
     if shininess < 1.0 && highlight > 0.0 {
-        let most = "covers all that the light reaches";
+        let most = "covers everything that is lit";
         text +=
             &format!(", and with an exponent (Ns, shininess) of {shininess} the highlight {most}");
     }
@@ -109,27 +111,28 @@ fn reason(shown: &ShownFrame, material: usize) -> String {
     let light: f32 = shown.scene.lights.iter().map(brightest).sum();
     if light > 1.0 {
         let lights = super::text::counted(shown.scene.lights.len(), "light of", "lights of");
-        text += &format!(", under {lights} {} in all", number(light.into()));
+        text += &format!(", under {lights} {} in all", decimal(light.into()));
     }
     text
 }
 
-/// Returns the largest channel of a vertex colour on a material.
+/// Returns the largest channel of all vertex colours on a material.
 fn largest_colour(shown: &ShownFrame, material: u32) -> f64 {
     let frame = shown.frame;
     let polygons = frame.polygons().iter();
     let polygons = polygons.filter(|polygon| polygon.material == material);
-    // Clipping gives its corners no colours of their own.
+    // Corners made by clipping have no vertex colours.
     let corners = polygons.flat_map(|polygon| frame.corners(polygon));
     let corners = corners.filter(|vertex| frame.clip_corner(**vertex).is_none());
     let channels = corners.flat_map(|vertex| frame.colour(*vertex));
     channels.fold(0.0, f32::max).into()
 }
 
-/// Returns the ambient, diffuse and specular light of the channel with the most, where all lights fall straight on it.
+/// Returns the ambient, diffuse and specular light of the brightest channel, as if every light hit
+/// the surface head-on.
 fn terms(lighting: &Lighting) -> (f64, f64, f64) {
     let channel = |i: usize| {
-        let sum = |of: fn(&fastphong::scene::LightTerm) -> [f32; 3]| -> f64 {
+        let sum = |of: fn(&crate::scene::LightTerm) -> [f32; 3]| -> f64 {
             lighting
                 .lights
                 .iter()
@@ -149,7 +152,8 @@ fn terms(lighting: &Lighting) -> (f64, f64, f64) {
     most.expect("three channels")
 }
 
-/// Names a material of the frame by the first polygon that is drawn in it.
+/// Returns a name for the material at an index of the frame, found through its first polygon: the
+/// name in the mesh file, or its object.
 fn name(shown: &ShownFrame, material: u32) -> String {
     let mut polygons = shown.frame.polygons().iter();
     let Some(polygon) = polygons.find(|polygon| polygon.material == material) else {

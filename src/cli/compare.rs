@@ -6,15 +6,16 @@ use super::measured::{Measurement, TimingFlags, command_line};
 use super::memory;
 use super::scene_flags::SceneFlags;
 use super::{CliError, Log, Outcome, done, files, weights};
-use fastphong::compare::comparison::{TableKind, table};
-use fastphong::raster::Renderer;
-use fastphong::report::Document;
-use fastphong::scene::file::shown;
+use crate::compare::comparison::{TableKind, table};
+use crate::raster::Renderer;
+use crate::report::Document;
+use crate::scene::file::shown;
 
-/// Compare methods on one scene: error against the reference, time, ratios
+/// Compare methods on one scene: error against the reference, time, speed-up
 #[derive(clap::Args, Debug)]
 pub struct CompareArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard
+    /// input
     #[arg(value_parser = input_name::parser())]
     input: String,
     #[command(flatten)]
@@ -27,7 +28,7 @@ pub struct CompareArgs {
     /// Print everything as JSON
     #[arg(long, conflicts_with = "all_columns")]
     json: bool,
-    /// Compare the weights of vertex normals, in place of methods
+    /// Compare the ways to weight vertex normals instead of methods
     #[arg(long, conflicts_with_all = ["all_columns", "json", "methods", "normals-weight"])]
     weights: bool,
     #[command(flatten)]
@@ -35,7 +36,7 @@ pub struct CompareArgs {
 }
 
 impl CompareArgs {
-    /// Compares, times, and prints the table.
+    /// Compares and times the methods, and prints the table.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         if self.weights {
             return self.compare_weights(log);
@@ -61,12 +62,12 @@ impl CompareArgs {
         };
         let outcome = done(&text)?;
         if renderer == Renderer::LECTURE {
-            log.note("note: drawn as in the lecture, by scalar code; --simd auto compares on the engine that `render` uses");
+            log.note("note: drawn as in the lecture, by scalar code; --simd auto compares in the engine that `render` uses");
         }
         Ok(outcome)
     }
 
-    /// Prints the table of weights.
+    /// Prints the table that compares the weights of vertex normals.
     fn compare_weights(&self, log: Log) -> Result<Outcome, CliError> {
         let file = self.scene.load(&self.input)?;
         let resolved = files::resolve(&file)?;

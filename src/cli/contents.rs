@@ -1,28 +1,30 @@
-//! What files hold, and the marks by which the program knows files that it made: where it chooses a name, it replaces no others.
+//! The kinds of files that fastphong writes, and the marks by which it recognises its own. Where
+//! the program chooses a file's name, it replaces only a file that has its mark.
 //!
-//! A PNG file has a chunk that names its software, a page its title, Markdown the command that made it, a manual page its own name.
-//! PPM and PFM files carry no mark, so that any picture of the format counts as ours: a PFM header has no comments, and the short readers
-//! of PPM that authors of rasterizers write expect none.
+//! A PNG file has a chunk that names its software; a page has its title, Markdown the command that
+//! made it, a manual page its name. PPM and PFM files carry no mark, and any picture in these
+//! formats counts as ours: a PFM header allows no comments, and the short PPM readers that authors
+//! of rasterizers write expect none.
 
 use super::files;
-use fastphong::picture::image_file::Format;
+use crate::picture::image_file::Format;
 use std::fmt;
 use std::path::Path;
 
-/// Bytes at the beginning of a file in which its mark stands.
+/// How many bytes at the beginning of a file are searched for its mark.
 const BEGINNING: u64 = 1 << 14;
 
-/// Kind and data of the chunk by which a PNG file names its software (ISO/IEC 15948, 11.3.3.3).
+/// The type and the data of the PNG chunk that names the software (ISO/IEC 15948, 11.3.3.3).
 const SOFTWARE: &[u8] = b"tEXtSoftware\0fastphong";
 
-/// What a file holds.
+/// The kind of a file's contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contents {
     /// A picture in this format.
     Picture(Format),
     /// A page in HTML.
     Page,
-    /// Numbers in JSON.
+    /// Data in JSON.
     Json,
     /// Results of tests in XML.
     Xml,
@@ -35,7 +37,7 @@ pub enum Contents {
 }
 
 impl Contents {
-    /// Returns the endings that files of these contents have.
+    /// Returns the file endings for these contents.
     pub fn endings(self) -> &'static [&'static str] {
         match self {
             Contents::Picture(Format::Png) => &["png"],
@@ -50,7 +52,8 @@ impl Contents {
         }
     }
 
-    /// True if nothing is at `path` that would be lost: no file, no plain one, or one with the mark of these contents.
+    /// True if writing to `path` loses nothing: there is no file, it is not a plain one, or it has
+    /// the mark of these contents.
     pub fn is_own(self, path: &Path) -> bool {
         files::beginning(path, BEGINNING).is_none_or(|bytes| self.marks(&bytes))
     }

@@ -1,23 +1,25 @@
-//! What the depth test cannot decide on a frame, and where attributes that are linear on the screen mislead.
+//! Notes about depth: polygons whose depths rounding cannot tell apart, and polygons that
+//! interpolation on the screen distorts.
 
 use super::Log;
 use super::text::{counted, grouped};
-use fastphong::frame::{DepthRange, Frame};
-use fastphong::raster::depth_ties::{DepthTies, depth_ties};
-use fastphong::scene::{HiddenSurfaces, Interpolation};
+use crate::frame::{DepthRange, Frame};
+use crate::raster::depth_ties::{DepthTies, depth_ties};
+use crate::scene::{HiddenSurfaces, Interpolation};
 
-/// The share of covered samples at which rounding decides from which on it is worth a word.
+/// The share of covered samples decided by rounding from which on the user is warned.
 const SHARE: f64 = 0.001;
 
-/// Warns of polygons whose depths rounding cannot tell apart, and notes doubled ones.
+/// Warns of polygons whose depths rounding cannot tell apart, and notes polygons that are drawn
+/// twice.
 pub fn note_depth_ties(frame: &Frame, log: Log) {
     let ties = depth_ties(frame);
     if ties.samples as f64 > SHARE * ties.covered as f64 {
         log.warning(&ties_text(frame, ties));
     }
     if ties.doubled > 0 {
-        let one = "polygon has the corners of an earlier one, which is seen in its place";
-        let more = "polygons have the corners of earlier ones, which are seen in their place";
+        let one = "polygon has the corners of an earlier one, which hides it";
+        let more = "polygons have the corners of earlier ones, which hide them";
         log.note(&counted(ties.doubled, one, more));
     }
 }
@@ -32,21 +34,22 @@ fn ties_text(frame: &Frame, ties: DepthTies) -> String {
     };
     match bits {
         Some(bits) => format!(
-            "{polygons} others at equal depth in {bits} bits, at {samples} samples ({share:.2} % of those covered): the first \
-             drawn is seen there; --depth-bits 32 tells more of them apart"
+            "{polygons} others at equal depth in {bits} bits, at {samples} samples ({share:.2} % of those covered): the one \
+             drawn first is visible there; --depth-bits 32 tells more of them apart"
         ),
         None => format!(
-            "{polygons} others at one depth but for rounding, at {samples} samples ({share:.2} % of those covered): which is \
-             seen there differs between engines; move one of them, or leave it out"
+            "{polygons} others at the same depth up to rounding, at {samples} samples ({share:.2} % of those covered): which one \
+             is visible there differs between engines; move one of them, or leave it out"
         ),
     }
 }
 
-/// How many times as far away as its nearest corner a polygon's farthest may be until interpolation on the screen is
-/// worth a word: half-way on the screen is then 1/3 of the way in space, not 1/2.
+/// The ratio of a polygon's farthest to its nearest depth from which on the user is told of
+/// interpolation on the screen. At 2, half-way on the screen is 1/3 of the way in space.
 const RATIO: f64 = 2.0;
 
-/// Returns the normal of a vertex, of one that clipping made that of an end of its edge.
+/// Returns the normal of a vertex. A vertex made by clipping has none: this returns the normal at
+/// one end of its edge.
 fn normal_at(frame: &Frame, vertex: u32) -> [f32; 3] {
     match frame.clip_corner(vertex) {
         Some(cut) => normal_at(frame, cut.a),
@@ -54,7 +57,8 @@ fn normal_at(frame: &Frame, vertex: u32) -> [f32; 3] {
     }
 }
 
-/// Notes that attributes are linear on the screen where perspective makes much of a difference, and its cure.
+/// Tells the user if perspective makes much of a difference to attributes interpolated on the
+/// screen, and which flag helps.
 pub fn note_screen_interpolation(frame: &Frame, log: Log) {
     let is_perspective = matches!(frame.depth_range(), DepthRange::Perspective { .. });
     if !is_perspective || frame.interpolation() == Interpolation::Perspective {
@@ -73,11 +77,11 @@ pub fn note_screen_interpolation(frame: &Frame, log: Log) {
         .filter(|polygon| is_bent(frame.corners(polygon)))
         .count();
     if bent > 0 {
-        let one = "polygon reaches from near to more than twice as far away";
-        let more = "polygons reach from near to more than twice as far away";
+        let one = "polygon is more than twice as far away at one corner as at another";
+        let more = "polygons are more than twice as far away at one corner as at another";
         log.note(&format!(
-            "{}: what is interpolated over them is linear on the screen, as in the lecture, and bends in space; \
-             --interpolation perspective is right there",
+            "{}: values interpolated over them are linear on the screen, as in the lecture, and so not in space; \
+             --interpolation perspective makes them right",
             counted(bent, one, more)
         ));
     }

@@ -1,40 +1,40 @@
-//! Render jobs: from a frame to a picture, by a method and an engine.
+//! Render jobs: each draws the picture of a frame by a method and an engine.
 
 use super::aov::{Aov, Subject};
 use super::engines::{ENGINES, EngineFlag, EngineInfo, Simd, cs171_shading};
 use super::text::{counted, grouped};
 use super::{CliError, Log};
-use fastphong::compare::comparison::DrawnBy;
-use fastphong::frame::Frame;
-use fastphong::frame::triangulate::triangulated;
-use fastphong::number::Level;
-use fastphong::number::suggest::unknown;
-use fastphong::picture::encoding::{quantise, srgb_encode, store};
-use fastphong::picture::image_file::{FilePicture, FilePixels, Format, PpmWriter};
-use fastphong::picture::{Alpha, Encoding, Picture};
-use fastphong::raster::{Edges, Plan, Renderer};
-use fastphong::reference::cs171::{self, Reading, Shading};
-use fastphong::reference::{self, Model};
-use fastphong::shading::{METHODS, MethodRow, Variant};
+use crate::compare::comparison::DrawnBy;
+use crate::frame::Frame;
+use crate::frame::triangulate::triangulated;
+use crate::number::SimdLevel;
+use crate::number::suggest::unknown;
+use crate::picture::encoding::{quantise, srgb_encode, store};
+use crate::picture::image_file::{FilePicture, FilePixels, Format, PpmWriter};
+use crate::picture::{Alpha, Encoding, Picture};
+use crate::raster::{Edges, Plan, Renderer};
+use crate::reference::cs171::{self, Reading, Shading};
+use crate::reference::{self, Model};
+use crate::shading::{METHODS, MethodRow, Variant};
 use std::fmt;
 use std::io::{self, Write};
 
-/// The name under which the reference picture can be asked for like a method.
+/// The value of `--method` that asks for the reference picture.
 const REFERENCE: &str = "reference";
 
-/// The name under which the choice of the method is left to the program.
+/// The value of `--method` that lets the program choose.
 pub const AUTO: &str = "auto";
 
-/// The source of the colours.
+/// The method that computes the colours.
 #[derive(Clone, Debug)]
 pub enum Method {
     /// A method of the table.
     Variant(Variant),
-    /// The closed form that methods are measured against, in `f64`.
+    /// The `f64` closed form that methods are measured against.
     Reference(Model),
 }
 
-/// The method that was asked for; `None` is `auto`, which is chosen once the frame is there.
+/// The method asked for. `None` is `auto`, which is decided once the frame is known.
 pub type AskedMethod = Option<Method>;
 
 /// Reads `auto`, `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
@@ -70,27 +70,27 @@ impl fmt::Display for Method {
     }
 }
 
-/// The quantity that a picture shows, and the engine that draws it.
+/// What a picture shows, and the engine that draws it.
 enum PictureContent {
-    /// Colours, by scanlines.
+    /// Colours, drawn by a scanline engine.
     Scanlines(Variant, Renderer),
-    /// Colours, by the barycentric renderer.
+    /// Colours, drawn by the barycentric renderer.
     Barycentric(Variant, Edges),
-    /// Colours, by CS171's algorithms.
+    /// Colours, drawn by CS171's algorithms.
     Cs171(Shading, Reading),
     /// Colours of the closed form.
     Reference(Model),
-    /// Another quantity.
+    /// A quantity other than colour.
     Aov(Aov, Subject),
 }
 
-/// A frame to draw, and the quantity that its picture shows.
+/// A frame to draw, and what its picture shows.
 pub struct RenderJob {
     frame: Frame,
     content: PictureContent,
-    /// The name of the method, or of the quantity that is shown instead of colours.
+    /// The name of the method, or of the quantity shown instead of colours.
     pub name: String,
-    /// True if alpha is full everywhere, whatever is covered.
+    /// True if every pixel gets full alpha, covered or not.
     pub opaque: bool,
 }
 
@@ -104,16 +104,17 @@ impl RenderJob {
         }
     }
 
-    /// Makes a job that shows another quantity than colours.
+    /// Makes a job that shows a quantity other than colour.
     pub fn aov(frame: Frame, aov: Aov, subject: Subject) -> RenderJob {
         RenderJob::new(frame, PictureContent::Aov(aov, subject), aov.name())
     }
 
-    /// Makes a job that shows colours, by scanlines with `renderer`. The barycentric renderer and CS171's algorithms take
-    /// the frame cut into triangles.
+    /// Makes a job that shows colours. `renderer` is used by scanline engines only. For the
+    /// barycentric renderer and CS171's algorithms, the frame is cut into triangles.
     ///
     /// # Errors
-    /// When the engine does not have the method or the instruction set.
+    /// If the engine does not have the method or the instruction set, or the method refuses the
+    /// frame.
     pub fn shaded(
         frame: Frame,
         method: &Method,
@@ -126,7 +127,7 @@ impl RenderJob {
         let (title, content) = match (engine, method) {
             (EngineFlag::Scanlines(_), Method::Variant(variant)) => {
                 if let Plan::Refused(reason) = variant.plan(&frame, renderer) {
-                    return Err(format!("`{variant}` is not for this picture: {reason}").into());
+                    return Err(format!("`{variant}` cannot draw this picture: {reason}").into());
                 }
                 let content = PictureContent::Scanlines(variant.clone(), renderer);
                 return Ok(RenderJob::new(frame, content, name));
@@ -147,7 +148,7 @@ impl RenderJob {
             (EngineFlag::Cs171 { normalise }, method) => {
                 let variant = supported(method, "cs171", "CS171")?;
                 let shading = cs171_shading(variant.info()).expect("a method of CS171");
-                // The frame has decided which sides are left out.
+                // The frame was culled when it was projected.
                 let reading = Reading {
                     normalise,
                     cull: false,
@@ -156,8 +157,8 @@ impl RenderJob {
                 ("CS171", PictureContent::Cs171(shading, reading))
             }
         };
-        if let Some(level) = simd.filter(|level| *level != Level::Scalar) {
-            let problem = format!("{title} goes pixel by pixel and has no `{level}`");
+        if let Some(level) = simd.filter(|level| *level != SimdLevel::Scalar) {
+            let problem = format!("{title} draws pixel by pixel and has no `{level}`");
             return Err(format!("{problem}: expected --simd auto or scalar").into());
         }
         let frame = match content {
@@ -167,7 +168,7 @@ impl RenderJob {
         Ok(RenderJob::new(frame, content, name))
     }
 
-    /// Returns the loops that draw the picture, with the reason if they are not those that were asked for.
+    /// Returns the loops that draw the picture, and the reason if they differ from those asked for.
     fn drawn_by(&self) -> (DrawnBy, Option<&'static str>) {
         let in_f64 = |engine| DrawnBy {
             engine,
@@ -193,7 +194,8 @@ impl RenderJob {
         self.drawn_by().0.engine
     }
 
-    /// Logs which loops draw the picture: as a note if an engine or instruction set was `asked` for and others draw it.
+    /// Logs which loops draw the picture. This is a note if the user `asked` for an engine or an
+    /// instruction set and another one draws it, otherwise a detail.
     pub fn log(&self, asked: bool, threads: Option<usize>, log: Log) {
         let (drawn_by, reason) = self.drawn_by();
         let shown = match drawn_by.engine {
@@ -206,15 +208,16 @@ impl RenderJob {
             None => log.detail(&format!("drawn by {shown}")),
         }
         if let (Some(threads @ 2..), 1) = (threads, drawn_by.threads) {
-            let text = format!("--threads {threads} leaves the pixels on one thread");
+            let text = format!("--threads {threads} does not apply to the pixels");
             log.note(&format!("{text}: drawn by {shown}"));
         }
     }
 
-    /// Writes the picture as a PPM file: row by row, and where possible while others are not yet drawn.
+    /// Writes the picture as a PPM file. Where the engine allows it, rows are written while later
+    /// ones are still to be drawn.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// If `out` returns one.
     pub fn write_ppm(&mut self, out: &mut dyn Write) -> io::Result<()> {
         self.frame.set_alpha(Alpha::Flattened);
         let [width, height] = self.size();
@@ -233,7 +236,8 @@ impl RenderJob {
         file.finish()
     }
 
-    /// Returns about how many bytes the picture needs beside the frame and the engine, until a file of `format` is written.
+    /// Estimates the memory, in bytes, that drawing and writing a file of `format` takes beside the
+    /// frame and the engine.
     pub fn memory_needed(&self, format: Format) -> u64 {
         let samples = (self.frame.width() * self.frame.height()) as u64;
         let pixels = self.size().map(|side| side as u64).iter().product::<u64>();
@@ -250,11 +254,12 @@ impl RenderJob {
                     Format::Ppm => [0, stored],
                 }
             }
-            // Colour and depth of each sample.
+            // The colour and the depth of each sample.
             PictureContent::Barycentric(..) => [linear + 4, linear + stored],
-            // In `f64`, with a depth buffer; then in `f32`, then stored.
+            // First `f64` colours with a depth buffer, then `f32` colours, then stored ones.
             PictureContent::Cs171(..) => [32 + 8, filtered + linear + stored],
-            // The reference keeps polygon, depth and gap of each sample, twice while it shades.
+            // The reference keeps the polygon, depth and gap of each sample; while it shades, there
+            // are two copies.
             PictureContent::Reference(_) => [32 + 2 * (4 + 8 + 8), filtered + 2 * stored],
             PictureContent::Aov(..) => [0, linear + 2 * stored],
         };
@@ -271,8 +276,9 @@ impl RenderJob {
         [self.frame.picture_width(), self.frame.picture_height()]
     }
 
-    /// Draws the picture as a file of this format holds it: with straight alpha in PNG, unless that is to be opaque, else over the
-    /// background; floats in PFM, else as stored in 8 bits.
+    /// Draws the picture for a file of `format`. PNG has straight alpha unless the job is opaque;
+    /// other formats show the picture over the background. PFM holds linear floats, the others
+    /// 8-bit levels.
     pub fn picture(&mut self, format: Format) -> FilePicture {
         let has_alpha = format == Format::Png;
         let is_straight = has_alpha && !self.opaque;
@@ -343,7 +349,7 @@ impl RenderJob {
     }
 }
 
-/// Returns the variant, if `method` is one that the engine called `name` has.
+/// Returns the variant if the engine `name` has the method.
 fn supported<'a>(method: &'a Method, name: &str, title: &str) -> Result<&'a Variant, CliError> {
     let engine = ENGINES.iter().filter(|engine| engine.name == name);
     let has: Vec<&str> = engine.flat_map(EngineInfo::methods).collect();
@@ -356,7 +362,7 @@ fn supported<'a>(method: &'a Method, name: &str, title: &str) -> Result<&'a Vari
     }
 }
 
-/// Returns `frame` with its polygons cut into triangles, if it has others.
+/// Returns `frame` with its polygons cut into triangles, and notes how many were cut.
 fn in_triangles(frame: Frame, engine: &str, log: Log) -> Frame {
     let polygons = frame.polygons().iter();
     let with_more_corners = polygons.filter(|polygon| polygon.count > 3).count();

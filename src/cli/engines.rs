@@ -2,37 +2,37 @@
 
 use super::CliError;
 use super::values::number;
-use fastphong::number::suggest::{one_of, unknown};
-use fastphong::number::{Level, NameError};
-use fastphong::raster::{Edges, Engine, Renderer};
-use fastphong::reference::cs171::Shading;
-use fastphong::shading::{Info, METHODS, MethodRow};
+use crate::number::suggest::{one_of, unknown};
+use crate::number::{NameError, SimdLevel};
+use crate::raster::{Edges, Engine, Renderer};
+use crate::reference::cs171::Shading;
+use crate::shading::{Info, METHODS, MethodRow};
 use serde_json::{Value, json};
 
 /// An engine that a user can ask for, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EngineFlag {
-    /// Scanlines, by spans or by rows; `None` is the one that suits method and frame.
+    /// A scanline engine, span or row. `None` lets method and frame decide.
     Scanlines(ScanlineEngine),
     /// Bounding boxes and edge functions.
     Barycentric(Edges),
-    /// CS171's algorithms as printed, in `f64`.
+    /// CS171's algorithms in `f64`.
     Cs171 {
-        /// True if interpolated normals are made unit vectors, which the text leaves out.
+        /// True to normalise interpolated normals, a step that the printed text leaves out.
         normalise: bool,
     },
 }
 
-/// A description of an engine.
+/// The description of an engine.
 #[derive(serde::Serialize)]
 pub struct EngineInfo {
     /// The name on the command line.
     pub name: &'static str,
     /// One sentence.
     pub title: &'static str,
-    /// The scenes and methods that it can draw.
+    /// Which scenes and methods it can draw.
     pub draws: &'static str,
-    /// The instruction sets and threads.
+    /// Which instruction sets and how many threads it uses.
     pub runs: &'static str,
 }
 
@@ -40,32 +40,32 @@ pub struct EngineInfo {
 pub const ENGINES: [EngineInfo; 4] = [
     EngineInfo {
         name: "span",
-        title: "one pixel at a time: active edges, a depth buffer of one line, visible runs shaded once: the lecture's way",
-        draws: "every method, and every scene that it is for",
+        title: "the lecture's way, one pixel at a time: active edges, a depth buffer of one line, each visible run shaded once",
+        draws: "every method, on every scene that the method can draw",
         runs: "scalar, one thread",
     },
     EngineInfo {
         name: "row",
-        title: "SIMD: a deferred renderer, varyings kept in a G-buffer, each row shaded once",
-        draws: "every method under any lights; interpolated depth, clipped by planes. The span engine draws the rest",
+        title: "a deferred renderer with SIMD: it keeps varyings in a G-buffer and shades each row once",
+        draws: "every method under any lights, with interpolated depth and clipping by planes. The span engine draws the rest",
         runs: "every SIMD instruction set, several threads",
     },
     EngineInfo {
         name: "barycentric",
-        title: "a bounding box per triangle, three edge functions per pixel: the lecture's way is measured against it",
-        draws: "triangles, into which polygons are cut; :edges=top-left or :edges=closed",
+        title: "a bounding box per triangle, three edge functions per pixel; the lecture's way is compared with it",
+        draws: "triangles, so it cuts polygons into them; :edges=top-left or :edges=closed",
         runs: "scalar, one thread",
     },
     EngineInfo {
         name: "cs171",
         title: "CS171's algorithms as printed",
-        draws: "triangles, into which polygons are cut; :normals=unit or :normals=as-printed",
+        draws: "triangles, so it cuts polygons into them; :normals=unit or :normals=as-printed",
         runs: "f64, one thread",
     },
 ];
 
 impl EngineInfo {
-    /// Returns the names of the methods that it has.
+    /// Returns the names of the methods that the engine can draw.
     pub fn methods(&self) -> impl Iterator<Item = &'static str> {
         let methods = METHODS.iter().filter(|method| self.has(method));
         methods.map(|method| method.info.name)
@@ -79,7 +79,7 @@ impl EngineInfo {
         }
     }
 
-    /// Returns the description as data.
+    /// Returns the description as JSON.
     pub fn json(&self) -> Value {
         let mut json = json!(self);
         json["methods"] = self.methods().collect();
@@ -87,14 +87,14 @@ impl EngineInfo {
     }
 }
 
-/// Lists the names of the engines that have a method.
+/// Returns the names of the engines that can draw a method.
 pub fn engines_with(method: &MethodRow) -> String {
     let engines = ENGINES.iter().filter(|engine| engine.has(method));
     let names: Vec<&str> = engines.map(|engine| engine.name).collect();
     names.join(", ")
 }
 
-/// Returns CS171's name of a method, if it has it.
+/// Returns the algorithm of CS171 for a method, or `None` if it has none.
 pub fn cs171_shading(info: &Info) -> Option<Shading> {
     match info.name {
         "flat-average" => Some(Shading::Flat),
@@ -130,7 +130,7 @@ pub fn engine(text: &str) -> Result<EngineFlag, String> {
     })
 }
 
-/// A scanline engine, which can be compared with the barycentric renderer; `None` is `auto`.
+/// A scanline engine; `None` is `auto`.
 pub type ScanlineEngine = Option<Engine>;
 
 /// Reads `auto`, `span` or `row`.
@@ -139,7 +139,7 @@ pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
     match engine(text) {
         Ok(EngineFlag::Scanlines(engine)) => Ok(engine),
         Ok(EngineFlag::Barycentric(_)) => Err(format!(
-            "every comparison has it already: {}",
+            "every comparison includes it already: {}",
             one_of(NAMES)
         )),
         Ok(EngineFlag::Cs171 { .. }) | Err(_) => Err(unknown("engine", text, NAMES)),
@@ -147,7 +147,7 @@ pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
 }
 
 /// An instruction set of this machine; `None` is `auto`, the best.
-pub type Simd = Option<Level>;
+pub type Simd = Option<SimdLevel>;
 
 /// Reads `auto`, or an instruction set of this machine.
 pub fn simd(text: &str) -> Result<Simd, NameError> {
@@ -157,12 +157,12 @@ pub fn simd(text: &str) -> Result<Simd, NameError> {
     }
 }
 
-/// Returns the renderer that an engine and an instruction set name together; `default` if neither is named.
+/// Returns the renderer for an engine and an instruction set, or `default` if neither is set.
 ///
-/// One axis: the span engine is scalar, the row engine SIMD.
+/// The two are one choice: the span engine is scalar, the row engine needs SIMD.
 ///
 /// # Errors
-/// When they contradict each other, with what to ask for instead.
+/// If they contradict each other; the message says what to ask for instead.
 pub fn renderer(
     engine: Option<ScanlineEngine>,
     simd: Option<Simd>,
@@ -172,14 +172,14 @@ pub fn renderer(
         return Ok(default);
     }
     let problem = match (engine.flatten(), simd.flatten()) {
-        (Some(Engine::Span), None | Some(Level::Scalar)) => return Ok(Renderer::Span),
+        (Some(Engine::Span), None | Some(SimdLevel::Scalar)) => return Ok(Renderer::Span),
         (Some(Engine::Span), Some(level)) => &*format!(
             "the span engine goes one pixel at a time: use `--engine row --simd {level}`, or `--engine span --simd scalar`"
         ),
-        (Some(Engine::Row), Some(Level::Scalar)) => {
+        (Some(Engine::Row), Some(SimdLevel::Scalar)) => {
             "the row engine runs on SIMD: use `--engine span --simd scalar` for one pixel at a time, or `--simd auto`"
         }
-        (engine, level) => match (engine, Renderer::on(level.unwrap_or_else(Level::best))) {
+        (engine, level) => match (engine, Renderer::on(level.unwrap_or_else(SimdLevel::best))) {
             (Some(Engine::Row), Renderer::Span) => {
                 "the row engine runs on SIMD, which this machine does not have: use `--engine span`"
             }
@@ -189,10 +189,10 @@ pub fn renderer(
     Err(problem.to_owned())
 }
 
-/// Instruction sets; empty for all that the engine runs on.
+/// A list of instruction sets. An empty one stands for all that the engine can use.
 pub type SimdList = Vec<Simd>;
 
-/// Reads instruction sets of this machine between commas, or `all` that it has.
+/// Reads instruction sets of this machine, separated by commas, or `all`.
 pub fn simd_list(text: &str) -> Result<SimdList, NameError> {
     match text {
         "all" => Ok(Vec::new()),
@@ -200,15 +200,16 @@ pub fn simd_list(text: &str) -> Result<SimdList, NameError> {
     }
 }
 
-/// Flags for drawing methods that are compared with the lecture.
+/// The engine flags of commands that by default draw as in the lecture.
 #[derive(clap::Args, Clone, Debug)]
 pub struct LectureFlags {
-    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
-    /// where it can draw the frame [default: span]
+    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time on one thread;
+    /// `row`, with SIMD; or `auto`, which is `row` if it can draw the frame, else `span` [default:
+    /// span]
     #[arg(long, value_parser = scanline_engine)]
     engine: Option<ScanlineEngine>,
-    /// Instruction set of the pixel loops: `scalar` selects the span engine, any other of `fastphong list simd` and `auto` the
-    /// row engine [default: scalar]
+    /// Instruction set of the pixel loops: `scalar` selects the span engine; `auto`, or any other
+    /// of `fastphong list simd`, the row engine [default: scalar]
     #[arg(long, value_name = "ISA", value_parser = simd)]
     simd: Option<Simd>,
     #[command(flatten)]
@@ -225,18 +226,19 @@ impl LectureFlags {
     }
 }
 
-/// The number of threads.
+/// The flag for the number of threads.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ThreadFlags {
-    /// Threads, 1 to 1024 [default: one per processor]; the span engine uses one when methods are compared
+    /// Number of threads, 1 to 1024 [default: one per processor]. When methods are compared, the
+    /// span engine uses one
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
     pub threads: Option<usize>,
 }
 
-/// The most threads that can be asked for: more than any machine has processors, and no memory to speak of.
+/// The largest number of threads: more than any machine has processors, yet cheap in memory.
 const MOST_THREADS: usize = 1024;
 
-/// Bytes of each thread's stack: as many as the first thread of a program has on most systems.
+/// The stack of each thread, in bytes: as large as the main thread's on most systems.
 const STACK: usize = 8 << 20;
 
 /// Reads a number of threads.
@@ -245,13 +247,15 @@ pub fn threads(text: &str) -> Result<usize, String> {
     number(text, expected, |n| (1..=MOST_THREADS).contains(n))
 }
 
-/// The variables by which rayon takes the number of threads where no flag gives it; the second is its older name.
+/// The environment variables from which rayon reads the number of threads if no flag sets it. The
+/// second is an older name.
 const THREAD_VARIABLES: [&str; 2] = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"];
 
-/// Refuses a number of threads that the environment gives and `--threads` would not take. What is no number, or 0, rayon passes over.
+/// Checks the number of threads that the environment sets. Rayon ignores 0 and anything that is not
+/// a number, and so does this.
 ///
 /// # Errors
-/// When there are too many.
+/// If `--threads` would refuse the number because it is too large.
 pub fn check_environment() -> Result<(), CliError> {
     for name in THREAD_VARIABLES {
         let value = std::env::var_os(name).unwrap_or_default();
@@ -266,12 +270,12 @@ pub fn check_environment() -> Result<(), CliError> {
 }
 
 impl ThreadFlags {
-    /// Starts as many threads as asked for.
+    /// Starts a pool with the number of threads asked for.
     ///
     /// # Errors
-    /// When the system does not give that many.
+    /// If the system cannot start that many.
     pub fn pool(self) -> Result<rayon::ThreadPool, CliError> {
-        // 0 stands for as many as there are processors.
+        // To rayon, 0 means one thread per processor.
         let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
         let pool = builder.stack_size(STACK).build().map_err(|error| {
             let threads = self.threads.map_or_else(String::new, |n| format!("{n} "));
@@ -280,7 +284,7 @@ impl ThreadFlags {
         Ok(pool)
     }
 
-    /// Runs `work` on a pool of as many threads as asked for.
+    /// Runs `work` on a pool with the number of threads asked for.
     ///
     /// # Errors
     /// As [`ThreadFlags::pool`].
@@ -288,8 +292,9 @@ impl ThreadFlags {
         Ok(self.pool()?.install(work))
     }
 
-    /// Runs `work` as [`ThreadFlags::install`] does, for the pictures of `renderer`: the lecture's own form is on one thread
-    /// from end to end, so that a comparison with it does not measure how well vertices are shared out.
+    /// Runs `work`, which draws with `renderer`, as [`ThreadFlags::install`] does. The lecture's
+    /// span engine gets a single thread even for its vertices: otherwise a comparison would measure
+    /// how well they are spread over threads.
     ///
     /// # Errors
     /// As [`ThreadFlags::install`].

@@ -1,7 +1,7 @@
 //! The ways in which a sub-command ends.
 
 use super::files::OneFileError;
-use fastphong::scene::file::diagnostics::SceneError;
+use crate::scene::file::SceneError;
 use std::error::Error;
 use std::fmt;
 
@@ -31,12 +31,14 @@ impl fmt::Display for CliError {
 }
 
 impl CliError {
-    /// True if a file was to be read and written: no change of it mends that.
+    /// True if the command would write a file that it reads. Editing the file does not fix that, so
+    /// `--watch` gives up.
     pub fn is_of_files(&self) -> bool {
         self.0.is::<OneFileError>()
     }
 
-    /// Returns the error as text that starts with `error: ` and ends a line. Errors of inputs show themselves.
+    /// Returns the error as text that begins with `error: ` and ends with a newline. Errors in
+    /// scene files bring their own layout, with the source line.
     pub fn render(&self, colour: bool) -> String {
         let text = match self.0.downcast_ref::<SceneError>() {
             Some(error) => error.render(colour),

@@ -1,19 +1,19 @@
-//! `fastphong report --studies`: the experiments that it makes beside its scenes.
+//! `fastphong report --studies`: runs the experiments of a report.
 
 use super::CliError;
 use super::engines::ThreadFlags;
 use super::measured::TimingFlags;
-use fastphong::compare::experiments::{Scaling, ScalingOptions, SpeedupOptions, Speedups};
-use fastphong::number::suggest::unknown;
+use crate::compare::experiments::{Scaling, ScalingOptions, SpeedupOptions, Speedups};
+use crate::number::suggest::unknown;
 
-/// The experiments to make.
+/// Which experiments to run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Experiments {
     speedups: bool,
     scaling: bool,
 }
 
-/// Reads experiments between commas, `all` or `none`.
+/// Reads experiments separated by commas, `all` or `none`.
 pub fn experiments(text: &str) -> Result<Experiments, String> {
     const NAMES: [&str; 2] = ["speedups", "scaling"];
     let names = match text {
@@ -29,16 +29,16 @@ pub fn experiments(text: &str) -> Result<Experiments, String> {
 }
 
 impl Experiments {
-    /// Returns how many scenes take as long, about.
+    /// Returns their duration, in units of an average scene of the report.
     pub fn scenes(self) -> f32 {
         3.0 * f32::from(self.speedups) + 6.0 * f32::from(self.scaling)
     }
 
-    /// Makes them on one thread, with times of the length that scenes have; `progress` hears which part is done and what
-    /// comes next, while no time is taken.
+    /// Runs them on one thread, with time budgets derived from `--time-budget`. Calls `progress`
+    /// with the part that is done and the name of the next step, never while a time is measured.
     ///
     /// # Errors
-    /// When there is no thread, or no memory for a picture of that size.
+    /// If no thread can be started, or there is no memory for a picture of that size.
     pub fn make(
         self,
         timing: &TimingFlags,

@@ -1,14 +1,14 @@
-//! `fastphong explain`: one method: formula, cost, tolerance, weaknesses.
+//! `fastphong explain`: describes a method by its formula, cost, tolerance and weaknesses.
 
 use super::engines::engines_with;
 use super::list::{exactness, method_json};
 use super::text::wrapped;
 use super::{CliError, Outcome, done, files};
-use fastphong::compare::comparison::parameter_json;
-use fastphong::compare::table::Table;
-use fastphong::report::{OPERATIONS, RATES};
-use fastphong::scene::{Falloff, Interpolation};
-use fastphong::shading::{OperationCounts, SpanBench, Variant};
+use crate::compare::comparison::parameter_json;
+use crate::compare::table::Table;
+use crate::report::{OPERATIONS, RATES};
+use crate::scene::{Falloff, Interpolation};
+use crate::shading::{OperationCounts, SpanBench, Variant};
 use serde_json::{Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails
@@ -17,7 +17,7 @@ pub struct ExplainArgs {
     /// Method, with parameters as in `fast-phong:steps=1`
     #[arg(value_parser = Variant::parse)]
     method: Variant,
-    /// Show the operations for several lights, and for lights and eye at positions, too
+    /// Also show the operations for several lights, and for lights and eye at positions
     #[arg(long)]
     all: bool,
     /// Print everything as JSON
@@ -25,10 +25,12 @@ pub struct ExplainArgs {
     json: bool,
 }
 
-/// The cases that operations are counted for: the number of lights; true if these and the eye are at positions.
+/// The cases for which operations are counted: how many lights there are, and true if lights and
+/// eye are at positions.
 const CASES: [(usize, bool); 4] = [(1, false), (4, false), (1, true), (2, true)];
 
-/// Makes the span that operations are counted on where lights and eye are at positions. The angle of its normals does not change the counts.
+/// Makes the span for counting operations with lights and eye at positions. The angle between its
+/// normals does not change the counts.
 fn at_positions_span(lights: usize) -> SpanBench {
     SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen)
 }
@@ -57,7 +59,7 @@ impl ExplainArgs {
             let there = " and eye at positions";
             let eye = if at_positions { there } else { "" };
             let how = match self.method.row().is_integer {
-                true => "spans and pixels as their loops stand",
+                true => "spans and pixels read off their loops",
                 false => "as counted",
             };
             let title = format!("operations with {lights} light{s}{eye}, {how}");
@@ -98,7 +100,8 @@ impl ExplainArgs {
         Ok(text)
     }
 
-    /// Returns those of [`CASES`] that the method draws: some want lights and eye at infinity.
+    /// Returns the cases of [`CASES`] that the method can draw. Some methods need lights and eye at
+    /// infinity.
     fn cases(&self) -> impl Iterator<Item = (usize, bool)> {
         let is_drawn = |(lights, at_positions): &(usize, bool)| {
             !at_positions || at_positions_span(*lights).refuses(&self.method).is_none()
@@ -106,7 +109,8 @@ impl ExplainArgs {
         CASES.into_iter().filter(is_drawn)
     }
 
-    /// Counts the operations with `lights` lights. At positions, they have no falloff, and varyings are linear on the screen.
+    /// Counts the operations with `lights` lights. Lights at positions have no falloff, and
+    /// varyings are linear on the screen.
     fn operations(&self, lights: usize, at_positions: bool) -> OperationCounts {
         if !at_positions {
             return self.method.operations(lights);
@@ -123,7 +127,7 @@ impl ExplainArgs {
         Ok(format!("{exactness}\n{derivation}\nfor example, {example}"))
     }
 
-    /// Returns the explanation as data.
+    /// Returns the explanation as JSON.
     fn json(&self) -> Result<Value, CliError> {
         let info = self.method.info();
         let mut json = method_json(self.method.row());
@@ -146,7 +150,7 @@ impl ExplainArgs {
     }
 }
 
-/// The scene on which a bound is given as an example.
+/// The scene for the example of a bound.
 const EXAMPLE: &str = "teapot";
 
 fn example_bound(method: &Variant) -> Result<f64, CliError> {
@@ -163,7 +167,7 @@ fn costs(counts: &OperationCounts) -> String {
     table.head.extend(names);
     for (_, rate, of) in RATES {
         let counts = of(counts);
-        // Dots in place of zeros: the operations that are done stand out.
+        // Dots instead of zeros make the other counts stand out.
         let cells = OPERATIONS.iter().map(|(.., of)| match of(&counts) {
             0 => ".".to_owned(),
             n => n.to_string(),
@@ -174,7 +178,7 @@ fn costs(counts: &OperationCounts) -> String {
     table.text()
 }
 
-/// Returns counted operations as data.
+/// Returns counted operations as JSON.
 fn costs_json(counts: &OperationCounts) -> Value {
     let rates = RATES.iter().map(|(_, rate, of)| {
         let (rate, counts) = (rate.replace(": ", "_").replace(' ', "_"), of(counts));

@@ -1,13 +1,13 @@
-//! `fastphong figure`: figures of the lectures, made anew, as one page.
+//! `fastphong figure`: redraws figures of the lectures, with measurements, as one page.
 
 use super::contents::Contents;
 use super::measured::command_line;
 use super::output::{self, ForceFlag, Output, print_beside};
 use super::progress::Progress;
 use super::{CliError, Log, Outcome};
-use fastphong::lectures::{FIGURES, Figure};
-use fastphong::picture::image_file::Format;
-use fastphong::report::{Document, FigureData, Report};
+use crate::lectures::{FIGURES, Figure};
+use crate::picture::image_file::Format;
+use crate::report::{Document, FigureData, Report};
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -17,13 +17,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 #[derive(clap::Args, Debug)]
 pub struct FigureArgs {
     /// Figures, as `fastphong list figures` names them
-    #[arg(value_name = "NAME", required_unless_present = "all", value_parser = Figure::find)]
+    #[arg(value_name = "NAME", value_parser = Figure::find)]
     names: Vec<&'static Figure>,
     /// All figures
     #[arg(long, conflicts_with = "names")]
     all: bool,
-    /// Page to write, `-` for standard output; its folder is made if there is none [default: report/figures/NAME.html, or
-    /// index.html there for several]
+    /// Page to write, `-` for standard output; its folder is made if needed [default:
+    /// report/figures/NAME.html, or report/figures/index.html for several figures]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Also write the pictures as PNG files into this folder
@@ -34,12 +34,17 @@ pub struct FigureArgs {
 }
 
 impl FigureArgs {
-    /// Draws, measures, and writes the page.
+    /// Draws and measures the figures, and writes the page.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let figures = match self.all {
             true => FIGURES.to_vec(),
             false => distinct(self.names.clone()),
         };
+        if figures.is_empty() {
+            return Err(
+                "which figure? `fastphong list figures` names them, and --all draws all".into(),
+            );
+        }
         let default = || match &figures[..] {
             [one] => format!("report/figures/{}.html", one.name),
             _ => "report/figures/index.html".to_owned(),
@@ -83,17 +88,18 @@ impl FigureArgs {
 /// Figures of the lectures.
 pub type Figures = Vec<&'static Figure>;
 
-/// Returns each of `figures` once.
+/// Removes duplicates from `figures`.
 pub fn distinct(mut figures: Figures) -> Figures {
     let mut names = HashSet::new();
     figures.retain(|figure| names.insert(figure.name));
     figures
 }
 
-/// Draws `figures` on all threads of the current pool; `progress` hears which part is done and which was drawn.
+/// Draws `figures` on all threads of the current pool. Calls `progress` with the part that is done
+/// and the figure just drawn.
 ///
 /// # Errors
-/// When a figure cannot be drawn.
+/// If a figure cannot be drawn.
 pub fn draw_figures(
     figures: &[&'static Figure],
     progress: &(dyn Fn(f32, &str) + Sync),

@@ -1,22 +1,25 @@
-//! The files of a command: those that it reads, and those that it writes. None is both.
+//! The files that a command reads and writes. No file is both.
 //!
-//! Every file is registered before it is read, and every place that is written is looked up among these: before anything is drawn
-//! where the place is known ([`check`]), and in any case when it is written ([`write`]). No other module of the commands opens files
-//! (`tests/documents/tidy.rs`). Files are told apart by their places and not by name, so that symbolic links do not hide one. A hard
-//! link may: as files are replaced and not written over, the one that is read stays as it is under its other name.
+//! Every file is registered before it is read. Every path to be written is checked against these
+//! files: before anything is drawn if the path is known by then ([`check`]), and always when it is
+//! written ([`write`]). No other module of the commands opens files (`tests/documents/tidy.rs`).
+//! Files are compared by their canonical paths, so that a symbolic link cannot hide one. A hard
+//! link can, but does no harm: files are replaced, not overwritten, so the file that was read keeps
+//! its contents under its other name.
 //!
-//! `--watch` looks at the same list ([`wait_for_change`]): a file that is not there, or was there, is in it like any other.
+//! `--watch` watches the same list ([`wait_for_change`]), which includes files that do not exist
+//! yet or no longer.
 
 use super::input_name::{is_stand_in, path_behind};
 use super::{CliError, memory, signals};
-use fastphong::mesh::read::mesh_endings;
-use fastphong::picture::image_file::{
+use crate::mesh::read::mesh_endings;
+use crate::picture::image_file::{
     FilePicture, ImageFileError, place, read_picture, write_file_by, write_files_by,
 };
-use fastphong::scene::file::diagnostics::SceneError;
-use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
-use fastphong::scene::input::{self, InputFormat, has_ending, read_input};
+use crate::scene::file::Resolved;
+use crate::scene::file::SceneError;
+use crate::scene::file::{STANDARD_INPUT, SceneFile};
+use crate::scene::input::{self, InputFormat, has_ending, read_input};
 use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
@@ -26,16 +29,17 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-/// A file that is read, as it was before that.
+/// A file that a command reads, with its state before reading.
 #[derive(Clone, Debug)]
 struct FileRead {
     path: PathBuf,
-    /// The part that it has in the command: `the scene`.
+    /// Its role in the command, for messages: `the scene`.
     part: &'static str,
     state: Option<State>,
 }
 
-/// A file on the disk: two states differ if anything was written to it since, or another file has its name now.
+/// The state of a file on disk. It changes when the file is written to, or when another file takes
+/// its name.
 #[derive(Clone, Debug, PartialEq)]
 struct State {
     place: PathBuf,
@@ -43,21 +47,22 @@ struct State {
     written: Option<SystemTime>,
 }
 
-/// A place that a command writes to.
+/// A path that a command writes to.
 #[derive(Clone, Copy, Debug)]
 pub struct Destination<'a> {
-    /// The flag that names it: `--output`.
+    /// The flag that sets it: `--output`.
     pub name: &'a str,
     pub path: &'a Path,
 }
 
-/// Standard output, which may lead to a file: that is one that is read where a shell appends to it.
+/// Standard output. It may lead to a file, even to one that the command reads, if a shell appends
+/// to it.
 pub const STDOUT: &str = "/dev/stdout";
 
 /// Standard input, which may come from a file.
 const STDIN: &str = "/dev/stdin";
 
-/// The reason why a file is not written: the command reads it, or writes something else to it.
+/// The error of a command that would write a file that it reads, or write one file twice.
 #[derive(Debug)]
 pub struct OneFileError(String);
 
@@ -73,7 +78,7 @@ impl std::error::Error for OneFileError {}
 #[derive(Debug)]
 struct Files {
     read: Vec<FileRead>,
-    /// The paths of those.
+    /// The paths of the files in `read`.
     paths: BTreeSet<PathBuf>,
     written: Vec<PathBuf>,
 }
@@ -91,12 +96,12 @@ fn files() -> MutexGuard<'static, Files> {
     FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Forgets all files: a command begins anew.
+/// Forgets all files, before a command starts again.
 pub fn forget() {
     *files() = NONE;
 }
 
-/// Registers a file that is going to be read, as `part` of the command.
+/// Registers a file that is going to be read. `part` is its role in the command, for messages.
 pub fn will_read(path: &Path, part: &'static str) {
     if is_read(path) {
         return;
@@ -111,29 +116,30 @@ pub fn will_read(path: &Path, part: &'static str) {
     files.read.push(file);
 }
 
-/// True if a file of this name is registered.
+/// True if this path is registered.
 fn is_read(path: &Path) -> bool {
     files().paths.contains(path)
 }
 
-/// Registers standard input, which is going to be read as `part` of the command.
+/// Registers standard input, which is going to be read. `part` is its role in the command, for
+/// messages.
 pub fn will_read_stdin(part: &'static str) {
     will_read(Path::new(STDIN), part);
 }
 
-/// Registers a file that a scene is made of, which is going to be read.
+/// Registers a file of a scene that is going to be read.
 pub fn will_read_of_scene(path: &Path) {
     let part = match path {
         path if has_ending(path, "toml") => "the scene",
         path if mesh_endings().any(|ending| has_ending(path, ending)) => "the mesh",
         path if has_ending(path, "mtl") => "the material library",
-        // A scene, a mesh or a library, as its bytes say.
+        // Its bytes will tell if it is a scene, a mesh or a library.
         _ => "a file of the scene",
     };
     will_read(path, part);
 }
 
-/// Reads a file that a scene is made of, by the name that it has there.
+/// Reads a file of a scene, by its name in the scene.
 fn read_of_scene(name: &Path) -> io::Result<Vec<u8>> {
     let path = path_behind(name);
     match name.as_os_str() == STANDARD_INPUT {
@@ -143,15 +149,15 @@ fn read_of_scene(name: &Path) -> io::Result<Vec<u8>> {
     read_input(&path)
 }
 
-/// Loads the scene that `input` names, as [`input::load`] does; on standard input it has `format`. Its mesh files are registered,
-/// though not yet read.
+/// Loads the scene that `input` names, as [`input::load`] does. `format` is the format of standard
+/// input. Registers the mesh files of the scene without reading them.
 ///
 /// # Errors
 /// As [`input::load`].
 pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, SceneError> {
     let file = match input {
         STANDARD_INPUT => input::load_standard_input(format, &mut read_of_scene)?,
-        // Under a name that is no file's, which is why only its ending is asked.
+        // A stand-in is not the name of a file, so only its ending can tell what the file holds.
         name if is_stand_in(name) && has_ending(Path::new(name), "toml") => {
             SceneFile::load_by(Path::new(name), &mut read_of_scene)?
         }
@@ -168,14 +174,15 @@ pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, Scene
 /// Returns the scene that `file` describes, as [`input::resolve`] does.
 ///
 /// # Errors
-/// As [`input::resolve`], and when there is too little memory for its meshes.
+/// As [`input::resolve`], and if there is too little memory for its meshes.
 pub fn resolve(file: &SceneFile) -> Result<Resolved, CliError> {
     memory::check_meshes(file)?;
     Ok(input::resolve_by(file, &mut read_of_scene)?)
 }
 
-/// Returns the files that `file` was made of, mesh files and material libraries, named as from the folder of the scene; `None` if a
-/// mesh has more than `most` bytes, came from standard input or a pipe, or cannot be read again.
+/// Returns the mesh files and material libraries of `file`, with names relative to the folder of
+/// the scene. Returns `None` if a mesh has more than `most` bytes, came from standard input or a
+/// pipe, or cannot be read again.
 pub fn of_scene(file: &SceneFile, most: u64) -> Option<Vec<(String, Vec<u8>)>> {
     if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {
         return None;
@@ -188,7 +195,7 @@ pub fn of_scene(file: &SceneFile, most: u64) -> Option<Vec<(String, Vec<u8>)>> {
     if meshes.peek().is_none() {
         return Some(Vec::new());
     }
-    // Judged before they are read: a pipe has nothing more to say.
+    // Check before reading: a pipe cannot be read a second time.
     let is_small = |mesh: &str| {
         let path = path_behind(&folder.join(mesh));
         fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() <= most)
@@ -206,23 +213,24 @@ pub fn of_scene(file: &SceneFile, most: u64) -> Option<Vec<(String, Vec<u8>)>> {
     resolved.is_ok().then_some(read)
 }
 
-/// Endings of picture files that are read, without the dot.
+/// The endings of picture files, without the dot.
 const PICTURES: [&str; 8] = ["png", "pbm", "pgm", "ppm", "pam", "pfm", "bmp", "tga"];
 
 /// The picture files in a folder.
 #[derive(Debug, Default)]
 pub struct PictureNames {
-    /// Names within the folder, sorted.
+    /// Paths within the folder, sorted.
     pub names: Vec<PathBuf>,
-    /// The number of other files.
+    /// How many other files there are.
     pub others: usize,
 }
 
-/// Lists the picture files in a folder and in the folders within it, by their endings. Hidden files are left out, drafts among
-/// them, as are pipes and devices; links to folders, which may lead anywhere, are not followed.
+/// Lists the picture files in a folder and its sub-folders, by their endings. Leaves out hidden
+/// files (drafts among them), pipes and devices. Does not follow links to folders, because they may
+/// lead anywhere.
 ///
 /// # Errors
-/// When a folder cannot be read.
+/// If a folder cannot be read.
 pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
     let mut found = PictureNames::default();
     let mut open = vec![PathBuf::new()];
@@ -237,7 +245,8 @@ pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
             }
             let is_picture = PICTURES.iter().any(|ending| has_ending(&name, ending));
             let kind = entry.file_type().map_err(refused)?;
-            // A link that leads nowhere is a picture that cannot be read. A pipe would be waited for.
+            // A broken link counts as a picture, so that reading it reports an error. Reading a
+            // pipe would block.
             let target = fs::metadata(entry.path());
             let is_file = target.as_ref().map_or(true, fs::Metadata::is_file);
             match (kind.is_dir(), target.is_ok_and(|target| target.is_dir())) {
@@ -252,18 +261,19 @@ pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
     Ok(found)
 }
 
-/// A file that is copied over another one, or to a place where there is none.
+/// A file to copy, and the path to copy it to, whether or not a file is there.
 #[derive(Clone, Copy, Debug)]
 pub struct Copy<'a> {
     pub from: &'a Path,
     pub to: &'a Path,
 }
 
-/// Copies files, all of them or none. This is the one way to write files that are read: to replace references is what the user
-/// asked for.
+/// Copies files, all of them or none. This is the only way to write files that were read: the user
+/// asked to replace references.
 ///
 /// # Errors
-/// When a copy would be written over a file that is to be copied, or two of them to one place, or a file cannot be read or written.
+/// If a copy would replace a file that is itself to be copied, two copies would replace the same
+/// file, or a file cannot be read or written.
 pub fn copy_all(copies: &[Copy<'_>]) -> Result<(), CliError> {
     let sources: BTreeSet<PathBuf> = copies.iter().map(|copy| place(copy.from)).collect();
     let mut places = BTreeSet::new();
@@ -271,7 +281,7 @@ pub fn copy_all(copies: &[Copy<'_>]) -> Result<(), CliError> {
         let (to, end) = (copy.to.display(), place(copy.to));
         if sources.contains(&end) {
             let problem = format!("{to} leads to a picture that is to be approved");
-            return Err(OneFileError(format!("{problem}: expected a reference of its own")).into());
+            return Err(OneFileError(format!("{problem}: expected a separate reference")).into());
         }
         if !places.insert(end) {
             let problem = format!("{to} leads to the same file as another reference");
@@ -287,7 +297,7 @@ pub fn copy_all(copies: &[Copy<'_>]) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Reads a picture, which is `part` of the command.
+/// Reads a picture. `part` is its role in the command, for messages.
 ///
 /// # Errors
 /// As [`read_picture`].
@@ -296,14 +306,14 @@ pub fn picture(path: &Path, part: &'static str) -> Result<FilePicture, ImageFile
     read_picture(path)
 }
 
-/// The largest document that is read, in bytes: those of all shipped scenes have about 1 MB.
+/// The largest document that is read, in bytes. One of all shipped scenes has about 1 MB.
 const LARGEST: u64 = 1 << 28;
 
-/// Reads a document of at most [`LARGEST`] bytes, from a device that never ends as well, and from standard input if the path is
-/// `-`.
+/// Reads a document of at most [`LARGEST`] bytes, from standard input if the path is `-`. The limit
+/// also protects from devices that never end.
 ///
 /// # Errors
-/// When it cannot be read, has more bytes, or is no text.
+/// If the document cannot be read, has more bytes, or is not text in UTF-8.
 pub fn document(path: &Path) -> io::Result<String> {
     const PART: &str = "the document";
     let mut bytes = Vec::new();
@@ -322,14 +332,16 @@ pub fn document(path: &Path) -> io::Result<String> {
         let problem = format!("it has more than {LARGEST} bytes: expected a file of `--json`");
         return Err(io::Error::other(problem));
     }
-    // UTF-16 of plain letters is UTF-8, too, with zeros.
+    // ASCII letters in UTF-16 are valid UTF-8 with zeros between them, so a text with zeros is
+    // refused.
     let text = String::from_utf8(bytes)
         .ok()
         .filter(|text| !text.contains('\0'));
-    text.ok_or_else(|| io::Error::other("it is no text in UTF-8: expected a file of `--json`"))
+    text.ok_or_else(|| io::Error::other("it is not text in UTF-8: expected a file of `--json`"))
 }
 
-/// Returns the first `most` bytes of the plain file at `path`: none of one that cannot be read, `None` if there is no such file.
+/// Returns up to `most` bytes from the beginning of the plain file at `path`, or nothing if it
+/// cannot be read. Returns `None` if there is no plain file.
 pub fn beginning(path: &Path, most: u64) -> Option<Vec<u8>> {
     if !fs::metadata(path).ok()?.is_file() {
         return None;
@@ -339,13 +351,13 @@ pub fn beginning(path: &Path, most: u64) -> Option<Vec<u8>> {
     Some(read.map(|_| bytes).unwrap_or_default())
 }
 
-/// Refuses to write to a file that is read, and to write twice to one file.
+/// Checks that no destination is a file that the command reads, and that no two are the same file.
 ///
 /// # Errors
-/// When one of `destinations` is such a file, under any name.
+/// If one is, even under another name.
 pub fn check(destinations: &[Destination<'_>]) -> Result<(), CliError> {
     let read = &files().read;
-    for (number, to) in destinations.iter().enumerate() {
+    for (index, to) in destinations.iter().enumerate() {
         let is_it = |file: &&FileRead| is_one_file(&file.path, to.path);
         if let Some(FileRead { path, part, .. }) = read.iter().find(is_it) {
             let mut problem = format!("`{}` is {part} itself, {}", to.name, path.display());
@@ -354,7 +366,7 @@ pub fn check(destinations: &[Destination<'_>]) -> Result<(), CliError> {
             }
             return Err(OneFileError(format!("{problem}: expected another file")).into());
         }
-        let before = &destinations[..number];
+        let before = &destinations[..index];
         if let Some(other) = before.iter().find(|other| is_one_file(other.path, to.path)) {
             let (one, two, path) = (other.name, to.name, to.path.display());
             let problem = format!("`{one}` and `{two}` name one file, {path}");
@@ -364,10 +376,11 @@ pub fn check(destinations: &[Destination<'_>]) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Writes the bytes that `write` writes, a file whole or not at all. A signal that ends the program leaves no draft.
+/// Writes a file with `write`, either whole or not at all. A signal that ends the program leaves no
+/// draft behind.
 ///
 /// # Errors
-/// When the place is a file that was read, or was written already, or cannot be written.
+/// If the file was read or written by this command already, or cannot be written.
 pub fn write(
     to: Destination<'_>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -388,13 +401,13 @@ pub fn write(
     Ok(())
 }
 
-/// True if both paths lead to one plain file, or would if it were there.
+/// True if both paths lead to the same plain file, or would if it existed.
 fn is_one_file(a: &Path, b: &Path) -> bool {
     place(a) == place(b) && fs::metadata(a).map_or(true, |found| found.is_file())
 }
 
 impl State {
-    /// Returns the state of a file, if it is there.
+    /// Returns the state of a file, or `None` if it does not exist.
     fn of(path: &Path) -> Option<State> {
         let found = fs::metadata(path).ok()?;
         Some(State {
@@ -405,17 +418,17 @@ impl State {
     }
 }
 
-/// The time between two looks at the files: a blink.
+/// The time between two checks of the files.
 const PAUSE: Duration = Duration::from_millis(150);
 
-/// Waits until one of the files that were read is another than it was before that: changed, gone, or there again. Calls `waits` with
-/// their number first.
+/// Waits until one of the registered files changes, disappears or comes back. Calls `waits` first,
+/// with the number of files.
 pub fn wait_for_change(waits: impl FnOnce(usize)) {
     let read = files().read.clone();
     waits(read.len());
     while read.iter().all(|file| State::of(&file.path) == file.state) {
         sleep(PAUSE);
     }
-    // Who writes several files, or one in several steps, may be at it still.
+    // An editor may still be writing, if it saves several files or one file in several steps.
     sleep(PAUSE);
 }

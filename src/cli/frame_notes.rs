@@ -1,7 +1,7 @@
-//! Warnings about a frame, all in one list: what it does not show of its scene, and what looks otherwise than one might expect.
+//! All warnings about a frame: what it does not show of its scene, and what may look unexpected.
 //!
-//! Commands that draw ask for them once the frame is there. Each kind of warning is a function here or in a file of its own, and
-//! an entry of [`warn_of_frame`].
+//! Commands that draw call [`warn_of_frame`] once they have the frame. It calls a function for each
+//! kind of warning, here or in another file.
 
 use super::Log;
 use super::clamped::too_bright_text;
@@ -9,10 +9,10 @@ use super::depth_notes::{note_depth_ties, note_screen_interpolation};
 use super::polygon_counts::warn_of_polygons_left_out;
 use super::shown_frame::ShownFrame;
 use super::unlit::unlit_texts;
-use fastphong::scene::Projection;
+use crate::scene::Projection;
 use glam::DVec3;
 
-/// Warns of all that is odd about a frame.
+/// Prints all warnings and notes about a frame.
 pub fn warn_of_frame(shown: &ShownFrame, log: Log) {
     warn_of_polygons_left_out(shown.frame, log);
     if log == Log::Quiet {
@@ -22,13 +22,14 @@ pub fn warn_of_frame(shown: &ShownFrame, log: Log) {
     let texts = texts.chain(unlit_texts(shown)).chain(eye_beyond(shown));
     texts.for_each(|text| log.warning(&text));
     note_depth_ties(shown.frame, log);
-    // Who chose one knows.
+    // A user who chose the interpolation knows what it does.
     if !shown.states("interpolation") {
         note_screen_interpolation(shown.frame, log);
     }
 }
 
-/// Says that a local viewer of a parallel view stands on the far side of what is seen.
+/// Returns a warning if the eye of a parallel view with a local viewer stands behind visible
+/// polygons.
 fn eye_beyond(shown: &ShownFrame) -> Option<String> {
     let (scene, frame) = (shown.scene, shown.frame);
     let is_parallel = matches!(scene.camera.projection, Projection::Orthographic { .. });
@@ -46,11 +47,11 @@ fn eye_beyond(shown: &ShownFrame) -> Option<String> {
     let all = frame.polygons().len();
     let which = match beyond.count() {
         0 => return None,
-        n if n == all => "all that is seen".to_owned(),
+        n if n == all => "everything that is visible".to_owned(),
         n => super::text::part_of(n, all, "polygon"),
     };
     Some(format!(
-        "the eye stands beyond {which}: a parallel view shows what lies behind its eye too, but --viewer local lights highlights as \
-         seen from there; move --eye back, or leave out --viewer local"
+        "the eye stands beyond {which}: a parallel view also shows what is behind its eye, but --viewer local computes highlights as \
+         seen from the eye; move --eye back, or leave out --viewer local"
     ))
 }

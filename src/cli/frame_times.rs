@@ -1,14 +1,14 @@
-//! `fastphong bench --frame-times`: whole frames, from the prepared scene to the stored picture, as a program that shows one
-//! after the other draws them.
+//! `fastphong bench --frame-times`: times whole frames, from the prepared scene to the stored
+//! picture, as a program that shows frame after frame would draw them.
 
 use super::measured::{Measurement, command_line};
 use super::values::number;
 use super::{CliError, Log, memory};
-use fastphong::compare::timing::{Machine, Timing};
-use fastphong::frame::PreparedScene;
-use fastphong::picture::Picture8;
-use fastphong::raster::{DrawOptions, Plan, Renderer};
-use fastphong::shading::Variant;
+use crate::compare::timing::{Machine, Timing};
+use crate::frame::PreparedScene;
+use crate::picture::Picture8;
+use crate::raster::{DrawOptions, Plan, Renderer};
+use crate::shading::Variant;
 use serde::Serialize;
 use serde_json::json;
 use std::hint::black_box;
@@ -17,21 +17,22 @@ use std::time::Instant;
 /// The schema of the data: see `docs/bench-json.md`.
 const SCHEMA: &str = "fastphong.frame-times/1";
 
-/// The work that a frame's time holds.
+/// The definition of a frame's time.
 const WHAT_IS_TIMED: &str = "from the prepared scene to the stored picture in RGBA8, in the memory of the frame before: \
                              projection, culling, clipping, vertex lighting, rasterization, shading and storing; not \
                              loading, vertex normals or writing";
 
-/// The most frames of a method.
+/// The largest number of frames per method.
 const MOST_FRAMES: usize = 1_000_000;
 
-/// The numbers of frames.
+/// The flags for how many frames to draw.
 #[derive(clap::Args, Clone, Copy, Debug, Serialize)]
 pub struct FrameCount {
-    /// Frames of each method that are timed, 1 to 1000000
+    /// Number of frames to time for each method, 1 to 1000000
     #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times")]
     frames: usize,
-    /// Frames of each method that are drawn before those, 0 to 1000000, until caches and the clock frequency have settled
+    /// Number of frames to draw first for each method, 0 to 1000000, until caches and the clock
+    /// frequency have settled
     #[arg(long, value_name = "N", default_value = "5", value_parser = |text: &str| frames(text, 0), allow_hyphen_values = true, requires = "frame_times")]
     warmup: usize,
 }
@@ -59,10 +60,11 @@ struct FrameTime {
     ms_min: f64,
 }
 
-/// Draws and times, one method after the other, by each renderer; returns the times as text and as JSON.
+/// Times the frames of each method by each renderer, one after the other. Returns the times as text
+/// and as JSON.
 ///
 /// # Errors
-/// When an input cannot be loaded or drawn.
+/// If an input cannot be loaded or drawn.
 pub fn frame_times(
     of: &Measurement<'_>,
     methods: &[Variant],
@@ -95,8 +97,8 @@ pub fn frame_times(
 }
 
 impl FrameTime {
-    /// Draws frame after frame into one picture; only the work of a frame is between two readings of the clock. `None` if the method is not
-    /// for the frame, which is said.
+    /// Draws frame after frame into one picture, and reads the clock before and after each. Returns
+    /// `None`, with a warning, if the method refuses the frame.
     fn take(
         input: &str,
         scene: &PreparedScene,
@@ -114,14 +116,14 @@ impl FrameTime {
         memory::check_stored(&frame, &variant.to_string())?;
         let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         let mut samples = Vec::with_capacity(count.frames);
-        for number in 0..count.warmup + count.frames {
+        for index in 0..count.warmup + count.frames {
             let started = Instant::now();
             black_box(scene).frame_into(&mut frame)?;
             let drawn = variant.draw(&frame, &mut picture, DrawOptions::by(renderer));
             let spent = started.elapsed();
             black_box(&mut picture);
             drawn?;
-            if number >= count.warmup {
+            if index >= count.warmup {
                 samples.push(spent.as_nanos() as f64);
             }
         }
@@ -141,7 +143,7 @@ impl FrameTime {
         }))
     }
 
-    /// Writes the line of a method.
+    /// Returns the line of a method.
     fn line(&self) -> String {
         let (input, method, engine, level) = (&self.input, &self.method, self.engine, self.level);
         let (width, height, threads) = (self.width, self.height, self.threads);
@@ -152,7 +154,7 @@ impl FrameTime {
     }
 }
 
-/// Writes JSON, in which each method stands on a line of its own, too.
+/// Returns the times as JSON, with each method on its own line.
 fn json(times: &[FrameTime]) -> String {
     let head = [
         ("schema", json!(SCHEMA)),

@@ -1,4 +1,4 @@
-//! `fastphong info`: the parts of a scene or a mesh, with their facts.
+//! `fastphong info`: describes a scene or a mesh.
 
 use super::clamped::too_bright_text;
 use super::input_name;
@@ -10,19 +10,21 @@ use super::shown_frame::ShownFrame;
 use super::text::{counted, grouped, wrapped};
 use super::unlit::unlit_texts;
 use super::{CliError, Log, Outcome, done, files, memory};
-use fastphong::frame::Frame;
-use fastphong::raster::{Plan, Renderer};
-use fastphong::scene::file::{SceneFile, shown};
-use fastphong::scene::{Projection, Scene};
-use fastphong::shading::{METHODS, Variant};
+use crate::frame::Frame;
+use crate::raster::{Plan, Renderer};
+use crate::scene::file::{SceneFile, shown};
+use crate::scene::{Projection, Scene};
+use crate::shading::{METHODS, Variant};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Describe a scene or a mesh; a mesh alone as `compare` sees it, without the light and background that `render` adds
+/// Describe a scene or a mesh; a mesh without a scene as `compare` draws it, without the lights and
+/// background that `render` adds
 #[derive(clap::Args, Debug)]
 pub struct InfoArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard
+    /// input
     #[arg(value_parser = input_name::parser())]
     input: String,
     /// Print everything as JSON
@@ -32,14 +34,14 @@ pub struct InfoArgs {
     scene: SceneFlags,
 }
 
-/// An object: its mesh, the facts about that, and the source of its normals.
+/// The facts about an object: its mesh, and where its normals come from.
 #[derive(serde::Serialize)]
 struct ObjectFacts<'a> {
     mesh: &'a str,
     #[serde(flatten)]
     facts: MeshFacts,
     normals: String,
-    /// What may look otherwise than was meant, and the flag to try; of mesh files.
+    /// Hints, for mesh files only: what may not look as intended, and which flag to try.
     hints: Vec<String>,
 }
 
@@ -50,7 +52,7 @@ impl InfoArgs {
         let resolved = files::resolve(&file)?;
         self.scene.warn_without_hints(&file, &resolved, log);
         let scene = &resolved.scene;
-        // A mesh that several objects share is looked at once.
+        // A mesh that several objects share is analysed once.
         let mut known = BTreeMap::new();
         let objects = scene.objects.iter().zip(file.meshes());
         let objects = objects.map(|(object, mesh)| {
@@ -96,24 +98,24 @@ impl InfoArgs {
     }
 }
 
-/// The heading above the scene that the program makes around a mesh.
-const WITHOUT_SCENE: &str = "as it is compared without a scene file";
+/// The heading above the scene that the program makes for a mesh without one.
+const WITHOUT_SCENE: &str = "as compared, without a scene file";
 
-/// A scene: its file, its objects, and the methods chosen for it.
+/// The facts about a scene: its file, its objects, and the methods chosen for it.
 struct SceneFacts<'a> {
     input: &'a str,
     file: &'a SceneFile,
     scene: &'a Scene,
     objects: Vec<ObjectFacts<'a>>,
     choices: Vec<AutoChoice>,
-    /// The method that `auto` takes, and why.
+    /// The method that `auto` chooses, and why.
     method: (Variant, &'static str),
-    /// How much of the light is clamped, or which highlights have no end, of which materials and why; `None` if little is.
+    /// The warning of [`too_bright_text`].
     too_bright: Option<String>,
 }
 
 impl SceneFacts<'_> {
-    /// Describes the scene as data.
+    /// Returns the description as JSON.
     fn json(&self) -> Value {
         let (scene, file, (method, why)) = (self.scene, self.file, &self.method);
         let camera = &scene.camera;
@@ -140,7 +142,7 @@ impl SceneFacts<'_> {
         })
     }
 
-    /// Describes the scene in text.
+    /// Returns the description as text.
     fn text(&self) -> String {
         let (input, scene, file, (method, why)) = (self.input, self.scene, self.file, &self.method);
         let title = file
@@ -150,7 +152,7 @@ impl SceneFacts<'_> {
         let camera = &scene.camera;
         let projection = match camera.projection {
             Projection::Orthographic { half_height } => {
-                let half_height = number(half_height, half_height, 2);
+                let half_height = coordinate(half_height, half_height, 2);
                 format!("orthographic, half height {half_height}")
             }
             Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
@@ -176,7 +178,8 @@ impl SceneFacts<'_> {
         );
         let objects = self.objects.iter().map(ObjectFacts::text);
         match file.path() {
-            // A mesh alone comes first, then the scene that the program made around it.
+            // Without a scene file, the mesh comes first, then the scene that the program made for
+            // it.
             None => {
                 let objects: String = objects.collect();
                 format!("{objects}\n{WITHOUT_SCENE}\n{facts}")
@@ -189,27 +192,27 @@ impl SceneFacts<'_> {
     }
 }
 
-/// Writes a point among others that are `extent` apart.
+/// Writes a point of something of size `extent`.
 fn point(p: [f64; 3], extent: f64) -> String {
-    let [x, y, z] = p.map(|coordinate| number(coordinate, extent, 0));
+    let [x, y, z] = p.map(|value| coordinate(value, extent, 0));
     format!("({x}, {y}, {z})")
 }
 
-/// Writes a number with as many decimals as show five digits of `extent`, four at least, and `more`; among tiny ones with an
-/// exponent.
-fn number(number: f64, extent: f64, more: usize) -> String {
-    if 0.0 < extent && extent < 1e-9 && number.abs() <= 1e3 * extent {
-        return format!("{number:.*e}", 4 + more);
+/// Writes a coordinate with enough decimals to show five digits of `extent`, but at least four, and
+/// `more` beyond these. Uses an exponent if `extent` is tiny.
+fn coordinate(value: f64, extent: f64, more: usize) -> String {
+    if 0.0 < extent && extent < 1e-9 && value.abs() <= 1e3 * extent {
+        return format!("{value:.*e}", 4 + more);
     }
     let decimals = match extent {
         0.0 => 4.0,
         _ => (4.0 - extent.log10().floor()).clamp(4.0, 17.0),
     };
-    format!("{number:.*}", decimals as usize + more)
+    format!("{value:.*}", decimals as usize + more)
 }
 
 impl ObjectFacts<'_> {
-    /// Describes the object in text.
+    /// Returns the description of the object as text.
     fn text(&self) -> String {
         let facts = &self.facts;
         let sides = facts.polygons_by_sides.iter();
@@ -265,7 +268,9 @@ impl ObjectFacts<'_> {
             n => format!(", {} that cross themselves, their areas cancel", grouped(n)),
         };
         let colours = match facts.colours {
-            true => "\n  colours     one a position; --colours off leaves them out of the light",
+            true => {
+                "\n  colours     one for each position; --colours off leaves them out of the light"
+            }
             false => "",
         };
         let hints = self
@@ -290,13 +295,14 @@ impl ObjectFacts<'_> {
     }
 }
 
-/// An engine and an instruction set that `auto` chooses, and the methods that it chooses them for.
+/// An engine and instruction set that `auto` chooses, and the methods for which it does.
 struct AutoChoice {
     plan: Plan,
     methods: Vec<&'static str>,
 }
 
-/// Returns the choices of `--engine auto --simd auto` on this machine: each once, in the order of the methods.
+/// Returns the choices of `--engine auto --simd auto` on this machine without duplicates, in the
+/// order of the methods.
 fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
     let mut choices: Vec<AutoChoice> = Vec::new();
     for entry in METHODS {
@@ -311,7 +317,7 @@ fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
 }
 
 impl AutoChoice {
-    /// Writes the choice in words.
+    /// Returns the choice in words.
     fn text(&self) -> String {
         let methods = self.methods.join(", ");
         let reason = self.plan.reason();
@@ -325,7 +331,7 @@ impl AutoChoice {
         }
     }
 
-    /// Returns the choice as data.
+    /// Returns the choice as JSON.
     fn json(&self) -> Value {
         let renderer = self.plan.renderer();
         let engine = renderer.map(|renderer| renderer.engine().name());

@@ -1,5 +1,6 @@
-//! Names of inputs. A path may be of any bytes, the names in scenes are text: a path that is no text has a stand-in, in which the
-//! bytes that are none are written as `\xE9`. Messages show it, and files are opened by the path behind it.
+//! Names of inputs. A path may hold any bytes, but names in scenes are text. So a path that is not
+//! UTF-8 gets a stand-in: a name in which each invalid byte is written as `\xE9`. Messages show the
+//! stand-in; files are opened by the path behind it.
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use std::ffi::{OsStr, OsString};
@@ -13,7 +14,7 @@ fn stand_ins() -> MutexGuard<'static, Vec<(PathBuf, PathBuf)>> {
     STAND_INS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Returns what reads an input from the command line.
+/// Returns the clap parser for an input.
 pub fn parser() -> impl TypedValueParser<Value = String> {
     OsStringValueParser::new().map(|input: OsString| name(&input))
 }
@@ -26,14 +27,14 @@ fn name(input: &OsStr) -> String {
     let stand_in = escaped(input);
     let (path, behind) = (Path::new(&stand_in), Path::new(input));
     stand_ins().push((path.into(), behind.into()));
-    // Files that a scene names stand in its folder.
+    // The files that a scene names are in its folder, whose name is not UTF-8 either.
     if let (Some(folder), Some(behind)) = (path.parent(), behind.parent()) {
         stand_ins().push((folder.into(), behind.into()));
     }
     stand_in
 }
 
-/// Writes bytes that are no text as `\xE9`.
+/// Writes each byte that is not UTF-8 as `\xE9`.
 pub fn escaped(path: &OsStr) -> String {
     let chunks = path.as_encoded_bytes().utf8_chunks();
     let escape = |byte: &u8| format!("\\x{byte:02X}");
@@ -44,7 +45,7 @@ pub fn escaped(path: &OsStr) -> String {
     text.collect()
 }
 
-/// Writes control characters as `\x1B`, so that no name of a file commands the terminal.
+/// Writes each control character as `\x1B`, so that a file name cannot control the terminal.
 pub fn printable(text: &str) -> String {
     let letter = |letter: char| match letter.is_control() {
         true => format!("\\x{:02X}", letter as u32),
@@ -53,16 +54,18 @@ pub fn printable(text: &str) -> String {
     text.chars().map(letter).collect()
 }
 
-/// True if a name is a stand-in, or is in the folder of one.
+/// True if a name is a stand-in, or lies in the folder of one.
 pub fn is_stand_in(name: &str) -> bool {
     path_behind(Path::new(name)) != Path::new(name)
 }
 
-/// Returns the path behind a name: that of a stand-in, or of what is in the folder of one; else the name itself.
+/// Returns the path behind a name that is a stand-in or lies in the folder of one, and any other
+/// name unchanged.
 pub fn path_behind(name: &Path) -> PathBuf {
     let known = stand_ins();
     let found = known.iter().find_map(|(stand_in, behind)| {
-        // The folder of a plain name is empty, and holds everything: its files have the names that they have.
+        // The parent of a bare file name is the empty path. Every path begins with it, so it must
+        // not match here.
         let is_some = !stand_in.as_os_str().is_empty();
         let rest = name.strip_prefix(stand_in).ok().filter(|_| is_some)?;
         Some(match rest.as_os_str().is_empty() {

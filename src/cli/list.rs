@@ -1,26 +1,27 @@
-//! `fastphong list`: everything that has a name, each from its own table.
+//! `fastphong list`: lists everything that has a name on the command line.
 
 use super::engines::{ENGINES, EngineInfo, engines_with};
 use super::text::wrapped;
 use super::{CliError, Outcome, done};
-use fastphong::compare::comparison::parameter_json;
-use fastphong::compare::metrics::METRICS;
-use fastphong::compare::table::aligned;
-use fastphong::diagnose::{MISTAKES, Mistake, scenes_that_show};
-use fastphong::lectures::{FIGURES, Figure};
-use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
-use fastphong::number::Level;
-use fastphong::scene::input::{SCENES, ShippedScene};
-use fastphong::shading::{Info, METHODS, MethodRow, Range, Roundings, Standing, Stepped};
+use crate::compare::comparison::parameter_json;
+use crate::compare::metrics::METRICS;
+use crate::compare::table::aligned;
+use crate::diagnose::{MISTAKES, Mistake, scenes_that_show};
+use crate::lectures::{FIGURES, Figure};
+use crate::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
+use crate::number::SimdLevel;
+use crate::scene::input::{SCENES, ShippedScene};
+use crate::shading::{Info, METHODS, MethodRow, Range, Roundings, Stepped, Tier};
 use serde_json::{Value, json};
 
-/// List methods, meshes, scenes, metrics, figures of the lectures, engines, instruction sets or mistakes
+/// List methods, meshes, scenes, metrics, figures of the lectures, engines, instruction sets or
+/// mistakes
 #[derive(clap::Args, Debug)]
 pub struct ListArgs {
-    /// Things to list
+    /// What to list
     #[arg(value_enum)]
     subject: Subject,
-    /// List all methods, not only the default ones
+    /// List all methods instead of the default ones
     #[arg(long)]
     all: bool,
     /// Print the list as JSON
@@ -36,7 +37,7 @@ enum Subject {
     Meshes,
     /// Shipped scenes
     Scenes,
-    /// Measures of the difference of two pictures
+    /// Metrics of the difference between two pictures
     Metrics,
     /// Figures of the lectures
     Figures,
@@ -44,7 +45,7 @@ enum Subject {
     Engines,
     /// Instruction sets of the pixel loops
     Simd,
-    /// Mistakes that `diagnose` knows
+    /// Mistakes that `diagnose` looks for
     Mistakes,
 }
 
@@ -86,10 +87,10 @@ fn text(subject: Subject, all: bool) -> Result<String, CliError> {
         Subject::Engines => ENGINES.iter().map(engine_text).collect(),
         Subject::Mistakes => MISTAKES.iter().map(mistake_text).collect(),
         Subject::Simd => {
-            let rows = Level::ALL.map(|level| {
+            let rows = SimdLevel::ALL.map(|level| {
                 let here = match level.is_available() {
-                    _ if level == Level::best() => "here, taken by auto",
-                    true => "here",
+                    _ if level == SimdLevel::best() => "on this machine, chosen by auto",
+                    true => "on this machine",
                     false => "not on this machine",
                 };
                 [level.name(), here, level.title()].map(str::to_owned)
@@ -99,12 +100,12 @@ fn text(subject: Subject, all: bool) -> Result<String, CliError> {
     })
 }
 
-/// Returns the default methods, or all.
+/// Returns the default methods, or all of them.
 fn listed(all: bool) -> impl Iterator<Item = &'static MethodRow> {
-    (METHODS.iter()).filter(move |entry| all || entry.info.standing == Standing::Default)
+    (METHODS.iter()).filter(move |entry| all || entry.info.tier == Tier::Default)
 }
 
-/// Returns the list as data.
+/// Returns the list as JSON.
 fn json(subject: Subject, all: bool) -> Result<Value, CliError> {
     Ok(match subject {
         Subject::Methods => listed(all).map(method_json).collect(),
@@ -116,16 +117,16 @@ fn json(subject: Subject, all: bool) -> Result<Value, CliError> {
         Subject::Figures => json!(FIGURES),
         Subject::Engines => ENGINES.iter().map(EngineInfo::json).collect(),
         Subject::Mistakes => MISTAKES.iter().map(mistake_json).collect(),
-        Subject::Simd => Level::ALL.into_iter().map(level_json).collect(),
+        Subject::Simd => SimdLevel::ALL.into_iter().map(level_json).collect(),
     })
 }
 
-/// Writes a name, and paragraphs about it.
+/// Writes a name with indented paragraphs below it.
 fn entry(name: &str, paragraphs: &[&str]) -> String {
     format!("{name}\n{}", wrapped(&paragraphs.join("\n"), 4))
 }
 
-/// Returns the name of an enum's value in lower case.
+/// Returns the name of an enum variant in lower case.
 fn word(value: impl std::fmt::Debug) -> String {
     format!("{value:?}").to_lowercase()
 }
@@ -148,9 +149,9 @@ fn method_text(method: &MethodRow) -> String {
     entry(info.name, &[&about.join("\n")])
 }
 
-/// Returns family, standing and numbers in the catalogue of a method, as `quadratics, default, M10`.
+/// Returns the family, the tier and the catalogue numbers of a method: `quadratics, default, M10`.
 pub fn family(info: &Info) -> String {
-    let words = [info.family.name(), info.standing.name()];
+    let words = [info.family.name(), info.tier.name()];
     words
         .iter()
         .chain(info.ids)
@@ -159,7 +160,7 @@ pub fn family(info: &Info) -> String {
         .join(", ")
 }
 
-/// Says how near a method is to its closed form, in a sentence.
+/// Returns a sentence on how near a method is to its closed form.
 pub fn exactness(info: &Info) -> String {
     let Roundings { start, step, of } = info.roundings;
     let (model, of) = (info.model.name(), stepped(of));
@@ -180,7 +181,7 @@ fn stepped(of: Stepped) -> &'static str {
     }
 }
 
-/// Returns the least and the most of a parameter, or its words.
+/// Returns the ends of a parameter's range, or its words.
 fn range_json(range: Range) -> Value {
     match range {
         Range::Whole(least, most) => json!([least, most]),
@@ -189,7 +190,7 @@ fn range_json(range: Range) -> Value {
     }
 }
 
-/// Describes a method as data, without its texts of more than one line.
+/// Returns the description of a method as JSON, without its texts of several lines.
 pub fn method_json(method: &MethodRow) -> Value {
     let info = method.info;
     let parameters = info.parameters.iter().map(|p| {
@@ -204,7 +205,7 @@ pub fn method_json(method: &MethodRow) -> Value {
         "title": info.title,
         "ids": info.ids,
         "family": info.family.name(),
-        "standing": info.standing.name(),
+        "tier": info.tier.name(),
         "integer": method.is_integer,
         "source": info.source,
         "claimed": info.claimed,
@@ -217,7 +218,7 @@ pub fn method_json(method: &MethodRow) -> Value {
     })
 }
 
-/// Returns the default of a mesh's parameter; `polygons` has none, as it stands for others.
+/// Returns the default of a mesh parameter. `polygons` has none, because it sets other parameters.
 fn default_json(parameter: &ShapeParameter) -> Option<Value> {
     match parameter.kind {
         _ if parameter.default < parameter.min => None,
@@ -251,7 +252,7 @@ fn mesh_json(shape: &Builtin) -> Value {
     json!({ "name": shape.name, "meaning": shape.doc, "parameters": parameters })
 }
 
-/// Describes each shipped scene by its name, title and description.
+/// Calls `describe` with the name, title and description of each shipped scene.
 fn scenes<T, List: FromIterator<T>>(
     describe: impl Fn(&str, &str, &str) -> T,
 ) -> Result<List, CliError> {
@@ -271,10 +272,10 @@ fn engine_text(engine: &EngineInfo) -> String {
     entry(engine.name, &[engine.title, &facts])
 }
 
-fn level_json(level: Level) -> Value {
+fn level_json(level: SimdLevel) -> Value {
     json!({
         "name": level.name(), "title": level.title(), "width": level.width(),
-        "available": level.is_available(), "auto": level == Level::best(),
+        "available": level.is_available(), "auto": level == SimdLevel::best(),
     })
 }
 

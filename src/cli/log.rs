@@ -1,6 +1,7 @@
 //! Output: results on standard output, messages on standard error.
 //!
-//! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
+//! If the reader of standard output goes away, as `head` does, that is not an error. `println!`
+//! would panic, so nothing here uses it.
 
 use super::files::{self, Destination};
 use super::{CliError, Outcome};
@@ -9,7 +10,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::Instant;
 
-/// The messages that are written to standard error.
+/// Which messages are written to standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Log {
     /// Errors only.
@@ -21,7 +22,7 @@ pub enum Log {
 }
 
 impl Log {
-    /// Reads the global flags.
+    /// Returns the level for the global flags.
     pub fn new(quiet: bool, verbose: bool) -> Log {
         match (quiet, verbose) {
             (true, _) => Log::Quiet,
@@ -30,7 +31,7 @@ impl Log {
         }
     }
 
-    /// Writes a warning: something to know before trusting the result.
+    /// Writes a warning: something that the user should know before trusting the result.
     pub fn warning(self, text: &str) {
         self.note(&match colour() {
             true => format!("\x1b[1;33mwarning\x1b[0m: {text}"),
@@ -38,21 +39,21 @@ impl Log {
         });
     }
 
-    /// Writes a note: something that was done.
+    /// Writes a note: something that the program did or suggests.
     pub fn note(self, text: &str) {
         if self != Log::Quiet {
             to_stderr(&format!("{text}\n"));
         }
     }
 
-    /// Writes a detail, for `--verbose` only.
+    /// Writes a detail, with `--verbose` only.
     pub fn detail(self, text: &str) {
         if self == Log::Verbose {
             to_stderr(&format!("{text}\n"));
         }
     }
 
-    /// Writes how long a step took since it `started`, for `--verbose` only.
+    /// Writes the time since a step `started`, with `--verbose` only.
     pub fn duration(self, done: &str, started: Instant) {
         let milliseconds = 1e3 * started.elapsed().as_secs_f64();
         self.detail(&format!("{done} in {milliseconds:.1} ms"));
@@ -64,8 +65,9 @@ pub fn colour() -> bool {
     is_coloured(&io::stderr())
 }
 
-/// True if `stream` may be coloured: never where `NO_COLOR` is set (<https://no-color.org>), always where `CLICOLOR_FORCE` is
-/// (<https://bixense.com/clicolors>), else on a terminal that can, unless `CLICOLOR` is 0.
+/// True if `stream` may be coloured. `NO_COLOR` forbids colours (<https://no-color.org>),
+/// `CLICOLOR_FORCE` forces them (<https://bixense.com/clicolors>). Otherwise a terminal that
+/// supports them gets colours, unless `CLICOLOR` is 0.
 pub fn is_coloured(stream: &impl IsTerminal) -> bool {
     let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
     let is_zero = |value: &OsString| value == "0";
@@ -78,20 +80,20 @@ pub fn is_coloured(stream: &impl IsTerminal) -> bool {
     !value("CLICOLOR").is_some_and(|value| is_zero(&value)) && !is_dumb() && stream.is_terminal()
 }
 
-/// True if the terminal knows no sequences for colours and for the cursor.
+/// True if the terminal supports no escape sequences for colours and the cursor.
 pub fn is_dumb() -> bool {
     std::env::var_os("TERM").is_some_and(|term| term == "dumb")
 }
 
-/// Writes `text` to standard error, if anybody still reads it.
+/// Writes `text` to standard error, and ignores errors: there is nowhere to report them.
 pub fn to_stderr(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
-/// Writes a result to standard output; a reader that went away has enough of it.
+/// Writes a result to standard output. Stops silently if the reader went away.
 ///
 /// # Errors
-/// When it cannot be written for another reason, such as a full disk.
+/// If it cannot be written for another reason, such as a full disk.
 pub fn to_stdout(text: &str) -> Result<(), CliError> {
     to_stdout_by(|out| out.write_all(text.as_bytes()))
 }
@@ -99,7 +101,7 @@ pub fn to_stdout(text: &str) -> Result<(), CliError> {
 /// Writes the result of `write` to standard output, as [`to_stdout`] does.
 ///
 /// # Errors
-/// As [`to_stdout`], and when it leads to a file that was read.
+/// As [`to_stdout`], and if standard output leads to a file that was read.
 pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CliError> {
     files::check(&[Destination {
         name: "standard output",

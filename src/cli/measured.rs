@@ -1,4 +1,4 @@
-//! Shared parts of the commands that compare and time methods.
+//! Flags and steps shared by the commands that compare and time methods.
 
 use super::engines::ThreadFlags;
 use super::files;
@@ -9,22 +9,22 @@ use super::scene_flags::SceneFlags;
 use super::shown_frame::ShownFrame;
 use super::values::number;
 use super::{CliError, Log, memory};
-use fastphong::compare::comparison::{Comparison, Input, compare};
-use fastphong::compare::timing::{Machine, TimeLimits};
-use fastphong::number::NameError;
-use fastphong::raster::Renderer;
-use fastphong::scene::Scene;
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::input::SCENES;
-use fastphong::shading::{Family, METHODS, MethodRow, Standing, Variant};
+use crate::compare::comparison::{Comparison, Input, compare};
+use crate::compare::timing::{Machine, TimeLimits};
+use crate::number::NameError;
+use crate::raster::Renderer;
+use crate::scene::Scene;
+use crate::scene::file::SceneFile;
+use crate::scene::input::SCENES;
+use crate::shading::{Family, METHODS, MethodRow, Tier, Variant};
 use std::collections::HashSet;
 use std::time::Duration;
 
 /// The methods to compare.
 pub type Methods = Vec<Variant>;
 
-/// Reads methods between commas, each once, and families of them: the default ones, all, those in floats or in integers, exhibits, and
-/// what [`Family`] names.
+/// Reads methods separated by commas, and removes duplicates. A group stands for several methods:
+/// `default`, `all`, `floats`, `integers`, `exhibits`, or a [`Family`].
 pub fn methods(text: &str) -> Result<Methods, NameError> {
     let those = |is_meant: &dyn Fn(&MethodRow) -> bool| -> Methods {
         let entries = METHODS.iter().filter(|entry| is_meant(entry));
@@ -36,11 +36,11 @@ pub fn methods(text: &str) -> Result<Methods, NameError> {
         let family = Family::ALL.into_iter().find(|family| family.name() == name);
         methods.extend(match (name, family) {
             (_, Some(family)) => those(&|entry| entry.info.family == family && !entry.is_integer),
-            ("default", _) => those(&|entry| entry.info.standing == Standing::Default),
+            ("default", _) => those(&|entry| entry.info.tier == Tier::Default),
             ("all", _) => those(&|_| true),
             ("floats", _) => those(&|entry| !entry.is_integer),
             ("integers", _) => those(&|entry| entry.is_integer),
-            ("exhibits", _) => those(&|entry| entry.info.standing == Standing::Exhibit),
+            ("exhibits", _) => those(&|entry| entry.info.tier == Tier::Exhibit),
             _ => vec![Variant::parse(name)?],
         });
     }
@@ -49,7 +49,7 @@ pub fn methods(text: &str) -> Result<Methods, NameError> {
     Ok(methods)
 }
 
-/// Reads a length of time in seconds.
+/// Reads a duration in seconds.
 pub fn seconds(text: &str) -> Result<Duration, String> {
     // A million seconds are 11 days.
     let is_duration = |seconds: &f64| (0.0..=1e6).contains(seconds);
@@ -57,22 +57,23 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
     seconds.map(Duration::from_secs_f64)
 }
 
-/// Scenes to measure, by one renderer after the other.
+/// Scenes to measure, with one renderer after the other.
 pub struct Measurement<'a> {
     pub inputs: &'a [&'a str],
     pub scene: &'a SceneFlags,
     pub renderers: &'a [Renderer],
     pub threads: ThreadFlags,
     pub log: Log,
-    /// The files to be written.
+    /// The files that the command will write.
     pub outputs: &'a [&'a Output],
 }
 
 impl Measurement<'_> {
-    /// Calls `measure` with the name of each scene, its file and itself. Every input is loaded first, so that a bad one fails at once.
+    /// Calls `measure` with the name, the file and the scene of each input. Loads every input
+    /// first, so that a bad one fails at once.
     ///
     /// # Errors
-    /// When an input cannot be loaded, or is to be written to, and those of `measure`.
+    /// If an input cannot be loaded or is also an output, or `measure` fails.
     pub fn each_scene(
         &self,
         mut measure: impl FnMut(&str, &SceneFile, Scene, &Progress) -> Result<(), CliError>,
@@ -93,22 +94,23 @@ impl Measurement<'_> {
     }
 }
 
-/// The flags that name the methods to time, and the time to spend.
+/// The flags for the methods and for the time to spend.
 #[derive(clap::Args, Debug)]
 pub struct TimingFlags {
-    /// Methods between commas, with parameters as in `fast-phong:steps=1`, or families of them: `default`, `colours`, `roots`, `series`,
-    /// `quadratics`, `angles`, `highlights`, `hybrids`, `exhibits`, `floats`, `integers` (for processors without a floating-point
-    /// unit), `all`; naive-phong is always included
+    /// Methods separated by commas, with parameters as in `fast-phong:steps=1`, or groups of
+    /// methods: `default`, `colours`, `roots`, `series`, `quadratics`, `angles`, `highlights`,
+    /// `hybrids`, `exhibits`, `floats`, `integers` (for processors without a floating-point unit),
+    /// `all`; naive-phong is always included
     #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "default", value_parser = methods)]
     pub methods: Methods,
-    /// Seconds of timing per scene; all methods take at least five rounds
+    /// Seconds of timing per scene; there are at least five rounds
     #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, allow_hyphen_values = true)]
     pub time_budget: Duration,
 }
 
 impl TimingFlags {
-    /// Draws, compares and times every scene by every renderer, with a progress bar where it takes long; finds mean ꟻLIP too if
-    /// `perceives`. Pictures are not kept.
+    /// Draws, compares and times every scene with every renderer, and shows progress if it takes
+    /// long. `perceives` asks for mean ꟻLIP too. Pictures are not kept.
     pub fn compare(
         &self,
         of: &Measurement<'_>,
@@ -150,14 +152,14 @@ impl TimingFlags {
     }
 }
 
-/// Warns that times of a debug build say nothing.
+/// Warns if this is a debug build, whose times say nothing.
 pub fn warn_of_debug_build(log: Log) {
     if Machine::this().profile != "release" {
         log.warning("built without optimisation: the times say nothing (cargo build --release)");
     }
 }
 
-/// Returns the inputs that were named, or all shipped scenes.
+/// Returns the named inputs, or all shipped scenes if there are none.
 pub fn named_or_shipped(inputs: &[String]) -> Vec<&str> {
     match inputs {
         [] => SCENES.iter().map(|scene| scene.name).collect(),
@@ -165,7 +167,7 @@ pub fn named_or_shipped(inputs: &[String]) -> Vec<&str> {
     }
 }
 
-/// Returns the command line as typed, with the program's name in place of its path.
+/// Returns the command line as typed, with the program's name instead of its path.
 pub fn command_line() -> Vec<String> {
     let words = std::iter::once("fastphong".into()).chain(std::env::args_os().skip(1));
     words

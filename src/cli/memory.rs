@@ -1,49 +1,55 @@
-//! Memory: what a command needs, said and checked before it is taken, stage by stage: meshes, frame, pictures.
+//! Memory: estimates what a command needs, and checks it before each stage: meshes, frame,
+//! pictures.
 //!
-//! A system that has too little ends a program without a word, at any time, and a program whose allocation fails ends itself.
+//! Without the check, a system that runs out of memory kills the program without a message, and an
+//! allocation that fails aborts it.
 
 use super::drawing::RenderJob;
 use super::input_name::path_behind;
 use super::text::grouped;
 use super::{CliError, Log};
-use fastphong::compare::comparison::memory_needed;
-use fastphong::compare::metrics::MAX_PERCEIVED;
-use fastphong::compare::timing::free_memory;
-use fastphong::frame::Frame;
-use fastphong::mesh::builtin::polygon_count;
-use fastphong::picture::image_file::{Format, Pair};
-use fastphong::scene::Scene;
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::input::is_mesh_file;
-use fastphong::shading::Variant;
+use crate::compare::comparison::memory_needed;
+use crate::compare::metrics::MAX_PERCEIVED;
+use crate::compare::timing::free_memory;
+use crate::frame::Frame;
+use crate::mesh::builtin::polygon_count;
+use crate::picture::image_file::{Format, Pair};
+use crate::scene::Scene;
+use crate::scene::file::SceneFile;
+use crate::scene::input::is_mesh_file;
+use crate::shading::Variant;
 use std::collections::HashSet;
 use std::hint::black_box;
 use std::path::Path;
 
-/// Bytes of a polygon of a mesh by formula, while it is made: spheres of a million take 110 in the end.
+/// Bytes per polygon while a built-in mesh is made. A finished sphere of a million polygons
+/// takes 110.
 const BUILTIN_POLYGON: u64 = 200;
 
-/// Bytes of a mesh file's byte, while it is read: the file, its numbers in `f64`, and the mesh. Quads without normals take 5.4, with
-/// them 4.6.
+/// Bytes of memory per byte of a mesh file while it is read: for the file, its values in `f64`, and
+/// the mesh. Quads take 5.4 without normals and 4.6 with them.
 const MESH_FILE_BYTE: u64 = 6;
 
-/// Bytes of a polygon of a frame with its share of vertices.
+/// Bytes per polygon of a frame, with its share of the vertices.
 const FRAME_POLYGON: u64 = 100;
 
-/// Bytes of a polygon while an engine draws it: its edges, its place in the order of drawing, its share of what vertices carry.
+/// Bytes per polygon while an engine draws: its edges, its entry in the drawing order, its share of
+/// the vertex data.
 const DRAWN_POLYGON: u64 = 200;
 
-/// Bytes of a polygon, and of a light on it, where each polygon sees other light.
+/// Bytes per polygon, and per light on it, if light differs between polygons: lights or eye are at
+/// positions.
 const LIT_POLYGON: [u64; 2] = [256, 96];
 
-/// Bytes of a pixel while FLIP is computed, some rows at a time: of at most so many pixels (docs/pictures.md).
+/// Bytes per pixel while FLIP is computed (docs/pictures.md).
 const FLIP_PIXEL: u64 = 110;
+/// How many pixels FLIP filters at a time.
 const FLIP_PIXELS: u64 = 1 << 20;
 
-/// Checks that there is memory for the meshes of a scene, before they are read or made.
+/// Checks that there is enough memory for the meshes of a scene, before they are read or made.
 ///
 /// # Errors
-/// When there is not.
+/// If there is not.
 pub fn check_meshes(file: &SceneFile) -> Result<(), CliError> {
     let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
     let names: HashSet<&str> = file.meshes().collect();
@@ -61,10 +67,10 @@ pub fn check_meshes(file: &SceneFile) -> Result<(), CliError> {
     check_free(needed, &needs, "a smaller mesh")
 }
 
-/// Checks that there is memory for the frame of a scene.
+/// Checks that there is enough memory for the frame of a scene.
 ///
 /// # Errors
-/// When there is not.
+/// If there is not.
 pub fn check_frame(scene: &Scene) -> Result<(), CliError> {
     let objects = scene.objects.iter();
     let polygons: usize = objects.map(|object| object.mesh.polygon_count()).sum();
@@ -77,10 +83,11 @@ pub fn check_frame(scene: &Scene) -> Result<(), CliError> {
     check_free(needed, &needs, "fewer polygons")
 }
 
-/// Notes what the comparison of a large picture needs, `at_once` of them side by side, and what is left out.
+/// Checks that there is enough memory to compare methods on a frame, `at_once` frames in parallel.
+/// Notes the metrics that are left out of a large picture.
 ///
 /// # Errors
-/// When that is more than there is.
+/// If there is not enough memory.
 pub fn check(frame: &Frame, methods: &[Variant], at_once: usize, log: Log) -> Result<(), CliError> {
     let one = memory_needed(frame, methods).saturating_add(drawing(frame));
     let needed = one.saturating_mul(at_once as u64);
@@ -94,11 +101,11 @@ pub fn check(frame: &Frame, methods: &[Variant], at_once: usize, log: Log) -> Re
     Ok(())
 }
 
-/// Checks that there is memory for the picture of a job: as a file of the format `written` holds it, then as it is compared with a
-/// file of the format `compared`.
+/// Checks that there is enough memory for the picture of a job: first to write it as a file of the
+/// format `written`, then to compare it with a file of the format `compared`.
 ///
 /// # Errors
-/// When there is not.
+/// If there is not.
 pub fn check_picture(
     job: &RenderJob,
     written: Option<Format>,
@@ -106,7 +113,7 @@ pub fn check_picture(
 ) -> Result<(), CliError> {
     let pixels = pixels(job.size());
     let writing = written.map_or(0, |format| job.memory_needed(format));
-    // The picture, the file, whose pixels have at most 16 bytes, and the map.
+    // Beside the picture there are the reference, of at most 16 bytes per pixel, and the map.
     let comparing = compared.map_or(0, |format| {
         job.memory_needed(format).saturating_add((16 + 4) * pixels)
     });
@@ -114,20 +121,20 @@ pub fn check_picture(
     check_size(job.size(), &job.name, needed)
 }
 
-/// Checks that there is memory for a stored picture of a frame, which is drawn again and again.
+/// Checks that there is enough memory to draw a frame into a stored picture.
 ///
 /// # Errors
-/// When there is not.
+/// If there is not.
 pub fn check_stored(frame: &Frame, name: &str) -> Result<(), CliError> {
     let size = [frame.picture_width(), frame.picture_height()];
     let needed = drawing(frame).saturating_add(4 * pixels(size));
     check_size(size, name, needed)
 }
 
-/// Checks that there is memory for the comparison of two pictures that are read, and for a map.
+/// Checks that there is enough memory to compare two picture files and draw a map.
 ///
 /// # Errors
-/// When there is not.
+/// If there is not.
 pub fn check_pair(pair: &Pair<'_>) -> Result<(), CliError> {
     let size = pair.common_size();
     let pixels = pixels(size);
@@ -138,12 +145,12 @@ pub fn check_pair(pair: &Pair<'_>) -> Result<(), CliError> {
     check_size(size, "comparing", flip + 4 * pixels)
 }
 
-/// Checks that there is memory for the rows around a pixel that may match others within `radius`.
+/// Checks that there is enough memory for the rows that `--radius` keeps around each pixel.
 ///
 /// # Errors
-/// When there is not.
+/// If there is not.
 pub fn check_rows(size: [usize; 2], radius: usize) -> Result<(), CliError> {
-    // Of two pictures, four numbers a pixel.
+    // Rows of both pictures, with four values per pixel.
     let rows = 2 * (2 * radius as u64 + 1);
     let needed = rows * size[0] as u64 * size_of::<[f64; 4]>() as u64;
     check_size(size, "comparing within a radius", needed)
@@ -158,7 +165,7 @@ fn pixels([width, height]: [usize; 2]) -> u64 {
     width as u64 * height as u64
 }
 
-/// Returns about how many bytes an engine needs beside picture and frame.
+/// Estimates the bytes that an engine needs beside the picture and the frame.
 fn drawing(frame: &Frame) -> u64 {
     let polygons = frame.polygons().len() as u64;
     let [own, a_light] = LIT_POLYGON;
@@ -174,20 +181,20 @@ fn check_free(needed: u64, needs: &str, expected: &str) -> Result<(), CliError> 
         && free < needed
     {
         let free = bytes(free);
-        return Err(format!("{needs} of memory, and {free} are free: expected {expected}").into());
+        return Err(format!("{needs} of memory, but {free} are free: expected {expected}").into());
     }
-    // A limit that the system does not tell shows when the memory is asked for, all of it at once. The compiler would leave out a
-    // list that nobody sees.
+    // The system may have a limit that it does not report. Reserving all the memory at once shows
+    // it. `black_box` keeps the compiler from removing the unused list.
     let mut all: Vec<u8> = Vec::new();
     let is_there = usize::try_from(needed).is_ok_and(|size| all.try_reserve_exact(size).is_ok());
     black_box(&mut all);
     match is_there {
         true => Ok(()),
-        false => Err(format!("{needs} of memory, and there is less: expected {expected}").into()),
+        false => Err(format!("{needs} of memory, but there is less: expected {expected}").into()),
     }
 }
 
-/// Writes a size in memory.
+/// Writes a number of bytes in MB or GB.
 fn bytes(bytes: u64) -> String {
     match bytes {
         1_000_000_000.. => format!("{:.1} GB", bytes as f64 / 1e9),

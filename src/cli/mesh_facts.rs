@@ -1,17 +1,18 @@
-//! Facts about a mesh: counts, closedness, flatness.
+//! Facts about a mesh: its counts, and if it is closed, planar and wound consistently.
 
-use fastphong::mesh::PolygonMesh;
-use fastphong::mesh::edges::Edges;
-use fastphong::mesh::newell::{areas_cancel, polygon_normal, unit_normal};
-use fastphong::mesh::orientation::inside_out;
-use fastphong::mesh::weld::weld;
+use crate::mesh::PolygonMesh;
+use crate::mesh::edges::Edges;
+use crate::mesh::newell::{areas_cancel, polygon_normal, unit_normal};
+use crate::mesh::orientation::inside_out;
+use crate::mesh::weld::weld;
 use glam::DVec3;
 use std::collections::{BTreeMap, HashSet};
 
-/// The distance from its plane up to which a polygon counts as planar, in parts of its extent.
+/// The largest distance of a corner from the plane of a planar polygon, as a fraction of the
+/// polygon's extent.
 pub const PLANAR: f64 = 1e-3;
-/// The sine of the angle by which a polygon turns the wrong way at a corner before it counts as concave: larger than
-/// what rounding the corners of a straight edge to `f32` makes of it.
+/// The sine of the smallest wrong turn at a corner that makes a polygon concave. It is larger than
+/// the turn that rounding to `f32` can cause in the middle of a straight edge.
 const REFLEX: f64 = 1e-3;
 
 /// The facts about a mesh.
@@ -19,52 +20,53 @@ const REFLEX: f64 = 1e-3;
 pub struct MeshFacts {
     /// Polygons of the mesh.
     pub polygons: usize,
-    /// The number of polygons of each number of sides.
+    /// How many polygons have how many sides.
     pub polygons_by_sides: BTreeMap<usize, usize>,
     /// Polygons without area.
     pub degenerate: usize,
-    /// Polygons that cross themselves and the areas of whose lobes cancel, so that they have no normal.
+    /// Polygons that cross themselves, and whose lobes have areas that cancel, so that they have no
+    /// normal.
     pub cancelling: usize,
     /// Polygons with the corners of an earlier one, in any order.
     pub doubled: usize,
     /// Polygons with a corner that turns the wrong way.
     pub concave: usize,
-    /// Polygons that are out of their plane by more than [`PLANAR`].
+    /// Polygons with a corner farther from their plane than [`PLANAR`].
     pub not_planar: usize,
-    /// Positions that polygons use; coinciding ones count once.
+    /// Positions that polygons use. Coinciding ones count once.
     pub vertices: usize,
     /// Positions of the mesh.
     pub positions: usize,
     /// Smallest and largest coordinates.
     pub bounds: Option<[[f64; 3]; 2]>,
-    /// Edges, coinciding ones once.
+    /// Edges. Coinciding ones count once.
     pub edges: usize,
-    /// True if every edge has two polygons that go along it in opposite directions.
+    /// True if every edge has two polygons that run along it in opposite directions.
     pub closed: bool,
-    /// Edges of one polygon only: none on a closed mesh.
+    /// Edges of only one polygon. A closed mesh has none.
     pub open_edges: usize,
     /// Edges of three polygons or more.
     pub non_manifold_edges: usize,
-    /// Edges whose two polygons go along them in the same direction: they are not wound alike.
+    /// Edges whose two polygons run along them in the same direction, and so are wound differently.
     pub reversed_edges: usize,
-    /// Surfaces of the mesh, each linked by edges, that are closed and wound inside out.
+    /// Connected surfaces of the mesh that are closed and wound inside out.
     pub inside_out: usize,
-    /// Their polygons.
+    /// Polygons of the surfaces that are inside out.
     pub inside_out_polygons: usize,
-    /// Materials that come with the mesh.
+    /// Materials of the mesh.
     pub materials: usize,
     /// Polygons without a material of the mesh.
     pub polygons_without_material: usize,
     /// True if each position has a colour.
     pub colours: bool,
-    /// True if normals come with the mesh.
+    /// True if the mesh has normals.
     pub given_normals: bool,
     /// Bytes that the mesh takes in memory.
     pub bytes: usize,
 }
 
 impl MeshFacts {
-    /// Finds out the facts about `mesh`.
+    /// Collects the facts about `mesh`.
     pub fn of(mesh: &PolygonMesh) -> MeshFacts {
         let (vertex, count) = weld(mesh.positions());
         let used = mesh.corners().iter().map(|&corner| vertex[corner as usize]);
@@ -107,7 +109,7 @@ impl MeshFacts {
         facts
     }
 
-    /// Counts the polygons that lie upon others.
+    /// Counts the polygons that have the corners of an earlier one.
     fn count_doubled(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
         let corners = |corners: &[u32]| {
             let mut corners: Vec<u32> = corners.iter().map(|&c| vertex[c as usize]).collect();
@@ -118,7 +120,7 @@ impl MeshFacts {
         self.doubled = mesh.polygon_count() - different.len();
     }
 
-    /// Counts the edges by the polygons at them.
+    /// Counts the edges by how many polygons share them.
     fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32], count: usize) {
         for edge in Edges::new(mesh, vertex, count).iter() {
             self.edges += 1;
@@ -149,20 +151,21 @@ fn is_planar(points: &[DVec3], normal: DVec3) -> bool {
     heights.all(|h| h <= height)
 }
 
-/// Returns the bytes that a mesh takes in memory.
+/// Returns how many bytes of memory a mesh takes.
 fn bytes(mesh: &PolygonMesh) -> usize {
     let normals = mesh.given_normals().map_or(0, |normals| {
         let corners = normals.corners.as_deref().map_or(0, size_of_val);
         size_of_val(&normals.values[..]) + corners
     });
-    // Of each polygon the end of its corners, and its material, part and smoothing group if the mesh has some.
+    // A polygon takes one index for the end of its corners, and one each for material, part and
+    // smoothing group if the mesh has these.
     let has = [
         !mesh.materials().is_empty(),
         mesh.has_parts(),
         mesh.has_smoothing_groups(),
     ];
-    let numbers = 1 + has.into_iter().filter(|has| *has).count();
-    let polygons = numbers * mesh.polygon_count() * size_of::<u32>();
+    let indices = 1 + has.into_iter().filter(|has| *has).count();
+    let polygons = indices * mesh.polygon_count() * size_of::<u32>();
     let places = size_of_val(mesh.positions()) + size_of_val(mesh.corners());
     let looks = size_of_val(mesh.colours()) + size_of_val(mesh.materials());
     size_of::<PolygonMesh>() + places + polygons + normals + looks

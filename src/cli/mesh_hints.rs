@@ -1,28 +1,28 @@
-//! Hints about mesh files: what of a mesh may look otherwise than was meant, and the flag to try.
+//! Hints about mesh files: what may not look as intended, and which flag to try.
 
 use super::normal_text::by_weight;
 use super::text::counted;
-use fastphong::mesh::PolygonMesh;
-use fastphong::mesh::edges::EdgeCounts;
-use fastphong::mesh::vertex_normals::{NormalSource, NormalUse};
-use fastphong::scene::Object;
+use crate::mesh::PolygonMesh;
+use crate::mesh::edges::EdgeCounts;
+use crate::mesh::vertex_normals::{NormalSource, NormalUse};
+use crate::scene::Object;
 
-/// The angle in degrees from which on an edge is taken for one that was meant to be sharp.
+/// The angle, in degrees, above which an edge was probably meant to be sharp.
 const CREASE: f64 = 40.0;
-/// The part of the size of a mesh within which two positions are taken for one that was rounded in two ways: seven digits are what
-/// programs write of a number in 32 bits.
+/// The distance, as a fraction of the size of the mesh, within which two positions are probably one
+/// that was rounded in two ways. Programs write 32-bit floats with seven digits.
 const ROUNDED: f64 = 1e-6;
 
-/// The hint for meshes of a format whose custom is that z is up.
+/// The hint for meshes in a format where z is up by custom.
 pub const Z_IS_UP: &str = "z is up in most STL files: --up z";
 
-/// Returns hints about the normals of an object, whose mesh file is called `name`.
+/// Returns hints about the normals of an object. `name` is the name of its mesh file.
 pub fn hints(name: &str, object: &Object) -> Vec<String> {
     let mesh = &*object.mesh;
     let used = NormalUse::of(mesh, object.normals.source);
     let counts = EdgeCounts::of(mesh, CREASE, ROUNDED);
     let mut hints = Vec::new();
-    // Who asked for averages gets them.
+    // A user who asked for averaged normals needs no hint.
     let is_left_open = object.normals.source == NormalSource::Auto;
     if is_left_open && used.given == 0 && !mesh.states_smoothing() && counts.sharp > 0 {
         let edges = counted(counts.sharp, "edge that turns", "edges that turn");
@@ -33,35 +33,35 @@ pub fn hints(name: &str, object: &Object) -> Vec<String> {
             false => "no normals",
         };
         hints.push(format!(
-            "{name}: has {lack}: normals are averaged{by}, over {edges} by more than {CREASE} \
-             degrees too; --normals crease={CREASE} keeps these sharp"
+            "{name}: has {lack}: normals are averaged{by}, even over {edges} by more than {CREASE} \
+             degrees; --normals crease={CREASE} keeps these sharp"
         ));
     }
     if counts.closing > 0 {
         let edges = counted(counts.closing, "open edge", "open edges");
         hints.push(format!(
-            "{name}: {edges} would close if positions that differ by rounding were one: --weld {ROUNDED:e}"
+            "{name}: {edges} would close if positions that differ only by rounding were merged: --weld {ROUNDED:e}"
         ));
     }
     if counts.seams > 0 && used.averaged > 0 {
         let edges = counted(counts.seams, "edge", "edges");
         hints.push(format!(
-            "{name}: objects (o) of the file meet in {edges} of a smooth surface: normals are not averaged over them, which shows as \
-             seams; without the `o` lines they are"
+            "{name}: objects (o) of the file meet in {edges} of a smooth surface: normals are not averaged across them, which shows as \
+             seams; remove the `o` lines to average them"
         ));
     }
     hints
 }
 
-/// True for the name of an OBJ file, packed or not.
+/// True for the name of an OBJ file, compressed or not.
 fn is_obj(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     name.strip_suffix(".gz").unwrap_or(&name).ends_with(".obj")
 }
 
-/// Guesses from the bounds of a mesh that it lies on its side, and says how to raise it.
+/// Guesses from the bounds of a mesh if it lies on its side, and returns a hint on how to raise it.
 pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<String> {
-    /// The part of the size that counts as nothing.
+    /// The fraction of the size that counts as zero.
     const NEAR: f64 = 1e-3;
     match mesh.up_by_custom() {
         Some('z') => return Some(Z_IS_UP.to_owned()),
@@ -74,7 +74,7 @@ pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<String> {
     let size = sides.into_iter().fold(0.0, f64::max);
     let stands = |i: usize| low[i].abs() <= NEAR * size && sides[i] > NEAR * size;
     let hangs = |i: usize| high[i].abs() <= NEAR * size && sides[i] > NEAR * size;
-    // On both sides of 0, and neither much longer than the other.
+    // The mesh reaches to both sides of 0, and neither side is much longer than the other.
     let is_around = |i: usize| f64::min(-low[i], high[i]) > 0.1 * sides[i];
     let names = ["x", "y", "z"];
     for up in [2, 0] {
@@ -87,28 +87,25 @@ pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<String> {
             };
             let name = names[up];
             return Some(format!(
-                "lies {side} the plane {name} = 0, and around 0 in the others: if {sign}{name} is up, --up {sign}{name}"
+                "lies {side} the plane {name} = 0, and around 0 along the other axes: if {sign}{name} is up, --up {sign}{name}"
             ));
         }
     }
     let [x, y, z] = sides;
-    if stands(1) {
-        return None;
-    }
-    if z >= 2.0 * x.max(y) {
+    if z >= 2.0 * x.max(y) && !stands(1) {
         return Some("is longest along z: if it stands along z, --up z".to_owned());
     }
     let is_ground = 4.0 * z <= x.min(y) && is_around(0) == is_around(1) && stands(0) == stands(1);
-    is_ground.then(|| "is flat along z: if it is a ground, --up z".to_owned())
+    is_ground.then(|| "is flat along z: if it is a terrain, --up z".to_owned())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastphong::mesh::MeshBuilder;
+    use crate::mesh::MeshBuilder;
     use glam::Vec3;
 
-    /// A mesh with these bounds.
+    /// Makes a mesh with these bounds.
     fn between(low: [f32; 3], high: [f32; 3]) -> PolygonMesh {
         let corner = |i: usize| {
             let pick = |axis: usize| {
@@ -135,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn meshes_that_stand_on_another_plane_than_y_are_told() {
+    fn meshes_that_do_not_stand_on_y_get_a_hint() {
         let told = |low, high| lies_on_its_side(&between(low, high));
         let up = |low, high, flag: &str| {
             let hint = told(low, high).expect("a hint");

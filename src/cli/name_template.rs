@@ -1,20 +1,20 @@
-//! Placeholders in the name of a picture: `-o "{scene}_{method}.png"`.
+//! Placeholders in the name of a picture, as in `-o "{scene}_{method}.png"`.
 
 use super::CliError;
-use fastphong::scene::file::STANDARD_INPUT;
-use fastphong::scene::input::has_ending;
+use crate::scene::file::STANDARD_INPUT;
+use crate::scene::input::has_ending;
 use std::path::{Path, PathBuf};
 
-/// The facts about a picture that its name may hold.
+/// The placeholders that a name may contain.
 pub const PLACEHOLDERS: [&str; 5] = ["scene", "method", "engine", "width", "height"];
 
-/// Returns `path` with each `{placeholder}` replaced by the value that stands in its place in [`PLACEHOLDERS`]. Characters that
-/// a file name had better not hold become `-`.
+/// Returns `path` with each `{placeholder}` replaced by its value. `values` are in the order of
+/// [`PLACEHOLDERS`]. Characters that are awkward in a file name become `-`.
 ///
 /// # Errors
-/// When there is no such placeholder.
+/// If a placeholder is unknown.
 pub fn named(path: &Path, values: [&str; PLACEHOLDERS.len()]) -> Result<PathBuf, CliError> {
-    // Names that are not text hold no placeholders.
+    // A path that is not UTF-8 contains no placeholders.
     let Some(text) = path.to_str() else {
         return Ok(path.to_owned());
     };
@@ -37,8 +37,8 @@ pub fn named(path: &Path, values: [&str; PLACEHOLDERS.len()]) -> Result<PathBuf,
     Ok(name.into())
 }
 
-/// Returns the name of what `input` shows: of a file its name without ending, also without the one that says how it is packed;
-/// `stdin` of standard input.
+/// Returns the name of the scene for `input`: a file name without its ending (nor `.gz` before
+/// that), `stdin` for standard input, any other input unchanged.
 pub fn scene_name(input: &str) -> &str {
     if input == STANDARD_INPUT {
         return "stdin";

@@ -1,4 +1,4 @@
-//! `fastphong view` of a program that was built without windows: says how to get them.
+//! `fastphong view` in a build without windows: prints how to get one with them.
 
 use super::{CliError, Outcome};
 use std::ffi::OsString;
@@ -11,7 +11,7 @@ pub struct ViewArgs {
 }
 
 impl ViewArgs {
-    /// Refuses.
+    /// Returns the error.
     pub fn run(&self) -> Result<Outcome, CliError> {
         let expected = "expected one that `cargo install --path . --features view` built";
         Err(format!("this fastphong was built without windows: {expected}").into())

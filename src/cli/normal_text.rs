@@ -1,10 +1,10 @@
-//! The source of vertex normals in words.
+//! Describes in words where vertex normals come from.
 
 use super::text::grouped;
-use fastphong::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
-use fastphong::scene::Object;
+use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
+use crate::scene::Object;
 
-/// Returns what is said of averages by weight.
+/// Returns the end of "averaged" for a weight: ` by area`.
 pub fn by_weight(weight: NormalWeight) -> &'static str {
     match weight {
         NormalWeight::Uniform => "",
@@ -14,24 +14,24 @@ pub fn by_weight(weight: NormalWeight) -> &'static str {
     }
 }
 
-/// Describes the source of an object's vertex normals.
+/// Describes where an object's vertex normals come from.
 pub fn describe(object: &Object) -> String {
     let mesh = &object.mesh;
     let used = NormalUse::of(mesh, object.normals.source);
-    let faceted = Some(fastphong::mesh::PolygonMesh::FACETED);
+    let faceted = Some(crate::mesh::PolygonMesh::FACETED);
     let is_faceted = |p| mesh.smoothing_group(p) == faceted;
     let by = by_weight(object.normals.weight);
     let averaged = match object.normals.source {
         NormalSource::Crease(angle) => format!("averaged{by} up to a crease of {angle} degrees"),
-        // Only of glTF files the custom is known to be that y is up.
+        // `up_by_custom` is y for glTF files only.
         _ if used.obeys_groups
             && (0..mesh.polygon_count()).all(is_faceted)
             && mesh.up_by_custom() == Some('y') =>
         {
-            "those of polygons: glTF without normals is flat by its specification".to_owned()
+            "per polygon: glTF without normals is flat by its specification".to_owned()
         }
         _ if used.obeys_groups && (0..mesh.polygon_count()).all(is_faceted) => {
-            "those of polygons: its smoothing is off".to_owned()
+            "per polygon: its smoothing is off".to_owned()
         }
         _ if used.obeys_groups => format!("averaged{by} within its smoothing groups"),
         _ => format!("averaged{by}"),

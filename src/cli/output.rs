@@ -1,27 +1,27 @@
-//! Where commands write: every file that one makes is an [`Output`], whatever it holds.
+//! Outputs: every file that a command writes is an [`Output`], whatever its contents.
 //!
-//! | | |
+//! | path | rule |
 //! |---|---|
-//! | `-` | standard output, for one output of a command. Its text then goes to standard error |
-//! | an ending | must be one of the contents' own, if there is one: a page is not called `.png` |
-//! | a name that the command chose | replaces only a file that fastphong made before ([`contents`](super::contents)), unless `--force` says so |
-//! | a file that is read, or written already | is never written: see [`files`] |
+//! | `-` | is standard output, for at most one output of a command. The command's text then goes to standard error |
+//! | with an ending | must have an ending that fits the contents: a page is not called `.png` |
+//! | chosen by the command | replaces only a file that fastphong made ([`contents`](super::contents)), unless `--force` is set |
+//! | of a file that was read or written | is refused: see [`files`] |
 
 use super::CliError;
 use super::contents::Contents;
 use super::files::{self, Destination};
 use super::log::{to_stderr, to_stdout, to_stdout_by};
-use fastphong::picture::image_file::{FilePicture, Format};
-use fastphong::scene::input::has_ending;
+use crate::picture::image_file::{FilePicture, Format};
+use crate::scene::input::has_ending;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-/// A file that a command makes, or standard output.
+/// A file that a command writes, or standard output.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// The flag that asks for it: `--output`.
+    /// The flag that sets it: `--output`.
     name: &'static str,
-    /// `None`: standard output.
+    /// The path; `None` for standard output.
     path: Option<PathBuf>,
     contents: Contents,
     /// The check of a path before it is written.
@@ -31,24 +31,26 @@ pub struct Output {
 /// The check of a path before it is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rule {
-    /// Given by the user: its ending may not contradict the contents.
+    /// For a path from the user: its ending must fit the contents.
     Ending,
-    /// Given by the user with a `--format`, or chosen by the command with `--force`.
+    /// No check: for a picture, whose format was found from its path or `--format`, and for a path
+    /// that the command chose under `--force`.
     None,
-    /// Chosen by the command: a file there must be one that fastphong made.
+    /// For a path that the command chose: a file there must be one that fastphong made.
     Own,
 }
 
 /// `--force`, for commands that choose names of files.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ForceFlag {
-    /// Replace files that fastphong did not make where it chooses the name. A file that a flag names is always replaced
+    /// Replace a file even if fastphong did not make it, where the program chooses the name. A file
+    /// named by a flag is always replaced
     #[arg(long)]
     pub force: bool,
 }
 
 impl Output {
-    /// Makes the output that the flag `name` gives the path of; `-` is standard output.
+    /// Makes the output at the path that the flag `name` was set to; `-` is standard output.
     pub fn new(name: &'static str, path: &Path, contents: Contents) -> Output {
         Output {
             name,
@@ -58,7 +60,8 @@ impl Output {
         }
     }
 
-    /// Makes the output of a page: at the path that `--output` gives, else at the `default` of the command.
+    /// Makes the output of a page: at the path of `--output`, or else at the `default` path of the
+    /// command.
     pub fn page(given: Option<&Path>, default: impl FnOnce() -> String, force: ForceFlag) -> Self {
         match given {
             Some(path) => Output::new("--output", path, Contents::Page),
@@ -76,15 +79,16 @@ impl Output {
         }
     }
 
-    /// Makes the output of `--output` for a picture: in `format`, else by the ending of the path, else PNG on standard output.
+    /// Makes the output of `--output` for a picture. `None` as `format` means the format of the
+    /// path's ending, or PNG on standard output.
     ///
     /// # Errors
-    /// When neither names a format, or standard output is a terminal.
+    /// If the ending names no format, or standard output is a terminal.
     pub fn of_picture(path: &Path, format: Option<Format>) -> Result<Output, CliError> {
         let is_stdout = path.as_os_str() == "-";
         if is_stdout && io::stdout().is_terminal() {
             let expected = "expected `-o FILE`, or `-o -` into a pipe or a file";
-            return Err(format!("a picture is not for a terminal: {expected}").into());
+            return Err(format!("a terminal cannot show a picture file: {expected}").into());
         }
         let by_path = match is_stdout {
             true => Ok(Format::Png),
@@ -107,12 +111,12 @@ impl Output {
         self.path.as_deref()
     }
 
-    /// Returns the path of the file, to be changed.
+    /// Returns the path of the file for changes; `None` for standard output.
     pub fn path_mut(&mut self) -> Option<&mut PathBuf> {
         self.path.as_mut()
     }
 
-    /// Returns the format of a picture.
+    /// Returns the format of a picture; `None` for other contents.
     pub fn format(&self) -> Option<Format> {
         match self.contents {
             Contents::Picture(format) => Some(format),
@@ -120,7 +124,7 @@ impl Output {
         }
     }
 
-    /// Returns the place as [`files`] compares it with those of other files.
+    /// Returns the destination that [`files`] compares with other files.
     fn destination(&self) -> Destination<'_> {
         Destination {
             name: self.name,
@@ -128,10 +132,10 @@ impl Output {
         }
     }
 
-    /// Makes the folder of the file, if there is none.
+    /// Makes the folder of the file if it does not exist.
     ///
     /// # Errors
-    /// When that cannot be, or the path is a folder itself.
+    /// If it cannot be made, or the path is itself a folder.
     pub fn make_folder(&self) -> Result<(), CliError> {
         let Some(path) = self.path() else {
             return Ok(());
@@ -147,7 +151,7 @@ impl Output {
         Ok(())
     }
 
-    /// Checks that the path says nothing else than the contents, or is free where the command chose it.
+    /// Checks the path by its [`Rule`].
     fn check(&self) -> Result<(), CliError> {
         let Some(path) = self.path() else {
             return Ok(());
@@ -170,13 +174,13 @@ impl Output {
                 let (name, path, contents) = (self.name, path.display(), self.contents);
                 let expected = endings.join(" or .");
                 let problem =
-                    format!("{path}: `{name}` writes {contents}, which its ending denies");
+                    format!("{path}: `{name}` writes {contents}, which does not fit its ending");
                 Err(format!("{problem}: expected .{expected}").into())
             }
         }
     }
 
-    /// Writes a picture in its format; a file whole or not at all.
+    /// Writes a picture in the format of this output. A file is written whole or not at all.
     ///
     /// # Errors
     /// As [`Output::write`].
@@ -201,10 +205,10 @@ impl Output {
         self.write(|out| out.write_all(bytes))
     }
 
-    /// Writes the bytes that `write` writes; a file whole or not at all.
+    /// Writes the output with `write`. A file is written whole or not at all.
     ///
     /// # Errors
-    /// When they cannot or must not be written.
+    /// If it cannot or must not be written.
     pub fn write(
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -217,33 +221,33 @@ impl Output {
     }
 }
 
-/// Returns a folder that the flag `name` gives for files.
+/// Returns `path`, the folder that the flag `name` was set to.
 ///
 /// # Errors
-/// When it is `-`, which is standard output everywhere.
+/// If it is `-`, which means standard output everywhere.
 pub fn folder<'a>(name: &str, path: &'a Path) -> Result<&'a Path, CliError> {
     match path.as_os_str() == "-" {
         false => Ok(path),
         true => {
-            let problem = format!("{name}: `-` is standard output, and no folder");
+            let problem = format!("{name}: `-` is standard output, not a folder");
             Err(format!("{problem}: expected a folder").into())
         }
     }
 }
 
-/// Makes a folder, if there is none.
+/// Makes a folder if it does not exist.
 ///
 /// # Errors
-/// When that cannot be.
+/// If it cannot be made.
 pub fn make_folder(folder: &Path) -> Result<(), CliError> {
     let refused = |error| format!("{}: cannot be made: {error}", folder.display());
     Ok(std::fs::create_dir_all(folder).map_err(refused)?)
 }
 
-/// Refuses outputs that are files which are read, or one place.
+/// Checks that no output is a file that the command reads, and that no two outputs are the same.
 ///
 /// # Errors
-/// When an output is such a file, under any name.
+/// If one is, even under another name.
 pub fn check_places(outputs: &[&Output]) -> Result<(), CliError> {
     let mut stdout = outputs.iter().filter(|output| output.is_stdout());
     if let (Some(one), Some(two)) = (stdout.next(), stdout.next()) {
@@ -254,23 +258,24 @@ pub fn check_places(outputs: &[&Output]) -> Result<(), CliError> {
     files::check(&destinations.collect::<Vec<_>>())
 }
 
-/// Refuses outputs that may not be written: to be called before any work, once all files that are read are known.
+/// Checks that all outputs may be written. Call it before any work, once all files that are read
+/// are registered.
 ///
 /// # Errors
-/// As [`check_places`]; when the ending of a name denies the contents; when a file is there whose name the command chose, and which
-/// fastphong did not make.
+/// As [`check_places`]; if an ending does not fit the contents; or if the command chose the name of
+/// a file that exists and that fastphong did not make.
 pub fn check(outputs: &[&Output]) -> Result<(), CliError> {
     check_places(outputs)?;
     outputs.iter().try_for_each(|output| output.check())
 }
 
-/// Lists the files among outputs, a line each.
+/// Returns the paths of the outputs, one per line, without standard output.
 pub fn written(outputs: &[&Output]) -> String {
     let paths = outputs.iter().filter_map(|output| output.path());
     paths.map(|path| format!("{}\n", path.display())).collect()
 }
 
-/// Prints text beside outputs: to standard error if one of them is standard output.
+/// Prints text to standard output, or to standard error if one of the outputs is standard output.
 ///
 /// # Errors
 /// As [`to_stdout`].

@@ -1,25 +1,29 @@
-//! Polygons of a scene by their fate, and messages on those that are not drawn.
+//! Counts what happens to the polygons of a scene, and warns of those that are not drawn.
 
 use super::Log;
 use super::text::{counted, grouped, part_of};
-use fastphong::compare::table::aligned;
-use fastphong::frame::Frame;
-use fastphong::reference::is_anything_covered;
-use fastphong::scene::Clipping;
+use crate::compare::table::aligned;
+use crate::frame::Frame;
+use crate::reference::is_anything_covered;
+use crate::scene::Clipping;
 
-/// Returns the numbers of polygons as a table.
+/// Returns the counts of `--stats` as a table.
 pub fn stats_text(frame: &Frame) -> String {
     let (s, drawn) = (frame.stats(), frame.polygons().len());
-    let no_place = "left out: a corner has no place on the picture";
+    let no_place = "left out: a corner cannot be projected";
     let cut = "cut by the near plane, the far plane or the guard band";
     let rows = [
         ("polygons", s.polygons, "of the scene"),
-        ("culled", s.culled, "left out: seen from the culled side"),
+        (
+            "culled",
+            s.culled,
+            "left out: its culled side faces the eye",
+        ),
         ("no-area", s.no_area, "left out: no area in space"),
         (
             "cancelling",
             s.cancelling,
-            "left out: crosses itself, its areas cancel",
+            "left out: crosses itself, and its areas cancel",
         ),
         (
             "edge-on",
@@ -29,7 +33,7 @@ pub fn stats_text(frame: &Frame) -> String {
         ("outside", s.outside, "left out: outside the view"),
         ("clipped", s.clipped, cut),
         ("unprojected", s.unprojected, no_place),
-        ("drawn", drawn, "left, pieces of cut ones counted each"),
+        ("drawn", drawn, "after clipping, each piece counted"),
     ];
     let rows = rows.map(|(name, count, about)| [name.into(), grouped(count), about.into()]);
     aligned(&rows, &[0, 2])
@@ -38,7 +42,7 @@ pub fn stats_text(frame: &Frame) -> String {
 /// Warns of polygons that cannot be drawn, and of a picture that shows none.
 pub fn warn_of_polygons_left_out(frame: &Frame, log: Log) {
     let s = frame.stats();
-    let of_all = |number| part_of(number, s.polygons, "polygon");
+    let of_all = |count| part_of(count, s.polygons, "polygon");
     if s.no_area > 0 {
         let are = match s.no_area {
             1 => "has no area and is",
@@ -48,8 +52,8 @@ pub fn warn_of_polygons_left_out(frame: &Frame, log: Log) {
     }
     if s.cancelling > 0 {
         let cross = match s.cancelling {
-            1 => "crosses itself, its areas cancel: it has no normal and is",
-            _ => "cross themselves, their areas cancel: they have no normal and are",
+            1 => "crosses itself and its areas cancel: it has no normal and is",
+            _ => "cross themselves and their areas cancel: they have no normal and are",
         };
         log.warning(&format!("{} {cross} left out", of_all(s.cancelling)));
     }
@@ -75,7 +79,7 @@ pub fn warn_of_polygons_left_out(frame: &Frame, log: Log) {
     }
 }
 
-/// Returns the reasons if no polygon of `frame` shows.
+/// Returns the reasons if no polygon of `frame` is visible.
 fn nothing_drawn(frame: &Frame) -> Option<String> {
     let s = frame.stats();
     let left = frame.polygons().len();
@@ -84,7 +88,7 @@ fn nothing_drawn(frame: &Frame) -> Option<String> {
         let why = format!("{reach} into the view, but none covers the centre of a pixel");
         return (!is_anything_covered(frame)).then_some(why);
     }
-    // What has no area or no place was told already.
+    // Polygons without area, or that cannot be projected, were reported already.
     let reasons = [
         (
             s.culled,
@@ -97,7 +101,8 @@ fn nothing_drawn(frame: &Frame) -> Option<String> {
             "is seen edge-on or is far smaller than a pixel",
             "are seen edge-on or are far smaller than a pixel",
         ),
-        // Cut ones are told where their pieces are not.
+        // A cut polygon is also counted as culled or edge-on if its pieces are, so it is reported
+        // only if none was.
         (
             if s.culled + s.edge_on == 0 {
                 s.clipped
@@ -118,7 +123,7 @@ fn nothing_drawn(frame: &Frame) -> Option<String> {
     }
     text += match (s.culled, s.outside + s.clipped) {
         (1.., _) => "; try --cull none",
-        (_, 1..) => "; --fit 0.8 looks at all of them",
+        (_, 1..) => "; --fit 0.8 brings all of them into view",
         _ => "",
     };
     Some(text)

@@ -1,4 +1,4 @@
-//! Progress of work that takes long: a bar on a terminal, a line now and then elsewhere.
+//! Shows the progress of long work: a bar on a terminal, a line now and then elsewhere.
 
 use super::Log;
 use super::log::{is_dumb, to_stderr};
@@ -8,23 +8,24 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The time for which nothing is shown.
+/// How long nothing is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// The time between two lines where there is no terminal, and before the first: short work stays silent, as logs of it are kept.
+/// The time before the first line and between lines if there is no terminal. Short work stays
+/// silent, because its output is often kept as a log.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
-/// The steps of the bar.
+/// How many steps the bar has.
 const STEPS: u64 = 1000;
 
-/// A progress bar that is gone when this is dropped.
+/// A progress bar, which disappears when this is dropped.
 pub struct Progress {
     bar: ProgressBar,
     allowed: bool,
-    /// The time of the last line, or of the beginning; `None` on a terminal and where nothing is said.
+    /// The time of the last line, or of the start; `None` on a terminal and with `--quiet`.
     last_line: Option<Mutex<Instant>>,
 }
 
 impl Progress {
-    /// Makes a bar that is shown when work takes long, also if it is not moved until then.
+    /// Makes a bar that appears after a second, even if it has not been moved.
     pub fn watched(log: Log) -> Progress {
         let progress = Progress::silent_between_moves(log);
         if progress.allowed {
@@ -40,7 +41,7 @@ impl Progress {
         progress
     }
 
-    /// Makes a bar that is drawn only when it is moved: it disturbs no measurement between two moves.
+    /// Makes a bar that is drawn only when it is moved, so that it does not disturb a measurement.
     pub fn silent_between_moves(log: Log) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
         let style =
@@ -55,7 +56,7 @@ impl Progress {
         }
     }
 
-    /// Moves the bar to `share` (0 to 1) of the work, of which `stage` comes next.
+    /// Moves the bar to `share` of the work, 0 to 1. `stage` is the name of the next step.
     pub fn at(&self, share: f32, stage: &str) {
         if self.allowed && self.bar.is_hidden() && self.bar.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
@@ -75,10 +76,11 @@ impl Progress {
         self.bar.set_message(stage.to_owned());
     }
 
-    /// Runs `work`, which may print, with the bar out of its way.
+    /// Runs `work` with the bar hidden, so that it can print.
     pub fn aside<T>(&self, work: impl FnOnce() -> T) -> T {
         let (mut work, mut result) = (Some(work), None);
-        // One type of closure: the library compiles half a thousand instructions for each.
+        // `suspend` is generic. Passing one type of closure compiles it once instead of once per
+        // caller.
         let once: &mut dyn FnMut() = &mut || result = work.take().map(|work| work());
         self.bar.suspend(once);
         result.expect("suspend runs it once")

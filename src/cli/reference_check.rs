@@ -1,4 +1,4 @@
-//! `render --reference`: a picture against the one that was accepted before.
+//! `render --reference`: compares a picture with the one that was accepted before.
 
 use super::contents::Contents;
 use super::drawing::RenderJob;
@@ -6,40 +6,43 @@ use super::output::{ForceFlag, Output};
 use super::text::{counted, measured};
 use super::tolerance::{Judged, Levels, Tolerance};
 use super::{CliError, Outcome, files};
-use fastphong::compare::metrics::compare_where;
-use fastphong::compare::metrics::judgement::{Selection, judged_map};
-use fastphong::picture::Encoding;
-use fastphong::picture::image_file::{AlphaUse, FilePicture, Format, Pair};
-use fastphong::report::shell_word;
+use crate::compare::metrics::compare_where;
+use crate::compare::metrics::judgement::{Selection, judged_map};
+use crate::picture::Encoding;
+use crate::picture::image_file::{AlphaUse, FilePicture, Format, Pair};
+use crate::report::shell_word;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Grey levels at the light end of difference pictures.
+/// How many grey levels the light end of a difference map stands for.
 pub const SCALE: f32 = 16.0;
 
-/// Says in how many pixels only one picture has a number: the end of a sentence about pictures that differ.
+/// Returns the end of the sentence "the pictures differ …", for pixels that are finite in only one
+/// of them.
 pub fn not_finite_text(pixels: usize) -> String {
     let (one, more) = ("pixel that is", "pixels that are");
     let pixels = counted(pixels, one, more);
     format!("in {pixels} infinite or not a number in one of them, which no threshold allows")
 }
 
-/// True if the pictures were stored in two encodings: the linear one is encoded before they are compared.
+/// True if the pictures have different encodings, so that the linear one is encoded before they are
+/// compared.
 pub fn has_two_encodings(pair: &Pair<'_>) -> bool {
     let [reference, actual] = pair.encodings().map(|used| used.encoding);
     reference != actual
 }
 
-/// Says what becomes of alpha if only one of the pictures has it; `names` are those of the reference and of the other picture.
+/// Returns a note on alpha if only one of the pictures has it. `names` are the names of the
+/// reference and the other picture.
 pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<String> {
     let (of_reference, done) = match pair.alpha() {
         AlphaUse::Absent | AlphaUse::Compared => return None,
         AlphaUse::Flattened { of_reference } => {
-            (of_reference, "is put over the background that it states")
+            (of_reference, "is drawn over the background that it states")
         }
         AlphaUse::Opaque { of_reference } => {
             let done =
-                "states no background to be put over, and is compared with an opaque picture";
+                "states no background to draw it over, and is compared with an opaque picture";
             (of_reference, done)
         }
     };
@@ -54,20 +57,20 @@ pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<Stri
 pub struct ReferenceCheck<'a> {
     /// The accepted picture.
     pub reference: &'a Path,
-    /// What may differ, with a threshold.
+    /// How much the pictures may differ. It has a threshold.
     pub tolerance: &'a Tolerance<'a>,
-    /// The place where the picture was written already, if it was.
+    /// The output to which the picture was written already, if it was.
     pub written: Option<&'a Output>,
-    /// `--force`: whether pictures beside the reference may replace those of others.
+    /// `--force`, for the pictures that are written beside the reference.
     pub force: ForceFlag,
 }
 
 impl ReferenceCheck<'_> {
-    /// Compares the picture with its reference; returns the outcome and the lines to print. On a difference both pictures
-    /// are left beside each other, with a map.
+    /// Compares the picture with its reference, and returns the outcome and the lines to print. If
+    /// they differ, writes the picture and a map beside the reference.
     ///
     /// # Errors
-    /// When the reference is there and cannot be read, or a picture cannot be written.
+    /// If the reference exists but cannot be read, or a picture cannot be written.
     pub fn run(&self, job: &mut RenderJob) -> Result<(Outcome, String), CliError> {
         let (reference, shown) = (self.reference, self.reference.display());
         let format = Format::of_path(reference)?;
@@ -80,7 +83,7 @@ impl ReferenceCheck<'_> {
             return Ok((Outcome::Differs, text));
         }
         let accepted = files::picture(reference, "the reference")?;
-        // A reference that states no encoding was written by whoever chose that of the picture.
+        // A reference that states no encoding is taken to have the encoding of the picture.
         let pair = Pair::new(&accepted, &actual, actual.encoding);
         let notes = accepted.notes.iter();
         let mut notes: String = notes.map(|note| format!("{shown}: {note}\n")).collect();
@@ -128,7 +131,7 @@ impl ReferenceCheck<'_> {
         self.tolerance.judge(&r, &a, &selection)
     }
 
-    /// Draws the map of the part that both pictures have.
+    /// Draws the map. If the sizes differ, it shows the upper left part that both pictures have.
     fn map(&self, pair: &Pair<'_>) -> Result<FilePicture, CliError> {
         let [r, a] = pair.compared();
         let selection = match pair.is_one_size() {
@@ -139,10 +142,11 @@ impl ReferenceCheck<'_> {
         Ok(FilePicture::stored(map).encoded(Encoding::Srgb))
     }
 
-    /// Returns the files that may be written, beside [`ReferenceCheck::written`]: the picture, unless it is there already, and the map.
+    /// Returns the files that may be written: the map, and the picture unless
+    /// [`ReferenceCheck::written`] holds it already.
     ///
     /// # Errors
-    /// When the ending of the reference names no format.
+    /// If the ending of the reference names no format.
     pub fn outputs(&self) -> Result<Vec<Output>, CliError> {
         let format = Format::of_path(self.reference)?;
         let written = self.written_as(format);
@@ -160,7 +164,7 @@ impl ReferenceCheck<'_> {
         Output::chosen("--reference", path, Contents::Picture(format), self.force)
     }
 
-    /// Returns the file that was written already, if it is of `format`.
+    /// Returns the file that was written already, if it has this `format`.
     fn written_as(&self, format: Format) -> Option<&Path> {
         let written = self.written;
         let written = written.filter(|output| output.format() == Some(format));
@@ -173,8 +177,8 @@ impl ReferenceCheck<'_> {
         format!("to accept it: cp {from} {to}\n")
     }
 
-    /// Returns the file that holds the picture in the format of the reference: the one already written, or one beside the
-    /// reference.
+    /// Returns the file that holds the picture in the format of the reference. Writes one beside
+    /// the reference if there is none.
     fn keep(&self, actual: &FilePicture) -> Result<PathBuf, CliError> {
         let format = Format::of_path(self.reference)?;
         if let Some(path) = self.written_as(format) {
@@ -204,7 +208,8 @@ impl ReferenceCheck<'_> {
         }
     }
 
-    /// Describes the difference, in a line and another one of the largest region.
+    /// Describes the difference in a line, the spread of differences, and a line on the largest
+    /// region.
     fn failed_text(&self, judged: &Judged, pair: &Pair<'_>) -> Result<String, CliError> {
         let (found, most) = (&judged.judgement, self.threshold());
         let (count, allowed) = (judged.count_text(), judged.allowed_text());
@@ -241,7 +246,7 @@ impl ReferenceCheck<'_> {
     }
 }
 
-/// Returns `STEM.word.ending` in the folder of `beside`, where `STEM` is that of the reference.
+/// Returns the path `STEM.word.ending` in the folder of `beside`, with the stem of the reference.
 fn sibling(beside: &Path, reference: &Path, word: &str, format: Format) -> PathBuf {
     let mut name = reference.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{word}.{}", format.ending()));

@@ -1,4 +1,4 @@
-//! `fastphong render`: from an input to a picture.
+//! `fastphong render`: draws the picture of an input.
 
 use super::aov::{Aov, KINDS, Subject};
 use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
@@ -16,13 +16,13 @@ use super::text::counted;
 use super::tolerance::{Tolerance, ToleranceFlags};
 use super::watch::watch;
 use super::{CliError, Log, Outcome, files, memory, values};
-use fastphong::frame::Frame;
-use fastphong::picture::image_file::Format;
-use fastphong::raster::Renderer;
-use fastphong::raster::painter_conflicts::{Conflicts, conflicts};
-use fastphong::scene::file::STANDARD_INPUT;
-use fastphong::scene::{HiddenSurfaces, input};
-use fastphong::shading::{METHODS, Variant};
+use crate::frame::Frame;
+use crate::picture::image_file::Format;
+use crate::raster::Renderer;
+use crate::raster::painter_conflicts::{Conflicts, conflicts};
+use crate::scene::file::STANDARD_INPUT;
+use crate::scene::{HiddenSurfaces, input};
+use crate::shading::{METHODS, Variant};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -34,28 +34,33 @@ use std::time::Instant;
                       fastphong render [OPTIONS] <--stats|--print-scene> <INPUT>"
 )]
 pub struct RenderArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard
+    /// input
     #[arg(value_parser = input_name::parser())]
     input: String,
-    /// Picture file: .png, .ppm or .pfm (linear floats); `-` is standard output. `{scene}`, `{method}`, `{engine}`, `{width}` and
-    /// `{height}` stand for those of the picture
+    /// Picture file: .png, .ppm or .pfm (linear floats); `-` is standard output. `{scene}`,
+    /// `{method}`, `{engine}`, `{width}` and `{height}` in the name are replaced
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["print_scene", "reference", "stats"])]
     output: Option<PathBuf>,
-    /// Format of the picture, regardless of the file's ending [default: by the ending, png on standard output]
+    /// Format of the picture, whatever the file's ending [default: by the ending, png on standard
+    /// output]
     #[arg(long, value_name = "png|ppm|pfm", value_parser = output::format, requires = "output")]
     format: Option<Format>,
-    /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `auto` draws naive Phong's
-    /// picture in the least time: `fastphong info` shows which method that is. `reference` draws the closed form in f64, of
-    /// the model that `reference:model=flat|gouraud|phong|slerp` names
+    /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`.
+    /// `auto` chooses the fastest method with naive Phong's picture; `fastphong info` shows which
+    /// one that is. `reference` draws the f64 closed form of Phong shading, or of another model
+    /// with `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = AUTO, value_parser = drawing::method)]
     method: AskedMethod,
-    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time; `row` (SIMD); `auto`: `row` if
-    /// it supports the scene, else `span`; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with
-    /// `:normals=unit|as-printed`. See `fastphong list engines`
+    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time; `row`, with
+    /// SIMD; `auto`, which is `row` if it can draw the scene, else `span`; `barycentric`, also with
+    /// `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See
+    /// `fastphong list engines`
     #[arg(long, default_value = "auto", value_parser = engines::engine)]
     engine: EngineFlag,
-    /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`. `scalar` selects
-    /// the span engine (one thread, the same bytes on every platform), any other the row engine
+    /// Instruction set of the pixel loops: `auto` (the best on this machine) or one of
+    /// `fastphong list simd`. `scalar` selects the span engine (one thread, the same bytes on every
+    /// platform), any other the row engine
     #[arg(long, value_name = "ISA", default_value = "auto", value_parser = engines::simd)]
     simd: Simd,
     #[command(flatten)]
@@ -72,12 +77,12 @@ pub struct RenderArgs {
     /// Print how many polygons are culled, clipped and drawn
     #[arg(long)]
     stats: bool,
-    /// Compare the picture with this one; if they differ, exit with code 1 and write the picture and a map of the
-    /// difference beside FILE
+    /// Compare the picture with FILE; if they differ, exit with code 1 and write the picture and a
+    /// map of the difference beside FILE
     #[arg(long, value_name = "FILE", visible_alias = "ref")]
     reference: Option<PathBuf>,
-    /// Grey levels, of 255, that a channel may differ from the reference. Alpha is a channel: a pixel that only one of the
-    /// pictures covers differs by its alpha
+    /// How many grey levels (of 255) a channel may differ from the reference. Alpha is a channel: a
+    /// pixel that only one picture covers differs by its alpha
     #[arg(long, value_name = "GREY_LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
     reference_threshold: f64,
     #[command(flatten)]
@@ -92,7 +97,7 @@ pub struct RenderArgs {
 }
 
 impl RenderArgs {
-    /// Draws, compares and prints, as asked for.
+    /// Draws the picture, once or with `--watch` again and again.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let draw = || self.threads.install(|| self.draw(log))?;
         match self.watch {
@@ -101,7 +106,7 @@ impl RenderArgs {
         }
     }
 
-    /// Loads, draws, writes and compares.
+    /// Loads the scene, then draws, writes and compares the picture.
     fn draw(&self, log: Log) -> Result<Outcome, CliError> {
         let mut output = self.output()?;
         let tolerance = self.tolerance()?;
@@ -126,8 +131,8 @@ impl RenderArgs {
             false => files::resolve(&file)?,
         };
         if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
-            // The mean of depths, normals or polygon numbers has no meaning.
-            progress.aside(|| log.note("--aov shows single samples: one per pixel, in its middle"));
+            // The mean of several depths, normals or polygon indices has no meaning.
+            progress.aside(|| log.note("--aov shows a single sample per pixel, in its middle"));
         }
         progress.aside(|| {
             self.scene.warn(&file, &resolved, log);
@@ -143,12 +148,14 @@ impl RenderArgs {
             progress.aside(|| {
                 if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {
                     let there = "`mesh = \"-\"` reads the mesh from standard input again";
-                    log.note(&format!("{there}: write a file's name there to do without"));
+                    log.note(&format!(
+                        "{there}: replace `-` by the name of a file to avoid that"
+                    ));
                 }
                 if let Some(mesh) = file.meshes().find(|mesh| input_name::is_stand_in(mesh)) {
-                    let problem = "is the name of no file: a scene file holds text in UTF-8";
+                    let problem = "is not the name of a file: a scene file holds text in UTF-8";
                     log.warning(&format!(
-                        "`mesh = {mesh:?}` {problem}, and its path is none"
+                        "`mesh = {mesh:?}` {problem}, and the path is not UTF-8"
                     ));
                 }
                 print_beside(&beside, &file.to_toml())
@@ -224,16 +231,17 @@ impl RenderArgs {
         Ok(outcome)
     }
 
-    /// Returns the reference, and what the picture may differ from it.
+    /// Returns the reference, and the tolerance of the comparison with it; `None` without
+    /// `--reference`.
     ///
     /// # Errors
-    /// When there is no reference to differ from, or a mask that cannot be read.
+    /// If a flag of the tolerance is used without a reference, or the mask cannot be read.
     fn tolerance(&self) -> Result<Option<(&Path, Tolerance<'_>)>, CliError> {
         let Some(reference) = self.reference.as_deref() else {
             return match self.tolerance.first_given() {
                 None => Ok(None),
                 Some(flag) => {
-                    let problem = format!("`{flag}` is for a comparison, and there is none");
+                    let problem = format!("`{flag}` is for a comparison, but there is none");
                     Err(format!("{problem}: expected `--reference FILE` too").into())
                 }
             };
@@ -243,7 +251,8 @@ impl RenderArgs {
         Ok(Some((reference, tolerance)))
     }
 
-    /// Returns the format of the reference, which [`RenderArgs::output`] has checked.
+    /// Returns the format of the reference. [`RenderArgs::output`] has checked that its ending
+    /// names one.
     fn reference_format(&self) -> Option<Format> {
         let reference = self.reference.as_deref();
         reference.and_then(|path| Format::of_path(path).ok())
@@ -258,12 +267,12 @@ impl RenderArgs {
         let Some(path) = &self.output else {
             return Ok(None);
         };
-        // Wrong placeholders are said before anything is drawn.
+        // Report wrong placeholders before anything is drawn.
         named(path, Default::default())?;
         Output::of_picture(path, self.format).map(Some)
     }
 
-    /// Puts the facts of the picture into its name.
+    /// Replaces the placeholders in the name of the picture.
     fn name(&self, output: &mut Output, job: &RenderJob) -> Result<(), CliError> {
         let Some(path) = output.path_mut() else {
             return Ok(());
@@ -274,13 +283,13 @@ impl RenderArgs {
         Ok(())
     }
 
-    /// Returns the method whose kinds of polygons are shown.
+    /// Returns the method whose kinds are shown.
     ///
     /// # Errors
-    /// When another quantity is shown, which no method changes, or when the method tells no kinds apart.
+    /// If `--method` is set for a quantity that no method changes, or the method has only one kind
+    /// of polygons.
     fn method_of(&self, aov: Aov) -> Result<Variant, CliError> {
         match &self.method {
-            // By its name: a constant of a method would compile all of them again here.
             None => Ok(Variant::parse("adaptive-phong")?),
             Some(_) if aov != Aov::Kind => {
                 Err(format!("--aov {} cannot be used with --method", aov.name()).into())
@@ -292,12 +301,15 @@ impl RenderArgs {
                 let all = METHODS.iter().filter(|entry| !entry.kinds().is_empty());
                 let names: Vec<&str> = all.map(|entry| entry.info.name).collect();
                 let names = names.join(", ");
-                Err(format!("--aov kind: {method} has one kind of polygons; take {names}").into())
+                Err(format!(
+                    "--aov kind: {method} has only one kind of polygons: expected one of {names}"
+                )
+                .into())
             }
         }
     }
 
-    /// Prepares the drawing of `frame`; logs which method `auto` takes.
+    /// Makes the job that draws `frame`, and logs which method `auto` chose.
     fn job(&self, frame: Frame, renderer: Renderer, log: Log) -> Result<RenderJob, CliError> {
         if let Some(aov) = self.aov {
             let subject = Subject {
@@ -313,18 +325,19 @@ impl RenderArgs {
             let (variant, why) = match self.engine {
                 EngineFlag::Cs171 { .. } => {
                     let variant = Variant::parse("naive-phong").expect("a method of the table");
-                    (variant, "CS171 has no other that lights each pixel")
+                    (variant, "the only method of CS171 that lights each pixel")
                 }
                 _ => Variant::auto(&frame, renderer),
             };
-            log.detail(&format!("method {variant}, by {AUTO}: {why}"));
+            log.detail(&format!("method {variant}, chosen by {AUTO}: {why}"));
             Method::Variant(variant)
         });
         RenderJob::shaded(frame, &method, self.engine, self.simd, renderer, log)
     }
 }
 
-/// Says how many polygons a method draws by each kind, and in which colour `--aov kind` shows them.
+/// Returns a line on the kinds of a method: how many polygons each draws, and its colour in
+/// `--aov kind`.
 fn kinds_text(variant: &Variant, frame: &Frame) -> String {
     let kinds = variant.polygon_kinds(frame);
     let kinds: Vec<String> = kinds
@@ -335,7 +348,7 @@ fn kinds_text(variant: &Variant, frame: &Frame) -> String {
     format!("{variant}: polygons by kind: {}", kinds.join(", "))
 }
 
-/// Writes the picture, and logs it.
+/// Writes the picture and logs its name and size.
 fn write(
     job: &mut RenderJob,
     output: &Output,
@@ -360,9 +373,10 @@ fn write(
     Ok(())
 }
 
-/// Describes the pairs that the painter's algorithm draws in the wrong order, if any.
+/// Returns a warning if the painter's algorithm draws pairs of polygons in the wrong order.
 fn painter_text(conflicts: &Conflicts) -> Option<String> {
-    // A cycle has a pair in the wrong order, in any order.
+    // Every order draws at least one pair of a cycle wrong, so cycles without wrong pairs cannot
+    // occur.
     let wrong = match conflicts.wrong.len() {
         0 => return None,
         wrong => counted(wrong, "pair is drawn", "pairs are drawn") + " in the wrong order",

@@ -1,4 +1,4 @@
-//! `fastphong report`: methods on every scene, as one page.
+//! `fastphong report`: compares methods on every scene, as one page.
 
 use super::contents::Contents;
 use super::engines::LectureFlags;
@@ -13,59 +13,64 @@ use super::progress::Progress;
 use super::scene_flags::SceneFlags;
 use super::shown_frame::ShownFrame;
 use super::{CliError, Log, Outcome, memory};
-use fastphong::compare::comparison::{self, Comparison, Input};
-use fastphong::compare::timing::TimeLimits;
-use fastphong::frame::Frame;
-use fastphong::lectures::{FIGURES, Figure};
-use fastphong::picture::image_file::Format;
-use fastphong::report::{
+use crate::compare::comparison::{self, Comparison, Input};
+use crate::compare::timing::TimeLimits;
+use crate::frame::Frame;
+use crate::lectures::{FIGURES, Figure};
+use crate::picture::image_file::Format;
+use crate::report::{
     Document, MOST_BYTES, MOST_POLYGONS, PartOf, Report, ScenePictures, Shard, check_whole,
     live_scene, small, utc_date,
 };
-use fastphong::scene::Scene;
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::file::diagnostics::Origin;
-use fastphong::scene::file::value::{Data, SceneTable};
+use crate::scene::Scene;
+use crate::scene::file::SceneFile;
+use crate::scene::file::diagnostics::Origin;
+use crate::scene::file::value::{Data, SceneTable};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Instant, SystemTime};
 
-/// Compare methods on scenes: pictures, errors and times on one page
+/// Compare methods on scenes, with pictures, errors and times on one page
 #[derive(clap::Args, Debug)]
 pub struct ReportArgs {
-    /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for standard input [default: all shipped scenes]
+    /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for
+    /// standard input [default: all shipped scenes]
     #[arg(value_name = "INPUT", value_parser = input_name::parser())]
     inputs: Vec<String>,
     #[command(flatten)]
     timing: TimingFlags,
     #[command(flatten)]
     drawn: LectureFlags,
-    /// Page to write, `-` for standard output; its folder is made if there is none [default: report/index.html]
+    /// Page to write, `-` for standard output; its folder is made if needed [default:
+    /// report/index.html]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Figures of the lectures between commas, `all` or `none` [default: all with the shipped scenes, none with INPUT]
+    /// Figures of the lectures, separated by commas, `all` (which adds the course) or `none`
+    /// [default: all with the shipped scenes, none with INPUT]
     #[arg(long, value_name = "NAMES", value_parser = figures)]
     figures: Option<Figures>,
-    /// Experiments between commas, `speedups` (kernels and frames, scalar and SIMD) and `scaling` (cost over triangles and
-    /// pixels), `all` or `none` [default: all with the shipped scenes, none with INPUT]
+    /// Experiments, separated by commas: `speedups` (kernels and frames, scalar and SIMD),
+    /// `scaling` (cost over triangles and pixels), `all` or `none` [default: all with the shipped
+    /// scenes, none with INPUT]
     #[arg(long, value_name = "NAMES", value_parser = experiments)]
     studies: Option<Experiments>,
-    /// Draw every scene at its own size, not at most 480x360, and time each for the whole of --time-budget, not only the
-    /// first three
+    /// Draw every scene at its own size instead of at most 480x360, and time every scene for the
+    /// whole --time-budget instead of only the first three
     #[arg(long)]
     full: bool,
-    /// Compare saved `--json` files of several machines or commits side by side, without drawing; the files of all parts of one run are
-    /// joined. `-` is standard input
+    /// Compare saved `--json` files of several machines or commits side by side, without drawing.
+    /// The files of all parts of one run (`--shard`) are joined. `-` is standard input
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["inputs", "figures", "studies", "full", "shard"])]
     from: Vec<PathBuf>,
-    /// Do the part K of N of the scenes, errors and no times; `--from` joins the `--json` files of all parts
+    /// Do part K of N of the scenes, with errors but without times; `--from` joins the `--json`
+    /// files of all parts
     #[arg(long, value_name = "K/N", value_parser = Shard::parse, conflicts_with_all = ["figures", "studies"])]
     shard: Option<Shard>,
     /// Also write README.md and its pictures beside the page
     #[arg(long)]
     markdown: bool,
-    /// Also write all numbers as JSON; `-` is standard output
+    /// Also write all results as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Also write all tables as CSV; `-` is standard output
@@ -77,16 +82,16 @@ pub struct ReportArgs {
     scene: SceneFlags,
 }
 
-/// The largest picture on the page, unless flags say otherwise.
+/// The largest picture on the page, in pixels, unless flags set another size.
 const SHOWN: [i64; 2] = [480, 360];
 
-/// The part of the time of a scene in which its pictures are drawn; then they are packed.
+/// The share of a scene's time for drawing its pictures. The rest is for packing them.
 const PICTURES_PART: f32 = 0.9;
 
-/// Scenes that are timed for the whole of `--time-budget`.
+/// How many scenes are timed for the whole `--time-budget`.
 const TIMED_LONG: usize = 3;
 
-/// Reads figures between commas, each once, `all` or `none`.
+/// Reads figures separated by commas, without duplicates, or `all` or `none`.
 fn figures(text: &str) -> Result<Figures, String> {
     match text {
         "all" => Ok(FIGURES.to_vec()),
@@ -98,13 +103,13 @@ fn figures(text: &str) -> Result<Figures, String> {
     }
 }
 
-/// The folder of the small pictures, beside the text that shows them.
+/// The folder for the small pictures, beside the Markdown file that shows them.
 const IMAGES: &str = "images";
 
-/// The page, unless `--output` gives another.
+/// The default of `--output`.
 const PAGE: &str = "report/index.html";
 
-/// The files of a report, without the pictures of the text.
+/// The files of a report, without the pictures of the Markdown file.
 struct Outputs {
     page: Output,
     json: Option<Output>,
@@ -120,13 +125,13 @@ impl Outputs {
     }
 }
 
-/// A scene that was drawn, and is not yet timed.
+/// A scene that was drawn but not yet timed.
 type DrawnScene = (Frame, Comparison, ScenePictures);
 
 impl ReportArgs {
-    /// Compares, times, and writes the page.
+    /// Compares and times the methods, and writes the page.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
-        // Contradicting flags and bad documents are refused before a folder is made.
+        // Refuse contradicting flags and bad documents before making a folder.
         self.drawn.renderer()?;
         let read = self.from.iter().map(|path| read(path, log));
         let read = read.collect::<Result<Vec<Report>, _>>()?;
@@ -152,7 +157,7 @@ impl ReportArgs {
         Ok(Outcome::Done)
     }
 
-    /// Returns the files that are named, or known before anything is drawn.
+    /// Returns the outputs that are known before anything is drawn.
     fn outputs(&self) -> Result<Outputs, CliError> {
         let named = |name, path: &Option<PathBuf>, contents| {
             path.as_deref()
@@ -186,19 +191,20 @@ impl ReportArgs {
         if shard.of as usize > all.len() {
             let (of, scenes) = (shard.of, all.len());
             return Err(format!(
-                "`--shard {}/{of}`: expected as many parts as scenes at most, {scenes}",
+                "`--shard {}/{of}`: there are fewer scenes than parts: expected at most {scenes}",
                 shard.number
             )
             .into());
         }
         let named = all.into_iter().enumerate();
         Ok(named
-            .filter(|(number, _)| shard.has(*number))
+            .filter(|(index, _)| shard.has(*index))
             .map(|(_, name)| name)
             .collect())
     }
 
-    /// Joins those documents that are parts of one run; others stay as they are. All are in the order of their first files.
+    /// Joins documents that are parts of one run and keeps the others unchanged. The result is in
+    /// the order of their first files.
     fn joined(&self, read: Vec<Report>) -> Result<Vec<Report>, CliError> {
         let mut groups: Vec<(Vec<Report>, Vec<PartOf>)> = Vec::new();
         for (report, path) in read.into_iter().zip(&self.from) {
@@ -234,7 +240,7 @@ impl ReportArgs {
         groups.into_iter().map(join).collect()
     }
 
-    /// Draws, measures and times the scenes `files`, called `names`.
+    /// Draws, measures and times the scenes `files`. `names` are their names.
     fn make(
         &self,
         names: &[&str],
@@ -243,14 +249,15 @@ impl ReportArgs {
         log: Log,
     ) -> Result<Report, CliError> {
         let start = Instant::now();
-        // Everything is made with the shipped scenes.
+        // The default report, of the shipped scenes, has all figures and experiments.
         let is_default = self.inputs.is_empty() && self.shard.is_none();
         let default = if is_default { "all" } else { "none" };
         let figures = self.figures.clone().map_or_else(|| figures(default), Ok)?;
         let experiments = self.studies.map_or_else(|| experiments(default), Ok)?;
         warn_of_debug_build(log);
         let bar = Progress::silent_between_moves(log);
-        // The times of scenes drawn, figures, experiments and scenes timed, as measured with the shipped scenes.
+        // The relative durations of the four stages (drawing, figures, experiments, timing),
+        // measured with the shipped scenes.
         let scenes = files.len() as f32;
         let parts = [
             0.4 * scenes,
@@ -263,7 +270,7 @@ impl ReportArgs {
             let before: f32 = parts[..stage].iter().sum();
             bar.at((before + part * parts[stage]) / all, next);
         };
-        // Thousandths of scenes.
+        // Progress of drawing, summed over all scenes, in thousandths of a scene.
         let done = AtomicUsize::new(0);
         let draw = |(name, file): (&&str, &SceneFile)| {
             let mut own = 0;
@@ -280,7 +287,8 @@ impl ReportArgs {
         };
         let mut document = Document::new(command_line(), Vec::new());
         let (drawn, figures) = self.drawn.threads.install(|| {
-            // All are collected before the first error ends it, so that it is the same at every run.
+            // Wait for all scenes before returning the first error, so that every run reports the
+            // same one.
             let drawn: Vec<_> = names.par_iter().zip(files).map(draw).collect();
             let drawn = drawn.into_iter().collect::<Result<Vec<DrawnScene>, _>>()?;
             let figures = draw_figures(&figures, &|part, name| progress(1, part, name))?;
@@ -291,11 +299,11 @@ impl ReportArgs {
         (document.speedups, document.scaling) =
             experiments.make(&self.timing, &|part, next| progress(2, part, next))?;
         let mut pictures = Vec::new();
-        for (number, (frame, mut comparison, shown)) in drawn.into_iter().enumerate() {
-            let next = format!("{}: timing", names[number]);
-            let progress = |part| progress(3, (number as f32 + part) / scenes, &next);
+        for (index, (frame, mut comparison, shown)) in drawn.into_iter().enumerate() {
+            let next = format!("{}: timing", names[index]);
+            let progress = |part| progress(3, (index as f32 + part) / scenes, &next);
             if self.shard.is_none() {
-                self.time(number, &frame, &mut comparison, &progress)?;
+                self.time(index, &frame, &mut comparison, &progress)?;
             }
             pictures.push(shown);
             document.comparisons.push(comparison);
@@ -311,7 +319,7 @@ impl ReportArgs {
         Ok(Report::new(&document, pictures)?)
     }
 
-    /// Makes the picture of a scene no larger than the page shows it, unless flags say otherwise.
+    /// Shrinks the picture of a scene to the size on the page, unless flags set the size.
     fn shown(&self, mut file: SceneFile) -> SceneFile {
         if self.full || self.scene.gives(Some("image"), "width") {
             return file;
@@ -350,7 +358,7 @@ impl ReportArgs {
     ) -> Result<DrawnScene, CliError> {
         let mut file = file.clone();
         let resolved = self.scene.resolve_to_show(&mut file)?;
-        // Which material libraries a mesh has is known by now.
+        // Only now are the material libraries of the meshes known.
         output::check(&outputs.all())?;
         bar.aside(|| self.scene.warn(&file, &resolved, log));
         memory::check_frame(&resolved.scene)?;
@@ -382,15 +390,15 @@ impl ReportArgs {
         Ok((frame, comparison, pictures))
     }
 
-    /// Times a scene that was drawn.
+    /// Times the scene at `index`, which was drawn before.
     fn time(
         &self,
-        number: usize,
+        index: usize,
         frame: &Frame,
         comparison: &mut Comparison,
         progress: &(dyn Fn(f32) + Sync),
     ) -> Result<(), CliError> {
-        let is_long = self.full || number < TIMED_LONG;
+        let is_long = self.full || index < TIMED_LONG;
         let limits = TimeLimits {
             time_budget: self.timing.time_budget / if is_long { 1 } else { 10 },
             warm_up_rounds: 1,
@@ -435,8 +443,8 @@ impl ReportArgs {
     }
 }
 
-/// Returns what all parts of one run have in common: the command line but for the part, the files that are written, and what changes no
-/// error.
+/// Returns the text by which the parts of one run recognise each other: the version and the command
+/// line, without the flags for the part, for output files, and for settings that change no error.
 fn run(command_line: Vec<String>) -> String {
     const OWN: [&str; 7] = [
         "--shard",
@@ -458,7 +466,7 @@ fn run(command_line: Vec<String>) -> String {
         match OWN.contains(&flag) {
             _ if SWITCHES.contains(&flag) => {}
             _ if word.starts_with("-o") && word != "-o" => {} // `-oPAGE`
-            // Its value is the next word, but for `--shard=1/4`.
+            // The next word is the value of the flag, unless it came as `--shard=1/4`.
             true if value.is_none() => drop(words.next()),
             true => {}
             false => run.push(word),
@@ -467,7 +475,8 @@ fn run(command_line: Vec<String>) -> String {
     run.join(" ")
 }
 
-/// Reads a document of `--json`; notes what of it cannot be compared with those of today.
+/// Reads a document of `--json`, and notes which of its values cannot be compared with a current
+/// document.
 fn read(path: &Path, log: Log) -> Result<Report, CliError> {
     let shown = path.display();
     let text =

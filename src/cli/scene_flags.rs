@@ -1,29 +1,30 @@
-//! Flags that change the scene: each gives a value to a key of a scene file, whose row in the schema says its name and meaning. The
-//! values replace those of the file, and are checked together with the rest.
+//! Flags that change the scene. Each sets a key of the scene file; the key's row in the schema has
+//! the name and the help of the flag. The values replace those of the file and are checked together
+//! with them.
 
 use super::mesh_hints::{Z_IS_UP, hints};
 use super::normal_text::describe;
 use super::{CliError, Log, files};
+use crate::scene::file::Resolved;
+use crate::scene::file::diagnostics::Origin;
+use crate::scene::file::schema::{self, AXES, Flag, KEYS, Key, ValueKind};
+use crate::scene::file::value::{Data, SceneTable};
+use crate::scene::file::{STANDARD_INPUT, SceneFile, shown};
+use crate::scene::input::InputFormat;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use fastphong::scene::file::diagnostics::Origin;
-use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::schema::{self, AXES, Flag, KEYS, Key, ValueKind};
-use fastphong::scene::file::value::{Data, SceneTable};
-use fastphong::scene::file::{STANDARD_INPUT, SceneFile, shown};
-use fastphong::scene::input::InputFormat;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// A key, as in `camera.eye`, and its value.
+/// A key of a scene file, such as `camera.eye`, and its value.
 type Setting = (&'static str, Data);
 
-/// Returns the keys that have flags.
+/// Returns the keys that have flags, with these flags.
 fn keys_with_flags() -> impl Iterator<Item = (&'static Key, Flag)> {
     KEYS.iter().filter_map(|key| Some((key, key.flag?)))
 }
 
-/// Returns the flag of `key` as the parser of the command line takes it.
+/// Makes the clap argument for the flag of `key`.
 fn arg(key: &'static Key, flag: Flag) -> Arg {
     let is_switch = flag.value_name.is_empty();
     let parser: ValueParser = match key.kind {
@@ -53,7 +54,8 @@ fn arg(key: &'static Key, flag: Flag) -> Arg {
     }
 }
 
-/// Reads the value of the flag `name` of `key`. Its range is checked where scene files are checked too.
+/// Reads the value of the flag `name`, which sets `key`. Its range is checked later, with the scene
+/// file.
 fn parse(name: &str, key: &'static str, text: &str) -> Result<Vec<Setting>, String> {
     let one = |key, text| Some(vec![(key, data(key, text).ok()?)]);
     let pair = |other| {
@@ -68,11 +70,11 @@ fn parse(name: &str, key: &'static str, text: &str) -> Result<Vec<Setting>, Stri
         "view" => (pair("camera.elevation"), "two numbers azimuth,elevation"),
         "light" => (
             light(key, text),
-            "a direction x,y,z, with an intensity or a colour r,g,b after it",
+            "a direction x,y,z, or with an intensity or a colour r,g,b after it",
         ),
         "light-at" => (
             light(key, text),
-            "a position x,y,z, with an intensity or a colour r,g,b after it",
+            "a position x,y,z, or with an intensity or a colour r,g,b after it",
         ),
         "normals" => {
             let settings = match text.strip_prefix("crease=") {
@@ -86,7 +88,7 @@ fn parse(name: &str, key: &'static str, text: &str) -> Result<Vec<Setting>, Stri
     settings.ok_or_else(|| format!("expected {expected}"))
 }
 
-/// Reads a value of the kind of `key`, its numbers between commas.
+/// Reads a value of the kind that `key` has. Several numbers are separated by commas.
 fn data(key: &str, text: &str) -> Result<Data, &'static str> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
     match (schema::kind(key), &numbers.unwrap_or_default()[..]) {
@@ -125,7 +127,7 @@ fn data(key: &str, text: &str) -> Result<Data, &'static str> {
     }
 }
 
-/// Reads `x,y,z` with an intensity or a colour after it.
+/// Reads `x,y,z`, with an intensity or a colour after it if there is one.
 fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
     let third = text.match_indices(',').nth(2);
     let (place, more) = third.map_or((text, ""), |(at, _)| text.split_at(at));
@@ -140,13 +142,13 @@ fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
     Some(settings)
 }
 
-/// The changes that flags ask for, as a scene file says them.
+/// The changes that flags make to a scene, in the form of a scene file.
 #[derive(Clone, Debug, Default)]
 pub struct SceneFlags {
     over: SceneTable,
-    /// The keys that every object gets, whatever the scene file says of it.
+    /// The keys that every object gets, whatever the scene file says about it.
     every_object: SceneTable,
-    /// The format of the input `-`; `None`: its text decides.
+    /// The format of standard input; `None` if its bytes decide.
     input_format: Option<InputFormat>,
 }
 
@@ -163,7 +165,7 @@ fn input_format_arg() -> Arg {
     Arg::new(INPUT_FORMAT)
         .long(INPUT_FORMAT)
         .value_name("FORMAT")
-        .help("Format of the input `-`, standard input: mesh or scene [default: by its bytes]")
+        .help("Format of standard input (`-`): a mesh, or a scene in TOML [default: by its bytes]")
         .value_parser(names.map(format))
 }
 
@@ -179,14 +181,14 @@ impl clap::Args for SceneFlags {
 }
 
 impl clap::FromArgMatches for SceneFlags {
-    /// Collects the values of all flags that are given.
+    /// Collects the values of all flags on the command line.
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut flags = SceneFlags {
             input_format: matches.get_one(INPUT_FORMAT).copied(),
             ..SceneFlags::default()
         };
         let mut lights: Vec<SceneTable> = Vec::new();
-        // The keys that every light at a position gets.
+        // The keys that every light of `--light-at` gets.
         let mut near = SceneTable::default();
         for (_, flag) in keys_with_flags() {
             let origin = Origin::Flag(format!("--{}", flag.name));
@@ -230,18 +232,18 @@ impl clap::FromArgMatches for SceneFlags {
 }
 
 impl SceneFlags {
-    /// Loads the scene that `input` names, with the changes of the flags.
+    /// Loads the scene that `input` names, with the changes by flags.
     ///
     /// # Errors
-    /// When there is no such input.
+    /// If there is no such input.
     pub fn load(&self, input: &str) -> Result<SceneFile, CliError> {
         Ok(self.over(self.read(input)?))
     }
 
-    /// Loads the scene that `input` names, without the changes of the flags.
+    /// Loads the scene that `input` names, without the changes by flags.
     ///
     /// # Errors
-    /// When there is no such input.
+    /// If there is no such input.
     pub fn read(&self, input: &str) -> Result<SceneFile, CliError> {
         if self.input_format.is_some() && input != STANDARD_INPUT {
             let problem = format!("`--{INPUT_FORMAT}` is for standard input, not for `{input}`");
@@ -251,7 +253,7 @@ impl SceneFlags {
         Ok(files::load(input, self.input_format)?)
     }
 
-    /// Returns `file` with the changes of the flags.
+    /// Returns `file` with the changes by flags.
     pub fn over(&self, mut file: SceneFile) -> SceneFile {
         file.overlay(self.over.clone());
         let is_of_normals = |key: &&str| matches!(*key, "normals" | "crease");
@@ -265,27 +267,27 @@ impl SceneFlags {
         file
     }
 
-    /// True if a flag gives `key` of the scene, or of the table `table` of it.
+    /// True if a flag sets `key`, of the scene or of its table `table`.
     pub fn gives(&self, table: Option<&str>, key: &str) -> bool {
         let table = table.map_or(Some(&self.over), |table| self.over.table(table));
         table.is_some_and(|table| table.get(key).is_some())
     }
 
-    /// Says that mesh files have colours, where nothing but `--aov colours` shows them.
+    /// Notes which mesh files have vertex colours that only `--aov colours` would show.
     pub fn note_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         let objects = resolved.scene.objects.iter().zip(file.meshes());
         let objects = objects.filter(|_| !resolved.scene.colours);
         let mut told = Vec::new();
         for (_, mesh) in objects.filter(|(object, _)| !object.mesh.colours().is_empty()) {
             if !mesh.starts_with("builtin:") && !told.contains(&mesh) {
-                let has = "has vertex colours, which are not lit";
-                log.note(&format!("{}: {has}: --colours on lights them", shown(mesh)));
+                let has = "has vertex colours, which are not used";
+                log.note(&format!("{}: {has}: --colours on uses them", shown(mesh)));
                 told.push(mesh);
             }
         }
     }
 
-    /// Says which meshes have no colours that `--aov colours` could show.
+    /// Notes which meshes have no vertex colours for `--aov colours`.
     pub fn note_no_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         let objects = resolved.scene.objects.iter().zip(file.meshes());
         let mut told = Vec::new();
@@ -293,14 +295,15 @@ impl SceneFlags {
             if !told.contains(&mesh) {
                 let shown = shown(mesh);
                 log.note(&format!(
-                    "{shown}: has no vertex colours: it is white in --aov colours"
+                    "{shown}: has no vertex colours: --aov colours shows it in white"
                 ));
                 told.push(mesh);
             }
         }
     }
 
-    /// Says what is odd about a scene, where its vertex normals are from, and what to try with its mesh files.
+    /// Prints warnings about a scene, where its vertex normals come from, and hints on its mesh
+    /// files.
     pub fn warn(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         self.warn_without_hints(file, resolved, log);
         if log == Log::Quiet {
@@ -320,7 +323,7 @@ impl SceneFlags {
         }
     }
 
-    /// Says what is odd about a scene, and where its vertex normals are from.
+    /// Prints warnings about a scene, and where its vertex normals come from.
     pub fn warn_without_hints(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         for warning in &resolved.warnings {
             log.warning(warning);
@@ -335,7 +338,7 @@ impl SceneFlags {
         if self.over.get("material").is_some()
             && objects.any(|object| !object.mesh.materials().is_empty())
         {
-            log.note("the material given by flags replaces those of the mesh file");
+            log.note("the material set by flags replaces those of the mesh file");
         }
     }
 }

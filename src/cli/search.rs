@@ -1,4 +1,5 @@
-//! `fastphong search`: the worst cases of methods, found on as many machines as one has.
+//! `fastphong search`: searches for the worst cases of methods, on one machine or spread over
+//! several.
 
 use super::contents::Contents;
 use super::files;
@@ -7,9 +8,9 @@ use super::output::{self, Output};
 use super::progress::Progress;
 use super::values::number;
 use super::{CliError, Log, Outcome, done};
-use fastphong::compare::experiments::{SearchSetting, WorstCase, climb};
-use fastphong::compare::table::Table;
-use fastphong::report::{PartOf, Shard, check_whole};
+use crate::compare::experiments::{SearchSetting, WorstCase, climb};
+use crate::compare::table::Table;
+use crate::report::{PartOf, Shard, check_whole};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -18,35 +19,39 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The schema of the data: see `docs/bench-json.md`.
 const SCHEMA: &str = "fastphong.search/1";
 
-/// Search for the worst case of each method: a triangle and lights with the largest error against Phong's picture
+/// Search for the worst case of each method: the triangle and lights with the largest error against
+/// Phong's picture
 #[derive(clap::Args, Debug)]
 pub struct SearchArgs {
-    /// Methods between commas, or families of them, as for `compare`
+    /// Methods or groups of methods, separated by commas, as for `compare`
     #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "floats", value_parser = methods)]
     methods: Methods,
-    /// Most degrees between the normals of two corners, between commas, 1 to 90 each
+    /// Largest angles between the normals of two corners, in degrees, separated by commas, 1 to 90
+    /// each
     #[arg(long, value_name = "DEGREES,…", default_value = "5,15,30,60", value_parser = list::<f64>)]
     degrees: List<f64>,
-    /// Numbers of lights, between commas, 1 to 8 each
+    /// Numbers of lights, separated by commas, 1 to 8 each
     #[arg(long, value_name = "N,…", default_value = "1,4", value_parser = list::<usize>)]
     lights: List<usize>,
-    /// Restarts of each search, 1 to 100000
+    /// Number of restarts of each search, 1 to 100000
     #[arg(long, value_name = "N", default_value = "20", value_parser = |text: &str| number(text, "a number of restarts from 1 to 100000", |n: &u32| (1..=100_000).contains(n)))]
     restarts: u32,
-    /// Do the part K of N of the restarts; `--from` joins the files of all parts
+    /// Do part K of N of the restarts; `--from` joins the files of all parts
     #[arg(long, value_name = "K/N", default_value = "1/1", value_parser = Shard::parse)]
     shard: Shard,
     /// Join the `--json` files of all parts of one search, without searching
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["methods", "degrees", "lights", "restarts", "shard"])]
     from: Vec<PathBuf>,
-    /// Also write the cases to this file, as described in docs/bench-json.md; `-` prints them in place of the table
+    /// Also write the cases to this file, as described in docs/bench-json.md; `-` prints them
+    /// instead of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
 
 type List<T> = Vec<T>;
 
-/// Reads numbers between commas, each in the range of its flag, in rising order and each once.
+/// Reads numbers separated by commas, each in the range of its flag, and returns them sorted
+/// without duplicates.
 fn list<T: Listed>(text: &str) -> Result<Vec<T>, String> {
     let one = |text: &str| number(text.trim(), T::EXPECTED, T::is_in_range);
     let mut all = text.split(',').map(one).collect::<Result<Vec<T>, _>>()?;
@@ -61,20 +66,20 @@ trait Listed: std::str::FromStr + PartialOrd {
 }
 
 impl Listed for f64 {
-    const EXPECTED: &'static str = "degrees from 1 to 90 between commas";
+    const EXPECTED: &'static str = "degrees from 1 to 90, separated by commas";
     fn is_in_range(&self) -> bool {
         (1.0..=90.0).contains(self)
     }
 }
 
 impl Listed for usize {
-    const EXPECTED: &'static str = "numbers of lights from 1 to 8 between commas";
+    const EXPECTED: &'static str = "numbers of lights from 1 to 8, separated by commas";
     fn is_in_range(&self) -> bool {
         (1..=8).contains(self)
     }
 }
 
-/// The worst case that was found for a method in a setting.
+/// The worst case found for a method in a setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Found {
     method: String,
@@ -86,12 +91,12 @@ struct Found {
     case: WorstCase,
 }
 
-/// What a run found, or all runs of one search.
+/// The result of a run, or of all runs of one search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Document {
     schema: String,
     version: String,
-    /// The same for all parts of one search: what was asked for.
+    /// The settings of the search, equal for all its parts.
     run: String,
     shard: Shard,
     restarts: u32,
@@ -100,7 +105,7 @@ struct Document {
 }
 
 impl SearchArgs {
-    /// Searches, or joins what was found, and prints a table.
+    /// Searches, or joins the results of parts, and prints a table.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let read = self.from.iter().map(|path| Document::read(path));
         let read = read.collect::<Result<Vec<_>, _>>()?;
@@ -130,7 +135,7 @@ impl SearchArgs {
                 all.extend(settings.map(|&degrees| (variant, SearchSetting { degrees, lights })));
             }
         }
-        // The restarts of this part: one of each `of`.
+        // This part does every `of`-th restart, beginning at `number`.
         let Shard { number, of } = self.shard;
         let part = (self.restarts + of - number) / of;
         let progress = Progress::watched(log);
@@ -159,7 +164,7 @@ impl SearchArgs {
         for variant in self.methods.iter().map(ToString::to_string) {
             if part > 0 && !cases.iter().any(|found| found.method == variant) {
                 log.warning(&format!(
-                    "{variant} is left out: it is for no such triangle"
+                    "{variant} is left out: it cannot draw these triangles"
                 ));
             }
         }
@@ -183,7 +188,8 @@ impl SearchArgs {
     }
 }
 
-/// The worst cases found so far, one a method and setting: of two as bad, that of the earlier restart.
+/// The worst case found so far for each method and setting. Of two equally bad cases, the one with
+/// the earlier restart counts.
 #[derive(Default)]
 struct Worst(Vec<Found>);
 
@@ -201,7 +207,7 @@ impl Worst {
         self
     }
 
-    /// Returns them in the order of `keys`, in whatever order they were found.
+    /// Returns the cases in the order of `keys`, so that threads do not change the result.
     fn in_order(self, keys: &[(String, SearchSetting)]) -> Vec<Found> {
         let mut cases = self.0;
         let place = |found: &Found| {
@@ -215,7 +221,7 @@ impl Worst {
 }
 
 impl Document {
-    /// Reads the file of a part.
+    /// Reads the document of a part.
     fn read(path: &Path) -> Result<Document, CliError> {
         let shown = path.display();
         let text = files::document(path);
@@ -245,7 +251,8 @@ impl Document {
         };
         check_whole(&parts.iter().zip(paths).map(of).collect::<Vec<_>>())?;
         let first = parts[0].clone();
-        // The first part has the first restart of each method and setting, in the order asked for.
+        // Part 1 has a case for every method and setting, in the order asked for, because it has
+        // the first restart.
         let whole = parts.iter().find(|part| part.shard.number == 1);
         let keys = whole.into_iter().flat_map(|part| &part.cases);
         let keys = keys.map(|found| (found.method.clone(), found.setting));
@@ -260,7 +267,8 @@ impl Document {
         })
     }
 
-    /// Returns a row a method, with the largest error of each setting in grey levels.
+    /// Returns a table with a row for each method and a column for each setting: the largest
+    /// errors, in grey levels.
     fn table(&self) -> String {
         let mut settings: Vec<SearchSetting> = Vec::new();
         let mut names: Vec<&str> = Vec::new();

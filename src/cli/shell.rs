@@ -1,4 +1,5 @@
-//! `fastphong completions` and `fastphong man`: what a shell and a reader of manuals need, made from the flags themselves.
+//! `fastphong completions` and `fastphong man`: shell completions and manual pages, made from the
+//! definitions of the flags.
 
 use super::contents::Contents;
 use super::log::to_stdout_by;
@@ -9,10 +10,10 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::PathBuf;
 
-/// Print shell completions (install them where your shell expects them)
+/// Print a completion script for a shell, to be installed where the shell expects it
 #[derive(clap::Args, Debug)]
 pub struct CompletionsArgs {
-    /// The shell
+    /// Shell to complete in
     shell: Shell,
 }
 
@@ -26,17 +27,17 @@ impl CompletionsArgs {
     }
 }
 
-/// Print the manual page, or write those of all commands into a folder
+/// Print the manual page, or write the pages of all commands into a folder
 #[derive(clap::Args, Debug)]
 pub struct ManArgs {
-    /// Folder of the pages, which is made if there is none: fastphong.1, fastphong-render.1, …
+    /// Folder for the pages fastphong.1, fastphong-render.1, …; it is made if needed
     folder: Option<PathBuf>,
     #[command(flatten)]
     force: ForceFlag,
 }
 
 impl ManArgs {
-    /// Prints or writes the pages.
+    /// Prints the page, or writes all pages.
     pub fn run(&self) -> Result<Outcome, CliError> {
         let Some(folder) = &self.folder else {
             to_stdout_by(|out| Man::new(Cli::command()).render(out))?;
@@ -63,7 +64,7 @@ impl ManArgs {
     }
 }
 
-/// Adds the page of `command` and those of its sub-commands.
+/// Adds the pages of `command` and its sub-commands.
 fn collect(command: &Command, pages: &mut Vec<Man>) {
     pages.push(Man::new(command.clone()));
     let shown = command.get_subcommands().filter(|sub| !sub.is_hide_set());

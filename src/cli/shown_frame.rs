@@ -1,20 +1,21 @@
-//! A frame with the scene that it shows: where its polygons come from.
+//! A frame together with its scene, to tell which object and mesh a polygon came from.
 
-use fastphong::frame::Frame;
-use fastphong::scene::file::{SceneFile, shown};
-use fastphong::scene::{Object, Scene};
+use crate::frame::Frame;
+use crate::scene::file::{SceneFile, shown};
+use crate::scene::{Object, Scene};
 
-/// A frame, and the scene that it shows.
+/// A frame and the scene that it shows.
 pub struct ShownFrame<'a> {
     file: &'a SceneFile,
     pub scene: &'a Scene,
     pub frame: &'a Frame,
-    /// The number of polygons of all objects before each one.
+    /// For each object, the index in the scene of its first polygon.
     starts: Vec<usize>,
 }
 
 impl<'a> ShownFrame<'a> {
-    /// Looks at `frame`, which shows `scene`, of which `file` has the names.
+    /// Makes it of a `frame`, the `scene` that it shows, and the scene's `file`, which has the
+    /// names.
     pub fn new(file: &'a SceneFile, scene: &'a Scene, frame: &'a Frame) -> Self {
         let mut count = 0;
         let start = |object: &Object| {
@@ -31,10 +32,12 @@ impl<'a> ShownFrame<'a> {
         }
     }
 
-    /// Returns the number of the object with a polygon of the scene, and the number of the polygon in its mesh.
+    /// Returns the index of the object that a polygon of the scene belongs to, and the polygon's
+    /// index in the object's mesh.
     pub fn place(&self, source: u32) -> (usize, usize) {
         let source = source as usize;
-        // Of objects that begin at one polygon all but the last one have none.
+        // If several objects start at the same polygon, all but the last are empty.
+        // `partition_point` finds the last.
         let object = self.starts.partition_point(|start| *start <= source) - 1;
         (object, source - self.starts[object])
     }

@@ -1,9 +1,10 @@
-//! Signals that end the program: no draft of a file is left behind.
+//! Removes the drafts of files when a signal ends the program.
 //!
-//! TERM, Ctrl-C (INT), HUP and QUIT remove the drafts and then end the program as they always do, so that whoever waits for it sees
-//! the signal. KILL, and a machine that stops, cannot be caught. Systems other than Unix have no such signals.
+//! On TERM, INT (Ctrl-C), HUP and QUIT, the program removes the drafts and then ends by the
+//! signal's default action, so that its parent process sees the signal. KILL cannot be caught, and
+//! neither can a machine that stops. Systems other than Unix do not have these signals.
 
-/// Sees to it that a signal that ends the program removes the drafts of files first.
+/// Does nothing: this system has no signals to handle.
 #[cfg(not(unix))]
 pub fn remove_drafts_at_the_end() {}
 
@@ -12,20 +13,21 @@ pub use unix::remove_drafts_at_the_end;
 
 #[cfg(unix)]
 mod unix {
-    use fastphong::picture::image_file::remove_drafts;
+    use crate::picture::image_file::remove_drafts;
     use signal_hook::consts::signal::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
     use std::sync::Once;
     use std::thread;
 
-    /// Sees to it that a signal that ends the program removes the drafts of files first.
+    /// Starts a thread that removes the drafts of files when a signal ends the program. Further
+    /// calls do nothing.
     pub fn remove_drafts_at_the_end() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
             let ends = [SIGTERM, SIGINT, SIGHUP, SIGQUIT];
             let ends = ends.into_iter().filter(|signal| !is_ignored(*signal));
-            // Without handlers files are written all the same.
+            // If the handlers cannot be installed, files are still written.
             if let Ok(mut signals) = Signals::new(ends) {
                 thread::spawn(move || {
                     for signal in signals.forever() {
@@ -37,9 +39,10 @@ mod unix {
         });
     }
 
-    /// True if whoever started the program had it ignore `signal`, as `nohup` does with HUP: that stays so.
+    /// True if the program was started with `signal` ignored, as `nohup` does with HUP. It must
+    /// then stay ignored.
     ///
-    /// Only Linux tells. Elsewhere HUP counts as ignored, so that `nohup` works.
+    /// Only Linux reports this. On other systems HUP counts as ignored, so that `nohup` works.
     fn is_ignored(signal: i32) -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -1,12 +1,13 @@
-//! `fastphong bench --spans`: single spans of rising length, shaded by the methods' scalar loops alone, set-up included.
+//! `fastphong bench --spans`: times single spans of rising length, shaded by the methods' scalar
+//! loops without an engine, set-up included.
 
 use super::CliError;
 use super::Log;
 use super::measured::command_line;
 use super::progress::Progress;
-use fastphong::compare::table::Table;
-use fastphong::compare::timing::{Candidate, Machine, TimeLimits, time_interleaved};
-use fastphong::shading::{SpanBench, Variant};
+use crate::compare::table::Table;
+use crate::compare::timing::{Candidate, Machine, TimeLimits, time_interleaved};
+use crate::shading::{SpanBench, Variant};
 use serde::Serialize;
 use serde_json::json;
 use std::hint::black_box;
@@ -17,17 +18,18 @@ const SCHEMA: &str = "fastphong.spans/1";
 
 /// Degrees between the normals at the ends of a span.
 const DEGREES: f32 = 20.0;
-/// Pixels of the spans.
+/// The lengths of the spans, in pixels.
 const LENGTHS: [usize; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
-/// Rounds, in each of which every method takes its turn at every length. The least time of all is kept.
+/// How many rounds there are. In each, every method shades a span of every length; the least time
+/// of all rounds is kept.
 const ROUNDS: usize = 15;
 
-/// The times of a method with so many lights.
+/// The times of a method with a number of lights.
 #[derive(Clone, Debug, Serialize)]
 struct SpanTimes {
     method: String,
     lights: usize,
-    /// Nanoseconds of a span of each length.
+    /// Nanoseconds per span, for each length.
     ns: Vec<f64>,
 }
 
@@ -75,9 +77,9 @@ pub fn span_times(methods: &[Variant], log: Log) -> Result<(String, String), Cli
     Ok((table(&all), json))
 }
 
-/// Writes nanoseconds a pixel, a row a method.
+/// Returns a table of nanoseconds per pixel, with a row for each method.
 fn table(all: &[SpanTimes]) -> String {
-    let mut table = Table::new("", &["ns a pixel of spans of", "lights"]);
+    let mut table = Table::new("", &["ns per pixel, spans of", "lights"]);
     table.head.extend(LENGTHS.map(|length| length.to_string()));
     table.rows = (all.iter())
         .map(|times| {

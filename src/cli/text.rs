@@ -1,9 +1,10 @@
-//! Text in lines of a readable length.
+//! Text for terminals: wrapped lines, grouped digits, singular and plural.
 
-/// The longest line of running text.
+/// The longest line of running text, in characters.
 const LINE: usize = 96;
 
-/// Indents every line of `text` by `indent`, and breaks it between words where it would be too long.
+/// Indents every line of `text` by `indent` spaces, and breaks lines that would be too long between
+/// words.
 pub fn wrapped(text: &str, indent: usize) -> String {
     let mut out = String::new();
     for line in text.lines() {
@@ -24,33 +25,34 @@ pub fn wrapped(text: &str, indent: usize) -> String {
 }
 
 /// Writes `1234567` as `1,234,567`.
-pub fn grouped(number: usize) -> String {
-    match number {
-        0..1000 => number.to_string(),
-        _ => format!("{},{:03}", grouped(number / 1000), number % 1000),
+pub fn grouped(count: usize) -> String {
+    match count {
+        0..1000 => count.to_string(),
+        _ => format!("{},{:03}", grouped(count / 1000), count % 1000),
     }
 }
 
-/// Writes a number that was measured with four digits after the point, and from 10¹⁵ on, where digits would fill the line, with an
-/// exponent.
-pub fn measured(number: f64) -> String {
-    match number {
-        _ if number.is_infinite() => "inf".to_owned(),
-        _ if number.abs() >= 1e15 => format!("{number:.4e}"),
-        _ => format!("{number:.4}"),
+/// Writes a measured value with four decimals, or with an exponent from 10¹⁵ on, where digits would
+/// fill the line.
+pub fn measured(value: f64) -> String {
+    match value {
+        _ if value.is_infinite() => "inf".to_owned(),
+        _ if value.abs() >= 1e15 => format!("{value:.4e}"),
+        _ => format!("{value:.4}"),
     }
 }
 
-/// Says how many of `all` things of one kind: `3 of 12 polygons`, or `the only polygon`.
-pub fn part_of(number: usize, all: usize, noun: &str) -> String {
+/// Writes how many of `all` things: `3 of 12 polygons`, or `the only polygon`.
+pub fn part_of(count: usize, all: usize, noun: &str) -> String {
     match all {
         1 => format!("the only {noun}"),
-        _ => format!("{} of {} {noun}s", grouped(number), grouped(all)),
+        _ => format!("{} of {} {noun}s", grouped(count), grouped(all)),
     }
 }
 
-/// Writes a number with its noun and verb: `one` after 1, `more` after others.
-pub fn counted(number: usize, one: &str, more: &str) -> String {
-    let words = if number == 1 { one } else { more };
-    format!("{} {words}", grouped(number))
+/// Writes a count with its noun, and a verb if there is one: `one` after 1, `more` after other
+/// counts.
+pub fn counted(count: usize, one: &str, more: &str) -> String {
+    let words = if count == 1 { one } else { more };
+    format!("{} {words}", grouped(count))
 }

@@ -1,36 +1,40 @@
-//! What a comparison lets pass: flags that `diff` and `render --reference` share.
+//! The tolerance of a comparison: flags that `diff` and `render --reference` share.
 
 use super::text::grouped;
 use super::{CliError, files, memory, values};
-use fastphong::compare::metrics::judgement::{
+use crate::compare::metrics::judgement::{
     Allowance, Area, Bin, Judgement, LargestRegion, MAX_RADIUS, Mask, Rule, Selection, judge,
     share_text,
 };
-use fastphong::picture::LevelRows;
-use fastphong::picture::image_file::Pair;
+use crate::picture::LevelRows;
+use crate::picture::image_file::Pair;
 use serde_json::{Value, json};
 use std::fmt;
 use std::path::PathBuf;
 
-/// Flags of what a comparison lets pass, beside a threshold.
+/// The flags of a tolerance, apart from the threshold.
 #[derive(clap::Args, Debug)]
 pub struct ToleranceFlags {
-    /// Let this many pixels be over the threshold: a number, or a percentage of the compared pixels, such as `0.1%`
+    /// Allow this many pixels over the threshold: a number, or a percentage of the compared pixels,
+    /// such as `0.1%`
     #[arg(long, value_name = "N|P%", value_parser = allowance, allow_hyphen_values = true)]
     allow: Option<Allowance>,
-    /// Let a pixel match any other at most this many columns and rows away, 0 to 8: for the edges of another rasterizer. Both
-    /// pictures are asked, so that nothing may be missing in one of them
+    /// Let a pixel match any other at most this many columns and rows away, 0 to 8, if another
+    /// rasterizer draws edges differently. This goes both ways, so that nothing may be missing from
+    /// either picture
     #[arg(long, value_name = "PIXELS", value_parser = radius, allow_hyphen_values = true)]
     radius: Option<usize>,
-    /// Leave out the pixels that are black or transparent in this picture, which has the same size
+    /// Leave out the pixels that are black or transparent in this picture, which must have the same
+    /// size
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
-    /// Compare only this part of the pictures: column and row of its upper left pixel, width and height
+    /// Compare only this rectangle of the pictures: column and row of its upper left pixel, width
+    /// and height
     #[arg(long, value_name = "X,Y,W,H", value_parser = area, allow_hyphen_values = true)]
     region: Option<Area>,
 }
 
-/// Reads a number of pixels, or a percentage.
+/// Reads a number of pixels or a percentage.
 fn allowance(text: &str) -> Result<Allowance, String> {
     let expected = "a number of pixels, or a percentage from 0% to 100%";
     Allowance::parse(text).ok_or_else(|| format!("expected {expected} (of at most 9 decimals)"))
@@ -41,7 +45,7 @@ fn radius(text: &str) -> Result<usize, String> {
     values::number(text, expected, |radius| *radius <= MAX_RADIUS)
 }
 
-/// Reads a part of a picture.
+/// Reads a rectangle.
 fn area(text: &str) -> Result<Area, String> {
     let numbers: Option<Vec<usize>> = text.split(',').map(|part| part.parse().ok()).collect();
     match numbers.as_deref() {
@@ -54,7 +58,7 @@ fn area(text: &str) -> Result<Area, String> {
 }
 
 impl ToleranceFlags {
-    /// Returns the first flag that was given.
+    /// Returns the name of the first flag that is set, if any.
     pub fn first_given(&self) -> Option<&'static str> {
         let flags = [
             ("--allow", self.allow.is_some()),
@@ -66,18 +70,19 @@ impl ToleranceFlags {
         given.map(|(name, _)| name)
     }
 
-    /// Returns the radius.
+    /// Returns the radius, 0 without `--radius`.
     pub fn radius(&self) -> usize {
         self.radius.unwrap_or(0)
     }
 
-    /// Adds a threshold in grey levels, which the flag `named` gives, and reads the mask.
+    /// Reads the mask, and returns the tolerance with a threshold in grey levels. `named` is the
+    /// flag of the threshold, for messages.
     ///
     /// # Errors
-    /// When pixels are allowed over no threshold, or the mask cannot be read.
+    /// If `--allow` is set without a threshold, or the mask cannot be read.
     pub fn with(&self, threshold: Option<f64>, named: &str) -> Result<Tolerance<'_>, CliError> {
         if self.allow.is_some() && threshold.is_none() {
-            let problem = "`--allow` counts pixels over a threshold, and there is none";
+            let problem = "`--allow` counts pixels over a threshold, but there is none";
             return Err(format!("{problem}: expected `{named} GREY_LEVELS` too").into());
         }
         let mask = self.mask.as_deref();
@@ -94,10 +99,10 @@ impl ToleranceFlags {
     }
 }
 
-/// What a comparison lets pass.
+/// How much two pictures may differ.
 pub struct Tolerance<'a> {
     flags: &'a ToleranceFlags,
-    /// Grey levels.
+    /// The threshold in grey levels.
     threshold: Option<f64>,
     mask: Option<Mask>,
 }
@@ -113,10 +118,10 @@ impl Tolerance<'_> {
         self.flags.radius()
     }
 
-    /// Selects the pixels of pictures of this size that are compared.
+    /// Returns the selection of pixels to compare in pictures of this size.
     ///
     /// # Errors
-    /// When the mask has another size, the region reaches beyond the picture, or no pixel is left.
+    /// If the mask has another size, the region reaches beyond the picture, or no pixel is left.
     pub fn selection(&self, size: [usize; 2]) -> Result<Selection<'_>, CliError> {
         let [width, height] = size;
         let of_mask = self.mask.as_ref().map(Mask::size);
@@ -133,7 +138,7 @@ impl Tolerance<'_> {
             return Err(format!("{problem}: expected a part of it").into());
         };
         if self.flags.first_given().is_some() && selection.left_out() == width * height {
-            let problem = "the mask leaves out every pixel, and nothing is compared";
+            let problem = "the mask leaves out every pixel, so that nothing is compared";
             return Err(
                 format!("{problem}: expected a mask with pixels that are not black").into(),
             );
@@ -141,10 +146,10 @@ impl Tolerance<'_> {
         Ok(selection)
     }
 
-    /// Judges a pair of pictures of one size.
+    /// Judges a pair of pictures of the same size.
     ///
     /// # Errors
-    /// When there is too little memory for the rows that a radius needs.
+    /// If there is too little memory for the rows that a radius needs.
     pub fn judge(
         &self,
         reference: &dyn LevelRows,
@@ -171,7 +176,7 @@ impl Tolerance<'_> {
         })
     }
 
-    /// Says what passes, in a sentence.
+    /// Describes the tolerance in a sentence.
     pub fn text(&self) -> String {
         let flags = self.flags;
         let mut text = match self.threshold {
@@ -179,7 +184,7 @@ impl Tolerance<'_> {
             None => "There is no threshold".to_owned(),
         };
         if let Some(allow) = &flags.allow {
-            text += &format!(", but for {allow} of them");
+            text += &format!(", except {allow} of them");
             text += if allow.to_string().ends_with('%') {
                 ""
             } else {
@@ -191,12 +196,12 @@ impl Tolerance<'_> {
             radius => text += &format!(", within a radius of {radius}"),
         }
         if flags.mask.is_some() || flags.region.is_some() {
-            text += "; pixels are left out";
+            text += "; some pixels are left out";
         }
         text + "."
     }
 
-    /// Returns the flags as data.
+    /// Returns the flags as JSON.
     pub fn json(&self) -> Value {
         let region = self.flags.region;
         json!({
@@ -209,7 +214,7 @@ impl Tolerance<'_> {
     }
 }
 
-/// A judgement, and whether it lets the picture pass.
+/// A judgement of a picture by a tolerance.
 pub struct Judged {
     pub judgement: Judgement,
     /// True if more pixels are over the threshold than are allowed.
@@ -220,7 +225,7 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// Says how many pixels are over the threshold: `3 of 192 compared pixels (1.56 %)`.
+    /// Writes how many pixels are over the threshold: `3 of 192 compared pixels (1.56 %)`.
     pub fn count_text(&self) -> String {
         let Judgement { over, compared, .. } = self.judgement;
         let pixels = match compared {
@@ -234,7 +239,7 @@ impl Judged {
         )
     }
 
-    /// Says how many pixels were allowed, and within which radius others match: the end of a sentence, which may be empty.
+    /// Returns the end of a sentence with the allowance and the radius. It is empty without both.
     pub fn allowed_text(&self) -> String {
         let allowed = self.allowed.as_ref();
         let mut text = allowed.map_or(String::new(), |text| format!(", {text} allowed"));
@@ -250,7 +255,8 @@ impl Judged {
         }
     }
 
-    /// Says where the largest region of pixels over the threshold is; nothing if there is none.
+    /// Returns a line on the largest region of pixels over the threshold; an empty text if there is
+    /// none.
     pub fn region_text(&self) -> String {
         let Some(region) = self.judgement.region else {
             return String::new();
@@ -270,7 +276,7 @@ impl Judged {
         )
     }
 
-    /// Returns the spread of differences as lines.
+    /// Returns the histogram of differences as lines.
     pub fn spread_text(&self) -> String {
         let Judgement {
             compared,
@@ -294,10 +300,10 @@ impl Judged {
             row(bin_text(&bin), bin.pixels);
         }
         row("infinite or not a number".to_owned(), histogram.not_finite);
-        text + &fastphong::compare::table::aligned(&rows, &[0])
+        text + &crate::compare::table::aligned(&rows, &[0])
     }
 
-    /// Returns the spread of differences, the count and the largest region as lines.
+    /// Returns the histogram, the count and the largest region as lines.
     pub fn text(&self) -> String {
         let mut text = self.spread_text();
         if let Some(threshold) = self.threshold {
@@ -308,7 +314,7 @@ impl Judged {
         text + &self.region_text()
     }
 
-    /// Adds what was found to an object.
+    /// Adds the judgement to a JSON object.
     pub fn add_to(&self, object: &mut Value) {
         let found = &self.judgement;
         let finite = |levels: f64| levels.is_finite().then_some(levels);
@@ -329,7 +335,8 @@ impl Judged {
     }
 }
 
-/// Grey levels in a sentence: `40 grey levels`, `2.5000 grey levels`, or that no number says them.
+/// A difference in a sentence: `40 grey levels`, `2.5000 grey levels`, or
+/// `infinite or not a number in one picture`.
 pub struct Levels(pub f64);
 
 impl fmt::Display for Levels {
@@ -345,7 +352,7 @@ impl fmt::Display for Levels {
     }
 }
 
-/// Writes a range of grey levels.
+/// Writes the range of a bin of the histogram.
 fn bin_text(bin: &Bin) -> String {
     match (bin.over, bin.up_to) {
         (None, _) => "equal".to_owned(),

@@ -1,24 +1,26 @@
-//! `fastphong trace`: what the span engine does with a scene, line by line.
+//! `fastphong trace`: records what the span engine does with a scene, line by line.
 
 use super::contents::Contents;
 use super::output::{self, Output};
 use super::scene_flags::SceneFlags;
 use super::{CliError, Log, Outcome, files, input_name, memory};
-use fastphong::frame::Frame;
-use fastphong::shading::Variant;
+use crate::frame::Frame;
+use crate::shading::Variant;
 use std::path::PathBuf;
 
-/// Print what the edge-table engine does with a scene, step by step, as JSON: edges, crossings, spans, values of each pixel
+/// Print what the span engine does with a scene, step by step, as JSON: edges, crossings, spans,
+/// values of each pixel
 #[derive(clap::Args, Debug)]
 #[command(after_help = AFTER)]
 pub struct TraceArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input; a mesh alone as `compare` sees it
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard
+    /// input; a mesh without a scene as `compare` draws it
     #[arg(value_parser = input_name::parser())]
     input: String,
     /// Method, with parameters as in `fast-phong:steps=1`
     #[arg(short, long, value_name = "METHOD", value_parser = Variant::parse, default_value = "naive-phong")]
     method: Variant,
-    /// Trace this line alone, counted from 0 at the top, with the polygons that it meets
+    /// Trace only this line, counted from 0 at the top, with the polygons that cross it
     #[arg(long, value_name = "Y")]
     line: Option<usize>,
     /// File to write, `-` for standard output
@@ -28,14 +30,16 @@ pub struct TraceArgs {
     scene: SceneFlags,
 }
 
-const AFTER: &str = "docs/trace.md describes the document. `fastphong figure stop` shows one, to be stepped through.";
+const AFTER: &str = "docs/trace.md describes the document. `fastphong figure stop` makes a page on which you can step through one.";
 
-/// The most columns, lines and polygons of a frame that is traced as a whole: more is no longer read.
+/// The largest side of a frame that is traced as a whole, in samples. Nobody would read a longer
+/// trace.
 const MOST_SIDE: usize = 64;
+/// The most polygons of a frame that is traced as a whole.
 const MOST_POLYGONS: usize = 10_000;
 
 impl TraceArgs {
-    /// Traces, and writes the document.
+    /// Traces the scene and writes the document.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let output = Output::new("--output", &self.output, Contents::Json);
         let file = self.scene.load(&self.input)?;
@@ -54,7 +58,7 @@ impl TraceArgs {
         Ok(Outcome::Done)
     }
 
-    /// Checks that the line is one of the frame, or that the frame is small enough.
+    /// Checks that the frame has the line, or without `--line`, that it is small enough.
     fn check(&self, frame: &Frame) -> Result<(), CliError> {
         let (width, height) = (frame.width(), frame.height());
         let samples = match frame.samples() {
@@ -71,7 +75,7 @@ impl TraceArgs {
             )
             .into());
         }
-        let way = "--line traces one line alone";
+        let way = "--line traces a single line";
         if width > MOST_SIDE || height > MOST_SIDE {
             let expected =
                 format!("expected at most {MOST_SIDE}x{MOST_SIDE}, as with --resolution 64x48");

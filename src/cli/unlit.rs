@@ -1,15 +1,16 @@
-//! Lights that light nothing, and pictures that no light reaches.
+//! Warns of lights that light nothing, and of pictures that no light reaches.
 
 use super::shown_frame::ShownFrame;
 use super::text::counted;
-use fastphong::mesh::orientation::is_inside_closed_surface;
-use fastphong::scene::{LightTerm, Place};
+use crate::mesh::orientation::is_inside_closed_surface;
+use crate::scene::{LightTerm, Place};
 use glam::DVec3;
 
-/// The most lights inside surfaces that are named.
+/// How many lights inside surfaces the warnings name at most.
 const MOST_NAMED: usize = 4;
 
-/// Says which lights stand inside closed surfaces that they cannot light, and why a picture is lit by no light.
+/// Returns warnings about lights inside closed surfaces that they cannot light, and about a picture
+/// that no light reaches.
 pub fn unlit_texts(shown: &ShownFrame) -> Vec<String> {
     let lit = LitObjects::of(shown);
     let mut texts = inside(shown, &lit);
@@ -17,13 +18,13 @@ pub fn unlit_texts(shown: &ShownFrame) -> Vec<String> {
     texts
 }
 
-/// The objects that are seen, and which of them each light falls on.
+/// The visible objects, and which lights fall on them.
 struct LitObjects {
     lights: usize,
     is_seen: Vec<bool>,
-    /// For each object, for each light: true if the light falls on a corner that is drawn.
+    /// For each object and each light: true if the light falls on a corner that is drawn.
     is_lit: Vec<bool>,
-    /// True if a material that is drawn has ambient light.
+    /// True if a material that is drawn reflects ambient light.
     has_ambient: bool,
 }
 
@@ -37,7 +38,8 @@ impl LitObjects {
             is_lit: vec![false; objects * lights],
             has_ambient: false,
         };
-        // Lights of each object that are not known to fall on it: most are at its first polygons.
+        // How many lights of each object are not known to fall on it yet. Most drop out at its
+        // first polygons, so that the other polygons are skipped.
         let mut open = vec![lights; objects];
         for polygon in frame.polygons() {
             let (object, _) = shown.place(polygon.source);
@@ -52,7 +54,8 @@ impl LitObjects {
             for (light, is_lit) in unknown.filter(|(_, is_lit)| !**is_lit) {
                 let mut corners = frame.corners(polygon).iter();
                 *is_lit = corners.any(|&corner| {
-                    // A corner that clipping made has no normal: its light is not known, and is no reason to warn.
+                    // A corner made by clipping has no normal. Assume that it is lit, so as not to
+                    // warn without reason.
                     frame.clip_corner(corner).is_some()
                         || falls(light, frame.normal(corner), frame.position(corner))
                 });
@@ -82,7 +85,7 @@ fn falls(light: &LightTerm, normal: [f32; 3], position: [f32; 3]) -> bool {
     is_bright && toward.dot(wide(normal)) > 0.0
 }
 
-/// Names lights at positions inside closed surfaces that they do not light.
+/// Returns a warning for each light at a position inside a closed surface that it does not light.
 fn inside(shown: &ShownFrame, lit: &LitObjects) -> Vec<String> {
     let mut found = Vec::new();
     for (light, place) in shown
@@ -95,13 +98,13 @@ fn inside(shown: &ShownFrame, lit: &LitObjects) -> Vec<String> {
         let Place::Local(at) = place else {
             continue;
         };
-        for (number, object) in shown.scene.objects.iter().enumerate() {
-            if !lit.is_seen[number] || lit.is_lit(number, light) {
+        for (index, object) in shown.scene.objects.iter().enumerate() {
+            if !lit.is_seen[index] || lit.is_lit(index, light) {
                 continue;
             }
             let in_mesh = object.positions_to_world().inverse().transform_point3(at);
             if is_inside_closed_surface(&object.mesh, in_mesh) {
-                let (mesh, [x, y, z]) = (shown.mesh_name(number), at.to_array());
+                let (mesh, [x, y, z]) = (shown.mesh_name(index), at.to_array());
                 let place = format!("light number {}, at ({x}, {y}, {z}),", light + 1);
                 found.push(format!(
                     "{place} stands inside the closed surface of {mesh} and cannot light its outside"
@@ -121,29 +124,29 @@ fn inside(shown: &ShownFrame, lit: &LitObjects) -> Vec<String> {
     found
 }
 
-/// Says that no light falls on anything that is seen, if there is something to be seen.
+/// Returns a warning if polygons are visible but no light falls on them.
 fn no_light(shown: &ShownFrame, lit: &LitObjects) -> Option<String> {
     if shown.frame.polygons().is_empty() || lit.is_lit.contains(&true) {
         return None;
     }
     match (lit.lights, lit.has_ambient) {
-        // Who asks for ambient light alone gets it.
+        // A scene with only ambient light is intended.
         (0, true) => None,
         (0, false) => {
-            let why = "there is no light, and no ambient light: all that is seen is black";
+            let why = "there is no light, and no ambient light: everything visible is black";
             Some(why.to_owned())
         }
         (lights, has_ambient) => {
             let lights = match lights {
-                1 => "the light adds nothing".to_owned(),
-                n => format!("none of the {n} lights adds anything"),
+                1 => "the light does not reach".to_owned(),
+                n => format!("none of the {n} lights reaches"),
             };
-            let why = "surfaces face away from it, or it or they are black";
+            let why = "surfaces face away, or light or surfaces are black";
             let left = match has_ambient {
                 true => "only ambient light is drawn",
-                false => "there is no ambient light, and all that is seen is black",
+                false => "there is no ambient light, so everything visible is black",
             };
-            Some(format!("{lights} to what is seen: {why}; {left}"))
+            Some(format!("{lights} anything visible: {why}; {left}"))
         }
     }
 }

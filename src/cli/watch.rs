@@ -5,10 +5,10 @@ use super::input_name::path_behind;
 use super::log::{Log, colour, to_stderr};
 use super::text::counted;
 use super::{CliError, Outcome};
-use fastphong::scene::input::has_known_ending;
+use crate::scene::input::has_known_ending;
 use std::path::{Path, PathBuf};
 
-/// An input whose files are watched. One may go, and come back, and be another one under the same name; it may also be there
+/// An input whose files are watched. A file may disappear and come back, be replaced, or appear
 /// only later.
 pub struct Watched(PathBuf);
 
@@ -16,25 +16,26 @@ impl Watched {
     /// Watches `input`.
     ///
     /// # Errors
-    /// When it is not the name of a file.
+    /// If `input` is not the name of a file.
     pub fn new(input: &str) -> Result<Self, CliError> {
         let path = path_behind(Path::new(input));
         let may_come = !path.exists() && has_known_ending(&path);
         if !path.is_file() && !may_come {
             let expected = "expected a scene file or a mesh file with `--watch`";
-            return Err(format!("`{input}` is no file, and never changes: {expected}").into());
+            return Err(format!("`{input}` is not a file, so it never changes: {expected}").into());
         }
         Ok(Watched(path))
     }
 
-    /// Forgets the files that were read before: what is read from now on is watched.
+    /// Forgets the files read so far. Files read from now on are watched.
     pub fn begin(&self) {
         files::forget();
-        // Where it is gone it is not read, and may come back.
+        // A file that is gone is not read, but it may come back.
         files::will_read_of_scene(&self.0);
     }
 
-    /// Waits for a change of a file that was read or looked for since it [began](Watched::begin).
+    /// Waits until a file changes that was read or looked for since [`Watched::begin`]. `ends` is
+    /// what stops the watching, for the note: "Ctrl-C".
     pub fn wait(&self, log: Log, ends: &str) {
         files::wait_for_change(|count| {
             let files = counted(count, "file", "files");
@@ -43,11 +44,11 @@ impl Watched {
     }
 }
 
-/// Draws, and again after every change of a file that `draw` read or looked for, until the program is ended. Errors are shown,
-/// once each time: a later change may mend them.
+/// Calls `draw`, and again after every change of a file that it read or looked for, until the
+/// program is ended. Errors are printed and do not end it, because a later change may fix them.
 ///
 /// # Errors
-/// When `input` is not the name of a file, or a file is to be read and written.
+/// If `input` is not the name of a file, or `draw` would write a file that it reads.
 pub fn watch(
     input: &str,
     log: Log,

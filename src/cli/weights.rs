@@ -1,15 +1,15 @@
-//! `fastphong compare --weights`: the weights of vertex normals beside each other.
+//! `fastphong compare --weights`: compares the ways to weight vertex normals.
 
 use super::CliError;
-use fastphong::compare::metrics::compare;
-use fastphong::mesh::PolygonMesh;
-use fastphong::mesh::vertex_normals::{
+use crate::compare::metrics::compare;
+use crate::mesh::PolygonMesh;
+use crate::mesh::vertex_normals::{
     NormalRule, NormalSource, NormalUse, NormalWeight, vertex_normals,
 };
-use fastphong::picture::LinearPicture;
-use fastphong::raster::Renderer;
-use fastphong::scene::{Object, Scene};
-use fastphong::shading::Variant;
+use crate::picture::LinearPicture;
+use crate::raster::Renderer;
+use crate::scene::{Object, Scene};
+use crate::shading::Variant;
 
 const WEIGHTS: [(&str, NormalWeight); 4] = [
     ("uniform", NormalWeight::Uniform),
@@ -18,11 +18,12 @@ const WEIGHTS: [(&str, NormalWeight); 4] = [
     ("max", NormalWeight::Max),
 ];
 
-/// Averages the normals of all objects of `scene` by each weight, and says how far they are from those of the meshes, or by angle where a
-/// mesh has none, and how far the picture is from the one with these.
+/// Returns the table of weights. For each weight, it averages the normals of all objects, measures
+/// their angles from the normals of the meshes (or, where a mesh has none, from averages by angle),
+/// and compares the pictures.
 ///
 /// # Errors
-/// When a frame cannot be made of the scene.
+/// If the scene cannot be projected.
 pub fn table(name: &str, scene: &Scene) -> Result<String, CliError> {
     let truth: Vec<NormalRule> = scene.objects.iter().map(truth).collect();
     let is_given = |rule: &NormalRule| rule.source == NormalSource::Given;
@@ -51,7 +52,7 @@ pub fn table(name: &str, scene: &Scene) -> Result<String, CliError> {
     Ok(text)
 }
 
-/// Returns the rule whose normals are taken for right.
+/// Returns the rule whose normals count as right.
 fn truth(object: &Object) -> NormalRule {
     let used = NormalUse::of(&object.mesh, NormalSource::Given);
     match used.averaged {
@@ -60,7 +61,8 @@ fn truth(object: &Object) -> NormalRule {
     }
 }
 
-/// Returns the rule that averages as an object does, or all of it, where it has normals of its own.
+/// Returns the rule that averages by `weight`, with the object's crease if it has one. Normals of
+/// the mesh are ignored.
 fn averaged(object: &Object, weight: NormalWeight) -> NormalRule {
     let source = match object.normals.source {
         NormalSource::Crease(degrees) => NormalSource::Crease(degrees),
@@ -80,7 +82,8 @@ fn drawn(scene: &Scene, rules: &[NormalRule]) -> Result<LinearPicture, CliError>
     Ok(method.render_linear(&frame)?)
 }
 
-/// Returns the angles between normals by two rules, over all corners: root of the mean square, and the largest.
+/// Returns the RMS and the largest angle between the normals by two rules, in degrees, over all
+/// corners.
 fn degrees(scene: &Scene, truth: &[NormalRule], rules: &[NormalRule]) -> [f64; 2] {
     let (mut squares, mut most, mut count) = (0.0, 0.0f64, 0);
     for (object, (truth, rule)) in scene.objects.iter().zip(truth.iter().zip(rules)) {
@@ -93,7 +96,7 @@ fn degrees(scene: &Scene, truth: &[NormalRule], rules: &[NormalRule]) -> [f64; 2
     [(squares / f64::from(count.max(1))).sqrt(), most]
 }
 
-/// Returns the angle in degrees between the normals of each corner by two rules.
+/// Returns, for each corner, the angle between the normals by two rules, in degrees.
 fn angles(mesh: &PolygonMesh, a: NormalRule, b: NormalRule) -> Vec<f64> {
     let [a, b] = [a, b].map(|rule| vertex_normals(mesh, rule));
     let corners = a.corners.iter().zip(&b.corners);

@@ -1,17 +1,17 @@
-//! One table, and its renderers: aligned text, Markdown, HTML, CSV.
+//! A table, and its forms as aligned text, Markdown, HTML and CSV.
 
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// Rows of cells; the first cell of a row names it.
+/// A table of text cells. The first cell of a row is its name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
     /// The caption, for readers and for screen readers.
     pub caption: String,
-    /// The names of the columns, with their units.
+    /// The headings of the columns, with their units.
     pub head: Vec<String>,
-    /// The rows, each with as many cells as the head.
+    /// The rows. Each has as many cells as the head.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -25,18 +25,19 @@ impl Table {
         }
     }
 
-    /// Writes it in columns: the first aligned on the left, all others on the right.
+    /// Returns the table as text in columns. The first column is left-aligned, the others are
+    /// right-aligned.
     pub fn text(&self) -> String {
         let lines: Vec<&[String]> = self.lines().map(|line| &line[..]).collect();
         aligned(&lines, &[0])
     }
 
-    /// Returns the head and the rows.
+    /// Returns the head, then the rows.
     fn lines(&self) -> impl Iterator<Item = &Vec<String>> {
         core::iter::once(&self.head).chain(&self.rows)
     }
 
-    /// Writes it in Markdown, where every cell means itself.
+    /// Returns the table in Markdown, with all cells escaped.
     pub fn markdown(&self) -> String {
         let line = |cells: &[String]| {
             let cells: Vec<String> = cells.iter().map(|cell| markdown_text(cell)).collect();
@@ -47,7 +48,7 @@ impl Table {
         format!("{}|---|{rule}\n{rows}", line(&self.head))
     }
 
-    /// Writes it as an HTML table with a caption.
+    /// Returns the table in HTML, with its caption.
     pub fn html(&self) -> String {
         let head = |cell: &String| format!("<th scope=\"col\">{}</th>", html_text(cell));
         let cell = |(i, cell): (usize, &String)| match i {
@@ -65,7 +66,7 @@ impl Table {
         format!("<table>{head}<tbody>{rows}</tbody></table>")
     }
 
-    /// Writes it as comma-separated values (RFC 4180).
+    /// Returns the table as comma-separated values (RFC 4180).
     pub fn csv(&self) -> String {
         let cell = |cell: &String| match cell.contains(['"', ',', '\n', '\r']) {
             true => format!("\"{}\"", cell.replace('"', "\"\"")),
@@ -76,7 +77,8 @@ impl Table {
     }
 }
 
-/// Sets lines of cells in columns: those named in `left` aligned on the left, all others on the right.
+/// Returns lines of cells as text in columns. The columns whose indices are in `left` are
+/// left-aligned, the others right-aligned.
 pub fn aligned(lines: &[impl AsRef<[String]>], left: &[usize]) -> String {
     let mut widths: Vec<usize> = Vec::new();
     for line in lines {
@@ -102,7 +104,7 @@ pub fn aligned(lines: &[impl AsRef<[String]>], left: &[usize]) -> String {
 
 /// Escapes text for HTML, between tags and between the quotes of attributes.
 pub fn html_text(text: &str) -> String {
-    // HTML has no other control characters, not even by their number.
+    // HTML allows no other control characters, not even as numeric references.
     let is_none = |letter: char| letter.is_control() && !matches!(letter, '\n' | '\t');
     let text = text.replace(is_none, "\u{FFFD}").replace('&', "&amp;");
     let text = text.replace('<', "&lt;").replace('>', "&gt;");
@@ -113,7 +115,7 @@ pub fn html_text(text: &str) -> String {
 pub fn markdown_text(text: &str) -> String {
     let text = text.replace(char::is_control, " ");
     let mut text = text.replace('&', "&amp;").replace('<', "&lt;");
-    // The backslash first, as the others are given one.
+    // The backslash comes first, because escaping the others adds backslashes.
     for letter in ['\\', '`', '*', '_', '[', ']', '|', '#', '~', '!'] {
         text = text.replace(letter, &format!("\\{letter}"));
     }

@@ -1,28 +1,28 @@
-//! Keys, and what they ask for.
+//! Keys and their actions.
 
 use std::f64::consts::PI;
 
-/// Something that a key asks for.
+/// An action that a key triggers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
-    /// Show the method of this number, from 0, on the side of the pointer; or on the other side.
+    /// Show another method on the side of the pointer, or on the other side.
     Method {
-        /// The number in the list of methods.
-        number: usize,
-        /// True for the side where the pointer is not.
+        /// The index in the list of methods.
+        index: usize,
+        /// True for the side that the pointer is not on.
         other: bool,
     },
-    /// Turn the camera by azimuth and elevation, in radians.
+    /// Turn the camera by an azimuth and an elevation, in radians.
     Turn(f64, f64),
-    /// Show everything so many times as large.
+    /// Enlarge the view by a factor.
     Zoom(f64),
-    /// Move the divider by a part of the width.
+    /// Move the divider to the right by a fraction of the width.
     Divide(f64),
     /// Exchange left and right.
     Swap,
     /// Show both methods, then only the left one, then only the right one.
     ShowNext,
-    /// Let the lights turn with the eye, or stay in the world.
+    /// Switch between lights that turn with the eye and lights that stay in the world.
     CarryLights,
     /// Return to the scene's own camera.
     Reset,
@@ -30,24 +30,25 @@ pub enum Action {
     Close,
 }
 
-/// The angle of an arrow key: 24 of them are half a turn.
+/// The angle of an arrow key, in radians: 24 steps are half a turn.
 const STEP: f64 = PI / 24.0;
 
 impl Action {
-    /// The keys, for who starts the program.
+    /// The keys, as printed when the window opens.
     pub const KEYS: &str = "drag or arrows turn, wheel or +/- zoom, drag the line or Shift+arrows move it; Space shows one, Tab swaps, \
                             L carries lights along, Home resets, Esc closes";
 
-    /// Returns what the key at a place of the keyboard asks for. Places have the names that UI Events gives them (`KeyboardEvent.code`,
-    /// <https://www.w3.org/TR/uievents-code/>), which do not depend on the layout: digits are reached with Shift on some.
+    /// Returns the action of a key, or `None` if it has none. `code` is the position of the key on
+    /// the keyboard, named as in UI Events (`KeyboardEvent.code`,
+    /// <https://www.w3.org/TR/uievents-code/>). Positions do not depend on the layout; with
+    /// characters, some layouts would need Shift for digits.
     pub fn of_key(code: &str, shift: bool) -> Option<Action> {
         let digit = code
             .strip_prefix("Digit")
             .or_else(|| code.strip_prefix("Numpad"));
         if let Some(digit @ 1..=9) = digit.and_then(|digit| digit.parse().ok()) {
-            let number = digit - 1;
             return Some(Action::Method {
-                number,
+                index: digit - 1,
                 other: shift,
             });
         }
@@ -69,7 +70,7 @@ impl Action {
         })
     }
 
-    /// True if a key that is held does it again and again.
+    /// True if holding the key repeats the action.
     pub fn repeats(self) -> bool {
         matches!(self, Action::Turn(..) | Action::Zoom(_) | Action::Divide(_))
     }
@@ -81,11 +82,11 @@ mod tests {
 
     #[test]
     fn digits_choose_methods_in_order_on_both_blocks_of_the_keyboard() {
-        for number in 0..9 {
+        for index in 0..9 {
             for block in ["Digit", "Numpad"] {
                 for other in [false, true] {
-                    let key = Action::of_key(&std::format!("{block}{}", number + 1), other);
-                    assert_eq!(key, Some(Action::Method { number, other }));
+                    let key = Action::of_key(&std::format!("{block}{}", index + 1), other);
+                    assert_eq!(key, Some(Action::Method { index, other }));
                 }
             }
         }

@@ -1,7 +1,8 @@
-//! What `fastphong view` shows, without the window: all of it can be tried where there is no display.
+//! The viewer of `fastphong view`, without the window, so that it can be tested without a display.
 //!
-//! [`Panes`] are the methods to choose from, those that are shown, and the divider between them. A [`Viewer`] has them and a camera
-//! that is turned, and draws into any memory; an [`Action`] is what a key asks of it.
+//! [`Panes`] hold the methods to choose from, the ones shown, and the divider between them. A
+//! [`Viewer`] has panes and a camera that the user turns, and draws into any memory. An [`Action`]
+//! is the meaning of a key.
 
 mod action;
 mod panes;

@@ -1,4 +1,4 @@
-//! Two methods side by side: which, and where the line between them stands.
+//! Panes: two methods side by side, with a divider between them.
 
 use crate::shading::Variant;
 use std::vec::Vec;
@@ -8,7 +8,7 @@ use std::vec::Vec;
 pub enum Side {
     /// Left of the divider.
     Left,
-    /// Right of it.
+    /// Right of the divider.
     Right,
 }
 
@@ -22,32 +22,33 @@ impl Side {
     }
 }
 
-/// The methods to choose from, those that are shown, and the divider.
+/// The methods to choose from, the two that are chosen, and the divider.
 #[derive(Clone, Debug)]
 pub struct Panes {
     methods: Vec<Variant>,
-    /// The numbers of the methods on the left and on the right.
+    /// The indices of the methods on the left and on the right.
     chosen: [usize; 2],
-    /// The part of the width that is left of the divider, 0..=1.
+    /// The fraction of the width that is left of the divider, 0..=1.
     divider: f64,
-    /// The side that is shown alone.
+    /// The only side that is shown; `None` if both are.
     alone: Option<Side>,
 }
 
-/// The part of the width that stays on either side, so that the divider can be found again.
+/// The fraction of the width that remains on either side, so that the divider stays visible.
 const LEAST: f64 = 0.02;
 
-/// White, and the black that makes it visible on white.
+/// The colours of the divider: white, with black edges that show on a white picture.
 const LINE: [u32; 3] = [0xff00_0000, 0xffff_ffff, 0xff00_0000];
 
 impl Panes {
-    /// The most methods: a key for each.
+    /// The largest number of methods: one for each key.
     pub const MOST: usize = 9;
 
-    /// Shows the first two of `methods`, half and half; one alone is shown alone.
+    /// Makes panes that show the first two of `methods`, with the divider in the middle. A single
+    /// method has the window for itself.
     ///
     /// # Panics
-    /// Without methods.
+    /// If `methods` is empty.
     pub fn new(methods: Vec<Variant>) -> Panes {
         assert!(!methods.is_empty(), "a method to show");
         let second = 1.min(methods.len() - 1);
@@ -61,17 +62,12 @@ impl Panes {
 
     /// Returns the method on a side.
     pub fn method(&self, side: Side) -> &Variant {
-        &self.methods[self.number(side)]
+        &self.methods[self.index(side)]
     }
 
-    /// Returns the number of the method on a side, from 0.
-    pub fn number(&self, side: Side) -> usize {
+    /// Returns the index of the method on a side.
+    pub fn index(&self, side: Side) -> usize {
         self.chosen[side as usize]
-    }
-
-    /// Returns the methods to choose from.
-    pub fn methods(&self) -> &[Variant] {
-        &self.methods
     }
 
     /// Returns the sides that are shown, from the left.
@@ -83,10 +79,11 @@ impl Panes {
         }
     }
 
-    /// Shows the method of this number on `side`, which becomes visible; does nothing if there is none.
-    pub fn choose(&mut self, side: Side, number: usize) {
-        if number < self.methods.len() {
-            self.chosen[side as usize] = number;
+    /// Shows the method at `index` on `side`, and makes the side visible. Does nothing if there is
+    /// no such method.
+    pub fn choose(&mut self, side: Side, index: usize) {
+        if index < self.methods.len() {
+            self.chosen[side as usize] = index;
             if self.alone == Some(side.other()) {
                 self.alone = None;
             }
@@ -98,7 +95,7 @@ impl Panes {
         self.chosen.swap(0, 1);
     }
 
-    /// Shows both sides, then the left one, then the right one.
+    /// Switches from both sides to the left one, then to the right one, then back to both.
     pub fn show_next(&mut self) {
         self.alone = match self.alone {
             None => Some(Side::Left),
@@ -107,7 +104,8 @@ impl Panes {
         };
     }
 
-    /// Returns the columns left of the divider, in a window `width` pixels wide; none or all where a side is alone.
+    /// Returns how many columns are left of the divider in a window `width` pixels wide. If only
+    /// one side is shown, it has all.
     pub fn split(&self, width: usize) -> usize {
         match self.alone {
             None => (self.divider * width as f64).round() as usize,
@@ -116,19 +114,19 @@ impl Panes {
         }
     }
 
-    /// Moves the divider to a column, if there is one.
+    /// Moves the divider to column `x`, if there is a divider.
     pub fn divide_at(&mut self, x: f64, width: usize) {
         if self.alone.is_none() && width > 0 {
             self.divider = (x / width as f64).clamp(LEAST, 1.0 - LEAST);
         }
     }
 
-    /// Moves the divider to the right by a part of the width.
+    /// Moves the divider to the right by a fraction of the width.
     pub fn divide_by(&mut self, part: f64) {
         self.divide_at(self.divider + part, 1);
     }
 
-    /// Returns the side of a column.
+    /// Returns the side that column `x` is on.
     pub fn side_at(&self, x: f64, width: usize) -> Side {
         match x < self.split(width) as f64 {
             true => Side::Left,
@@ -136,13 +134,14 @@ impl Panes {
         }
     }
 
-    /// True if a column is on the divider, or not farther from it than `reach`.
+    /// True if column `x` is at most `reach` pixels from the divider.
     pub fn is_on_divider(&self, x: f64, width: usize, reach: f64) -> bool {
         self.alone.is_none() && (x - self.split(width) as f64).abs() <= reach
     }
 
-    /// Copies both pictures to their sides of `window`, and draws the line between them with a knob in its middle. All are `width`
-    /// pixels wide and as high as each other; `scale` is the number of pixels that the desktop makes of one.
+    /// Copies both pictures to their sides of `window`, and draws the divider with a knob in its
+    /// middle. The window and the pictures are `width` pixels wide and equally high. `scale` is how
+    /// many physical pixels a logical pixel has.
     pub fn compose(&self, window: &mut [u32], pictures: [&[u32]; 2], width: usize, scale: f64) {
         let split = self.split(width);
         let [left, right] = pictures.map(|picture| picture.chunks_exact(width));
@@ -161,7 +160,8 @@ fn line(window: &mut [u32], width: usize, split: usize, scale: f64) {
     let thick = scale.round().max(1.0) as usize;
     let (middle, radius) = (window.len() / width / 2, (9.0 * scale) as usize);
     for (y, row) in window.chunks_exact_mut(width).enumerate() {
-        // Half of the knob's width in this row: a disc, with a ring of black like the line's.
+        // The knob is a white disc in a black ring. `half` returns half the width of a disc in this
+        // row, 0 outside it.
         let up = y.abs_diff(middle);
         let half = |radius: usize| (radius.pow(2).saturating_sub(up.pow(2)) as f64).sqrt() as usize;
         let (disc, ring) = (half(radius), half(radius + thick));
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_chooses_for_one_side_only_and_one_too_high_nothing() {
+    fn an_index_chooses_for_one_side_only_and_one_too_high_nothing() {
         let mut panes = panes(4);
         panes.choose(Side::Right, 3);
         panes.choose(Side::Left, 4);

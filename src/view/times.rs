@@ -1,4 +1,4 @@
-//! The time that something takes which is done over and over.
+//! The typical time of work that is repeated.
 
 use std::time::Duration;
 use std::vec::Vec;
@@ -10,14 +10,15 @@ pub struct Times {
     next: usize,
 }
 
-/// The times that are kept.
+/// How many times are kept.
 const KEPT: usize = 24;
 
-/// The fewest times that say something: the first ones find caches cold and threads asleep.
+/// How many times are needed for a result. The first ones are slow, with cold caches and sleeping
+/// threads.
 const FEWEST: usize = 6;
 
 impl Times {
-    /// Adds a time; the oldest one is forgotten when there are 24.
+    /// Adds a time. Replaces the oldest one if there are 24.
     pub fn add(&mut self, time: Duration) {
         match self.last.get_mut(self.next) {
             Some(oldest) => *oldest = time,
@@ -26,17 +27,18 @@ impl Times {
         self.next = (self.next + 1) % KEPT;
     }
 
-    /// Forgets all.
+    /// Forgets all times.
     pub fn clear(&mut self) {
         *self = Times::default();
     }
 
-    /// True if there are too few to say something.
+    /// True if there are too few times for a result.
     pub fn are_few(&self) -> bool {
         self.last.len() < FEWEST
     }
 
-    /// Returns the mean of the lower half, in milliseconds, once there are enough: what a moment's other work costs is not ours.
+    /// Returns the mean of the faster half, in milliseconds, or `None` if there are too few. Other
+    /// programs disturb the slower half.
     pub fn milliseconds(&self) -> Option<f64> {
         if self.are_few() {
             return None;

@@ -1,4 +1,4 @@
-//! A scene that is looked at: what of it is stale is made anew, and nothing else.
+//! The viewer: draws a scene from a moving camera, and redraws only what has changed.
 
 use super::{Action, Panes, Side, Times};
 use crate::frame::{Frame, FrameError, PreparedScene};
@@ -12,7 +12,7 @@ use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
 
-/// A scene, ready to be drawn from anywhere.
+/// A scene that is ready to be drawn from anywhere.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     prepared: PreparedScene,
@@ -20,12 +20,13 @@ pub struct Loaded {
     lights: Vec<Light>,
     /// The size that the scene asks for.
     size: [u32; 2],
-    /// The longest side of a picture, which samples shorten.
+    /// The longest side of a picture, in pixels. Supersampling makes it shorter.
     most: usize,
 }
 
 impl Loaded {
-    /// Prepares `scene`; of the near and the far plane of its camera those that are `given` stay where they are.
+    /// Prepares `scene`. `given` is true for the near plane, and for the far plane, if it must stay
+    /// where it is.
     ///
     /// # Errors
     /// As [`Scene::prepare`].
@@ -48,44 +49,45 @@ impl Loaded {
     }
 }
 
-/// The picture of one side, kept while it is true.
+/// The picture of one side, kept as long as it is valid.
 #[derive(Debug, Default)]
 struct Kept {
     pixels: Vec<u32>,
-    /// The number of the frame that the pixels show; `None` if they are not to be shown again.
+    /// The generation of the frame that the pixels show; `None` if they are not valid.
     frame: Option<u64>,
-    /// The number of the method that drew, and its times.
+    /// The index of the method that drew the pixels.
     method: Option<usize>,
+    /// The drawing times of this method.
     times: Times,
-    /// Why the method does not draw this scene.
+    /// The reason if the method cannot draw this scene.
     refused: Option<DrawError>,
 }
 
-/// A loaded scene with all that a window knows of it.
+/// A loaded scene with the state of its window.
 #[derive(Debug)]
 pub struct Viewer {
     loaded: Loaded,
     name: String,
     renderer: Renderer,
-    /// The methods that are shown.
+    /// The methods and the divider.
     pub panes: Panes,
     orbit: Orbit,
     carries_lights: bool,
     frame: Frame,
-    /// The number of the frame, from 1; it grows with each that is projected.
-    number: u64,
-    /// True if the frame is not what is to be seen.
+    /// The generation of the frame: 1 for the first, one more for each further one.
+    generation: u64,
+    /// True if camera, size, lights or scene have changed since the frame was projected.
     is_stale: bool,
     size: [usize; 2],
     kept: [Kept; 2],
     projecting: Times,
 }
 
-/// What stands where a method cannot draw: a dark grey.
+/// The dark grey that fills a pane if its method cannot draw.
 const NO_PICTURE: u32 = 0xff30_3030;
 
 impl Viewer {
-    /// Looks at `loaded`, under a name, by `renderer`.
+    /// Makes a viewer of a loaded scene. `name` appears in the title.
     ///
     /// # Errors
     /// As [`Scene::frame`].
@@ -96,7 +98,7 @@ impl Viewer {
         renderer: Renderer,
     ) -> Result<Viewer, FrameError> {
         let mut frame = loaded.frame()?;
-        // A window has no alpha: edges are blended here, or nowhere.
+        // A window has no alpha channel, so edges must be blended with the background here.
         frame.set_alpha(Alpha::Flattened);
         Ok(Viewer {
             size: loaded.size.map(|side| side as usize),
@@ -107,7 +109,7 @@ impl Viewer {
             orbit: Orbit::default(),
             carries_lights: false,
             frame,
-            number: 0,
+            generation: 0,
             is_stale: true,
             kept: Default::default(),
             projecting: Times::default(),
@@ -119,19 +121,20 @@ impl Viewer {
         self.loaded.size
     }
 
-    /// Looks at another scene, or at a changed one, from where this one was looked at.
+    /// Shows another scene, or a changed one, from the current camera.
     pub fn replace(&mut self, loaded: Loaded) {
         self.loaded = loaded;
         self.forget_times();
         self.is_stale = true;
     }
 
-    /// Does what a key asks for, with the pointer on `side`; true if that changes what is seen. [`Action::Close`] is the window's.
+    /// Performs an action, with the pointer on `side`. Returns false for [`Action::Close`], which
+    /// the window handles.
     pub fn act(&mut self, action: Action, side: Side) -> bool {
         match action {
-            Action::Method { number, other } => {
+            Action::Method { index, other } => {
                 let side = if other { side.other() } else { side };
-                self.panes.choose(side, number);
+                self.panes.choose(side, index);
             }
             Action::Turn(azimuth, elevation) => self.turn(azimuth, elevation),
             Action::Zoom(factor) => {
@@ -163,21 +166,23 @@ impl Viewer {
         self.is_stale = true;
     }
 
-    /// Draws what is to be seen into `window`, whose rows touch; `scale` is as in [`Panes::compose`]. Only what is stale is made anew:
-    /// the frame when the camera, the size or the scene has changed, a picture when its frame or its method has.
+    /// Draws the panes into `window`, whose rows are `width` pixels long and contiguous; `scale` is
+    /// as in [`Panes::compose`]. Projects the scene only if camera, size, lights or scene have
+    /// changed, and draws a picture only if its frame or method has.
     ///
     /// # Errors
-    /// As [`Scene::frame`], for a camera that has come too far.
+    /// As [`Scene::frame`], if the camera has gone too far.
     pub fn draw(&mut self, window: &mut [u32], width: usize, scale: f64) -> Result<(), FrameError> {
         let height = window.len() / width;
         self.project([width, height])?;
         match *self.panes.shown() {
-            // Alone it goes straight into the window, and is not kept.
+            // A single side is drawn straight into the window and not kept.
             [side] => {
                 self.draw_side(side, window, width);
                 self.kept[side as usize].frame = None;
             }
-            // Two are kept beside the window: the divider moves over them, and nothing is drawn again.
+            // Two pictures are kept outside the window, so that moving the divider needs no
+            // drawing.
             _ => {
                 for side in [Side::Left, Side::Right] {
                     if self.is_to_be_drawn(side) {
@@ -195,17 +200,17 @@ impl Viewer {
         Ok(())
     }
 
-    /// True if the picture of `side` is not what is to be seen, or its method's time is not known yet.
+    /// True if the picture of `side` is out of date, or the time of its method is not known yet.
     fn is_to_be_drawn(&self, side: Side) -> bool {
         let kept = &self.kept[side as usize];
-        kept.frame != Some(self.number) || self.wants_time(side)
+        kept.frame != Some(self.generation) || self.wants_time(side)
     }
 
-    /// Draws the method of `side`, and takes its time.
+    /// Draws the picture of `side` and records the time.
     fn draw_side(&mut self, side: Side, pixels: &mut [u32], width: usize) {
-        let (number, method) = (self.panes.number(side), self.panes.method(side));
+        let (index, method) = (self.panes.index(side), self.panes.method(side));
         let kept = &mut self.kept[side as usize];
-        if kept.method.replace(number) != Some(number) {
+        if kept.method.replace(index) != Some(index) {
             kept.times.clear();
         }
         let started = Instant::now();
@@ -215,10 +220,11 @@ impl Viewer {
             pixels.fill(NO_PICTURE);
         }
         kept.refused = drawn.err();
-        kept.frame = Some(self.number);
+        kept.frame = Some(self.generation);
     }
 
-    /// Projects the scene, if camera, size or scene have changed, or the time of that is not known yet.
+    /// Projects the scene if camera, size, lights or scene have changed, or if the time of
+    /// projecting is not known yet.
     fn project(&mut self, size: [usize; 2]) -> Result<(), FrameError> {
         if self.size != size {
             self.size = size;
@@ -240,7 +246,7 @@ impl Viewer {
                 true => self.orbit.carry(start, lights),
                 false => lights.clone(),
             });
-            self.number += 1;
+            self.generation += 1;
             self.is_stale = false;
         } else if !self.projecting.are_few() {
             return Ok(());
@@ -251,7 +257,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// True if drawing once more would say more about times.
+    /// True if the times are not known yet, so that drawing once more helps.
     pub fn wants_times(&self) -> bool {
         let mut sides = self.panes.shown().iter();
         self.projecting.are_few() || sides.any(|side| self.wants_time(*side))
@@ -262,9 +268,9 @@ impl Viewer {
         !self.has_drawn(side) || kept.times.are_few() && kept.refused.is_none()
     }
 
-    /// True if what is kept of `side` is of the method that is chosen there.
+    /// True if the picture kept for `side` was drawn by the method chosen there.
     fn has_drawn(&self, side: Side) -> bool {
-        self.kept[side as usize].method == Some(self.panes.number(side))
+        self.kept[side as usize].method == Some(self.panes.index(side))
     }
 
     fn forget_times(&mut self) {
@@ -274,7 +280,8 @@ impl Viewer {
         }
     }
 
-    /// Returns the title of the window: what is on each side, and what it takes.
+    /// Returns the title of the window: the methods with their times, the time of projecting, the
+    /// scene and the size.
     pub fn title(&self) -> String {
         let time = |times: &Times| match times.milliseconds() {
             Some(milliseconds) => format!("{milliseconds:.2} ms"),
@@ -296,7 +303,10 @@ impl Viewer {
     }
 }
 
-/// Draws `frame` into `pixels`, whose rows are `width` long. The reason why a method is not for such frames comes back.
+/// Draws `frame` into `pixels`, whose rows are `width` pixels long.
+///
+/// # Errors
+/// If the method cannot draw this frame.
 fn draw(
     method: &Variant,
     frame: &Frame,
@@ -338,9 +348,9 @@ mod tests {
         window
     }
 
-    /// The frames that were projected so far.
+    /// Returns how many frames were projected so far.
     fn frames(viewer: &Viewer) -> u64 {
-        viewer.number
+        viewer.generation
     }
 
     #[test]
@@ -359,7 +369,8 @@ mod tests {
                     for x in columns.clone() {
                         let [r, g, b, _] = picture.pixels()[SIZE[0] * y + x];
                         let colour = u32::from_be_bytes([0, r, g, b]);
-                        // The knob, in the middle, is narrower than what lies between these columns.
+                        // The knob, in the middle, is narrower than what lies between these
+                        // columns.
                         assert_eq!(window[SIZE[0] * y + x] & 0xff_ffff, colour, "{x}, {y}");
                     }
                 }
@@ -397,7 +408,7 @@ mod tests {
         assert_ne!(shown(&mut viewer, SIZE), before);
         viewer.act(
             Action::Method {
-                number: 2,
+                index: 2,
                 other: true,
             },
             Side::Left,
@@ -421,7 +432,7 @@ mod tests {
         viewer.act(Action::Swap, Side::Left);
         viewer.act(
             Action::Method {
-                number: 1,
+                index: 1,
                 other: false,
             },
             Side::Right,

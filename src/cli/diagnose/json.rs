@@ -1,8 +1,8 @@
 //! The answer as data.
 
 use super::DiagnoseArgs;
-use fastphong::diagnose::{Cause, Diagnosis, scenes_that_show};
-use fastphong::scene::Scene;
+use crate::diagnose::{Cause, Diagnosis, scenes_that_show};
+use crate::scene::Scene;
 use serde_json::{Value, json};
 use std::time::Duration;
 

@@ -8,35 +8,38 @@ use super::output::{self, Output, print_beside};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
 use super::{CliError, Log, Outcome, files, input_name, memory};
-use fastphong::diagnose::{DiagnoseError, Question, diagnose};
-use fastphong::glam::DVec3;
-use fastphong::picture::image_file::FilePicture;
-use fastphong::raster::{Plan, Renderer};
-use fastphong::scene::Scene;
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::file::diagnostics::Origin;
-use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::value::{Data, SceneTable};
-use fastphong::shading::Variant;
+use crate::diagnose::{DiagnoseError, Question, diagnose};
+use crate::glam::DVec3;
+use crate::picture::image_file::FilePicture;
+use crate::raster::{Plan, Renderer};
+use crate::scene::Scene;
+use crate::scene::file::Resolved;
+use crate::scene::file::SceneFile;
+use crate::scene::file::diagnostics::Origin;
+use crate::scene::file::value::{Data, SceneTable};
+use crate::shading::Variant;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Find out why your picture of a scene is wrong: which mistake explains it
+/// Find the mistake that makes your picture of a scene wrong
 #[derive(clap::Args, Debug)]
 #[command(after_help = AFTER)]
 pub struct DiagnoseArgs {
     /// Your picture: PNG, PBM, PGM, PPM, PAM, PFM, BMP or Targa. The scene is drawn at its size
     picture: PathBuf,
-    /// The scene that it shows: scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-`
+    /// Scene that the picture shows: scene file, mesh file, builtin:NAME?key=value, name of a
+    /// shipped scene, or `-`
     #[arg(value_parser = input_name::parser())]
     input: String,
-    /// The method that you were to draw: `flat`, `gouraud`, `phong`, or one of `fastphong list methods --all` [default: phong]
+    /// Method that the picture should show: `flat`, `gouraud`, `phong`, or one of
+    /// `fastphong list methods --all` [default: phong]
     #[arg(long = "as", value_name = "METHOD", value_parser = method)]
     method: Option<Variant>,
-    /// Write three pictures side by side: yours, the reference, and the reference with your mistake; `-` is standard output
+    /// Write three pictures side by side: yours, the reference, and the reference with your
+    /// mistake; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Print everything as JSON, with what each mistake would leave
+    /// Print everything as JSON, including the error that each mistake would leave
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -44,10 +47,10 @@ pub struct DiagnoseArgs {
 }
 
 const AFTER: &str = "Exit codes: 0 the picture is right, 1 it is not, 2 wrong usage or input.\n\
-    `fastphong list mistakes` lists the mistakes that it knows.";
+    `fastphong list mistakes` lists the mistakes that it looks for.";
 
 impl DiagnoseArgs {
-    /// Reads, looks, and says what is wrong.
+    /// Reads the picture, looks for mistakes and prints what it found.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let started = Instant::now();
         let output = self
@@ -106,9 +109,9 @@ impl DiagnoseArgs {
         })
     }
 
-    /// Returns the scene at the size of the picture, or of the picture with columns and rows exchanged if
-    /// that is the scene's own size, and the scene's own size. Meshes are read again only for another size,
-    /// which a fitted camera has to see.
+    /// Returns the scene, resized to the picture, and the scene's own size. A picture of the
+    /// scene's own size with columns and rows exchanged leaves the scene as it was. Meshes are read
+    /// again only if the size changes, because a fitted camera depends on it.
     fn sized(
         &self,
         mut file: SceneFile,
@@ -141,7 +144,7 @@ impl DiagnoseArgs {
         Ok((file, resolved, own_size))
     }
 
-    /// Checks that the method that was asked for draws such frames.
+    /// Checks that the method asked for can draw the scene.
     fn check_method(&self, scene: &Scene) -> Result<(), CliError> {
         let Some(method) = &self.method else {
             return Ok(());
@@ -158,7 +161,7 @@ impl DiagnoseArgs {
             DiagnoseError::NothingToCompare => {
                 let [width, height] = size.map(|side| side.to_string());
                 let problem = format!(
-                    "{}: too little is seen of it at {width}x{height} pixels",
+                    "{}: too little of it is visible at {width}x{height} pixels",
                     self.input
                 );
                 CliError::from(format!("{problem}: expected at least 30 covered pixels"))
@@ -167,13 +170,14 @@ impl DiagnoseArgs {
     }
 }
 
-/// Reads the method of an exercise; Phong shading is known under its own name, too.
+/// Reads the method of an exercise. `phong` stands for naive Phong.
 fn method(text: &str) -> Result<Variant, String> {
     let name = if text == "phong" { "naive-phong" } else { text };
     Variant::parse(name).map_err(|error| error.to_string())
 }
 
-/// Returns the lengths of the lights' directions as the scene states them; 1 for lights at positions.
+/// Returns the length of each light's direction as the scene file states it; 1 for a light at a
+/// position.
 fn light_lengths(file: &SceneFile) -> Vec<f64> {
     let lights = file.table().tables("light").iter();
     let length = |light: &SceneTable| light.triple("direction").map_or(1.0, DVec3::length);

@@ -1,18 +1,20 @@
 //! Three pictures side by side: yours, the reference, and the reference with your mistake.
 
-use fastphong::diagnose::{DiagnoseError, Diagnosis, Question};
-use fastphong::picture::{Picture, Picture8};
+use crate::diagnose::{DiagnoseError, Diagnosis, Question};
+use crate::picture::{Picture, Picture8};
 
-/// The widest that each of them is, in pixels: of larger ones every second or third pixel is shown.
+/// The largest side of a picture in the strip, in pixels. Larger pictures show every second pixel,
+/// or every third, and so on.
 const WIDEST: usize = 1280;
 
-/// The gap between them.
+/// The gap between two pictures, in pixels.
 const GAP: usize = 8;
 
-/// Draws the strip; of a picture that is right, or that nothing explains, only two.
+/// Draws the strip. The third picture is left out if the picture is right or no mistake explains
+/// it.
 ///
 /// # Errors
-/// When the scene cannot be drawn.
+/// If the scene cannot be drawn.
 pub fn strip(question: &Question<'_>, found: &Diagnosis) -> Result<Picture8, DiagnoseError> {
     let scene = question.scene;
     let size = [scene.width, scene.height].map(|side| side as usize);

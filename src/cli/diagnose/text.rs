@@ -1,19 +1,18 @@
-//! What a person reads: the mistake, its evidence, what to do, and what this scene cannot show.
+//! The answer as text: the mistake, its evidence, what to do, and which mistakes this scene cannot
+//! show.
 
 use super::super::text::{counted, grouped, wrapped};
 use super::DiagnoseArgs;
-use fastphong::diagnose::{Cause, Diagnosis, Spot, Verdict, scene_that_tells, scenes_that_show};
+use crate::diagnose::{Cause, Diagnosis, Spot, Verdict, scene_that_tells, scenes_that_show};
 use std::fmt::Write;
 
-/// The names of mistakes in one line of a text.
+/// How many mistakes a line names at most.
 const NAMED: usize = 6;
 
-/// The scenes that are named for what this one cannot show.
+/// How many scenes are named for the mistakes that this one cannot show.
 const SCENES_NAMED: usize = 2;
 
-/// Returns the answer.
-///
-/// `sizes` are the scene's own and the one that it was drawn at.
+/// Returns the answer. `sizes` are the scene's own size and the size at which it was drawn.
 pub fn text(args: &DiagnoseArgs, found: &Diagnosis, sizes: [[u32; 2]; 2]) -> String {
     let mut text = first_notes(args, found, sizes);
     text += &verdict(args, found);
@@ -21,14 +20,14 @@ pub fn text(args: &DiagnoseArgs, found: &Diagnosis, sizes: [[u32; 2]; 2]) -> Str
     if found.cracks > 0.01 && is_explained {
         let share = 100.0 * found.cracks;
         let line = format!(
-            "{share:.0} % of what should be seen has the colour of the background: cracks between polygons, or missing ones."
+            "{share:.0} % of the pixels that the scene covers have the colour of the background: there are cracks between polygons, or polygons are missing."
         );
         text += &format!("\n{}", wrapped(&line, 0));
     }
     text + &cannot_show(found)
 }
 
-/// Says what is wrong with the file as a whole.
+/// Returns notes on the file as a whole: its size, its background, its alpha, its encoding.
 fn first_notes(args: &DiagnoseArgs, found: &Diagnosis, sizes: [[u32; 2]; 2]) -> String {
     let name = args.picture.display();
     let mut text = String::new();
@@ -42,27 +41,27 @@ fn first_notes(args: &DiagnoseArgs, found: &Diagnosis, sizes: [[u32; 2]; 2]) -> 
     }
     if found.is_transposed {
         let line = format!(
-            "{name}: width and height are exchanged, and so are x and y. What follows is about the picture after that is put right."
+            "{name}: width and height are exchanged, and so are x and y. The rest of this answer is about the picture with that put right."
         );
         text += &wrapped(&line, 0);
     }
     if let Some([own, stated]) = found.background {
         let [own, stated] = [own, stated].map(levels);
         let line = format!(
-            "{name}: the background is {own} and not {stated}, as the scene states it. What follows is about the rest."
+            "{name}: the background is {own}, but the scene says {stated}. The rest of this answer is about the other pixels."
         );
         text += &wrapped(&line, 0);
     }
     if found.is_premultiplied {
         let line = format!(
-            "{name}: colours of pixels that are covered in part are multiplied by their alpha; PNG stores them as they are. What follows is about the other pixels."
+            "{name}: the colours of partly covered pixels are multiplied by their alpha; PNG stores colours without it. The rest of this answer is about the other pixels."
         );
         text += &wrapped(&line, 0);
     }
     if let Some(encoding) = found.stated_encoding {
         let stated = encoding.name();
         let line = format!(
-            "{name}: the file says that it is {stated}, the scene says otherwise. Its levels are compared as they are."
+            "{name}: the file says that it is {stated}, the scene says otherwise. The levels are compared without conversion."
         );
         text += &wrapped(&line, 0);
     }
@@ -82,7 +81,7 @@ fn verdict(args: &DiagnoseArgs, found: &Diagnosis) -> String {
     match found.verdict {
         Verdict::Empty => {
             let line = format!(
-                "{name} shows nothing of {asked}: where the scene is seen, the picture has the colour of the background. Is the model behind the camera, outside of the view, or culled?"
+                "{name} shows nothing of {asked}: where the scene should be, the picture has the colour of the background. Is the model behind the camera, outside the view, or culled?"
             );
             wrapped(&line, 0)
         }
@@ -90,7 +89,7 @@ fn verdict(args: &DiagnoseArgs, found: &Diagnosis) -> String {
             let but = if found.is_correct() {
                 ""
             } else {
-                ", but for that"
+                " apart from that"
             };
             let line = format!("{name} agrees with {asked}{but}: it is {off} off on average.");
             let is_exact = found.reference.levels < 0.02;
@@ -116,39 +115,41 @@ fn verdict(args: &DiagnoseArgs, found: &Diagnosis) -> String {
         }
         Verdict::Partly => {
             let mut text = format!(
-                "{name} is wrong. This explains most of it, and something else is wrong, too:\n\n"
+                "{name} is wrong. This explains most of it, but something else is wrong too:\n\n"
             );
             text += &causes(found);
             text + &evidence(found) + &nearest(found, 1)
         }
         Verdict::Amounts => {
-            let line = format!("{name} is wrong: light is there in other amounts than in {asked}.");
+            let line =
+                format!("{name} is wrong: the amounts of light differ from those in {asked}.");
             wrapped(&line, 0) + &amounts(found) + &look_at(found)
         }
         Verdict::Tone => {
             let gamma = found.tone.map_or(1.0, |tone| tone.gamma);
             let line = format!(
-                "{name} is wrong: its levels are those of {asked} after a curve, about (level/255)^{gamma:.2}. Store levels as the scene's `encoding` says."
+                "{name} is wrong: its levels are those of {asked} after a curve, about (level/255)^{gamma:.2}. Store levels in the scene's `encoding`."
             );
             wrapped(&line, 0) + &evidence(found)
         }
         Verdict::None => {
             let count = found.singles.len();
             let line = format!(
-                "{name} is wrong, {off} off on average, and none of the {count} mistakes that I know explains it."
+                "{name} is wrong, {off} off on average, and none of the {count} known mistakes explains it."
             );
             wrapped(&line, 0) + &unexplained(found)
         }
     }
 }
 
-/// Says where a picture is wrong that nothing explains, and what comes nearest.
+/// Returns hints for a picture that no mistake explains: where it is wrong, and which mistakes come
+/// nearest.
 fn unexplained(found: &Diagnosis) -> String {
     let mut text = String::new();
     if found.outline > 0.1 {
         let share = 100.0 * found.outline;
         let line = format!(
-            "The outlines differ, by {share:.0} %. Is it this scene and this view? Look at the camera first, then at `rotate`, `translate` and `scale` of objects."
+            "The outlines differ by {share:.0} %. Does the picture show this scene, from this view? Check the camera first, then `rotate`, `translate` and `scale` of the objects."
         );
         text += &wrapped(&line, 0);
     }
@@ -163,7 +164,7 @@ fn unexplained(found: &Diagnosis) -> String {
     text + &look_at(found) + &amounts(found)
 }
 
-/// Writes the mistakes that explain the picture, and those that do so as well.
+/// Lists the mistakes that explain the picture best, and the other explanations that fit as well.
 fn causes(found: &Diagnosis) -> String {
     let mut text = String::new();
     for (place, cause) in found.causes.iter().take(6).enumerate() {
@@ -184,7 +185,9 @@ fn causes(found: &Diagnosis) -> String {
     }
     if let [first, second, ..] = &found.causes[..] {
         let line = match scene_that_tells([first, second]) {
-            Some(scene) => format!("Here they look alike; a picture of `{scene}` would tell."),
+            Some(scene) => format!(
+                "In this scene they look alike; a picture of `{scene}` would tell them apart."
+            ),
             None => "They look alike in all shipped scenes.".to_owned(),
         };
         text += &wrapped(&line, 2);
@@ -207,7 +210,7 @@ fn evidence(found: &Diagnosis) -> String {
     }
     text += &compared(found);
     text += &look_at(found);
-    // Explanations that are as good as the first have advice of their own.
+    // Each of the best explanations has its own advice.
     let mut told = Vec::new();
     for mistake in found
         .causes
@@ -257,19 +260,19 @@ fn look_at(found: &Diagnosis) -> String {
     row("look at", &line)
 }
 
-/// Writes the nearest single mistakes, which do not explain the picture.
+/// Lists the single mistakes that come nearest without explaining the picture.
 fn nearest(found: &Diagnosis, count: usize) -> String {
     let named = found
         .causes
         .first()
         .map_or("", |cause| &cause.mistakes[0].id);
-    // What takes away less than a quarter is no hint.
+    // A mistake that explains less than a quarter of the error is no hint.
     let most = 0.75 * found.reference.levels;
     let is_hint = |cause: &&Cause| cause.mistakes[0].id != named && cause.residual < most;
     let mut text = String::new();
     for cause in found.singles.iter().filter(is_hint).take(count) {
         let line = format!(
-            "{} {:.2} levels would be left.",
+            "{} It would leave an error of {:.2} levels.",
             cause.mistakes[0].text, cause.residual
         );
         text += &row("nearest", &line);
@@ -287,14 +290,14 @@ fn amounts(found: &Diagnosis) -> String {
         .map(|(name, by)| format!("{name} × {by:.2}"))
         .collect();
     let line = format!(
-        "{}, the rest as in the scene: {:.2} levels would be left",
+        "{}, the rest as in the scene: this would leave an error of {:.2} levels",
         all.join(", "),
         amounts.residual
     );
     row("amounts", &line)
 }
 
-/// Says which mistakes this scene does not show, and which scene does.
+/// Lists the mistakes that this scene cannot show, and scenes that can.
 fn cannot_show(found: &Diagnosis) -> String {
     if found.invisible.is_empty() {
         return String::new();
@@ -333,7 +336,7 @@ fn cannot_show(found: &Diagnosis) -> String {
     text
 }
 
-/// Writes a head and a text, broken into lines of one column.
+/// Writes a heading, and beside it a text wrapped into one column.
 fn row(head: &str, line: &str) -> String {
     const COLUMN: usize = 22;
     let text = wrapped(line, COLUMN);

@@ -1,4 +1,4 @@
-//! A pair of pictures of two folders, and what was found.
+//! The comparison of one pair of pictures from two folders.
 
 use super::super::reference_check::alpha_text;
 use super::super::text::{counted, grouped};
@@ -6,30 +6,30 @@ use super::super::tolerance::{Judged, Levels, Tolerance};
 use super::super::{CliError, files, memory};
 use super::pairing::Named;
 use super::{Comparison, DiffArgs};
-use fastphong::picture::image_file::{FilePicture, Pair};
+use crate::picture::image_file::{FilePicture, Pair};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// What became of a pair.
+/// The outcome for a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
-    /// A picture cannot be read, or a pair not be compared.
+    /// A picture cannot be read, or the pair cannot be compared.
     Unreadable,
     /// The pictures differ by more than is allowed, or in size.
     Differs,
-    /// There is a reference, and no picture.
+    /// There is a reference, but no picture.
     Missing,
-    /// There is a picture, and no reference.
+    /// There is a picture, but no reference.
     New,
-    /// The pictures differ by no more than is allowed.
+    /// The pictures differ, but by no more than is allowed.
     Within,
     /// The pictures are equal.
     Equal,
 }
 
 impl Status {
-    /// All, those that fail first.
+    /// All statuses, failures first.
     pub const ALL: [Status; 6] = [
         Status::Unreadable,
         Status::Differs,
@@ -39,7 +39,7 @@ impl Status {
         Status::Equal,
     ];
 
-    /// True if the comparison of the folders fails by it.
+    /// True if a pair with this status makes the comparison of the folders fail.
     pub fn fails(self) -> bool {
         self < Status::Within
     }
@@ -56,11 +56,11 @@ impl Status {
     }
 }
 
-/// A pair, and what was found.
+/// A pair and the result of its comparison.
 pub struct Compared {
     pub pair: Named,
     pub status: Status,
-    /// What is wrong, or what was found, in one line.
+    /// The error, or the result, in one line.
     pub text: String,
     /// The judgement of pictures of one size.
     pub judged: Option<Judged>,
@@ -69,12 +69,12 @@ pub struct Compared {
     /// Warnings about the pair, and facts about its files.
     pub notes: Vec<String>,
     pub time: Duration,
-    /// True if there is a picture that can be read, to be approved.
+    /// True if the picture was read, so that it can be approved.
     is_readable: bool,
 }
 
 impl Compared {
-    /// True if `--approve` takes the picture over its reference.
+    /// True if `--approve` copies the picture over its reference.
     pub fn is_approved(&self) -> bool {
         let is_accepted = match self.status {
             Status::Differs | Status::New => true,
@@ -85,7 +85,8 @@ impl Compared {
     }
 }
 
-/// Compares a pair, and returns its pictures as well. Whatever is wrong is part of the result.
+/// Compares a pair, and returns the result with the pictures that could be read. Errors become part
+/// of the result.
 pub fn compare(
     args: &DiffArgs,
     pair: Named,
@@ -159,7 +160,7 @@ fn judge(
     let found = Comparison::of(&pair, tolerance, false)?;
     let sizes = [reference.size(), actual.size()];
     found.add_to(&mut one.fields, &pair, sizes);
-    let Some((difference, judged)) = found.numbers else {
+    let Some((difference, judged)) = found.result else {
         let [[rw, rh], [aw, ah]] = sizes;
         one.status = Status::Differs;
         one.text =
@@ -192,17 +193,17 @@ pub fn count(compared: &[Compared], status: Status) -> usize {
     compared.iter().filter(|one| one.status == status).count()
 }
 
-/// Says how many pairs there are of each kind.
+/// Returns the summary line: how many pairs have each status.
 pub fn summary(compared: &[Compared]) -> String {
     let parts = Status::ALL.into_iter().rev().filter_map(|status| {
-        let number = count(compared, status);
+        let pairs = count(compared, status);
         let words = match status {
             Status::Within => "within what is allowed",
-            Status::Differs if number == 1 => "differs",
+            Status::Differs if pairs == 1 => "differs",
             Status::Differs => "differ",
             status => status.name(),
         };
-        (number > 0).then(|| format!("{} {words}", grouped(number)))
+        (pairs > 0).then(|| format!("{} {words}", grouped(pairs)))
     });
     let parts: Vec<String> = parts.collect();
     let all = counted(compared.len(), "picture", "pictures");

@@ -1,28 +1,30 @@
-//! The comparison of two pictures: metrics, and what a tolerance makes of them.
+//! The comparison of two pictures: their metrics, and the judgement by a tolerance.
 
 use super::super::CliError;
 use super::super::reference_check::has_two_encodings;
 use super::super::tolerance::{Judged, Tolerance};
-use fastphong::compare::metrics::{
+use crate::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare_where, flip_map, mean_flip, ssim,
 };
-use fastphong::picture::Picture;
-use fastphong::picture::image_file::Pair;
+use crate::picture::Picture;
+use crate::picture::image_file::Pair;
 use serde_json::{Value, json};
 
-/// What a comparison finds.
+/// The result of a comparison.
 pub struct Comparison {
-    /// The numbers. `None` for pictures of different size: numbers of a corner that both have say nothing about the pictures.
-    pub numbers: Option<(Difference, Judged)>,
-    /// What a viewer sees where the pictures alternate, if it is computed.
+    /// The metrics and the judgement. `None` for pictures of different sizes: metrics of the corner
+    /// that both share say nothing about the pictures.
+    pub result: Option<(Difference, Judged)>,
+    /// The map of FLIP, if it was computed.
     pub flip: Option<Picture<f32>>,
 }
 
 impl Comparison {
-    /// Compares a pair; of pictures of different size, finds only what a map needs, which is of FLIP if `maps_flip`.
+    /// Compares a pair. `maps_flip` asks for a map of FLIP; for pictures of different sizes, only
+    /// this map is computed.
     ///
     /// # Errors
-    /// When there are too many pixels for a map of FLIP, or the tolerance is not for pictures of this size.
+    /// If there are too many pixels for a map of FLIP, or the mask or region does not fit the size.
     pub fn of(
         pair: &Pair<'_>,
         tolerance: &Tolerance<'_>,
@@ -37,15 +39,16 @@ impl Comparison {
         let [seen, other] = pair.displayed();
         if !pair.is_one_size() {
             let flip = maps_flip.then(|| flip_map(&seen, &other)).transpose()?;
-            let numbers = None;
-            return Ok(Comparison { numbers, flip });
+            let result = None;
+            return Ok(Comparison { result, flip });
         }
         let selection = tolerance.selection([width, height])?;
         let [r, a] = pair.compared();
         let mut difference = compare_where(&r, &a, |x, y| selection.includes(x, y))?;
         let mut flip = None;
         if difference.equal && !has_two_encodings(pair) && !maps_flip {
-            // A screen shows them alike, too: what takes longest is known. So is SSIM, which is 1.
+            // Equal pictures look equal on a screen too: FLIP, the slowest metric, is 0. SSIM is 1,
+            // as `compare_where` found.
             difference.flip = is_perceived.then_some(0.0);
         } else {
             let shown = selection.selected(&seen, &other);
@@ -54,14 +57,15 @@ impl Comparison {
             difference.flip = flip.as_ref().map(mean_flip);
         }
         let judged = tolerance.judge(&r, &a, &selection)?;
-        let numbers = Some((difference, judged));
-        Ok(Comparison { numbers, flip })
+        let result = Some((difference, judged));
+        Ok(Comparison { result, flip })
     }
 
-    /// Adds sizes, encodings and numbers to an object; without numbers for pictures of different size.
+    /// Adds sizes, encodings and metrics to a JSON object. For pictures of different sizes, the
+    /// metrics are null.
     pub fn add_to(&self, object: &mut Value, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) {
-        let difference = self.numbers.as_ref().map(|(difference, _)| difference);
-        // JSON has neither infinity nor NaN: they become null.
+        let difference = self.result.as_ref().map(|(difference, _)| difference);
+        // JSON has neither infinity nor NaN: serde writes null.
         let metrics = METRICS.iter();
         let metrics = metrics.map(|m| (m.name, json!(difference.map(|found| (m.value)(found)))));
         let ([width, height], [reference_size, actual_size]) = (pair.common_size(), sizes);
@@ -83,7 +87,7 @@ impl Comparison {
                 "metrics": metrics.collect::<Value>(),
             }),
         );
-        match &self.numbers {
+        match &self.result {
             Some((_, judged)) => judged.add_to(object),
             None => add_nothing(object),
         }

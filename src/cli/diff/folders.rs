@@ -1,4 +1,5 @@
-//! `fastphong diff FOLDER FOLDER`: all pictures of one folder against those of the same name in another.
+//! `fastphong diff FOLDER FOLDER`: compares all pictures of a folder with the references of the
+//! same names in another.
 
 use super::super::output::{self, Output, print_beside};
 use super::super::progress::Progress;
@@ -8,7 +9,7 @@ use super::super::{CliError, Log, Outcome, contents::Contents, files, input_name
 use super::compared::{Compared, Status, compare, count, summary};
 use super::pairing::Pairing;
 use super::{DiffArgs, add, junit, page};
-use fastphong::compare::table::aligned;
+use crate::compare::table::aligned;
 use serde_json::{Value, json};
 use std::time::Instant;
 
@@ -32,7 +33,7 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
     if pairing.others > 0 {
         let others = counted(pairing.others, "file is left out", "files are left out");
         log.note(&format!(
-            "{others}: expected plain files with the ending of a picture that is read"
+            "{others}: expected plain files with the ending of a picture format"
         ));
     }
     let mut page = outputs.page.as_ref().map(|_| page::Page::default());
@@ -60,7 +61,7 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
         && approved.is_empty()
         && compared.iter().any(Compared::is_approved)
     {
-        log.note("`--approve` copies pictures that differ and new ones over the references");
+        log.note("`--approve` copies pictures that differ or are new over the references");
     }
     Ok(match failed > approved.len() {
         true => Outcome::Differs,
@@ -91,7 +92,7 @@ impl Outputs {
     }
 }
 
-/// Compares all pairs, one after the other; `page` takes their pictures.
+/// Compares all pairs, one after the other, and adds their pictures to `page`.
 fn compare_all(
     args: &DiffArgs,
     pairing: Pairing,
@@ -122,7 +123,8 @@ fn compare_all(
     compared
 }
 
-/// Copies the pictures that differ and the new ones over their references, all or none; returns their names.
+/// Copies the pictures that differ or are new over their references, all or none, and returns their
+/// names.
 fn approve(compared: &[Compared]) -> Result<Vec<String>, CliError> {
     let approved: Vec<&Compared> = compared.iter().filter(|one| one.is_approved()).collect();
     let copies = approved.iter().filter_map(|one| {
@@ -136,7 +138,8 @@ fn approve(compared: &[Compared]) -> Result<Vec<String>, CliError> {
     Ok(approved.iter().map(|one| one.pair.name.clone()).collect())
 }
 
-/// Returns a row for each pair, without those that are equal unless `log` says more, and what was approved.
+/// Returns a row for each pair, the summary, and the approved pictures. Equal pairs are left out,
+/// unless `log` is verbose.
 fn text(compared: &[Compared], approved: &[String], log: Log) -> String {
     let mut shown: Vec<&Compared> = compared.iter().collect();
     shown.retain(|one| one.status != Status::Equal || log == Log::Verbose);
@@ -165,7 +168,7 @@ fn text(compared: &[Compared], approved: &[String], log: Log) -> String {
     text
 }
 
-/// Returns everything as data.
+/// Returns the result as JSON.
 fn json(
     args: &DiffArgs,
     compared: &[Compared],

@@ -1,14 +1,15 @@
-//! A comparison of folders as JUnit XML, which CI servers show: a test case a pair.
+//! A comparison of folders as JUnit XML, which CI servers show, with a test case for each pair.
 
 use super::DiffArgs;
 use super::compared::{Compared, Status, count};
 
-/// Writes the comparison. A pair that cannot be compared is an error, any other that fails a failure.
+/// Returns the comparison as XML. A pair that cannot be compared becomes an `error`, any other that
+/// fails a `failure`.
 pub fn xml(args: &DiffArgs, compared: &[Compared]) -> String {
     let errors = count(compared, Status::Unreadable);
     let failures = compared.iter().filter(|one| one.status.fails()).count() - errors;
     let seconds: f64 = compared.iter().map(|one| one.time.as_secs_f64()).sum();
-    let numbers = format!(
+    let attributes = format!(
         "tests=\"{}\" failures=\"{failures}\" errors=\"{errors}\" skipped=\"0\" time=\"{seconds:.3}\"",
         compared.len()
     );
@@ -16,12 +17,12 @@ pub fn xml(args: &DiffArgs, compared: &[Compared]) -> String {
     let name = escaped(&name);
     let cases: String = compared.iter().map(case).collect();
     format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fastphong diff\" {numbers}>\n\
-         <testsuite name=\"{name}\" {numbers}>\n{cases}</testsuite>\n</testsuites>\n"
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fastphong diff\" {attributes}>\n\
+         <testsuite name=\"{name}\" {attributes}>\n{cases}</testsuite>\n</testsuites>\n"
     )
 }
 
-/// Writes a pair.
+/// Returns the test case of a pair.
 fn case(one: &Compared) -> String {
     let (folder, file) = one
         .pair
@@ -56,7 +57,7 @@ fn case(one: &Compared) -> String {
     )
 }
 
-/// Escapes a text for XML 1.0, in an attribute too. Characters that XML cannot hold become U+FFFD.
+/// Escapes text for XML 1.0, also inside attributes. Characters that XML cannot hold become U+FFFD.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for letter in text.chars() {
@@ -66,7 +67,7 @@ fn escaped(text: &str) -> String {
             '>' => out += "&gt;",
             '"' => out += "&quot;",
             '\'' => out += "&apos;",
-            // A parser would make spaces of them in an attribute.
+            // In an attribute, a parser would turn these into spaces.
             '\t' | '\n' | '\r' => out += &format!("&#{};", letter as u32),
             '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
             letter => out.push(letter),

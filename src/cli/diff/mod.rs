@@ -1,4 +1,5 @@
-//! `fastphong diff`: two picture files, in numbers and as a map, or the pictures of two folders.
+//! `fastphong diff`: compares two picture files, or the pictures of two folders, by metrics and as
+//! a map.
 
 mod compared;
 mod comparison;
@@ -12,14 +13,14 @@ use super::reference_check::{SCALE, alpha_text, has_two_encodings, not_finite_te
 use super::text::measured;
 use super::tolerance::{Judged, Tolerance, ToleranceFlags};
 use super::{CliError, Log, Outcome, files, memory, values};
-use comparison::Comparison;
-use fastphong::compare::metrics::judgement::{Selection, draw_frame, draw_left_out, judged_map};
-use fastphong::compare::metrics::{
+use crate::compare::metrics::judgement::{Selection, draw_frame, draw_left_out, judged_map};
+use crate::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, flip_colours, signed_difference_map,
 };
-use fastphong::compare::table::aligned;
-use fastphong::picture::image_file::{FilePicture, Pair, read_picture_from};
-use fastphong::picture::{Encoding, Picture8};
+use crate::compare::table::aligned;
+use crate::picture::image_file::{FilePicture, Pair, read_picture_from};
+use crate::picture::{Encoding, Picture8};
+use comparison::Comparison;
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -27,17 +28,19 @@ use std::path::{Path, PathBuf};
 /// Compare two picture files, or all pictures of two folders
 #[derive(clap::Args, Debug)]
 pub struct DiffArgs {
-    /// Reference picture: PNG, PBM, PGM, PPM, PAM, PFM, BMP or Targa; `-` is standard input. Or a folder of references
+    /// Reference picture: PNG, PBM, PGM, PPM, PAM, PFM, BMP or Targa; `-` is standard input. Or a
+    /// folder of references
     reference: PathBuf,
-    /// Picture to compare with it; `-` is standard input. Or a folder of pictures, which are compared with the references of the same
-    /// names, in folders within it too
+    /// Picture to compare with it; `-` is standard input. Or a folder of pictures: each is compared
+    /// with the reference of the same name, also in sub-folders
     actual: PathBuf,
-    /// Encoding of pictures that state none [default: linear for PFM, srgb for others]. Of two encodings, the linear picture is
-    /// encoded before they are compared
+    /// Encoding of pictures that state none [default: linear for PFM, srgb for others]. If the two
+    /// encodings differ, the linear picture is encoded before they are compared
     #[arg(long, value_name = "linear|srgb", value_parser = encoding)]
     assume: Option<Encoding>,
-    /// Exit with code 1 when a channel differs by more grey levels, of 255. Alpha is a channel: a pixel that only one of the
-    /// pictures covers differs by its alpha. Without this, folders must be equal
+    /// Exit with code 1 if a channel differs by more than this many grey levels (of 255). Alpha is
+    /// a channel: a pixel that only one picture covers differs by its alpha. Without this flag,
+    /// folders must be equal
     #[arg(long, value_name = "GREY_LEVELS", value_parser = values::grey_levels, allow_hyphen_values = true)]
     fail_above: Option<f64>,
     #[command(flatten)]
@@ -48,31 +51,36 @@ pub struct DiffArgs {
     /// Grey levels at the light end of the map; larger differences are magenta
     #[arg(long, value_name = "GREY_LEVELS", default_value_t = SCALE, value_parser = values::scale, allow_hyphen_values = true, requires = "output")]
     scale: f32,
-    /// Map brighter and darker in different colours: orange and blue
+    /// Draw brighter pixels in orange on the map, and darker ones in blue
     #[arg(long, requires = "output")]
     signed: bool,
-    /// Map what a viewer sees when the pictures alternate (FLIP), from black to a light yellow
+    /// Draw a map of FLIP: the difference that a viewer sees when the pictures alternate, from
+    /// black to light yellow
     #[arg(long, requires = "output", conflicts_with_all = ["signed", "scale"])]
     flip: bool,
-    /// Draw a frame around the largest connected region of pixels that are over the threshold, or that differ, on the map
+    /// Draw a frame on the map, around the largest connected region of pixels over the threshold,
+    /// or of differing pixels if there is no threshold
     #[arg(long, requires = "output")]
     frame: bool,
-    /// Print the numbers as JSON
+    /// Print the metrics as JSON
     #[arg(long)]
     json: bool,
-    /// Write a page with all pairs of two folders: pictures, slider, flipping and maps; `-` is standard output
+    /// Write a page that shows all pairs of two folders, with a slider, flipping and maps; `-` is
+    /// standard output
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the result of two folders as JUnit XML, a test case for each pair; `-` is standard output
+    /// Write the result for two folders as JUnit XML, with a test case for each pair; `-` is
+    /// standard output
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Copy pictures that differ, and new ones, over the references, all of them or none. Nothing is removed
+    /// Copy pictures that differ or are new over the references: all of them, or none if one fails.
+    /// Nothing is removed
     #[arg(long)]
     approve: bool,
 }
 
 impl DiffArgs {
-    /// Compares, prints, and writes what was asked for.
+    /// Compares the files or folders, prints the result and writes the files asked for.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         match self
             .paths()
@@ -83,13 +91,13 @@ impl DiffArgs {
             of_reference => {
                 let folder = self.paths()[usize::from(!of_reference[0])].display();
                 let other = self.paths()[usize::from(of_reference[0])].display();
-                let problem = format!("{folder} is a folder, and {other} is none");
+                let problem = format!("{folder} is a folder, but {other} is not");
                 Err(format!("{problem}: expected two files or two folders").into())
             }
         }
     }
 
-    /// Refuses flags that are for two files.
+    /// Refuses flags that only make sense for two files.
     fn check_for_folders(&self) -> Result<(), CliError> {
         match &self.output {
             None => Ok(()),
@@ -100,7 +108,7 @@ impl DiffArgs {
         }
     }
 
-    /// Refuses flags that are for two folders.
+    /// Refuses flags that only make sense for two folders.
     fn check_for_files(&self) -> Result<(), CliError> {
         let flags = [
             ("--html", self.html.is_some()),
@@ -116,7 +124,7 @@ impl DiffArgs {
         }
     }
 
-    /// Compares two files, prints, and writes the map.
+    /// Compares two files, prints the result and writes the map.
     fn run_on_files(&self, log: Log) -> Result<Outcome, CliError> {
         self.check_for_files()?;
         let output = self.output.as_deref();
@@ -161,7 +169,7 @@ impl DiffArgs {
             false => self.text(&found, &pair, sizes),
         };
         print_beside(&outputs, &text)?;
-        Ok(match &found.numbers {
+        Ok(match &found.result {
             None => {
                 log.note("the pictures differ in size");
                 Outcome::Differs
@@ -174,9 +182,9 @@ impl DiffArgs {
         })
     }
 
-    /// Returns what was found as lines.
+    /// Returns the result as lines of text.
     fn text(&self, found: &Comparison, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
-        let Some((difference, judged)) = &found.numbers else {
+        let Some((difference, judged)) = &found.result else {
             return self.encodings_text(pair) + &self.sizes_text(pair, sizes);
         };
         let mut text = table(difference);
@@ -189,7 +197,7 @@ impl DiffArgs {
         text + &self.encodings_text(pair)
     }
 
-    /// Refuses maps that a radius changes nothing on.
+    /// Refuses `--radius` with a map that ignores it.
     fn check_flags(&self) -> Result<(), CliError> {
         let other = match (self.signed, self.flip) {
             (true, _) => "--signed",
@@ -205,7 +213,7 @@ impl DiffArgs {
         }
     }
 
-    /// Says how a picture fails: the end of a sentence.
+    /// Returns the end of the sentence that says how a picture fails.
     fn failed_text(&self, judged: &Judged) -> String {
         let most = self.fail_above.unwrap_or_default();
         let (count, allowed) = (judged.count_text(), judged.allowed_text());
@@ -221,7 +229,7 @@ impl DiffArgs {
         }
     }
 
-    /// Draws the map, of the part that both pictures have.
+    /// Draws the map. If the sizes differ, it shows the upper left part that both pictures have.
     fn map(
         &self,
         pair: &Pair<'_>,
@@ -240,7 +248,7 @@ impl DiffArgs {
             (_, false) => judged_map(&r, &a, self.scale, tolerance.radius(), &selection)?,
         };
         draw_left_out(&mut map, &selection);
-        let judged = found.numbers.as_ref().map(|(_, judged)| judged);
+        let judged = found.result.as_ref().map(|(_, judged)| judged);
         let region = judged.and_then(|judged| judged.judgement.region);
         if let (true, Some(region)) = (self.frame, region) {
             draw_frame(&mut map, &region);
@@ -252,7 +260,7 @@ impl DiffArgs {
         [&self.reference, &self.actual]
     }
 
-    /// Says in which encodings the pictures are, and which of them were assumed.
+    /// Returns the line about the encodings of the pictures, stated or assumed.
     fn encodings_text(&self, pair: &Pair<'_>) -> String {
         let [reference, actual] = [0, 1].map(|i| {
             let (path, used) = (self.paths()[i].display(), pair.encodings()[i]);
@@ -269,7 +277,7 @@ impl DiffArgs {
         format!("encodings: {reference}; {actual}{encoded}\n")
     }
 
-    /// Says that the sizes differ, and which part a map shows.
+    /// Returns the line for pictures of different sizes, and which part a map shows.
     fn sizes_text(&self, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
         let sizes = [sizes[0], sizes[1], pair.common_size()];
         let [reference, actual, common] = sizes.map(|[width, height]| format!("{width}x{height}"));
@@ -281,7 +289,7 @@ impl DiffArgs {
         format!("the sizes differ: {found}{mapped}\n")
     }
 
-    /// Returns the numbers as data; without metrics for pictures of different size.
+    /// Returns the result as JSON. Pictures of different sizes have no metrics.
     fn json(
         &self,
         found: &Comparison,
@@ -297,7 +305,7 @@ impl DiffArgs {
         });
         found.add_to(&mut object, pair, sizes);
         add(&mut object, tolerance.json());
-        object["failed"] = match &found.numbers {
+        object["failed"] = match &found.result {
             Some((_, judged)) => json!(self.fail_above.map(|_| judged.fails)),
             None => true.into(),
         };
@@ -312,7 +320,8 @@ fn add(object: &mut Value, fields: Value) {
     }
 }
 
-/// Reads the picture that is `part` of the command from a file, or from standard input if the path is `-`.
+/// Reads a picture from a file, or from standard input if the path is `-`. `part` names it in
+/// messages: "the reference".
 fn read(path: &Path, part: &'static str) -> Result<FilePicture, CliError> {
     if path.as_os_str() != "-" {
         return Ok(files::picture(path, part)?);
@@ -331,7 +340,7 @@ fn encoding(text: &str) -> Result<Encoding, String> {
     named.ok_or_else(|| "expected linear or srgb".to_owned())
 }
 
-/// Returns the numbers as a table.
+/// Returns the metrics as a table.
 fn table(difference: &Difference) -> String {
     let value = |value: Option<f64>| match value {
         None => "-".to_owned(),

@@ -1,20 +1,22 @@
-//! The page of a comparison of folders: all pairs with their pictures and maps.
+//! The page that `--html` writes: all pairs of two folders, with pictures and maps.
 
 use super::super::CliError;
 use super::super::reference_check::SCALE;
 use super::super::tolerance::Tolerance;
 use super::DiffArgs;
 use super::compared::{Compared, Status, summary};
-use fastphong::compare::metrics::judgement::{Selection, judged_map};
-use fastphong::picture::image_file::{FilePicture, Format, LevelView, Pair};
-use fastphong::picture::{LevelRows, Levels, Picture8};
-use fastphong::report::pairs_page::{PairsPage, ShownPair};
+use crate::compare::metrics::judgement::{Selection, judged_map};
+use crate::picture::image_file::{FilePicture, Format, LevelView, Pair};
+use crate::picture::{LevelRows, Levels, Picture8};
+use crate::report::pairs_page::{PairsPage, ShownPair};
 
-/// Bytes of whole pictures on the page, at most: browsers open such a page at once.
+/// How many bytes of full-size pictures the page holds at most. Browsers open a page of this size
+/// at once.
 const MOST_BYTES: usize = 96 << 20;
 
-/// The longest side of a picture that can be opened, and of one that is only seen.
+/// The longest side of a full-size picture, in pixels.
 const OPENED: usize = 4096;
+/// The longest side of a small picture, which cannot be opened, in pixels.
 const SMALL: usize = 320;
 
 /// The pictures of the pairs, in their order.
@@ -22,15 +24,16 @@ const SMALL: usize = 320;
 pub struct Page {
     pairs: Vec<ShownPair>,
     bytes: usize,
-    /// Pairs whose pictures are small because the page would be too large.
+    /// How many pairs have small pictures because the page would be too large.
     left_small: usize,
 }
 
 impl Page {
-    /// Adds the pictures of a pair: whole ones of a pair that differs, small ones of others.
+    /// Adds the pictures of a pair: full-size ones if the pair differs and the page has room, else
+    /// small ones.
     ///
     /// # Errors
-    /// When a picture cannot be packed; the pair is on the page without it.
+    /// If a picture cannot be packed. The page then shows the pair without it.
     pub fn add(
         &mut self,
         args: &DiffArgs,
@@ -73,7 +76,7 @@ impl Page {
         if self.left_small > 0 {
             let pairs = self.left_small;
             remarks += &format!(
-                " Pictures of {pairs} pairs are shown small: the page would be too large."
+                " The pictures of {pairs} pairs are shown small, because the page would be too large."
             );
         }
         PairsPage {
@@ -111,9 +114,9 @@ fn fill(
         return Ok(());
     };
     let pair = Pair::new(reference, actual, args.assume);
-    // A picture of another size is shown whole, as it is.
+    // Pictures of different sizes are shown whole, each in its own encoding.
     let [r, a] = match pair.is_one_size() {
-        true => pair.displayed(),
+        true => pair.displayed_views(),
         false => [alone(reference, args), alone(actual, args)],
     };
     shown.reference = packed(&r, step)?;
@@ -131,13 +134,13 @@ fn fill(
     Ok(())
 }
 
-/// Returns a picture on its own, as a screen shows it.
+/// Returns a single picture as a screen shows it.
 fn alone<'a>(picture: &'a FilePicture, args: &DiffArgs) -> LevelView<'a> {
-    let [shown, _] = Pair::new(picture, picture, args.assume).displayed();
+    let [shown, _] = Pair::new(picture, picture, args.assume).displayed_views();
     shown
 }
 
-/// Packs a picture as a PNG file, `step` × `step` pixels in one, which is their mean.
+/// Packs a picture as a PNG file. Each pixel of the file is the mean of `step` × `step` pixels.
 fn packed(picture: &dyn LevelRows, step: usize) -> Result<Vec<u8>, CliError> {
     let [width, height] = picture.size();
     let [w, h] = [width.div_ceil(step), height.div_ceil(step)];

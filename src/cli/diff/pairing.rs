@@ -1,4 +1,4 @@
-//! The pairs of two folders: pictures that have one name, in folders of one name.
+//! Pairs the pictures of two folders by name, including sub-folders.
 
 use super::super::{
     CliError, files,
@@ -7,32 +7,32 @@ use super::super::{
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
-/// Pictures of one name.
+/// The reference and the picture with the same name.
 #[derive(Debug)]
 pub struct Named {
-    /// The name within the folders; its parts are divided by `/` everywhere. Bytes that are no text
-    /// and control characters are written as `\xE9`.
+    /// The path within the folders, with `/` between its parts on every system. Control characters
+    /// and bytes that are not UTF-8 are written as `\xE9`.
     pub name: String,
     pub reference: Option<PathBuf>,
     pub actual: Option<PathBuf>,
-    /// The place of the reference, whether there is one or not.
+    /// The path of the reference, whether or not it exists.
     pub place: PathBuf,
 }
 
 /// The pictures of two folders.
 #[derive(Debug)]
 pub struct Pairing {
-    /// All names, sorted.
+    /// All pairs, sorted by name.
     pub pairs: Vec<Named>,
-    /// Files that are left out, as their endings are those of no picture.
+    /// How many files are left out because their endings are not those of pictures.
     pub others: usize,
 }
 
 impl Pairing {
-    /// Lists the pictures of two folders and of the folders in them.
+    /// Lists the pictures of two folders and their sub-folders.
     ///
     /// # Errors
-    /// When the folders are one, or one lies in the other, or cannot be read, or neither has a
+    /// If the folders are the same, one lies in the other, one cannot be read, or neither has a
     /// picture.
     pub fn of(reference: &Path, actual: &Path) -> Result<Pairing, CliError> {
         check_apart(reference, actual)?;
@@ -50,7 +50,7 @@ impl Pairing {
     }
 }
 
-/// Refuses one folder twice, and a folder within the other.
+/// Refuses the same folder twice, and a folder within the other.
 fn check_apart(reference: &Path, actual: &Path) -> Result<(), CliError> {
     let place = |path: &Path| {
         let refused = |error| format!("{}: cannot be read: {error}", path.display());
@@ -69,7 +69,7 @@ fn check_apart(reference: &Path, actual: &Path) -> Result<(), CliError> {
     Err(format!("{within}: expected two folders, none within the other").into())
 }
 
-/// Joins two sorted lists of names.
+/// Merges two sorted lists of names into pairs.
 fn merged(
     reference: &Path,
     actual: &Path,

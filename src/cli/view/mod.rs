@@ -1,4 +1,4 @@
-//! `fastphong view`: a scene in a window, by two methods side by side.
+//! `fastphong view`: shows a scene in a window, drawn by two methods side by side.
 
 mod window;
 
@@ -10,25 +10,27 @@ use super::polygon_counts::warn_of_polygons_left_out;
 use super::scene_flags::SceneFlags;
 use super::watch::Watched;
 use super::{CliError, Log, Outcome, memory};
-use fastphong::raster::Renderer;
-use fastphong::view::{Action, Loaded, Panes, Viewer};
+use crate::raster::Renderer;
+use crate::view::{Action, Loaded, Panes, Viewer};
 
 /// Show a scene or a mesh in a window: turn it, and compare two methods by a divider
 #[derive(clap::Args, Clone, Debug)]
 #[command(after_help = KEYS)]
 pub struct ViewArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard
+    /// input
     #[arg(value_parser = input_name::parser())]
     input: String,
-    /// Methods of the keys 1 to 9, between commas, with parameters as in `fast-phong:steps=1`. The first two are shown at first
+    /// Methods for the keys 1 to 9, separated by commas, with parameters as in
+    /// `fast-phong:steps=1`. The window opens with the first two
     #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = METHODS, value_parser = at_most_nine)]
     methods: Methods,
-    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time; `row` (SIMD); `auto`: `row` if it
-    /// supports the scene, else `span`
+    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time; `row`, with
+    /// SIMD; or `auto`, which is `row` if it can draw the scene, else `span`
     #[arg(long, default_value = "auto", value_parser = engines::scanline_engine)]
     engine: engines::ScanlineEngine,
-    /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`. `scalar` selects
-    /// the span engine, any other the row engine
+    /// Instruction set of the pixel loops: `auto` (the best on this machine) or one of
+    /// `fastphong list simd`. `scalar` selects the span engine, any other the row engine
     #[arg(long, value_name = "ISA", default_value = "auto", value_parser = engines::simd)]
     simd: Simd,
     #[command(flatten)]
@@ -40,25 +42,25 @@ pub struct ViewArgs {
     scene: SceneFlags,
 }
 
-/// What the keys choose from: the lecture's own first, each once.
+/// The methods for the keys 1 to 9, those of the lecture first.
 const METHODS: &str = "gouraud,fast-phong,naive-phong,phong-rsqrt,flat,duff-phong,six-point,slerp-phong,fast-phong-rsqrt";
 
 const KEYS: &str = "In the window:\n  \
-    1 to 9         the method on the side of the pointer; with Shift on the other side\n  \
+    1 to 9         choose the method on the side of the pointer; with Shift, on the other side\n  \
     drag, arrows   turn; Home returns to the camera of the scene\n  \
     wheel, + -     zoom\n  \
-    drag the line  compare; also Shift with arrows. Space shows one side alone, Tab exchanges them\n  \
-    L              let the lights turn with the eye, or stay\n  \
+    drag the line  compare; also Shift with arrows. Space shows one side only, Tab swaps them\n  \
+    L              make the lights turn with the eye, or stay\n  \
     Esc, Q         close\n\
-    The title says what is shown, and how long each picture and the projection that both share take.";
+    The title names the methods, with the time for each picture and for the projection that both share.";
 
-/// Reads at most as many methods as there are keys.
+/// Reads methods, at most one for each key.
 fn at_most_nine(text: &str) -> Result<Methods, String> {
     let methods = methods(text).map_err(|error| error.to_string())?;
     match methods.len() {
         0..=Panes::MOST => Ok(methods),
         more => Err(format!(
-            "{more} methods, and {} keys: expected fewer",
+            "{more} methods, but only {} keys: expected fewer methods",
             Panes::MOST
         )),
     }
@@ -74,14 +76,15 @@ impl ViewArgs {
         }
         let pool = self.threads.pool()?;
         warn_of_debug_build(log);
-        // A scene that cannot be shown is said before a display that there is not.
+        // Load first: an error in the scene is more useful than one about a missing display.
         let loaded = pool.install(|| self.load(log))?;
         let panes = Panes::new(self.methods.clone());
         let name = scene_name(&self.input);
         let viewer = Viewer::new(loaded, name, panes, renderer)?;
         let reload = watched.map(|watched| {
             let (args, threads) = (self.clone(), self.threads);
-            // The file may become anything: it was one when the window opened, and is waited for.
+            // The file existed when the window opened. Now it may change in any way, even
+            // disappear; the next change is waited for.
             move || {
                 watched.wait(log, "Esc in the window");
                 watched.begin();

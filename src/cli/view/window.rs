@@ -1,8 +1,8 @@
-//! The window: events go to the viewer, its pictures to the screen.
+//! The window: passes events to the viewer, and its pictures to the screen.
 
 use super::super::CliError;
 use super::super::log::{colour, to_stderr};
-use fastphong::view::{Action, Loaded, Side, Viewer};
+use crate::view::{Action, Loaded, Side, Viewer};
 use rayon::ThreadPool;
 use softbuffer::{Context, Surface};
 use std::num::NonZeroU32;
@@ -15,23 +15,24 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, OwnedDisplayHan
 use winit::keyboard::{ModifiersState, PhysicalKey};
 use winit::window::{CursorIcon, Window, WindowId};
 
-/// The time between two titles: numbers that change faster cannot be read.
+/// The time between two titles. Numbers that change faster cannot be read.
 const TITLE: Duration = Duration::from_millis(250);
 
-/// Half of the width in which the divider can be taken, in pixels of the desktop.
+/// How far from the divider the pointer can grab it, in logical pixels.
 const REACH: f64 = 8.0;
 
-/// A line of a wheel, and as many pixels of a touchpad, zoom by this factor.
+/// The zoom factor for one line of a wheel, and how many pixels of a touchpad count as a line.
 const LINE: (f64, f64) = (1.1, 40.0);
 
-/// A scene that was loaded anew, or why it was not.
+/// A scene that was loaded again, or the error.
 type Reloaded = Result<Loaded, CliError>;
 
-/// Shows what `viewer` draws until the window is closed; it draws on `pool`. `reload` waits for a change of the scene's files and
-/// loads it. `opened` is called once there is a display.
+/// Opens a window and shows what `viewer` draws on `pool`, until the window is closed. A thread
+/// calls `reload`, which waits for a change of the scene's files and loads it. `opened` is called
+/// once the display is there.
 ///
 /// # Errors
-/// When there is no display or no window, and for a scene that cannot be drawn.
+/// If there is no display, the window cannot be opened, or the scene cannot be drawn.
 pub fn show(
     viewer: Viewer,
     pool: ThreadPool,
@@ -44,7 +45,7 @@ pub fn show(
     opened();
     if let Some(reload) = reload {
         let proxy = events.create_proxy();
-        // It ends with the program.
+        // The thread ends with the program.
         std::thread::spawn(move || while proxy.send_event(reload()).is_ok() {});
     }
     let mut shown = Shown {
@@ -65,10 +66,10 @@ pub fn show(
     }
 }
 
-/// Says that no window can be opened, and why.
+/// Returns the error for a window that cannot be opened.
 fn no_display(error: impl std::fmt::Display) -> CliError {
     let error = error.to_string();
-    // Some errors begin with the place in the source of a library.
+    // Some errors begin with a file and line in the source of a library.
     let reason = match error.strip_prefix("os error at ") {
         Some(rest) => rest.splitn(3, ':').last().unwrap_or(rest).trim(),
         None => &*error,
@@ -78,7 +79,7 @@ fn no_display(error: impl std::fmt::Display) -> CliError {
     format!("no window can be opened: {reason}: {expected}").into()
 }
 
-/// What the pressed pointer moves.
+/// What a drag moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Drag {
     None,
@@ -86,17 +87,17 @@ enum Drag {
     Divider,
 }
 
-/// The window and all that its events change.
+/// The window and the state that its events change.
 struct Shown {
     viewer: Viewer,
     pool: ThreadPool,
     context: Context<OwnedDisplayHandle>,
-    /// There from the first event on.
+    /// `None` until the window is opened by the first event.
     surface: Option<Surface<OwnedDisplayHandle, Rc<Window>>>,
-    /// What ended the window before its time.
+    /// The error that closed the window.
     failure: Option<CliError>,
     modifiers: ModifiersState,
-    /// The pointer, in pixels from the upper left corner, while it is in the window.
+    /// The pointer's position in pixels from the upper left corner, while it is in the window.
     pointer: Option<PhysicalPosition<f64>>,
     drag: Drag,
     /// The title, and when it was set.
@@ -108,7 +109,7 @@ impl Shown {
     fn open(&mut self, events: &ActiveEventLoop) -> Result<(), CliError> {
         let [width, height] = self.viewer.wanted_size();
         let monitor = events.primary_monitor().map(|monitor| monitor.size());
-        // Some monitors do not say.
+        // Some monitors report no size.
         let most = monitor.filter(|size| size.width > 0 && size.height > 0);
         let most = most.unwrap_or(PhysicalSize::new(4096, 4096));
         let size = PhysicalSize::new(width.min(most.width), height.min(most.height));
@@ -132,14 +133,14 @@ impl Shown {
         }
     }
 
-    /// Draws into the window's own memory, and shows it.
+    /// Draws into the window's memory and shows the result.
     fn draw(&mut self) -> Result<(), CliError> {
         let Some(surface) = &mut self.surface else {
             return Ok(());
         };
         let window = surface.window().clone();
         let size = window.inner_size();
-        // A window that is hidden may have no pixels.
+        // A hidden window may have no pixels.
         let (Some(width), Some(height)) =
             (NonZeroU32::new(size.width), NonZeroU32::new(size.height))
         else {
@@ -159,7 +160,8 @@ impl Shown {
         Ok(())
     }
 
-    /// Returns what a pressed key asks for. What the desktop has with other modifiers is not ours.
+    /// Returns the action of a pressed key. Keys with modifiers other than Shift belong to the
+    /// desktop.
     fn action(&self, key: KeyEvent) -> Option<Action> {
         let PhysicalKey::Code(code) = key.physical_key else {
             return None;
@@ -167,7 +169,7 @@ impl Shown {
         if !(self.modifiers - ModifiersState::SHIFT).is_empty() {
             return None;
         }
-        // The library calls keys as UI Events does.
+        // winit names keys as UI Events does.
         let action = Action::of_key(&format!("{code:?}"), self.modifiers.shift_key())?;
         (!key.repeat || action.repeats()).then_some(action)
     }
@@ -188,7 +190,7 @@ impl Shown {
             .map_or(0, |window| window.inner_size().width as usize)
     }
 
-    /// True if the pointer can take the divider.
+    /// True if the pointer is near enough to grab the divider.
     fn is_on_divider(&self) -> bool {
         let scale = self.window().map_or(1.0, Window::scale_factor);
         self.pointer.is_some_and(|pointer| {
@@ -197,7 +199,7 @@ impl Shown {
         })
     }
 
-    /// Moves what was taken, or shows that there is something to take.
+    /// Moves what is dragged, or changes the cursor over the divider.
     fn move_to(&mut self, pointer: PhysicalPosition<f64>) {
         let before = self.pointer.replace(pointer);
         let Some(window) = self.window() else {
@@ -206,7 +208,8 @@ impl Shown {
         let size = window.inner_size();
         match (self.drag, before) {
             (Drag::Camera, Some(before)) => {
-                // Across the shorter side it is half a turn, and what is seen follows the pointer.
+                // A drag across the shorter side is half a turn. The signs make the object follow
+                // the pointer.
                 let angle = std::f64::consts::PI / f64::from(size.width.min(size.height).max(1));
                 let (x, y) = (pointer.x - before.x, pointer.y - before.y);
                 self.viewer.turn(-angle * x, angle * y);
@@ -226,7 +229,8 @@ impl Shown {
         }
     }
 
-    /// Sets the title, if it is another one and the last one could be read; returns when to look again.
+    /// Sets the title if it has changed and the last one was shown long enough. Otherwise returns
+    /// when to try again.
     fn tell(&mut self) -> Option<Instant> {
         let title = self.viewer.title();
         if title == self.title.0 {
@@ -257,7 +261,7 @@ impl ApplicationHandler<Reloaded> for Shown {
     fn user_event(&mut self, _: &ActiveEventLoop, reloaded: Reloaded) {
         match reloaded {
             Ok(loaded) => self.viewer.replace(loaded),
-            // A later change may mend it; what is shown stays.
+            // Keep showing the old scene: a later change may fix the error.
             Err(failure) => to_stderr(&failure.render(colour())),
         }
         self.redraw();
@@ -275,7 +279,8 @@ impl ApplicationHandler<Reloaded> for Shown {
             }
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
             WindowEvent::Focused(false) => self.drag = Drag::None,
-            // Keys that were down when the window came to the front were not meant for it.
+            // Synthetic events are keys that were already down when the window got the focus. They
+            // were not meant for it.
             WindowEvent::KeyboardInput {
                 event,
                 is_synthetic: false,

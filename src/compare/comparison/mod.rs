@@ -1,27 +1,9 @@
-//! Errors and times of methods on one frame.
+//! Compares methods on one frame: their errors and their times.
 //!
-//! [`compare`] draws a frame with each variant, with the `f64` reference and with the barycentric renderer (`pictures.rs`),
-//! and times them in interleaved rounds (`speed.rs`). The [`Comparison`] is data: serialised as it stands it is the JSON of
-//! `docs/bench-json.md`; `table.rs` writes it for terminals, [`crate::report`] as a page.
-//!
-//! ```
-//! use fastphong::compare::comparison::{Input, TableKind, compare, table};
-//! use fastphong::mesh::builtin::builtin;
-//! use fastphong::raster::Renderer;
-//! use fastphong::scene::Scene;
-//! use fastphong::shading::Variant;
-//! let mut scene = Scene::of_mesh(builtin("sphere?rings=8&segments=16")?);
-//! (scene.width, scene.height) = (48, 48);
-//! let frame = scene.frame()?;
-//! let variants = [Variant::parse("gouraud")?, Variant::parse("fast-phong:steps=1")?];
-//! let input = Input { name: "sphere".into(), frame: &frame };
-//! // Without time limits no times are taken.
-//! let comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
-//! let [naive, gouraud, fast] = &comparison.rows[..] else { unreachable!("naive Phong is always among them") };
-//! assert!(naive.error.rms < fast.error.rms && fast.error.rms < gouraud.error.rms);
-//! println!("{}", table(&comparison, TableKind::Short));
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! [`compare`] draws a frame with each variant, with the `f64` reference and with the barycentric
+//! renderer (`pictures.rs`), and times them in interleaved rounds (`speed.rs`). The result is a
+//! [`Comparison`]. Serialised, it is the JSON of `docs/bench-json.md`; `table.rs` writes it for
+//! terminals, [`crate::report`] as a page.
 
 mod pictures;
 mod speed;
@@ -29,8 +11,8 @@ pub(crate) mod table;
 #[cfg(test)]
 mod tests;
 
-pub use speed::{Speed, WHAT_IS_TIMED};
-pub use table::{TableKind, table};
+pub(crate) use speed::{Speed, WHAT_IS_TIMED};
+pub(crate) use table::{TableKind, table};
 
 use super::metrics::{Difference, MAX_PERCEIVED, Perceived, flip_map, mean_flip};
 use super::timing::TimeLimits;
@@ -51,90 +33,95 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
-/// The method that speeds are stated against: the one that the lecture makes fast.
+/// The method that the speed of others is compared with: the one that the lecture makes fast.
 pub const BASELINE: &str = "naive-phong";
 
 /// The definition of [`MethodRow::error`], in one line.
 pub const WHAT_IS_COMPARED: &str = "linear channels before rounding to 8 bits against the f64 reference, where both show the same polygon";
 
-/// The clamped share of what is seen from which on tables tell it.
+/// The clamped share of the covered picture from which on tables mention it.
 pub(crate) const NOTABLE_CLAMPING: f64 = Clamping::NOTABLE;
 
 /// A frame to compare methods on.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {
-    /// The name that tables and files give it.
+    /// Its name in tables and files.
     pub name: String,
     /// The frame.
     pub frame: &'a Frame,
 }
 
-/// All methods that were compared on one frame.
+/// The result of comparing methods on one frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// The name of the frame.
     pub name: String,
-    /// A few words about the scene; may be empty.
+    /// A short title of the scene; may be empty.
     pub title: String,
     /// The purpose of the scene; may be empty.
     pub description: String,
-    /// Pixels a row.
+    /// The width of the picture in pixels.
     pub width: usize,
-    /// Rows.
+    /// The height of the picture in pixels.
     pub height: usize,
     /// The interpolation of varyings over the screen.
     pub interpolation: Interpolation,
-    /// The encoding of stored pictures; errors are of linear channels in any case.
+    /// The encoding of stored pictures. Errors are always of linear channels.
     pub encoding: Encoding,
-    /// Lights.
+    /// The number of lights.
     pub lights: usize,
-    /// Polygons of the frame.
+    /// The number of polygons in the frame.
     pub polygons: usize,
-    /// Triangles that they are worth: two less than corners, for each polygon.
+    /// The number of triangles that the polygons can be cut into: two less than corners, for each
+    /// polygon.
     pub triangles: usize,
-    /// Polygons that the barycentric renderer does not draw because they cross themselves on the picture.
+    /// The number of polygons that the barycentric renderer does not draw, because they cross
+    /// themselves on the picture.
     pub not_simple: usize,
-    /// Pixels that any polygon covers.
+    /// The number of pixels that any polygon covers.
     pub covered_pixels: usize,
-    /// Pixels of all polygons, hidden ones too.
+    /// The number of pixels of all polygons together, including hidden ones.
     pub fragments: usize,
-    /// The part of the Phong reference whose light is over 1 before it is clamped: there errors vanish, whatever a method computes.
+    /// The part of the Phong reference whose light is over 1 before clamping. Errors vanish there,
+    /// whatever a method computes.
     pub clamping: Clamping,
     /// Counts of the scene's polygons on their way into the frame.
     pub stats: FrameStats,
-    /// The renderer that was asked for; each row names the one that drew it.
+    /// The renderer that was asked for. Each row has the one that drew it.
     pub renderer: DrawnBy,
     #[serde(skip)]
     requested: Renderer,
-    /// The variants drawn by scanlines, in the order given; before them naive Phong if it was not given.
+    /// The variants drawn by scanlines, in the order of the request. Naive Phong comes first if it
+    /// was not requested.
     pub rows: Vec<MethodRow>,
-    /// The variants that are not for this frame.
+    /// The variants that cannot draw this frame.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<LeftOut>,
-    /// The methods of the barycentric renderer that the rows are measured against.
+    /// The methods of the barycentric renderer that the rows are compared with.
     pub barycentric: Vec<MethodRow>,
-    /// The effect of cutting the polygons into triangles; `None` if they are triangles.
+    /// The effect of cutting the polygons into triangles; `None` if they are triangles already.
     pub triangulation: Option<Triangulation>,
     /// The picture of the `f64` Phong reference.
     #[serde(skip)]
     pub reference: LinearPicture,
 }
 
-/// The Phong reference of a frame cut into triangles, against that of its polygons.
+/// The difference that cutting polygons into triangles makes to the Phong reference.
 ///
-/// Varyings interpolated along scanlines depend on the orientation of a polygon of four corners or more; on triangles they
-/// do not (L21 3, Figure 5). Cutting polygons into triangles therefore makes another picture.
+/// Varyings interpolated along scanlines depend on the orientation of a polygon of four or more
+/// corners, but not on that of a triangle (L21 3, Figure 5). Cutting polygons into triangles
+/// therefore changes the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Triangulation {
-    /// Triangles that the frame was cut into.
+    /// The number of triangles that the frame was cut into.
     pub triangles: usize,
-    /// Polygons left out because they cross themselves on the picture.
+    /// The number of polygons left out because they cross themselves on the picture.
     pub not_simple: usize,
-    /// The difference, where both show the same polygon.
+    /// The difference at the pixels where both show the same polygon.
     pub difference: Difference,
 }
 
-/// A variant that is not for a frame.
+/// A variant that cannot draw a frame.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// The variant as a user names it.
@@ -150,19 +137,19 @@ pub struct DrawnBy {
     pub engine: &'static str,
     /// The instruction set of the pixel loops.
     pub level: &'static str,
-    /// The threads that shaded pixels: [`Renderer::threads`].
+    /// The number of threads that shaded pixels: [`Renderer::threads`].
     pub threads: usize,
 }
 
 impl DrawnBy {
-    /// [`Variant::render_barycentric`].
+    /// The loops of [`Variant::render_barycentric`].
     pub const BARYCENTRIC: DrawnBy = DrawnBy {
         engine: "barycentric",
         level: "scalar",
         threads: 1,
     };
 
-    /// Describes `renderer` on the current pool of threads.
+    /// Returns the description of `renderer` on the current pool of threads.
     pub fn new(renderer: Renderer) -> DrawnBy {
         DrawnBy {
             engine: renderer.engine().name(),
@@ -181,7 +168,7 @@ impl fmt::Display for DrawnBy {
     }
 }
 
-/// One variant by one renderer: its error, its speed, its pictures.
+/// One variant drawn by one renderer: its error, its speed, its picture.
 #[derive(Clone, Debug, Serialize)]
 pub struct MethodRow {
     /// The variant: `variant`, `method`, `parameters` and `model` in JSON.
@@ -192,26 +179,28 @@ pub struct MethodRow {
     pub drawn_by: DrawnBy,
     /// The difference from the Phong reference: see [`WHAT_IS_COMPARED`].
     pub error: Difference,
-    /// The difference from its own closed form ([`crate::shading::Info::model`]): how well it does what it means to do. In
-    /// the barycentric renderer that is the closed form on triangles.
+    /// The difference from its own closed form ([`crate::shading::Info::model`]), which shows how
+    /// well it computes what it is meant to. For the barycentric renderer, the closed form is on
+    /// triangles.
     pub own: Difference,
-    /// The most that rounding, and what the method leaves out by design, can make of `own.max` on this frame:
-    /// [`crate::shading::Variant::bound`].
+    /// The largest `own.max` that rounding and the method's approximation by design can cause on
+    /// this frame: [`crate::shading::Variant::bound`].
     pub bound: f64,
-    /// The most that the variant may differ by design from its method's model with tⁿ: [`crate::shading::Variant::approximation`]. 0 for
-    /// most.
+    /// The largest difference by design from the method's model with tⁿ:
+    /// [`crate::shading::Variant::approximation`]. It is 0 for most methods.
     pub approximation: f64,
-    /// True if `own.max` is at most `bound`. Newton's method on short spans with large angles may exceed it.
+    /// True if `own.max` is at most `bound`. Newton's method on short spans with large angles may
+    /// exceed it.
     pub within_bound: bool,
-    /// Pixels at which it shows another polygon than the reference; they are left out of `error`, as their colours tell
-    /// of depth and not of shading.
+    /// The number of pixels at which it shows a different polygon from the reference. They are left
+    /// out of `error`, because their colours differ by depth and not by shading.
     pub other_polygon: usize,
-    /// Covered pixels of which a channel is 1: where it is clamped, or is that to the last bit.
+    /// The number of covered pixels with a channel that is 1, either clamped or exactly 1.
     pub clamped: usize,
-    /// The polygons that it draws by each of its kinds, if it tells polygons apart.
+    /// How many polygons each of its kinds draws; empty if the method has one kind.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub kinds: Vec<PolygonKind>,
-    /// The speed, if times were taken.
+    /// The speed, if it was measured.
     pub speed: Option<Speed>,
     /// The stored picture.
     #[serde(skip)]
@@ -225,7 +214,7 @@ impl MethodRow {
     }
 }
 
-/// Writes a variant as members of its row.
+/// Serialises a variant as members of its row.
 fn variant_members<S: Serializer>(variant: &Variant, to: S) -> Result<S::Ok, S::Error> {
     let info = variant.info();
     let values = info.parameters.iter().zip(variant.parameters());
@@ -238,23 +227,24 @@ fn variant_members<S: Serializer>(variant: &Variant, to: S) -> Result<S::Ok, S::
     members.end()
 }
 
-/// Returns the value of a parameter of a method: a number, or a word, of which `"auto"` is one.
+/// Returns the value of a method's parameter as JSON: a number, or a word such as `"auto"`.
 pub fn parameter_json(parameter: &MethodParameter, value: shading::Value) -> Value {
     match value {
-        shading::Value::Whole(number) => number.into(),
-        shading::Value::Decimal(number) => number.into(),
+        shading::Value::Whole(whole) => whole.into(),
+        shading::Value::Decimal(decimal) => decimal.into(),
         word => parameter.text(word).into(),
     }
 }
 
-/// Part of the progress that the pictures take, when times are taken as well.
+/// The share of the progress for pictures, if times are measured too.
 const PICTURES_PART: f32 = 0.3;
 
-/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, measures how far apart they
-/// are, and times them: [`draw`], then [`Comparison::time`]. Without `limits` no times are taken, so that every run has the
-/// same result to the last bit.
+/// Draws `input` with each of `variants`, measures the errors, and times the variants: [`draw`],
+/// then [`Comparison::time`]. Without `limits` there are no times, and every run returns the same
+/// result to the last bit.
 ///
-/// `progress` hears which part is done, 0..=1, and what comes next; never while a time is taken.
+/// Calls `progress` with the part that is done, 0..=1, and the name of the next step, never while a
+/// time is measured.
 pub fn compare(
     input: &Input<'_>,
     variants: &[Variant],
@@ -275,18 +265,20 @@ pub fn compare(
     comparison
 }
 
-/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, and measures how far apart
-/// they are, without times.
+/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, and
+/// measures their differences, without times.
 ///
-/// Naive Phong, which speed is stated against, comes first if `variants` does not have it. The barycentric renderer draws
-/// the triangulated frame, with the method itself where it has it and naive Phong otherwise.
+/// Adds naive Phong in front if `variants` does not have it, because speeds are relative to it. The
+/// barycentric renderer draws the triangulated frame by the same method if it has it, and by naive
+/// Phong otherwise.
 pub fn draw(
     input: &Input<'_>,
     variants: &[Variant],
     renderer: Renderer,
     progress: &mut dyn FnMut(f32, &str),
 ) -> Comparison {
-    // The pictures are looked at as they are: edges are filtered over the background.
+    // Compare the pictures as they are seen: edges of supersampled frames are blended with the
+    // background.
     let flattened = (input.frame.samples() > 1).then(|| {
         let mut frame = input.frame.clone();
         frame.set_alpha(Alpha::Flattened);
@@ -354,11 +346,14 @@ pub fn draw(
     }
 }
 
-/// Returns about how many bytes [`draw`] needs at its peak, beside the frame: rather too many, by at most a fourth.
+/// Estimates how many bytes [`draw`] needs at its peak, beside the frame. The estimate is too high,
+/// by at most a fourth.
 ///
-/// Held are, for each sample, the reference's polygons, depths and gaps, and the polygons that the engines show; for each pixel, the
-/// closed form of each model, and a stored picture a row. On top of that comes the larger one of a reference while it is shaded, in
-/// `f64`, and a row while it is compared. Frames of other polygons than triangles have a second reference.
+/// [`draw`] keeps, for each sample, the reference's polygon, depth and gap, and the polygons that
+/// the engines show; for each pixel, the closed form of each model, and a stored picture for each
+/// row. At the peak it also holds either a reference that is being shaded, in `f64`, or a row that
+/// is being compared, whichever is larger. A frame with polygons of more than three corners has a
+/// second reference.
 pub fn memory_needed(frame: &Frame, variants: &[Variant]) -> u64 {
     let pixels = (frame.picture_width() * frame.picture_height()) as u64;
     let samples = (frame.width() * frame.height()) as u64;
@@ -379,14 +374,14 @@ pub fn memory_needed(frame: &Frame, variants: &[Variant]) -> u64 {
     };
     let rows = (variants.len() + counterparts.len()) as u64;
     let shading = samples * (32 + visibility) + pixels * (32 + linear);
-    // Of both pictures another stored one, for SSIM.
+    // SSIM needs another stored copy of both pictures.
     let comparing = samples * polygons + pixels * (linear + 3 * stored);
     samples * (references * visibility + 2 * polygons)
         + pixels * (forms * linear + rows * stored)
         + shading.max(comparing)
 }
 
-/// Pixels of the largest picture that [`Comparison::perceive`] keeps filtered.
+/// The largest picture, in pixels, whose filtered reference [`Comparison::perceive`] keeps.
 const MAX_KEPT: usize = 1 << 22;
 
 impl Comparison {
@@ -395,15 +390,16 @@ impl Comparison {
         self.rows.iter().chain(&self.barycentric)
     }
 
-    /// Times all rows together, on the frame that they were drawn from; triangulating is not timed. `progress` hears which
-    /// part is done, never while a time is taken.
+    /// Times all rows together, on the frame from which they were drawn. Triangulation is not
+    /// timed. Calls `progress` with the part that is done, never while a time is measured.
     pub fn time(&mut self, frame: &Frame, limits: TimeLimits, progress: impl FnMut(f32)) {
         self.renderer = DrawnBy::new(self.requested);
         speed::time(self, frame, &triangulated(frame).frame, limits, progress);
     }
 
-    /// Finds the mean ꟻLIP of all rows, [`Difference::flip`] of their errors. It is that of the pictures as they are
-    /// stored; pixels that show another polygon count as well. Pictures of over [`MAX_PERCEIVED`] pixels have none.
+    /// Computes the mean ꟻLIP of all rows, [`Difference::flip`] of their errors. It compares the
+    /// stored pictures and includes pixels that show a different polygon. Does nothing for pictures
+    /// of over [`MAX_PERCEIVED`] pixels.
     pub fn perceive(&mut self) {
         let pixels = self.width * self.height;
         if pixels > MAX_PERCEIVED {
@@ -412,7 +408,8 @@ impl Comparison {
         let encoding = self.encoding;
         let stored = store(&self.reference, encoding);
         let displayed = |picture| Displayed { picture, encoding };
-        // Kept for all rows where that is small: filtered pictures are eight times as large as stored ones.
+        // Filter the reference once for all rows, unless it is large: filtered pictures take eight
+        // times as much memory as stored ones.
         let kept = (pixels <= MAX_KEPT).then(|| Perceived::new(&displayed(&stored)));
         for row in self.rows.iter_mut().chain(&mut self.barycentric) {
             let actual = displayed(&row.picture);
@@ -424,7 +421,7 @@ impl Comparison {
         }
     }
 
-    /// Drops all pictures, which take most of its memory; the rest can still be timed.
+    /// Drops all pictures, which take most of the memory. The rows can still be timed.
     pub fn drop_pictures(&mut self) {
         self.reference = LinearPicture::new(0, 0, [0.0; 4]);
         for row in self.rows.iter_mut().chain(&mut self.barycentric) {
@@ -433,7 +430,7 @@ impl Comparison {
     }
 }
 
-/// Returns `variants`, after naive Phong if that is not among them.
+/// Returns `variants`, with naive Phong in front if it is not among them.
 pub(crate) fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
     let is_missing = !variants.iter().any(is_baseline);
     let baseline = METHODS.iter().filter(|e| e.info.name == BASELINE);
@@ -441,12 +438,12 @@ pub(crate) fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
     baseline.chain(variants.iter().cloned()).collect()
 }
 
-/// True if `variant` is naive Phong, which speeds are stated against.
+/// True if `variant` is naive Phong with default parameters.
 pub(crate) fn is_baseline(variant: &Variant) -> bool {
     variant.info().name == BASELINE && variant.is_default()
 }
 
-/// Returns the name of the method that the barycentric renderer draws for a comparison with `variant`.
+/// Returns the name of the barycentric renderer's method that `variant` is compared with.
 fn counterpart(variant: &Variant) -> &'static str {
     match variant.row().is_barycentric() {
         true => variant.info().name,
@@ -454,8 +451,8 @@ fn counterpart(variant: &Variant) -> &'static str {
     }
 }
 
-/// Returns the methods of the barycentric renderer that `variants` are measured against, each once, in the order of the
-/// table.
+/// Returns the barycentric renderer's methods that `variants` are compared with, without
+/// duplicates, in the order of [`METHODS`].
 fn counterparts(variants: &[Variant]) -> Vec<Variant> {
     let is_wanted = |name| variants.iter().any(|variant| counterpart(variant) == name);
     let entries = METHODS.iter().filter(|entry| is_wanted(entry.info.name));

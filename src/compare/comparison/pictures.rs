@@ -1,4 +1,4 @@
-//! Pictures against references.
+//! Draws the pictures of a comparison and measures them against the references.
 
 use super::{DrawnBy, MethodRow, Triangulation};
 use crate::compare::metrics::{Difference, compare_where, ssim_where};
@@ -6,7 +6,7 @@ use crate::frame::Frame;
 use crate::frame::triangulate::Triangulated;
 use crate::picture::encoding::{Displayed, store};
 use crate::picture::{Encoding, LinearPicture, Picture, Picture8};
-use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
+use crate::raster::{Edges, Renderer, barycentric_polygon_indices, polygon_indices};
 use crate::reference::{self, Clamping, ClosedForm, Model, Visibility};
 use crate::scene::Power;
 use crate::shading::Variant;
@@ -19,18 +19,19 @@ pub(super) struct References<'a> {
     closed_forms: ClosedForms<'a>,
     /// The closed forms on triangles; `None` if the polygons are triangles.
     on_triangles: Option<ClosedForms<'a>>,
-    /// Numbers of the polygons that the span engine shows, with every method; made when they are first asked for.
+    /// The indices of the polygons that the span engine shows, which are equal for all methods;
+    /// made on first use.
     span: OnceCell<Picture<u32>>,
-    /// Numbers of the triangles that the barycentric renderer shows.
+    /// The indices of the triangles that the barycentric renderer shows.
     barycentric: Picture<u32>,
 }
 
-/// The reference pictures of one frame; each is made when it is first asked for.
+/// The reference pictures of one frame. Each is made on first use.
 struct ClosedForms<'a> {
     frame: &'a Frame,
     visibility: Visibility,
     pictures: [OnceCell<LinearPicture>; Model::ALL.len()],
-    /// The clamped samples of the Phong reference, known with its picture.
+    /// The clamped samples of the Phong reference, counted when it is drawn.
     clamping: OnceCell<Clamping>,
 }
 
@@ -58,7 +59,7 @@ impl<'a> ClosedForms<'a> {
 }
 
 impl<'a> References<'a> {
-    /// Prepares the references of `frame`, which `cut` has in triangles.
+    /// Prepares the references of `frame`. `cut` is the frame cut into triangles.
     pub fn new(frame: &'a Frame, cut: &'a Triangulated) -> Self {
         let is_cut = frame.polygons().iter().any(|polygon| polygon.count > 3);
         References {
@@ -66,7 +67,7 @@ impl<'a> References<'a> {
             closed_forms: ClosedForms::new(frame),
             on_triangles: is_cut.then(|| ClosedForms::new(&cut.frame)),
             span: OnceCell::new(),
-            barycentric: barycentric_polygon_numbers(&cut.frame, Edges::TopLeft),
+            barycentric: barycentric_polygon_indices(&cut.frame, Edges::TopLeft),
         }
     }
 
@@ -85,7 +86,7 @@ impl<'a> References<'a> {
             .unwrap_or_default()
     }
 
-    /// Draws a variant that is for the frame by `renderer`, and compares it.
+    /// Draws a variant by `renderer` and compares it. The variant must not refuse the frame.
     pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
         const IS_FOR: &str = "others are left out";
         let forms = &self.closed_forms;
@@ -105,16 +106,17 @@ impl<'a> References<'a> {
         self.row(variant, by, (picture, linear), shown, own)
     }
 
-    /// Returns the numbers of the polygons that a variant shows, drawn by `renderer`.
+    /// Returns the indices of the polygons that a variant shows, drawn by `renderer`.
     fn shown(&self, variant: &Variant, renderer: Renderer) -> Cow<'_, Picture<u32>> {
         let frame = self.closed_forms.frame;
         match renderer {
-            Renderer::Span => Cow::Borrowed(self.span.get_or_init(|| polygon_numbers(frame))),
-            Renderer::Row(_) => Cow::Owned(variant.polygon_numbers(frame, renderer)),
+            Renderer::Span => Cow::Borrowed(self.span.get_or_init(|| polygon_indices(frame))),
+            Renderer::Row(_) => Cow::Owned(variant.polygon_indices(frame, renderer)),
         }
     }
 
-    /// Draws a variant by the barycentric renderer and compares it; `None` if that does not have the method.
+    /// Draws a variant by the barycentric renderer and compares it. Returns `None` if the renderer
+    /// does not have the method.
     pub fn barycentric_row(&self, variant: &Variant) -> Option<MethodRow> {
         let linear = variant.render_barycentric_linear(&self.cut.frame, Edges::TopLeft)?;
         let picture = variant.render_barycentric(&self.cut.frame, Edges::TopLeft)?;
@@ -125,7 +127,8 @@ impl<'a> References<'a> {
         Some(self.row(variant, by, (picture, linear), &shown, own))
     }
 
-    /// Compares the Phong reference of the triangles with that of the polygons; `None` if these are triangles already.
+    /// Compares the Phong reference on triangles with the one on polygons. Returns `None` if the
+    /// polygons are triangles.
     pub fn triangulation(&self) -> Option<Triangulation> {
         let triangles = self.on_triangles.as_ref()?;
         let shown = self.origins(&triangles.visibility.polygons);
@@ -137,13 +140,14 @@ impl<'a> References<'a> {
         })
     }
 
-    /// Maps triangles to the polygons that they were cut from.
+    /// Replaces the indices of triangles by those of the polygons that they were cut from.
     fn origins(&self, triangles: &Picture<u32>) -> Picture<u32> {
         let origin = |triangle| self.cut.origins.get(triangle as usize);
         triangles.map(|triangle| origin(triangle).copied().unwrap_or(Visibility::NONE))
     }
 
-    /// Makes the row of pictures that show the polygons `shown`; without `own` the Phong reference is their closed form.
+    /// Makes the row for a pair of pictures. `shown` holds the polygons that they show. `own` is
+    /// the difference from the method's own closed form, or `None` if that is the Phong reference.
     fn row(
         &self,
         variant: &Variant,
@@ -173,7 +177,7 @@ impl<'a> References<'a> {
 }
 
 impl ClosedForms<'_> {
-    /// Compares `actual` with a closed form where both show the same polygon.
+    /// Compares `actual` with a closed form at the pixels where both show the same polygon.
     fn difference(
         &self,
         form: impl Into<ClosedForm>,
@@ -181,7 +185,7 @@ impl ClosedForms<'_> {
         shown: &Picture<u32>,
     ) -> Difference {
         let (form, seen) = (form.into(), &self.visibility.polygons);
-        // Those of other powers are asked for once or twice, and not kept.
+        // Forms with other powers are needed only once or twice, so they are not kept.
         let reference = match form.power {
             Power::Squaring => Cow::Borrowed(self.picture(form.model)),
             _ => Cow::Owned(self.shaded(form)),
@@ -190,14 +194,15 @@ impl ClosedForms<'_> {
     }
 }
 
-/// True if the pixel at `x` and `y` shows the same polygon in both, at each of its `side` × `side` samples.
+/// True if both show the same polygon at each of the `side` × `side` samples of pixel (`x`, `y`).
 fn same_polygons([seen, shown]: [&Picture<u32>; 2], side: usize, x: usize, y: usize) -> bool {
     let columns = x * side..(x + 1) * side;
     (y * side..(y + 1) * side)
         .all(|row| seen.row(row)[columns.clone()] == shown.row(row)[columns.clone()])
 }
 
-/// Compares two pictures where those of their polygons have the same one. SSIM is that of the pictures as they are stored and shown.
+/// Compares two pictures at the pixels where they show the same polygon. SSIM compares the stored
+/// pictures as a screen shows them.
 fn difference(
     reference: &LinearPicture,
     actual: &LinearPicture,
@@ -222,9 +227,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_model_has_its_own_place() {
-        for (place, model) in Model::ALL.into_iter().enumerate() {
-            assert_eq!(model as usize, place);
+    fn every_model_has_its_own_index() {
+        for (index, model) in Model::ALL.into_iter().enumerate() {
+            assert_eq!(model as usize, index);
         }
     }
 

@@ -1,4 +1,4 @@
-//! Times of all rows of a comparison.
+//! Times all rows of a comparison.
 
 use super::{Comparison, MethodRow, counterpart, is_baseline};
 use crate::compare::timing::{Candidate, Ratio, TimeLimits, Timing, time_interleaved};
@@ -9,25 +9,26 @@ use alloc::vec::Vec;
 use core::hint::black_box;
 use serde::Serialize;
 
-/// The work that a [`Timing`] of a row holds, in one line.
+/// The definition of a row's [`Timing`], in one line.
 pub const WHAT_IS_TIMED: &str = "from projected frame to stored picture: vertex lighting, rasterization, shading and \
                                  storing, with the memory they take; on as many threads as a row says; not loading, normals, \
                                  projection or triangulation";
 
-/// The speed of a variant. A ratio over 1 means faster than the other one.
+/// The speed of a variant. A ratio over 1 means that the variant is faster.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speed {
     /// Times of whole pictures: see [`WHAT_IS_TIMED`].
     pub timing: Timing,
     /// The median time divided by the pixels that any polygon covers; `None` if there are none.
     pub ns_per_covered_pixel: Option<f64>,
-    /// The ratio to naive Phong, drawn as all rows are.
+    /// The ratio to naive Phong, drawn by the same renderer.
     pub ratio_to_naive: Option<Ratio>,
-    /// The ratio to the barycentric renderer with the same method where it has it, naive Phong otherwise.
+    /// The ratio to the barycentric renderer with the same method, or with naive Phong if it does
+    /// not have the method.
     pub ratio_to_barycentric: Option<Ratio>,
 }
 
-/// Times all rows together and gives each its speed.
+/// Times all rows together and sets their speeds.
 pub(super) fn time(
     comparison: &mut Comparison,
     frame: &Frame,
@@ -47,6 +48,7 @@ pub(super) fn time(
             black_box(variant.render_barycentric(black_box(triangles), Edges::TopLeft));
         }));
     }
+    // All candidates share their rounds, so that any two rows can be compared round by round.
     let timings = time_interleaved(&mut candidates, limits, progress);
     drop(candidates);
     let (of_rows, of_barycentric) = timings.split_at(comparison.rows.len());

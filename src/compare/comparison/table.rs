@@ -1,4 +1,4 @@
-//! Comparisons as text for terminals: a row a method, in aligned columns.
+//! Comparisons as text for terminals, with a row for each method.
 
 use super::{Comparison, DrawnBy, MethodRow, Speed};
 use crate::compare::metrics::Difference;
@@ -9,19 +9,20 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-/// The columns of a table. All show error and speed, and, if there are any, the pixels that show another polygon than the
-/// reference, and, if they are many, those that are clamped.
+/// The columns of a table. All kinds show error and speed. They also count the pixels that show a
+/// different polygon from the reference, if there are any, and the clamped pixels, if there are
+/// many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableKind {
-    /// Six columns that fit 100 characters: the essence of error and speed. Others where pixels show another polygon or are clamped.
+    /// The most important columns of error and speed, which fit in 100 characters.
     Short,
-    /// All of the error, and the essence of the speed.
+    /// All columns of the error, and the most important ones of the speed.
     Compare,
-    /// All of the speed, and the essence of the error.
+    /// All columns of the speed, and the most important ones of the error.
     Bench,
 }
 
-/// A column: its head, and the cell of a row; `None` where there is nothing to say.
+/// A column: its heading, and a function that returns the cell of a row, or `None` for a dash.
 type Column = (&'static str, fn(&MethodRow) -> Option<String>);
 
 const METHOD: Column = ("method", |row| {
@@ -29,7 +30,8 @@ const METHOD: Column = ("method", |row| {
     let by = if is_scanlines { "" } else { ", barycentric" };
     Some(row.name() + by)
 });
-/// The method, marked where it misses its own closed form: for tables without the column `own max`.
+/// The method, with a mark if it misses its own closed form. For tables without the column
+/// `own max`.
 const MARKED_METHOD: Column = ("method", |row| {
     let mark = if row.within_bound { "" } else { " !" };
     Some((METHOD.1)(row)? + mark)
@@ -107,24 +109,26 @@ const BENCH: &[Column] = &[
     CLAMPED,
 ];
 
-/// The share of covered pixels that show another polygon from which on it is worth a word, in percent.
+/// The share of covered pixels that show a different polygon from which on the table warns, in
+/// percent.
 const OTHERS: f64 = 0.1;
 
-/// Returns the row with most pixels of other polygons and their share of all in percent, if that is over [`OTHERS`].
+/// Returns the row with the most pixels of other polygons, and their share of the covered pixels in
+/// percent, if it is over [`OTHERS`].
 fn most_others(comparison: &Comparison) -> Option<(&MethodRow, f64)> {
     let row = comparison.all_rows().max_by_key(|row| row.other_polygon)?;
     let share = 100.0 * row.other_polygon as f64 / comparison.covered_pixels.max(1) as f64;
     (share > OTHERS).then_some((row, share))
 }
 
-/// Writes a comparison as text: some lines on the frame, then a row a method.
+/// Returns a comparison as text: some lines on the frame, a row for each method, then notes.
 pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     let columns = match kind {
         TableKind::Short => SHORT,
         TableKind::Compare => COMPARE,
         TableKind::Bench => BENCH,
     };
-    // There are rarely any: then short tables have no column for them.
+    // Such pixels are rare, so short tables have the column only if there are any.
     let has_others = comparison.all_rows().any(|row| row.other_polygon > 0);
     let shows_others = has_others || kind == TableKind::Compare;
     let shows_clamped = comparison.clamping.is_notable() || kind == TableKind::Compare;
@@ -156,8 +160,8 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     }
     if let Some((row, share)) = most_others(comparison) {
         text += &format!(
-            "! {} shows another polygon than the reference at {share:.2} % of the pixels covered: their depths are one but for rounding, and \
-             the errors say nothing of these pixels\n",
+            "! {} shows a different polygon from the reference at {share:.2} % of the covered pixels: the depths there are equal up to \
+             rounding, and the errors do not include these pixels\n",
             cell(row, &&METHOD)
         );
     }
@@ -165,8 +169,7 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
         text += "clamped: covered pixels with a channel at 1, where light is cut off\n";
     }
     if shows_others {
-        text +=
-            "other: pixels that show another polygon than the reference, and are not compared\n";
+        text += "other: pixels that show a different polygon from the reference; they are not compared\n";
     }
     if let Some(note) = clamping_note(&comparison.clamping) {
         text += &format!("warning: {note}\n");
@@ -174,18 +177,18 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     text
 }
 
-/// Says that errors mean less where much of the light is clamped; `None` where little is.
+/// Returns a warning that errors mean less if much of the light is clamped, or `None` if little is.
 pub(crate) fn clamping_note(clamping: &Clamping) -> Option<String> {
     clamping.is_notable().then(|| {
         let share = 100.0 * clamping.share();
         format!(
-            "the light is over 1 in {share:.1} % of the covered picture and is clamped: there methods draw one colour whatever \
-             they compute, and errors vanish"
+            "the light is over 1 in {share:.1} % of the covered picture and is clamped: all methods draw the same colour there, \
+             so that errors vanish"
         )
     })
 }
 
-/// Says which frame was drawn by what, and how to read the table.
+/// Returns the lines above the table: the frame, the engines, and how to read the columns.
 fn head(c: &Comparison) -> String {
     let count = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
     let polygons = match c.polygons < c.stats.polygons {
@@ -221,7 +224,8 @@ fn head(c: &Comparison) -> String {
     text + "\n"
 }
 
-/// Says which rows were drawn by what; all rows on one line if it was the same for all of them.
+/// Returns lines on which engine drew which rows. One line without names if it was the same for all
+/// rows.
 fn drawn_by(c: &Comparison) -> Vec<String> {
     let mut groups: Vec<(DrawnBy, Vec<String>)> = Vec::new();
     for row in &c.rows {
@@ -247,7 +251,7 @@ pub(crate) fn levels(error: f64) -> String {
     }
 }
 
-/// Writes a difference in grey levels with its sign; what rounds to zero is `+0.000`.
+/// Writes a difference in grey levels with its sign. A value that rounds to zero is `+0.000`.
 fn signed_levels(error: f64) -> String {
     format!("{:+.3}", 255.0 * error).replace("-0.000", "+0.000")
 }
@@ -270,7 +274,7 @@ fn milliseconds(ns: f64) -> String {
     significant(ns / 1e6)
 }
 
-/// Writes three significant digits, but never in powers of ten, and at most six decimals.
+/// Writes a value with three significant digits, without an exponent and with at most six decimals.
 pub(crate) fn significant(value: f64) -> String {
     format!("{value:.*}", decimals(value))
 }
@@ -280,7 +284,8 @@ fn decimals(value: f64) -> usize {
     (0..6).find(is_enough).unwrap_or(6)
 }
 
-/// Writes a ratio; `=` before it says that its interval holds 1. The baseline itself is 1 in every round.
+/// Writes a ratio, with `=` in front if its interval contains 1. The baseline itself has the ratio
+/// 1 in every round.
 fn ratio(ratio: &Ratio) -> String {
     let tie = if ratio.tie { "=" } else { "" };
     match (ratio.low, ratio.high) {

@@ -44,7 +44,8 @@ fn frame_of(mesh: &str) -> Frame {
     scene.frame().unwrap()
 }
 
-/// Returns the methods that compute in floats: those in integers err by design, and are not for every frame.
+/// Returns the methods that compute in floats: those in integers err by design, and are not for
+/// every frame.
 fn all() -> Vec<Variant> {
     let floats = METHODS.iter().filter(|entry| !entry.is_integer);
     floats.map(|entry| entry.variant()).collect()
@@ -377,7 +378,7 @@ fn tables_have_a_row_a_method() {
             "six-point: polygons by kind: 12 quadratic, 24 duff-phong",
             // Runs of so few pixels are not worth planning.
             "adaptive-phong: polygons by kind: 36 phong-rsqrt, 0 linear, 0 dull, 0 curved, 0 root",
-            "difference-vector is left out: its highlights are those of N.H, not of R.V",
+            "difference-vector is left out: its highlights are by N.H, not by R.V",
         ] {
             assert!(notes.contains(&expected), "{notes:?}");
         }

@@ -1,58 +1,52 @@
-//! Costs that add up to times: least squares of relative errors, with no cost below zero.
+//! Fits costs to times: non-negative least squares of relative errors.
 
 use alloc::vec::Vec;
 
-/// An observed total, and the counts of the costs that make it.
+/// An observed total, and how often each cost occurs in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation<const N: usize> {
     /// The count of each cost.
     pub counts: [f64; N],
-    /// The sum of all costs, in their unit.
+    /// The observed sum of all costs, in their unit.
     pub total: f64,
-    /// The divisor of errors, over 0: the total itself for relative ones.
+    /// The divisor of the error, over 0. The total itself makes errors relative.
     pub scale: f64,
 }
 
 impl<const N: usize> Observation<N> {
-    /// Returns the sum of `costs` here.
+    /// Returns the total that `costs` predict.
     fn explained(&self, costs: &[f64; N]) -> f64 {
         dot(&self.counts, costs)
     }
 }
 
-/// The least part of a column that the other columns must not explain. With less, noise of a hundredth in the totals could
-/// be taken for the whole of a cost.
-const LEAST_OF_ITS_OWN: f64 = 0.01;
+/// The smallest part of a column, by length, that must be independent of the other columns. With
+/// less, noise of one percent in the totals could be mistaken for a whole cost.
+const LEAST_INDEPENDENT: f64 = 0.01;
 
-/// Returns the costs c of 0 or more that make
+/// Returns the costs c of 0 or more that minimise
 ///
 /// ```text
 /// Σᵢ ((totalᵢ − Σⱼ cⱼ countᵢⱼ) / scaleᵢ)²
 /// ```
 ///
-/// least; `None` if the observations cannot tell them apart: fewer of them than costs, a cost that never arises, or one whose
-/// counts are nearly multiples of the others'; or if a number is not finite or a scale not over 0.
+/// Returns `None` if the observations cannot tell the costs apart: there are fewer observations
+/// than costs, a cost never occurs, or the counts of one are nearly a combination of the others.
+/// Also returns `None` if a value is not finite or a scale is not over 0.
 ///
-/// Tries ordinary least squares over every subset of the costs, the others 0: one of them is the least sum (Lawson & Hanson
-/// 1974, ch. 23, take more care where there are many).
-///
-/// ```
-/// use fastphong::compare::experiments::{Observation, fit};
-///
-/// let seen = |counts, total| Observation { counts, total, scale: total };
-/// let costs = fit(&[seen([1.0, 10.0], 23.0), seen([4.0, 10.0], 32.0), seen([9.0, 20.0], 67.0)]).expect("two unknowns");
-/// assert!((costs[0] - 3.0).abs() < 1e-12 && (costs[1] - 2.0).abs() < 1e-12);
-/// ```
+/// Solves ordinary least squares for every subset of the costs, with the others 0, and keeps the
+/// best solution without negative costs. This is exact, but only fast for few costs (for many, see
+/// Lawson & Hanson 1974, ch. 23).
 pub fn fit<const N: usize>(observations: &[Observation<N>]) -> Option<[f64; N]> {
     let is_sound = |o: &Observation<N>| {
-        let mut numbers = [o.scale, o.total].into_iter().chain(o.counts);
-        o.scale > 0.0 && numbers.all(f64::is_finite)
+        let mut values = [o.scale, o.total].into_iter().chain(o.counts);
+        o.scale > 0.0 && values.all(f64::is_finite)
     };
     let all = (1u32 << N) - 1;
     if observations.len() < N || !observations.iter().all(is_sound) {
         return None;
     }
-    // Costs that cannot be told apart are refused, even if the best subset leaves some of them out.
+    // Refuse costs that cannot be told apart, even if the best subset would not contain them all.
     solve(observations, all)?;
     let mut best = ([0.0; N], cost_of(observations, &[0.0; N]));
     for subset in 1..=all {
@@ -67,6 +61,7 @@ pub fn fit<const N: usize>(observations: &[Observation<N>]) -> Option<[f64; N]> 
     Some(best.0)
 }
 
+/// Returns the sum of squared errors that `costs` leave.
 fn cost_of<const N: usize>(observations: &[Observation<N>], costs: &[f64; N]) -> f64 {
     let square = |o: &Observation<N>| {
         let error = (o.total - o.explained(costs)) / o.scale;
@@ -75,7 +70,8 @@ fn cost_of<const N: usize>(observations: &[Observation<N>], costs: &[f64; N]) ->
     observations.iter().map(square).sum()
 }
 
-/// Solves ordinary least squares over the costs whose bits are in `subset`, the others 0.
+/// Solves ordinary least squares for the costs whose bits are set in `subset`. The other costs
+/// are 0.
 fn solve<const N: usize>(observations: &[Observation<N>], subset: u32) -> Option<[f64; N]> {
     let chosen = || (0..N).filter(|j| subset >> j & 1 == 1);
     let scaled = |j: usize| observations.iter().map(move |o| o.counts[j] / o.scale);
@@ -87,18 +83,20 @@ fn solve<const N: usize>(observations: &[Observation<N>], subset: u32) -> Option
     Some(costs)
 }
 
-/// Returns the factors of `columns` whose sum comes nearest to `right`. Before each column stands the square of its length
-/// before the first call.
+/// Returns the factors that make the sum of `columns` nearest to `right`, or `None` if the columns
+/// are not independent. Each column comes with the square of its original length.
 ///
-/// Solves for the later columns where the first one has no part in anything, then for the first (Gram–Schmidt).
+/// Projects the first column out of everything, solves for the other columns, then for the first
+/// one (Gram–Schmidt).
 fn nearest(columns: &[(f64, Vec<f64>)], right: &[f64]) -> Option<Vec<f64>> {
     let Some(((whole, first), later)) = columns.split_first() else {
         return Some(Vec::new());
     };
     let square = dot(first, first);
-    // Not of a column of zeros either, or of one too large for its square.
-    let is_of_its_own = square > LEAST_OF_ITS_OWN * LEAST_OF_ITS_OWN * whole;
-    if !is_of_its_own {
+    // This also refuses a column of zeros, and one whose square overflows: infinity is not over
+    // infinity.
+    let is_independent = square > LEAST_INDEPENDENT * LEAST_INDEPENDENT * whole;
+    if !is_independent {
         return None;
     }
     let rest = |column: &[f64]| -> Vec<f64> {
@@ -123,7 +121,8 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// Counts as those of a mesh of `triangles` on a picture of `side`² pixels: spans grow with the root of both.
+    /// Returns counts like those of a mesh of `triangles` on a picture of `side`² pixels. Spans
+    /// grow with the root of the triangles.
     fn counts(triangles: f64, side: f64) -> [f64; 4] {
         let spans = 2.0 * libm::sqrt(triangles) * side;
         [
@@ -158,8 +157,9 @@ mod tests {
         places.into_iter().enumerate().map(observation).collect()
     }
 
-    /// Sums of eight products lose less than 2⁻⁴⁰ of themselves, and no column has less than a hundredth of its own, of which
-    /// the triangle of four may lose the fourth power at worst: 10⁸ · 2⁻⁵⁰ < 10⁻⁶.
+    /// Sums of eight products lose less than 2⁻⁴⁰ of themselves. At least a hundredth of each
+    /// column is independent. Solving for four columns may lose the fourth power of that at worst:
+    /// 10⁸ · 2⁻⁵⁰ < 10⁻⁶.
     #[test]
     fn known_costs_are_found_again() {
         let costs = [70.0, 20.0, 4.0, 0.5];
@@ -169,8 +169,9 @@ mod tests {
         }
     }
 
-    /// The fitted costs explain the noisy totals no worse than the true costs do, as it is the least: and those are off by
-    /// the noise, 5 % of it at most 5/95 of what was measured, in each of eight.
+    /// The fitted costs explain the noisy totals at least as well as the true costs, because the
+    /// fit minimises the error. The true costs are off by the noise: 5 %, at most 5/95 of the
+    /// measured total, in each of the eight.
     #[test]
     fn with_noise_no_total_is_missed_by_much_more_than_it() {
         let (costs, noise) = ([70.0, 20.0, 4.0, 0.5], 0.05);
@@ -184,7 +185,8 @@ mod tests {
         );
     }
 
-    /// Each cost alone in two observations, one 5 % too large and one as much too small: it lies between what they say.
+    /// Each cost occurs on its own in two observations, one 5 % too large and one 5 % too small.
+    /// The fit lies between them.
     #[test]
     fn noise_moves_a_cost_by_no_more_than_itself() {
         let seen = |counts: [f64; 2], total| Observation {
@@ -231,13 +233,30 @@ mod tests {
     }
 
     #[test]
+    fn two_costs_are_found_from_three_totals() {
+        let seen = |counts, total| Observation {
+            counts,
+            total,
+            scale: total,
+        };
+        let observations = [
+            seen([1.0, 10.0], 23.0),
+            seen([4.0, 10.0], 32.0),
+            seen([9.0, 20.0], 67.0),
+        ];
+        let costs = fit(&observations).expect("two unknowns");
+        assert!((costs[0] - 3.0).abs() < 1e-12 && (costs[1] - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
     fn errors_count_relative_to_their_scale() {
         let seen = |total: f64| Observation {
             counts: [total],
             total: 2.0 * total,
             scale: 2.0 * total,
         };
-        // A thousandfold total that is off by half weighs as much as a small one that is.
+        // A total that is a thousand times larger and off by half weighs as much as a small one off
+        // by half.
         let mut observations = [seen(1.0), seen(1.0), seen(1000.0)];
         observations[2].total *= 1.5;
         let found = fit(&observations).unwrap()[0];

@@ -1,13 +1,14 @@
-//! Experiments: measurements of a whole report beside its scenes, on spheres.
+//! Experiments of a report, beside its scenes.
 //!
-//! - [`Speedups`]: speeds of all methods as multiples of naive Phong's, in scalar and SIMD arithmetic, shading alone and in
-//!   a whole frame: the gain of fast Phong when it was invented, and today.
-//! - [`Scaling`]: the growth of a frame's time with triangles and with pixels, and the costs of a vertex, a triangle, a
-//!   span and a pixel.
+//! - `Speedups` measures how much faster all methods are than naive Phong, in scalar and SIMD
+//!   arithmetic, for shading only and for whole frames: the gain of fast Phong when it was
+//!   invented, and today.
+//! - `Scaling` measures how the time of a frame grows with triangles and with pixels, and fits the
+//!   costs of a vertex, a triangle, a span and a pixel.
+//! - `climb` searches for the triangle and lights on which a method has the largest error.
 //!
-//! - [`climb`]: the triangle and lights on which a method errs most.
-//!
-//! The first two time on the threads of rayon's current pool: one, where times are to be compared with others.
+//! The first two use the threads of rayon's current pool. It should have one thread if the times
+//! are to be compared with others.
 
 mod fit;
 mod scaling;
@@ -16,10 +17,13 @@ mod speedups;
 mod tests;
 mod worst;
 
-pub use fit::{Observation, fit};
-pub use scaling::{Costs, Curve, Scaling, ScalingOptions, ScalingPoint};
-pub use speedups::{MethodSpeedups, SpeedCorner, Speedup, SpeedupOptions, Speedups, Work};
-pub use worst::{SearchSetting, WorstCase, climb};
+use fit::{Observation, fit};
+pub(crate) use scaling::{Scaling, ScalingOptions};
+#[cfg(test)]
+pub(crate) use speedups::{MethodSpeedups, SpeedCorner, Speedup, Work};
+pub(crate) use speedups::{SpeedupOptions, Speedups};
+pub use worst::WorstCase;
+pub(crate) use worst::{SearchSetting, climb};
 
 use super::comparison::with_baseline;
 use super::timing::Candidate;
@@ -37,24 +41,24 @@ use core::cell::RefCell;
 use core::fmt;
 use core::hint::black_box;
 
-/// The reason why an experiment could not be made: its mesh or its picture.
+/// An error of an experiment.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error(transparent)]
 pub enum ExperimentError {
-    /// There is no mesh of so many polygons.
+    /// A sphere of that size cannot be made.
     Mesh(#[from] BuiltinError),
-    /// There is no picture of that size.
+    /// The sphere cannot be projected onto a picture of that size.
     Frame(#[from] FrameError),
-    /// A method is not for the experiment's frames.
+    /// A method cannot draw the frames of the experiment.
     Draw(#[from] DrawError),
 }
 
-/// Returns the name of a sphere of about so many triangles, without `builtin:`.
+/// Returns the name of a sphere with about this many triangles, without `builtin:`.
 fn sphere(triangles: impl fmt::Display) -> String {
     format!("sphere?polygons={triangles}&triangles=true")
 }
 
-/// Prepares a sphere for frames of a size; mesh and scene are gone then.
+/// Prepares a sphere for frames of a size. The mesh and the scene are dropped.
 fn prepared_sphere(
     triangles: usize,
     [width, height]: [u32; 2],
@@ -64,7 +68,7 @@ fn prepared_sphere(
     Ok(scene.prepare()?)
 }
 
-/// The memory of a frame and of its picture, which all that is timed on one scene share.
+/// The memory for a frame and its picture, shared by all candidates that are timed on one scene.
 struct Canvas(RefCell<(Frame, Picture8)>);
 
 impl Canvas {
@@ -74,7 +78,7 @@ impl Canvas {
         Ok(Canvas(RefCell::new((frame, picture))))
     }
 
-    /// Returns a candidate that projects the scene, and draws it if a `method` is given.
+    /// Returns a candidate that projects the scene, and draws it if there is a `method`.
     fn draws<'a>(
         &'a self,
         scene: &'a PreparedScene,
@@ -93,7 +97,8 @@ impl Canvas {
     }
 }
 
-/// Returns those of `names` that are among `variants`, and naive Phong in any case, with their default parameters.
+/// Returns the methods of `names` that are among `variants` with default parameters. Adds naive
+/// Phong to `variants` first.
 fn chosen(names: &[&str], variants: &[Variant]) -> Vec<Variant> {
     let variants = with_baseline(variants);
     let is_asked = |name: &str| {

@@ -1,6 +1,7 @@
-//! The growth of a frame's time: with the triangles of a sphere, and with the pixels of its picture.
+//! How the time of a frame grows with the triangles of a sphere and with the pixels of its picture.
 //!
-//! [`Scaling::measure`] draws and times spheres, then fits the costs of a vertex, a triangle, a span and a pixel.
+//! [`Scaling::measure`] draws and times spheres, then fits the costs of a vertex, a triangle, a
+//! span and a pixel.
 
 use super::{Canvas, ExperimentError, Observation, chosen, fit, prepared_sphere, sphere};
 use crate::compare::comparison::BASELINE;
@@ -15,32 +16,34 @@ use alloc::vec::Vec;
 use core::time::Duration;
 use serde::Serialize;
 
-/// The methods that are drawn: the floor, the one that the lecture starts from, and the fastest with its picture.
+/// The methods that are drawn: the cheapest one, the one that the lecture starts from, and the
+/// fastest with the same picture.
 const METHODS: [&str; 3] = ["gouraud", BASELINE, "phong-rsqrt"];
 
-/// The factor by which the sphere is smaller in the frames that separate covered pixels from others.
+/// How many times smaller the sphere is in the frames that separate the cost of covered pixels from
+/// the cost of the others.
 const AWAY: f64 = 4.0;
 
 /// The meshes and pictures to draw, and the time to spend.
 #[derive(Clone, Debug)]
 pub struct ScalingOptions {
-    /// Triangles of the meshes, about.
+    /// The approximate numbers of triangles of the meshes.
     pub triangles: Vec<usize>,
-    /// The size of the picture in which they are drawn.
+    /// The size of the picture for all meshes.
     pub at: [u32; 2],
-    /// Sizes of pictures.
+    /// The sizes of pictures for one mesh.
     pub sizes: Vec<[u32; 2]>,
-    /// Triangles of the mesh that is drawn in them.
+    /// The approximate number of triangles of that mesh.
     pub of: usize,
-    /// Meshes of more triangles than this are not drawn in the lecture's own form, which takes long.
+    /// The largest mesh to draw in the lecture's span engine, which is slow.
     pub lecture_up_to: usize,
-    /// The time of each point.
+    /// The time limits of each point.
     pub limits: TimeLimits,
 }
 
 impl Default for ScalingOptions {
-    /// Returns a thousand to four million triangles, 160 × 120 to 3840 × 2160 pixels, a quarter of a second a point, but five rounds
-    /// in any case.
+    /// Returns options with a thousand to four million triangles, 160 × 120 to 3840 × 2160 pixels,
+    /// and a quarter of a second per point, but at least five rounds.
     fn default() -> Self {
         ScalingOptions {
             triangles: [1_000, 4_000, 16_000, 64_000, 256_000, 1_000_000, 4_000_000].into(),
@@ -65,50 +68,51 @@ impl Default for ScalingOptions {
     }
 }
 
-/// A frame: the counts of all that costs, and the time of projecting it.
+/// A frame that was timed: the counts of everything that costs time, and the time of projecting.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScalingPoint {
-    /// About how many triangles were asked for.
+    /// The number of triangles asked for.
     pub asked: usize,
-    /// Pixels a row, rows.
+    /// The width and height of the picture in pixels.
     pub size: [u32; 2],
-    /// True if the sphere is farther away, so that it covers less.
+    /// True if the sphere is smaller, as if it were farther away.
     pub away: bool,
     /// Vertices of the mesh.
     pub vertices: usize,
     /// Triangles of the mesh.
     pub triangles: usize,
-    /// Triangles of the frame: those that are seen from their front.
+    /// Triangles of the frame: those that face the eye.
     pub drawn: usize,
-    /// Spans: runs of pixels that one triangle covers on one scanline, hidden ones too.
+    /// Spans: runs of pixels that a triangle covers on a scanline, including hidden ones.
     pub spans: usize,
     /// Pixels in spans.
     pub pixels: usize,
-    /// Times of projecting alone.
+    /// The times of projecting only.
     pub projection: Timing,
 }
 
-/// The costs of one of each, in nanoseconds.
+/// The fitted costs, in nanoseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Costs {
-    /// A vertex of the mesh: projected, with the triangles around it culled or kept.
+    /// The cost of a vertex of the mesh: it is projected, and its share of the triangles is culled
+    /// or kept.
     pub vertex_ns: f64,
-    /// A triangle of the frame: set up, with its vertices lit.
+    /// The cost of a triangle of the frame: its set-up and the lighting of its vertices.
     pub triangle_ns: f64,
-    /// A span.
+    /// The cost of a span.
     pub span_ns: f64,
-    /// A pixel of a span.
+    /// The cost of a pixel of a span.
     pub pixel_ns: f64,
-    /// A pixel of the picture, covered or not: cleared and stored.
+    /// The cost of a pixel of the picture, covered or not: it is cleared and stored.
     pub background_ns: f64,
-    /// The error of the largest size: the measured time over the sum of the costs, less 1.
+    /// The relative error with the largest magnitude: measured time / sum of the costs − 1.
     pub worst: f64,
-    /// The point that it is of.
+    /// The index of the point with that error.
     pub worst_point: usize,
 }
 
 impl Costs {
-    /// Returns the sum of the costs at a point, in nanoseconds.
+    /// Returns the time that the costs predict for a point, in nanoseconds.
     pub fn explain(&self, point: &ScalingPoint) -> f64 {
         let costs = [
             self.triangle_ns,
@@ -121,7 +125,7 @@ impl Costs {
     }
 }
 
-/// A method, by one renderer.
+/// The times of one method by one renderer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
     /// The method.
@@ -130,40 +134,41 @@ pub struct Curve {
     pub engine: &'static str,
     /// The instruction set.
     pub level: &'static str,
-    /// Times of whole frames, one a point; `None` where the point was left out.
+    /// The times of whole frames, one for each point; `None` for points that were left out.
     pub times: Vec<Option<Timing>>,
-    /// The costs that explain them best; `None` if the points cannot tell costs apart.
+    /// The costs that explain the times best; `None` if the points cannot tell the costs apart.
     pub costs: Option<Costs>,
 }
 
-/// The times of frames, and their costs.
+/// The result of the experiment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scaling {
-    /// The meshes, with `N` for the number of triangles.
+    /// The name of the meshes, with `N` for the number of triangles.
     pub mesh: String,
-    /// The size of the pictures in which triangles grow.
+    /// The size of the picture while the number of triangles varies.
     pub at: [u32; 2],
-    /// The triangles asked for where pixels grow.
+    /// The number of triangles asked for while the number of pixels varies.
     pub of: usize,
     /// The frames that were drawn.
     pub points: Vec<ScalingPoint>,
-    /// The methods; in the end naive Phong in the lecture's own form.
+    /// The methods; the last one is naive Phong in the lecture's span engine.
     pub curves: Vec<Curve>,
 }
 
-/// A method and a renderer that draw a curve, and the most triangles that they draw, in the order of [`Scaling::curves`].
+/// The method and renderer of a curve, and the largest mesh that they draw, in triangles.
 type Way = (Variant, Renderer, usize);
 
-/// A picture size, and true if the sphere is seen from afar.
+/// The size of a picture, and true if the sphere is small in it.
 type SphereView = ([u32; 2], bool);
 
 impl Scaling {
-    /// Draws and times, on the current pool of threads: Gouraud, naive Phong and fast Phong by the hardware's root, as far as
-    /// they are among `variants`, by [`Renderer::fastest`]; naive Phong always, and in the lecture's own form as well.
-    /// `progress` hears which part is done, 0..=1, and what comes next; never while a time is taken.
+    /// Draws and times the methods of [`METHODS`] that are among `variants`, and always naive
+    /// Phong, by [`Renderer::fastest`] on the current pool of threads. Naive Phong is also drawn in
+    /// the lecture's span engine. Calls `progress` with the part that is done, 0..=1, and the name
+    /// of the next step, never while a time is measured.
     ///
     /// # Errors
-    /// [`ExperimentError`] if there is no such mesh or picture.
+    /// If there is no such mesh or picture.
     pub fn measure(
         variants: &[Variant],
         options: &ScalingOptions,
@@ -185,7 +190,8 @@ impl Scaling {
         meshes.push(options.of);
         meshes.sort_unstable();
         meshes.dedup();
-        // About the time that each takes: small meshes have their limits of time, large ones their rounds.
+        // The relative time for each mesh: the time limit decides for small meshes, the number of
+        // rounds for large ones.
         let weight = |triangles: usize| 200_000.0 + triangles as f32;
         let all: f32 = meshes.iter().map(|n| weight(*n)).sum();
         let mut done = 0.0;
@@ -202,7 +208,7 @@ impl Scaling {
         Ok(measured)
     }
 
-    /// Draws and times one view of one mesh.
+    /// Draws and times one view of a mesh, and adds the point.
     fn add(
         &mut self,
         scene: &mut PreparedScene,
@@ -279,7 +285,7 @@ impl Curve {
 }
 
 impl ScalingOptions {
-    /// Returns the views in which a mesh is drawn.
+    /// Returns the views in which to draw a mesh of this many triangles.
     fn views(&self, triangles: usize) -> Vec<SphereView> {
         let mut views = Vec::from([(self.at, false)]);
         if triangles == self.of {
@@ -296,7 +302,8 @@ impl ScalingOptions {
 }
 
 impl ScalingPoint {
-    /// Returns how often each cost but that of vertices arises.
+    /// Returns how often each cost occurs, without vertices: triangles, spans, pixels of spans,
+    /// pixels of the picture.
     fn counts(&self) -> [f64; 4] {
         let picture = f64::from(self.size[0]) * f64::from(self.size[1]);
         let [drawn, spans, pixels] = [self.drawn, self.spans, self.pixels].map(|n| n as f64);
@@ -304,8 +311,8 @@ impl ScalingPoint {
     }
 }
 
-/// Fits the time of projecting a vertex. In one family of meshes triangles are in proportion to vertices, so that no fit of
-/// frames could tell one from the other; therefore projecting is timed by itself.
+/// Fits the time of projecting a vertex. Projecting is timed separately, because spheres have
+/// triangles in proportion to vertices: a fit to whole frames could not tell the two costs apart.
 fn vertex_cost(points: &[ScalingPoint]) -> Option<f64> {
     let observe = |point: &ScalingPoint| Observation {
         counts: [point.vertices as f64],
@@ -316,8 +323,8 @@ fn vertex_cost(points: &[ScalingPoint]) -> Option<f64> {
     fit(&observations).map(|[vertex]| vertex)
 }
 
-/// Fits the costs that explain times beyond `vertex_ns` for each vertex. Least times are explained: points cannot be timed
-/// in turns with one another, and disturbances only add.
+/// Fits the costs other than `vertex_ns` to the times. Uses the least time of each point, because
+/// points are not interleaved and disturbances only add time.
 fn costs(vertex_ns: f64, points: &[ScalingPoint], times: &[Option<Timing>]) -> Option<Costs> {
     let timed = (0..).zip(points).zip(times);
     let timed = timed.filter_map(|((i, p), t)| Some((i, p, t.as_ref()?.min_ns)));

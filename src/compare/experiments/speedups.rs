@@ -1,10 +1,11 @@
-//! Speeds of all methods as multiples of naive Phong's: scalar and SIMD, shading alone and in a whole frame.
+//! How much faster the methods are than naive Phong: scalar and SIMD, shading only and whole
+//! frames.
 
 use super::{Canvas, ExperimentError, prepared_sphere, sphere};
 use crate::compare::comparison::{is_baseline, with_baseline};
 use crate::compare::timing::{Candidate, Ratio, SpanRow, TimeLimits, Timing, time_interleaved};
 use crate::frame::PreparedScene;
-use crate::number::Level;
+use crate::number::SimdLevel;
 use crate::picture::Picture8;
 use crate::picture::encoding::quantise;
 use crate::raster::Renderer;
@@ -18,24 +19,25 @@ use core::hint::black_box;
 use core::time::Duration;
 use serde::Serialize;
 
-/// The angle between the normals at the ends of the span, in degrees: that of a coarse mesh.
+/// The angle between the normals at the ends of the span, in degrees, as on a coarse mesh.
 const DEGREES: f32 = 20.0;
 
 /// The mesh, picture and span to draw, and the time to spend.
 #[derive(Clone, Debug)]
 pub struct SpeedupOptions {
-    /// Triangles of the sphere, about.
+    /// The approximate number of triangles of the sphere.
     pub triangles: usize,
-    /// Pixels a row of its picture, and rows.
+    /// The width and height of its picture in pixels.
     pub size: [u32; 2],
-    /// Pixels of a span; whole groups of eight.
+    /// The pixels of a span, a multiple of 16.
     pub span: usize,
-    /// The time of all.
+    /// The time limits of the whole experiment.
     pub limits: TimeLimits,
 }
 
 impl Default for SpeedupOptions {
-    /// Returns a sphere of 5,000 triangles on 1920 × 1080 pixels, spans of 1,024, six seconds.
+    /// Returns options with a sphere of 5,000 triangles on 1920 × 1080 pixels, spans of 1,024
+    /// pixels, and six seconds.
     fn default() -> Self {
         SpeedupOptions {
             triangles: 5_000,
@@ -54,10 +56,11 @@ impl Default for SpeedupOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Work {
-    /// A long span shaded by the method alone: vertices and set-up, then every pixel.
+    /// A long span shaded without an engine: vertices and set-up, then every pixel.
     Kernel,
-    /// A whole frame, from the prepared scene to the stored picture in RGBA8, in the memory of the frame before: projection,
-    /// culling, vertex lighting, rasterization, shading and storing; on one thread; not vertex normals.
+    /// A whole frame, from the prepared scene to the stored picture in RGBA8, in the memory of the
+    /// previous frame: projection, culling, vertex lighting, rasterization, shading and storing, on
+    /// one thread. Vertex normals are not timed.
     Frame,
 }
 
@@ -66,21 +69,22 @@ pub enum Work {
 pub struct SpeedCorner {
     /// The work that is timed.
     pub work: Work,
-    /// True for the lecture's way: one pixel at a time, frames in [`Renderer::LECTURE`]; else the fastest of this machine,
-    /// frames by [`Renderer::fastest`].
+    /// True for the lecture's way, one pixel at a time, with frames by [`Renderer::LECTURE`]. False
+    /// for the fastest way on this machine, with frames by [`Renderer::fastest`].
     pub scalar: bool,
     /// The instruction set.
     pub level: &'static str,
-    /// Lights.
+    /// The number of lights.
     pub lights: usize,
 }
 
 /// The speed of a method in one corner.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speedup {
-    /// Times of one span or frame.
+    /// The times of one span or frame.
     pub timing: Timing,
-    /// Against naive Phong in the same corner; `None` if a clock too coarse gave no time over 0.
+    /// The ratio to naive Phong in the same corner; `None` if the clock is too coarse to show any
+    /// time.
     pub ratio_to_naive: Option<Ratio>,
 }
 
@@ -89,9 +93,10 @@ pub struct Speedup {
 pub struct MethodSpeedups {
     /// The variant, as a user names it.
     pub method: String,
-    /// The largest difference of a channel from naive Phong's in grey levels, in frames and in spans, in all corners.
+    /// The largest difference of a channel from naive Phong's, in grey levels, over the frames and
+    /// spans of all corners.
     pub levels_off: u8,
-    /// One a corner, in the order of [`Speedups::corners`].
+    /// The speed in each corner, in the order of [`Speedups::corners`].
     pub corners: Vec<Speedup>,
 }
 
@@ -100,23 +105,24 @@ pub struct MethodSpeedups {
 pub struct Speedups {
     /// The mesh of the frames.
     pub mesh: String,
-    /// Pixels a row, rows.
+    /// The width and height of the pictures in pixels.
     pub size: [u32; 2],
     /// Pixels of a span.
     pub span: usize,
-    /// Kernels scalar and SIMD, frames scalar and SIMD, with one light; then kernels with four. A machine without SIMD has no
-    /// such kernels.
+    /// The corners: kernels, scalar and SIMD, and frames, scalar and SIMD, with one light; then
+    /// kernels with four lights. A machine without SIMD has no SIMD kernels.
     pub corners: Vec<SpeedCorner>,
     /// The methods; naive Phong is among them.
     pub methods: Vec<MethodSpeedups>,
 }
 
 impl Speedups {
-    /// Draws and times `variants`, and naive Phong, in one interleaved run on the current pool of threads. `progress` hears
-    /// which part is done, 0..=1, and what comes next; never while a time is taken.
+    /// Draws and times `variants`, and naive Phong, in one interleaved run on the current pool of
+    /// threads. Calls `progress` with the part that is done, 0..=1, and the name of the next step,
+    /// never while a time is measured.
     ///
     /// # Errors
-    /// [`ExperimentError`] if there is no such mesh or picture.
+    /// If there is no such mesh or picture, or a method cannot draw it.
     pub fn measure(
         variants: &[Variant],
         options: &SpeedupOptions,
@@ -167,21 +173,25 @@ impl Speedups {
     }
 }
 
-/// Returns the instruction set in the corners of the lecture, or in those of today.
-fn level(scalar: bool) -> Level {
-    if scalar { Level::Scalar } else { Level::best() }
+/// Returns the instruction set of a corner: scalar code, or the best of this machine.
+fn level(scalar: bool) -> SimdLevel {
+    if scalar {
+        SimdLevel::Scalar
+    } else {
+        SimdLevel::best()
+    }
 }
 
 /// Returns all corners that this machine has.
 fn corners() -> Vec<SpeedCorner> {
-    let best = Level::best();
+    let best = SimdLevel::best();
     let both = |(work, lights)| [true, false].map(|scalar| (work, lights, scalar));
     let all = [(Work::Kernel, 1), (Work::Frame, 1), (Work::Kernel, 4)].map(both);
-    // The best kernel of a machine without SIMD is the scalar one, which is there already.
+    // Without SIMD, the best kernel is the scalar one, which is in the list already.
     let differ = all
         .into_iter()
         .flatten()
-        .filter(|(work, _, scalar)| *scalar || *work == Work::Frame || best != Level::Scalar);
+        .filter(|(work, _, scalar)| *scalar || *work == Work::Frame || best != SimdLevel::Scalar);
     let corner = |(work, lights, scalar)| SpeedCorner {
         work,
         scalar,
@@ -191,10 +201,10 @@ fn corners() -> Vec<SpeedCorner> {
     differ.map(corner).collect()
 }
 
-/// Returns a candidate that shades a span by the method alone.
-fn kernel(variant: &Variant, level: Level, lights: usize, length: usize) -> Candidate<'_> {
+/// Returns a candidate that shades a span without an engine.
+fn kernel(variant: &Variant, level: SimdLevel, lights: usize, length: usize) -> Candidate<'_> {
     let bench = SpanBench::new(DEGREES, lights);
-    if level == Level::Scalar {
+    if level == SimdLevel::Scalar {
         let mut colours = vec![[0.0; 3]; length];
         return Box::new(move || variant.shade_span(black_box(&bench), black_box(&mut colours)));
     }
@@ -202,7 +212,8 @@ fn kernel(variant: &Variant, level: Level, lights: usize, length: usize) -> Cand
     Box::new(move || variant.shade_span_on(level, black_box(&bench), black_box(&mut row)))
 }
 
-/// Returns the largest difference of each variant's pictures from naive Phong's, in all corners.
+/// Returns the largest difference of each variant's pictures from naive Phong's over all corners,
+/// in grey levels.
 fn levels_off(
     variants: &[Variant],
     scene: &PreparedScene,
@@ -226,7 +237,7 @@ fn levels_off(
     Ok(off)
 }
 
-/// Draws a span as it would be stored.
+/// Draws a span as a stored picture of one row.
 fn span_picture(variant: &Variant, corner: &SpeedCorner, length: usize) -> Picture8 {
     let bench = SpanBench::new(DEGREES, corner.lights);
     let mut picture = Picture8::new(length, 1, [0; 4]);
@@ -245,7 +256,8 @@ fn span_picture(variant: &Variant, corner: &SpeedCorner, length: usize) -> Pictu
     picture
 }
 
-/// Returns the largest difference of a channel of two pictures of one size, in grey levels.
+/// Returns the largest difference of a channel between two pictures of the same size, in grey
+/// levels.
 fn farthest(a: &Picture8, b: &Picture8) -> u8 {
     let [a, b] = [a, b].map(|picture| picture.pixels().as_flattened());
     let differences = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));

@@ -1,3 +1,4 @@
+use super::scaling::{Costs, ScalingPoint};
 use super::*;
 use crate::compare::timing::{TimeLimits, Timing};
 use alloc::vec;
@@ -176,7 +177,7 @@ fn there_are_four_corners_and_naive_phong_is_one_of_the_methods() {
         .unwrap();
     assert_eq!(corners[frames + 1], (Work::Frame, false, 1));
     assert_eq!(corners[0], (Work::Kernel, true, 1));
-    if crate::number::Level::best() != crate::number::Level::Scalar {
+    if crate::number::SimdLevel::best() != crate::number::SimdLevel::Scalar {
         assert_eq!(corners[1], (Work::Kernel, false, 1));
         assert_eq!(
             corners[4..],

@@ -1,8 +1,10 @@
-//! The worst case of a method: a triangle and lights on which its picture is farthest from Phong's, found by search.
+//! The worst case of a method: the triangle and lights on which its picture is farthest from
+//! Phong's, found by search.
 //!
-//! A search climbs: from a random triangle whose normals are at most so many degrees apart it takes what makes the largest error larger,
-//! a corner's normal or a light moved by less and less. It is restarted, as hills are many. Every restart has its own random numbers, so that
-//! it finds the same on every machine, in whatever order restarts run.
+//! The search climbs a hill. It starts from a random triangle, moves one normal or one light by
+//! less and less, and keeps a move if the largest error grows. There are many hills, so it is
+//! restarted many times. Each restart has its own random numbers, so that the result is the same on
+//! every machine, whatever the order of restarts.
 
 use crate::frame::{Frame, FrameBuilder, Vertex, sub_pixel};
 use crate::mesh::Material;
@@ -14,12 +16,12 @@ use alloc::vec::Vec;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// What a search varies and what it keeps.
+/// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SearchSetting {
-    /// The most degrees between the normals of two corners.
+    /// The largest angle between the normals of two corners, in degrees.
     pub degrees: f64,
-    /// The number of lights, which share the light of one.
+    /// The number of lights, which together are as bright as one.
     pub lights: usize,
 }
 
@@ -28,22 +30,23 @@ pub struct SearchSetting {
 pub struct WorstCase {
     /// The largest error, in grey levels of 255.
     pub levels: f64,
-    /// True if highlights are those of N·H: the method is not for R·V.
+    /// True if highlights use N·H, because the method cannot draw R·V.
     pub halfway: bool,
-    /// Unit normals of the corners, which stand at the upper left of the picture, at its upper right and at its lower left.
+    /// The unit normals of the corners at the upper left, upper right and lower left of the
+    /// picture.
     pub normals: [[f64; 3]; 3],
     /// Unit vectors toward the lights.
     pub to_lights: Vec<[f64; 3]>,
 }
 
-/// Pixels along the legs of the triangle.
+/// The pixels along each leg of the triangle.
 const SIDE: u32 = 24;
-/// Steps of a climb.
+/// The number of steps of a climb.
 const STEPS: u32 = 300;
-/// The least cosine L·N of pixels that count. Where it is 0 a gated highlight ends with a jump, which the smallest error moves by a pixel:
-/// all searches would end there.
+/// The smallest |L·N| of pixels that count. At 0, a gated highlight ends with a jump, and the
+/// smallest error moves the jump by a pixel. Without this limit, every search would end there.
 const NEAR_TERMINATOR: f64 = 0.1;
-/// The material of all cases: what is diffuse and what is specular, and the exponent.
+/// The material of all cases.
 const MATERIAL: Material = Material {
     ambient: [0.0; 3],
     diffuse: [0.6; 3],
@@ -55,12 +58,12 @@ const MATERIAL: Material = Material {
 struct Random(SplitMix);
 
 impl Random {
-    /// Returns a number in −1..1.
+    /// Returns a random value in −1..1.
     fn signed(&mut self) -> f64 {
         (self.0.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// Returns a vector in a cube of −1..1.
+    /// Returns a random vector in the cube −1..1.
     fn vector(&mut self) -> DVec3 {
         DVec3::new(self.signed(), self.signed(), self.signed())
     }
@@ -100,7 +103,8 @@ impl WorstCase {
         builder.finish().expect("a triangle on the picture")
     }
 
-    /// Returns the largest error of a method on the case, in grey levels; `None` if the method is not for it.
+    /// Returns the largest error of a method on the case, in grey levels, or `None` if the method
+    /// cannot draw it.
     pub fn error(&self, variant: &Variant) -> Option<f64> {
         let frame = self.frame();
         let ours = variant.render_linear(&frame).ok()?;
@@ -126,7 +130,7 @@ impl WorstCase {
         all.any(|to| DVec3::from(*to).dot(n).abs() < NEAR_TERMINATOR * n.length())
     }
 
-    /// True if normals are as near one another as the setting says, and in front.
+    /// True if the normals are within the angle of the setting and face the eye.
     fn is_within(&self, setting: SearchSetting) -> bool {
         let [a, b, c] = self.normals.map(DVec3::from);
         let most = setting.degrees.to_radians();
@@ -138,7 +142,8 @@ impl WorstCase {
 
     /// Returns a random case.
     fn random(random: &mut Random, setting: SearchSetting) -> WorstCase {
-        // The distance of the corners of a triangle from its middle, if it is as wide as may be. Some begin narrower.
+        // The angle of the normals from their middle in the widest triangle. Half of the cases
+        // start narrower.
         let widest = 0.95 * setting.degrees.to_radians() / libm::sqrt(3.0);
         loop {
             let reach = widest * (1.0 - 0.8 * random.signed().max(0.0));
@@ -182,9 +187,10 @@ impl WorstCase {
     }
 }
 
-/// Climbs once, with the random numbers of restart number `restart`; `None` if the method is for no such case.
+/// Climbs once, with the random numbers of the restart at index `restart`. Returns `None` if the
+/// method cannot draw the start.
 pub fn climb(variant: &Variant, setting: SearchSetting, restart: u32) -> Option<WorstCase> {
-    // Settings differ in bits below those of the restart.
+    // The seed has the restart in its upper half and the setting in its lower half.
     let bits = (setting.lights as u64) << 24 | (setting.degrees * 64.0) as u64;
     let mut random = Random(SplitMix(u64::from(restart) << 32 | bits));
     let start = WorstCase::random(&mut random, setting);
@@ -222,7 +228,7 @@ mod tests {
     };
 
     #[test]
-    fn a_restart_finds_the_same_again_and_stays_within_its_setting() {
+    fn a_restart_finds_its_case_again_and_stays_within_its_setting() {
         for name in ["gouraud", "bishop-weimer", "difference-vector"] {
             let variant = Variant::parse(name).unwrap();
             let [one, two] = [(); 2].map(|()| climb(&variant, SETTING, 3).unwrap());
@@ -233,14 +239,15 @@ mod tests {
         }
     }
 
-    /// It finds lost highlights, not from everywhere; and methods that round alone have nothing to find.
+    /// The search finds lost highlights, though not from every start. Methods that only round have
+    /// nothing to find.
     #[test]
     fn a_climb_goes_up() {
         let variant = Variant::parse("gouraud").unwrap();
         let found = (0..8).map(|restart| climb(&variant, SETTING, restart).unwrap().levels);
         let found: Vec<f64> = found.collect();
         let best = found.iter().copied().fold(0.0, f64::max);
-        // A highlight between the corners is lost; of some hills the top is low.
+        // Gouraud loses a highlight between the corners. Some hills are low.
         assert!(
             best > 20.0 && found.iter().any(|levels| *levels < best),
             "{found:?}"

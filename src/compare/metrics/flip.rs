@@ -1,12 +1,13 @@
-//! ꟻLIP: the difference that a person sees when two pictures alternate on a screen.
+//! ꟻLIP: the difference that a viewer sees when two pictures alternate on a screen.
 //!
-//! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: *FLIP: A Difference Evaluator for Alternating Images*,
-//! Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020, in the version for pictures of limited range. Names and constants
-//! are the paper's.
+//! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: *FLIP: A Difference Evaluator
+//! for Alternating Images*, Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020, in the version for
+//! low dynamic range. Names and constants are those of the paper.
 //!
-//! [`Perceived`] holds what the eye makes of one picture: colours, blurred as far as the eye blurs them, and the strength of
-//! edges and points. Two of them give a map of errors in 0..=1. All filters are Gaussians or derivatives of Gaussians, so
-//! rows and columns are filtered one after the other.
+//! [`Perceived`] holds a picture as an observer perceives it: its colours, blurred as the eye blurs
+//! them, and the strength of edges and points. Two of these yield a map of errors in 0..=1. All
+//! filters are Gaussians or derivatives of Gaussians, so they are separable: rows are filtered
+//! first, then columns.
 
 use super::SizeMismatch;
 use super::rows::Part;
@@ -19,24 +20,25 @@ use alloc::vec::Vec;
 use core::f64::consts::PI;
 use glam::{DMat3, Mat3, Vec3};
 
-/// Pixels a degree of the field of view: on a screen 0.7 m wide of 3840 pixels, seen from 0.7 m.
+/// The number of pixels per degree of visual angle, on a screen 0.7 m wide with 3840 pixels, seen
+/// from 0.7 m.
 const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
-/// Exponent of the difference in colour.
+/// The exponent of the difference in colour.
 const QC: f32 = 0.7;
-/// Part of the largest difference in colour that becomes the error [`PT`].
+/// The fraction of the largest difference in colour that is mapped to the error [`PT`].
 const PC: f32 = 0.4;
-/// Error of a difference in colour of [`PC`] times the largest.
+/// The error that a difference in colour of [`PC`] times the largest one is mapped to.
 const PT: f32 = 0.95;
-/// Width of the edge detector of human vision, in degrees.
+/// The width of the edge detector of human vision, in degrees.
 const W: f64 = 0.082;
-/// Width b of the Gaussian that stands for the contrast sensitivity to Y (achromatic).
+/// The width b of the Gaussian for the contrast sensitivity to Y (achromatic).
 const CSF_Y: f64 = 0.0047;
-/// Width b for Cx (red and green).
+/// The width b for Cx (red and green).
 const CSF_CX: f64 = 0.0053;
-/// Amplitude a and width b of the two Gaussians for Cz (blue and yellow), the widest first.
+/// The amplitude a and width b of the two Gaussians for Cz (blue and yellow), the wider one first.
 const CSF_CZ: [[f64; 2]; 2] = [[34.1, 0.04], [13.5, 0.025]];
 
-/// Matrix from linear sRGB to XYZ, in units of the white point D65: white is (1, 1, 1).
+/// The matrix from linear sRGB to XYZ relative to the white point D65: white is (1, 1, 1).
 #[rustfmt::skip]
 const RGB_TO_XYZ: DMat3 = DMat3::from_cols_array(&[
     10_135_552.0 / 23_359_437.0, 2_613_072.0 / 12_288_897.0, 1_425_312.0 / 80_288_307.0,
@@ -45,19 +47,6 @@ const RGB_TO_XYZ: DMat3 = DMat3::from_cols_array(&[
 ]);
 
 /// A picture as an observer perceives it, ready to be compared with others.
-///
-/// ```
-/// use fastphong::compare::metrics::{Perceived, flip_colours, mean_flip};
-/// use fastphong::picture::Picture8;
-///
-/// let reference = Picture8::new(32, 32, [120, 120, 120, 255]);
-/// let darker = Picture8::new(32, 32, [110, 110, 110, 255]);
-/// let map = Perceived::new(&reference).flip(&Perceived::new(&darker))?;
-/// assert!(mean_flip(&map) > 0.05);
-/// let picture = flip_colours(&map); // in the colours of magma
-/// # assert_eq!(picture.width(), 32);
-/// # Ok::<(), fastphong::compare::metrics::SizeMismatch>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct Perceived(Picture<Percept>);
 
@@ -71,7 +60,7 @@ struct Percept {
 }
 
 impl Perceived {
-    /// Filters a picture. Its levels are taken as sRGB in 0..=255, as screens show them; alpha plays no part.
+    /// Filters a picture. Its levels are sRGB in 0..=255, as a screen shows them. Alpha is ignored.
     pub fn new(picture: &dyn LevelRows) -> Perceived {
         let of_whole: [f32; 256] = core::array::from_fn(|k| srgb_decode(k as f64 / 255.0) as f32);
         let linear = |level: f64| match level as u8 {
@@ -90,7 +79,7 @@ impl Perceived {
             }
         }
 
-        // YCxCz without its scale and offset: filters whose weights sum to 1 do not change either.
+        // YCxCz without its scale and offset, which filters whose weights sum to 1 do not change.
         let y = xyz.map(|c| c.y);
         let radius = colour_radius();
         let gaussian = |b| kernel(deviation(b), radius, |_| 1.0);
@@ -99,7 +88,8 @@ impl Perceived {
         let cz = xyz.map(|c| c.y - c.z);
         let [wide, narrow] = CSF_CZ.map(|[a, b]| {
             let weights = gaussian(b);
-            // The weight in the middle is 1 over the sum of all, before they were made to sum to 1.
+            // Before normalisation the middle weight was 1, so 1 over the normalised one is the sum
+            // of all weights.
             let sum = 1.0 / f64::from(weights[radius as usize]);
             (a / libm::sqrt(b) * sum * sum, both_ways(&cz, &weights))
         });
@@ -119,7 +109,8 @@ impl Perceived {
         let edges = strength(&detector(&|x| -x));
         let points = strength(&detector(&|x| x * x / (deviation * deviation) - 1.0));
 
-        // The colour of one pixel after the other: backgrounds are converted once.
+        // Remember the last colour, so that runs of equal pixels, such as the background, are
+        // converted once.
         let mut last = ([f32::NAN; 4], Vec3::ZERO);
         let percept = |i: usize| {
             let planes = [&blurred_y, &blurred_cx, &wide.1, &narrow.1].map(|p| p.pixels()[i]);
@@ -140,7 +131,7 @@ impl Perceived {
         Perceived(picture.expect("a percept for each pixel"))
     }
 
-    /// Returns the error of each pixel of `actual`, from 0 for no visible difference to 1.
+    /// Returns the error of each pixel of `actual`, from 0 for no visible difference up to 1.
     ///
     /// # Errors
     /// If the sizes differ.
@@ -157,11 +148,27 @@ impl Perceived {
     }
 }
 
-/// Pixels that are filtered at a time: the filters need 100 bytes for each.
+/// How many pixels are filtered at a time. The filters need 100 bytes for each.
 const PART: usize = 1 << 20;
 
-/// Returns the error of each pixel of `actual`, as [`Perceived::flip`] does, and filters some rows at a time, so that large
-/// pictures need little memory beside the map.
+/// Returns ꟻLIP: for each pixel, the error that a viewer sees when the pictures alternate, from 0
+/// for no visible difference up to 1.
+///
+/// Levels are sRGB, as a screen shows them, and alpha is ignored. Some rows are filtered at a time,
+/// so that large pictures need little memory beside the map.
+///
+/// ```
+/// use fastphong::compare::metrics::{flip_colours, flip_map, mean_flip};
+/// use fastphong::picture::Picture8;
+///
+/// let reference = Picture8::new(32, 32, [120, 120, 120, 255]);
+/// let darker = Picture8::new(32, 32, [110, 110, 110, 255]);
+/// let map = flip_map(&reference, &darker)?;
+/// assert!(mean_flip(&map) > 0.05);
+/// let picture = flip_colours(&map); // in the colours of magma
+/// # assert_eq!(picture.width(), 32);
+/// # Ok::<(), fastphong::compare::metrics::SizeMismatch>(())
+/// ```
 ///
 /// # Errors
 /// If the sizes differ.
@@ -172,7 +179,7 @@ pub fn flip_map(
     SizeMismatch::check(reference.size(), actual.size())?;
     let [width, height] = reference.size();
     let mut map = Picture::new(width, height, 0.0);
-    // Rows above and below that the filters reach.
+    // The filters read this many rows above and below a pixel, so parts overlap by that.
     let reach = colour_radius().max(feature_radius()) as usize;
     let step = (PART / width.max(1)).max(reach);
     for first in (0..height).step_by(step) {
@@ -191,7 +198,7 @@ pub fn flip_map(
     Ok(map)
 }
 
-/// Returns how far the filters of colours reach, in pixels.
+/// Returns the radius of the colour filters in pixels.
 fn colour_radius() -> i32 {
     libm::ceil(3.0 * deviation(CSF_CZ[0][1])) as i32
 }
@@ -199,18 +206,19 @@ fn colour_radius() -> i32 {
 /// The standard deviation of the detectors of edges and points, in pixels.
 const FEATURE_DEVIATION: f64 = 0.5 * W * PIXELS_PER_DEGREE;
 
-/// Returns how far the detectors reach, in pixels.
+/// Returns the radius of the detectors in pixels.
 fn feature_radius() -> i32 {
     libm::ceil(3.0 * FEATURE_DEVIATION) as i32
 }
 
-/// Returns the mean of a map of errors, 0 if it is empty.
+/// Returns the mean of a map of [`flip_map`], or 0 if it is empty.
 pub fn mean_flip(map: &Picture<f32>) -> f64 {
     let sum: f64 = map.pixels().iter().copied().map(f64::from).sum();
     sum / map.pixels().len().max(1) as f64
 }
 
-/// Returns a map of errors in the colours of magma, as the authors' tool writes it: black for 0, a light yellow for 1.
+/// Draws a map of [`flip_map`] in the colours of magma, as the authors' tool does: black for 0,
+/// light yellow for 1.
 pub fn flip_colours(map: &Picture<f32>) -> Picture8 {
     map.map(|error| {
         let [_, r, g, b] = MAGMA[usize::from((255.0 * error + 0.5) as u8)].to_be_bytes();
@@ -218,12 +226,14 @@ pub fn flip_colours(map: &Picture<f32>) -> Picture8 {
     })
 }
 
-/// Returns the standard deviation, in pixels, of a contrast sensitivity of width `b`: exp(−π² x²/b), x in degrees.
+/// Returns the standard deviation, in pixels, of a contrast sensitivity of width `b`: exp(−π²
+/// x²/b), x in degrees.
 fn deviation(b: f64) -> f64 {
     libm::sqrt(b / 2.0) / PI * PIXELS_PER_DEGREE
 }
 
-/// Returns the weights of a Gaussian times `shape`; the positive ones sum to 1, the negative ones to −1.
+/// Returns the weights of a Gaussian times `shape`, scaled so that the positive ones sum to 1 and
+/// the negative ones to −1.
 fn kernel(deviation: f64, radius: i32, shape: impl Fn(f64) -> f64) -> Vec<f32> {
     let weight = |x: i32| {
         let (x, t) = (f64::from(x), f64::from(x) / deviation);
@@ -236,7 +246,7 @@ fn kernel(deviation: f64, radius: i32, shape: impl Fn(f64) -> f64) -> Vec<f32> {
     weights.iter().map(normalised).collect()
 }
 
-/// Filters rows; beyond the picture its outermost pixels go on.
+/// Filters rows. Beyond the picture, its outermost pixels are repeated.
 fn rows(plane: &Picture<f32>, weights: &[f32]) -> Picture<f32> {
     let (width, radius) = (plane.width(), weights.len() / 2);
     let mut filtered = plane.clone();
@@ -262,7 +272,7 @@ fn rows(plane: &Picture<f32>, weights: &[f32]) -> Picture<f32> {
     filtered
 }
 
-/// Filters columns; beyond the picture its outermost pixels go on.
+/// Filters columns. Beyond the picture, its outermost pixels are repeated.
 fn columns(plane: &Picture<f32>, weights: &[f32]) -> Picture<f32> {
     let (last, radius) = (plane.height().saturating_sub(1), weights.len() / 2);
     let mut filtered = plane.clone();
@@ -282,11 +292,13 @@ fn columns(plane: &Picture<f32>, weights: &[f32]) -> Picture<f32> {
     filtered
 }
 
+/// Filters rows, then columns.
 fn both_ways(plane: &Picture<f32>, weights: &[f32]) -> Picture<f32> {
     columns(&rows(plane, weights), weights)
 }
 
-/// Returns the L\*a\*b\* of a colour in XYZ, its a\* and b\* less in the dark, as Hunt found.
+/// Returns the L\*a\*b\* of a colour in XYZ, with Hunt's adjustment: a\* and b\* are smaller in the
+/// dark.
 fn hunt_lab(xyz: Vec3) -> Vec3 {
     const DELTA: f32 = 6.0 / 29.0;
     let [x, y, z] = xyz.to_array().map(|t| match t > DELTA * DELTA * DELTA {
@@ -298,18 +310,20 @@ fn hunt_lab(xyz: Vec3) -> Vec3 {
     Vec3::new(lightness, a, b)
 }
 
-/// Returns the distance of two colours: that of their lightness plus that of their chroma.
+/// Returns the HyAB distance of two colours: the distance in lightness plus the distance in chroma.
 fn hyab(p: Vec3, q: Vec3) -> f32 {
     let d = p - q;
     d.x.abs() + libm::sqrtf(d.y * d.y + d.z * d.z)
 }
 
-/// Returns the error between two pixels; `most` is the largest difference in colour, with its exponent.
+/// Returns the error between two pixels. `most` is the largest difference in colour, raised to
+/// [`QC`].
 fn error(r: &Percept, a: &Percept, most: f32) -> f32 {
     if r == a {
         return 0.0;
     }
-    // By logarithms: two of them cost less than two powers.
+    // The result is colour^(1 − feature). Working with logarithms needs fewer of them than two
+    // powers would. A colour difference of 0 has the logarithm −∞, which ends as 0.
     let power = QC * libm::log2f(hyab(r.lab, a.lab));
     let limit = PC * most;
     let colour = match power < libm::log2f(limit) {
@@ -321,7 +335,7 @@ fn error(r: &Percept, a: &Percept, most: f32) -> f32 {
     libm::exp2f((1.0 - feature) * colour)
 }
 
-/// The colour map magma, 0xRRGGBB, in 8 bits: equal steps look equal, from black to a light yellow.
+/// The colour map magma, 0xRRGGBB. Equal steps look equal, from black to light yellow.
 ///
 /// By Nathaniel J. Smith and Stéfan van der Walt, dedicated to the public domain (CC0).
 #[rustfmt::skip]
@@ -356,10 +370,12 @@ static MAGMA: [u32; 256] = [
 mod tests {
     use super::*;
 
-    /// Expected numbers are those of the authors' implementation, `flip_evaluator` 1.7 of the Python package index:
-    /// `flip_evaluator.evaluate(reference, actual, "LDR", applyMagma=False)` of pictures of levels / 255.
+    /// The expected values are from the authors' implementation, `flip_evaluator` 1.7 of the Python
+    /// package index: `flip_evaluator.evaluate(reference, actual, "LDR", applyMagma=False)` of
+    /// pictures of levels / 255.
     ///
-    /// Both compute in f32. The square root of a difference in features makes 1e-8 of it 1e-4 of the error.
+    /// Both compute in f32. The square root of the difference in features turns an error of 1e-8
+    /// into one of 1e-4.
     const TOLERANCE: f32 = 1e-4;
 
     fn flip(reference: &Picture8, actual: &Picture8) -> Picture<f32> {

@@ -1,8 +1,8 @@
-//! The list of metrics: whoever prints, tabulates or tests a difference goes through it.
+//! The list of metrics. Everything that prints, tabulates or tests a difference uses it.
 
 use super::Difference;
 
-/// The good values of a metric.
+/// Which values of a metric are good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
 #[cfg_attr(feature = "io", serde(rename_all = "lowercase"))]
@@ -11,38 +11,39 @@ pub enum Better {
     Lower,
     /// The higher the better.
     Higher,
-    /// The nearer to zero the better; the sign has a meaning.
+    /// The nearer to zero the better. The sign has a meaning.
     Zero,
 }
 
-/// One number of a [`Difference`], for people.
+/// The description of a metric: a value of a [`Difference`], converted to a unit for people.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct MetricInfo {
     /// The name on the command line and in tables.
     pub name: &'static str,
-    /// The unit that `value` states it in; empty for a plain number.
+    /// The unit of `value`, or an empty text for a plain number.
     pub unit: &'static str,
     /// The meaning, in one line.
     pub meaning: &'static str,
-    /// The good values.
+    /// Which values are good.
     pub better: Better,
-    /// The number in `unit`; `None` where the pictures do not have it.
+    /// Returns the value in `unit`, or `None` if the pictures do not have one.
     #[cfg_attr(feature = "io", serde(skip))]
     pub value: fn(&Difference) -> Option<f64>,
 }
 
 impl MetricInfo {
-    /// Returns the metric called `name`.
+    /// Returns the metric with this name.
     pub fn named(name: &str) -> Option<&'static MetricInfo> {
         METRICS.iter().find(|metric| metric.name == name)
     }
 }
 
-/// Grey levels in the range of a channel.
+/// How many grey levels the range of a channel has.
 const LEVELS: f64 = 255.0;
 
-/// Every metric, the most telling first.
+/// All metrics, the most useful ones first.
 pub static METRICS: &[MetricInfo] = &[
     MetricInfo {
         name: "max",

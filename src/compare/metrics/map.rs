@@ -1,31 +1,36 @@
-//! Difference as a picture.
+//! Maps: the difference between two pictures as a picture.
 //!
-//! Both maps are drawn on a scale that the caller states, in grey levels, and never on one fitted to the picture: maps
-//! of different methods can only be compared on the same scale. Equal pixels are black and any difference, however small,
-//! is not; larger differences than the scale have a colour that the scale does not contain.
+//! The caller sets the scale of a map in grey levels. It is never fitted to the pictures, because
+//! maps of different methods can only be compared on the same scale. Equal pixels are black, and
+//! any difference, however small, is not. Differences beyond the scale have a colour that the scale
+//! does not contain.
 
 use super::{PixelDifference, SizeMismatch, for_each_row};
 use crate::picture::{LevelRows, Picture8};
 
-/// Colour of pixels without a difference.
-pub const EQUAL: [u8; 4] = [0, 0, 0, 255];
-/// Colour of pixels whose error is beyond the scale, or not finite in one picture alone; in the signed map, of those that are too bright.
-pub const BEYOND: [u8; 4] = [255, 0, 255, 255];
-/// Colour, in the signed map, of pixels that are too dark by more than the scale.
-pub const BEYOND_DARKER: [u8; 4] = [0, 255, 0, 255];
-/// Colour of pixels that only one of the pictures covers, whatever their difference.
-pub const COVERAGE: [u8; 4] = [255, 255, 255, 255];
+/// The colour of equal pixels: black.
+pub(crate) const EQUAL: [u8; 4] = [0, 0, 0, 255];
+/// The colour of pixels whose error is beyond the scale, or that are finite in only one picture:
+/// magenta. In the signed map, only pixels that are too bright.
+pub(crate) const BEYOND: [u8; 4] = [255, 0, 255, 255];
+/// The colour, in the signed map, of pixels that are too dark by more than the scale: green.
+pub(crate) const BEYOND_DARKER: [u8; 4] = [0, 255, 0, 255];
+/// The colour of pixels that only one picture covers, whatever their difference: white.
+pub(crate) const COVERAGE: [u8; 4] = [255, 255, 255, 255];
 
-/// Ends of the signed map's ramp for pixels that are too bright: orange, from dark to light.
+/// The ends of the signed map's scale for pixels that are too bright: orange, from dark to light.
 const BRIGHTER: [[f64; 3]; 2] = [[80.0, 32.0, 8.0], [255.0, 196.0, 120.0]];
-/// Ends of its ramp for pixels that are too dark: blue, which colour-blind eyes tell from orange, too.
+/// The ends of its scale for pixels that are too dark: blue, which colour-blind eyes can tell from
+/// orange.
 const DARKER: [[f64; 3]; 2] = [[16.0, 40.0, 92.0], [136.0, 200.0, 255.0]];
 
-/// Draws the absolute difference of two pictures, the largest of a pixel's channels, alpha among them, in the colours of
-/// viridis.
+/// Draws the absolute difference between two pictures in the colours of viridis. The difference of
+/// a pixel is the largest one of its channels, including alpha.
 ///
-/// Purple is the smallest difference, yellow one of `scale` grey levels. Black: equal; [`BEYOND`]: more than `scale`, or
-/// not finite; [`COVERAGE`]: covered by one picture only. Every difference is beyond a scale that is zero, negative or NaN.
+/// Purple is the smallest difference, yellow a difference of `scale` grey levels. Equal pixels are
+/// black. Pixels are magenta if they differ by more than `scale` or are finite in only one picture,
+/// and white if only one picture covers them. If `scale` is zero, negative or NaN, every difference
+/// is magenta.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -39,11 +44,14 @@ pub fn difference_map(
     })
 }
 
-/// Draws the difference of luminance of two pictures, with its sign: orange where `actual` is too bright, blue where it is too dark.
+/// Draws the signed difference of luminance between two pictures: orange where `actual` is too
+/// bright, blue where it is too dark.
 ///
-/// The darkest orange or blue is the smallest difference, the lightest one of `scale` grey levels. Black: equal in
-/// luminance; [`BEYOND`], [`BEYOND_DARKER`]: too bright or too dark by more than `scale`; [`COVERAGE`]: covered by one
-/// picture only. A pixel that is not finite is [`BEYOND`]. Every difference is beyond a scale that is zero, negative or NaN.
+/// The darkest orange or blue is the smallest difference, the lightest a difference of `scale` grey
+/// levels. Pixels of equal luminance are black. Pixels are magenta if they are too bright by more
+/// than `scale` or are finite in only one picture, green if they are too dark by more than `scale`,
+/// and white if only one picture covers them. If `scale` is zero, negative or NaN, every difference
+/// is magenta or green.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -57,6 +65,7 @@ pub fn signed_difference_map(
     })
 }
 
+/// Draws a map with the colour that `colour` returns for each difference.
 fn paint(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,
@@ -79,11 +88,12 @@ fn paint(
     Ok(map)
 }
 
+/// Returns the colour of an absolute error on the scale, both in grey levels.
 pub(super) fn absolute_colour(error: f64, scale: f64) -> [u8; 4] {
     if error == 0.0 {
         return EQUAL;
     }
-    // A comparison with NaN fails: it ends beyond the scale.
+    // Comparisons with NaN are false, so an error or a scale of NaN ends in the other branch.
     if error <= scale {
         let [_, r, g, b] = VIRIDIS[(255.0 * (error / scale) + 0.5) as usize].to_be_bytes();
         [r, g, b, 255]
@@ -92,6 +102,7 @@ pub(super) fn absolute_colour(error: f64, scale: f64) -> [u8; 4] {
     }
 }
 
+/// Returns the colour of a signed error on the scale, both in grey levels.
 fn signed_colour(error: f64, scale: f64) -> [u8; 4] {
     if error == 0.0 {
         return EQUAL;
@@ -109,10 +120,11 @@ fn signed_colour(error: f64, scale: f64) -> [u8; 4] {
     }
 }
 
-/// The colour map viridis, 0xRRGGBB: equal steps look equal, in grey and to colour-blind eyes too, and its dark end is not black.
+/// The colour map viridis, 0xRRGGBB. Equal steps look equal, even in grey and to colour-blind eyes,
+/// and its dark end is not black.
 ///
-/// By Nathaniel J. Smith, Stéfan van der Walt and Eric Firing, dedicated to the public domain (CC0); 8-bit values as in
-/// Matplotlib 3.11.
+/// By Nathaniel J. Smith, Stéfan van der Walt and Eric Firing, dedicated to the public domain
+/// (CC0); 8-bit values as in Matplotlib 3.11.
 #[rustfmt::skip]
 static VIRIDIS: [u32; 256] = [
     0x440154, 0x440256, 0x450457, 0x450559, 0x46075a, 0x46085c, 0x460a5d, 0x460b5e, 0x470d60, 0x470e61, 0x471063,

@@ -1,28 +1,31 @@
-//! A picture against a picture: the error of a method in numbers and as a map.
+//! The difference between two pictures, as metrics and as maps.
 //!
-//! Values are compared as stored: linear pictures in linear light, encoded ones in their encoding. Compare only pictures
-//! that are stored the same way; `image_file::Pair` makes two files so.
+//! [`compare()`] returns a [`Difference`] with all metrics, and [`METRICS`] lists them with names
+//! and units. [`difference_map`] and [`signed_difference_map`] draw the difference. [`flip_map`]
+//! computes ꟻLIP, the difference that a viewer sees.
 //!
-//! Errors are kept in 0..=1, as colours are; [`METRICS`] states them in grey levels (1/255), as people do.
+//! Values are compared as stored: linear pictures in linear light, encoded ones in their encoding.
+//! Compare only pictures that are stored the same way; `image_file::Pair` converts two files for
+//! that. Errors are in 0..=1, as colours are, and [`METRICS`] converts them to grey levels (1/255).
 //!
 //! # Which pixels count
-//! A pixel that neither picture covers, alpha 0 in both, is *background*: its colours do not count, and it is left out of every
-//! mean, as more of it would flatter every method. All others are *compared*. Alpha is a channel like the colours: an error of a
-//! colour counts for at least as much as that of alpha. Where only one picture covers a pixel there is no colour to compare, and
-//! the error is that of alpha; such pixels are counted as coverage mismatches as well. Only PSNR, SSIM, ꟻLIP and `frame_rms` are
-//! taken over the whole frame, so that they equal what other tools report.
+//! A pixel with alpha 0 in both pictures is *background*. Its colours do not count, and it is left
+//! out of every mean, because more background would flatter every method. All other pixels are
+//! *compared*. Alpha is a channel like the colours, and the error of a colour is at least the error
+//! of alpha. If only one picture covers a pixel, there is no colour to compare: the error is the
+//! error of alpha, and the pixel also counts as a coverage mismatch. PSNR, SSIM, ꟻLIP and
+//! `frame_rms` are taken over the whole frame, so that they equal the results of other tools.
 //!
 //! # Memory
-//! Pictures are read by rows, each as often as it takes. Beside the pictures no metric needs more than some rows and 10 MB; ꟻLIP
-//! needs 110 MB, and its map 4 bytes a pixel.
+//! Pictures are read row by row, as often as needed. Beside the pictures, the metrics need a few
+//! rows and at most 10 MB. ꟻLIP needs 110 MB, and its map 4 bytes per pixel.
 
 use alloc::vec::Vec;
 use core::fmt;
 
 mod flip;
 #[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod judgement;
+pub(crate) mod judgement;
 mod list;
 mod map;
 mod percentile;
@@ -30,79 +33,91 @@ mod rows;
 mod ssim;
 
 use crate::picture::{LevelRows, Levels};
-pub use flip::{Perceived, flip_colours, flip_map, mean_flip};
+#[cfg(feature = "cli")]
+pub(crate) use flip::Perceived;
+pub use flip::{flip_colours, flip_map, mean_flip};
 pub use list::{Better, METRICS, MetricInfo};
-pub use map::{BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, difference_map, signed_difference_map};
+pub use map::{difference_map, signed_difference_map};
 use percentile::Percentile;
 use rows::for_each_row;
 use ssim::MeanSsim;
-pub use ssim::{ssim, ssim_where};
+#[cfg(feature = "cli")]
+pub(crate) use ssim::{ssim, ssim_where};
 
-/// Share of the compared pixels whose error does not exceed [`Difference::p99`].
+/// The share of the compared pixels whose error does not exceed [`Difference::p99`].
 const PERCENTILE: f64 = 0.99;
 
-/// Pixels of the largest picture for which SSIM and ꟻLIP are computed, 8192 × 8192: beyond that they take minutes.
-pub const MAX_PERCEIVED: usize = 1 << 26;
+/// The largest picture, in pixels, for which SSIM and ꟻLIP are computed: 8192 × 8192. Larger ones
+/// would take minutes.
+pub(crate) const MAX_PERCEIVED: usize = 1 << 26;
 
-/// The difference between two pictures, in numbers.
+/// The difference between two pictures: the result of [`compare()`].
 ///
-/// A pixel's error is the largest absolute difference of its channels, alpha among them, in 0..=1 for values in 0..=1. A channel
-/// that is infinite or not a number counts as equal if it is the same in both pictures, and as an error of 1 otherwise.
+/// The error of a pixel is the largest absolute difference of its channels, including alpha: 0..=1
+/// for values in 0..=1. A channel that is infinite or not a number is equal if it is the same in
+/// both pictures, and an error of 1 otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Difference {
-    /// True if the pictures agree in the colour and coverage of every pixel, excluded ones aside.
+    /// True if the pictures have the same colour and coverage at every pixel that is not excluded.
     pub equal: bool,
-    /// Pixels of the frame, without those excluded.
+    /// The number of pixels of the frame, without excluded ones.
     pub frame: usize,
-    /// Pixels left out on the caller's wish.
+    /// The number of pixels that the caller excluded.
     pub excluded: usize,
-    /// Pixels that the means are taken over: the frame without its background.
+    /// The number of pixels that the means are taken over: the frame without its background.
     pub compared: usize,
-    /// Compared pixels whose colour and alpha are not the same to the last bit.
+    /// The number of compared pixels whose colour or alpha differs, even by one bit.
     pub differing: usize,
-    /// Compared pixels with an error of more than half a grey level, 0.5/255: those that may be stored differently.
+    /// The number of compared pixels with an error of more than half a grey level, 0.5/255, which
+    /// may be stored differently.
     pub over_half_level: usize,
-    /// Compared pixels with an error of more than one grey level, 1/255.
+    /// The number of compared pixels with an error of more than one grey level, 1/255.
     pub over_one_level: usize,
-    /// Pixels that only one of the pictures covers: alpha is 0 in one and not in the other.
+    /// The number of pixels that only one picture covers: alpha is 0 in one and not in the other.
     pub coverage_mismatches: usize,
-    /// Compared pixels with a channel that is infinite or not a number in either picture.
+    /// The number of compared pixels with a channel that is infinite or not a number in either
+    /// picture.
     pub not_finite: usize,
-    /// Those of them whose channel is not the same in both pictures. No number of levels says how far they are off: a test
-    /// with any threshold fails.
-    // Pictures of methods are finite: results have no such pixels.
+    /// The number of those pixels whose channel differs between the pictures. No number of levels
+    /// can state their error, so a test with any threshold fails.
+    // Methods draw finite pictures, so the JSON of comparisons has no such pixels.
     #[cfg_attr(feature = "io", serde(skip))]
     pub not_finite_differing: usize,
     /// The largest error of a pixel.
     pub max: f64,
-    /// Column and row of the first pixel, in reading order, with the largest error; `None` if no colour differs.
+    /// The column and row of the first pixel, in reading order, with the largest error; `None` if
+    /// no colour differs.
     pub worst: Option<[usize; 2]>,
     /// The error that 99 % of the compared pixels do not exceed.
     pub p99: f64,
-    /// Mean absolute error over the channels of the compared pixels.
+    /// The mean absolute error over the channels of the compared pixels.
     pub mae: f64,
-    /// Root of the mean squared error over the channels of the compared pixels.
+    /// The root of the mean squared error over the channels of the compared pixels.
     pub rms: f64,
-    /// Root of the mean squared error over the whole frame.
+    /// The root of the mean squared error over the whole frame.
     pub frame_rms: f64,
-    /// Mean of the luminance of the actual picture minus the reference's, over the compared pixels: positive if it is too bright.
+    /// The mean difference of luminance, actual − reference, over the compared pixels: positive if
+    /// the picture is too bright.
     pub signed_mean: f64,
-    /// Peak signal-to-noise ratio over the whole frame, −20 log₁₀ `frame_rms`, in dB; infinite if no colour differs (JSON has `null` for that).
+    /// The peak signal-to-noise ratio over the whole frame, −20 log₁₀ `frame_rms`, in dB; infinite
+    /// if no colour differs (`null` in JSON).
     pub psnr: f64,
-    /// Mean structural similarity of luminance over the whole frame (Wang et al. 2004: 11×11 Gaussian window, σ = 1.5,
-    /// K1 = 0.01, K2 = 0.03, L = 1), 1 for equal pictures; `None` if the frame is smaller than the window, or
-    /// has more than [`MAX_PERCEIVED`] pixels.
+    /// The mean structural similarity of luminance over the whole frame (Wang et al. 2004: 11×11
+    /// Gaussian window, σ = 1.5, K1 = 0.01, K2 = 0.03, L = 1), 1 for equal pictures; `None` if the
+    /// frame is smaller than the window, or has more than 2²⁶ pixels.
     ///
     /// Excluded pixels count as equal.
     pub ssim: Option<f64>,
-    /// Mean ꟻLIP over the whole frame, as both pictures are stored: 0 for equal pictures, at most 1; `None` unless it was
-    /// asked for, as it takes twice as long as all others together ([`Perceived`]).
+    /// The mean ꟻLIP over the whole frame of the stored pictures: 0 for equal pictures, at most 1.
+    /// [`compare()`] leaves it `None`, because it takes twice as long as all other metrics
+    /// together: compute it by [`flip_map`] and [`mean_flip`].
     pub flip: Option<f64>,
 }
 
 impl Difference {
-    /// Returns the share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
+    /// Returns `count` as a share of the compared pixels, in 0..=1; 0 if no pixel was compared.
     pub fn share(&self, count: usize) -> f64 {
         match self.compared {
             0 => 0.0,
@@ -111,12 +126,13 @@ impl Difference {
     }
 }
 
-/// Two pictures that cannot be compared: their sizes differ.
+/// The error of comparing two pictures of different sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SizeMismatch {
-    /// Width and height of the reference.
+    /// The width and height of the reference in pixels.
     pub reference: [usize; 2],
-    /// Width and height of the other picture.
+    /// The width and height of the other picture in pixels.
     pub actual: [usize; 2],
 }
 
@@ -141,7 +157,7 @@ impl fmt::Display for SizeMismatch {
 
 impl core::error::Error for SizeMismatch {}
 
-/// Returns the difference of `actual` from `reference`, over all pixels.
+/// Compares `actual` with `reference` over all pixels.
 ///
 /// ```
 /// use fastphong::compare::metrics::{METRICS, compare};
@@ -166,10 +182,10 @@ pub fn compare(
     compare_where(reference, actual, |_, _| true)
 }
 
-/// Returns the difference of `actual` from `reference`, over the pixels for whose column and row `included` holds.
+/// Compares `actual` with `reference` over the pixels for which `included(column, row)` is true.
 ///
-/// Exclude pixels that differ for a known reason, such as those where two renderers show different polygons: they are
-/// counted in [`Difference::excluded`] and enter nothing else.
+/// Exclude pixels that differ for a known reason, for example because two renderers show different
+/// polygons. They are counted in [`Difference::excluded`] and affect nothing else.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -194,6 +210,8 @@ pub fn compare_where(
             } else {
                 sums.counts.excluded += 1;
             }
+            // SSIM compares neighbourhoods, so it needs every pixel. Excluded pixels and background
+            // take the reference's luminance in both pictures, which makes them equal.
             if ssim.is_some() {
                 let is_shown = included && difference.is_some();
                 luminance[0].push(r.luminance() / 255.0);
@@ -204,6 +222,8 @@ pub fn compare_where(
             ssim.add(&luminance[0], &luminance[1]);
         }
     });
+    // The percentile needs the errors once more. Computing them again takes less memory than
+    // keeping them.
     let p99 = percentile.find(|visit| {
         for_each_row(reference, actual, |y, r_row, a_row| {
             for (x, (&r, &a)) in r_row.iter().zip(a_row).enumerate() {
@@ -216,19 +236,19 @@ pub fn compare_where(
     Ok(sums.finish(p99, ssim.map(MeanSsim::finish)))
 }
 
-/// The difference of a pixel that one of the pictures covers, or both.
+/// The difference at a pixel that at least one picture covers.
 struct PixelDifference {
-    /// Errors of red, green and blue in grey levels, each at least that of alpha.
+    /// The errors of red, green and blue in grey levels, each at least the error of alpha.
     errors: [f64; 3],
-    /// True if a channel is not the same.
+    /// True if a channel differs.
     differs: bool,
     /// True if only one of the pictures covers the pixel.
     is_mismatch: bool,
-    /// True if a channel is infinite or not a number in one of the pictures, or in both.
+    /// True if a channel is infinite or not a number in either picture.
     is_not_finite: bool,
-    /// True if such a channel is not the same.
+    /// True if such a channel differs.
     is_not_finite_differing: bool,
-    /// Luminance of the actual picture minus the reference's, in grey levels; 0 at a mismatch.
+    /// The difference of luminance, actual − reference, in grey levels; 0 at a coverage mismatch.
     luminance: f64,
 }
 
@@ -243,13 +263,14 @@ impl PixelDifference {
         luminance: 0.0,
     };
 
-    /// Returns the difference of two pixels, `None` if neither picture covers them.
+    /// Returns the difference between two pixels, or `None` if neither picture covers them.
     fn new(reference: Levels, actual: Levels) -> Option<PixelDifference> {
         let covered = [reference, actual].map(|pixel| pixel.alpha() != 0.0);
         if covered == [false, false] {
             return None;
         }
-        // Most pixels of pictures that are compared are equal. One with NaN is not equal to itself here.
+        // A fast path, because most pixels are equal. NaN is not equal to itself, so it takes the
+        // slow path.
         if reference == actual && reference.0.iter().all(|level| level.is_finite()) {
             return Some(PixelDifference::EQUAL);
         }
@@ -283,8 +304,9 @@ impl PixelDifference {
     }
 }
 
-/// Returns the absolute differences of red, green, blue and alpha, in grey levels. A channel that is not finite in one of the
-/// pictures, or otherwise in the other, is off by the full range, so that no mean is lost or hides it.
+/// Returns the absolute differences of red, green, blue and alpha, in grey levels. A channel that
+/// is not finite and differs counts as an error of the full range, so that means stay finite but
+/// show it.
 fn channel_errors(reference: Levels, actual: Levels) -> [f64; 4] {
     core::array::from_fn(|c| {
         let (r, a) = (reference.0[c], actual.0[c]);
@@ -297,10 +319,10 @@ fn channel_errors(reference: Levels, actual: Levels) -> [f64; 4] {
     })
 }
 
-/// Sums over pixels, in grey levels.
+/// Sums of errors over pixels, in grey levels.
 #[derive(Default)]
 struct ErrorSums {
-    /// The counts, and the largest error.
+    /// The counts and the largest error.
     counts: Difference,
     absolute: f64,
     squares: f64,
@@ -322,6 +344,7 @@ impl ErrorSums {
         counts.not_finite_differing += usize::from(difference.is_not_finite_differing);
         counts.over_half_level += usize::from(error > 0.5);
         counts.over_one_level += usize::from(error > 1.0);
+        // `>` keeps the first of several pixels with the same error.
         if error > counts.max {
             (counts.max, counts.worst) = (error, Some(at));
         }

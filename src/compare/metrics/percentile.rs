@@ -1,18 +1,21 @@
-//! The percentile of values that are too many to be kept.
+//! The percentile of more values than memory should hold.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Values that are kept at most, to be sorted: 8 MB.
+/// The largest number of values to keep and select from: 8 MB.
 const KEPT: u64 = 1 << 20;
-/// Bits of a value that are told apart in one pass.
+/// How many bits of the values one pass distinguishes.
 const DIGIT: u32 = 16;
 
-/// Finds the value that a share of all values does not exceed (nearest rank), exactly: values are counted by the leading bits of
-/// their representation, which order floats from 0 on, and then the few that share the bits of the result are sorted.
+/// Finds the value that a share of all values does not exceed (nearest rank), exactly.
+///
+/// This is a radix selection: each pass counts the values by the next 16 bits of their
+/// representation, which orders floats from 0 on as integers. Once few enough values share the
+/// leading bits of the result, they are collected and the result is selected from them.
 pub(super) struct Percentile {
     share: f64,
-    /// Number of values by their first digit.
+    /// How many values have which leading digit.
     counts: Vec<u64>,
     all: u64,
 }
@@ -26,23 +29,29 @@ impl Percentile {
         }
     }
 
-    /// Takes values, 0 or more each.
+    /// Counts values, each 0 or more.
     pub fn extend(&mut self, values: impl IntoIterator<Item = f64>) {
         for value in values {
-            debug_assert!(value >= 0.0, "{value} has a place in the order of bits");
+            debug_assert!(
+                value >= 0.0,
+                "{value} is negative or NaN: bits do not order it"
+            );
             self.counts[(value.to_bits() >> (64 - DIGIT)) as usize] += 1;
             self.all += 1;
         }
     }
 
-    /// Returns the percentile, 0 of no values. `again` is called with a visitor, to which it gives all values once more, in any
-    /// order: once, or up to three times if more than a million of them are nearly the same.
+    /// Returns the percentile, or 0 if there are no values. Calls `again` with a visitor, to which
+    /// it must pass all values again in any order. This happens once, or up to three times if more
+    /// than a million values are nearly equal.
     pub fn find(mut self, again: impl Fn(&mut dyn FnMut(f64))) -> f64 {
         let rank = libm::ceil(self.share * self.all as f64) as u64;
         let Some(mut before) = rank.checked_sub(1) else {
             return 0.0;
         };
-        // The leading bits of the result, and how many bits are still open.
+        // `before` is how many of the values with the same leading bits are below the result.
+        // `leading` are the known leading bits of the result, and `open` is how many bits are still
+        // unknown.
         let (mut leading, mut open) = (0, 64 - DIGIT);
         loop {
             let mut digit = 0;
@@ -83,7 +92,7 @@ mod tests {
     use super::*;
     use core::cell::Cell;
 
-    /// Finds the percentile of values that can be visited any number of times.
+    /// Returns the percentile of `count` values, which are computed as often as needed.
     fn percentile(share: f64, count: usize, value: impl Fn(usize) -> f64) -> f64 {
         let mut percentile = Percentile::new(share);
         percentile.extend((0..count).map(&value));
@@ -104,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn values_come_again_only_once_unless_too_many_share_their_leading_bits() {
+    fn values_are_visited_once_more_unless_too_many_share_their_leading_bits() {
         for (count, expected) in [(KEPT as usize, 1), (KEPT as usize + 1, 3)] {
             let mut percentile = Percentile::new(0.99);
             percentile.extend((0..count).map(|_| 0.1));
@@ -119,14 +128,14 @@ mod tests {
 
     #[test]
     fn more_values_than_are_kept_are_found_to_the_last_bit() {
-        // Neighbouring floats: they differ in their last 22 bits alone, so that every pass is needed.
+        // Neighbouring floats differ only in their last 22 bits, so every pass is needed.
         let count = 3 * KEPT as usize + 7;
         let value = |i: usize| f64::from_bits(1.5f64.to_bits() + i as u64);
         for share in [0.5, 0.99, 1.0] {
             let rank = (share * count as f64).ceil() as usize;
             assert_eq!(percentile(share, count, value), value(rank - 1), "{share}");
         }
-        // All the same.
+        // All values are equal.
         assert_eq!(percentile(0.99, count, |_| 0.1), 0.1);
         assert_eq!(percentile(0.99, count, |_| 0.0), 0.0);
     }

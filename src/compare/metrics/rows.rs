@@ -1,9 +1,10 @@
-//! Two pictures, row by row.
+//! Reads two pictures row by row.
 
 use crate::picture::{LevelRows, Levels};
 use alloc::vec;
 
-/// Calls `visit` with the number of each row, from the top, and with that row of both pictures, which have one size.
+/// Calls `visit` with the index of each row, from the top, and this row of both pictures. The
+/// pictures must have the same size.
 pub(super) fn for_each_row(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,
@@ -20,10 +21,10 @@ pub(super) fn for_each_row(
     }
 }
 
-/// Some whole rows of a picture, as a picture.
+/// A range of a picture's rows, as a picture.
 pub(super) struct Part<'a> {
     pub picture: &'a dyn LevelRows,
-    /// The first row.
+    /// The index of the first row.
     pub first: usize,
     /// The number of rows.
     pub height: usize,

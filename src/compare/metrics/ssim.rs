@@ -1,24 +1,28 @@
-//! Structural similarity.
+//! SSIM: the structural similarity of two pictures.
 
-use super::{MAX_PERCEIVED, SizeMismatch, for_each_row};
+use super::MAX_PERCEIVED;
+#[cfg(feature = "cli")]
+use super::{SizeMismatch, for_each_row};
+#[cfg(feature = "cli")]
 use crate::picture::LevelRows;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::{AddAssign, Mul};
 
-/// Side of the window.
+/// The side of the window in pixels.
 const WINDOW: usize = 11;
-/// Standard deviation of the window's weights, in pixels.
+/// The standard deviation of the window's weights, in pixels.
 const SIGMA: f64 = 1.5;
 /// (K1 L)², K1 = 0.01, for values in 0..=1 (L = 1).
 const C1: f64 = 0.01 * 0.01;
 /// (K2 L)², K2 = 0.03.
 const C2: f64 = 0.03 * 0.03;
 
-/// Sums kept per window: means of x, y, x² + y² and x y. Variances enter only as a sum, so x² and y² are summed up together.
+/// The number of means per window: x, y, x² + y² and x y. The formula needs only the sum of the
+/// variances, so x² and y² are added.
 const MOMENTS: usize = 4;
 
-/// Returns the weights of one row of the window; they sum to 1.
+/// Returns the weights of a row of the window, which sum to 1.
 fn weights() -> [f64; WINDOW] {
     let mut weights = [0.0; WINDOW];
     let centre = (WINDOW / 2) as f64;
@@ -30,10 +34,12 @@ fn weights() -> [f64; WINDOW] {
     weights.map(|weight| weight / sum)
 }
 
-/// Returns the mean structural similarity of two pictures' luminance, [`Difference::ssim`](super::Difference::ssim).
+/// Returns the mean structural similarity of two pictures' luminance, as in
+/// [`Difference::ssim`](super::Difference::ssim).
 ///
 /// # Errors
 /// If the sizes differ.
+#[cfg(feature = "cli")]
 pub fn ssim(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,
@@ -41,11 +47,12 @@ pub fn ssim(
     ssim_where(reference, actual, |_, _| true)
 }
 
-/// Returns the mean structural similarity as [`ssim`] does, where pixels count as equal for whose column and row `included` does
-/// not hold.
+/// Returns the mean structural similarity as [`ssim`] does, but treats pixels as equal if
+/// `included(column, row)` is false.
 ///
 /// # Errors
 /// If the sizes differ.
+#[cfg(feature = "cli")]
 pub fn ssim_where(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,
@@ -68,30 +75,34 @@ pub fn ssim_where(
     Ok(Some(ssim.finish()))
 }
 
-/// The mean structural similarity of two rasters of values in 0..=1, which come row by row.
+/// The mean structural similarity of two rasters of values in 0..=1, computed row by row.
 ///
 /// ```text
 /// SSIM = (2 μx μy + C1)(2 σxy + C2) / ((μx² + μy² + C1)(σx² + σy² + C2))
 /// ```
 ///
-/// with an 11×11 Gaussian window of σ = 1.5, averaged over all places where the window lies inside the raster
-/// (Wang, Bovik, Sheikh, Simoncelli: *Image quality assessment*, IEEE TIP 13(4), 2004, equation 13 and section III C).
-/// The Gaussian is a product of a row and a column: rows are filtered as they come, the last eleven are kept for the columns.
+/// with an 11×11 Gaussian window of σ = 1.5, averaged over all positions of the window inside the
+/// raster (Wang, Bovik, Sheikh, Simoncelli: *Image quality assessment*, IEEE TIP 13(4), 2004,
+/// equation 13 and section III C).
+///
+/// The Gaussian is separable: each row is filtered horizontally when it is added, and the last
+/// eleven filtered rows are kept in a ring buffer for the vertical pass.
 pub(super) struct MeanSsim {
-    /// Places of the window in a row.
+    /// How many positions the window has in a row.
     places: usize,
     weights: [f64; WINDOW],
-    /// The last rows, filtered.
+    /// The last eleven filtered rows: a ring buffer.
     filtered: Vec<f64>,
     moments: Vec<f64>,
     products: [Vec<f64>; MOMENTS],
     sum: f64,
-    /// Rows so far.
+    /// How many rows were added so far.
     rows: usize,
 }
 
 impl MeanSsim {
-    /// Begins with rasters of a width and a height; `None` if the window does not fit, or beyond [`MAX_PERCEIVED`] values.
+    /// Starts with rasters of this width and height. Returns `None` if the window does not fit, or
+    /// for more than [`MAX_PERCEIVED`] values.
     pub fn new([width, height]: [usize; 2]) -> Option<MeanSsim> {
         if width < WINDOW || height < WINDOW || width * height > MAX_PERCEIVED {
             return None;
@@ -108,7 +119,7 @@ impl MeanSsim {
         })
     }
 
-    /// Takes the next row of both.
+    /// Adds the next row of both rasters.
     pub fn add(&mut self, x_row: &[f64], y_row: &[f64]) {
         let (y, size) = (self.rows, MOMENTS * self.places);
         multiply(x_row, y_row, &mut self.products);
@@ -117,7 +128,7 @@ impl MeanSsim {
             weigh(&self.weights, |k| &product[k..], out);
         }
         if y + 1 >= WINDOW {
-            // y + 1 is the slot of the oldest row.
+            // The slot after the newest row holds the oldest one.
             let row = |k| &self.filtered[(y + 1 + k) % WINDOW * size..];
             weigh(&self.weights, row, &mut self.moments);
             self.sum += row_sum(&self.moments, self.places);
@@ -125,13 +136,13 @@ impl MeanSsim {
         self.rows += 1;
     }
 
-    /// Returns the mean, once all rows were taken.
+    /// Returns the mean, after all rows were added.
     pub fn finish(self) -> f64 {
         self.sum / (self.places * (self.rows + 1 - WINDOW)) as f64
     }
 }
 
-/// Fills in the values whose window means are the moments, for one row.
+/// Computes x, y, x² + y² and x y for one row.
 fn multiply(x_row: &[f64], y_row: &[f64], [xs, ys, squares, crosses]: &mut [Vec<f64>; MOMENTS]) {
     xs.copy_from_slice(x_row);
     ys.copy_from_slice(y_row);
@@ -141,7 +152,9 @@ fn multiply(x_row: &[f64], y_row: &[f64], [xs, ys, squares, crosses]: &mut [Vec<
     }
 }
 
-/// Sums slices, one for each weight, element by element.
+/// Adds up weighted slices, one for each weight, element by element. The loop over weights is
+/// outside, so that the inner one is a plain multiply-add over contiguous memory, which the
+/// compiler turns into SIMD code.
 #[inline(always)]
 pub(super) fn weigh<'a, T: Copy + Default + AddAssign + Mul<Output = T> + 'a>(
     weights: &[T],
@@ -156,12 +169,13 @@ pub(super) fn weigh<'a, T: Copy + Default + AddAssign + Mul<Output = T> + 'a>(
     }
 }
 
-/// Returns the sum of SSIM over one row of windows.
+/// Returns the sum of SSIM over a row of windows.
 fn row_sum(moments: &[f64], places: usize) -> f64 {
     let (means, seconds) = moments.split_at(2 * places);
     let (mean_x, mean_y) = means.split_at(places);
     let (square, cross) = seconds.split_at(places);
     let mut sum = 0.0;
+    // σx² + σy² = E(x² + y²) − μx² − μy², and σxy = E(x y) − μx μy.
     for i in 0..places {
         let (mx, my) = (mean_x[i], mean_y[i]);
         let variances = square[i] - mx * mx - my * my;
@@ -187,7 +201,8 @@ mod tests {
             None,
             "symmetric"
         );
-        // Eleven quotients, each off by half a unit in the last place of at most 2^-2, and ten sums: below 21 * 2^-53.
+        // Eleven quotients of at most 2^-2, each rounded by half a unit in the last place, and ten
+        // sums: below 21 * 2^-53.
         assert!((weights.iter().sum::<f64>() - 1.0).abs() < 21.0 * f64::EPSILON / 2.0);
         // exp(-1/(2 * 1.5²)): the ratio of neighbours at the top.
         assert!(

@@ -1,5 +1,6 @@
 use alloc::string::ToString;
 
+use super::flip::Perceived;
 use super::*;
 use crate::picture::{LinearPicture, Picture, Picture8};
 
@@ -383,7 +384,8 @@ fn differences_survive_json() {
     }
 }
 
-/// A picture of one row, of one column, and of one pixel has every number but SSIM, whose window does not fit.
+/// A picture of one row, of one column, and of one pixel has every metric except SSIM, whose window
+/// does not fit.
 #[test]
 fn thin_pictures_are_compared() {
     for [width, height] in [[1, 1], [1, 400], [400, 1]] {

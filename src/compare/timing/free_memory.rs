@@ -1,18 +1,18 @@
-//! The memory that this program may still take, as Linux tells: what the system has, what the limits of the process leave, and what
-//! the limits of its control groups leave.
+//! How much more memory this program may take, as Linux reports it: the least of what the system
+//! has free, what the limits of the process leave, and what the limits of its control groups leave.
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
 
-/// Returns the bytes of memory that this program may still ask for, swap included; `None` where the system does not tell.
-#[doc(hidden)]
+/// Returns how many more bytes of memory this program may ask for, swap included, or `None` if the
+/// system does not report it.
 pub fn free_memory() -> Option<u64> {
     free_by(&|path| std::fs::read_to_string(path).ok())
 }
 
-/// Returns the free memory that the files of the system tell, which `text` reads.
+/// Returns the free memory. `text` reads a file of the system.
 fn free_by(text: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
     let of = |path: &str| text(Path::new(path));
     let (system, swap) = of_system(&of("/proc/meminfo")?)?;
@@ -30,22 +30,24 @@ fn free_by(text: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
         .min()
 }
 
-/// Finds free memory, swap included, and free swap in the text of `/proc/meminfo`, in bytes.
+/// Returns the free memory, swap included, and the free swap from the text of `/proc/meminfo`, in
+/// bytes.
 fn of_system(text: &str) -> Option<(u64, u64)> {
     let free = kilobytes(text, "MemAvailable:")?;
     let swap = kilobytes(text, "SwapFree:").unwrap_or(0);
     Some((free.saturating_add(swap), swap))
 }
 
-/// Finds a line such as `VmSize:  5 kB`, in bytes.
+/// Returns the value of a line such as `VmSize:  5 kB`, in bytes.
 fn kilobytes(text: &str, key: &str) -> Option<u64> {
     let value = text.lines().find_map(|line| line.strip_prefix(key))?;
     let value: u64 = value.split_whitespace().next()?.parse().ok()?;
     Some(value.saturating_mul(1024))
 }
 
-/// Returns what the limits of the process leave: of its address space (`ulimit -v`) and of its data (`ulimit -d`); `limits` and
-/// `status` are the texts of `/proc/self/limits` and `/proc/self/status`.
+/// Returns what the limits of the process leave, in bytes: the limit of its address space
+/// (`ulimit -v`) and of its data (`ulimit -d`). `limits` and `status` are the texts of
+/// `/proc/self/limits` and `/proc/self/status`.
 fn of_process(limits: &str, status: &str) -> Option<u64> {
     let left = |limit: &str, used: &str| {
         let line = limits.lines().find_map(|line| line.strip_prefix(limit))?;
@@ -57,16 +59,16 @@ fn of_process(limits: &str, status: &str) -> Option<u64> {
     space.into_iter().chain(data).min()
 }
 
-/// A control group that this program is in, or one above it.
+/// A control group of this program, or one of its ancestors.
 #[derive(Debug, PartialEq)]
 struct Group {
     folder: PathBuf,
-    /// True for the unified hierarchy, version 2.
+    /// True for the unified hierarchy (version 2).
     is_unified: bool,
 }
 
-/// Returns the folders of the groups whose limits count, from the innermost: that of this program and all above it; `groups` and
-/// `mounts` are the texts of `/proc/self/cgroup` and `/proc/self/mountinfo`.
+/// Returns the groups whose limits apply: the group of this program first, then its ancestors.
+/// `groups` and `mounts` are the texts of `/proc/self/cgroup` and `/proc/self/mountinfo`.
 fn folders(groups: &str, mounts: &str) -> Vec<Group> {
     let mut found = Vec::new();
     for line in mounts.lines() {
@@ -83,7 +85,7 @@ fn folders(groups: &str, mounts: &str) -> Vec<Group> {
         if !is_unified && !is_memory {
             continue;
         }
-        // `4:memory:/a/b`, and `0::/a/b` in the unified hierarchy.
+        // A line is `4:memory:/a/b`, or `0::/a/b` in the unified hierarchy.
         let own = groups.lines().find_map(|line| {
             let (controllers, path) = line.split_once(':')?.1.split_once(':')?;
             let is_own = match is_unified {
@@ -92,7 +94,8 @@ fn folders(groups: &str, mounts: &str) -> Vec<Group> {
             };
             is_own.then_some(path)
         });
-        // In a container, the mount may begin at the group itself.
+        // In a container, the mount may start at the group of the container: its root is then a
+        // prefix of the path.
         let Some(within) = own.and_then(|own| Path::new(own).strip_prefix(unescaped(root)).ok())
         else {
             continue;
@@ -110,7 +113,7 @@ fn folders(groups: &str, mounts: &str) -> Vec<Group> {
     found
 }
 
-/// Returns a path of `mountinfo`, in which spaces and the like are written in octal digits.
+/// Decodes a path of `mountinfo`, where white space and backslashes are written as octal escapes.
 fn unescaped(path: &str) -> String {
     let escapes = [
         ("\\040", " "),
@@ -123,37 +126,38 @@ fn unescaped(path: &str) -> String {
 }
 
 impl Group {
-    /// Returns what the limit of this group leaves, where the system has `swap` bytes of free swap; `None` without a limit.
+    /// Returns what the limit of this group leaves, in bytes, or `None` without a limit. `swap` is
+    /// the free swap of the system, in bytes.
     fn free(&self, swap: u64, text: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
-        let number = |name: &str| -> Option<u64> {
+        let value = |name: &str| -> Option<u64> {
             let text = text(&self.folder.join(name))?;
             text.trim().parse().ok()
         };
-        // Pages of files that nobody uses count as used, and are given back when they are wanted.
-        let given_back = || {
+        // The kernel counts cached pages of files as used, but frees the inactive ones on demand.
+        let reclaimable = || {
             let key = match self.is_unified {
                 true => "inactive_file ",
                 false => "total_inactive_file ",
             };
             let stat = text(&self.folder.join("memory.stat"))?;
-            let value = stat.lines().find_map(|line| line.strip_prefix(key))?;
-            value.trim().parse::<u64>().ok()
+            let pages = stat.lines().find_map(|line| line.strip_prefix(key))?;
+            pages.trim().parse::<u64>().ok()
         };
         let left = |most: u64, used: Option<u64>| {
-            let used = used.unwrap_or(0).saturating_sub(given_back().unwrap_or(0));
+            let used = used.unwrap_or(0).saturating_sub(reclaimable().unwrap_or(0));
             most.saturating_sub(used)
         };
         if self.is_unified {
-            let free = left(number("memory.max")?, number("memory.current"));
-            let most = number("memory.swap.max").unwrap_or(u64::MAX);
-            let swapped = number("memory.swap.current").unwrap_or(0);
+            let free = left(value("memory.max")?, value("memory.current"));
+            let most = value("memory.swap.max").unwrap_or(u64::MAX);
+            let swapped = value("memory.swap.current").unwrap_or(0);
             return Some(free.saturating_add(swap.min(most.saturating_sub(swapped))));
         }
-        let most = number("memory.limit_in_bytes")?;
-        let free = left(most, number("memory.usage_in_bytes")).saturating_add(swap);
-        // Memory and swap together, where they are counted.
-        let both = number("memory.memsw.limit_in_bytes");
-        let both = both.map(|most| left(most, number("memory.memsw.usage_in_bytes")));
+        let most = value("memory.limit_in_bytes")?;
+        let free = left(most, value("memory.usage_in_bytes")).saturating_add(swap);
+        // Version 1 may also limit memory and swap together.
+        let both = value("memory.memsw.limit_in_bytes");
+        let both = both.map(|most| left(most, value("memory.memsw.usage_in_bytes")));
         Some(free.min(both.unwrap_or(u64::MAX)))
     }
 }
@@ -166,7 +170,8 @@ mod tests {
     const MEMINFO: &str =
         "MemTotal:  24000000 kB\nMemFree:  1 kB\nMemAvailable:   9000 kB\nSwapFree:   1000 kB\n";
 
-    /// Returns the free memory, in units of 1024 bytes, on a system with these files beside its 10,000 units.
+    /// Returns the free memory, in units of 1024 bytes, on a system with 10,000 free units and
+    /// these files.
     fn free(files: &[(&str, &str)]) -> Option<u64> {
         let text = |path: &Path| {
             let mut all = files.iter().chain(&[("/proc/meminfo", MEMINFO)]);
@@ -203,14 +208,15 @@ mod tests {
         assert_eq!(limits("1024", "unlimited"), Some(0), "less than there is");
     }
 
-    /// Those of the own group and of all above it, less what is used there and cannot be given back.
+    /// The limits of the program's group and of all its ancestors count, less the memory used there
+    /// that cannot be reclaimed.
     #[test]
     fn limits_of_control_groups_count_from_the_own_group_upward() {
         let own = ("/proc/self/cgroup", "1:cpu:/x\n0::/a/b\n");
         let mount = "31 23 0:28 / /sys/fs/cgroup rw - cgroup2 cgroup2 rw,nsdelegate\n";
         let mount = ("/proc/self/mountinfo", mount);
         let file = |name, text| (name, text);
-        // 2,000 units, 1,500 of them used, 400 of these given back; and 1,000 of swap.
+        // 2,000 units, 1,500 of them used, 400 of these reclaimable, and 1,000 of swap.
         let inner = [
             own,
             mount,
@@ -233,12 +239,12 @@ mod tests {
         );
         let none = [own, mount, file("/sys/fs/cgroup/a/b/memory.max", "max\n")];
         assert_eq!(free(&none), Some(10_000));
-        // Neither a group beside the own one, nor one whose name only begins alike.
+        // A group that is not an ancestor does not count, even if its name begins alike.
         let other = file("/sys/fs/cgroup/memory.max.d/memory.max", "1\n");
         assert_eq!(free(&[own, mount, other]), Some(10_000));
     }
 
-    /// Version 1, in a container whose mount begins at the group itself.
+    /// Version 1, in a container whose mount starts at its own group.
     #[test]
     fn limits_of_older_control_groups_count() {
         let files = [
@@ -254,7 +260,7 @@ mod tests {
                 "total_inactive_file 102400\n",
             ),
         ];
-        // 1,000 less 500 that are used, 100 that are given back, and 1,000 of swap.
+        // 1,000 units less 500 used, plus 100 reclaimable and 1,000 of swap.
         assert_eq!(free(&files), Some(1600));
         let both = [
             (

@@ -1,4 +1,4 @@
-//! The machine and the build of a measurement: times mean nothing without them.
+//! The machine and the build of a measurement, without which times mean nothing.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -8,7 +8,7 @@ use serde::Serialize;
 /// The machine of a measurement, and the build of this program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Machine {
-    /// Name of the processor as the system gives it; `unknown` if it does not.
+    /// Name of the processor as the system reports it, or `unknown`.
     pub cpu: String,
     /// Logical processors that this program may use.
     pub cores: usize,
@@ -16,17 +16,17 @@ pub struct Machine {
     pub os: String,
     /// Processor architecture.
     pub arch: String,
-    /// Vector extensions that the compiler was allowed to use.
+    /// Vector extensions that the compiler could assume.
     pub target_features: Vec<String>,
     /// Compiler, as in `rustc 1.95.0 (…)`.
     pub rustc: String,
-    /// `release`, or `debug` if the program checks itself and its times say nothing.
+    /// `release`, or `debug` for a build with assertions, whose times say nothing.
     pub profile: String,
     /// Optimisation level: `0` to `3`, `s` or `z`.
     pub opt_level: String,
     /// Version of this crate.
     pub version: String,
-    /// Commit that it was built from, if `FASTPHONG_COMMIT` was set then.
+    /// Commit that it was built from, if `FASTPHONG_COMMIT` was set for the build.
     pub commit: Option<String>,
 }
 
@@ -47,7 +47,7 @@ impl Machine {
         }
     }
 
-    /// Writes one line for people.
+    /// Returns the description in one line.
     pub fn line(&self) -> String {
         format!(
             "{}, {} {}; {}, {}, opt-level {}; fastphong {}",
@@ -56,7 +56,7 @@ impl Machine {
     }
 }
 
-/// Lists the vector extensions of x86-64 and AArch64 that this build may use.
+/// Returns the vector extensions of x86-64 and AArch64 that this build assumes.
 fn target_features() -> Vec<&'static str> {
     let mut features = Vec::new();
     macro_rules! list {
@@ -88,7 +88,8 @@ fn cpu_name() -> Option<String> {
     std::env::var("PROCESSOR_IDENTIFIER").ok()
 }
 
-/// Finds the processor's name in the text of `/proc/cpuinfo`: `model name` on x86, `Model` or `Hardware` on some ARM boards.
+/// Finds the processor's name in the text of `/proc/cpuinfo`: `model name` on x86, `Model` or
+/// `Hardware` on some ARM boards.
 #[cfg(any(target_os = "linux", target_os = "android"))]
 fn name_in_cpuinfo(text: &str) -> Option<String> {
     let value = |key: &str| {

@@ -1,8 +1,10 @@
-//! Timing: the time of a call, and the speed of one candidate as a multiple of another's, with its interval.
+//! Timing: the time of a call, and the ratio between the speeds of two candidates, with a
+//! confidence interval.
 //!
-//! Disturbances of a machine (clock frequency, other programs) change slowly against one sample. So candidates are not
-//! timed one after the other but [interleaved](time_interleaved): every round samples each of them once, and two
-//! candidates are compared [round by round](Ratio::paired), where both met the same machine.
+//! Disturbances of a machine (clock frequency, other programs) change slowly compared with the
+//! length of a sample. Therefore `time_interleaved` does not time one candidate after the other.
+//! Every round samples each of them once, and `Ratio::paired` compares two candidates round by
+//! round, when both met the machine in the same state.
 
 mod free_memory;
 mod machine;
@@ -10,9 +12,8 @@ mod rounds;
 mod spans;
 mod statistics;
 
-#[doc(hidden)]
-pub use free_memory::free_memory;
-pub use machine::Machine;
-pub use rounds::{Candidate, TimeLimits, time_interleaved};
+pub(crate) use free_memory::free_memory;
+pub(crate) use machine::Machine;
+pub(crate) use rounds::{Candidate, TimeLimits, time_interleaved};
 pub use spans::SpanRow;
-pub use statistics::{CONFIDENCE, Ratio, Timing};
+pub(crate) use statistics::{Ratio, Timing};

@@ -1,31 +1,33 @@
-//! The loop: candidates in rounds, each round in another order.
+//! The timing loop: samples the candidates in rounds, in a different order each round.
 
 use super::statistics::Timing;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use std::time::{Duration, Instant};
 
-/// A function to be timed. Pass its results through [`core::hint::black_box`], or the compiler may leave them out.
+/// A function to time. It should pass its results through [`core::hint::black_box`], or the
+/// compiler may remove the work.
 pub type Candidate<'a> = Box<dyn FnMut() + 'a>;
 
 /// The limits of a timing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeLimits {
-    /// No round begins after so much time, warm-up not counted.
+    /// No round starts after this much time. Warm-up does not count.
     pub time_budget: Duration,
-    /// The most rounds.
+    /// The largest number of rounds.
     pub rounds: usize,
-    /// Rounds before the first that counts: caches, branch predictors and the clock frequency settle.
+    /// The number of rounds before the first that counts, in which caches, branch predictors and
+    /// the clock frequency settle.
     pub warm_up_rounds: usize,
 }
 
 impl TimeLimits {
-    /// The least number of rounds, whatever the limits: fewer have no quartiles to speak of.
+    /// The smallest number of rounds, whatever the limits. Quartiles of fewer samples say little.
     pub const LEAST_ROUNDS: usize = 5;
 }
 
 impl Default for TimeLimits {
-    /// Returns up to 101 rounds within 5 seconds, after two rounds of warm-up.
+    /// Returns limits of up to 101 rounds within 5 seconds, after two rounds of warm-up.
     fn default() -> Self {
         TimeLimits {
             time_budget: Duration::from_secs(5),
@@ -35,20 +37,25 @@ impl Default for TimeLimits {
     }
 }
 
-/// The least length of a sample, in ns: thousands of times the resolution of any clock and the cost of reading it.
+/// The shortest sample, in ns: thousands of times the resolution of any clock and the cost of
+/// reading it.
 const LEAST_SAMPLE_NS: u64 = 200_000;
 
-/// The most calls per sample: a call that short is lost in the loop around it.
+/// The largest number of calls per sample. A call that would need more is as short as the loop
+/// around it.
 const MOST_CALLS: u64 = 10_000;
 
-/// Times all candidates in rounds, until either limit is reached and [`TimeLimits::LEAST_ROUNDS`] are over. The timings are
-/// in the order of the candidates.
+/// Times all candidates in rounds, until one of the limits is reached, but for at least
+/// [`TimeLimits::LEAST_ROUNDS`] rounds. Returns the timings in the order of the candidates.
 ///
-/// Every round samples each candidate once. The second round of a pair runs in the reverse order of the first
-/// (A B C, C B A), so that a drift during a pair cancels, and each pair begins with another candidate, so that none
-/// has a neighbour or a place of its own. A candidate too short for the clock is called several times per sample.
+/// Every round samples each candidate once. Rounds come in pairs, and the second round of a pair
+/// runs in the reverse order of the first (A B C, C B A), so that a drift during a pair cancels
+/// out. Each pair starts with another candidate, so that no candidate always has the same
+/// neighbours or the same place. A candidate too short for the clock is called several times per
+/// sample.
 ///
-/// `progress` hears, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
+/// Calls `progress` between rounds with the used part of the limits, 0..=1. The time that it takes
+/// does not count.
 pub fn time_interleaved(
     candidates: &mut [Candidate<'_>],
     limits: TimeLimits,
@@ -60,7 +67,7 @@ pub fn time_interleaved(
     run(candidates, limits, now, progress)
 }
 
-/// Runs [`time_interleaved`] by any clock that counts nanoseconds.
+/// Does the work of [`time_interleaved`] with a clock that returns nanoseconds.
 fn run(
     candidates: &mut [Candidate<'_>],
     limits: TimeLimits,
@@ -74,7 +81,8 @@ fn run(
         }
         now() - start
     };
-    // The last round of the warm-up, which is the calmest, tells how many calls a sample needs.
+    // Each warm-up round sets the number of calls per sample. The last one counts, because it is
+    // the least disturbed.
     let mut calls: Vec<u64> = candidates.iter().map(|_| 1).collect();
     for _ in 0..limits.warm_up_rounds.max(1) {
         for (candidate, calls) in candidates.iter_mut().zip(&mut calls) {
@@ -86,7 +94,7 @@ fn run(
     let mut samples: Vec<Vec<f64>> = candidates.iter().map(|_| Vec::new()).collect();
     let most = limits.rounds.max(TimeLimits::LEAST_ROUNDS);
     let budget = limits.time_budget.as_nanos() as f64;
-    // Time in samples only: that of `progress` does not count.
+    // Only the time in samples counts, not the time in `progress`.
     let mut spent = 0.0;
     for round in 0..most {
         let part = (spent / budget).max(round as f64 / most as f64);
@@ -108,7 +116,8 @@ fn run(
         .expect("finite times of five rounds")
 }
 
-/// Returns the order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
+/// Returns the order of the candidates in a round. Each pair of rounds is rotated by one more
+/// place, and its second round reversed.
 fn order(candidates: usize, round: usize) -> impl Iterator<Item = usize> {
     let (turn, is_forth) = (round / 2, round.is_multiple_of(2));
     let place = move |i| if is_forth { i } else { candidates - 1 - i };
@@ -129,7 +138,7 @@ mod tests {
         warm_up_rounds: 1,
     };
 
-    /// Candidates that take times of a clock that only they move, and the letters of those that ran.
+    /// A clock that only candidates advance, and a log of the letters of the candidates that ran.
     struct Stage {
         clock: Rc<Cell<u64>>,
         log: Rc<RefCell<String>>,
@@ -189,7 +198,7 @@ mod tests {
         });
         let timings = stage.run(&mut [stage.candidate('S', || 500_000), growing], FOREVER);
         assert_eq!(timings[0].samples_ns, [500_000.0; 6]);
-        // The first of them warmed up.
+        // The first call was the warm-up.
         assert_eq!(
             timings[1].samples_ns,
             [

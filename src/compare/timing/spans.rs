@@ -1,6 +1,6 @@
-//! One span shaded by the kernels of a method alone, without an engine.
+//! Shades one span by the kernels of a method, without an engine.
 
-use crate::number::Level;
+use crate::number::SimdLevel;
 use crate::number::simd::BLOCK;
 use crate::shading::light::Uniforms;
 use crate::shading::{
@@ -10,10 +10,10 @@ use crate::shading::{
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The most numbers that a span of four lights starts from.
+/// The most values at both ends of a span, for four lights.
 const MOST: usize = 40;
 
-/// A span that is set up.
+/// A span after its set-up.
 struct Started {
     kernels: &'static Kernels,
     extras: Extras,
@@ -22,7 +22,7 @@ struct Started {
 }
 
 impl Started {
-    /// Returns the arguments of the kernels.
+    /// Returns the arguments for the kernels.
     fn job<'a>(&'a self, variant: &'a Variant, uniforms: &'a Uniforms) -> Pixels<'a> {
         Pixels {
             parameters: variant.parameters(),
@@ -34,7 +34,7 @@ impl Started {
     }
 }
 
-/// Lights both vertices of a span of `pixels` pixels, and sets it up.
+/// Lights both vertices of a span of `pixels` pixels and sets it up.
 fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usize) -> Started {
     let lights = uniforms.lights.len();
     let kernels = variant.row().kernels(lights, bench.is_local());
@@ -96,7 +96,8 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
     }
 }
 
-/// A span that an instruction set shades again and again: the memory of a row of the G-buffer.
+/// The memory for a span that an instruction set shades again and again, laid out as a row of the
+/// G-buffer.
 #[derive(Clone, Debug)]
 pub struct SpanRow {
     uniforms: Uniforms,
@@ -106,7 +107,10 @@ pub struct SpanRow {
 }
 
 impl SpanRow {
-    /// Makes room for `pixels` pixels, a multiple of 16.
+    /// Allocates the memory for a span of `pixels` pixels.
+    ///
+    /// # Panics
+    /// If `pixels` is not a multiple of 16.
     pub fn new(variant: &Variant, bench: &SpanBench, pixels: usize) -> SpanRow {
         assert!(pixels.is_multiple_of(2 * BLOCK), "whole blocks");
         let uniforms = bench.uniforms(variant, 255.0);
@@ -122,23 +126,27 @@ impl SpanRow {
         }
     }
 
-    /// Returns the colours that were shaded last.
+    /// Returns the colours of the last span, as RGBA.
     pub fn bytes(&self) -> &[[u8; 4]] {
         &self.bytes
     }
 }
 
 impl Variant {
-    /// Shades one span into `out`, one pixel at a time: its two vertices, its set-up, and as many pixels as `out` has.
+    /// Shades one span into `out`, one pixel at a time: lights its two vertices, sets it up, and
+    /// shades as many pixels as `out` has.
+    #[doc(hidden)]
     pub fn shade_span(&self, bench: &SpanBench, out: &mut [[f32; 3]]) {
         let uniforms = bench.prepared(self);
         let started = start(self, bench, uniforms, out.len());
         (started.kernels.pixels)(&started.job(self, uniforms), out);
     }
 
-    /// Shades one span by the kernels of an instruction set, as the row engine calls them: the walk into a row of the G-buffer,
-    /// then the row to bytes. Scalar code shades nothing here.
-    pub fn shade_span_on(&self, level: Level, bench: &SpanBench, row: &mut SpanRow) {
+    /// Shades one span by the kernels of an instruction set, as the row engine calls them: first
+    /// the walk into a row of the G-buffer, then from the row to bytes. Does nothing for scalar
+    /// code.
+    #[doc(hidden)]
+    pub fn shade_span_on(&self, level: SimdLevel, bench: &SpanBench, row: &mut SpanRow) {
         let pixels = row.bytes.len();
         let started = start(self, bench, &row.uniforms, pixels);
         let Some(simd) = (started.kernels.simd)(level) else {
@@ -165,7 +173,7 @@ impl Variant {
                     to.copy_from_slice(&row.walked[plane * pixels + first..][..BLOCK]);
                     continue;
                 }
-                let [at, step] = started.list.starts.of(0).map(|numbers| numbers[plane]);
+                let [at, step] = started.list.starts.of(0).map(|values| values[plane]);
                 for (k, to) in to.iter_mut().enumerate() {
                     *to = at + (first + k) as f32 * step;
                 }

@@ -1,14 +1,14 @@
-//! From samples to numbers that can be trusted: medians, quartiles, and intervals of ratios.
+//! Statistics of samples: medians, quartiles, and confidence intervals of ratios.
 
 use crate::number::split_mix::SplitMix;
 use alloc::vec::Vec;
 use serde::Serialize;
 
-/// The probability that the interval of a [`Ratio`] holds the true ratio.
+/// The confidence level of the interval of a [`Ratio`].
 pub const CONFIDENCE: f64 = 0.95;
 
-/// Resamples of a bootstrap: 2,000 put 50 beyond each end of a 95 % interval (Efron & Tibshirani 1993, 12.3, ask for
-/// 1,000 or more).
+/// The number of resamples of a bootstrap. 2,000 leave 50 beyond each end of a 95 % interval; Efron
+/// & Tibshirani (1993, 12.3) ask for at least 1,000.
 const RESAMPLES: usize = 2000;
 
 /// The seed of every bootstrap, so that equal samples have equal intervals.
@@ -16,27 +16,28 @@ const SEED: u64 = 0x4C32_3153_6861_6465;
 
 /// The time of one call: samples and their statistics, in nanoseconds.
 ///
-/// Noise only adds time, seldom and much. Medians and quartiles do not feel how much.
+/// Noise only adds time, rarely but a lot. How much does not affect medians and quartiles.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Timing {
     /// The median.
     pub median_ns: f64,
-    /// The least: what an undisturbed machine can do.
+    /// The least time: what an undisturbed machine can do.
     pub min_ns: f64,
     /// The lower quartile.
     pub p25_ns: f64,
     /// The upper quartile.
     pub p75_ns: f64,
-    /// The interquartile range as a part of the median; 0 if that is 0.
+    /// The interquartile range divided by the median; 0 if the median is 0.
     pub spread: f64,
-    /// All samples in the order of their rounds; each is the mean of `calls_per_sample` calls.
+    /// All samples in the order of the rounds. Each is the mean of `calls_per_sample` calls.
     pub samples_ns: Vec<f64>,
-    /// Calls that a sample is the mean of: more than one where a single call is too short for the clock.
+    /// The number of calls per sample: more than one if a single call is too short for the clock.
     pub calls_per_sample: u32,
 }
 
 impl Timing {
-    /// Returns the statistics of `samples_ns`; `None` if there are none, or one is not a finite number of 0 or more.
+    /// Returns the statistics of `samples_ns`, or `None` if there are no samples, or one is
+    /// negative or not finite.
     pub fn of(samples_ns: Vec<f64>, calls_per_sample: u32) -> Option<Timing> {
         if samples_ns.is_empty() || !samples_ns.iter().all(|s| s.is_finite() && *s >= 0.0) {
             return None;
@@ -60,8 +61,8 @@ impl Timing {
     }
 }
 
-/// Returns the quantile `p` of 0..=1 of ascending values, linear between them (type 7 of Hyndman & Fan 1996: that of R and
-/// NumPy).
+/// Returns the quantile `p`, 0..=1, of ascending values, with linear interpolation (type 7 of
+/// Hyndman & Fan 1996, the default of R and NumPy).
 fn quantile(sorted: &[f64], p: f64) -> f64 {
     let place = p * (sorted.len() - 1) as f64;
     let below = place as usize;
@@ -69,23 +70,23 @@ fn quantile(sorted: &[f64], p: f64) -> f64 {
     sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
 }
 
-/// A speed as a multiple of a baseline's, with the interval that holds the truth with [`CONFIDENCE`].
+/// The ratio of a candidate's speed to a baseline's, with an interval at the level [`CONFIDENCE`].
 ///
-/// Over 1: faster than the baseline. Under 1: slower.
+/// Over 1 means faster than the baseline, under 1 slower.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ratio {
     /// The median over the rounds of the baseline's time divided by the candidate's.
     pub median: f64,
-    /// Lower end of the interval.
+    /// The lower end of the interval.
     pub low: f64,
-    /// Upper end of the interval.
+    /// The upper end of the interval.
     pub high: f64,
-    /// True if the interval holds 1: the samples do not tell which of the two is faster.
+    /// True if the interval contains 1, so that the samples do not show which of the two is faster.
     pub tie: bool,
 }
 
 impl Ratio {
-    /// Makes a ratio of its interval and median.
+    /// Makes a ratio from its interval and median.
     pub fn new(low: f64, median: f64, high: f64) -> Ratio {
         Ratio {
             median,
@@ -95,20 +96,12 @@ impl Ratio {
         }
     }
 
-    /// Divides the speed of the candidate by that of `baseline`; samples of one round stand at the same place.
+    /// Returns the ratio of the candidate's speed to the baseline's. The slices hold the times;
+    /// samples of one round have the same index.
     ///
-    /// The interval is a percentile bootstrap of the median over whole rounds, with a fixed seed. Rounds without a
-    /// partner and rounds in which either time is not positive are left out; `None` if no round is left.
-    ///
-    /// ```
-    /// use fastphong::compare::timing::Ratio;
-    ///
-    /// // Three disturbed rounds slow both down alike: the ratio does not move.
-    /// let baseline = [200.0, 204.0, 400.0, 410.0, 800.0, 202.0];
-    /// let candidate = [100.0, 102.0, 200.0, 205.0, 400.0, 101.0];
-    /// let ratio = Ratio::paired(&baseline, &candidate).unwrap();
-    /// assert_eq!((ratio.low, ratio.median, ratio.high), (2.0, 2.0, 2.0));
-    /// ```
+    /// The interval is a percentile bootstrap of the median over whole rounds, with a fixed seed.
+    /// Leaves out rounds without a partner and rounds in which a time is not positive. Returns
+    /// `None` if no round is left.
     pub fn paired(baseline: &[f64], candidate: &[f64]) -> Option<Ratio> {
         let rounds = baseline.iter().zip(candidate).map(|(b, c)| b / c);
         let is_ratio = |ratio: &f64| ratio.is_finite() && *ratio > 0.0;
@@ -118,6 +111,7 @@ impl Ratio {
         }
         let mut random = SplitMix(SEED);
         let mut resample = ratios.clone();
+        // Maps 64 random bits to an index, by multiplying and keeping the high bits.
         let mut any = || ((u128::from(random.next()) * ratios.len() as u128) >> 64) as usize;
         let resampled = |_| {
             resample.fill_with(|| ratios[any()]);
@@ -179,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_time_gives_no_timing() {
+    fn a_sample_that_is_not_a_time_gives_no_timing() {
         for samples in [vec![], vec![1.0, f64::NAN], vec![f64::INFINITY], vec![-1.0]] {
             assert_eq!(Timing::of(samples, 1), None);
         }
@@ -207,6 +201,14 @@ mod tests {
         assert!(!faster.tie);
         let slower = Ratio::paired(&candidate, &baseline).unwrap();
         assert!(slower.high < 0.35 && !slower.tie, "{slower:?}");
+    }
+
+    #[test]
+    fn rounds_that_slow_both_down_do_not_move_the_ratio() {
+        let baseline = [200.0, 204.0, 400.0, 410.0, 800.0, 202.0];
+        let candidate = [100.0, 102.0, 200.0, 205.0, 400.0, 101.0];
+        let ratio = Ratio::paired(&baseline, &candidate).unwrap();
+        assert_eq!((ratio.low, ratio.median, ratio.high), (2.0, 2.0, 2.0));
     }
 
     #[test]
@@ -238,8 +240,9 @@ mod tests {
 
     #[test]
     fn with_few_rounds_the_interval_reaches_from_end_to_end() {
-        // Of five rounds at least three are the lowest one in 5.8 % of all resamples, which is over 2.5 %: the 2.5 %
-        // quantile of their medians is the lowest ratio itself, and the upper one the highest.
+        // In 5.8 % of all resamples, at least three of the five rounds are the lowest one. That is
+        // over 2.5 %, so the 2.5 % quantile of the medians is the lowest ratio itself. The same
+        // holds for the highest.
         let candidate = [100.0, 200.0, 50.0, 80.0, 125.0];
         let ratio = Ratio::paired(&[100.0; 5], &candidate).unwrap();
         assert_eq!((ratio.low, ratio.median, ratio.high), (0.5, 1.0, 2.0));

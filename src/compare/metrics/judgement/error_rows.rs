@@ -1,4 +1,4 @@
-//! Errors of pixels, row by row, with or without a radius.
+//! Computes the errors of pixels row by row, with or without a radius.
 
 use super::super::PixelDifference;
 use super::Selection;
@@ -6,11 +6,11 @@ use crate::picture::{LevelRows, Levels};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The largest radius: a pixel has 288 neighbours then, and beyond that a match says little.
+/// The largest radius. A pixel then has 288 neighbours; with more, a match would say little.
 pub const MAX_RADIUS: usize = 8;
 
-/// Calls `visit` with the index of each row, from the top, and with the errors of its pixels in
-/// grey levels; `None` for pixels that are left out or that neither picture covers.
+/// Calls `visit` with the index of each row, from the top, and the errors of its pixels in grey
+/// levels. The error is `None` for pixels that are left out or that neither picture covers.
 pub(super) fn for_each_error_row(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,
@@ -24,6 +24,8 @@ pub(super) fn for_each_error_row(
     let mut errors = vec![None; width];
     for y in 0..height {
         let [of_reference, of_actual] = &mut windows;
+        // Both pictures keep the rows around y, because a pixel of either may match any of the
+        // other's.
         of_reference.move_to(y);
         of_actual.move_to(y);
         for (x, error) in errors.iter_mut().enumerate() {
@@ -36,7 +38,7 @@ pub(super) fn for_each_error_row(
     }
 }
 
-/// Returns the error at a pixel; `None` if neither picture covers it.
+/// Returns the error at a pixel, or `None` if neither picture covers it.
 fn error_at(reference: &Window<'_>, actual: &Window<'_>, [x, y]: [usize; 2]) -> Option<f64> {
     let (r, a) = (reference.row(y)[x], actual.row(y)[x]);
     let error = error_between(r, a)?;
@@ -48,10 +50,10 @@ fn error_at(reference: &Window<'_>, actual: &Window<'_>, [x, y]: [usize; 2]) -> 
     Some(of_reference.max(of_actual))
 }
 
-/// Returns the error of one pixel against another; `None` if neither is covered.
+/// Returns the error between two pixels, or `None` if neither is covered.
 fn error_between(a: Levels, b: Levels) -> Option<f64> {
-    // Nearly all pixels are covered and finite: a radius asks for hundreds of pairs a pixel. An
-    // infinity or NaN in a channel shows in the sum.
+    // A fast path for covered, finite pixels, which nearly all are: with a radius, this runs
+    // hundreds of times per pixel. An infinity or NaN in any channel makes the sum infinite or NaN.
     let errors: [f64; 4] = core::array::from_fn(|c| (a.0[c] - b.0[c]).abs());
     let is_covered = a.alpha() != 0.0 && b.alpha() != 0.0;
     if is_covered && errors.iter().sum::<f64>().is_finite() {
@@ -64,11 +66,11 @@ fn error_between(a: Levels, b: Levels) -> Option<f64> {
     })
 }
 
-/// The rows of a picture around one of them.
+/// The rows of a picture around the current one.
 struct Window<'a> {
     picture: &'a dyn LevelRows,
     radius: usize,
-    /// Row y is at y modulo their number, 2 `radius` + 1.
+    /// A ring buffer: row y is at index y modulo the number of rows, 2 `radius` + 1.
     rows: Vec<Vec<Levels>>,
     /// The first row that was not read yet.
     next: usize,
@@ -77,7 +79,7 @@ struct Window<'a> {
 impl<'a> Window<'a> {
     fn new(picture: &'a dyn LevelRows, radius: usize) -> Window<'a> {
         let [width, height] = picture.size();
-        // A low picture has no more rows than it has.
+        // A picture may have fewer rows than that.
         let rows = (2 * radius + 1).min(height.max(1));
         Window {
             picture,
@@ -87,7 +89,7 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Reads rows until those around row `y` are here; `y` grows by 1 from call to call.
+    /// Reads the rows around row `y`. `y` must grow by 1 from call to call.
     fn move_to(&mut self, y: usize) {
         let end = (y + self.radius + 1).min(self.picture.size()[1]);
         while self.next < end {
@@ -97,19 +99,19 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Returns row `y`, which is one of those around the current one.
+    /// Returns row `y`, which must be within the radius of the current one.
     fn row(&self, y: usize) -> &[Levels] {
         debug_assert!(y < self.next && y + self.rows.len() >= self.next);
         &self.rows[y % self.rows.len()]
     }
 
-    /// Returns the least error of `pixel` against the pixels around a place; at most `most`, its
-    /// error against the pixel at the place itself. Looks at the nearest first, as most matches are
-    /// near.
+    /// Returns the smallest error of `pixel` against the pixels around (`x`, `y`). `most` is its
+    /// error against the pixel at (`x`, `y`) itself. Searches rings of growing distance, because
+    /// most matches are near.
     fn least_error(&self, pixel: Levels, [x, y]: [usize; 2], most: f64) -> f64 {
         let [width, height] = self.picture.size();
         let mut least = most;
-        // Two pixels that nothing covers are the same.
+        // Two uncovered pixels match.
         let error = |other: &Levels| error_between(pixel, *other).unwrap_or(0.0);
         for distance in 1..=self.radius {
             let (left, right) = (x.saturating_sub(distance), (x + distance).min(width - 1));
@@ -119,7 +121,8 @@ impl<'a> Window<'a> {
                 if y_near.abs_diff(y) == distance {
                     least = row[left..=right].iter().map(error).fold(least, f64::min);
                 } else {
-                    // The rows between have two pixels at this distance, or fewer at a border.
+                    // Between its top and bottom row, a ring has two pixels in a row, or fewer at
+                    // the border of the picture.
                     let ends = [left, right].into_iter();
                     let ends = ends.filter(|end| end.abs_diff(x) == distance);
                     least = ends.map(|end| error(&row[end])).fold(least, f64::min);

@@ -1,26 +1,27 @@
-//! How many pixels have which errors.
+//! The histogram of errors.
 
-/// Upper ends of the bins in grey levels; the last bin has none. They double, since 1 level against
-/// 2 says as much as 32 against 64.
+/// The upper ends of the bins in grey levels. The last bin has none. They double, because the step
+/// from 1 level to 2 says as much as the one from 32 to 64.
 const ENDS: [f64; 10] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
 
-/// Counts of pixels by their errors.
+/// How many pixels have which errors.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Histogram {
-    /// No error, then up to each end of [`ENDS`], then over the last.
+    /// The counts of the bins: up to each end of [`ENDS`], then over the last end. The first bin
+    /// holds pixels without error.
     counts: [usize; ENDS.len() + 1],
-    /// Pixels that have a number in one of the pictures only.
+    /// The number of pixels that are finite in only one picture.
     pub not_finite: usize,
 }
 
-/// A range of errors, and its pixels.
+/// A range of errors, with its count of pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bin {
-    /// Errors are larger than this, in grey levels; `None`: there is no error.
+    /// The lower end in grey levels, exclusive; `None` for the bin without errors.
     pub over: Option<f64>,
-    /// Errors are at most this; `None`: any.
+    /// The upper end in grey levels, inclusive; `None` for the last bin.
     pub up_to: Option<f64>,
-    /// The pixels with such an error.
+    /// The number of pixels in the bin.
     pub pixels: usize,
 }
 
@@ -33,7 +34,7 @@ impl Histogram {
         }
     }
 
-    /// Returns all bins, the smallest errors first.
+    /// Returns all bins, smallest errors first.
     pub fn bins(&self) -> impl Iterator<Item = Bin> {
         self.counts.iter().enumerate().map(|(i, &pixels)| Bin {
             over: i.checked_sub(1).map(|i| ENDS[i]),

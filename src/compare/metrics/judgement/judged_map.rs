@@ -1,4 +1,4 @@
-//! A map of differences, with what a judgement adds to it.
+//! Maps with the marks of a judgement: radius, left-out pixels, and the frame of a region.
 
 use super::super::map::{BEYOND, COVERAGE, EQUAL, absolute_colour, difference_map};
 use super::error_rows::for_each_error_row;
@@ -6,12 +6,12 @@ use super::{LargestRegion, Selection};
 use crate::compare::metrics::SizeMismatch;
 use crate::picture::{LevelRows, Picture8};
 
-/// Colour of pixels that are left out.
+/// The colour of pixels that are left out: dark grey.
 pub const LEFT_OUT: [u8; 4] = [48, 48, 48, 255];
-/// Colour of the frame around the largest region.
+/// The colour of the frame around the largest region: cyan.
 pub const FRAME: [u8; 4] = [0, 255, 255, 255];
 
-/// Colours the pixels of a map grey that are left out.
+/// Paints the pixels that are left out in grey.
 pub fn draw_left_out(map: &mut Picture8, selection: &Selection<'_>) {
     for y in 0..map.height() {
         for (x, pixel) in map.row_mut(y).iter_mut().enumerate() {
@@ -22,9 +22,9 @@ pub fn draw_left_out(map: &mut Picture8, selection: &Selection<'_>) {
     }
 }
 
-/// Draws the absolute difference of two pictures, as [`difference_map`] does, where pixels may match
-/// others within `radius`: what matches is black, and colours are those of the errors that are left.
-/// Pixels that are left out are grey.
+/// Draws the absolute difference between two pictures as [`difference_map`] does, but lets pixels
+/// match others within `radius`. Pixels that match are black, the others have the colour of their
+/// error. Pixels that are left out are grey.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -52,7 +52,7 @@ pub fn judged_map(
     Ok(map)
 }
 
-/// Draws a frame around a region, a pixel outside of its rectangle, as far as the map reaches.
+/// Draws a frame one pixel outside the rectangle of a region, and clips it to the map.
 pub fn draw_frame(map: &mut Picture8, region: &LargestRegion) {
     let (size, [x, y]) = ([map.width(), map.height()], region.corner);
     let [right, bottom] = [x + region.size[0], y + region.size[1]];

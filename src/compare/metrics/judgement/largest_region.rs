@@ -1,28 +1,28 @@
 //! The largest connected region of pixels over a threshold.
 //!
-//! Pixels are connected that touch at a side or a corner, so that a thin oblique edge is one region.
-//! Rows come once, from the top, and only the regions that reach the last row are kept: memory goes
-//! with the width of the picture.
+//! Pixels are connected if they touch at a side or a corner, so that a thin diagonal edge is one
+//! region. Rows are read once, from the top. Only regions that reach the last row are kept, so the
+//! memory is proportional to the width of the picture.
 
 use alloc::vec::Vec;
 
 /// A connected region of pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestRegion {
-    /// The pixels in it.
+    /// The number of pixels.
     pub pixels: usize,
-    /// Column and row of the upper left corner of the rectangle around it.
+    /// The column and row of the upper left corner of its bounding rectangle.
     pub corner: [usize; 2],
-    /// Width and height of that rectangle.
+    /// The width and height of the rectangle.
     pub size: [usize; 2],
-    /// Column and row of its first pixel, in reading order, with its largest error.
+    /// The column and row of the first pixel, in reading order, with the largest error.
     pub worst: [usize; 2],
-    /// That error in grey levels.
+    /// The largest error in grey levels.
     pub levels: f64,
 }
 
 impl LargestRegion {
-    /// Makes a region of pixels of one row.
+    /// Makes a region of a run of pixels.
     fn of_run(y: usize, from: usize, errors: &[Option<f64>]) -> LargestRegion {
         let mut region = LargestRegion {
             pixels: errors.len(),
@@ -40,7 +40,7 @@ impl LargestRegion {
         region
     }
 
-    /// Takes another region in.
+    /// Adds another region to this one.
     fn join(&mut self, other: &LargestRegion) {
         let reading_order = |[x, y]: [usize; 2]| [y, x];
         let is_worse = other.levels > self.levels
@@ -58,8 +58,8 @@ impl LargestRegion {
         }
     }
 
-    /// True if this region is to be told of rather than `other`: it has more pixels, or as many and
-    /// begins further up or, in one row, further left.
+    /// True if this region should be reported instead of `other`: it has more pixels, or as many
+    /// but starts farther up, or in the same row but farther left.
     fn is_before(&self, other: &LargestRegion) -> bool {
         let key = |region: &LargestRegion| {
             let [x, y] = region.corner;
@@ -69,31 +69,33 @@ impl LargestRegion {
     }
 }
 
-/// Neighbouring pixels of one row over the threshold.
+/// A run of neighbouring pixels of a row that are over the threshold.
 #[derive(Clone, Copy)]
 struct Run {
     from: usize,
-    /// The first column behind it.
+    /// The column after the last pixel.
     end: usize,
-    /// Index of its region.
+    /// The index of its region in [`Regions::open`].
     region: usize,
 }
 
-/// The regions of the rows so far.
+/// The regions of the rows read so far.
 #[derive(Default)]
 pub(super) struct Regions {
     rows: usize,
-    /// Runs of the last row.
+    /// The runs of the last row.
     last: Vec<Run>,
-    /// Regions that reach the last row. While a row is added, a region that was joined to another
-    /// names it in `joined`.
+    /// The regions that reach the last row.
     open: Vec<LargestRegion>,
+    /// A union-find forest over `open`: the region that each one was joined to while a row is
+    /// added, or the region itself.
     joined: Vec<usize>,
     largest: Option<LargestRegion>,
 }
 
 impl Regions {
-    /// Takes the next row: the errors of its pixels, of which those count for which `is_over` holds.
+    /// Adds the next row: the errors of its pixels. Pixels for which `is_over` is true belong to
+    /// regions.
     pub fn add_row(&mut self, errors: &[Option<f64>], is_over: impl Fn(f64) -> bool) {
         let y = self.rows;
         self.rows += 1;
@@ -111,8 +113,9 @@ impl Regions {
             self.joined.push(region);
             self.open
                 .push(LargestRegion::of_run(y, from, &errors[from..end]));
-            // A run above touches this one, at a corner at least, if it ends at its first column or
-            // behind, and begins at the column behind its last one or before.
+            // This run has the columns from..end. A run above touches it, at least at a corner, if
+            // run.end >= from and run.from <= end. A run above that ends before `from` cannot touch
+            // later runs either, so the search starts after it next time.
             while above.get(first_above).is_some_and(|run| run.end < from) {
                 first_above += 1;
             }
@@ -126,7 +129,8 @@ impl Regions {
         self.close();
     }
 
-    /// Returns the region that `region` is part of by now.
+    /// Returns the root of the region in the forest. Halves the path on the way, so that later
+    /// look-ups are short.
     fn whole(&mut self, mut region: usize) -> usize {
         while self.joined[region] != region {
             self.joined[region] = self.joined[self.joined[region]];
@@ -144,7 +148,8 @@ impl Regions {
         }
     }
 
-    /// Takes regions off the list that do not reach the last row, and renumbers the others.
+    /// Removes the regions that do not reach the last row, after comparing them with the largest
+    /// one, and gives the others new indices.
     fn close(&mut self) {
         let mut runs = core::mem::take(&mut self.last);
         let mut kept = Vec::new();
@@ -177,7 +182,7 @@ impl Regions {
         }
     }
 
-    /// Returns the largest region, once all rows were taken.
+    /// Returns the largest region, after all rows were added.
     pub fn finish(mut self) -> Option<LargestRegion> {
         for region in core::mem::take(&mut self.open) {
             self.consider(region);

@@ -1,20 +1,21 @@
-//! A judgement of a picture: how many pixels are over a threshold, how errors are spread, and where
-//! the largest connected region of pixels over the threshold lies.
+//! A judgement of a picture: how many pixels are over a threshold, the histogram of errors, and the
+//! largest connected region of pixels over the threshold.
 //!
 //! # The error of a pixel
-//! Without a radius it is the largest difference of a channel, as everywhere in
-//! [`metrics`](super). With a radius R a pixel may match any pixel whose column and row are at most
-//! R away. Both pictures are asked: the error is the larger of
+//! Without a radius, it is the largest difference of a channel, as everywhere in
+//! [`metrics`](super). With a radius R, a pixel may match any pixel whose column and row are at
+//! most R away. This goes both ways: the error is the larger of
 //!
 //! - the least difference of the *reference's* pixel from the other picture's pixels within R, and
 //! - the least difference of the *other picture's* pixel from the reference's pixels within R.
 //!
-//! So the error is symmetric. An edge that moved by R pixels has no error. A line that one of the
-//! pictures lacks keeps its whole error, however thin it is, because its pixels match nothing there.
-//! What a radius hides is a mark that has its like within R: of two lines a pixel apart, one may go.
+//! So the error is symmetric. An edge that moved by R pixels has no error. A line that one picture
+//! lacks keeps its whole error, however thin it is, because its pixels match nothing there. A
+//! radius only hides a mark if there is another one like it within R: of two lines a pixel apart,
+//! one may be missing.
 //!
-//! Pixels that neither picture covers are not compared, and pixels that are left out are not
-//! judged, but others may match them.
+//! Pixels that neither picture covers are not compared. Pixels that are left out are not judged,
+//! but others may match them.
 
 mod error_rows;
 mod histogram;
@@ -28,24 +29,24 @@ use crate::picture::LevelRows;
 pub use error_rows::MAX_RADIUS;
 use error_rows::for_each_error_row;
 pub use histogram::{Bin, Histogram};
-pub use judged_map::{FRAME, LEFT_OUT, draw_frame, draw_left_out, judged_map};
+pub use judged_map::{draw_frame, draw_left_out, judged_map};
 pub use largest_region::LargestRegion;
 use largest_region::Regions;
-pub use selection::{Area, Mask, Selected, Selection};
+pub use selection::{Area, Mask, Selection};
 pub use share::{Allowance, share_text};
 
-/// What counts as a difference.
+/// The rule for a pixel to pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rule {
-    /// Grey levels that a pixel may be off by; with 0, every difference counts.
+    /// The largest error that passes, in grey levels. With 0, every difference counts.
     pub threshold: f64,
-    /// Columns and rows that a pixel may have moved by, at most [`MAX_RADIUS`].
+    /// How many columns and rows away a pixel may match, at most [`MAX_RADIUS`].
     pub radius: usize,
 }
 
 impl Rule {
     /// True if a pixel with this error, in grey levels, is over the threshold. An infinite error,
-    /// of a pixel that has a number in one picture only, is over any threshold.
+    /// of a pixel that is finite in only one picture, is over any threshold, even an infinite one.
     fn is_broken_by(self, error: f64) -> bool {
         error > self.threshold || error == f64::INFINITY
     }
@@ -54,25 +55,25 @@ impl Rule {
 /// The result of [`judge`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Judgement {
-    /// Pixels that were judged: selected ones that at least one picture covers.
+    /// The number of judged pixels: selected ones that at least one picture covers.
     pub compared: usize,
-    /// Pixels that the selection leaves out.
+    /// The number of pixels that the selection leaves out.
     pub left_out: usize,
-    /// Compared pixels over the threshold.
+    /// The number of judged pixels over the threshold.
     pub over: usize,
-    /// The largest error in grey levels; infinite where one picture only has a number.
+    /// The largest error in grey levels. It is infinite if a pixel is finite in only one picture.
     pub largest: f64,
-    /// Column and row of the first pixel, in reading order, with the largest error; `None` if there
-    /// is no error.
+    /// The column and row of the first pixel, in reading order, with the largest error; `None` if
+    /// there is no error.
     pub worst: Option<[usize; 2]>,
-    /// How many compared pixels have which errors.
+    /// The histogram of errors.
     pub histogram: Histogram,
     /// The largest connected region of pixels over the threshold.
     pub region: Option<LargestRegion>,
 }
 
-/// Judges `actual` by its reference. Takes time in proportion to the pixels, and for pixels that
-/// differ to the square of the radius; memory for a few rows.
+/// Judges `actual` by its reference. The time is proportional to the number of pixels, and for
+/// pixels that differ also to the square of the radius. It needs memory for a few rows.
 ///
 /// # Errors
 /// If the sizes differ.

@@ -1,4 +1,4 @@
-//! The pixels that are judged: those of an area, without those that a mask leaves out.
+//! The selection of judged pixels: an area, without the pixels that a mask leaves out.
 
 use crate::picture::{LevelRows, Levels};
 use alloc::vec;
@@ -7,14 +7,14 @@ use alloc::vec::Vec;
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Area {
-    /// Column and row of its upper left pixel.
+    /// The column and row of its upper left pixel.
     pub corner: [usize; 2],
-    /// Its width and height.
+    /// The width and height in pixels.
     pub size: [usize; 2],
 }
 
 impl Area {
-    /// True if it lies within a picture of this size.
+    /// True if the area lies within a picture of this size.
     pub fn is_within(&self, size: [usize; 2]) -> bool {
         (0..2).all(|i| {
             let end = self.corner[i].checked_add(self.size[i]);
@@ -23,16 +23,17 @@ impl Area {
     }
 }
 
-/// Pixels that are left out: those that are black or transparent in a picture. Takes a bit a pixel.
+/// A mask of the pixels to leave out: those that are black or transparent in a picture. It takes a
+/// bit per pixel.
 #[derive(Clone, Debug)]
 pub struct Mask {
     size: [usize; 2],
-    /// A bit for each pixel, row by row; 1 is left out.
+    /// A bit for each pixel, row by row: 1 for pixels to leave out.
     left_out: Vec<u64>,
 }
 
 impl Mask {
-    /// Makes a mask of a picture.
+    /// Makes the mask of a picture.
     pub fn of(picture: &dyn LevelRows) -> Mask {
         let [width, height] = picture.size();
         let mut left_out = vec![0; (width * height).div_ceil(64)];
@@ -49,7 +50,7 @@ impl Mask {
         Mask { size, left_out }
     }
 
-    /// Returns width and height in pixels.
+    /// Returns the width and height in pixels.
     pub fn size(&self) -> [usize; 2] {
         self.size
     }
@@ -79,8 +80,8 @@ impl<'a> Selection<'a> {
         }
     }
 
-    /// Selects, of a picture of this size, the pixels of `area`, or all, that `mask` does not leave
-    /// out; `None` if the area reaches beyond the picture, or the mask has another size.
+    /// Selects the pixels of `area`, or of a whole picture of this size, that `mask` does not leave
+    /// out. Returns `None` if the area reaches beyond the picture, or the mask has another size.
     pub fn new(size: [usize; 2], area: Option<Area>, mask: Option<&'a Mask>) -> Option<Self> {
         let whole = Selection::whole(size);
         let area = area.unwrap_or(whole.area);
@@ -92,14 +93,15 @@ impl<'a> Selection<'a> {
         })
     }
 
-    /// Returns width and height of the picture.
+    /// Returns the width and height of the picture in pixels.
     pub fn size(&self) -> [usize; 2] {
         self.size
     }
 
-    /// True if the pixel in column `x` of row `y` is judged.
+    /// True if the pixel at column `x` and row `y` is judged.
     pub fn includes(&self, x: usize, y: usize) -> bool {
         let Area { corner, size } = self.area;
+        // A pixel left of or above the area wraps around to a huge offset.
         let is_in_area = x.wrapping_sub(corner[0]) < size[0] && y.wrapping_sub(corner[1]) < size[1];
         is_in_area && self.mask.is_none_or(|mask| mask.includes(x, y))
     }
@@ -120,8 +122,8 @@ impl<'a> Selection<'a> {
         outside + self.mask.map_or(0, masked)
     }
 
-    /// Returns `actual` with the pixels of `reference` where pixels are left out: what is computed
-    /// from neighbourhoods counts these as equal.
+    /// Returns `actual` with the left-out pixels replaced by those of `reference`, so that metrics
+    /// of neighbourhoods count them as equal.
     pub fn selected<'b>(
         &'b self,
         reference: &'b dyn LevelRows,
@@ -135,7 +137,7 @@ impl<'a> Selection<'a> {
     }
 }
 
-/// A picture that is equal to its reference where pixels are left out.
+/// A picture that equals its reference at the pixels that are left out.
 #[derive(Clone, Copy)]
 pub struct Selected<'a> {
     reference: &'a dyn LevelRows,

@@ -1,14 +1,14 @@
-//! Shares of pixels: those that may be over a threshold, and those that are.
+//! Shares of pixels: how many may be over a threshold, and how many are.
 
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 use core::fmt;
 
-/// Digits of a percentage behind its point.
+/// The largest number of decimals of a percentage.
 const DECIMALS: usize = 9;
 
-/// Pixels that may be over a threshold: a number, or a percentage of those that are compared.
+/// How many pixels may be over a threshold: a number, or a percentage of the compared pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Allowance {
     /// The text that it was read from.
@@ -19,7 +19,7 @@ pub struct Allowance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Most {
     Pixels(u64),
-    /// In units of 10⁻⁹ %, so that decimals count as they are written: 0.3 is no float.
+    /// In units of 10⁻⁹ %, so that decimals are exact: 0.3 is not a float.
     Percentage(u64),
 }
 
@@ -64,8 +64,7 @@ fn percentage(text: &str) -> Option<u64> {
     (units <= 100 * 10u64.pow(DECIMALS as u32)).then_some(units)
 }
 
-/// Writes a share of pixels in percent. A share that is not 0 is not written as 0, and one that is
-/// not all not as 100.
+/// Writes a share of pixels in percent. Only 0 is written as 0, and only all pixels as 100.
 pub fn share_text(pixels: usize, all: usize) -> String {
     let share = match all {
         0 => 0.0,

@@ -1,5 +1,6 @@
 use alloc::vec::Vec;
 
+use super::judged_map::{FRAME, LEFT_OUT};
 use super::*;
 use crate::compare::metrics::map::{BEYOND, COVERAGE, EQUAL, difference_map};
 use crate::picture::{Picture, Picture8};
@@ -28,7 +29,7 @@ fn judged(reference: &Picture8, actual: &Picture8, threshold: f64, radius: usize
     judge(reference, actual, Rule { threshold, radius }, &selection).expect("one size")
 }
 
-/// Returns numbers that look random, always the same ones.
+/// Returns pseudo-random values, always the same ones.
 fn noise(seed: u64) -> impl FnMut() -> u64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     move || {
