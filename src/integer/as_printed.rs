@@ -1,4 +1,4 @@
-//! Exhibits: the lecture's methods exactly as it prints them, to see what the others save.
+//! The lecture's methods exactly as printed, to see how much the others save.
 
 use super::light::{Light, Reflection, shade};
 use super::material::TOP;
@@ -10,9 +10,10 @@ use super::vector::dot;
 use core::num::NonZeroU32;
 
 impl Span {
-    /// Shades a line by naive Phong shading as printed (L21 4.1): the unit normal, R = 2 (L·N) N − L,
-    /// then R·V. The root is a table's with one step of Newton's. Errors are those of
-    /// [`naive`](super::naive).
+    /// Shades a line by naive Phong shading as printed (L21 4.1).
+    ///
+    /// Each pixel computes the unit normal, then R = 2 (L·N) N − L, then R·V. A table and one step
+    /// of Newton's method compute the root. Its errors are those of [`Span::naive`].
     #[inline(always)]
     pub fn naive_as_printed<P: Pixel>(self, line: &mut [P], light: &Light<'_, P>) {
         self.in_pieces(
@@ -37,12 +38,14 @@ impl Span {
         );
     }
 
-    /// Shades a line by fast Phong shading as printed (L21 4.2, 4.3): J, K and N by additions,
-    /// D = N·N, d = √D by a step of Newton's with a division (L21 4.4), J/d and J K / D by divisions.
+    /// Shades a line by fast Phong shading as printed (L21 4.2, 4.3).
     ///
-    /// Three divisions a pixel: on a Cortex-M0, which has no divider, seven times as slow as naive
-    /// Phong shading. Errors are those of [`fast`](super::fast) with one step, while the span turns by
-    /// at most some 2° a pixel.
+    /// Additions step J, K and N. Each pixel computes D = N·N, then d = √D by a step of Newton's
+    /// method with a division (L21 4.4), then J/d and J K / D by divisions.
+    ///
+    /// Those are three divisions per pixel. On a Cortex-M0, which has no divider, this takes seven
+    /// times as long as naive Phong shading. While a span turns by at most about 2° per pixel, its
+    /// errors are those of [`Span::fast`] with `REFINED`.
     #[inline(always)]
     pub fn fast_as_printed<P: Pixel>(self, line: &mut [P], light: &Light<'_, P>) {
         let lights = &[*light];
@@ -55,13 +58,15 @@ impl Span {
                 let ([mut j], [mut k]) = span.products::<P, Reflection, 1>(lights, n);
                 let [mut x, mut y, mut z] = span.normals(n);
                 let first = dot(span.first, span.first);
-                // d = D / √D, 15 fractional bits.
+                // d = D / √D in Q15. The first pixel has no previous d to start from.
                 let mut length = ((first >> 15) * refined_root(first)) >> 15;
                 for pixel in line {
                     let n = [x.next() >> 15, y.next() >> 15, z.next() >> 15]; // 4.2
                     let d = dot(n, n) as u32;
+                    // One step from the previous pixel's d; + 1 rounds the half.
                     length = (length + over(d, length as u32) + 1) >> 1; // 4.4
                     let (j, k) = (j.next() >> 15, k.next() >> 15); // 4.3
+                    // From behind there is no highlight, and unsigned divisions need no sign.
                     let front = j.max(0);
                     let unit_j = over((front as u32) << 15, length as u32);
                     let product = over(((front * k.max(0)) as u32) << 1, d >> 14); // 4.6
@@ -76,7 +81,8 @@ impl Span {
     }
 }
 
-/// Returns a/b, or a where b is 0; at most 2.
+/// Returns a/b, at most 2 in Q15; a if b is 0. A divisor that its type says is not 0 needs no
+/// check.
 #[inline(always)]
 fn over(a: u32, b: u32) -> i32 {
     (a / NonZeroU32::new(b).unwrap_or(NonZeroU32::MIN)).min(1 << 16) as i32

@@ -1,42 +1,57 @@
-//! A picture of the caller's with what triangles are drawn into it.
+//! The caller's picture, into which triangles are drawn row by row.
 
 use super::gradients::{Gradients, Plane};
 use super::pixel::Pixel;
 use super::vector::Vector;
 use fixed::types::I24F8;
 
-/// The most pixels that are stepped at once: then values are evaluated anew.
+/// The most pixels that are stepped at once. Every piece starts from its plane equations again, so
+/// that the rounding of steps cannot add up over more pixels.
 const PIECE: usize = 128;
 
 /// A corner of a triangle or polygon on the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Vertex {
-    /// Columns from the left edge of the picture, within ±1,024: 0.5 is the centre of the first pixel.
+    /// The column in pixels from the left edge of the picture, within ±1,024. The centre of the
+    /// first pixel is at 0.5.
     pub x: I24F8,
-    /// Rows from the upper edge of the picture, within ±1,024.
+    /// The row in pixels from the upper edge of the picture, within ±1,024.
     pub y: I24F8,
-    /// The depth, 0 nearest. It is read where the canvas has a depth buffer.
+    /// The depth; 0 is nearest. Only a canvas with a depth buffer reads it.
     pub depth: u16,
-    /// The normal, of which only the direction counts.
+    /// The normal. Only its direction counts.
     pub normal: Vector,
 }
 
-/// A picture to draw triangles and convex polygons into: rows of pixels, and depth if there is any.
+/// A picture to draw triangles and convex polygons into, with a depth buffer if you pass one.
 ///
-/// Corners go clockwise round a polygon, y downward; polygons seen from behind are left out. A
-/// polygon with more than three corners is drawn as the triangles about its first corner. So it fits if it
-/// is convex and its corners lie within ±1,024 pixels: cut others before.
+/// Corners go clockwise around a polygon, with y downward. Polygons that are seen from behind are
+/// not drawn.
 ///
-/// Coverage is exact, as everywhere in this crate: a pixel belongs to the triangle with an odd number
-/// of edges left of its centre, or on it. So triangles that share an edge share no pixel and leave no
-/// hole.
+/// # Which polygons fit
 ///
-/// Normals, colours and depth are interpolated on the screen. Where a triangle's depth in space varies
-/// by 10 % from corner to corner, a normal is then up to 2.4 % of the way off between its ends, which
-/// at 15° is 0.6° or 2 levels; by 50 %: 10 %, 2.4°. Finer triangles have less of it.
+/// A polygon with more than three corners is drawn as triangles around its first corner. Therefore
+/// it fits only if it is convex and its corners lie within ±1,024 pixels. Clip other polygons
+/// first.
 ///
-/// Triangles whose values change by more than ⅛ a pixel, as slivers at a silhouette, are lit pixel by
-/// pixel from weights that are clamped to 0–1. So nothing overflows, however thin a triangle is.
+/// # Which pixels are covered
+///
+/// Coverage is exact, as everywhere in this crate: a pixel belongs to a triangle if an odd count of
+/// the triangle's edges lie left of the pixel's centre, or on it. So triangles that share an edge
+/// share no pixel and leave no hole.
+///
+/// # Error of perspective
+///
+/// Normals, colours and depth are interpolated on the screen. If the depth in space varies by 10 %
+/// from corner to corner of a triangle, a normal between two others is up to 2.4 % of the way off:
+/// with normals 15° apart that is 0.6° or 2 levels. If it varies by 50 %, it is 10 % and 2.4°. On
+/// finer triangles the error is smaller.
+///
+/// # Slivers
+///
+/// If values change by more than ⅛ per pixel, as in slivers at a silhouette, a triangle is lit
+/// pixel by pixel from weights that are clamped to 0–1. So nothing overflows, however thin a
+/// triangle is.
 #[derive(Debug)]
 pub struct Canvas<'a, P> {
     pixels: &'a mut [P],
@@ -46,11 +61,13 @@ pub struct Canvas<'a, P> {
 }
 
 impl<'a, P: Pixel> Canvas<'a, P> {
-    /// Makes a canvas of a picture's rows, one after another, and of the depths of its pixels.
+    /// Makes a canvas of a picture's pixels, row by row from the top, and of their depths.
     ///
-    /// A pixel is drawn where its depth is below the buffer's: fill it with 65,535 for each frame.
+    /// A pixel is drawn where its depth is below the buffer's. Fill the buffer with 65,535 before
+    /// each frame.
     ///
-    /// Returns `None` if a side is 0 or above 1,024, or a slice has not `width` × `height` entries.
+    /// Returns `None` if a side is 0 or above 1,024, or if a slice does not have `width` × `height`
+    /// entries.
     pub fn new(
         pixels: &'a mut [P],
         depth: Option<&'a mut [u16]>,
@@ -76,8 +93,9 @@ impl<'a, P: Pixel> Canvas<'a, P> {
         self.depth.is_some()
     }
 
-    /// Hands the visible pixels of a row from column `first` to before `end` to `shade`, in pieces,
-    /// with the column where each begins. `depth` is the plane of 16-bit depths over 2¹⁶.
+    /// Passes the visible pixels of a row to `shade`, from column `first` to before `end`, in
+    /// pieces with the column where each begins. `depth` is the plane of 16-bit depths, divided by
+    /// 2¹⁶.
     #[inline(always)]
     pub(super) fn row(
         &mut self,
@@ -88,6 +106,7 @@ impl<'a, P: Pixel> Canvas<'a, P> {
     ) {
         let at = (y * self.width) as usize;
         let range = at + first as usize..at + end as usize;
+        // `get_mut` never fails here. Indexing would link a panic, which firmware must not have.
         let Some(line) = self.pixels.get_mut(range.clone()) else {
             return;
         };
@@ -103,7 +122,8 @@ impl<'a, P: Pixel> Canvas<'a, P> {
         let mut z = depth.at(gradients.place(first, y));
         let mut i = 0;
         while i < buffer.len() {
-            // Passes what is hidden, then gathers what is seen.
+            // Gather a run of visible pixels and shade it at once. If this pixel is hidden the run
+            // is empty: skip one pixel.
             let from = i;
             while i < buffer.len() && i < from + PIECE {
                 let near = clamped(z);
@@ -125,7 +145,7 @@ impl<'a, P: Pixel> Canvas<'a, P> {
         }
     }
 
-    /// Returns a pixel to draw, if its depth of 16 bits is below the buffer's, which it then is.
+    /// Tests a pixel's depth and stores it in the buffer. Returns the pixel if it is visible.
     #[inline(always)]
     pub(super) fn pixel(&mut self, x: i32, y: i32, depth: u16) -> Option<&mut P> {
         let at = (y * self.width + x) as usize;
@@ -140,7 +160,7 @@ impl<'a, P: Pixel> Canvas<'a, P> {
     }
 }
 
-/// Returns a depth of 30 fractional bits as 16 bits.
+/// Returns a Q30 depth in 16 bits. Planes round, so a depth may leave 0–1 a little.
 #[inline(always)]
 fn clamped(z: i32) -> u16 {
     (z >> 14).clamp(0, 65535) as u16

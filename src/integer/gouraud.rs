@@ -1,15 +1,18 @@
-//! Gouraud shading: colours by two additions a pixel.
+//! Gouraud shading: two additions per pixel step a colour.
 
 use super::pixel::{Pixel, halves};
 use super::reciprocal::{Reciprocal, part};
 use super::span::Span;
 
-/// Shades `line` from the colour of its first pixel to that of the pixel after its last, both in fields: see
-/// [`colour`](super::colour). Other bits than those of the fields are ignored.
+/// Shades `line` by Gouraud's method between two colours.
 ///
-/// Red and blue share a sum, so that I_next = I + ΔI (L21 3.6) takes two additions for three channels.
-/// Steps are cut toward 0: so no channel leaves the values at its ends, and none carries into another.
-/// The sum is right to n 2⁻¹⁶ of the range, 1 level for [`Span::MAX`] pixels. Longer lines are cut into pieces of so many.
+/// `first` is the colour of the first pixel and `end` the colour of the pixel after the last, as
+/// [`colour`](super::colour) returns them. Bits outside of their fields are ignored.
+///
+/// Red and blue share a sum, so I_next = I + ΔI (L21 3.6) takes two additions for three channels.
+/// Steps are cut toward 0, so no channel leaves the range between its ends and none carries into
+/// another. A line of n pixels is off by at most n 2⁻¹⁶ of the range, which is 1 level for
+/// [`Span::MAX`] pixels. A longer line is cut into pieces of [`Span::MAX`] pixels.
 #[inline(always)]
 pub fn gouraud<P: Pixel>(line: &mut [P], first: u32, end: u32) {
     let (from, to) = (halves(first), halves(end));
@@ -20,7 +23,7 @@ pub fn gouraud<P: Pixel>(line: &mut [P], first: u32, end: u32) {
     }
 }
 
-/// Shades a long line in pieces between colours in halves.
+/// Shades a long line in pieces, between colours in halves.
 #[cold]
 #[inline(never)]
 fn cut<P: Pixel>(line: &mut [P], first: (u32, u32), end: (u32, u32)) {
@@ -58,21 +61,25 @@ fn piece<P: Pixel>(line: &mut [P], from: (u32, u32), to: (u32, u32)) {
     );
 }
 
-/// Returns the growth from one number of 16 bits to another over n pixels, cut toward 0.
+/// Returns the growth per pixel from one 16-bit value to another over n pixels, cut toward 0.
 ///
 /// The product is below 2¹⁶ · 2¹⁵.
 #[inline(always)]
 fn step(first: u32, end: u32, n: Reciprocal) -> i32 {
     let product = (end as i32 - first as i32) * n.mantissa;
-    // The shift cuts downward: one more where it is negative. That is too much only by one unit.
+    // The shift cuts downward. If the product is negative, its sign adds 1, which is one unit too
+    // much where the quotient is whole: still toward 0.
     (product >> (14 + n.shift)) - (product >> 31)
 }
 
-/// Shades `line` from a colour and its growth per pixel, in halves.
+/// Shades `line` from a colour and its growth per pixel, both in halves: red and blue of 16 bits
+/// each in one sum, and green in the other.
 #[inline(always)]
 pub(super) fn run<P: Pixel>(line: &mut [P], from: (u32, u32), step: (u32, u32)) {
     let (mut red_blue, mut green) = from;
     for pixel in line {
+        // A negative step of blue borrows from red's half of the step. But sums are right modulo
+        // 2³² and blue itself stays within its 16 bits, so both halves of the sum are exact.
         *pixel = P::from_halves(red_blue, green);
         red_blue = red_blue.wrapping_add(step.0); // 3.6
         green = green.wrapping_add(step.1);
@@ -84,7 +91,7 @@ mod tests {
     use super::super::pixel::Rgb888;
     use super::*;
 
-    /// Steps are cut toward 0, so that none of the three channels passes its ends or carries.
+    /// Steps are cut toward 0, so no channel passes its ends or carries into another.
     #[test]
     fn every_channel_stays_between_its_ends() {
         let level = |[r, g, b]: [u32; 3]| r << 12 | g << 23 | b << 1 | 1 | 2 << 21 | 1 << 11;
@@ -105,7 +112,7 @@ mod tests {
                         let exact = from + (to - from) * i as f64 / n as f64;
                         let found = f64::from(pixel.0[c]);
                         assert!(found >= from.min(to) && found <= from.max(to));
-                        // Rounding, and as many units of 16 bits as pixels are stepped at once.
+                        // Rounding, and one unit of 16 bits for each pixel that is stepped at once.
                         let limit = 0.52 + n.min(256) as f64 / 256.0;
                         assert!(
                             (found - exact).abs() <= limit,

@@ -1,16 +1,16 @@
-//! Plane equations over a triangle: how a value at its corners grows from pixel to pixel.
+//! Plane equations over a triangle: how values at its corners grow from pixel to pixel.
 
 use super::scan::{Point, first_centre};
 use core::num::NonZeroU32;
 
-/// The most that a value may grow by per pixel, with 30 fractional bits: ⅛.
+/// The steepest growth of a value per pixel, ⅛ in Q30. Steeper triangles are drawn as slivers.
 pub(super) const STEEP: i32 = 1 << 27;
 
-/// A value over the triangle: f(x, y) = f_0 + x ∂f/∂x + y ∂f/∂y at pixel centres, counted from the pixel
-/// `origin` of the triangle's [`Gradients`].
+/// A value over a triangle: f(x, y) = f_0 + x ∂f/∂x + y ∂f/∂y at pixel centres. Columns and rows
+/// are counted from the pixel `origin` of the triangle's [`Gradients`].
 ///
-/// Values have 30 fractional bits. Sums may wrap, as they are right modulo 2³²: within the triangle a
-/// value lies between those of its corners.
+/// Values are in Q30. Sums may wrap, but are right modulo 2³², and within the triangle a value lies
+/// between those of its corners.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Plane {
     /// The value at the origin.
@@ -22,7 +22,8 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// Returns the value at the centre of a pixel, x and y from the origin.
+    /// Returns the value at the centre of a pixel, whose column and row are counted from the
+    /// origin.
     #[inline(always)]
     pub(super) fn at(&self, [x, y]: Point) -> i32 {
         let along = self.step.wrapping_mul(x);
@@ -31,31 +32,37 @@ impl Plane {
     }
 }
 
-/// What all planes over a triangle share.
+/// The set-up that all planes over a triangle share: its sides and the inverse of its area.
 #[derive(Clone, Copy)]
 pub(super) struct Gradients {
-    /// Corners 1 and 2 from corner 0, in 2^−(8 − `coarse`) pixels, each number below 2¹³.
+    /// Corners 1 and 2 from corner 0, in units of 2^−(8 − `coarse`) pixels. Each coordinate is
+    /// below 2¹³.
     sides: [Point; 2],
+    /// How many low bits the sides lost.
     coarse: u32,
-    /// The bits of twice the area in those units squared, and 2³¹ over it when it is shifted to 16 bits.
+    /// How many bits twice the area has, in those units squared.
     bits: u32,
+    /// 2³¹ divided by twice the area, which is shifted to 16 bits for this.
     inverse: u32,
+    /// Corner 0, in sub-pixels.
     first: Point,
-    /// The pixel with the first centre right of corner 0 and below it.
+    /// The first pixel whose centre is not left of corner 0 nor above it.
     origin: Point,
 }
 
 impl Gradients {
-    /// Returns them, if the triangle is not seen from behind.
+    /// Sets up a triangle, or returns `None` if it is seen from behind.
     pub(super) fn new([a, b, c]: [Point; 3]) -> Option<Self> {
         let sides = [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]];
         let spread = sides.map(|s| s[0].unsigned_abs() | s[1].unsigned_abs());
-        // Sides of 32 pixels and more lose their lowest bits: 2⁻¹³ of them.
+        // Sides of 32 pixels and more lose their low bits, an error of 2⁻¹³ of the side, so that
+        // products of two sides fit 32 bits.
         let coarse = (32 - (spread[0] | spread[1]).leading_zeros()).saturating_sub(13);
         let half = (1 << coarse) >> 1;
         let sides = sides.map(|s| s.map(|x| ((x + half) >> coarse).min(8191)));
         let area = sides[0][0] * sides[1][1] - sides[1][0] * sides[0][1];
-        // Where bits were lost, the sign of a small area is open. The scan decides.
+        // If bits were lost, the sign of a small area is uncertain: keep the triangle, and the
+        // scan, which is exact, decides.
         if area <= -16384 || area <= 0 && coarse == 0 {
             return None;
         }
@@ -74,7 +81,7 @@ impl Gradients {
         })
     }
 
-    /// Returns the plane of values with 15 fractional bits from −1 to 1, or `None` if it is steep.
+    /// Returns the plane of Q15 values from −1 to 1, or `None` if it is too steep.
     #[inline(always)]
     pub(super) fn plane(&self, values: [i32; 3]) -> Option<Plane> {
         let [first, ..] = values;
@@ -82,7 +89,7 @@ impl Gradients {
         Some(self.at_origin(first << 15, step, row))
     }
 
-    /// Returns the plane of values of 16 bits, over 2¹⁶, or `None` if it is steep.
+    /// Returns the plane of 16-bit values, divided by 2¹⁶, or `None` if it is too steep.
     #[inline(always)]
     pub(super) fn plane16(&self, values: [u16; 3]) -> Option<Plane> {
         let [first, ..] = values;
@@ -90,11 +97,12 @@ impl Gradients {
         Some(self.at_origin(i32::from(first) << 14, step >> 1, row >> 1))
     }
 
-    /// Moves a plane from corner 0 to the pixel centre beside it.
+    /// Moves a plane from corner 0 to the centre of the origin's pixel.
     #[inline(always)]
     fn at_origin(&self, value: i32, step: i32, row: i32) -> Plane {
         let [x, y] = self.offset(self.origin[0], self.origin[1]);
-        // Steps below 2²⁷ times 256 sub-pixels, less 5 bits: 2³⁰.
+        // Steps are below 2²⁷ and offsets at most 256 sub-pixels: without 5 low bits the product is
+        // below 2³⁰.
         let part = |step: i32, by: i32| ((step >> 5) * by) >> 3;
         let value = value.wrapping_add(part(step, x)).wrapping_add(part(row, y));
         Plane { value, step, row }
@@ -109,11 +117,12 @@ impl Gradients {
         ]
     }
 
-    /// Returns the growth per column and row of values with 15 fractional bits, with 30 of them, or
-    /// `None` if either is steep. Differences are at most 2¹⁶, so products are at most 2²⁹.
+    /// Returns the growth of Q15 values per column and per row, in Q30, or `None` if either is too
+    /// steep. Differences are at most 2¹⁶, so products are at most 2²⁹.
     ///
-    /// A side that lost bits is off by up to 2^(`coarse` − 9) pixels, and a value by the growth over that
-    /// distance. Where more bits are lost, less growth is called steep: values stay right to 2⁻¹⁰.
+    /// A side that lost bits is off by up to 2^(`coarse` − 9) pixels, and a value by its growth
+    /// over that distance. So the more bits are lost, the less growth is allowed: values stay right
+    /// to 2⁻¹⁰.
     #[inline(always)]
     fn growth(&self, [a, b, c]: [i32; 3]) -> Option<(i32, i32)> {
         let (b, c) = (b - a, c - a);
@@ -123,13 +132,14 @@ impl Gradients {
         Some((step, row))
     }
 
-    /// Returns x/area per pixel with 30 fractional bits, from x of 15 in the sides' units, at most 2³⁰;
-    /// or `None` if it is `limit` or more, or the triangle too thin to tell.
+    /// Returns x/area per pixel in Q30, from a Q15 x in the sides' units, at most 2³⁰. Returns
+    /// `None` if the quotient reaches `limit`, or if the triangle is too thin to tell.
     ///
-    /// 1/area is `inverse` 2^−(15 + bits). In two halves the product with `inverse` takes 32 bits; on
-    /// a Cortex-M0 a product of 64 bits takes 63 instructions.
+    /// 1/area is `inverse` 2^−(15 + bits). Its product with x is computed in two halves of 32 bits,
+    /// because a 64-bit product takes 63 instructions on a Cortex-M0.
     #[inline(always)]
     fn over_area(&self, x: i32, limit: i32) -> Option<i32> {
+        // The upper half keeps the sign of x, the lower half is unsigned.
         let high = (x >> 16) * self.inverse as i32;
         let low = ((x as u32 & 0xFFFF) * self.inverse) >> 16;
         let product = high + low as i32;
@@ -139,7 +149,8 @@ impl Gradients {
             (quotient.unsigned_abs() < limit as u32).then_some(quotient)
         } else {
             let up = shift.unsigned_abs();
-            // What the product cuts grows to 2^`up`, and over a side of 2^(5 + `coarse`) pixels to 2⁻¹⁵ at the most.
+            // The shift multiplies the bit that the product cut by 2^`up`. Over a side of 2^(5 +
+            // `coarse`) pixels that may grow to 2⁻¹⁵, and no further.
             if up + self.coarse > 10 {
                 return None;
             }
@@ -147,8 +158,8 @@ impl Gradients {
         }
     }
 
-    /// Returns the growth of the weight of corner 1 and of corner 2, each per column and row, with 30
-    /// fractional bits, or `None` if any is ¼ or more, or less where sides lost bits.
+    /// Returns the growth of the weights of corners 1 and 2 per column and row, in Q30. Returns
+    /// `None` if one is ¼ or more; the limit is lower if the sides lost bits.
     pub(super) fn weights(&self) -> Option<[[i32; 2]; 2]> {
         let [[x1, y1], [x2, y2]] = self.sides;
         let one = |x: i32| self.over_area(x << 15, (1 << 28) >> self.coarse);
@@ -161,7 +172,7 @@ impl Gradients {
         [x - self.origin[0], y - self.origin[1]]
     }
 
-    /// Returns how far a pixel's centre lies from corner 0 in pixels, with 8 fractional bits.
+    /// Returns the distance of the origin's centre from corner 0 in sub-pixels.
     #[inline(always)]
     pub(super) fn origin_offset(&self) -> Point {
         self.offset(self.origin[0], self.origin[1])
@@ -174,7 +185,8 @@ mod tests {
     use super::super::tests::Random;
     use super::*;
 
-    /// A product of little is cut to few bits. Hairs that cover a pixel's centre have planes that are right there, or none.
+    /// The products of thin triangles have few bits. Hairs that cover a pixel's centre have planes
+    /// that are right there, or none.
     #[test]
     fn planes_over_hairs_are_right_or_none() {
         let random = Random::new(51);
@@ -214,7 +226,7 @@ mod tests {
                     let sum: f64 = (0..3).map(|i| weights[i] * f64::from(values[i])).sum();
                     let exact = sum / area(corners);
                     let error = f64::from(plane.at(g.place(x, y))) / 32768.0 - exact;
-                    // Moved corners: 16. 1/area and the cut of a product: 3.
+                    // Moved corners add up to 16 units, 1/area and the cut of a product 3.
                     assert!(error.abs() < 20.0, "{corners:?} {values:?}: {error}");
                     found += 1;
                 }

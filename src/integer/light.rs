@@ -1,4 +1,4 @@
-//! Lights, kinds of highlights, and the colour of a pixel.
+//! Lights, kinds of highlights, and a pixel's colour from its cosines.
 
 use super::material::{Material, SCALE, TOP};
 use super::pixel::{Pixel, half, saturate};
@@ -13,8 +13,9 @@ pub struct Light<'a, P> {
     pub(super) eye: Bits,
     /// H, scaled by 255/256; 0 where L = −V.
     pub(super) halfway: Bits,
-    /// L·V with 15 fractional bits, scaled by 255/256, and [`TOP`] above it.
+    /// L·V in Q15, scaled by 255/256.
     pub(super) l_v: i32,
+    /// [`TOP`] + L·V.
     top: i32,
     pub(super) material: &'a Material<P>,
 }
@@ -27,9 +28,10 @@ impl<P> Clone for Light<'_, P> {
 impl<P> Copy for Light<'_, P> {}
 
 impl<'a, P: Pixel> Light<'a, P> {
-    /// Makes a light from directions: `toward` the light, `eye` toward the eye. A light from the direction 0 lights nothing.
+    /// Makes a light from the directions `toward` the light and toward the `eye`. Only directions
+    /// count, not lengths. A light from the direction 0 lights nothing.
     ///
-    /// All lights of a picture share the eye.
+    /// All lights of a picture must have the same eye.
     pub const fn new(toward: Vector, eye: Vector, material: &'a Material<P>) -> Self {
         let (l, v) = (unit_bits(toward.bits()), unit_bits(eye.bits()));
         let sum = [(l[0] + v[0]) >> 1, (l[1] + v[1]) >> 1, (l[2] + v[2]) >> 1];
@@ -68,8 +70,8 @@ pub trait Highlight: Copy + sealed::Sealed {
     /// Returns the vector whose product with N is K.
     #[doc(hidden)]
     fn k_of<P>(light: &Light<'_, P>) -> Bits;
-    /// Returns how far the highlight's cosine lies below the top of its table, from the unit L·N and K,
-    /// all of 15 fractional bits.
+    /// Returns how far the highlight's cosine lies below the top of its table. The cosine is
+    /// computed from L·N and K of the unit normal; all are in Q15.
     #[doc(hidden)]
     fn below<P>(light: &Light<'_, P>, j: i32, k: i32) -> i32;
 }
@@ -85,7 +87,8 @@ mod sealed {
 #[derive(Clone, Copy, Debug)]
 pub struct Reflection;
 
-/// The highlight (N·H)ⁿ, H halfway between L and V: a product fewer, and wider for the same n.
+/// The highlight (N·H)ⁿ, with H halfway between L and V. It takes one product less than
+/// [`Reflection`] and is wider for the same n.
 #[derive(Clone, Copy, Debug)]
 pub struct Halfway;
 
@@ -102,7 +105,8 @@ impl Highlight for Reflection {
     }
     #[inline(always)]
     fn below<P>(light: &Light<'_, P>, j: i32, k: i32) -> i32 {
-        // Cutting one bit less doubles the product. It wraps only for normals that `slerp` is not for.
+        // Shifting by 14, not 15, doubles the product. It wraps only for normals beyond the limits
+        // of `Span::slerp`.
         light.top - (j.wrapping_mul(k) >> 14) // 4.5
     }
 }
@@ -133,11 +137,12 @@ impl Highlight for NoHighlight {
     }
 }
 
-/// Returns the colour of a pixel in fields, from the unit L·N of each light with 31 fractional bits, and
-/// how far the cosine of its highlight lies below [`TOP`] with 15.
+/// Returns a pixel's colour in fields. For each light, `cosines` returns L·N of the unit normal in
+/// Q31, and how far the cosine of its highlight lies below [`TOP`] in Q15.
 ///
-/// L·N is from −1 to below 1, as 32 bits are, so that its upper 9 bits are an index without a check. A cosine may exceed 1 by what [`TOP`] has
-/// room for: above it there is no highlight.
+/// In Q31 every `i32` lies between −1 and 1, so the upper 9 bits of L·N are an index that needs no
+/// check. The highlight's cosine may exceed 1 by the room that [`TOP`] leaves. Above that there is
+/// no highlight.
 #[inline(always)]
 pub(super) fn shade<P: Pixel, H: Highlight, const L: usize>(
     lights: &[Light<'_, P>; L],
@@ -148,14 +153,18 @@ pub(super) fn shade<P: Pixel, H: Highlight, const L: usize>(
     let mut i = 0;
     while i < L {
         let (light, (j, below)) = (&lights[i], cosines(i));
+        // The logical shift maps negative L·N to the upper half of the table, which has no diffuse
+        // light.
         let diffuse = light.material.diffuse[(j as u32 >> 23) as usize];
         sum = if i == 0 {
             diffuse
         } else {
+            // Each table entry includes the ½ that rounds: count it only once.
             saturate(sum + diffuse - half::<P>())
         };
         if H::IS_SEEN {
-            // All ones where the light is behind: beyond the table.
+            // If the light is behind, `j >> 31` is all ones: an index beyond the table, where `get`
+            // finds no highlight. A `below` under 0 ends there, too.
             let step = (below >> light.material.shift | j >> 31) as u32;
             if let Some(highlight) = light.material.highlight.get(step as usize) {
                 sum = saturate(sum + highlight);

@@ -1,46 +1,50 @@
-//! Materials: tables of colours, made by the compiler.
+//! Materials: tables of colours, which the compiler computes.
 
 use super::pixel::{Pixel, fields, half};
 use core::marker::PhantomData;
 use fixed::types::U16F16;
 
-/// What unit lights are scaled by, with 15 fractional bits: 255/256, so that no cosine's index of 8
-/// bits wraps.
+/// The scale of unit light directions, 255/256 in Q15. With it no cosine reaches 1, where its index
+/// of 8 bits would wrap.
 pub(super) const SCALE: i32 = 32640;
 
-/// The cosine at the top of the table of highlights. Above [`SCALE`] it has room for the error of
-/// 1/√D: at D = ¼ it makes R·V exceed 1 by 2⁻⁸.
+/// The cosine at the top of the table of highlights, in Q15. It leaves room above [`SCALE`] for the
+/// error of 1/√D, with which R·V exceeds 1 by 2⁻⁸ at D = ¼.
 pub(super) const TOP: i32 = SCALE + 160;
 
-/// The entries of a table of highlights. With 256, half a step of shininess 32 is 4 levels of k_s.
+/// How many entries a table of highlights has. With 256, half a step at shininess 32 would be 4
+/// levels of k_s.
 const HIGHLIGHTS: usize = 512;
 
-/// A material in the colour of one light: 512 colours by L·N and 512 by R·V or N·H, 4 KB.
+/// A material in the colour of one light: tables of 512 colours by L·N and 512 by R·V or N·H, 4 KB
+/// in all.
 ///
-/// Make it a `static`: the compiler then computes the tables, and they stay in read-only memory.
+/// Make it a `static`: then the compiler computes the tables, and they stay in read-only memory.
 #[derive(Clone, Debug)]
 pub struct Material<P> {
-    /// Ambient and diffuse colour by L·N, in steps of 1/255, with ½ to round. The second half is for
-    /// negative L·N, from −1 up, as an index of 9 bits wraps: ambient colour.
+    /// Ambient and diffuse colour by L·N, in steps of 1/255, with the ½ that rounds. The index has
+    /// 9 bits, so negative L·N wrap to the second half: there is only ambient colour.
     pub(super) diffuse: [u32; 512],
     /// Highlight by ([`TOP`] − cosine) >> `shift`.
     pub(super) highlight: [u32; HIGHLIGHTS],
     pub(super) shift: u32,
-    /// The entries of `highlight` up to the last that adds anything.
+    /// How many entries `highlight` has up to the last one that is not black.
     pub(super) seen: usize,
     format: PhantomData<P>,
 }
 
 impl<P: Pixel> Material<P> {
-    /// Makes the tables of I_a k_a + I_p k_d (L·N) and I_p k_s (R·V)ⁿ (L21 2.1), red, green and blue.
+    /// Makes the tables of I_a k_a + I_p k_d (L·N) and I_p k_s (R·V)ⁿ (L21 2.1) for red, green and
+    /// blue.
     ///
-    /// Each argument is a product of light and material, as I_a k_a; sums above 1 are clamped. Of
-    /// several lights, one alone carries the ambient colour. Shininess n is 1 to about 1,000.
+    /// Each argument is a product of light and material, like I_a k_a, and 1 is the brightest
+    /// colour of a pixel. Sums above 1 are clamped. Of several lights, pass the ambient colour to
+    /// one only. Shininess n is 1 to about 1,000.
     ///
-    /// The highlight's table covers the cosines whose power is at least 2⁻⁹, in up to 512 steps; smaller
-    /// ones are left out.
+    /// The highlight's table covers the cosines whose power is at least 2⁻⁹, in up to 512 steps. It
+    /// leaves out smaller ones.
     ///
-    /// It computes in integers of 64 bits. Call it in a `static` or `const`.
+    /// It computes in 64-bit integers, so call it in a `static` or `const`, not at run time.
     pub const fn new(
         ambient: [U16F16; 3],
         diffuse: [U16F16; 3],
@@ -54,7 +58,7 @@ impl<P: Pixel> Material<P> {
             seen: 0,
             format: PhantomData,
         };
-        // Both tables hold the colours in the middle of their steps.
+        // Each entry holds the colour in the middle of its step, which halves the largest error.
         let mut i = 0;
         while i < 512 {
             let lit = if i < 256 { 2 * i as u64 + 1 } else { 0 };
@@ -87,8 +91,8 @@ impl<P: Pixel> Material<P> {
     }
 }
 
-/// Returns the finest steps of a table of highlights that reaches down to a power of 2⁻⁹, as a shift of
-/// 15 fractional bits.
+/// Returns the finest step with which a table of highlights reaches down to a power of 2⁻⁹, as a
+/// shift of Q15 cosines.
 pub(super) const fn shift_for(shininess: u32) -> u32 {
     let mut shift = 0;
     while shift < 6 && power(TOP - ((HIGHLIGHTS as i32) << shift), shininess) > 1 << 21 {
@@ -97,7 +101,7 @@ pub(super) const fn shift_for(shininess: u32) -> u32 {
     shift
 }
 
-/// Returns (cosine / [`SCALE`])ⁿ with 30 fractional bits, clamped to 0–1.
+/// Returns (cosine / [`SCALE`])ⁿ in Q30, clamped to 0–1.
 const fn power(cosine: i32, n: u32) -> u64 {
     if cosine <= 0 {
         return 0;
@@ -125,7 +129,8 @@ mod tests {
             for cosine in [1, 1000, 20000, 30000, 32000, SCALE - 1, SCALE, TOP] {
                 let exact = f64::from(cosine.min(SCALE)) / f64::from(SCALE);
                 let error = power(cosine, n) as f64 / f64::from(1 << 30) - exact.powi(n as i32);
-                // Each of 20 products and the quotient cuts a unit, which powers multiply by n.
+                // Each of 20 products and the quotient cuts a unit, and the power multiplies its
+                // error by n.
                 assert!(
                     error.abs() < 4e-9 * f64::from(n) + 2e-8,
                     "{n} {cosine}: {error}"

@@ -1,4 +1,4 @@
-//! Naive Phong shading: N by additions, J, K and D by products, 1/√D by table.
+//! Naive Phong shading: additions step N, products compute J, K and D, and a table 1/√D.
 
 use super::light::{Highlight, Light, shade};
 use super::pixel::Pixel;
@@ -6,18 +6,16 @@ use super::ramp::Ramp;
 use super::reciprocal_root::{below_one, root_below, unit_j, unit_k};
 use super::vector::{Bits, Vector, dot, unit_bits};
 
-/// Shades `line` from the normal at its first pixel and the growth of the normal per pixel.
-///
-/// N steps by three additions (L21 4.2). Then J = L·N, K = V·N and D = N·N give L·N = J/√D and
-/// R·V = 2 (J/√D)(K/√D) − L·V. Reading N at 15 bits costs J, K and D up to 2⁻¹⁴ each.
-///
-/// Its error is that of [`fast`](super::fast), within 2⁻¹³ of cosine.
+/// Shades `line` from the normal at its first pixel and the normal's growth per pixel.
 #[inline(always)]
-pub fn naive<P: Pixel, H: Highlight, const REFINED: bool, const L: usize>(
+pub(super) fn naive<P: Pixel, H: Highlight, const REFINED: bool, const L: usize>(
     line: &mut [P],
     normal: [Ramp; 3],
     lights: &[Light<'_, P>; L],
 ) {
+    // Three additions step N (L21 4.2). Then J = L·N, K = V·N and D = N·N, and from them L·N = J/√D
+    // and R·V = 2 (J/√D)(K/√D) − L·V. N is cut to Q15 so that products fit 32 bits, which moves J,
+    // K and D by up to 2⁻¹⁴.
     let [mut x, mut y, mut z] = normal;
     for pixel in line {
         let n = [x.next() >> 15, y.next() >> 15, z.next() >> 15]; // 4.2
@@ -25,8 +23,11 @@ pub fn naive<P: Pixel, H: Highlight, const REFINED: bool, const L: usize>(
     }
 }
 
-/// Returns the colour of a normal of any length in fields, for [`gouraud`](super::gouraud): lit as [`naive`](super::naive) lights
-/// a pixel, with one step of Newton's.
+/// Returns the colour of a surface with this normal, in the fields that [`gouraud`](super::gouraud)
+/// reads.
+///
+/// It computes the same light as [`Span::naive`](super::Span::naive) with `REFINED`. Only the
+/// normal's direction counts.
 #[inline(never)]
 pub fn colour<P: Pixel, H: Highlight, const L: usize>(
     lights: &[Light<'_, P>; L],
@@ -41,8 +42,9 @@ pub(super) fn light_normal<P: Pixel, H: Highlight, const REFINED: bool, const L:
     lights: &[Light<'_, P>; L],
     n: Bits,
 ) -> u32 {
+    // D is computed at each pixel, not stepped; `below_one` turns it into an index of the table.
     let r = root_below::<REFINED>(below_one(dot(n, n)));
-    // The eye is one, so V·N is the same for all lights.
+    // All lights share the eye, so V·N is the same for all of them.
     let along = |light: &Light<'_, P>| unit_k(dot(H::k_of(light), n), r);
     let shared = if H::SHARES_K { along(&lights[0]) } else { 0 };
     shade::<P, H, L>(lights, |i| {

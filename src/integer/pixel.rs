@@ -1,6 +1,6 @@
-//! Formats of pixels, and the fields that colours are summed in.
+//! Pixel formats, and the fields in which colours add up.
 //!
-//! A colour is three fields of one `u32`, so that two loads and one addition add a highlight to all
+//! A colour is three fields of one `u32`. So two loads and one addition add a highlight to all
 //! three channels:
 //!
 //! ```text
@@ -8,25 +8,48 @@
 //!      guard  green     guard  red       unused  guard  blue
 //! ```
 //!
-//! A field holds a channel's integer, then its fraction. A guard bit is set when a sum passes the
-//! top of its field: [`saturate`] then fills the field. Tables include ½, so that cutting the
-//! fraction rounds.
+//! A field holds a channel's integer, then its fraction. When a sum passes the top of a field, it
+//! sets the field's guard bit, and [`saturate`] fills the field. Tables include ½, so that cutting
+//! the fraction rounds.
 
 /// The guard bits of all three fields.
 const GUARDS: u32 = 1 << 31 | 1 << 20 | 1 << 9;
 
-/// A format of pixels that spans are shaded in.
+/// A pixel format, into which spans and triangles are shaded.
+///
+/// Implement it for the format of your display:
+///
+/// ```
+/// use fastphong::integer::Pixel;
+///
+/// /// 3 bits of red, 3 of green, 2 of blue.
+/// #[derive(Clone, Copy)]
+/// struct Rgb332(u8);
+///
+/// impl Pixel for Rgb332 {
+///     const BITS: [u32; 3] = [3, 3, 2];
+///
+///     fn from_fields(fields: u32) -> Self {
+///         // The top 3 bits of green and red, and the top 2 of blue.
+///         let (red, green, blue) = (fields >> 17 & 7, fields >> 28 & 7, fields >> 7 & 3);
+///         Self((red << 5 | green << 2 | blue) as u8)
+///     }
+/// }
+/// assert_eq!(Rgb332::from_fields(0x7FEF_F9FF).0, 0xFF);
+/// ```
 pub trait Pixel: Copy {
-    /// The bits of red, green and blue: at most 9, 10 and 9.
+    /// How many bits red, green and blue have: at most 9, 10 and 9.
     const BITS: [u32; 3];
 
-    /// Returns the pixel of a colour in fields: green in bits 21–30, red in 11–19, blue in 0–8, each
-    /// an integer of [`Pixel::BITS`] above a fraction to cut. All other bits are 0.
+    /// Returns the pixel of a colour in fields: green in bits 21–30, red in 11–19, blue in 0–8. The
+    /// top [`Pixel::BITS`] of each field are the channel, and the rest is a fraction to cut. All
+    /// other bits are 0.
     fn from_fields(fields: u32) -> Self;
 
-    /// Returns the pixel of a colour in halves: red in bits 16–31 of the first, blue in its bits
-    /// 0–15, green in bits 0–15 of the second, each an integer of [`Pixel::BITS`] above a fraction.
-    /// Other bits of `green` may be anything. Gouraud shading adds in this form.
+    /// Returns the pixel of a colour in halves: red in bits 16–31 of `red_blue`, blue in its bits
+    /// 0–15, and green in bits 0–15 of `green`. The top [`Pixel::BITS`] of each half are the
+    /// channel, and the rest is a fraction to cut. Other bits of `green` may have any value.
+    /// Gouraud shading adds in this form.
     #[inline(always)]
     fn from_halves(red_blue: u32, green: u32) -> Self {
         Self::from_fields(
@@ -35,17 +58,19 @@ pub trait Pixel: Copy {
     }
 }
 
-/// Red, green and blue of 8 bits each, in this order in memory.
+/// A pixel of 24 bits: red, green and blue of 8 bits each, in this order in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(transparent)]
 pub struct Rgb888(pub [u8; 3]);
 
-/// Red of 5 bits, green of 6, blue of 5, from the top of a `u16` in the processor's byte order.
+/// A pixel of 16 bits in the processor's byte order: from the top, 5 bits of red, 6 of green and 5
+/// of blue.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(transparent)]
 pub struct Rgb565(pub u16);
 
-/// As [`Rgb565`], in big-endian bytes: the order in which most displays take them over SPI.
+/// A pixel like [`Rgb565`] with its high byte first, the order in which most displays read pixels
+/// over SPI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(transparent)]
 pub struct Rgb565Be(pub u16);
@@ -76,7 +101,7 @@ impl Pixel for Rgb565 {
 
     #[inline(always)]
     fn from_fields(fields: u32) -> Self {
-        // Green, red and blue are where they belong, but for 16 bits of green.
+        // After the shift red and blue are in place, and green is 16 bits too high.
         let cut = fields >> 4 & 0x07E0_F81F;
         Self((cut | cut >> 16) as u16)
     }
@@ -99,10 +124,11 @@ impl Pixel for Rgb565Be {
     }
 }
 
-/// The place of each channel in a colour: its lowest bit and its width, for red, green and blue.
+/// The lowest bit and the width of each channel's field: red, green and blue.
 const PLACES: [(u32, u32); 3] = [(11, 9), (21, 10), (0, 9)];
 
-/// Returns fields of channels in 16 fractional bits, clamped to 1, without the ½ that rounds.
+/// Returns the fields of channels that have 16 fractional bits. Channels are clamped to 1, and the
+/// ½ that rounds is not included.
 pub(super) const fn fields<P: Pixel>(channels: [u64; 3]) -> u32 {
     let mut sum = 0;
     let mut i = 0;
@@ -113,7 +139,7 @@ pub(super) const fn fields<P: Pixel>(channels: [u64; 3]) -> u32 {
         } else {
             1 << 16
         };
-        // The largest integer of the channel, with the fraction below it.
+        // The channel's largest integer, with zeros as the fraction: 1.0 must not round up.
         let top = ((1 << P::BITS[i]) - 1) << (width - P::BITS[i]);
         sum |= ((clamped * top + (1 << 15)) >> 16 << at) as u32;
         i += 1;
@@ -142,14 +168,17 @@ pub(super) const fn half<P: Pixel>() -> u32 {
 #[inline(always)]
 pub(super) fn saturate(sum: u32) -> u32 {
     let over = sum & GUARDS;
+    // Most sums stay below 1 and need no more.
     if over == 0 {
         return sum;
     }
-    // A guard less 2⁻⁹ of itself is nine ones below it: all of a field, but for the lowest bit of green.
+    // A guard minus 2⁻⁹ of itself is nine ones below it. They fill a field, except green's lowest
+    // bit, which is a fraction in all formats of this file.
     (sum | (over - (over >> 9))) - over
 }
 
-/// Returns red and blue, then green, in halves of 16 bits: see [`Pixel::from_halves`].
+/// Returns a colour in halves of 16 bits, red and blue first, then green: see
+/// [`Pixel::from_halves`].
 #[inline(always)]
 pub(super) fn halves(fields: u32) -> (u32, u32) {
     let red_blue = (fields << 12 & 0xFF80_0000) | (fields << 7 & 0xFF80);

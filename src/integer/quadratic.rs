@@ -1,23 +1,18 @@
-//! L·N and the highlight's cosine as parabolas: additions alone at a pixel.
+//! L·N and the highlight's cosine as parabolas: a pixel takes only additions.
 
 use super::light::{Highlight, Light, shade};
 use super::material::TOP;
 use super::pixel::Pixel;
 use super::ramp::Quadratic;
 
-/// Shades `line` from the unit L·N and the highlight's cosine of each light along the span.
+/// Shades `line` from L·N of the unit normal and the highlight's cosine of each light along the
+/// span.
 ///
-/// Both are parabolas by second differences, two additions each, without a product: Bishop and
-/// Weimer's shape (1986), fitted through three points of a span or six of a triangle.
-///
-/// # Error
-///
-/// That of [`fast`](super::fast) with a step of Newton's, and what parabolas leave out: over an angle θ
-/// between the ends at most 0.0241 θ³ of L·N and N·H and 0.0963 θ³ of R·V, which the highlight
-/// multiplies by 255 k_s n. In grey levels, with k_d ½, k_s 0.4 and n = 32: 2.3 in all up to 15°, 7 at
-/// 30°, 56 at 60°.
+/// Both are parabolas: second differences step each with two additions and no product. Bishop and
+/// Weimer (1986) fitted such shapes; here they go through three points of a span or six of a
+/// triangle.
 #[inline(always)]
-pub fn quadratic<P: Pixel, H: Highlight, const L: usize>(
+pub(super) fn quadratic<P: Pixel, H: Highlight, const L: usize>(
     line: &mut [P],
     l_n: [Quadratic; L],
     cosine: [Quadratic; L],
@@ -26,14 +21,15 @@ pub fn quadratic<P: Pixel, H: Highlight, const L: usize>(
     run::<P, H, true, L>(line, l_n, cosine, lights);
 }
 
-/// The least product of two normals, with 30 fractional bits, between which parabolas need no clamp:
-/// cos 15.4°.
+/// The least product of two normals between which parabolas need no clamp, in Q30: cos 15.4°.
 ///
-/// There they pass true cosines by at most 0.0019 (see [`quadratic`]). Those of L are at most 255/256,
-/// and the table of highlights has room for 0.0049.
+/// Up to this angle parabolas exceed true cosines by at most 0.0019 (see
+/// [`Span::quadratic`](super::Span::quadratic)). L·N is at most 255/256, and the table of
+/// highlights has room for 0.0049.
 pub(super) const NARROW: i32 = 1_035_000_000;
 
-/// Shades `line` as [`quadratic`] does; without `IS_CLAMPED` parabolas have to stay within their tables.
+/// Shades `line` like [`quadratic`]. Without `IS_CLAMPED` the caller promises that parabolas stay
+/// within their tables.
 #[inline(always)]
 pub(super) fn run<P: Pixel, H: Highlight, const IS_CLAMPED: bool, const L: usize>(
     line: &mut [P],
@@ -51,6 +47,7 @@ pub(super) fn run<P: Pixel, H: Highlight, const IS_CLAMPED: bool, const L: usize
             } else {
                 0
             };
+            // Only wide spans need this, and only their loop pays for it.
             if IS_CLAMPED {
                 j = j.clamp(-(1 << 30), (1 << 30) - 1);
                 below = below.max(0);
@@ -63,6 +60,7 @@ pub(super) fn run<P: Pixel, H: Highlight, const IS_CLAMPED: bool, const L: usize
                 lights[i].eye,
                 lights[i].halfway
             );
+            // From Q30 to the Q31 of `shade`.
             cosines[i] = (j << 1, below);
             i += 1;
         }

@@ -1,15 +1,17 @@
-//! 1/n for the lengths of spans, from a table: a Cortex-M0 divides in 200 instructions. Parts of long lines are divided.
+//! 1/n for the lengths of spans, from a table, because a Cortex-M0 takes 200 instructions to
+//! divide. Only the cuts of long lines are divided.
 
 use core::num::NonZeroU32;
 
-/// 1/n as a mantissa m of 14 to 15 bits and a shift: 1/n = m · 2^−(14 + shift), 2¹⁴ ≤ m < 2¹⁵.
+/// 1/n as a mantissa and a shift: 1/n = mantissa · 2^−(14 + shift), with 2¹⁴ ≤ mantissa < 2¹⁵.
 #[derive(Clone, Copy)]
 pub(super) struct Reciprocal {
     pub(super) mantissa: i32,
     pub(super) shift: u32,
 }
 
-/// Mantissa and, above its 16 bits, shift of 1/n for n of 1 to 255; that of 1/256 stands at 0.
+/// 1/n for n of 1 to 255, as [`reciprocal`] packs it. Entry 0 is 1/256, so that 8 bits are an
+/// index.
 static RECIPROCALS: [u32; 256] = {
     let mut table = [0; 256];
     let mut i = 0;
@@ -20,46 +22,48 @@ static RECIPROCALS: [u32; 256] = {
     table
 };
 
-/// Returns the mantissa of 1/n and, above its 16 bits, the shift.
+/// Returns 1/n with its mantissa in the lower 16 bits and its shift in the upper 16.
 const fn reciprocal(n: u32) -> u32 {
-    // The least power of 2 that is not below n.
+    // 2^shift is the least power of 2 that is not below n.
     let shift = 32 - (n - 1).leading_zeros();
     shift << 16 | ((1 << (15 + shift)) / n + 1) >> 1
 }
 
-/// Returns i/n with 16 fractional bits, for i below n. It is right to 2⁻¹⁶, and to 2⁻¹⁵ from n = 2¹⁶ on.
+/// Returns i/n with 16 fractional bits, for i below n. Its error is at most 2⁻¹⁶, and 2⁻¹⁵ from n =
+/// 2¹⁶ on.
 pub(super) fn part(i: usize, n: usize) -> i64 {
     let above = (usize::BITS - n.leading_zeros()).saturating_sub(16);
-    // A divisor that is not 0 by its type needs no check of it.
+    // A divisor whose type says that it is not 0 needs no check.
     let n = NonZeroU32::new((n >> above) as u32).unwrap_or(NonZeroU32::MIN);
     i64::from((((i >> above) as u32) << 16) / n)
 }
 
 impl Reciprocal {
-    /// Returns 1/n; n is 1 to 256.
+    /// Returns 1/n for n from 1 to 256.
     #[inline(always)]
     pub(super) fn of(n: usize) -> Self {
         debug_assert!(n <= 256, "{n} pixels at once");
         let entry = RECIPROCALS[n & 255];
         Self {
             mantissa: (entry & 0xFFFF) as i32,
-            // Four bits hold every shift. The mask tells the compiler that shifts need no other.
+            // Every shift is at most 8. The mask tells the compiler, which then checks no shift for
+            // overflow.
             shift: entry >> 16 & 15,
         }
     }
 
-    /// Returns x/n with 30 fractional bits, for x of 14 fractional bits below 4 in magnitude.
+    /// Returns x/n in Q30, for a Q14 x below 4 in magnitude.
     ///
-    /// The product is below 2¹⁶ · 2¹⁵. Larger x wrap: parabolas over 120° and more have them. Steps above 2
-    /// (n = 1) wrap too, and are never added.
+    /// The product is below 2¹⁶ · 2¹⁵. Larger x wrap, which parabolas over 120° and more have.
+    /// Steps above 2 wrap, too, but only for n = 1, where nobody adds them.
     #[inline(always)]
     pub(super) fn times(self, x: i32) -> i32 {
         (x.wrapping_mul(self.mantissa) >> self.shift) << 2
     }
 
-    /// Returns x/n² with 30 fractional bits, for x of 14 fractional bits below 4 in magnitude.
+    /// Returns x/n² in Q30, for a Q14 x below 4 in magnitude.
     ///
-    /// Both products are below 2¹⁶ · 2¹⁵. It is right to 2⁻¹⁴/n² and the mantissa.
+    /// Both products are below 2¹⁶ · 2¹⁵. Its error is 2⁻¹⁴/n² plus the mantissa's.
     #[inline(always)]
     pub(super) fn times_squared(self, x: i32) -> i32 {
         let once = x.wrapping_mul(self.mantissa).wrapping_add(1 << 14) >> 15;

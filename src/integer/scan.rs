@@ -1,8 +1,8 @@
-//! Which pixels a triangle covers, in exact integers of 32 bits.
+//! The pixels that a triangle covers, exactly, in 32-bit integers.
 
 use core::num::NonZeroU32;
 
-/// A corner in sub-pixels, 256 a pixel, within ±2¹⁸.
+/// A corner in sub-pixels, 256 to a pixel, within ±2¹⁸.
 pub(super) type Point = [i32; 2];
 
 /// Returns the first row (or column) whose centre is not before `at`: ceil(at − ½).
@@ -11,41 +11,48 @@ pub(super) const fn first_centre(at: i32) -> i32 {
     (at + 127) >> 8
 }
 
-/// An edge on its way down: the first pixel whose centre is not left of it, on each row.
+/// An edge on its way down. On each row it knows the first pixel whose centre is not left of it.
 ///
-/// From (X0, Y0) down by (dX, dY), the centre of row y, t = 256 y + 128 − Y0 below the start, is
-/// crossed at X0 + t dX / dY. The pixel is ceil((that − 128) / 256). With dX = `whole` dY + `rest`,
-/// 0 ≤ `rest` < dY, it moves by `whole` pixels a row and `rest`/dY of one, which is carried exactly:
-/// the pixel is floor of (`pixel` + `carry` / (256 dY)), where `carry` is below 256 dY ≤ 2²⁷.
+/// The edge starts at (X0, Y0) and goes down by (dX, dY). The centre of row y is t = 256 y + 128 −
+/// Y0 below the start, so the edge crosses it at x = X0 + t dX / dY, and the pixel is ceil((x
+/// − 128) / 256). With dX = `whole` dY + `rest` and 0 ≤ `rest` < dY, the pixel moves by `whole` +
+/// `rest`/dY per row. The fraction is carried exactly: the pixel is floor(`pixel` + `carry` / (256
+/// dY)), where `carry` is below 256 dY ≤ 2²⁷.
 #[derive(Clone, Copy, Default)]
 struct Edge {
     pixel: i32,
     carry: u32,
     whole: i32,
+    /// `rest`, times 256.
     rest: u32,
+    /// 256 dY: a carry that reaches it is one pixel.
     full: u32,
 }
 
 impl Edge {
-    /// Starts an edge at the first row whose centre is not above it; it goes down by at least one.
+    /// Starts an edge at the first row whose centre is not above `from`. The edge must go down by
+    /// at least one sub-pixel.
     fn new(from: Point, to: Point) -> Self {
         let (dx, dy) = (to[0] - from[0], (to[1] - from[1]) as u32);
         let divisor = NonZeroU32::new(dy).unwrap_or(NonZeroU32::MIN);
         let quotient = dx.unsigned_abs() / divisor;
         let remainder = dx.unsigned_abs() - quotient * dy;
-        // The floor of a negative quotient is below it, unless it is whole.
+        // dX = whole dY + rest with the floor as the quotient: a negative quotient is rounded away
+        // from 0.
         let (whole, rest) = match (dx < 0, remainder) {
             (false, _) => (quotient as i32, remainder),
             (true, 0) => (-(quotient as i32), 0),
             (true, _) => (-(quotient as i32) - 1, dy - remainder),
         };
         let t = (first_centre(from[1]) << 8) + 128 - from[1];
-        // X0 − 128 = 256 u + v and t whole = 256 u' + v'. Below 256 the sum is (v + v') dY + t rest
-        // over 256 dY, and the ceiling adds all but 1 of 256 dY: below 2¹⁰ dY ≤ 2²⁹.
+        // With X0 − 128 = 256 u + v and t whole = 256 u' + v' the pixel begins at u + u'. The rest
+        // is ((v + v') dY + t rest) / (256 dY). For the ceiling add 256 dY − 1 to the numerator,
+        // which stays below 2¹⁰ dY ≤ 2²⁹.
         let (start, moved) = (from[0] - 128, t * whole);
         let full = dy << 8;
         let mut carry = ((start & 255) + (moved & 255)) as u32 * dy + t as u32 * rest + full - 1;
         let mut pixel = (start >> 8) + (moved >> 8);
+        // Three rounds at most, which cost less than a division.
         while carry >= full {
             carry -= full;
             pixel += 1;
@@ -63,6 +70,7 @@ impl Edge {
     #[inline(always)]
     fn next(&mut self) {
         self.pixel += self.whole;
+        // Both are below `full`, so one subtraction is enough.
         self.carry += self.rest;
         if self.carry >= self.full {
             self.carry -= self.full;
@@ -71,22 +79,24 @@ impl Edge {
     }
 }
 
-/// Calls `run(row, first, end)` for each row of a triangle that has pixels within `width` and
-/// `height`: columns from `first` to before `end`.
+/// Calls `run(row, first, end)` for each row where a triangle has pixels within `width` and
+/// `height`. Its pixels are the columns from `first` to before `end`.
 ///
-/// Corners go clockwise, y downward. Others cover nothing: their left edges lie right.
+/// Corners go clockwise, with y downward. Other triangles cover nothing, because their left edges
+/// lie on the right.
 #[inline(always)]
 pub(super) fn scan(
     corners: [Point; 3],
     (width, height): (i32, i32),
     mut run: impl FnMut(i32, i32, i32),
 ) {
-    // The topmost corner first.
+    // The topmost corner first. Rotating keeps the corners clockwise.
     let [mut a, mut b, mut c] = corners;
     while b[1] < a[1] || c[1] < a[1] {
         (a, b, c) = (b, c, a);
     }
-    // Clockwise, the edges a–b–c lie right and a–c–b left. Each chain has up to two edges.
+    // Clockwise, the chain of edges a–b–c lies on the right and a–c–b on the left. Each chain goes
+    // down along one edge or two.
     let [top, row_b, row_c] = [a, b, c].map(|corner| first_centre(corner[1]));
     let bottom = row_b.max(row_c).min(height);
     let (mut left, mut right) = (Edge::default(), Edge::default());
@@ -107,9 +117,11 @@ pub(super) fn scan(
                 (right, right_end) = (Edge::new(b, c), row_c);
             }
         }
+        // Until this row neither chain changes its edge.
         let end = bottom.min(left_end).min(right_end);
         while y < end {
             let (first, end) = (left.pixel.max(0), right.pixel.min(width));
+            // Rows above the picture are stepped, not drawn.
             if y >= 0 && first < end {
                 run(y, first, end);
             }
@@ -125,7 +137,8 @@ mod tests {
     use super::super::tests::Random;
     use super::*;
 
-    /// The rule, by crossings in 64 bits: an odd number of edges left of a centre, or on it.
+    /// True if a pixel is covered by the rule, computed in 64 bits: an odd count of edges lie left
+    /// of its centre, or on it.
     fn covers(corners: [Point; 3], x: i64, y: i64) -> bool {
         let (x, y) = (256 * x + 128, 256 * y + 128);
         let mut crossings = 0;
@@ -150,7 +163,7 @@ mod tests {
         let random = Random::new(11);
         let mut covered = 0;
         for round in 0..3000 {
-            // Some on a coarse grid, so that corners, edges and centres coincide.
+            // Some corners lie on a coarse grid, so that corners, edges and centres coincide.
             let (span, grid) = [(9000.0, 1), (9000.0, 128), (2000.0, 64), (500.0, 1)][round % 4];
             let pick = || ((random.next() - 0.3) * span) as i32 / grid * grid;
             let corners = [(); 3].map(|()| [pick(), pick()]);

@@ -1,4 +1,4 @@
-//! Triangles by parabolas of x and y through six points: the corners and the middles of the sides.
+//! Triangles by quadratic surfaces through six points: the corners and the middles of the sides.
 
 use super::canvas::{Canvas, Vertex};
 use super::gradients::{Gradients, Plane};
@@ -15,11 +15,12 @@ use super::triangle::{SetUp, fan};
 use super::vector::{Bits, dot};
 
 impl<P: Pixel> Canvas<'_, P> {
-    /// Draws a convex polygon by parabolas of L·N and of the highlight's cosine, through the corners
-    /// and the middles of the sides of each triangle.
+    /// Draws a convex polygon whose L·N and highlight's cosine are quadratic in x and y. In each
+    /// triangle they go through the corners and the middles of the sides.
     ///
-    /// Triangles that no highlight can fall on are shaded without one. Triangles under 4 pixels high
-    /// are lit pixel by pixel. Returns false, and draws nothing, if it does not [fit](Canvas).
+    /// It skips the highlight on triangles where none can fall. Triangles less than 4 pixels high
+    /// are lit pixel by pixel. Returns false, and draws nothing, if the polygon does not
+    /// [fit](Canvas).
     pub fn quadratic<H: Highlight, const L: usize>(
         &mut self,
         polygon: &[Vertex],
@@ -57,7 +58,8 @@ impl<P: Pixel> Canvas<'_, P> {
         let shared = six.unit(H::k_of(&lights[0]));
         let (mut l_n, mut cosine) = ([Surface::default(); L], [Surface::default(); L]);
         let narrow = dot(n[0], n[1]).min(dot(n[0], n[2])).min(dot(n[1], n[2])) >= NARROW;
-        // True if a parabola may leave its table, so that pixels are to be clamped.
+        // `leaves`: a surface may leave its table, so pixels must be clamped. `is_bright`: a
+        // highlight may fall on the triangle.
         let (mut is_bright, mut leaves) = (false, false);
         let mut i = 0;
         while i < L {
@@ -83,6 +85,7 @@ impl<P: Pixel> Canvas<'_, P> {
             i += 1;
         }
         let triangle = (points, &g, &z);
+        // Four loops, compiled separately: most triangles have no highlight and need no clamp.
         match (is_bright, narrow || !leaves) {
             (true, true) => self.surfaces::<H, false, L>(triangle, &l_n, &cosine, lights),
             (true, false) => self.surfaces::<H, true, L>(triangle, &l_n, &cosine, lights),
@@ -95,7 +98,7 @@ impl<P: Pixel> Canvas<'_, P> {
         }
     }
 
-    /// Shades a triangle by surfaces of L·N and of the highlight's cosine.
+    /// Shades a triangle from the surfaces of L·N and of the highlight's cosine.
     #[inline(never)]
     fn surfaces<H: Highlight, const IS_CLAMPED: bool, const L: usize>(
         &mut self,
@@ -122,7 +125,8 @@ impl<P: Pixel> Canvas<'_, P> {
     }
 }
 
-/// The normals of the corners 0, 1, 2 and of the middles 0–1, 0–2, 1–2, and 1 over their lengths.
+/// The normals at the corners 0, 1, 2 and at the middles 0–1, 0–2, 1–2, with 1 over their lengths
+/// in Q15.
 struct SixPoints {
     n: [Bits; 6],
     r: [i32; 6],
@@ -144,7 +148,7 @@ impl SixPoints {
         Self { n, r }
     }
 
-    /// Returns the cosines between a unit vector and the six normals, with 15 fractional bits.
+    /// Returns the cosines between a unit vector and the six normals, in Q15.
     #[inline(always)]
     fn unit(&self, v: Bits) -> [i32; 6] {
         let mut cosines = [0; 6];
@@ -157,15 +161,16 @@ impl SixPoints {
     }
 }
 
-/// Returns how far the middle of a side lies below the line between its ends, doubled.
+/// Returns twice the distance by which the middle of a side lies below the line between its ends.
 const fn sag(first: i32, middle: i32, end: i32) -> i32 {
     first + end - 2 * middle
 }
 
-/// Returns how far a parabola may pass its six values.
+/// Returns how far a quadratic surface may exceed its six values.
 ///
-/// Each half-size triangle is a plane through three of the points, less ½ Σ λ_i λ_j sag_ij, and
-/// Σ λ_i λ_j is at most ⅓: that is at most ⅙ of the largest sag, here 11/64.
+/// Over each of the four half-size triangles it is the plane through three of the points, minus ½ Σ
+/// λ_i λ_j sag_ij. Σ λ_i λ_j is at most ⅓, so the difference is at most ⅙ of the largest sag. The
+/// code uses 11/64, a little more, which takes a shift in place of a division.
 #[inline(always)]
 fn rise(s: [i32; 6]) -> i32 {
     let sags = [
@@ -183,17 +188,18 @@ fn most(s: [i32; 6]) -> i32 {
     s[0].max(s[1]).max(s[2]).max(s[3]).max(s[4]).max(s[5])
 }
 
-/// True if the highlight's table may be reached between six values of its cosine.
+/// True if the highlight's cosine may reach an entry of its table that is not black, anywhere
+/// between these six values.
 #[inline(always)]
 fn can_shine<P>(s: [i32; 6], material: &Material<P>) -> bool {
     let reach = (material.seen as i32) << material.shift;
     most(s) + rise(s) + 32 > TOP - reach
 }
 
-/// f(x, y) = c_0 + c_x x + c_y y + c_xx x² + c_xy x y + c_yy y², in whole pixels from the origin of the
-/// triangle's [`Gradients`], with 30 fractional bits.
+/// A quadratic surface: f(x, y) = c_0 + c_x x + c_y y + c_xx x² + c_xy x y + c_yy y² in Q30, with x
+/// and y in whole pixels from the origin of the triangle's [`Gradients`].
 ///
-/// Coefficients may wrap: a value at a pixel is right modulo 2³², and lies within ±2.
+/// Coefficients may wrap. A value at a pixel is right modulo 2³², and lies within ±2.
 #[derive(Clone, Copy, Default)]
 struct Surface {
     value: i32,
@@ -205,17 +211,17 @@ struct Surface {
 }
 
 impl Surface {
-    /// Makes the surface through six values of 15 fractional bits: in weights β and γ of corners 1 and 2,
+    /// Makes the surface through six Q15 values. In the weights β and γ of corners 1 and 2 it is
     /// f = f_0 + a_1 β + a_2 γ + b_11 β² + b_12 β γ + b_22 γ².
     ///
-    /// `weights` are below ¼ per pixel, with 30 fractional bits, and the coefficients below 2¹⁹: sums
+    /// The weights grow by less than ¼ per pixel, in Q30, and the coefficients are below 2¹⁹: sums
     /// of products stay far below 2⁶³.
     #[inline(always)]
     fn new(f: [i32; 6], g: &Gradients, [beta, gamma]: [[i32; 2]; 2]) -> Self {
         let (a1, a2) = (4 * f[3] - 3 * f[0] - f[1], 4 * f[4] - 3 * f[0] - f[2]);
         let (b11, b22) = (2 * sag(f[0], f[3], f[1]), 2 * sag(f[0], f[4], f[2]));
         let b12 = 4 * (f[0] + f[5] - f[3] - f[4]);
-        // 15 and 30 fractional bits make 45, of which 30 are kept.
+        // Q15 times Q30 is Q45: shift back to Q30.
         let linear = |i: usize| {
             (i64::from(a1) * i64::from(beta[i]) + i64::from(a2) * i64::from(gamma[i])) >> 15
         };
@@ -238,7 +244,7 @@ impl Surface {
             square(beta[0], gamma[1]) + square(beta[1], gamma[0]),
             2 * square(gamma[0], gamma[1]),
         );
-        // From corner 0 to the origin, a fraction of a pixel with 8 bits.
+        // Move the surface from corner 0 to the origin, by a fraction of a pixel in Q8.
         let [dx, dy] = g.origin_offset().map(i64::from);
         let (x, y) = (linear(0), linear(1));
         let part_x = x + ((xx * dx + xy * dy) >> 8);
@@ -254,7 +260,8 @@ impl Surface {
         }
     }
 
-    /// Returns the values along a row from a pixel on, x and y from the origin.
+    /// Returns the values along a row, starting at a pixel whose column and row are counted from
+    /// the origin.
     #[inline(always)]
     fn along(&self, [x, y]: Point) -> Quadratic {
         let times = i32::wrapping_mul;
@@ -262,6 +269,7 @@ impl Surface {
         let here = times(slope.wrapping_add(times(self.xx, x)), x);
         let down = times(self.y.wrapping_add(times(self.yy, y)), y);
         let at = self.value.wrapping_add(here).wrapping_add(down);
+        // f(x + 1) − f(x) = slope + c_xx (2x + 1), and its own growth is 2 c_xx.
         let step = slope.wrapping_add(times(self.xx, 2 * x + 1));
         Quadratic::from_bits(at, step, self.xx.wrapping_mul(2))
     }

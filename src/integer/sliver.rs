@@ -1,4 +1,4 @@
-//! Triangles whose values change too fast for steps: lit pixel by pixel.
+//! Slivers: triangles whose values change too fast to be stepped. They are lit pixel by pixel.
 
 use super::canvas::{Canvas, Vertex};
 use super::pixel::Pixel;
@@ -7,8 +7,8 @@ use super::vector::{Bits, unit_bits};
 use core::num::NonZeroU32;
 
 impl<P: Pixel> Canvas<'_, P> {
-    /// Draws a triangle from the weights of its corners at each pixel. `shade` gives the colour in
-    /// fields of the value that corners weigh together.
+    /// Draws a triangle pixel by pixel. Each pixel interpolates `values` by the weights of the
+    /// corners, and `shade` returns the colour of the result in fields.
     pub(super) fn sliver(
         &mut self,
         (points, depths): ([Point; 3], [u16; 3]),
@@ -29,17 +29,18 @@ impl<P: Pixel> Canvas<'_, P> {
     }
 }
 
-/// The weights of a triangle's corners, exact until they are cut to 15 bits.
+/// The weights of a triangle's corners, exact until they are cut to Q15.
 ///
-/// The products have 64 bits: a Cortex-M0 takes 63 instructions for each of four a pixel. Slivers have
+/// They take four 64-bit products per pixel, of 63 instructions each on a Cortex-M0. Slivers have
 /// few pixels.
 struct Weights {
     first: Point,
     sides: [Point; 2],
     /// Twice the area in sub-pixels squared, at least 1.
     area: i64,
-    /// Its bits, and 2³¹ over it when it is shifted to 16 bits.
+    /// How many bits `area` has.
     bits: u32,
+    /// 2³¹ divided by the area, which is shifted to 16 bits for this.
     inverse: u32,
 }
 
@@ -59,30 +60,32 @@ impl Weights {
         }
     }
 
-    /// Returns the weights of corners 1 and 2 at a pixel's centre with 15 fractional bits: 0 or more,
-    /// and together below 1. So what they weigh stays between the corners.
+    /// Returns the weights of corners 1 and 2 at a pixel's centre, in Q15. They are 0 or more, and
+    /// together below 1, so an interpolated value stays between the corners' values.
     fn at(&self, x: i32, y: i32) -> (i32, i32) {
         let offset = [
             (x << 8) + 128 - self.first[0],
             (y << 8) + 128 - self.first[1],
         ];
         let weight = |doubled: i64| {
-            // Both factors are at most as if it were all of the area, so the product is at most 2³¹.
+            // `part` is at most the area in 16 bits, of which `inverse` is the inverse: the product
+            // is at most 2³¹.
             let part = sixteen_bits(doubled.clamp(0, self.area), self.bits);
             (((part * self.inverse) >> 16) as i32).min(32767)
         };
         let second = weight(cross(offset, self.sides[1]));
         let third = weight(cross(self.sides[0], offset));
+        // Rounding may push the sum over 1: cut the third weight.
         (second, third.min(32767 - second))
     }
 }
 
-/// Returns twice the area between two sides. Sides are below 2²⁰.
+/// Returns twice the signed area between two sides, which are below 2²⁰.
 pub(super) fn cross(a: Point, b: Point) -> i64 {
     i64::from(a[0]) * i64::from(b[1]) - i64::from(a[1]) * i64::from(b[0])
 }
 
-/// Returns the upper 16 of `bits` bits.
+/// Returns the upper 16 bits of x, which has `bits` bits.
 fn sixteen_bits(x: i64, bits: u32) -> u32 {
     if bits > 16 {
         (x >> (bits - 16)) as u32
@@ -91,14 +94,14 @@ fn sixteen_bits(x: i64, bits: u32) -> u32 {
     }
 }
 
-/// Returns a + (b − a) β + (c − a) γ. Differences are at most 2¹⁶ and β + γ below 2¹⁵: sums are below
-/// 2³¹.
+/// Returns a + (b − a) β + (c − a) γ with β and γ in Q15. Differences are at most 2¹⁶ and β + γ is
+/// below 2¹⁵, so the sum is below 2³¹.
 #[inline(always)]
 fn weighed([a, b, c]: [i32; 3], (second, third): (i32, i32)) -> i32 {
     a + (((b - a) * second + (c - a) * third) >> 15)
 }
 
-/// Returns the unit normals of a triangle.
+/// Returns the unit normals of a triangle's corners.
 #[inline(always)]
 pub(super) fn normals(t: &[Vertex; 3]) -> [Bits; 3] {
     [

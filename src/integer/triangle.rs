@@ -12,7 +12,8 @@ use super::scan::{Point, scan};
 use super::sliver::{cross, normals};
 use super::vector::{Bits, dot};
 
-/// Calls `draw` for the triangles of a polygon about its first corner, if that is the polygon: see [`is_fit`].
+/// Calls `draw` for the triangles of a polygon around its first corner. Returns false, and calls
+/// nothing, if the polygon does not fit: see [`is_fit`].
 #[inline(always)]
 pub(super) fn fan<T: Copy>(
     polygon: &[T],
@@ -30,7 +31,7 @@ pub(super) fn fan<T: Copy>(
     is_fit
 }
 
-/// True if corners lie within ±1,024 pixels, and the polygon is convex: it turns one way, and once around. Triangles do.
+/// True if all corners lie within ±1,024 pixels and the polygon is convex. Triangles always are.
 #[inline(always)]
 fn is_fit<T>(polygon: &[T], vertex: impl Fn(&T) -> &Vertex) -> bool {
     let point = |corner: &T| {
@@ -42,11 +43,12 @@ fn is_fit<T>(polygon: &[T], vertex: impl Fn(&T) -> &Vertex) -> bool {
         && (polygon.len() <= 3 || is_convex(polygon.iter().map(point)))
 }
 
-/// True if a polygon turns one way, and goes down once and up once: a star turns one way, too.
+/// True if a polygon turns one way only, and goes down once and up once. The second condition
+/// excludes stars, which turn one way, too.
 #[inline(never)]
 fn is_convex(corners: impl Iterator<Item = Point> + Clone) -> bool {
     let (mut is_right, mut is_left, mut reversals, mut down) = (false, false, 0, 0);
-    // Around to the second corner again, so that every turn is seen, and every reversal.
+    // Go around twice, so that every turn and every reversal is met wherever the corners begin.
     let around = corners
         .clone()
         .cycle()
@@ -64,11 +66,12 @@ fn is_convex(corners: impl Iterator<Item = Point> + Clone) -> bool {
             down = sign;
         }
     }
-    // Two rounds: two reversals each, less the first or the last.
+    // A convex polygon reverses twice per round: at most four times in two rounds.
     !(is_right && is_left) && reversals <= 4
 }
 
-/// A triangle, ready for planes: its corners in sub-pixels and their depths.
+/// A triangle that is set up for plane equations: its corners in sub-pixels, their depths, and its
+/// gradients.
 pub(super) struct SetUp {
     pub(super) points: [Point; 3],
     pub(super) depths: [u16; 3],
@@ -76,7 +79,7 @@ pub(super) struct SetUp {
 }
 
 impl SetUp {
-    /// Sets up a triangle; `None` if it is seen from behind, or has no area.
+    /// Sets up a triangle. Returns `None` if it is seen from behind or has no area.
     #[inline(always)]
     pub(super) fn new(t: &[Vertex; 3]) -> Option<Self> {
         let points = t.map(|v| [v.x.to_bits(), v.y.to_bits()]);
@@ -88,20 +91,22 @@ impl SetUp {
     }
 }
 
-/// A linear value at a pixel of a row.
+/// Returns the ramp of a plane along a row, starting at a pixel.
 #[inline(always)]
 fn ramp(plane: &Plane, at: Point) -> Ramp {
     Ramp::from_bits(plane.at(at), plane.step)
 }
 
 impl<P: Pixel> Canvas<'_, P> {
-    /// Draws a convex polygon by Gouraud shading. Each corner has its colour in fields beside it: see
-    /// [`colour`](super::colour). Returns false, and draws nothing, if the polygon does not [fit](Canvas).
+    /// Draws a convex polygon by Gouraud shading. Each corner comes with its colour, which
+    /// [`colour`](super::colour) computes. Returns false, and draws nothing, if the polygon does
+    /// not [fit](Canvas).
     pub fn gouraud(&mut self, polygon: &[(Vertex, u32)]) -> bool {
         fan(polygon, |(vertex, _)| vertex, |t| self.gouraud_triangle(t))
     }
 
-    /// Draws a convex polygon by naive Phong shading. Returns false, and draws nothing, if it does not
+    /// Draws a convex polygon by naive Phong shading, as [`Span::naive`](super::Span::naive) does.
+    /// N is a plane over each triangle. Returns false, and draws nothing, if the polygon does not
     /// [fit](Canvas).
     pub fn naive<H: Highlight, const REFINED: bool, const L: usize>(
         &mut self,
@@ -115,8 +120,9 @@ impl<P: Pixel> Canvas<'_, P> {
         )
     }
 
-    /// Draws a convex polygon by fast Phong shading: J, K and N are planes over each triangle. Returns false,
-    /// and draws nothing, if it does not [fit](Canvas).
+    /// Draws a convex polygon by fast Phong shading, as [`Span::fast`](super::Span::fast) does. J,
+    /// K and N are planes over each triangle. Returns false, and draws nothing, if the polygon does
+    /// not [fit](Canvas).
     pub fn fast<H: Highlight, const REFINED: bool, const L: usize>(
         &mut self,
         polygon: &[Vertex],
@@ -130,7 +136,8 @@ impl<P: Pixel> Canvas<'_, P> {
     }
 
     fn gouraud_triangle(&mut self, t: [(Vertex, u32); 3]) {
-        // As far from both ends of 16 bits as tables stay, for the roundings of planes and steps.
+        // Stay 128 away from both ends of 16 bits, which is the room that planes and steps need to
+        // round. The tables' own colours are that far away already.
         let within = |half: u32| half.clamp(128, 65_408);
         let [a, b, c] = t.map(|(_, colour)| {
             let (red_blue, green) = halves(colour);
@@ -159,8 +166,9 @@ impl<P: Pixel> Canvas<'_, P> {
             });
             return;
         };
-        // Rounded steps leave a value by at most ½ a pixel, 64 in a piece of 128 pixels, and planes by 20. Corners are 128
-        // away from both ends of 16 bits, so no channel carries into another.
+        // A rounded step is off by up to ½ per pixel, which is 64 over a piece of 128 pixels, and a
+        // plane by up to 20. Corners are 128 away from both ends of 16 bits, so no channel carries
+        // into another.
         let rounded = |plane: &Plane| ((plane.step + (1 << 13)) >> 14) as u32;
         let steps = (
             (rounded(&red_plane) << 16).wrapping_add(rounded(&blue_plane)),
@@ -234,7 +242,8 @@ impl<P: Pixel> Canvas<'_, P> {
             });
             return;
         };
-        // ΔN with 18 fractional bits, below 2¹⁵. Its square is below 3 · 2³⁰.
+        // ΔN in Q18, rounded, below 2¹⁵. ΔN·ΔN is below 3 · 2³⁰, which only an unsigned number
+        // holds.
         let growth = [nx.step, ny.step, nz.step].map(|step| (step + (1 << 11)) >> 12);
         let square = |x: i32| (x * x) as u32;
         let bend = ((square(growth[0]) + square(growth[1]) + square(growth[2])) >> 6) as i32;
@@ -242,7 +251,8 @@ impl<P: Pixel> Canvas<'_, P> {
             self.row(y, (first, end), (&z, &g), |line, x| {
                 let at = g.place(x, y);
                 let n = [nx.at(at) >> 15, ny.at(at) >> 15, nz.at(at) >> 15];
-                // D_next − D = 2 N·ΔN + ΔN·ΔN: each product below 2³⁰, with 33 fractional bits.
+                // D_next − D = 2 N·ΔN + ΔN·ΔN. Each product of N and ΔN is in Q33 and below 2³⁰;
+                // doubled and shifted to Q30 that is a shift by 2.
                 let part = |i: usize| (n[i] * growth[i]) >> 2;
                 let step = part(0) + part(1) + part(2) + bend;
                 let d = Quadratic::from_bits(dot(n, n), step, 2 * bend);
@@ -260,7 +270,8 @@ impl<P: Pixel> Canvas<'_, P> {
         });
     }
 
-    /// Returns the plane of depth; any plane if there is no depth buffer, or `None` if it is steep.
+    /// Returns the plane of depth, or `None` if it is too steep. Without a depth buffer any plane
+    /// will do.
     #[inline(always)]
     pub(super) fn depth_plane(&self, g: &Gradients, depths: [u16; 3]) -> Option<Plane> {
         if self.has_depth() {
@@ -271,18 +282,19 @@ impl<P: Pixel> Canvas<'_, P> {
     }
 }
 
-/// Returns the normals of a triangle times 255/256.
+/// Returns the unit normals of a triangle's corners, times 255/256.
 ///
-/// The scale changes no colour, as D has it squared. It leaves D room for what planes and steps are off by, below the 1 + 2⁻¹¹ at which its
-/// table wraps: sides of 32 pixels and more lose bits, which moves a normal by up to 2⁻¹¹ in each component, and over 128 pixels the rounding
-/// of ΔN adds √3 2⁻¹¹ to D.
+/// The scale changes no colour, because dividing by √D cancels it. It makes room for errors of D
+/// below the 1 + 2⁻¹¹ where its table wraps: sides of 32 pixels and more lose bits, which moves a
+/// normal by up to 2⁻¹¹ in each component, and over 128 pixels the rounding of ΔN adds √3 2⁻¹¹ to
+/// D.
 #[inline(always)]
 fn lowered(t: &[Vertex; 3]) -> [Bits; 3] {
     let [a, b, c] = normals(t);
     [scaled(a), scaled(b), scaled(c)]
 }
 
-/// Returns the planes of N, if none is steep.
+/// Returns the planes of N's components, or `None` if one is too steep.
 #[inline(always)]
 fn normal_planes(g: &Gradients, [a, b, c]: [Bits; 3]) -> Option<[Plane; 3]> {
     let one = |i: usize| g.plane([a[i], b[i], c[i]]);
@@ -292,7 +304,7 @@ fn normal_planes(g: &Gradients, [a, b, c]: [Bits; 3]) -> Option<[Plane; 3]> {
 /// The planes of J and K of each light.
 type ProductPlanes<const L: usize> = ([Plane; L], [Plane; L]);
 
-/// Returns the planes of J and K of each light, if none is steep (L21 4.3).
+/// Returns the planes of J and K of each light, or `None` if one is too steep (L21 4.3).
 #[inline(always)]
 fn product_planes<P, H: Highlight, const L: usize>(
     g: &Gradients,

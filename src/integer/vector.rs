@@ -1,29 +1,29 @@
-//! Vectors of 15 fractional bits.
+//! Vectors in Q15, and unit vectors.
 
 use super::reciprocal_root::{product, root_of};
 use fixed::types::I17F15;
 
-/// The largest square of a vector's length, with 30 fractional bits: 1 + 2⁻¹³.
+/// The largest square of a vector's length, 1 + 2⁻¹³ in Q30.
 ///
-/// D may exceed 1 by 2⁻¹¹, which is 16 units of 2⁻¹⁵, before its table of roots wraps. The formats need up to 11 of
-/// them: where a span turns by 180°, 1/n moves its last normal by 2 units, the cut of the difference and that of the
-/// pixel's normal by √3 each, and D has twice that. Vectors that are rounded from unit ones have at most 1.75.
+/// D may exceed 1 by 2⁻¹¹, which is 16 units of 2⁻¹⁵, before its table of roots wraps. The number
+/// formats use up to 11 of these: where a span turns by 180°, 1/n moves its last normal by 2 units,
+/// and the cuts of the difference and of the pixel's normal by √3 each, and D moves by twice the
+/// sum. A rounded unit vector uses at most 1.75.
 pub(super) const LONGEST: i32 = (1 << 30) + (1 << 17);
 
-/// A vector that no loop overflows on: its components have 15 fractional bits, and its length is at most 1, but for
-/// rounding.
+/// A vector of at most unit length, in Q15, on which no loop of this module can overflow.
 ///
-/// Whatever it is made from, a longer one than that becomes a unit vector of the same direction. Shorter ones stay as they
-/// are: only the direction counts for lights, for [`colour`](super::colour) and for vertices, and the ratio of lengths for the
-/// two ends of a [`Span`](super::Span).
+/// Constructors turn a longer vector into the unit vector of its direction, and leave shorter ones
+/// unchanged. For lights, vertices and [`colour`](super::colour) only the direction counts. For the
+/// two ends of a [`Span`](super::Span) the ratio of their lengths counts as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Vector(Bits);
 
-/// A vector's bits: what loops compute with.
+/// A vector's bits in Q15, with which loops compute.
 pub(super) type Bits = [i32; 3];
 
 impl Vector {
-    /// Makes a vector of any components.
+    /// Makes a vector from any components. A vector longer than 1 + 2⁻¹⁴ becomes a unit vector.
     pub const fn new(components: [I17F15; 3]) -> Self {
         let [x, y, z] = components;
         let bits = [x.to_bits(), y.to_bits(), z.to_bits()];
@@ -35,7 +35,8 @@ impl Vector {
         }
     }
 
-    /// Makes a vector of floats, each rounded to the nearest 2⁻¹⁵. `None` if one of them is no finite number.
+    /// Makes a vector from floats, each rounded to the nearest 2⁻¹⁵. Returns `None` if one of them
+    /// is not finite.
     #[cfg(feature = "alloc")]
     pub fn from_f32(components: [f32; 3]) -> Option<Self> {
         let [x, y, z] = components.map(f64::from);
@@ -65,10 +66,11 @@ impl Vector {
     }
 }
 
-/// Returns the bits of a vector of length 1, unless it is 0: those that it has if its length is 1 but for rounding.
+/// Returns the unit vector of a direction, or 0 for the vector 0. A vector whose length is 1 up to
+/// rounding is returned unchanged.
 #[inline(always)]
 pub(super) const fn unit_bits(v: Bits) -> Bits {
-    // Where unit vectors were rounded, 1 − D is below 2⁻¹².
+    // Rounding a unit vector leaves 1 − D below 2⁻¹².
     if dot(v, v) >= (1 << 30) - (1 << 18) {
         v
     } else {
@@ -76,18 +78,19 @@ pub(super) const fn unit_bits(v: Bits) -> Bits {
     }
 }
 
-/// Returns the unit vector of a direction; 0 for the vector 0.
+/// Returns the unit vector of a direction, or 0 for the vector 0.
 ///
-/// It is right to 2⁻¹⁴ in each component.
+/// Components may be any integers: only their ratio counts. Each component of the result is right
+/// to 2⁻¹⁴.
 pub const fn unit(direction: [i16; 3]) -> Vector {
     let [x, y, z] = direction;
     Vector(narrowed(wide_direction([x as i64, y as i64, z as i64])))
 }
 
-/// Returns the dot product of two vectors, with 30 fractional bits.
+/// Returns the dot product of two Q15 vectors, in Q30.
 ///
-/// No partial sum exceeds the product of both lengths, by Cauchy's inequality for the components
-/// that it holds. Others wrap, as in [`product`].
+/// By Cauchy's inequality no partial sum exceeds the product of the lengths. See [`product`] for
+/// why it would wrap.
 #[inline(always)]
 pub(super) const fn dot(a: Bits, b: Bits) -> i32 {
     let [x, y, z] = [
@@ -102,11 +105,12 @@ pub(super) const fn dot(a: Bits, b: Bits) -> i32 {
     }
 }
 
-/// Returns two vectors times the number that makes the longer one a unit vector; `square` is the square of its length, below 1.
+/// Scales two vectors alike, so that the longer one becomes a unit vector. `square` is the square
+/// of its length in Q30, below 1.
 #[cold]
 #[inline(never)]
 pub(super) const fn stretched([a, b]: [Bits; 2], mut square: i32) -> [Bits; 2] {
-    // 32 fractional bits for the vectors, and as many doublings as make the longer one at least ½ long.
+    // Give the vectors 32 fractional bits, and double them until the longer one is at least ½ long.
     let mut shift = 17;
     while shift < 32 && square < 1 << 28 {
         square <<= 2;
@@ -125,12 +129,12 @@ pub(super) const fn stretched([a, b]: [Bits; 2], mut square: i32) -> [Bits; 2] {
     ]
 }
 
-/// Returns a vector's bits as numbers of 64 bits.
+/// Returns a vector's bits in 64 bits.
 pub(super) const fn widened([x, y, z]: Bits) -> [i64; 3] {
     [x as i64, y as i64, z as i64]
 }
 
-/// Returns the bits of a vector of 30 fractional bits, rounded.
+/// Rounds a vector from Q30 to Q15.
 pub(super) const fn narrowed([x, y, z]: [i64; 3]) -> Bits {
     let half = 1 << 14;
     [
@@ -140,26 +144,28 @@ pub(super) const fn narrowed([x, y, z]: [i64; 3]) -> Bits {
     ]
 }
 
-/// Returns the square of a vector's length. Components are at most 2³¹ in magnitude, so that three squares fit 64 bits.
+/// Returns the square of a vector's length. Components are at most 2³¹ in magnitude, so three
+/// squares fit 64 bits.
 const fn square([x, y, z]: [i64; 3]) -> u64 {
     let [x, y, z] = [x.unsigned_abs(), y.unsigned_abs(), z.unsigned_abs()];
     x * x + y * y + z * z
 }
 
-/// Returns the unit vector of a direction with 30 fractional bits, from components of at most 2³¹ in magnitude; 0 for the
-/// vector 0. Its length is right to 2⁻¹⁵.
+/// Returns the unit vector of a direction in Q30, or 0 for the vector 0. Components are at most 2³¹
+/// in magnitude. The result's length is right to 2⁻¹⁵.
 #[inline(never)]
 pub(super) const fn wide_direction([x, y, z]: [i64; 3]) -> [i64; 3] {
-    // The highest bit of the largest component becomes bit 30, so that three squares fit 64 bits.
+    // Shift the highest bit of the largest component to bit 30, so that three squares fit 64 bits.
     let most = x.unsigned_abs() | y.unsigned_abs() | z.unsigned_abs();
     if most == 0 {
         return [0; 3];
     }
     let zeros = most.leading_zeros();
+    // At most one of both is not 0.
     let (up, down) = (zeros.saturating_sub(33), 33u32.saturating_sub(zeros));
     let mut v = [x << up >> down, y << up >> down, z << up >> down];
     let mut d = square(v);
-    // As many bits as make the length ½ to 1 with 32 fractional ones.
+    // With 32 fractional bits the length shall be ½ to 1: double it if it is less.
     if d < 1 << 62 {
         v = [v[0] << 1, v[1] << 1, v[2] << 1];
         d <<= 2;
@@ -167,11 +173,12 @@ pub(super) const fn wide_direction([x, y, z]: [i64; 3]) -> [i64; 3] {
     over_length(v, (d >> 34) as i64)
 }
 
-/// Returns a vector divided by its length; 0 for the vector 0.
+/// Returns a vector divided by its length, or 0 for the vector 0.
 #[inline(never)]
 pub(super) const fn normalized(v: Bits) -> Bits {
     let (wide, d) = (widened(v), dot(v, v));
-    // Those that are not below 1 need no halving for their root.
+    // `wide_direction` halves a length of 1 or more before its root. Here D may be slightly above
+    // 1, for which the table of roots has room.
     if d >= 1 << 30 {
         let [x, y, z] = wide;
         narrowed(over_length([x << 17, y << 17, z << 17], d as i64))
@@ -180,9 +187,10 @@ pub(super) const fn normalized(v: Bits) -> Bits {
     }
 }
 
-/// Returns a vector of 32 fractional bits divided by √D with 30 of them, from D of 30, which is ¼ to 1.
+/// Returns a vector divided by √D, in Q30. The vector has 32 fractional bits, and D is ¼ to 1 in
+/// Q30.
 const fn over_length(v: [i64; 3], d: i64) -> [i64; 3] {
-    // Two steps of Newton's in 64 bits: near D = ¼ the root reaches 2.
+    // Two steps of Newton's method, in 64 bits because near D = ¼ the root reaches 2.
     let mut r = root_of(d as i32) as i64;
     r += (r * ((1 << 30) - ((d * ((r * r) >> 15)) >> 15))) >> 31;
     r += (r * ((1 << 30) - ((d * ((r * r) >> 15)) >> 15))) >> 31;

@@ -1,10 +1,10 @@
-//! Numbers that count every operation on them: a check of the papers' operation counts.
+//! A backend that counts every operation, to check the operation counts of the papers.
 
 use super::{MulAdd, Num, Real};
 use core::cell::Cell;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Operations of each kind. Changes of sign and copies are not counted.
+/// How many operations of each kind were counted. Changes of sign and copies are not counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Additions and subtractions.
@@ -21,22 +21,23 @@ pub struct Counts {
     pub trigonometric: u32,
     /// Powers to an exponent that is not an integer.
     pub powers: u32,
-    /// Numbers read from a table, between two entries: two reads, three additions and a multiplication each.
+    /// Values read from a table, interpolated between two entries: two reads, three additions and
+    /// one multiplication each.
     pub lookups: u32,
 }
 
-/// The counter that [`Counted`] numbers write to.
+/// The counter to which [`Counted`] values report.
 #[derive(Debug, Default)]
-pub struct Counter(Cell<Counts>);
+pub(crate) struct Counter(Cell<Counts>);
 
 impl Counter {
-    /// Returns what was counted since the last call, and starts anew.
+    /// Returns the counts since the last call, and starts again from zero.
     pub fn take(&self) -> Counts {
         self.0.take()
     }
 
-    /// Returns `x` as a number that writes to this counter.
-    pub fn number(&self, value: f32) -> Counted<'_> {
+    /// Wraps `value` so that every operation on it is counted here.
+    pub fn counted(&self, value: f32) -> Counted<'_> {
         Counted {
             value,
             counter: self,
@@ -46,13 +47,13 @@ impl Counter {
 
 /// An `f32` that reports every operation to its counter.
 #[derive(Clone, Copy, Debug)]
-pub struct Counted<'a> {
+pub(crate) struct Counted<'a> {
     value: f32,
     counter: &'a Counter,
 }
 
 impl Counted<'_> {
-    /// Returns the result of an operation of this kind.
+    /// Counts one operation of this kind and wraps its result.
     fn did(self, kind: fn(&mut Counts) -> &mut u32, value: f32) -> Self {
         let mut counts = self.counter.0.get();
         *kind(&mut counts) += 1;

@@ -1,61 +1,71 @@
-//! Arithmetic backends: a shading method is written once, over [`Num`], and compiled for each of them.
+//! Arithmetic backends. A shading method is written once, over [`Num`], and compiled for each
+//! backend.
 //!
-//! | backend | a number is | used by |
+//! | backend | a value is | used by |
 //! |---|---|---|
 //! | scalar | one `f32` | the span engine, the barycentric renderer, set-up |
 //! | SIMD (feature `simd`) | a block of 8 or 16 neighbouring pixels | the row engine, for vertices and pixels |
 //! | counting | an `f32` that counts every operation on it | `fastphong explain`, `tests/conformance/counts.rs` |
 //!
-//! Constants are plain `f32` on the right-hand side: `n * 2.0`, `x.max(0.0)`. Every operation is `#[inline(always)]`: a
-//! function that is not inlined into a pixel loop loses the instruction set that the loop is compiled for.
+//! A constant is a plain `f32` on the right-hand side: `n * 2.0`, `x.max(0.0)`.
 //!
-//! `level.rs` names the instruction sets; `simd.rs` chooses the width of a block for each; `lanes.rs` has the integers and masks of the
-//! row engine. `parallel.rs` spreads loops over threads, `vectorized.rs` over registers. `suggest.rs` words errors about names,
-//! `written.rs` numbers in messages.
+//! ```
+//! use fastphong::number::{Num, Vec3, vec3};
+//!
+//! /// Returns N·L, clamped at 0: for one pixel or for a block of them.
+//! fn diffuse<F: Num>(normal: Vec3<F>, light: [f32; 3]) -> F {
+//!     normal.dot(vec3(light).broadcast(normal.x)).max(0.0)
+//! }
+//! assert_eq!(diffuse(vec3([0.0, 0.6, 0.8]), [0.0, 0.0, 1.0]), 0.8);
+//! ```
+//!
+//! Every operation is `#[inline(always)]`. A function that is not inlined into a pixel loop is not
+//! compiled for the loop's instruction set.
 
 mod counting;
 #[cfg(feature = "simd")]
 pub(crate) mod lanes;
-mod level;
 mod name_error;
 pub(crate) mod parallel;
 #[cfg(feature = "simd")]
 mod powf;
 mod scalar;
 #[cfg(feature = "simd")]
-#[doc(hidden)]
-pub mod simd;
+pub(crate) mod simd;
+mod simd_level;
 pub(crate) mod split_mix;
-#[doc(hidden)]
-pub mod suggest;
+pub(crate) mod suggest;
 #[cfg(test)]
 pub(crate) mod test_random;
 mod vec3;
 pub(crate) mod vectorized;
 mod written;
 
-pub use counting::{Counted, Counter, Counts};
-pub use level::Level;
+pub use counting::Counts;
+pub(crate) use counting::{Counted, Counter};
 pub use name_error::NameError;
+pub use simd_level::SimdLevel;
 pub use vec3::{Vec3, vec3};
 pub(crate) use vectorized::vectorized;
 pub(crate) use written::Written;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Pixels of a block of the G-buffer.
+/// How many pixels a block of the G-buffer holds.
+#[doc(hidden)]
 pub const BLOCK: usize = 8;
 
-/// Multiplication followed by an addition.
+/// Multiplication followed by addition.
 pub trait MulAdd: Sized + Mul<Output = Self> + Add<Output = Self> {
-    /// Returns `self · factor + summand`, rounded once where the backend has one instruction for it, else twice.
+    /// Returns `self · factor + summand`. It is rounded once if the backend has an instruction for
+    /// it, else twice.
     #[inline(always)]
     fn mul_add(self, factor: Self, summand: Self) -> Self {
         self * factor + summand
     }
 }
 
-/// A number of an arithmetic backend: one pixel's value, or those of a block of pixels.
+/// A value in an arithmetic backend: of one pixel, or of each pixel in a block.
 pub trait Num:
     Copy
     + Neg<Output = Self>
@@ -66,44 +76,47 @@ pub trait Num:
     + Mul<f32, Output = Self>
     + MulAdd
 {
-    /// Pixels that one number holds.
+    /// How many pixels a value holds.
     const WIDTH: usize;
-    /// A number of one pixel.
+    /// The value of one pixel.
     type One: Real;
 
-    /// Returns `x` as a number of one pixel.
+    /// Returns `x` as the value of one pixel.
     fn one(self, x: f32) -> Self::One;
-    /// Returns the numbers that `of` gives for each pixel.
+    /// Returns `of(k)` for each pixel k of the block.
     fn of_each(self, of: impl FnMut(usize) -> Self::One) -> Self;
-    /// Returns `x` as a number of this backend.
+    /// Returns `x` for every pixel of the block.
     fn broadcast(self, x: f32) -> Self;
     /// Returns the square root.
     fn sqrt(self) -> Self;
-    /// Returns 1/√x for x > 0 by a root and a division, which round alike on all processors. Their estimates of 1/√x do not.
+    /// Returns 1/√x for x > 0, by a root and a division. Both round alike on all processors, unlike
+    /// the instructions that estimate 1/√x.
     #[inline(always)]
     fn rsqrt(self) -> Self {
         self.broadcast(1.0) / self.sqrt()
     }
-    /// Returns `self`, 0 or more, to the power `exponent`.
+    /// Returns `self` to the power `exponent`, for `self` of 0 or more.
     fn powf(self, exponent: f32) -> Self;
-    /// Returns 2 to the power `self`, of −126..127.
+    /// Returns 2 to the power `self`, for `self` in −126..=127.
     fn exp2(self) -> Self;
-    /// Returns the entry of a table at `self`, 0 ≤ `self` ≤ `table.len() − 1`, linear between entries.
+    /// Returns the table's entry at `self`, interpolated linearly, for `self` in
+    /// 0..=`table.len() − 1`.
     fn lookup(self, table: &[f32]) -> Self;
-    /// Returns the larger of `self` and `least`; `least` where `self` is NaN.
+    /// Returns the larger of `self` and `least`, and `least` where `self` is NaN.
     fn max(self, least: f32) -> Self;
-    /// Returns `self` where `condition > least`, else 0 (also where `condition` is NaN).
+    /// Returns `self` where `condition > least`, and 0 elsewhere, also where `condition` is NaN.
     fn gate(self, condition: Self, least: f32) -> Self;
-    /// True if any pixel of the block is over `least`.
+    /// True if any pixel of the block is above `least`.
     fn any_over(self, least: f32) -> bool;
 }
 
-/// A number of the set-up of edges and runs, where angles are affordable.
+/// A value of one pixel, used to set up edges and runs. It has the functions that are too dear for
+/// pixels.
 pub trait Real: Num<One = Self> {
-    /// Returns sine and cosine of an angle in radians.
+    /// Returns sine and cosine of the angle `self`, in radians.
     fn sin_cos(self) -> (Self, Self);
-    /// Returns the angle in radians of the point (`x`, self).
+    /// Returns the angle of the point (`x`, `self`), in radians.
     fn atan2(self, x: Self) -> Self;
-    /// Returns the plain value, to decide by.
+    /// Returns the plain `f32`, for decisions.
     fn value(self) -> f32;
 }

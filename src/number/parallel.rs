@@ -1,13 +1,15 @@
-//! Parallel loops over parts of arrays, on the threads of rayon's current pool; without the feature `threads`, one part after the other.
+//! Parallel loops over parts of arrays, on the threads of rayon's current pool. Without the feature
+//! `threads`, the parts run one after the other.
 //!
-//! Results never depend on the number of threads: parts are cut by size alone, and each writes to its own elements only.
+//! Results never depend on how many threads there are: arrays are cut by size only, and each part
+//! writes only its own elements.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A slice, or several slices of equal lengths: anything that can be split in two at an index.
+/// A slice, or several slices of one length, that can be split in two at an index.
 pub(crate) trait Parts: Sized + Send {
-    /// Returns the number of elements.
+    /// Returns how many elements there are.
     fn len(&self) -> usize;
     /// Splits off the first `at` elements.
     fn split(self, at: usize) -> (Self, Self);
@@ -41,7 +43,7 @@ impl<A: Parts, B: Parts> Parts for (A, B) {
     }
 }
 
-/// Runs both, on two threads where there are some.
+/// Runs both closures, in parallel if there is a second thread.
 pub(crate) fn join<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
@@ -52,7 +54,7 @@ pub(crate) fn join<A: Send, B: Send>(
     (a(), b())
 }
 
-/// Returns the number of threads that [`join`] may use.
+/// Returns how many threads [`join`] may use.
 pub(crate) fn threads() -> usize {
     #[cfg(feature = "threads")]
     return rayon::current_num_threads();
@@ -60,14 +62,16 @@ pub(crate) fn threads() -> usize {
     1
 }
 
-/// Calls `work` for each `size` elements, and for the rest, with the index of the first of them.
+/// Calls `work` for each run of `size` elements, and for the shorter rest, with the index of the
+/// first element.
 ///
-/// Behind a pointer, so that what divides the work is compiled once for each kind of parts and not for each shader.
+/// `work` is a trait object so that this recursion is compiled once for each kind of parts, and not
+/// again for each shader.
 pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(dyn Fn(usize, P) + Sync)) {
     from(0, all, size, work);
 }
 
-/// Returns the values of `of` for 0 to `count` − 1.
+/// Returns `of(0)`, `of(1)` … `of(count − 1)`, computed in runs of `chunk` elements.
 pub(crate) fn collect<T: Clone + Default + Send>(
     count: usize,
     chunk: usize,
@@ -90,6 +94,7 @@ fn from<P: Parts>(first: usize, all: P, size: usize, work: &(dyn Fn(usize, P) + 
         }
         return;
     }
+    // Cut between two chunks, so that chunks are the same however the recursion splits them.
     let middle = chunks / 2 * size;
     let (left, right) = all.split(middle);
     join(

@@ -1,4 +1,4 @@
-//! Plain `f32`: one pixel at a time, the same bits on every platform.
+//! The scalar backend: plain `f32`, one pixel at a time, the same bits on every platform.
 
 use super::{MulAdd, Num, Real};
 
@@ -39,7 +39,7 @@ impl Num for f32 {
     }
     #[inline(always)]
     fn lookup(self, table: &[f32]) -> f32 {
-        // The last step of the table may be reached, and be passed by a rounding.
+        // A value at the last entry, or a rounding past it, also interpolates between the last two.
         let below = (self as usize).min(table.len() - 2);
         let (low, high) = (table[below], table[below + 1]);
         low + (high - low) * (self - below as f32)

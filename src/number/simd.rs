@@ -1,5 +1,5 @@
-//! Blocks of 8 or 16 neighbouring pixels, and the width of a block on each instruction set ([`Token`]). Only a machine that has the
-//! instruction set can make its token.
+//! The SIMD backend: blocks of 8 or 16 neighbouring pixels. [`Token`] says how wide a block is on
+//! each instruction set. Only a machine that has the instruction set can make its token.
 
 use super::powf::{exp2, powf};
 use super::{MulAdd, Num, Vec3, vec3};
@@ -9,14 +9,16 @@ use fearless_simd::{
 
 pub use super::BLOCK;
 
-/// An instruction set that kernels are compiled for.
+/// An instruction set for which kernels are compiled.
 pub trait Token: Simd {
-    /// The block that a row is shaded by: as many pixels as were measured to be the fastest (`docs/performance.md`).
+    /// The block in which a row is shaded. Its width was measured to be the fastest
+    /// (`docs/performance.md`).
     type Block: Block<Self>;
     /// Returns the token.
     ///
     /// # Panics
-    /// On a machine without the instruction set: kernels are called only where their level is available.
+    /// On a machine without the instruction set. Kernels are called only where their level is
+    /// available.
     fn get() -> Self;
 }
 
@@ -37,11 +39,14 @@ token!("x86_64", Avx2, f32x16, as_avx2);
 token!("x86_64", Avx512, f32x16, as_avx512);
 token!("aarch64", Neon, f32x8, as_neon);
 
-/// Does `work` with the instructions of `simd`, on an aligned stack. Only inlined code is compiled for them.
+/// Runs `work` with the instructions of `simd`, on an aligned stack. Only inlined code is compiled
+/// for them.
 ///
-/// LLVM does not align frames for registers that it spills: on a stack of 16-byte alignment they straddle cache lines, and the
-/// same loop takes up to twice as long, depending on the caller's frame. A local of this alignment makes it align the frame;
-/// `&mut`, as a shared reference would be promoted to a static.
+/// LLVM does not align the stack frame for vector registers that it spills. On a stack of 16-byte
+/// alignment the spills straddle cache lines, and the same loop takes up to twice as long,
+/// depending on the caller's frame. A local variable of this alignment forces LLVM to align the
+/// frame. It must be borrowed as `&mut`, because a shared reference to a constant would be promoted
+/// to a static.
 #[inline(always)]
 pub(crate) fn vectorize<S: Simd, T>(simd: S, work: impl FnOnce() -> T) -> T {
     #[repr(align(64))]
@@ -60,13 +65,15 @@ mod x86 {
     use core::arch::x86_64::*;
 
     fearless_simd::kernel!(
-        /// Takes the 24 numbers of eight vectors apart: number i of vector k is number 3k + i, in lane (3k + i) mod 8.
+        /// Separates x, y and z of eight vectors that lie in memory as 24 values. Component i of
+        /// vector k is value 3k + i, in lane (3k + i) mod 8 of its register. Two blends collect the
+        /// eight values of a component into one register, and a permutation puts them in order.
         #[inline(always)]
         pub fn deinterleave(_token: Avx2, a: __m256, b: __m256, c: __m256) -> [__m256; 3] {
             let lanes = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
             let of = |i, p, q, r| {
                 let all = _mm256_blend_ps::<0b0010_0100>(_mm256_blend_ps::<0b1001_0010>(p, q), r);
-                // Of a lane's number three bits count.
+                // The permutation reads three bits of a lane index, so that 3k + i counts modulo 8.
                 _mm256_permutevar8x32_ps(all, _mm256_add_epi32(lanes, _mm256_set1_epi32(i)))
             };
             [of(0, a, b, c), of(1, c, a, b), of(2, b, c, a)]
@@ -74,15 +81,17 @@ mod x86 {
     );
 
     fearless_simd::kernel!(
-        /// Packs the levels of eight pixels as opaque RGBA8: rounded to the nearest whole one, half-way to the even one.
+        /// Packs the levels of eight pixels as opaque RGBA8. Levels are rounded to the nearest
+        /// integer, halves to the even one.
         ///
-        /// Narrowing saturates, which is the clamp to 0..=255. Numbers that no `i32` holds, and NaN, are converted to the least
-        /// `i32`, and become 0.
+        /// Narrowing saturates, and so clamps to 0..=255. The conversion turns NaN and values
+        /// outside `i32` into the least `i32`, which becomes 0.
         #[inline(always)]
         pub fn rgba8(_token: Avx2, r: __m256, g: __m256, b: __m256) -> __m256i {
             let (r, g) = (_mm256_cvtps_epi32(r), _mm256_cvtps_epi32(g));
             let b = _mm256_cvtps_epi32(b);
-            // Four bytes of red, then of blue, of green and of alpha from each half of the pixels; then by pixel.
+            // Each half of the register now holds four bytes of red, of blue, of green and of
+            // alpha. The shuffle sorts them by pixel.
             let opaque = _mm256_set1_epi32(255);
             let (rb, ga) = (_mm256_packs_epi32(r, b), _mm256_packs_epi32(g, opaque));
             #[rustfmt::skip]
@@ -140,15 +149,15 @@ macro_rules! block {
             }
             #[inline(always)]
             fn lookup(self, table: &[f32]) -> Self {
-                let places = self.as_slice();
+                let positions = self.as_slice();
                 self.of_each(
                     #[inline(always)]
-                    |k| Num::lookup(places[k], table),
+                    |k| Num::lookup(positions[k], table),
                 )
             }
             #[inline(always)]
             fn max(self, least: f32) -> Self {
-                // x86 gives the second operand where one is NaN: `least`, which is a number.
+                // If one operand is NaN, x86 returns the second: `least`, which is not NaN.
                 match cfg!(target_arch = "x86_64") {
                     true => SimdBase::max(self, least),
                     false => SimdBase::max_precise(self, least),
@@ -156,6 +165,8 @@ macro_rules! block {
             }
             #[inline(always)]
             fn gate(self, condition: Self, least: f32) -> Self {
+                // The comparison has all bits or none in a lane, so that an AND either keeps the
+                // value or leaves 0.0.
                 let (bits, open): ($bits<S>, _) = (Bytes::bitcast(self), condition.simd_gt(least));
                 Bytes::bitcast(bits & open.to_vector())
             }
@@ -181,7 +192,7 @@ fn exp2_16<S: Simd>(y: f32x16<S>) -> f32x16<S> {
     y.simd.combine_f32x8(exp2(low), exp2(high))
 }
 
-/// Returns a function that makes a block of the first eight vectors of a list.
+/// Returns a function that turns the first eight vectors of a list into a block.
 #[inline(always)]
 pub(crate) fn deinterleaved<S: Simd>(simd: S) -> impl Fn(&[[f32; 3]]) -> Vec3<f32x8<S>> {
     #[inline(always)]
@@ -190,23 +201,24 @@ pub(crate) fn deinterleaved<S: Simd>(simd: S) -> impl Fn(&[[f32; 3]]) -> Vec3<f3
         if let Some(token) = simd.level().as_avx2() {
             let all = &all.as_flattened()[..24];
             let of = |i: usize| f32x8::from_slice(simd, &all[i..i + 8]).into();
-            let numbers = x86::deinterleave(token, of(0), of(8), of(16));
-            return vec3(numbers.map(|x| f32x8::simd_from(simd, x)));
+            let components = x86::deinterleave(token, of(0), of(8), of(16));
+            return vec3(components.map(|x| f32x8::simd_from(simd, x)));
         }
         let of = |i| f32x8::simd_from(simd, core::array::from_fn::<_, BLOCK, _>(|k| all[k][i]));
         vec3([of(0), of(1), of(2)])
     }
 }
 
-/// A block of pixels that is shaded at a time: one or two blocks of the G-buffer.
+/// The pixels that are shaded at a time: one or two 8-pixel blocks of the G-buffer.
 pub trait Block<S: Simd>: Num + SimdBase<S, Element = f32> {
-    /// Blocks of the G-buffer that it holds.
+    /// How many 8-pixel blocks of the G-buffer it holds.
     const CELLS: usize = Self::WIDTH / BLOCK;
 
-    /// Loads the values from `at` on of each cell; where it holds one, of the first.
+    /// Loads one value per pixel, from index `at` on of each 8-pixel block. A block of eight pixels
+    /// reads only the first.
     fn load(simd: S, cells: [&[f32]; 2], at: usize) -> Self;
-    /// Stores colours in grey levels, 255 for 1, clamped and rounded, opaque where `depth` is finite and `background`
-    /// elsewhere. NaN becomes 0; magnitudes are below 2³¹.
+    /// Stores colours in grey levels, where 255 is full. They are clamped and rounded, opaque where
+    /// `depth` is finite, and `background` elsewhere. NaN becomes 0. Magnitudes must be below 2³¹.
     fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]);
 }
 
@@ -227,12 +239,15 @@ impl<S: Simd> Block<S> for f32x8<S> {
             let word = i32x8::simd_from(simd, x86::rgba8(token, r.into(), g.into(), b.into()));
             return Bytes::to_bytes(simd.select_i32x8(drawn, word, empty)).store_slice(to);
         }
-        // Adding 2²³ rounds, and the level stands in the lowest bits, below the bits of 2²³ itself.
+        // Above 2²³ floats are integers: adding 2²³ rounds, and leaves the level in the lowest
+        // bits, below the bits of 2²³ itself.
         let (integers, most) = (f32x8::splat(simd, 8_388_608.0), f32x8::splat(simd, 255.0));
         let bits = |level: f32x8<S>| -> i32x8<S> {
             Bytes::bitcast(SimdBase::min_precise(Num::max(level, 0.0), most) + integers)
         };
         let [r, g, b] = [bits(levels[0]), bits(levels[1]), bits(levels[2])];
+        // An XOR with the bits of 2²³ removes them from red's word; shifts push them out of green's
+        // and blue's. Alpha becomes 255.
         let opaque = i32x8::splat(simd, (0xFF00_0000u32 ^ 8_388_608f32.to_bits()) as i32);
         let word = (r ^ opaque) | (g << 8) | (b << 16);
         Bytes::to_bytes(simd.select_i32x8(drawn, word, empty)).store_slice(to);

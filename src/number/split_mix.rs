@@ -1,6 +1,6 @@
 //! SplitMix64: Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
 
-/// A random sequence. The number is its seed.
+/// A random sequence. The field is its seed, and then its state.
 pub(crate) struct SplitMix(pub(crate) u64);
 
 impl SplitMix {
@@ -18,8 +18,8 @@ mod tests {
 
     #[test]
     fn random_numbers_are_those_of_the_paper() {
-        // First value for seed 0 of the authors' reference implementation, and first values for seed
-        // 1234567 (Rosetta Code, "Pseudo-random numbers/Splitmix64").
+        // First value for seed 0 of the authors' reference implementation, and first values for
+        // seed 1234567 (Rosetta Code, "Pseudo-random numbers/Splitmix64").
         assert_eq!(SplitMix(0).next(), 0xE220_A839_7B1D_CDAF);
         let mut random = SplitMix(1_234_567);
         assert_eq!(

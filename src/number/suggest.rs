@@ -1,10 +1,11 @@
-//! "Did you mean …?": the known word nearest to one that is not known.
+//! "Did you mean …?": finds the known word nearest to an unknown one.
 
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// Says that there is no `kind` called `name`, and which of the `known` names may be meant: the nearest, or any.
+/// Says that there is no `kind` called `name`, and suggests the nearest of the `known` names, or
+/// lists all.
 pub fn unknown<'a>(kind: &str, name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
     match nearest(name, known.iter().copied()) {
@@ -13,7 +14,7 @@ pub fn unknown<'a>(kind: &str, name: &str, known: impl IntoIterator<Item = &'a s
     }
 }
 
-/// Asks for one of `names`.
+/// Returns "expected …" with the list of `names`.
 pub fn one_of<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
     match &names[..] {
@@ -22,10 +23,12 @@ pub fn one_of<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     }
 }
 
-/// Returns the candidate nearest to `word`, if one is near enough to be meant; the first among equally near ones.
+/// Returns the candidate nearest to `word` if it is near enough, and the first among equally near
+/// ones.
 ///
-/// Near enough is one slip for each three letters of the longer word, and one slip for shorter ones. Without such a
-/// candidate, the first one that contains `word` is returned, if that has four letters or more. Case does not count.
+/// Near enough means at most one slip per three letters of the longer word, and one slip in shorter
+/// words. If no candidate is near enough and `word` has four letters or more, returns the first
+/// candidate that contains it. Case does not count.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word: Vec<char> = word.chars().flat_map(char::to_lowercase).collect();
     let mut best: Option<(usize, &str)> = None;
@@ -36,7 +39,8 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             container = container.or(Some(candidate));
         }
         let allowed = (word.len().max(letters.len()) / 3).max(1);
-        // A difference in length alone is that many slips: no need to look closer, however long the word.
+        // A difference in length already costs that many slips, so a long word need not be compared
+        // letter by letter.
         if word.len().abs_diff(letters.len()) > allowed {
             continue;
         }
@@ -48,10 +52,11 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate).or(container)
 }
 
-/// Returns the number of letters to insert, delete, replace or swap with their neighbour to turn `a` into `b`.
+/// Returns how many letters to insert, delete, replace or swap with their neighbour to turn `a`
+/// into `b`.
 ///
-/// The optimal string alignment distance: Damerau, *A technique for computer detection and correction of spelling
-/// errors*, CACM 7 (1964), where no letter is edited twice.
+/// This is the optimal string alignment distance, in which no letter is edited twice: Damerau, *A
+/// technique for computer detection and correction of spelling errors*, CACM 7 (1964).
 fn edit_distance(a: &[char], b: &[char]) -> usize {
     let mut before = Vec::new();
     let mut above: Vec<usize> = (0..=b.len()).collect();
@@ -60,8 +65,10 @@ fn edit_distance(a: &[char], b: &[char]) -> usize {
         row.push(i + 1);
         for j in 0..b.len() {
             let replaced = above[j] + usize::from(a[i] != b[j]);
+            // Delete a letter of `a`, or insert one of `b`.
             let mut least = replaced.min(above[j + 1] + 1).min(row[j] + 1);
             if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                // Two neighbours change places: continue from two rows above.
                 let two_above: &Vec<usize> = &before;
                 least = least.min(two_above[j - 1] + 1);
             }

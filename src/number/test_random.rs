@@ -1,6 +1,6 @@
-//! Random numbers for tests: the same ones at every run.
+//! Random values for tests: the same sequence in every run.
 
-/// A generator: xorshift64* (Vigna 2016).
+/// A random generator: xorshift64* (Vigna 2016).
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -15,22 +15,22 @@ impl Random {
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
 
-    /// Returns a number of 0..n.
+    /// Returns a random integer of 0..n.
     pub(crate) fn below(&mut self, n: u64) -> u64 {
         ((self.next() >> 32) * n) >> 32
     }
 
-    /// Returns a number of 0..1.
+    /// Returns a random value of 0..1.
     pub(crate) fn share(&mut self) -> f32 {
         (self.next() >> 40) as f32 / (1u32 << 24) as f32
     }
 
-    /// Returns a number of −1..1.
+    /// Returns a random value of −1..1.
     pub(crate) fn signed(&mut self) -> f32 {
         2.0 * self.share() - 1.0
     }
 
-    /// Returns a unit vector.
+    /// Returns a random unit vector.
     pub(crate) fn unit(&mut self) -> [f32; 3] {
         loop {
             let v = [self.signed(), self.signed(), self.signed()];

@@ -1,9 +1,9 @@
-//! Vectors of three numbers.
+//! Vectors of three components.
 
 use super::Num;
 use core::ops::{Add, Mul, Sub};
 
-/// Three numbers: a normal, a direction, a position or a colour.
+/// Three components: a normal, a direction, a position or a colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3<F> {
     /// x, or red.
@@ -14,7 +14,7 @@ pub struct Vec3<F> {
     pub z: F,
 }
 
-/// Makes a vector of an array.
+/// Makes a vector from an array.
 #[inline(always)]
 pub const fn vec3<F: Copy>([x, y, z]: [F; 3]) -> Vec3<F> {
     Vec3 { x, y, z }
@@ -51,7 +51,7 @@ impl<F: Num> Vec3<F> {
         self.z.mul_add(o.z, self.y.mul_add(o.y, self.x * o.x))
     }
 
-    /// Returns `self + s · v`.
+    /// Returns `self + s · v`, with fused multiply-adds where the backend has them.
     #[inline(always)]
     pub fn plus(self, s: F, v: Vec3<f32>) -> Self {
         let v = v.broadcast(s);
@@ -62,7 +62,7 @@ impl<F: Num> Vec3<F> {
         ])
     }
 
-    /// Returns the vector divided by its length.
+    /// Returns the vector divided by its length. The length must not be 0.
     #[inline(always)]
     pub fn unit(self) -> Self {
         let square = self.dot(self);
@@ -77,7 +77,7 @@ impl<F: Num> Vec3<F> {
 }
 
 impl Vec3<f32> {
-    /// Returns the vector, the same in all lanes of a number like `like`.
+    /// Returns the vector with equal components in all lanes of a value like `like`.
     #[inline(always)]
     pub fn broadcast<F: Num>(self, like: F) -> Vec3<F> {
         vec3([

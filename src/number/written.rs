@@ -1,10 +1,10 @@
-//! Numbers in messages, as short as they were typed.
+//! Numbers in messages, as short as a person would type them.
 
 use core::fmt;
 
-/// A number in a message: in digits, or with an exponent where the digits would be many.
+/// A number in a message: in plain digits, or with an exponent if there would be many digits.
 ///
-/// A message about `--far 1e300` shows 1e300, not a one and 300 zeros.
+/// A message about `--far 1e300` shows 1e300, and not a one and 300 zeros.
 #[derive(Clone, Copy, Debug)]
 pub struct Written(pub f64);
 
@@ -12,7 +12,7 @@ impl fmt::Display for Written {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Written(value) = *self;
         let size = value.abs();
-        // Whole numbers below 1e16 have up to 16 digits, which an `f64` tells apart.
+        // Whole numbers below 1e16 have up to 16 digits, all of which an `f64` can tell apart.
         let is_plain = size == 0.0 || !size.is_finite() || (1e-5..1e16).contains(&size);
         match is_plain {
             true => write!(f, "{value}"),

@@ -1,4 +1,5 @@
-//! Descriptions of methods: the texts and bounds that the tool, the tests and the report share.
+//! Descriptions of methods: the texts and error bounds that the command-line tool, the tests and
+//! the report share.
 
 use crate::frame::{Frame, Polygon};
 use crate::number::NameError;
@@ -9,36 +10,42 @@ use crate::shading::bounds::{Roundings, Stepped};
 use alloc::format;
 use alloc::string::{String, ToString};
 
-/// A parameter that a method can be given after its name, as in `fast-phong:steps=1`.
+/// A parameter of a method, which a user sets after the name, as in `fast-phong:steps=1`.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct MethodParameter {
     /// The name.
     pub name: &'static str,
     /// The meaning, in a few words.
     pub meaning: &'static str,
-    /// The value when none is given.
+    /// The value if the user sets none.
     pub default: Value,
-    /// The values allowed.
+    /// The values that are allowed.
     pub range: Range,
-    /// The choice left to the method, if it can be: written `auto`.
+    /// If set, the method can choose by itself: the user writes `auto`
+    /// ([`MethodParameter::or_auto`]).
     pub auto: Option<Auto>,
 }
 
 /// The value of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Value {
-    /// The choice is left to the method.
+    /// The method chooses.
     Auto,
     /// A whole number.
     Whole(u32),
     /// A number with decimals.
     Decimal(f64),
-    /// A word, by its place in [`Range::Words`].
+    /// A word: its index in [`Range::Words`].
     Word(usize),
 }
 
 impl Value {
-    /// Returns the whole number that it is; `None` if the choice is left to the method.
+    /// Returns the whole number; `None` if the method chooses.
+    ///
+    /// # Panics
+    /// If the parameter is not one of whole numbers.
     pub fn whole(self) -> Option<u32> {
         match self {
             Value::Whole(number) => Some(number),
@@ -47,8 +54,11 @@ impl Value {
         }
     }
 
-    /// Returns the number that it is; `None` if the choice is left to the method.
-    pub fn number(self) -> Option<f64> {
+    /// Returns the number with decimals; `None` if the method chooses.
+    ///
+    /// # Panics
+    /// If the parameter is not one of numbers with decimals.
+    pub fn decimal(self) -> Option<f64> {
         match self {
             Value::Decimal(number) => Some(number),
             Value::Auto => None,
@@ -59,26 +69,39 @@ impl Value {
 
 /// The values that a parameter may have.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub enum Range {
-    /// Whole numbers from the first to the second.
+    /// Whole numbers from the first to the second, both included.
     Whole(u32, u32),
-    /// Numbers from the first to the second.
+    /// Numbers from the first to the second, both included.
     Decimal(f64, f64),
-    /// Words.
+    /// One of these words.
     Words(&'static [&'static str]),
 }
 
-/// A choice that a method makes by itself, from span to span.
+/// A choice that a method makes by itself for each span.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Auto {
-    /// The values that it takes, and when.
+    /// The values that the method chooses from, and when.
     pub meaning: &'static str,
-    /// The largest relative error of |N| that it leaves on a material: [`super::Variant::bound`] has room for it.
+    /// Returns the largest relative error of |N| that the choice allows on a material;
+    /// [`super::Variant::bound`] includes it.
     pub length_error: fn(&Lighting) -> f32,
 }
 
+impl Auto {
+    /// Makes a choice from its meaning and the error that it allows itself.
+    pub const fn new(meaning: &'static str, length_error: fn(&Lighting) -> f32) -> Auto {
+        Auto {
+            meaning,
+            length_error,
+        }
+    }
+}
+
 impl MethodParameter {
-    /// Makes a parameter of the whole numbers from `least` to `most`.
+    /// Makes a parameter for the whole numbers from `least` to `most`.
     pub const fn whole(
         name: &'static str,
         meaning: &'static str,
@@ -94,7 +117,7 @@ impl MethodParameter {
         }
     }
 
-    /// Makes a parameter of the numbers from `least` to `most`.
+    /// Makes a parameter for the numbers from `least` to `most`.
     pub const fn decimal(
         name: &'static str,
         meaning: &'static str,
@@ -110,7 +133,7 @@ impl MethodParameter {
         }
     }
 
-    /// Makes a parameter of some words, the first of which is the default.
+    /// Makes a parameter for one of some words, the first of which is the default.
     pub const fn word(
         name: &'static str,
         meaning: &'static str,
@@ -125,10 +148,20 @@ impl MethodParameter {
         }
     }
 
-    /// Reads a value.
+    /// Lets the method choose the value where the user writes `auto`, which becomes the default.
+    pub const fn or_auto(self, auto: Auto) -> MethodParameter {
+        MethodParameter {
+            default: Value::Auto,
+            auto: Some(auto),
+            ..self
+        }
+    }
+
+    /// Reads a value as users write it.
     ///
     /// # Errors
-    /// [`NameError`] when it is neither in the range nor `auto` where that is allowed.
+    /// [`NameError`] if the value is not in the range; `auto` is accepted only where
+    /// [`MethodParameter::auto`] is set.
     pub fn parse(&self, text: &str) -> Result<Value, NameError> {
         if text == "auto" && self.auto.is_some() {
             return Ok(Value::Auto);
@@ -153,7 +186,11 @@ impl MethodParameter {
                 }
                 Range::Words(words) => one_of(words.iter().copied()),
             };
-            NameError(format!("`{}={text}`: {expected}", self.name))
+            NameError::Value {
+                parameter: self.name,
+                value: text.into(),
+                expected,
+            }
         })
     }
 
@@ -168,7 +205,7 @@ impl MethodParameter {
         }
     }
 
-    /// Returns the values allowed, as people read them: `auto or 1..8`.
+    /// Returns the allowed values for people to read: `auto or 1..8`.
     pub fn values(&self) -> String {
         let auto = self.auto.map_or("", |_| "auto or ");
         match self.range {
@@ -179,16 +216,19 @@ impl MethodParameter {
     }
 }
 
-/// The errors that a method makes by design, on a polygon: beside its roundings, and against its closed form. They add up.
+/// The errors that a method makes by design on a polygon, beyond its roundings, against its closed
+/// form. They add up. Begin from [`Approximation::NONE`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approximation {
-    /// Of L·N and V·N of unit normals. The light model passes it on as it does roundings, and a highlight may end elsewhere.
+    /// The error of L·N and V·N of unit normals. The light model passes it on as it does roundings,
+    /// and a highlight may end elsewhere.
     pub cosine: f64,
-    /// Of the length that normals are divided by, relative to it: as of cosines, but these keep their signs.
+    /// The relative error of the length that normals are divided by. It changes cosines, but not
+    /// their signs.
     pub length: f64,
-    /// Of a linear colour channel of 0..=1.
+    /// The error of a linear colour channel of 0..=1.
     pub colour: f64,
-    /// True if a highlight may end elsewhere, as the colours' errors are those of L·N among others.
+    /// True if a highlight may end elsewhere, because `colour` includes an error of L·N.
     pub moves_gate: bool,
 }
 
@@ -202,16 +242,18 @@ impl Approximation {
     };
 }
 
-/// The answer of a method to perspective interpolation.
+/// What perspective interpolation does to a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Perspective {
-    /// Nothing is interpolated.
+    /// Nothing, as the method interpolates nothing.
     Unaffected,
-    /// Attributes are weighted at the corners; the unknown factor cancels, so a pixel costs no more.
+    /// The corners' attributes are multiplied by a weight that cancels at the pixel, so a pixel
+    /// costs no more.
     Free,
-    /// One division per pixel more.
+    /// Each pixel takes one more division.
     Divides,
-    /// Stays linear on the screen.
+    /// The method stays linear on the screen.
     ScreenOnly,
 }
 
@@ -221,7 +263,7 @@ impl Perspective {
         matches!(self, Perspective::Free | Perspective::Divides)
     }
 
-    /// Returns a sentence for people.
+    /// Returns a clause for people to read.
     pub fn sentence(self) -> &'static str {
         match self {
             Perspective::Unaffected => "interpolates nothing, so perspective changes nothing",
@@ -236,19 +278,20 @@ impl Perspective {
     }
 }
 
-/// The points from which a method sees lights and eye that are at positions.
+/// The points from which a method sees lights and an eye that are at positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Local {
-    /// The vectors to them are constant along a polygon, as the lecture assumes (L21 1): those of its mean corner.
+    /// The mean of a polygon's corners: vectors to light and eye are constant along a polygon, as
+    /// the lecture assumes (L21 1).
     PerPolygon,
-    /// Each vertex has its own.
+    /// Each vertex.
     PerVertex,
-    /// Each pixel has its own.
+    /// Each pixel.
     PerPixel,
 }
 
 impl Local {
-    /// Returns a sentence for people.
+    /// Returns a clause for people to read.
     pub fn sentence(self) -> &'static str {
         match self {
             Local::PerPolygon => {
@@ -260,35 +303,37 @@ impl Local {
     }
 }
 
-/// The rate at which a method evaluates the light model.
+/// How often a method evaluates the light model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LitAt {
-    /// Once a polygon, from its own normal.
+#[non_exhaustive]
+pub enum ShadingRate {
+    /// Once per polygon, with its own normal.
     Polygon,
-    /// Once a polygon, from the mean of its vertex normals.
+    /// Once per polygon, with the mean of its vertex normals.
     PolygonMean,
-    /// Once a vertex.
+    /// Once per vertex.
     Vertex,
-    /// Once a pixel.
+    /// Once per pixel.
     Pixel,
 }
 
-/// What a method makes cheap: the families that `--methods` takes by name.
+/// A family of methods, by what they make cheap; `--methods` accepts its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Family {
-    /// Colours, constant or interpolated: no normal at a pixel.
+    /// Colours, constant or interpolated, and no normal at a pixel.
     Colours,
-    /// Normals or products of normals, and a root or a quotient at each pixel.
+    /// Normals or products of normals, with a root or a quotient at each pixel.
     Roots,
     /// Polynomials in place of the root.
     Series,
     /// Quadratics over a polygon or a span in place of unit vectors.
     Quadratics,
-    /// Interpolation of angles, or by another chart of the sphere.
+    /// Interpolation of angles, or of the coordinates of another chart of the sphere.
     Angles,
     /// Another formula for highlights.
     Highlights,
-    /// For each polygon another of these.
+    /// A choice among several methods for each polygon.
     Hybrids,
 }
 
@@ -304,7 +349,7 @@ impl Family {
         Family::Hybrids,
     ];
 
-    /// Returns its name on the command line.
+    /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Family::Colours => "colours",
@@ -318,70 +363,78 @@ impl Family {
     }
 }
 
-/// Where a method is shown without being asked for.
+/// Where comparisons and lists show a method that the user did not name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
-    /// In comparisons: it is of the lecture, or none of this picture is faster somewhere.
+#[non_exhaustive]
+pub enum Tier {
+    /// Everywhere, because the method is in the lecture, or because it is the fastest with its
+    /// picture on some machine or scene.
     Default,
-    /// Where it is named, or its family is.
+    /// Only where the user names the method or its family.
     Asked,
-    /// As `Asked`: it shows what goes wrong, and is not for use.
+    /// Like `Asked`. The method shows what goes wrong and is not for use.
     Exhibit,
 }
 
-impl Standing {
-    /// Returns it in words.
+impl Tier {
+    /// Returns the tier in words.
     pub fn name(self) -> &'static str {
         match self {
-            Standing::Default => "default",
-            Standing::Asked => "where asked for",
-            Standing::Exhibit => "an exhibit",
+            Tier::Default => "default",
+            Tier::Asked => "where asked for",
+            Tier::Exhibit => "an exhibit",
         }
     }
 }
 
-/// The description of a method.
+/// The description of a method. Begin from [`Info::OF_PIXELS`] (`..Info::OF_PIXELS`), because later
+/// versions may add fields.
 #[derive(Clone, Copy, Debug)]
 pub struct Info {
     /// The name on the command line.
     pub name: &'static str,
-    /// Its numbers in the catalogue of published methods (`docs/methods.md`), M01 to M30; none if it stands for no other.
+    /// Its entries in the catalogue of published methods (`docs/methods.md`), M01 to M30; empty if
+    /// it corresponds to none.
     pub ids: &'static [&'static str],
-    /// The family.
+    /// Its family.
     pub family: Family,
-    /// Where it is shown.
-    pub standing: Standing,
+    /// Where it is shown without being named.
+    pub tier: Tier,
     /// The method in one sentence.
     pub title: &'static str,
     /// The formulas, as lines of text.
     pub formula: &'static str,
     /// The source of the formulas.
     pub source: &'static str,
-    /// The operations that the source states, in its own words; empty where it states none.
+    /// The operations that the source states, in its own words; empty if it states none.
     pub claimed: &'static str,
     /// The closed form that its picture is measured against.
     pub model: Model,
-    /// The roundings that its values gather. [`super::Variant::bound`] derives the largest difference to the closed form from them.
+    /// The roundings that its values gather; [`super::Variant::bound`] derives the largest
+    /// difference from the closed form.
     pub roundings: Roundings,
-    /// The reason for so many roundings and no more.
+    /// The derivation of `roundings`, as a sentence.
     pub derivation: &'static str,
-    /// The error that it makes by design on a polygon of a frame, with values for its parameters; 0 for most.
+    /// Returns the error that the method makes by design on a polygon of a frame, with these
+    /// parameter values; 0 for most methods.
     pub approximation: fn(&Frame, &Polygon, &[Value]) -> Approximation,
-    /// The cases in which its picture is bad, or its arithmetic fails.
+    /// The cases in which its picture is bad or its arithmetic fails.
     pub fails: &'static str,
-    /// True if the power function of its highlights can be chosen; false if its own tables hold powers.
+    /// True if the user can choose the power function of highlights; false if the method's own
+    /// tables hold powers.
     pub has_power: bool,
-    /// The parameters after the name.
+    /// The parameters that may follow the name.
     pub parameters: &'static [MethodParameter],
 }
 
 impl Info {
-    /// A method that interpolates normals and lights pixels, with nothing said about it: to begin from.
+    /// A method that interpolates normals and is lit at each pixel, with all texts empty and no
+    /// error bound. Begin from it.
     pub const OF_PIXELS: Info = Info {
         name: "",
         ids: &[],
         family: Family::Roots,
-        standing: Standing::Asked,
+        tier: Tier::Asked,
         title: "",
         formula: "",
         source: "",
@@ -395,7 +448,7 @@ impl Info {
         parameters: &[],
     };
 
-    /// Names one of the kinds of polygons of a method: nothing else is asked of a kind.
+    /// Describes one of the kinds of polygons of a method: only its name is used.
     pub const fn of_kind(name: &'static str) -> Info {
         Info {
             name,

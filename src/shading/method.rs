@@ -1,25 +1,30 @@
-//! Methods as kernels compile them: of one way to shade, or of one for each kind of polygons.
+//! Methods as kernels compile them: with one loop for all polygons, or one loop for each kind of
+//! polygon.
 
 use crate::number::{Num, Real};
 use crate::shading::walks::values::{count, each};
-use crate::shading::{Carries, Corners, Fit, Info, LightModel, Lit, Needs, On, Shader, Value};
+use crate::shading::{Carries, Corners, Fit, Info, LightAt, LightModel, Needs, On, Shader, Value};
 
-/// A method as kernels compile it. Every [`Shader`] is one, of a single kind. A method that shades polygons of several kinds says how
-/// it chooses: each kind is a [`Shader`] of its own, or another method's, and has its own loop, constants and walk. Such methods are
-/// scalar only, as the G-buffer does not keep kinds.
+/// A method as kernels compile it.
+///
+/// Every [`Shader`] is one: it shades all polygons in the same way. Implement this trait directly
+/// for a method that chooses among several ways, polygon by polygon. Each way is a *kind*: a
+/// [`Shader`] of your own or another method's, with its own loop, constants and walk.
+/// [`Method::polygon`] chooses. These methods run as scalar code only, as the G-buffer does not
+/// store kinds. `series/cubic_phong.rs` is a short one.
 pub trait Method: Copy + Default + 'static {
-    /// The description of the method.
+    /// The description of the method: see [`Shader::INFO`].
     const INFO: Info;
-    /// What it needs of engines: for all of its kinds, whose own needs are not read.
+    /// What the method needs from engines, for all of its kinds: their own needs are not read.
     const NEEDS: Needs = Needs::PIXELS;
-    /// The kinds: a tuple of up to five that carry the same.
+    /// The kinds: a tuple of up to five types with the same [`Shader::Carries`].
     type Kinds: Kinds;
 
-    /// Says whether it draws a frame, or spans of a material: see [`Shader::on`].
+    /// Decides if the method draws a frame, or spans of a material: see [`Shader::on`].
     fn on(_: On<'_>) -> Fit {
         Fit::Draws
     }
-    /// Makes the method: see [`Shader::new`].
+    /// Makes the method from its parameters: see [`Shader::new`].
     #[inline(always)]
     fn new(_parameters: &[Value], _model: &LightModel) -> Self {
         Self::default()
@@ -29,16 +34,18 @@ pub trait Method: Copy + Default + 'static {
     fn kinds(self) -> Self::Kinds {
         Self::Kinds::default()
     }
-    /// True if SIMD walks along runs with these parameters: see [`Shader::walks_along_runs`]. Methods of several kinds are not asked.
+    /// True if SIMD must walk along runs with these parameters: see [`Shader::walks_along_runs`].
+    /// Not called for methods of several kinds.
     #[inline(always)]
     fn walks_along_runs(self) -> bool {
         true
     }
-    /// Chooses a polygon's kind, and sets up its constants: see [`Shader::polygon`].
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R>;
+    /// Chooses a polygon's kind and returns the constants for it, as `OneOf::First(constants)` and
+    /// so on: see [`Shader::polygon`].
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R>;
 }
 
-/// The constants of a polygon's kind.
+/// The constants of a polygon, for the kind that was chosen.
 #[doc(hidden)]
 pub type Chosen<M, R> = <<M as Method>::Kinds as Kinds>::Constants<R>;
 /// What the vertices of a method carry.
@@ -66,46 +73,51 @@ impl<S: Shader> Method for S {
         S::walks_along_runs(self)
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         OneOf::First(S::polygon(self, lit, polygon))
     }
 }
 
-/// A generic closure over a kind.
+/// A generic closure: a function that works for every kind.
 #[doc(hidden)]
 pub trait Visit<C: Carries> {
-    /// Runs it for `kind`.
+    /// Calls the closure with `kind`.
     fn visit<S: Shader<Carries = C>>(self, kind: S);
 }
 
-/// Kinds of polygons.
+/// The kinds of polygons that a method tells apart: a tuple of shaders.
 #[doc(hidden)]
 pub trait Kinds: Copy + Default + 'static {
-    /// Their names: those of the methods that they are, or the kinds' own. None if there is only one kind.
+    /// The names of the kinds: their methods' names, or their own. Empty if there is only one kind.
     const NAMES: &'static [&'static str];
-    /// What vertices carry, for all of them.
+    /// What vertices carry, for all kinds.
     type Carries: Carries;
-    /// The first of them; the only one, where there is SIMD.
+    /// The first kind. SIMD compiles only methods of a single kind, which is this one.
     type First: Shader<Carries = Self::Carries>;
-    /// The constants of a polygon of one of them.
+    /// The constants of a polygon of any of these kinds.
     type Constants<F: Num>;
 
-    /// Returns how many values the constants of a kind take at most.
+    /// Returns how many values the constants take: the largest count of all kinds.
     fn constants(lights: usize) -> usize;
-    /// Passes the values of a polygon's constants to `to` in order, and returns its kind.
+    /// Passes the constants of a polygon to `to`, value by value in order, and returns the
+    /// polygon's kind.
     fn put<F: Num>(constants: Self::Constants<F>, to: impl FnMut(usize, &mut F)) -> u8;
-    /// Calls `to` with a kind: each has a loop of its own.
+    /// Calls `to` with the shader of a kind. Each call compiles another loop.
     fn visit(self, kind: u8, to: impl Visit<Self::Carries>);
 }
 
-/// A value for one of up to five kinds.
-#[doc(hidden)]
+/// The constants of a polygon, for the one of up to five kinds that [`Method::polygon`] chose.
 #[derive(Clone, Copy, Debug)]
 pub enum OneOf<A, B = (), C = (), D = (), E = ()> {
+    /// For the first kind.
     First(A),
+    /// For the second kind.
     Second(B),
+    /// For the third kind.
     Third(C),
+    /// For the fourth kind.
     Fourth(D),
+    /// For the fifth kind.
     Fifth(E),
 }
 
@@ -127,7 +139,7 @@ macro_rules! kinds {
             fn put<F: Num>(constants: Self::Constants<F>, to: impl FnMut(usize, &mut F)) -> u8 {
                 match constants {
                     $(OneOf::$variant(one) => { each(one, to); $index })*
-                    #[allow(unreachable_patterns)] // of five
+                    #[allow(unreachable_patterns)] // five kinds need no last arm
                     _ => unreachable!("there are no more kinds"),
                 }
             }

@@ -1,4 +1,4 @@
-//! The method table: a new method is a file below `methods/` and a line here.
+//! The method table: each method is a file below `methods/` and a line in [`METHODS`].
 
 use crate::frame::Frame;
 use crate::shading::kernels::operation_counts::{CountedSpan, count};
@@ -37,10 +37,10 @@ use crate::shading::methods::roots::phong_unnormalised::PhongUnnormalised;
 use crate::shading::methods::series::cubic_phong::CubicPhong;
 use crate::shading::methods::series::series_phong::SeriesPhong;
 use crate::shading::{
-    Extras, Fit, Info, Kernels, LitAt, Local, Method, Needs, On, Perspective, Variant,
+    Extras, Fit, Info, Kernels, Local, Method, Needs, On, Perspective, ShadingRate, Variant,
 };
 
-/// Makes the row of a method whose varyings hold a value per light.
+/// Makes the row of a method whose varyings hold one value per light.
 macro_rules! lights {
     ($method:ident $(, $parameter:literal)?) => {
         MethodRow::by_lights::<$method<1 $(, $parameter)?>, $method<4 $(, $parameter)?>, $method<64 $(, $parameter)?>>()
@@ -50,14 +50,14 @@ macro_rules! lights {
 /// All shading methods.
 pub static METHODS: &[MethodRow] = &TABLE;
 
-/// The rows of [`METHODS`]. A static with a name: other crates refer to it. A constant without a name would be copied into them, and
-/// every kernel compiled again.
+/// The rows of [`METHODS`]. This is a static with a name, to which other crates refer. A constant
+/// without a name would be copied into them, and every kernel compiled again.
 static TABLE: [MethodRow; 38] = [
     MethodRow::of::<Flat>(),
     MethodRow {
         info: &FLAT_AVERAGE,
         needs: Needs {
-            lit_at: LitAt::PolygonMean,
+            shading_rate: ShadingRate::PolygonMean,
             ..Flat::NEEDS
         },
         ..MethodRow::of::<Flat>()
@@ -102,7 +102,7 @@ static TABLE: [MethodRow; 38] = [
     MethodRow::integer::<integers::fast_printed::FastPrinted>(),
 ];
 
-/// Kernels for 1 light, up to 4 and up to 64.
+/// The kernels for 1, up to 4 and up to 64 lights.
 type ByLights = [&'static Kernels; 3];
 
 /// Counts the operations of a method on a span.
@@ -113,28 +113,30 @@ type CountSpan = fn(&SpanBench, &Variant) -> CountedSpan;
 pub struct MethodRow {
     /// The description of the method.
     pub info: &'static Info,
-    /// What it needs of engines.
+    /// What the method needs from engines.
     pub needs: Needs,
-    /// Says whether it draws a frame, or spans of a material: [`Shader::on`](super::Shader::on).
+    /// Decides if the method draws a frame, or spans of a material:
+    /// [`Shader::on`](super::Shader::on).
     pub(crate) fit: fn(On<'_>) -> Fit,
-    /// True if its loops compute in integers, for processors without a floating-point unit.
+    /// True if the method computes in integers, for processors without a floating-point unit.
     pub is_integer: bool,
     directional: ByLights,
     positional: ByLights,
-    /// The functions that count operations, by `[is_local][more than one light]`.
+    /// The functions that count operations, by `[is_local][has more than one light]`.
     count: [[CountSpan; 2]; 2],
-    /// The walks of `directional` and `positional`, for up to 64 lights.
+    /// The walks of `directional` and `positional`, compiled for up to 64 lights.
     #[cfg(feature = "io")]
     pub(crate) walked: [Walked; 2],
 }
 
 impl MethodRow {
-    /// Makes the row of a method, also of one defined outside this crate.
+    /// Makes the row of a method, which may be defined outside this crate.
     pub const fn of<M: Method>() -> MethodRow {
         MethodRow::by_lights::<M, M, M>()
     }
 
-    /// Makes the row of a method by kernels of its own; what else engines ask is as `M` answers.
+    /// Makes the row of a method that has its own kernels and answers all other questions as `M`
+    /// does.
     pub(crate) const fn of_kernels<M: Method>(
         info: &'static Info,
         kernels: &'static Kernels,
@@ -149,7 +151,7 @@ impl MethodRow {
         }
     }
 
-    /// Makes the row of a method in integers by its loop.
+    /// Makes the row of an integer method from its loop.
     pub(crate) const fn integer<L: Line>() -> MethodRow {
         let kernels = const { &Kernels::of_functions::<L::Shell>(L::PIXELS, integers::WHY) };
         MethodRow::integer_of::<L::Shell>(&L::INFO, kernels, |bench, variant| {
@@ -159,7 +161,8 @@ impl MethodRow {
         })
     }
 
-    /// Makes the row of a method in integers: as [`MethodRow::of_kernels`], with a function that says what its loops take.
+    /// Makes the row of an integer method as [`MethodRow::of_kernels`] does, with a function that
+    /// lists what its loops cost.
     pub(crate) const fn integer_of<M: Method>(
         info: &'static Info,
         kernels: &'static Kernels,
@@ -172,7 +175,8 @@ impl MethodRow {
         }
     }
 
-    /// Makes the row of a method whose varyings hold a value per light: compiled for 1, 4 and 64 of them.
+    /// Makes the row of a method whose varyings hold one value per light, from three types compiled
+    /// for 1, 4 and 64 lights.
     pub const fn by_lights<A: Method, B: Method, C: Method>() -> MethodRow {
         let all: ByLights = const {
             [
@@ -188,14 +192,15 @@ impl MethodRow {
             is_integer: false,
             directional: all,
             positional: all,
-            // Up to four lights are stepped as four, up to 64 as many as there are: these are counted.
+            // Up to four lights are always stepped as four, but up to 64 only as many as exist,
+            // which is what is to be counted.
             count: [[count::<C>; 2]; 2],
             #[cfg(feature = "io")]
             walked: [Walked::of::<C>(); 2],
         }
     }
 
-    /// Takes other kernels for one light.
+    /// Replaces the kernels for one light.
     pub(crate) const fn one_light<A: Method>(self) -> MethodRow {
         let one = const { &Kernels::of::<A>() };
         let ([_, few, many], [_, near_few, near_many]) = (self.directional, self.positional);
@@ -208,7 +213,7 @@ impl MethodRow {
         }
     }
 
-    /// Takes the kernels of another row where a light or the eye is at a position.
+    /// Uses the kernels of another row for frames where a light or the eye is at a position.
     pub const fn at_positions(self, near: MethodRow) -> MethodRow {
         MethodRow {
             positional: near.positional,
@@ -219,12 +224,13 @@ impl MethodRow {
         }
     }
 
-    /// Returns the row called `name`.
+    /// Returns the row of the method with this name.
     pub fn named(name: &str) -> Option<&'static MethodRow> {
-        METHODS.iter().find(|entry| entry.info.name == name)
+        METHODS.iter().find(|row| row.info.name == name)
     }
 
-    /// Returns the row whose kernels draw a frame: its own, or the one that stands in for it there.
+    /// Returns the row whose kernels draw a frame: this one, or the one to which it leaves the
+    /// frame.
     pub(crate) fn on(&'static self, frame: &Frame) -> &'static MethodRow {
         match (self.fit)(On::Frame(frame)) {
             Fit::LeavesTo(name) => MethodRow::named(name).expect("a method stands in by its name"),
@@ -232,26 +238,29 @@ impl MethodRow {
         }
     }
 
-    /// Returns the reason why it is drawn by scalar code only, if it is.
+    /// Returns the reason why only scalar code draws the method, or `None` if SIMD does too.
     pub fn scalar_only(&self) -> Option<&'static str> {
         self.directional[0].needs.scalar_only
     }
 
-    /// Returns the names of the kinds of polygons that it tells apart: [`Method::Kinds`](super::Method::Kinds).
+    /// Returns the names of the kinds of polygons that the method tells apart
+    /// ([`Method::Kinds`](super::Method::Kinds)); empty if it shades all polygons in one way.
     pub fn kinds(&self) -> &'static [&'static str] {
         self.directional[0].kinds
     }
 
-    /// True if a pixel depends only on the varyings there; the barycentric renderer draws only such methods.
+    /// True if a pixel depends only on the varyings there. The barycentric renderer draws only
+    /// these methods.
     pub fn is_barycentric(&self) -> bool {
         self.directional[0].linear && !self.needs.reads_span()
     }
 
-    /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
-    /// position (`is_local`) or not, with vertex colours that materials are multiplied by (`is_coloured`) or not.
+    /// Returns the varyings that kernels add to the method's own: in perspective or not, with
+    /// lights or eye at positions (`is_local`) or not, with vertex colours that multiply the
+    /// materials (`is_coloured`) or not.
     pub(crate) fn extras(&self, is_local: bool, perspective: bool, is_coloured: bool) -> Extras {
         let point = is_local && self.needs.local == Local::PerPixel && self.positional[0].linear;
-        let albedo = is_coloured && self.needs.lit_at == LitAt::Pixel;
+        let albedo = is_coloured && self.needs.shading_rate == ShadingRate::Pixel;
         let divides = self.needs.perspective == Perspective::Divides;
         let divides = perspective && (divides || point);
         Extras {
@@ -268,7 +277,7 @@ impl MethodRow {
         by_lights[usize::from(bench.lighting.lights.len() > 1)](bench, variant)
     }
 
-    /// Returns the kernels for `lights` lights, some at positions (`is_local`) or none.
+    /// Returns the kernels for `lights` lights, where some are at positions (`is_local`) or none.
     pub(crate) fn kernels(&self, lights: usize, is_local: bool) -> &'static Kernels {
         let all = if is_local {
             self.positional
@@ -282,7 +291,8 @@ impl MethodRow {
         }
     }
 
-    /// Returns the kernels whose runs [`MethodRow::walked`] walks along: those for any number of lights.
+    /// Returns the kernels whose runs [`MethodRow::walked`] walks along: those for any count of
+    /// lights.
     #[cfg(feature = "io")]
     pub(crate) fn walked_kernels(&self, is_local: bool) -> &'static Kernels {
         self.kernels(usize::MAX, is_local)
@@ -293,24 +303,19 @@ impl MethodRow {
 mod tests {
     use super::super::{Normal, Shader};
     use super::*;
-    use crate::number::{Level, Num, Vec3};
-    use crate::shading::{Linear, Lit, Span};
+    use crate::number::{Num, SimdLevel, Vec3};
+    use crate::shading::{LightAt, Linear, Span};
     use std::collections::BTreeSet;
 
-    /// Counts the distinct functions in these rows: AVX-512 shares all but shading with AVX2.
-    fn compiled(entries: &[MethodRow]) -> usize {
+    /// Counts the distinct functions in these rows. AVX-512 shares all functions but shading with
+    /// AVX2.
+    fn compiled(rows: &[MethodRow]) -> usize {
         let mut kernels = BTreeSet::new();
-        for entry in entries {
-            kernels.extend(
-                entry
-                    .count
-                    .as_flattened()
-                    .iter()
-                    .map(|count| *count as usize),
-            );
-            for table in [entry.directional, entry.positional].as_flattened() {
+        for row in rows {
+            kernels.extend(row.count.as_flattened().iter().map(|count| *count as usize));
+            for table in [row.directional, row.positional].as_flattened() {
                 kernels.extend([table.vertices as usize, table.pixels as usize]);
-                for simd in Level::ALL.into_iter().filter_map(table.simd) {
+                for simd in SimdLevel::ALL.into_iter().filter_map(table.simd) {
                     kernels.insert(simd.shade as usize);
                     kernels.extend(simd.vertices.map(|vertices| vertices as usize));
                     kernels.extend(simd.walk.map(|walk| walk as usize));
@@ -320,21 +325,22 @@ mod tests {
         kernels.len()
     }
 
-    /// Every kernel is compiled code, and all of it is compiled before anything is drawn: a method may cost no more than this.
+    /// Every kernel is compiled before anything is drawn, so a method may have no more kernels than
+    /// this.
     #[test]
     fn kernels_are_few() {
         let all = compiled(METHODS);
         std::println!("{all} kernels");
         assert!(all <= 6 * METHODS.len(), "{all} kernels");
-        for entry in METHODS {
-            let own = compiled(&[*entry]);
-            let by_lights = !core::ptr::eq(entry.directional[0], entry.directional[2]);
+        for row in METHODS {
+            let own = compiled(&[*row]);
+            let by_lights = !core::ptr::eq(row.directional[0], row.directional[2]);
             let most = if by_lights { 18 } else { 8 };
-            let has_positional = !core::ptr::eq(entry.directional[0], entry.positional[0]);
+            let has_positional = !core::ptr::eq(row.directional[0], row.positional[0]);
             assert!(
                 own <= most * (1 + usize::from(has_positional)),
                 "{}: {own}",
-                entry.info.name
+                row.info.name
             );
         }
     }
@@ -390,11 +396,12 @@ mod tests {
         let most = levels
             .flat_map(|(a, b)| [0, 1, 2].map(|c| a[c].abs_diff(b[c])))
             .max();
-        // Cut down, where the other is rounded; and a step's 1/65,536 a pixel.
+        // These colours are cut down where the others are rounded; and each step is off by up to
+        // 1/65,536 per pixel.
         assert_eq!(most, Some(1));
     }
 
-    /// Phong shading for frames of one light.
+    /// Phong shading for frames with one light.
     #[derive(Clone, Copy, Default)]
     struct OneLight;
 
@@ -410,10 +417,10 @@ mod tests {
         fn on(on: On<'_>) -> Fit {
             on.each(|lighting, _| (lighting.lights.len() > 1).then_some("it knows one light"))
         }
-        fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+        fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
             span.linear()
         }
-        fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        fn shade<F: Num>(self, lit: &LightAt<'_, F>, n: Vec3<F>) -> Vec3<F> {
             lit.shade(n.unit())
         }
     }

@@ -1,54 +1,60 @@
-//! What a method needs of engines: one constant value, by which they and its kernels decide what to compute, keep and compile.
+//! The needs of a method: what engines and kernels must compute, keep and compile for it.
 
-use super::{LitAt, Local, Perspective, ramp};
+use super::{Local, Perspective, ShadingRate, ramp};
 use crate::number::Num;
 
-/// What a method needs of engines; [`Needs::PIXELS`] to begin from.
+/// What a method needs from engines. Begin from [`Needs::PIXELS`] (`..Needs::PIXELS`), because
+/// later versions may add fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needs {
-    /// The rate at which it evaluates the light model: what engines light, and when. Where that is not the pixel, `shade` may read
-    /// no uniforms but [`LightModel::scale`](super::LightModel::scale): the row engine hands it those of any material.
-    pub lit_at: LitAt,
-    /// The points from which it sees lights and eye at positions.
+    /// When the method evaluates the light model: per polygon, per vertex or per pixel. If it is
+    /// not per pixel, `shade` may read no uniforms but
+    /// [`LightModel::scale`](super::LightModel::scale), because the row engine then passes any
+    /// material's uniforms.
+    pub shading_rate: ShadingRate,
+    /// The points from which the method sees lights and an eye that are at positions.
     pub local: Local,
-    /// The answer to perspective interpolation.
+    /// What perspective interpolation does to the method.
     pub perspective: Perspective,
-    /// What of a span its walk starts from.
+    /// What its walk starts from.
     pub spans: Spans,
-    /// True if it is only for general light, by N·H or from positions: no fast loop is compiled.
+    /// True if the method supports only general light, as by N·H or from positions: no fast loop is
+    /// compiled for it.
     pub general_only: bool,
-    /// The reason why it is not compiled for SIMD, if it is not. Methods of several kinds never are: say
-    /// here only what else stands against it.
+    /// The reason why the method is not compiled for SIMD, or `None` if it is. Methods of several
+    /// kinds are never compiled for SIMD; name here only what else prevents it.
     pub scalar_only: Option<&'static str>,
 }
 
 impl Needs {
-    /// Those of a method that interpolates and lights pixels, each by what is seen from it.
+    /// A method that interpolates and is lit at each pixel, with lights seen from each pixel.
     pub const PIXELS: Needs = Needs {
-        lit_at: LitAt::Pixel,
+        shading_rate: ShadingRate::Pixel,
         local: Local::PerPixel,
         perspective: Perspective::Free,
         spans: Spans::Pixels,
         general_only: false,
         scalar_only: None,
     };
-    /// Those of one that sees lights and eye from each polygon's mean, as the lecture does.
+    /// A method that is lit at each pixel, with lights and eye seen from each polygon's mean, as in
+    /// the lecture.
     pub const PIXELS_BY_POLYGON: Needs = Needs {
         local: Local::PerPolygon,
         ..Needs::PIXELS
     };
-    /// Those of one that follows great circles (L21 4.7).
+    /// A method that follows great circles (L21 4.7).
     pub const GREAT_CIRCLES: Needs = Needs {
         perspective: Perspective::ScreenOnly,
         spans: Spans::GreatCircles,
         ..Needs::PIXELS_BY_POLYGON
     };
 
-    /// True if engines keep the ends of spans, and their place.
+    /// True if engines must store the ends of spans and the place of each run on its span.
     pub const fn reads_span(self) -> bool {
         !matches!(self.spans, Spans::Pixels)
     }
-    /// Returns the two values that a walk starts a varying from, given those at the ends of its span.
+    /// Returns the two values that a varying starts from, computed from its values `a` and `b` at
+    /// the ends of the span.
     #[inline(always)]
     pub(crate) fn start<F: Num>(self, [a, b]: [F; 2], t0: F, dt: F) -> [F; 2] {
         match self.reads_span() {
@@ -62,14 +68,18 @@ impl Needs {
     }
 }
 
-/// What of a span a walk starts from.
+/// What a walk starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Spans {
-    /// The varyings at the first pixel and their growth: a span may as well be walked block by block.
+    /// The varyings at the first pixel and their growth per pixel. Such a walk can start at any
+    /// block.
     Pixels,
-    /// The varyings at its ends, or its place, or a polygon's constants in a method that is compiled for SIMD: engines store the ends
-    /// and the place, and SIMD walks along runs. Methods of several kinds are scalar only, and may read constants without it.
+    /// The varyings at both ends of the span, or its place; in methods that are compiled for SIMD,
+    /// also a polygon's constants. Engines store ends and place, and SIMD walks along runs. Methods
+    /// of several kinds are scalar only, and may read constants without this.
     Ends,
-    /// As `Ends`; and edges carry the varying, a unit normal, along great circles (L21 4.7).
+    /// Like `Ends`. In addition, edges carry the varying, a unit normal, along great circles (L21
+    /// 4.7).
     GreatCircles,
 }

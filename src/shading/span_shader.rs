@@ -1,4 +1,4 @@
-//! Shading for a rasterizer of your own: a line of pixels from its two ends, by the scalar kernels of any method.
+//! Shading for your own rasterizer: a line of pixels from its two ends, by any method.
 
 use super::kernels::gbuffer_cell::CellLayout;
 use super::kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
@@ -8,28 +8,30 @@ use super::{
     UniformsIndex, Variant, Vertices,
 };
 use crate::frame::{FrameError, guard};
-use crate::number::{BLOCK, Level};
+use crate::number::{BLOCK, SimdLevel};
 use crate::scene::{Interpolation, Lighting};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
 
-/// A vertex as [`SpanShader::vertex`] lights it.
+/// A vertex for [`SpanShader::vertex`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpanVertex {
-    /// The normal, in the space of the directions of lights: the polygon's own for flat shading. One of another length than 1 is
-    /// made a unit vector. One without a direction is lit by ambient light only.
+    /// The normal, in the space of the lights' directions; for flat shading the polygon's own. A
+    /// normal of another length than 1 is normalised. A normal without a direction is lit by
+    /// ambient light only.
     pub normal: [f32; 3],
-    /// The position in the space of lights and eye at positions; any if there are none.
+    /// The position, in the space of the positions of lights and eye; any value if there are none.
     pub position: [f32; 3],
-    /// Four values for methods that read them: [`Lit::attributes`](super::Lit::attributes).
+    /// Four values of your own, for methods that read them:
+    /// [`LightAt::attributes`](super::LightAt::attributes).
     pub attributes: [f32; 4],
-    /// near/w, the weight of perspective; 1 without.
+    /// near/w, the weight of perspective; 1 without perspective.
     pub inv_w: f32,
 }
 
 impl SpanVertex {
-    /// Makes a vertex of a unit normal, under lights at infinity and without perspective.
+    /// Makes a vertex with a unit normal, for lights at infinity and without perspective.
     pub fn of_normal(normal: [f32; 3]) -> Self {
         SpanVertex {
             normal,
@@ -42,10 +44,11 @@ impl SpanVertex {
 
 /// The reason why a [`SpanShader`] could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SpanShaderError {
-    /// The method is not for such a material, with the reason: see [`Shader::on`](super::Shader::on).
+    /// The method refuses the material, with the reason: see [`Shader::on`](super::Shader::on).
     Refused(&'static str),
-    /// Too many lights, or a value outside its range; the material has index 0.
+    /// There are too many lights, or a value is outside its range. The error names material 0.
     Lighting(FrameError),
 }
 
@@ -62,16 +65,22 @@ impl fmt::Display for SpanShaderError {
 
 impl core::error::Error for SpanShaderError {}
 
-/// A method on a material and its lights, for a rasterizer of your own, which keeps edges, pixels and hidden surfaces to itself.
+/// A method on a material with its lights, for your own rasterizer, which does edges, pixels and
+/// hidden surfaces itself.
 ///
-/// A vertex becomes a few values, its *varyings*: a colour for Gouraud shading, the normal for naive Phong shading, products of the
-/// normal for fast Phong shading. Carry them along edges as you carry depth, linearly; [`SpanShader::shade`] takes them at both ends of a
-/// line of pixels. `examples/own_rasterizer.rs` is a whole rasterizer.
+/// [`SpanShader::vertex`] turns a vertex into a few values, its *varyings*: a colour for Gouraud
+/// shading, the normal for naive Phong shading, products of the normal for fast Phong shading.
+/// Interpolate them along edges as you interpolate depth, linearly. [`SpanShader::shade`] takes the
+/// varyings at both ends of a line and writes the colours of its pixels.
+/// `examples/own_rasterizer.rs` is a whole rasterizer.
 ///
-/// A shader keeps its memory: [`SpanShader::vertex_into`], [`SpanShader::polygon`] and [`SpanShader::shade`] allocate nothing once the
-/// longest line was shaded. It is scalar, and its bits are the same on every machine, until [`SpanShader::on`] chooses an instruction set.
+/// A shader reuses its memory: [`SpanShader::vertex_into`], [`SpanShader::polygon`] and
+/// [`SpanShader::shade`] allocate nothing once the longest line has been shaded. It is scalar, and
+/// returns the same bits on every machine, until [`SpanShader::with_simd`] chooses an instruction
+/// set.
 ///
-/// A method is always drawn as it is, also where another one draws whole frames in its place: `adaptive-phong` plans each polygon, however small.
+/// It always runs the method that you name, even where whole frames are drawn by another one in its
+/// place: `adaptive-phong` plans each polygon, however small.
 ///
 /// ```
 /// use fastphong::glam::DVec3;
@@ -100,45 +109,46 @@ pub struct SpanShader {
     kernels: &'static Kernels,
     extras: Extras,
     is_weighted: bool,
-    /// The count of a vertex's values: the method's, then position and weight.
+    /// How many values a vertex has: the method's, then position and weight.
     varyings: usize,
-    /// As lights are seen from anywhere, and as polygons see them.
+    /// The light as seen from anywhere, and as seen from the current polygon.
     uniforms: [Uniforms; 2],
     constants: PolygonConstants,
-    /// True until a polygon is set up, if the method wants one.
+    /// True until a polygon is set up, if the method needs one.
     wants_polygon: bool,
     is_by_polygon: bool,
     list: RunList,
     simd: Option<SimdSpans>,
 }
 
-/// The pixel loops of an instruction set, and memory for a line.
+/// The pixel loops of an instruction set, and the memory for a line.
 #[derive(Clone, Debug)]
 struct SimdSpans {
-    level: Level,
+    level: SimdLevel,
     kernels: &'static SimdKernels,
-    /// True if the method remembers the pixel before: its walk then goes first.
+    /// True if the method remembers the pixel before: its walk then runs first.
     is_walked: bool,
     cell: CellLayout,
-    /// The pixels that the walk returned, value after value.
+    /// The pixels of the walk: all first values, then all second ones, and so on.
     walked: Vec<f32>,
-    /// The line as a row of the G-buffer.
+    /// The line in the layout of a row of the G-buffer.
     cells: Vec<f32>,
     channels: [Vec<f32>; 3],
 }
 
-/// Pixels that kernels take at a time, at most.
+/// How many pixels a kernel takes at a time, at most.
 const STEP: usize = 2 * BLOCK;
 
 impl SpanShader {
-    /// Prepares a method on a material with its lights, whose varyings you interpolate linearly on the screen, or in perspective: then
-    /// varyings are multiplied by the weight of their vertex.
+    /// Prepares a method for a material with its lights. You interpolate the varyings linearly on
+    /// the screen; in perspective they are already multiplied by the weight of their vertex.
     ///
     /// Directions of any length become unit vectors.
     ///
     /// # Errors
-    /// [`SpanShaderError`] when the method is not for such a material, as those in integers want lights at infinity, and few; when there
-    /// are too many lights, or a value of the material or its lights is outside its range.
+    /// [`SpanShaderError`] if the method refuses the material, as integer methods refuse lights at
+    /// positions; if there are too many lights; or if a value of the material or its lights is
+    /// outside its range.
     pub fn new(
         variant: &Variant,
         lighting: &Lighting,
@@ -148,18 +158,18 @@ impl SpanShader {
         if let Some(reason) = (variant.row().fit)(On::Spans(lighting, interpolation)).refused() {
             return Err(SpanShaderError::Refused(reason));
         }
-        let (entry, lights) = (variant.row(), lighting.lights.len());
+        let (row, lights) = (variant.row(), lighting.lights.len());
         let (is_local, is_perspective) = (
             lighting.is_local(),
             interpolation == Interpolation::Perspective,
         );
-        let kernels = entry.kernels(lights, is_local);
-        let extras = entry.extras(is_local, is_perspective, lighting.vertex_colours);
+        let kernels = row.kernels(lights, is_local);
+        let extras = row.extras(is_local, is_perspective, lighting.vertex_colours);
         let [own, _, constants] = (kernels.counts)(lights);
         let uniforms = variant.uniforms(lighting, 1.0);
-        let is_by_polygon = is_local && entry.needs.local == Local::PerPolygon;
+        let is_by_polygon = is_local && row.needs.local == Local::PerPolygon;
         Ok(SpanShader {
-            is_weighted: is_perspective && entry.needs.perspective.is_weighted(),
+            is_weighted: is_perspective && row.needs.perspective.is_weighted(),
             varyings: own + extras.count(),
             uniforms: [uniforms.clone(), uniforms],
             constants: PolygonConstants {
@@ -176,14 +186,15 @@ impl SpanShader {
         })
     }
 
-    /// Shades pixels by an instruction set from now on, 16 at a time: [`Level::best`] on a line of many pixels.
-    /// It stays scalar where the machine does not have that set, or the method has no loops for it
-    /// ([`SpanShader::level`] tells).
+    /// Chooses an instruction set for pixels, which are then shaded up to 16 at a time. Use
+    /// [`SimdLevel::best`] for long lines. The shader stays scalar if the machine lacks that set or
+    /// the method has no loops for it; [`SpanShader::level`] returns the choice.
     ///
-    /// Colours then are those of the row engine's loops, and differ from scalar ones by roundings: varyings are
-    /// computed at each pixel, where scalar code adds their growth from pixel to pixel. Both are
-    /// within [`Variant::bound`] of the closed form, so that they differ by twice the bound at most.
-    pub fn on(mut self, level: Level) -> Self {
+    /// Colours then come from the row engine's loops, and differ from scalar ones by roundings,
+    /// because varyings are computed at each pixel where scalar code adds their growth from pixel
+    /// to pixel. Both are within [`Variant::bound`] of the closed form, so they differ by at most
+    /// twice the bound.
+    pub fn with_simd(mut self, level: SimdLevel) -> Self {
         let model = &self.uniforms[0].model;
         let is_scalar = !level.is_available() || self.variant.row().scalar_only().is_some();
         let kernels = (self.kernels.simd)(level).filter(|_| !is_scalar);
@@ -210,23 +221,27 @@ impl SpanShader {
         self
     }
 
-    /// Returns the instruction set that shades pixels: [`Level::Scalar`] unless [`SpanShader::on`] chose another.
-    pub fn level(&self) -> Level {
-        self.simd.as_ref().map_or(Level::Scalar, |simd| simd.level)
+    /// Returns the instruction set that shades pixels: [`SimdLevel::Scalar`] unless
+    /// [`SpanShader::with_simd`] chose another.
+    pub fn level(&self) -> SimdLevel {
+        self.simd
+            .as_ref()
+            .map_or(SimdLevel::Scalar, |simd| simd.level)
     }
 
-    /// Returns the count of a vertex's varyings.
+    /// Returns how many varyings a vertex has.
     pub fn varyings(&self) -> usize {
         self.varyings
     }
 
-    /// True if [`SpanShader::polygon`] must be called for each polygon, before its vertices: slerp methods, `six-point` and `adaptive-phong`
-    /// ask for it, and where a light or the eye is at a position, methods that see it from a polygon's mean.
+    /// True if you must call [`SpanShader::polygon`] for each polygon before its vertices. Slerp
+    /// methods, `six-point` and `adaptive-phong` need it; So do methods that light a polygon from
+    /// its mean, if a light or the eye has a position.
     pub fn wants_polygons(&self) -> bool {
         self.is_by_polygon || !self.constants.values.is_empty() || !self.kernels.kinds.is_empty()
     }
 
-    /// Sets up a polygon, for methods that want it; does nothing for others.
+    /// Sets up a polygon for methods that need it; does nothing for other methods.
     pub fn polygon(&mut self, corners: &Corners<'_, f32>) {
         if self.is_by_polygon {
             let mut mean = [0.0; 3];
@@ -244,17 +259,17 @@ impl SpanShader {
         self.wants_polygon = false;
     }
 
-    /// Returns the varyings of a vertex: for methods that light vertices this lights one.
+    /// Returns the varyings of a vertex. Methods that are lit at vertices light it here.
     pub fn vertex(&self, vertex: SpanVertex) -> Vec<f32> {
         let mut to = vec![0.0; self.varyings];
         self.vertex_into(vertex, &mut to);
         to
     }
 
-    /// Writes the varyings of a vertex, as [`SpanShader::vertex`] returns them, where you keep them.
+    /// Writes the varyings of a vertex to `to`, as [`SpanShader::vertex`] returns them.
     ///
     /// # Panics
-    /// When there is not room for as many varyings as [`SpanShader::varyings`] says.
+    /// If `to` has not as many places as [`SpanShader::varyings`] returns.
     pub fn vertex_into(&self, vertex: SpanVertex, to: &mut [f32]) {
         assert_eq!(to.len(), self.varyings, "one place for each varying");
         let normal = match vertex.normal.iter().all(|n| n.is_finite()) {
@@ -277,13 +292,15 @@ impl SpanShader {
         }
     }
 
-    /// Shades the pixels of a line from a column and a row on: linear and not clamped. `ends` are the columns where the
-    /// line's edges cross the centre of its scanline, in pixels, and the varyings there; pixel `i` has its centre at column i + ½.
+    /// Shades pixels of a line, from column `first` of scanline `row` on: linear and not clamped.
     ///
-    /// A line that is seen in part is shaded in part: pass the same ends and the pixels that are seen.
+    /// `ends` are the columns where the line's edges cross the centre of its scanline, in pixels,
+    /// and the varyings there. Pixel `i` has its centre at column i + ½. To shade only the visible
+    /// part of a line, pass the ends of the whole line and the visible pixels.
     ///
     /// # Panics
-    /// When an end has not as many varyings as [`SpanShader::varyings`] says, or a polygon is wanted and was not set up.
+    /// If an end has not as many varyings as [`SpanShader::varyings`] returns, or if a polygon is
+    /// needed and was not set up.
     pub fn shade(
         &mut self,
         ends: [(f32, &[f32]); 2],
@@ -301,10 +318,13 @@ impl SpanShader {
             "an end has {} varyings",
             self.varyings
         );
+        // A line without width has the varyings of its left end.
         let dt = if x2 > x1 { 1.0 / (x2 - x1) } else { 0.0 };
+        // The parameter at the centre of the first pixel.
         let t0 = (first as f32 + 0.5 - x1) * dt;
         self.list.clear();
-        // The first column whose centre is not left of an end; the line that is asked for lies between.
+        // Returns the first column whose centre is not left of `x`. The requested pixels lie
+        // between both ends.
         let centre = |x: f32| libm::ceilf(x - 0.5).max(0.0) as u32;
         let (last, start) = (first + colours.len() as u32, centre(x1).min(first));
         let run = Run {
@@ -336,7 +356,7 @@ impl SpanShader {
 }
 
 impl SimdSpans {
-    /// Shades the one run of `job`, as a row of the G-buffer.
+    /// Shades the only run of `job`, as a row of the G-buffer.
     fn shade(&mut self, job: &Pixels<'_>, colours: &mut [[f32; 3]]) {
         let length = colours.len().next_multiple_of(STEP);
         self.cells.resize(length * self.cell.count(), 0.0);
@@ -361,29 +381,32 @@ impl SimdSpans {
         }
     }
 
-    /// Writes the varyings at each pixel, from those at the first one and their growth.
+    /// Writes the varyings at each pixel, from the value at the first pixel and the growth per
+    /// pixel.
     fn interpolate(&mut self, [at, step]: [&[f32]; 2]) {
         let blocks = self.cells.chunks_exact_mut(self.cell.stride());
-        for (number, block) in blocks.enumerate() {
-            let x = (number * BLOCK) as f32;
+        for (index, block) in blocks.enumerate() {
+            let x = (index * BLOCK) as f32;
             let varyings = block[BLOCK * CellLayout::varying(0)..].as_chunks_mut().0;
             for (to, (at, step)) in varyings.iter_mut().zip(at.iter().zip(step)) {
                 let to: &mut [f32; BLOCK] = to;
                 for (k, to) in to.iter_mut().enumerate() {
+                    // Each pixel starts from the first one, so that errors do not add up along the
+                    // line.
                     *to = at + (x + k as f32) * step;
                 }
             }
         }
     }
 
-    /// Walks along the run, and writes the pixel at each place.
+    /// Walks along the run, and copies its pixels into the layout of the G-buffer.
     fn walk(&mut self, walk: WalkKernel, job: &Pixels<'_>, length: usize) {
         self.walked.resize(self.cell.varyings * length, 0.0);
         walk(job, &mut self.walked);
         let blocks = self.cells.chunks_exact_mut(self.cell.stride());
-        for (number, block) in blocks.take(length / BLOCK).enumerate() {
+        for (index, block) in blocks.take(length / BLOCK).enumerate() {
             for i in 0..self.cell.varyings {
-                let from = &self.walked[i * length + number * BLOCK..][..BLOCK];
+                let from = &self.walked[i * length + index * BLOCK..][..BLOCK];
                 block[BLOCK * CellLayout::varying(i)..][..BLOCK].copy_from_slice(from);
             }
         }

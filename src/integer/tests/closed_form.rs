@@ -1,4 +1,4 @@
-//! The picture that a span means, in `f64`, without any of the room's arithmetic.
+//! The exact picture of a span in `f64`, which uses none of the module's arithmetic.
 
 use super::super::*;
 use core::cell::Cell;
@@ -12,7 +12,7 @@ pub(super) fn dot(a: V, b: V) -> f64 {
 pub(super) fn normalized(v: V) -> V {
     v.map(|x| x / dot(v, v).sqrt())
 }
-/// The nearest vector that the room can hold, and the same in `f64`.
+/// Returns the nearest [`Vector`].
 pub(super) fn vector(v: V) -> Vector {
     Vector::new(v.map(|x| I17F15::from_bits((x * 32768.0).round() as i32)))
 }
@@ -20,7 +20,7 @@ pub(super) fn float(v: Vector) -> V {
     v.to_array().map(f64::from)
 }
 
-/// A pixel that keeps the fields: what RGB565 is cut from.
+/// A pixel that keeps its fields, from which RGB565 would be cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Uncut(pub(super) u32);
 impl Pixel for Uncut {
@@ -35,13 +35,13 @@ impl Pixel for Uncut {
     }
 }
 impl Uncut {
-    /// Red in grey levels, without the ½ that rounds.
+    /// Returns red in grey levels, without the ½ that rounds.
     pub(super) fn red(self) -> f64 {
         ((f64::from(self.0 >> 11 & 511) - 8.0) / (31.0 * 16.0)).min(1.0) * 255.0
     }
 }
 
-/// The material of all tests, the same in channels but for factors.
+/// The material of all tests, in all three channels.
 pub(super) const AMBIENT: f64 = 0.1;
 pub(super) const DIFFUSE: f64 = 0.5;
 pub(super) const HIGHLIGHT: f64 = 0.4;
@@ -56,7 +56,7 @@ pub(super) static FULL: Material<Rgb888> =
     Material::new(channels("0.1"), channels("0.5"), channels("0.4"), SHININESS);
 pub(super) static SHORT: Material<Rgb565> =
     Material::new(channels("0.1"), channels("0.5"), channels("0.4"), SHININESS);
-/// As `UNCUT`, for lights after the first.
+/// The material of lights after the first: `UNCUT` without ambient colour.
 pub(super) static NEXT: Material<Uncut> =
     Material::new(channels("0"), channels("0.5"), channels("0.4"), SHININESS);
 
@@ -105,7 +105,7 @@ pub(super) fn slerp(a: V, b: V, t: f64) -> V {
     [0, 1, 2].map(|i| s * a[i] + e * b[i])
 }
 
-/// A sequence of numbers in 0–1, always the same one.
+/// A pseudorandom sequence of values in 0–1, which depends only on its seed.
 pub(in super::super) struct Random(Cell<u64>);
 impl Random {
     pub(in super::super) fn new(seed: u64) -> Self {
@@ -124,7 +124,7 @@ impl Random {
             }
         }
     }
-    /// A unit vector at an angle in degrees from another.
+    /// Returns a unit vector at an angle in degrees from another.
     pub(super) fn aside(&self, v: V, degrees: f64) -> V {
         let other = self.unit();
         let along = dot(v, other);

@@ -1,5 +1,5 @@
-//! Errors of each method on random spans: below what `docs/small.md` says, and below the bounds that
-//! follow from the formats.
+//! The errors of each method on random spans. They must be below the figures in `docs/small.md`,
+//! and below the bounds that follow from the number formats.
 
 use super::super::*;
 use super::closed_form::*;
@@ -19,7 +19,8 @@ pub(super) struct Case {
     pub(super) pixels: usize,
 }
 
-/// Returns 600 random spans of an angle, half of them through the highlight.
+/// Returns 600 random spans that turn by an angle in degrees. Half of them run through the
+/// highlight.
 pub(super) fn cases(angle: f64) -> impl Iterator<Item = Case> {
     let random = Random::new(angle.to_bits() ^ 7);
     (0..600).map(move |round| {
@@ -44,7 +45,7 @@ pub(super) fn cases(angle: f64) -> impl Iterator<Item = Case> {
     })
 }
 
-/// Returns the worst and the root mean square error of red on the spans of an angle.
+/// Returns the largest and the root mean square error of red, over all spans of an angle.
 fn errors<P: Pixel + Default>(
     material: &Material<P>,
     red: fn(P) -> f64,
@@ -65,7 +66,7 @@ fn errors<P: Pixel + Default>(
         shade(Span::new(vector(first), vector(end)), &mut line, &light);
         for (i, pixel) in line.iter().enumerate() {
             let n = normalized(normal(first, end, i as f64 / pixels as f64));
-            // A light on the horizon may be on either side of it.
+            // Rounding decides on which side of the horizon this light is.
             if dot(toward, n).abs() < 1e-3 {
                 continue;
             }
@@ -78,8 +79,8 @@ fn errors<P: Pixel + Default>(
     (worst, f64::sqrt(sum / count))
 }
 
-/// A method: its name, what it draws, the function, and what `docs/small.md` promises at each angle
-/// before RGB565 cuts its fraction.
+/// A method: its name, its highlight, the normals of its closed form, its function, and the errors
+/// that `docs/small.md` promises at each angle before RGB565 cuts the fraction.
 type Row = (&'static str, Kind, Normal, Shade<Uncut>, [f64; 4]);
 
 const UNLIMITED: f64 = f64::INFINITY;
@@ -218,12 +219,13 @@ fn errors_are_those_that_the_document_tells() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
-/// Waves of one and two pixels, whose 1/n has the shortest shift, are as right as longer ones: see [`errors_stay_below_their_limits`].
+/// Waves of one and two pixels, whose 1/n has the shortest shift, have no larger errors than longer
+/// ones.
 #[test]
 fn the_shortest_waves_are_right() {
-    for (number, case) in cases(15.0).enumerate() {
+    for (index, case) in cases(15.0).enumerate() {
         let light = Light::new(vector(case.toward), vector(case.eye), &UNCUT);
-        let mut line = vec![Uncut::default(); 1 + number % 2];
+        let mut line = vec![Uncut::default(); 1 + index % 2];
         let span = Span::new(vector(case.first), vector(case.end));
         span.slerp::<_, Reflection>(&mut line, &light);
         let pixels = line.len() as f64;
@@ -234,12 +236,12 @@ fn the_shortest_waves_are_right() {
             }
             let exact = lit(n, &[(case.toward, case.eye)], Kind::Reflection);
             let error = (pixel.red() - exact).abs();
-            assert!(error <= 2.8, "{number}, pixel {i}: {error}");
+            assert!(error <= 2.8, "{index}, pixel {i}: {error}");
         }
     }
 }
 
-/// The bounds of [`ErrorBound`] hold, and are not far above what is found.
+/// The bounds of [`ErrorBound`] hold, and are not much larger than the errors found.
 #[cfg(feature = "alloc")]
 #[test]
 fn errors_are_within_their_bounds_and_these_are_tight() {
@@ -269,8 +271,9 @@ fn errors_are_within_their_bounds_and_these_are_tight() {
             let (found, _) = errors(&UNCUT, Uncut::red, (angle, kind, normal), shade);
             let (before, cut) = bound.parts::<Uncut>();
             assert!(found <= before, "{name}, {angle}°: {found} > {before}");
-            // What a parabola or a wave leaves out grows along the span. A highlight is steepest beside its
-            // peak, which is elsewhere.
+            // The error of a parabola or a wave is largest at one place of the span, and a
+            // highlight is steepest beside its peak: the bound assumes that both are the same
+            // place.
             let times = if bound.is_parabola || bound.is_slerp {
                 9.0
             } else {
@@ -285,7 +288,8 @@ fn errors_are_within_their_bounds_and_these_are_tight() {
     }
 }
 
-/// The error of the pixel itself: RGB888 adds half a level, RGB565 half a step of 8.2 levels.
+/// The pixel's format adds its own error: half a level for RGB888, half a step of 8.2 levels for
+/// RGB565.
 #[test]
 fn pixels_add_the_error_of_their_format() {
     let fast_888: Shade<Rgb888> = |s, p, l| s.fast::<_, Reflection, false, 1>(p, &[*l]);
@@ -343,22 +347,25 @@ fn lights_add_up() {
         worst::<4>(|s, p, l| s.quadratic::<_, Reflection, 4>(p, l)),
     ];
     println!("2 naive, 3 fast, 4 fast, 4 quadratic: {found:.2?}");
-    // No light has more than the error of one.
+    // Each light adds at most the error of one.
     assert!(found[0] < 2.0 * 2.4 && found[1] < 3.0 * 2.4 && found[2].max(found[3]) < 4.0 * 2.4);
 }
 
-/// What interpolation on the screen leaves out under perspective: the figures that [`Canvas`] tells.
+/// Interpolation on the screen has the error under perspective that the documentation of [`Canvas`]
+/// states.
 #[test]
 fn perspective_moves_normals_along_their_span() {
     for (ratio, share, degrees, levels) in [(1.1, 0.024, 0.36, 1.6), (1.5, 0.101, 1.52, 6.7)] {
-        // Halfway on the screen is t = 1/(1 + ratio) in space, near to far, at the most.
+        // From near to far, half-way on the screen is t = 1/(1 + ratio) in space: the difference is
+        // largest there.
         let (mut most, mut most_levels) = (0.0f64, 0.0f64);
         for step in 0..=1000 {
             let t = f64::from(step) / 1000.0;
             let in_space = t / (t + (1.0 - t) * ratio);
             most = most.max(t - in_space);
             let lit = |t: f64| {
-                // 15° from the light's own direction on: where diffuse light changes fastest, 75° to 90°.
+                // 15° from the light's own direction on: where diffuse light changes fastest, 75°
+                // to 90°.
                 let angle = (75.0 + 15.0 * t).to_radians();
                 255.0 * angle.cos()
             };

@@ -1,4 +1,5 @@
-//! Spans that no mesh has, of any length and between any vectors: nothing overflows or panics, and what has a bound keeps it.
+//! Spans that no mesh has, of any length and between any vectors: nothing overflows or panics, and
+//! bounds hold.
 
 use super::super::*;
 use super::closed_form::*;
@@ -25,12 +26,12 @@ fn all(ends: [Vector; 2], pixels: usize, lights: &[Light<'_, Uncut>; 4]) {
     gouraud(line, a, b);
 }
 
-/// Returns a length from 0 to 65,535 pixels: as many below 16 as from 4,096 on.
+/// Returns a length from 0 to 65,535 pixels, with equally many below 16 and from 4,096 on.
 fn any_length(random: &Random) -> usize {
     2f64.powf(16.0 * random.next()) as usize - usize::from(random.next() < 0.1)
 }
 
-/// Returns a vector of any kind that the constructors make: of any bits, of any floats, of any 16 bits, and as long as they leave it.
+/// Returns a vector from any constructor, of any length that it allows.
 fn any_vector(random: &Random) -> Vector {
     let bits = || (random.next() * 4_294_967_296.0) as u32 as i32;
     let axis = |x: f64| {
@@ -46,7 +47,7 @@ fn any_vector(random: &Random) -> Vector {
         ),
         2 => unit([(); 3].map(|()| bits() as i16)),
         3 => Vector::new([[I17F15::MIN, I17F15::MAX][(random.next() * 2.0) as usize]; 3]),
-        // As long as vectors can be, and a unit beyond.
+        // At the largest length of vectors, and a unit beyond.
         4 => fixed(axis(1.0 + (random.next() * 8.0).floor() / 32768.0)),
         5 => fixed(random.unit().map(|x| x * (1.0 + 1e-4 * random.next()))),
         6 => fixed(random.unit().map(|x| x * 1.0003)),
@@ -58,7 +59,7 @@ fn any_vector(random: &Random) -> Vector {
     }
 }
 
-/// Returns a vector whose components are those of another, but for their signs and some units of 15 bits.
+/// Returns a vector opposite to another, but for up to two units in each component.
 fn opposite(random: &Random, v: Vector) -> Vector {
     Vector::new(v.to_array().map(|x| {
         let units = (random.next() * 5.0) as i32 - 2;
@@ -76,7 +77,7 @@ fn spans_of_any_length_between_any_vectors_do_not_overflow() {
         let first = pick();
         let end = match round % 4 {
             0 => pick(),
-            // Turns by 180°, where all rounding is largest.
+            // A turn by 180°, where all rounding is largest.
             1 => opposite(&random, first),
             _ => {
                 let at = float(first);
@@ -101,13 +102,14 @@ fn spans_of_any_length_between_any_vectors_do_not_overflow() {
     }
 }
 
-/// D is stepped, and its table of roots wraps 2⁻¹¹ above 1: the longest spans of the longest vectors that turn by 180° come nearest to it.
+/// The table of roots wraps where the stepped D exceeds 1 + 2⁻¹¹. The longest spans of the longest
+/// vectors that turn by 180° come closest to it.
 #[test]
 fn the_last_pixel_of_the_longest_piece_stays_in_the_table_of_roots() {
     let random = Random::new(31);
     for _ in 0..200_000 {
         let n = random.unit().map(|x| x * (1.0 + 2f64.powi(-14)));
-        // Cut toward 0, so that it is not too long.
+        // Cut toward 0, so that the vector is not too long.
         let first = Vector::new(n.map(|x| I17F15::from_bits((x * 32768.0) as i32)));
         let end = opposite(&random, first);
         let light = Light::new(end, end, &UNCUT);
@@ -116,14 +118,14 @@ fn the_last_pixel_of_the_longest_piece_stays_in_the_table_of_roots() {
         span.fast::<_, Reflection, false, 1>(&mut line, &[light]);
         let last = line[Span::MAX - 1];
         span.naive::<_, Reflection, false, 1>(&mut line, &[light]);
-        // Head-on, the light and the highlight are whole: where D wraps they are not.
+        // Light and eye face the normal, so the pixel is white unless D wraps.
         for pixel in [last, line[Span::MAX - 1]] {
             assert!(pixel.red() > 250.0, "{first:?} {end:?}: {}", pixel.red());
         }
     }
 }
 
-/// A method of a length of line, its bound, and its closed form.
+/// A method, the normals of its closed form, and its bound.
 #[cfg(feature = "alloc")]
 type Bounded = (
     fn(Span, &mut [Uncut], &Light<'_, Uncut>),
@@ -211,14 +213,14 @@ fn lines_of_any_length_and_material_are_within_their_bounds() {
                 0 => random.aside(middle, degrees * random.next()),
                 _ => random.unit(),
             };
-            // As unit normals are in `f32`, in 16 bits and in 15 fractional ones.
+            // Unit normals from `f32`, from 16-bit integers and from Q15.
             let end = random.aside(first, degrees);
             let made = |v: V| match round % 3 {
                 0 => Vector::from_f32(v.map(|x| x as f32)).expect("numbers"),
                 1 => unit(v.map(|x| (x * 32767.0).round() as i16)),
                 _ => vector(v),
             };
-            // Sums above 1 are clamped, and factors too.
+            // Sums and factors above 1 are clamped.
             let [ambient, diffuse, highlight] =
                 [0.5, 1.2, 1.2].map(|most| fixed::types::U16F16::from_num(most * random.next()));
             let shininess = 2f64.powf(10.0 * random.next()) as u32;
@@ -236,7 +238,7 @@ fn lines_of_any_length_and_material_are_within_their_bounds() {
             };
             let ambient = f64::from(ambient);
             let (limit, _) = bound.parts::<Uncut>();
-            // All pixels of short lines, and those beside the cuts of long ones.
+            // All pixels of short lines; of long lines the pixels beside cuts and some others.
             let all: std::vec::Vec<usize> = match pixels {
                 0..=1000 => (0..pixels).collect(),
                 _ => (0..pixels)
@@ -245,7 +247,7 @@ fn lines_of_any_length_and_material_are_within_their_bounds() {
             };
             for i in all {
                 let n = normalized(normal(first, end, i as f64 / pixels as f64));
-                // A light on the horizon may be on either side of it.
+                // Rounding decides on which side of the horizon this light is.
                 if dot(toward, n).abs() < 2e-3 {
                     continue;
                 }
@@ -258,7 +260,7 @@ fn lines_of_any_length_and_material_are_within_their_bounds() {
     assert!(tried > 300_000, "{tried}");
 }
 
-/// What panicked where overflow is checked, and was off by up to 229 levels elsewhere.
+/// Long lines between vectors of more than unit length need both cuts and shorter vectors.
 #[test]
 fn five_thousand_pixels_between_normals_that_are_too_long_are_right() {
     let random = Random::new(41);
@@ -288,7 +290,7 @@ fn five_thousand_pixels_between_normals_that_are_too_long_are_right() {
     }
 }
 
-/// Only the ratio of two normals' lengths counts, until their bits are too few to have a direction.
+/// Only the ratio of two normals' lengths counts, as long as they have enough bits for a direction.
 #[test]
 fn short_normals_and_lights_shine_as_long_ones() {
     let random = Random::new(43);
@@ -310,9 +312,11 @@ fn short_normals_and_lights_shine_as_long_ones() {
             for (x, pixel) in line.iter().enumerate().take(if i == 3 { 1 } else { 64 }) {
                 let between = if i == 2 { slerp } else { between };
                 let n = normalized(between(first, end, x as f64 / 64.0));
-                // Each vector is off by √3/2 units of 15 bits over its length, which R·V has up to five times: twice from the normal, whose
-                // length between the ends is 0.87, and once from both others. The 32nd power has a slope of at most 3.4 by an angle. Where D is ¼ the
-                // table of roots is off by 2⁻¹¹, and R·V by four times that: 6.4 levels, and 1.6 of the highlight's half step.
+                // Each vector is off by √3/2 units of 2⁻¹⁵ divided by its length. R·V has this
+                // error up to five times: twice each from two normals, whose length between the
+                // ends is 0.87, and once from the others. The 32nd power has a slope of at most
+                // 3.4. Where D is ¼ the table of roots is off by 2⁻¹¹, and R·V by four times that:
+                // 6.4 levels, and 1.6 for the highlight's half step.
                 if dot(toward, n).abs() > 0.01 {
                     let error = (pixel.red() - lit(n, &[(toward, eye)], Kind::Reflection)).abs();
                     let units = 255.0 * (DIFFUSE * 3.0 + HIGHLIGHT * 3.4 * 5.0) * 0.87;

@@ -1,4 +1,4 @@
-//! Whole frames of spheres against a closed form in `f64`, slivers included.
+//! Whole frames of spheres, slivers included, compared with a closed form in `f64`.
 
 use super::super::*;
 use super::closed_form::*;
@@ -69,13 +69,14 @@ fn vertices(t: &[Corner; 3]) -> [Vertex; 3] {
     })
 }
 
-/// Returns the exact weights of a pixel's centre, if a triangle covers it.
+/// Returns the exact weights of a pixel's centre, or `None` if the triangle does not cover it.
 fn weights(t: &[Corner; 3], x: usize, y: usize) -> Option<V> {
     let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
     let edge = |a: &Corner, b: &Corner| {
         (b.at[0] - a.at[0]) * (py - a.at[1]) - (px - a.at[0]) * (b.at[1] - a.at[1])
     };
-    // In sixteenths of 2⁻¹² all of this is exact. Left edges and upper edges own their pixels.
+    // Coordinates are multiples of 2⁻⁸, so all of this is exact. Left and upper edges own their
+    // pixels.
     let owns = |a: &Corner, b: &Corner, e: f64| {
         let (dx, dy) = (b.at[0] - a.at[0], b.at[1] - a.at[1]);
         e > 0.0 || e == 0.0 && (dy < 0.0 || dy == 0.0 && dx > 0.0)
@@ -96,7 +97,7 @@ const METHODS: [(&str, Draw); 4] = [
     }),
 ];
 
-/// Draws a globe by a method, and returns its worst and root mean square error in red.
+/// Draws a globe by a method, and returns its largest and its root mean square error in red.
 fn errors(mesh: &[[Corner; 3]], draw: Draw) -> (f64, f64) {
     let (toward, eye) = (float(unit([2, 3, 6])), [0.0, 0.0, 1.0]);
     let lights = [Light::new(vector(toward), unit([0, 0, 1]), &UNCUT)];
@@ -159,7 +160,7 @@ fn spheres_are_right_to_their_rim() {
     assert!(!is_wrong, "{table}");
 }
 
-/// Gouraud shading interpolates the colours of its corners, on flat triangles and on slivers.
+/// Gouraud shading interpolates the corners' colours, on wide triangles and on slivers.
 #[test]
 fn gouraud_interpolates_colours() {
     let lights = [Light::new(unit([2, 3, 6]), unit([0, 0, 1]), &UNCUT)];
@@ -177,12 +178,13 @@ fn gouraud_interpolates_colours() {
             }
         }
     }
-    // Cut to a field of 9 bits: 0.51 levels. Steps leave 64 units of 16 bits at most: 0.25.
+    // The cut to a field of 9 bits is 0.51 levels. Steps are off by at most 64 units of 16 bits,
+    // 0.25 levels.
     assert!((0.3..0.77).contains(&worst), "{worst}");
 }
 
-/// Triangles of any shape, thin as hairs, with any normals: nothing overflows, and every pixel is near
-/// the picture of its normal.
+/// Triangles of any shape, even thin as hairs, with any normals: nothing overflows, and every pixel
+/// is close to the exact colour of its normal.
 #[test]
 fn slivers_cannot_overflow() {
     let random = Random::new(21);
@@ -233,7 +235,8 @@ fn slivers_cannot_overflow() {
                     let n =
                         [0, 1, 2].map(|i| w[0] * t[0].n[i] + w[1] * t[1].n[i] + w[2] * t[2].n[i]);
                     let unit = normalized(n);
-                    // Parabolas and colours leave out more; a light on the horizon may be on either side.
+                    // Parabolas and Gouraud shading leave out more. At the horizon rounding decides
+                    // on which side the light is.
                     if method >= 2 || dot(toward, unit).abs() < 0.01 {
                         continue;
                     }
@@ -287,7 +290,8 @@ fn depth_hides_what_is_behind_in_any_order() {
     );
 }
 
-/// Convex polygons are drawn, whichever way they run; what the triangles about the first corner are not is refused whole.
+/// Convex polygons are drawn, wherever their corners begin. Polygons that triangles around the
+/// first corner do not make up are refused.
 #[test]
 fn polygons_that_do_not_fit_are_refused() {
     let light = [Light::new(unit([0, 0, 1]), unit([0, 0, 1]), &UNCUT)];
@@ -311,7 +315,7 @@ fn polygons_that_do_not_fit_are_refused() {
         square.rotate_left(1);
         assert_eq!(draw(&square), (true, 32 * 32));
     }
-    // A corner within a side, and one that is there twice.
+    // One corner lies within a side, and one is there twice.
     let convex = [[8, 8], [20, 8], [40, 8], [40, 40], [40, 40], [8, 40]];
     assert_eq!(draw(&convex), (true, 32 * 32));
     square.reverse();

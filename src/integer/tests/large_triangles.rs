@@ -1,4 +1,5 @@
-//! Triangles of any size that fits, thin ones too, with any normals: nothing overflows, and no pixel is far from the picture of its normal.
+//! Triangles of any size that fits, even thin ones, with any normals: nothing overflows, and every
+//! pixel is close to the exact colour of its normal.
 
 use super::super::*;
 use super::closed_form::*;
@@ -16,7 +17,8 @@ fn doubled_area(t: Places) -> i64 {
 /// Sizes of pictures: long rows, long columns, and a square.
 const SIZES: [[usize; 2]; 4] = [[1024, 4], [64, 64], [4, 1024], [300, 10]];
 
-/// Returns a triangle that faces the eye about a picture, from a pixel to the largest.
+/// Returns a triangle near a picture that faces the eye, from the size of a pixel to the largest
+/// that fits.
 fn any_places(random: &Random, [width, height]: [usize; 2]) -> Places {
     let reach = 2f64.powf(11.0 * random.next());
     let centre = [width, height].map(|side| random.next() * side as f64);
@@ -35,7 +37,7 @@ fn any_places(random: &Random, [width, height]: [usize; 2]) -> Places {
             t[2] = [between(0) + aside(), between(1) + aside()];
             t[2] = t[2].map(|x| x.clamp(-262_144, 262_144));
         }
-        // Corners as far out as they may be.
+        // Corners as far out as is allowed.
         2 => {
             for p in &mut t {
                 let end = |x: i32| {
@@ -108,7 +110,7 @@ fn triangles_of_any_size_with_any_normals_do_not_overflow() {
         let t = vertices(places, normals, depths);
         let toward = random.aside(first, 60.0 * random.next());
         let lights = [Light::new(made(toward), made(random.unit()), &UNCUT)];
-        // Any bits: guards and unused bits count for nothing.
+        // Any bits, because guards and unused bits are ignored.
         let colours = [(); 3].map(|()| match (random.next() * 3.0) as usize {
             0 => 0,
             1 => u32::MAX,
@@ -125,8 +127,8 @@ fn triangles_of_any_size_with_any_normals_do_not_overflow() {
             draw(&mut canvas, &t, &lights, colours);
             seen += pixels.iter().filter(|p| **p != Uncut(0)).count();
         }
-        // The last were drawn by Gouraud shading: no channel leaves its corners by more than what planes are rounded by, and so carries into
-        // none beside it.
+        // The last method was Gouraud shading. No channel leaves the range of its corners by more
+        // than planes round, so none carries into its neighbour.
         for pixel in pixels.iter().filter(|p| **p != Uncut(0)) {
             let [corners, found] = [colours.map(channels), [channels(pixel.0); 3]];
             for c in 0..3 {
@@ -142,7 +144,8 @@ fn triangles_of_any_size_with_any_normals_do_not_overflow() {
     assert!(seen > 1_000_000, "{seen}");
 }
 
-/// The rounding of ΔN adds up over 128 pixels, here to D above what its table of roots has room for, if normals are not lowered.
+/// The rounding of ΔN adds up over 128 pixels. Without the scale of 255/256, D would exceed the
+/// room in its table of roots here.
 #[test]
 fn d_stays_in_its_table_over_long_rows_of_large_triangles() {
     let places = [[72_805, 50_806], [-26_933, -35_253], [93_619, 5_019]];

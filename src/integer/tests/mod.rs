@@ -1,4 +1,4 @@
-//! Spans against a closed form in `f64`, and spans that could overflow.
+//! Spans and triangles compared with a closed form in `f64`, and some that could overflow.
 
 mod closed_form;
 mod errors;

@@ -1,4 +1,4 @@
-//! Fast Phong shading with other tables and steps: what a larger table is worth.
+//! Fast Phong shading with other tables and more steps: how much a larger table gains.
 
 use super::super::material::{SCALE, TOP};
 use super::super::reciprocal::Reciprocal;
@@ -8,7 +8,8 @@ use super::closed_form::*;
 use super::errors::{Case, cases};
 use std::println;
 
-/// The sizes of the tables: entries of 1/√D over D from 0 to 1, of L·N from 0 to 1, and of highlights.
+/// How many entries the tables have: 1/√D for D from 0 to 1, L·N from 0 to 1, and highlights; and
+/// how many steps of Newton's method follow.
 #[derive(Clone, Copy)]
 struct Sizes {
     roots: u32,
@@ -17,7 +18,7 @@ struct Sizes {
     highlights: i32,
 }
 
-/// What [`Material`] and the table of roots have.
+/// The sizes of [`Material`] and of the table of roots.
 const CHOSEN: Sizes = Sizes {
     roots: 2048,
     steps: 0,
@@ -26,7 +27,7 @@ const CHOSEN: Sizes = Sizes {
 };
 
 impl Sizes {
-    /// Returns 1/√D as a table of another size would hold it, refined by steps of Newton's.
+    /// Returns 1/√D from a table of this size, refined by steps of Newton's method.
     fn root(self, d: i32) -> i32 {
         let entry = (u64::from(below_one(d)) * u64::from(self.roots)) >> 32;
         let middle = 1.0 + 1.0 / 2048.0 - (entry as f64 + 0.5) / f64::from(self.roots);
@@ -37,7 +38,7 @@ impl Sizes {
         r
     }
 
-    /// Returns red in grey levels, as fields of 5 bits with 4 below them hold it.
+    /// Returns red in grey levels, from fields of 5 bits with a fraction of 4 bits.
     fn red(self, j: i32, below: i32) -> f64 {
         let level = |x: f64| (x * 496.0).round() / 496.0;
         if j < 0 {
@@ -62,7 +63,7 @@ impl Sizes {
         255.0 * sum.min(1.0)
     }
 
-    /// Returns the worst error on the spans of an angle.
+    /// Returns the largest error over all spans of an angle.
     fn worst(self, angle: f64) -> f64 {
         let mut worst = 0.0f64;
         for Case {
@@ -217,13 +218,13 @@ fn larger_tables_and_steps_lower_the_error() {
     }
     let of = |name: &str| all.iter().find(|row| row.0 == name).expect("it is swept");
     let chosen = of("chosen");
-    // Half of the root's steps, or of the highlight's, lower the error.
+    // Halving the root's steps or the highlight's lowers the error.
     for name in ["4096 roots", "1 step", "1024 highlights"] {
         assert!(of(name).2 < chosen.2, "{name}");
     }
     for name in ["1024 roots", "256 highlights", "64 diffuse"] {
         assert!(of(name).2 > chosen.2, "{name}");
     }
-    // The sweep is a model of the loop itself.
+    // The chosen sizes must have the errors of the loop that this sweep models.
     assert!(chosen.1 < 3.8 && chosen.2 < 3.8 && chosen.2 > 2.8);
 }

@@ -1,4 +1,4 @@
-//! Compares blocks with plain `f32`, pixel by pixel, on every instruction set of this machine.
+//! Compares SIMD blocks with plain `f32`, pixel by pixel, on every instruction set of this machine.
 
 use super::*;
 use crate::number::lanes::{Int, Lanes};
@@ -6,15 +6,15 @@ use crate::number::test_random::Random;
 use std::vec;
 use std::vec::Vec;
 
-/// Calls a function for the token of each instruction set of this machine.
+/// Calls a function with the token of each instruction set of this machine.
 macro_rules! on_each_level {
     ($function:ident) => {
         #[cfg(target_arch = "x86_64")]
         {
-            if crate::number::Level::Avx2.is_available() {
+            if crate::number::SimdLevel::Avx2.is_available() {
                 $function::<fearless_simd::Avx2>();
             }
-            if crate::number::Level::Avx512.is_available() {
+            if crate::number::SimdLevel::Avx512.is_available() {
                 $function::<fearless_simd::Avx512>();
             }
         }
@@ -24,7 +24,7 @@ macro_rules! on_each_level {
 }
 pub(crate) use on_each_level;
 
-/// Applies an operation to columns of numbers, block by block.
+/// Applies an operation to columns of values, block by block.
 fn blocks<S: Token, F: Block<S>>(
     columns: [&[f32]; 3],
     operation: impl Fn(F, F, F) -> F,
@@ -42,9 +42,9 @@ fn blocks<S: Token, F: Block<S>>(
     out
 }
 
-/// Returns every pair of special and random numbers, in whole blocks.
+/// Returns every pair of special and random values, in whole blocks.
 fn pairs() -> [Vec<f32>; 3] {
-    let mut numbers = vec![
+    let mut values = vec![
         0.0,
         -0.0,
         1.0,
@@ -55,13 +55,13 @@ fn pairs() -> [Vec<f32>; 3] {
         f32::MIN_POSITIVE,
         -3e38,
     ];
-    numbers.extend([f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN]);
+    values.extend([f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN]);
     let mut random = Random::new(3);
-    numbers.extend((0..11).map(|_| random.signed()));
-    assert_eq!(numbers.len() % 8, 0);
+    values.extend((0..11).map(|_| random.signed()));
+    assert_eq!(values.len() % 8, 0);
     let (mut a, mut b, mut c) = (Vec::new(), Vec::new(), Vec::new());
-    for &x in &numbers {
-        for &y in &numbers {
+    for &x in &values {
+        for &y in &values {
             a.push(x);
             b.push(y);
             c.push(random.signed());
@@ -74,7 +74,7 @@ fn same(found: f32, expected: f32) -> bool {
     found == expected || (found.is_nan() && expected.is_nan())
 }
 
-/// Compares an operation on blocks with the same operation on plain numbers.
+/// Compares an operation on blocks with the operation on plain floats.
 macro_rules! compare {
     ($s:ident, $f:ident, |$a:ident, $b:ident, $c:ident| $operation:expr) => {
         compare!($s, $f, |$a, $b, $c| $operation, |_: [f32; 3], _: f32| false)
@@ -131,10 +131,10 @@ fn every_operation_is_the_scalar_one() {
 }
 
 fn any_over<S: Token, F: Block<S>>() {
-    let [numbers, ..] = pairs();
-    let numbers: Vec<f32> = numbers.into_iter().step_by(5).collect();
+    let [values, ..] = pairs();
+    let values: Vec<f32> = values.into_iter().step_by(5).collect();
     for least in [-1.0, 0.0, 0.5, 254.0, 255.0, f32::MAX] {
-        for block in numbers.chunks_exact(F::WIDTH) {
+        for block in values.chunks_exact(F::WIDTH) {
             let loaded = F::load(S::get(), [block, &block[F::WIDTH - BLOCK..]], 0);
             let expected = block.iter().any(|&x| x > least);
             assert_eq!(loaded.any_over(least), expected, "{block:?} over {least}");
@@ -163,8 +163,8 @@ fn any_over_holds_if_one_lane_is_over() {
     on_each_level!(of);
 }
 
-/// A root and a quotient are each rounded once, by 2⁻²⁴ of their value at most. The quotient passes the root's error on; 2⁻⁴⁸ is
-/// room for the product of both.
+/// A root and a quotient are each rounded once, by at most 2⁻²⁴ of their value. The quotient
+/// inherits the root's error. 2⁻⁴⁸ is room for the product of both.
 #[test]
 fn inverse_roots_are_rounded_twice() {
     fn of<S: Token>() {
@@ -196,7 +196,7 @@ fn inverse_roots_are_rounded_twice() {
     on_each_level!(of);
 }
 
-/// Returns numbers in 0..=1 that are 0 or normal: near 0, near 1, on both sides of the logarithm's
+/// Returns values in 0..=1 that are 0 or normal: near 0, near 1, on both sides of the logarithm's
 /// cut, and in between.
 fn bases() -> Vec<f32> {
     let cut = core::f32::consts::FRAC_1_SQRT_2;
@@ -334,9 +334,8 @@ fn integers_of_lanes_are_those_of_the_processor() {
         let mut random = Random::new(7);
         for round in 0..2000 {
             let reach = [4, 300, 1 << 15][round % 3];
-            let mut numbers =
-                || [(); 8].map(|()| random.below(2 * reach + 1) as i32 - reach as i32);
-            let (a, b) = (numbers(), numbers());
+            let mut values = || [(); 8].map(|()| random.below(2 * reach + 1) as i32 - reach as i32);
+            let (a, b) = (values(), values());
             let (x, y) = (m.load_int(&a), m.load_int(&b));
             let each =
                 |of: fn(i32, i32) -> i32| -> [i32; 8] { core::array::from_fn(|k| of(a[k], b[k])) };
@@ -352,11 +351,8 @@ fn integers_of_lanes_are_those_of_the_processor() {
         m.store(m.float(m.load_int(&all)), &mut floats);
         assert_eq!(floats, all.map(|x| x as f32), "rounded once");
         assert_eq!(ints(m.counted()), [0, 1, 2, 3, 4, 5, 6, 7]);
-        let numbers = [0.0, -0.9, 1.9, -2.5, 1e6, -1e9, 2.147e9, 0.5];
-        assert_eq!(
-            ints(m.truncated(m.load(&numbers))),
-            numbers.map(|x| x as i32)
-        );
+        let values = [0.0, -0.9, 1.9, -2.5, 1e6, -1e9, 2.147e9, 0.5];
+        assert_eq!(ints(m.truncated(m.load(&values))), values.map(|x| x as i32));
         m.store(m.ramp(0.25, 1, 0.5), &mut floats);
         assert_eq!(floats, [0.75, 1.25, 1.75, 2.25, 2.75, 3.25, 3.75, 4.25]);
     }
@@ -372,7 +368,7 @@ fn lanes_are_selected_bit_by_bit() {
             let (old, new) = (m.load(&a[x..]), m.load(&b[x..]));
             let outside: [i32; BLOCK] = core::array::from_fn(|k| (c[x + k] * 4.0) as i32);
             let mut found = [0.0; BLOCK];
-            // Both depths are numbers.
+            // Neither depth may be NaN.
             let depth = |from: &[f32]| {
                 from[x..x + BLOCK]
                     .iter()
@@ -408,9 +404,9 @@ fn vectors_are_taken_apart_in_order() {
         let all: [[f32; 3]; BLOCK] =
             core::array::from_fn(|k| core::array::from_fn(|i| (3 * k + i) as f32));
         let taken = deinterleaved(S::get())(&all);
-        for (i, numbers) in [taken.x, taken.y, taken.z].into_iter().enumerate() {
-            let numbers: [f32; BLOCK] = numbers.into();
-            assert_eq!(numbers, all.map(|vector| vector[i]));
+        for (i, values) in [taken.x, taken.y, taken.z].into_iter().enumerate() {
+            let values: [f32; BLOCK] = values.into();
+            assert_eq!(values, all.map(|vector| vector[i]));
         }
     }
     on_each_level!(of);

@@ -1,4 +1,5 @@
-//! Spreads: how much the vectors toward lights and eye vary over the polygons of a frame. Bounds of rounding errors need them.
+//! Ranges of light over a polygon: how much the vectors toward lights and eye vary. Error bounds
+//! need them.
 
 use crate::frame::{Frame, Polygon};
 use crate::scene::{Lighting, Place};
@@ -8,26 +9,29 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// The inequality of the vectors toward lights and eye.
+/// The spread of the vectors toward lights and eye on all polygons of a frame.
 ///
-/// A polygon, clipped or not, lies in the smallest ball around the middle of its corners that holds them. From
-/// points of a ball of radius ρ at the distance r a place is between r − ρ and r + ρ away, in directions within
-/// sin⁻¹(ρ/r) of that from its middle. Nor is a place nearer than the least of its distances from the planes through the
-/// corners that are parallel to the polygon, if all are on one side of it: a linear function has its least value at a
-/// corner. So a light above the middle of a large polygon is as near as it is high.
+/// A polygon, clipped or not, lies in the smallest ball around the middle of its corners that holds
+/// them. Seen from points of a ball of radius ρ at the distance r, a place is between r − ρ and r +
+/// ρ away, in directions within sin⁻¹(ρ/r) of the direction from the ball's middle. The place is
+/// also no nearer than the least of its distances from the planes through the corners that are
+/// parallel to the polygon, if all of them are on one side of it, because a linear function has its
+/// least value at a corner. So a light above the middle of a large polygon is as near as it is
+/// high.
 pub(crate) struct Spread {
-    /// That on each polygon; none where all is at infinity.
+    /// The spread on each polygon; empty if all lights and the eye are at infinity.
     polygons: Vec<PolygonSpread>,
-    /// The lights as each material sees them.
+    /// The lights as seen from each material.
     pub materials: Vec<SeenLights>,
 }
 
-/// The vectors toward lights and eye on a polygon.
+/// The spread of the vectors toward lights and eye on one polygon.
 #[derive(Clone, Copy)]
 pub(crate) struct PolygonSpread {
-    /// The longest over the shortest, the coordinates that they are differences of counted as long: 1 or more.
+    /// The longest vector over the shortest, 1 or more. Coordinates from which a vector is computed
+    /// count as long vectors.
     pub vectors: f64,
-    /// The largest distance between two points over the longest vector there.
+    /// The largest distance between two points of the polygon over the longest vector.
     pub apart: f64,
 }
 
@@ -43,11 +47,11 @@ impl PolygonSpread {
     }
 }
 
-/// The lights as the polygons of a material see them.
+/// The lights as seen from the polygons of a material.
 pub(crate) struct SeenLights {
     /// The greatest strength of each light.
     pub strengths: Vec<f64>,
-    /// The least |L + V| of unit vectors, over 0.
+    /// The least |L + V| of unit vectors, greater than 0.
     pub half: f64,
 }
 
@@ -67,7 +71,7 @@ impl Spread {
                 spread.polygons.push(here);
             }
         } else {
-            // All points see the same.
+            // All points see lights and eye in the same directions.
             for material in 0..frame.lightings().len() as u32 {
                 spread.add(frame, material, &Ball::default());
             }
@@ -75,13 +79,14 @@ impl Spread {
         spread
     }
 
-    /// Returns the spread on a polygon, by its index.
+    /// Returns the spread on the polygon with this index.
     pub fn on(&self, polygon: usize) -> PolygonSpread {
         let all = self.polygons.get(polygon);
         all.copied().unwrap_or(PolygonSpread::NONE)
     }
 
-    /// Adds the points of a ball on a material. Returns the spread there.
+    /// Extends a material's lights to those seen from the points of a ball. Returns the spread
+    /// there.
     fn add(&mut self, frame: &Frame, material: u32, ball: &Ball) -> PolygonSpread {
         let lighting = &frame.lightings()[material as usize];
         let seen = &mut self.materials[material as usize];
@@ -100,32 +105,33 @@ impl Spread {
             // |l + v| = 2 cos(θ/2) for unit vectors at the angle θ.
             let angle = libm::acos(to.direction.dot(view.direction).clamp(-1.0, 1.0));
             let widest = (angle + to.angle + view.angle).min(core::f64::consts::PI);
-            // Below 1e-9 the bound is over 1 whatever the light: no bound at all.
+            // Below 1e-9 the bound exceeds 1 with any light, so it says nothing.
             seen.half = seen.half.min(2.0 * libm::cos(widest / 2.0)).max(1e-9);
         }
         here
     }
 }
 
-/// A ball that holds a polygon, and its corners.
+/// A ball that contains a polygon, and the polygon's corners.
 #[derive(Default)]
 struct Ball {
     corners: Vec<DVec3>,
     normal: DVec3,
     middle: DVec3,
     radius: f64,
-    /// The largest distance of a corner from the origin: as long as what is subtracted.
+    /// The largest distance of a corner from the origin, because errors grow with coordinates that
+    /// are subtracted.
     reach: f64,
 }
 
-/// A place as the points of a ball see it.
+/// A place as seen from the points of a ball.
 struct SeenPlace {
     spread: f64,
     apart: f64,
     nearest: f64,
     /// The direction from the middle of the ball.
     direction: DVec3,
-    /// The largest angle to it from the direction of another point.
+    /// The largest angle between that direction and the direction from another point of the ball.
     angle: f64,
 }
 
@@ -135,7 +141,8 @@ impl Ball {
         for_each_end(frame, frame.corners(polygon), &mut |v| {
             corners.push(wide(frame.position(v)))
         });
-        // Methods that see light from one point of a polygon see it from the mean of the whole one, of which this may be a piece.
+        // Methods that light a polygon as seen from one point use the mean of the whole polygon, of
+        // which this may be a piece.
         corners.push(wide(frame.mean(polygon).position));
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let most = |of: &dyn Fn(DVec3) -> f64| corners.iter().map(|p| of(*p)).fold(0.0, f64::max);
@@ -163,7 +170,8 @@ impl Ball {
         };
         let toward = position - self.middle;
         let far = toward.length();
-        // Inside the ball no bound is known: the smallest distance that the methods tell from 0.
+        // Inside the ball no bound is known. Use the smallest distance that methods distinguish
+        // from 0.
         let corners = self.corners.iter();
         let (low, high) = range(corners.map(|p| (position - p).dot(self.normal)));
         let nearest = (far - self.radius).max(low).max(-high).max(1e-15);
@@ -173,7 +181,7 @@ impl Ball {
             apart: 2.0 * self.radius / longest,
             nearest,
             direction: toward.normalize_or_zero(),
-            // From inside the ball it is seen in any direction.
+            // From inside the ball the place is seen in any direction.
             angle: match far > self.radius {
                 true => libm::asin(self.radius / far),
                 false => core::f64::consts::PI,

@@ -1,4 +1,5 @@
-//! Bounds of the difference between a method and its closed form: counted in roundings, not guessed.
+//! Error bounds: the largest difference between a method's picture and its closed form, derived by
+//! counting roundings.
 
 pub(crate) mod light_ranges;
 pub(crate) mod polygon_ranges;
@@ -8,23 +9,24 @@ use crate::scene::{LightTerm, Lighting, Power, SpecularGate, SpecularModel};
 use crate::shading::bounds::light_ranges::{PolygonSpread, SeenLights, Spread};
 use crate::shading::bounds::polygon_ranges::{Extent, wide};
 use crate::shading::light::highlight_error;
-use crate::shading::{Approximation, LitAt, Local, MethodRow, Perspective, Value, Variant};
+use crate::shading::{Approximation, Local, MethodRow, Perspective, ShadingRate, Value, Variant};
 use alloc::vec::Vec;
 
-/// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
+/// The rounding error of a value of 0.5..1: half a unit in the last place of an `f32`.
 const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// The roundings of a value of at most 1 that is interpolated by barycentric coordinates, without steps: an integer, the inverse area
-/// (two), their product, another product and two sums.
+/// The roundings of a value of at most 1 that is interpolated by barycentric coordinates and not
+/// stepped: an integer, the inverse area (two), their product, another product and two sums.
 const BARYCENTRIC: f64 = 7.0;
 
-/// The roundings of 2⁻²⁴ that a method's cosines (or colours) gather.
+/// How many roundings of 2⁻²⁴ a method's cosines (or colours) gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Roundings {
-    /// Before the first step.
+    /// Those before the first step.
     pub start: f64,
-    /// At every step along an edge or a span. Steps add the same rounded increment again and again, so their roundings
-    /// do not average out: they grow with the count of steps.
+    /// Those at every step along an edge or a span. Steps add the same rounded increment again and
+    /// again, so their roundings do not average out: they grow with the count of steps.
     pub step: f64,
     /// The values that are stepped.
     pub of: Stepped,
@@ -39,83 +41,103 @@ impl Roundings {
 
 /// The values that a method steps along edges and spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stepped {
-    /// Colours of at most 1: the picture is off by as much as they are.
+    /// Colours of at most 1: the picture has the same error.
     Colours,
-    /// Colours that are clamped later: off by as much as all light together is over 1.
+    /// Colours that are clamped after they are stepped: their error grows with the total light, if
+    /// it is over 1.
     Sums,
-    /// Normals or cosines: the light model comes after, and multiplies their errors.
+    /// Normals or cosines: the light model comes after and multiplies their errors.
     Cosines,
-    /// Normals or cosines along great circles: as [`Stepped::Cosines`], but spans walk between points of edges.
+    /// Normals or cosines along great circles. Like [`Stepped::Cosines`], but spans go between
+    /// points of edges.
     GreatCircles,
-    /// Products of two vectors that grow linearly: the light model comes after, too.
+    /// Products of two vectors that grow linearly: the light model comes after and multiplies their
+    /// errors.
     Products,
 }
 
 impl Variant {
-    /// Returns the largest difference that rounding in `f32` can make between this method's picture of `frame` and its closed
-    /// form ([`super::Info::model`]), in a linear channel of 0..=1. A bound of 1 says nothing.
+    /// Returns the largest difference that rounding in `f32` can make between this method's picture
+    /// of `frame` and its closed form ([`super::Info::model`]), in a linear channel of 0..=1. A
+    /// bound of 1 says nothing.
     ///
-    /// It is the largest of the bounds of all polygons ([`Variant::polygon_bounds`]), which are derived as follows.
+    /// It is the largest bound of all polygons ([`Variant::polygon_bounds`]), which are derived as
+    /// follows.
     ///
-    /// **Steps.** With s steps from a corner to a pixel, a value of at most 1 is off by `(start + step · s) · 2⁻²⁴`.
+    /// **Steps.** After s steps from a corner to a pixel, a value of at most 1 has an error of
+    /// `(start + step · s) · 2⁻²⁴`.
     ///
-    /// **Set-up.** Steps begin from parameters, which are rounded too, and multiply the differences of corners, δ at most. Between
-    /// edges a parameter is rounded 4 times with its difference and product, along edges as often: 8 δ. The
-    /// barycentric renderer steps nothing: coordinates, products and sums take 7 roundings of values.
+    /// **Set-up.** Steps begin from parameters, which are rounded too, and which multiply the
+    /// differences of corners, at most δ. Between edges a parameter is rounded 4 times with its
+    /// difference and product, and along edges as often: 8 δ. The barycentric renderer steps
+    /// nothing: coordinates, products and sums take 7 roundings of values.
     ///
-    /// **Triangles in the row engine** have barycentric coordinates, which take 5 roundings at the start of a run, with differences. Their
-    /// growth takes 5, over a run on which both grow by 1 at most: 15 δ. A small triangle begins up to 15 rows and 7 columns away, where
-    /// coordinates are up to g larger (`Extent::growth`): both starts take 10 g, and both growths 12 g, 22 g δ more. From there to a
-    /// pixel are 17 sums at most, of values as large as `1 + 2 g δ`. Only lines are stepped: of a cosine two vectors, which
-    /// are rounded by 0.87 each.
+    /// **Triangles in the row engine** have barycentric coordinates, which with their differences
+    /// take 5 roundings at the start of a run. Their growth takes 5, over a run on which both grow
+    /// by 1 at most: 15 δ. A small triangle begins up to 15 rows and 7 columns away, where
+    /// coordinates are up to g larger (`Extent::growth`): both starts take 10 g and both growths 12
+    /// g, which adds 22 g δ. From there to a pixel are at most 17 sums, of values as large as
+    /// `1 + 2 g δ`. Only linear values are stepped: for a cosine these are two vectors, each
+    /// rounded by 0.87.
     ///
-    /// **Short normals.** Normals between corners whose normals are apart are shorter than 1. Let m be the unit mean of the
-    /// corners' normals N_i and `c = min N_i·m`. Every convex combination N has |N| ≥ N·m ≥ c, so that
-    /// dividing by its length makes errors of cosines larger by 1/c, and those of products, which are divided by N·N, by 1/c². Weights
-    /// of perspective are positive and change neither m nor c; vertices that clipping made lie between others, so that c holds for
-    /// pieces. The N_i are within θ of m, cos θ = c, so that δ ≤ 2 sin θ. A great circle divides by sin φ. Where φ is at most
-    /// 90°, both weights are at most 1 all the same; else `sin φ = 2 sin φ/2 cos φ/2 ≥ √2 c`, as cos φ/2 is the length of the chord's
-    /// middle. Points of edges lie in the same cone, and the span between them divides once more: 1/c². Where c is 0 or less the
-    /// bound is 1.
+    /// **Short normals.** A normal between corners whose normals differ is shorter than 1. Let m be
+    /// the unit mean of the corners' normals N_i and `c = min N_i·m`. Every convex combination N
+    /// has |N| ≥ N·m ≥ c. Dividing by its length therefore multiplies errors of cosines by up to
+    /// 1/c, and errors of products, which are divided by N·N, by up to 1/c². Weights of perspective
+    /// are positive and change neither m nor c. Vertices that clipping made lie between others, so
+    /// c holds for pieces too. The N_i are within θ of m, cos θ = c, so that δ ≤ 2 sin θ. A great
+    /// circle divides by sin φ. Where φ is at most 90°, both weights are still at most 1; otherwise
+    /// `sin φ = 2 sin φ/2 cos φ/2 ≥ √2 c`, as cos φ/2 is the length of the chord's middle. Points
+    /// of edges lie in the same cone, and the span between them divides once more: 1/c². Where c is
+    /// 0 or less the bound is 1.
     ///
-    /// **Light.** If a cosine is off by e, the diffuse term passes
-    /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n. Of
-    /// `N·H = (L·N + V·N) / h`, h = |L + V|, the sum is off by 2 e and h by e/h, so that it is off by `2 e/h + e/h²`, which
-    /// is below 4 e while h is over 0.81. An exponent below 1 is infinitely steep at 0, and its power is off by up to (4 e)^n,
-    /// where a highlight ends.
+    /// **Light.** An error e of a cosine becomes `e I_p k_d` in the diffuse term.
+    /// `R·V = 2 (L·N)(N·V) − L·V` has an error of up to 4 e, which the power multiplies by n. In
+    /// `N·H = (L·N + V·N) / h`, h = |L + V|, the sum has an error of 2 e and h one of e/h, which
+    /// makes `2 e/h + e/h²`: less than 4 e while h is over 0.81. An exponent below 1 is infinitely
+    /// steep at 0: where a highlight ends, its power has an error of up to (4 e)^n.
     ///
-    /// A vector toward a place is rounded at its longest and divided by its length where it is shortest: with a spread of σ
-    /// between the two its direction is off by σ times as much, and its square by σ². Where such vectors are stepped, δ is larger by
-    /// the size of the polygon over the longest. A falloff of at most its strength
-    /// where the light is nearest multiplies colours and their errors, and is off by as much as the square itself.
+    /// A vector toward a place is rounded where it is longest and divided by its length where it is
+    /// shortest. With a spread of σ between the two, errors of its direction are multiplied by σ
+    /// and those of its square by σ². Where these vectors are stepped, δ is larger by the size of
+    /// the polygon over the longest vector. A falloff multiplies colours and their errors by at
+    /// most the light's strength where it is nearest, and has the error of the square itself.
     ///
-    /// **Vertex colours** of at most A multiply ambient and diffuse light M, so that errors of the latter grow by A. Interpolated, they
-    /// are off by as much as any stepped colour, and by 4 roundings before: A M times that is added. The mean of a polygon's colours
-    /// takes a rounding, a product another.
+    /// **Vertex colours** of at most A multiply ambient and diffuse light M, so they multiply its
+    /// errors by A. Interpolated, they have the error of any stepped colour, and of 4 roundings
+    /// before: this adds A M times as much. The mean of a polygon's colours takes one rounding, a
+    /// product another.
     ///
-    /// A faint highlight is left out: `I_p k_s (R·V)^n` of at most 2⁻²⁴ a light. Its threshold `t = (2⁻²⁴ / k)^(1/n)` is rounded,
-    /// so that t^n is off by a share of `(43 + n) 2⁻²³`; the roundings of a highlight, n times 4 · 2⁻²⁴, leave room for that.
-    /// An exponent below 1 has its threshold below all errors of cosines, and (4 e)^n holds there as elsewhere.
+    /// A faint highlight is left out: `I_p k_s (R·V)^n` of at most 2⁻²⁴ per light. Its threshold
+    /// `t = (2⁻²⁴ / k)^(1/n)` is rounded, so that t^n has a relative error of `(43 + n) 2⁻²³`; the
+    /// roundings of a highlight, n times 4 · 2⁻²⁴, leave room for that. For an exponent below 1,
+    /// the threshold is below all errors of cosines, and (4 e)^n holds there as elsewhere.
     ///
-    /// What a method leaves out by design ([`super::Info::approximation`]) is added to the error of cosines or colours. Another power
-    /// function ([`Power`]) has its own slope and roundings in place of n and none.
+    /// What a method leaves out by design ([`super::Info::approximation`]) is added to the error of
+    /// cosines or colours. Another power function ([`Power`]) has its own slope in place of n, and
+    /// its own roundings in place of none.
     ///
-    /// Where a parameter is left to the method ([`super::Auto`]), lengths may be too large by the relative error E that it
-    /// allows itself. The diffuse terms D are divided by them: they lose E D at most, of which after the clamp, as all other
-    /// terms are 0 or more, E/(1 − E) is left at most. Of N·H, which is divided by them too, the power n loses n times as much
-    /// of the specular terms. R·V is divided by the squared length, which has no such error. A highlight that is weighted with L·N
-    /// loses as much as that.
+    /// Where a method chooses a parameter by itself ([`super::Auto`]), lengths may be too large by
+    /// the relative error E that it tolerates. The diffuse terms D are divided by them and lose at
+    /// most E D. After the clamp at most E/(1 − E) of this is left, as all other terms are 0 or
+    /// more. N·H is divided by them too, and its power n loses n times as much of the specular
+    /// terms. R·V is divided by the squared length, which has no such error. A highlight that is
+    /// weighted with L·N loses as much as L·N.
     ///
-    /// Other errors of the method itself, those of a given count of Newton's steps on short spans with large angles among
-    /// them, are no part of this, nor is a gate: a highlight ends with a jump where L·N = 0, and where a light lies in the plane
-    /// of a polygon the last bit decides whether all of it is there. Where the difference is over this bound, the report says so.
+    /// The bound does not include other errors of the method itself, as those of a fixed count of
+    /// Newton's steps on short spans with large angles. Nor does it include the gate: a highlight
+    /// ends with a jump where L·N = 0, and where a light lies in the plane of a polygon the last
+    /// bit decides if all of it is there. Where the difference exceeds this bound, the report says
+    /// so.
     pub fn bound(&self, frame: &Frame) -> f64 {
         self.polygon_bounds(frame).fold(0.0, f64::max)
     }
 
-    /// Returns the largest difference, in a linear channel of 0..=1, that the variant may make by design from its method's model with
-    /// tⁿ: what the method leaves out ([`super::Info::approximation`]), and what its power function does ([`Power::error`]).
+    /// Returns the largest difference from its method's model with tⁿ, in a linear channel of
+    /// 0..=1, that the variant may make by design: by what the method leaves out
+    /// ([`super::Info::approximation`]) and by its power function ([`Power::error`]).
     pub fn approximation(&self, frame: &Frame) -> f64 {
         let spread = Spread::of(frame);
         let materials = frame.lightings().iter().zip(&spread.materials);
@@ -124,7 +146,7 @@ impl Variant {
             .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let info = self.row().on(frame).info;
-        // Once per material: an error takes thousands of powers.
+        // Computed once per material, as each takes thousands of powers.
         let highlights: Vec<f64> = materials
             .iter()
             .map(|material| {
@@ -146,7 +168,7 @@ impl Variant {
         frame.polygons().iter().map(of_polygon).fold(0.0, f64::max)
     }
 
-    /// Returns [`Variant::bound`] for the pixels of each polygon of `frame`, in order.
+    /// Returns [`Variant::bound`] of each polygon of `frame`, in order.
     pub fn polygon_bounds<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = f64> + 'a {
         let spread = Spread::of(frame);
         let materials = frame.lightings().iter().zip(&spread.materials);
@@ -155,20 +177,20 @@ impl Variant {
             .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let polygons = frame.polygons().iter().enumerate();
-        let entry = self.row().on(frame);
+        let row = self.row().on(frame);
         polygons.map(move |(index, polygon)| {
-            let (cosine, colours) = errors(entry, frame, polygon, spread.on(index));
+            let (cosine, colours) = errors(row, frame, polygon, spread.on(index));
             let material = &materials[polygon.material as usize];
-            let error = (entry.info.approximation)(frame, polygon, self.parameters());
+            let error = (row.info.approximation)(frame, polygon, self.parameters());
             let cosine = cosine + error.cosine + error.length;
             let colour = error.colour * material.albedo.max(1.0);
             let bound = material.of(cosine, colours) + material.jump(error) + colour;
-            // No channel differs by more.
+            // No channel can differ by more than 1; NaN becomes 1 too.
             if bound <= 1.0 { bound } else { 1.0 }
         })
     }
 
-    /// Returns what the light model makes of errors on a material, where vertex colours are at most `albedo`.
+    /// Returns how a material's light passes errors on, where vertex colours are at most `albedo`.
     fn material_bound<'a>(
         &self,
         lighting: &'a Lighting,
@@ -180,7 +202,7 @@ impl Variant {
             false => 1.0,
         };
         let diffuse_error = self.length_error(lighting);
-        // (1 − E)ⁿ is 1 − n E at least, and 1 − E for an exponent below 1.
+        // (1 − E)ⁿ ≥ 1 − n E for n ≥ 1, and ≥ 1 − E for an exponent below 1.
         let power = match lighting.specular {
             SpecularModel::Phong => 0.0,
             SpecularModel::Blinn => f64::from(lighting.shininess).max(1.0),
@@ -221,7 +243,7 @@ impl Variant {
         }
     }
 
-    /// Returns the relative error of lengths that the method allows itself on a material.
+    /// Returns the largest relative error of lengths that the method tolerates on a material.
     fn length_error(&self, lighting: &Lighting) -> f64 {
         let all = self.info().parameters.iter().zip(self.parameters());
         all.filter(|(_, value)| **value == Value::Auto)
@@ -231,7 +253,7 @@ impl Variant {
     }
 }
 
-/// Returns the largest channel of a vertex colour; 1 where no material is multiplied by them.
+/// Returns the largest channel of a vertex colour; 1 if no material uses them.
 fn largest_colour(frame: &Frame) -> f64 {
     match frame.is_coloured() {
         true => {
@@ -242,25 +264,26 @@ fn largest_colour(frame: &Frame) -> f64 {
     }
 }
 
-/// Returns the error of the cosines that the light model sees on a polygon, that of lit colours of at most 1 which are stepped over
-/// it, and that of vertex colours of at most 1.
+/// Returns three errors on a polygon: of the cosines that the light model reads; of lit colours of
+/// at most 1 that are stepped; and of vertex colours of at most 1.
 fn errors(
-    entry: &MethodRow,
+    row: &MethodRow,
     frame: &Frame,
     polygon: &Polygon,
     spread: PolygonSpread,
 ) -> (f64, [f64; 2]) {
-    let info = entry.info;
+    let info = row.info;
     let Roundings { start, step, of } = info.roundings;
     let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
-    // A rounding where the weight of perspective is largest counts for more where it is smallest.
-    let weights = match entry.needs.perspective {
+    // A rounding where the weight of perspective is largest counts for more where the weight is
+    // smallest.
+    let weights = match row.needs.perspective {
         Perspective::Free | Perspective::Divides => extent.weights,
         Perspective::Unaffected | Perspective::ScreenOnly => 1.0,
     };
-    // True if vectors to places are stepped beside normals.
-    let is_followed = frame.is_local() && entry.needs.local == Local::PerPixel;
-    // Colours may differ by all that they are, weights by 1 − 1/σ of the largest.
+    // True if vectors to lights and eye are stepped beside normals.
+    let is_followed = frame.is_local() && row.needs.local == Local::PerPixel;
+    // Colours may differ by all they are; weights by 1 − 1/σ of the largest.
     let apart = match of {
         Stepped::Colours | Stepped::Sums => 1.0,
         _ => {
@@ -277,11 +300,11 @@ fn errors(
         false => 0.0,
     };
     let rounding = ROUNDING * weights;
-    // The least length that a normal has before it is normalised.
-    let length = match entry.needs.lit_at {
-        LitAt::Polygon | LitAt::Vertex => 1.0,
-        LitAt::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
-        LitAt::Pixel => extent.cosine,
+    // The least length of a normal before it is normalised.
+    let length = match row.needs.shading_rate {
+        ShadingRate::Polygon | ShadingRate::Vertex => 1.0,
+        ShadingRate::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
+        ShadingRate::Pixel => extent.cosine,
     };
     let over_length = match length > 0.0 {
         true => 1.0 / length,
@@ -293,9 +316,10 @@ fn errors(
         Stepped::GreatCircles => {
             rounding * (start + stepped(step)) * vectors * over_length * over_length
         }
-        // Squares of weighted vectors have the squares of the weights.
+        // Squares of weighted vectors carry the squares of the weights.
         Stepped::Products => {
-            // With positions three products are stepped: L·N is off by 3 a step, as D, and the roots of N·N and L·L by half of it each.
+            // With positions three products are stepped: L·N has an error of 3 per step, as D, and
+            // the roots of N·N and L·L half of it each.
             let (step, vectors) = match is_followed {
                 true => (step.max(6.0), vectors * vectors),
                 false => (step, vectors),
@@ -308,8 +332,8 @@ fn errors(
         Stepped::Colours | Stepped::Sums => rounding * stepped(step),
         _ => 0.0,
     };
-    let albedo = match entry.needs.lit_at {
-        LitAt::Pixel => {
+    let albedo = match row.needs.shading_rate {
+        ShadingRate::Pixel => {
             let spans = extent.steps + 8.0;
             let triangles = extent.triangle_roundings(1.0, 1.0);
             rounding * (4.0 + spans.max(triangles).max(BARYCENTRIC))
@@ -319,31 +343,33 @@ fn errors(
     (cosine, [colours, albedo])
 }
 
-/// The light model on a material, as it passes errors on.
+/// The light on a material, in the form in which it passes errors on.
 struct MaterialBound<'a> {
     lighting: &'a Lighting,
     power: Power,
     /// The least |L + V|.
     half: f64,
-    /// All light together, where colours are clamped after they are stepped; else 1.
+    /// All light together where colours are clamped after they are stepped; otherwise 1.
     most: f64,
-    /// The errors that no polygon changes: faint highlights, and the loss that lengths are allowed.
+    /// The errors that are equal on all polygons: faint highlights, and the loss by lengths that
+    /// are too large.
     other: f64,
-    /// The largest channel of a vertex colour; 1 without.
+    /// The largest channel of a vertex colour; 1 without vertex colours.
     albedo: f64,
-    /// All ambient and diffuse light, which vertex colours multiply; 0 without.
+    /// All ambient and diffuse light, which vertex colours multiply; 0 without vertex colours.
     dull: f64,
-    /// The greatest sums of all lights, by channel.
+    /// The largest sums over all lights, per channel.
     diffuse: [f64; 3],
     specular: [f64; 3],
 }
 
 impl MaterialBound<'_> {
-    /// Returns the bound where cosines are off by `cosine`, lit colours of at most 1 that are stepped by `stepped`, and vertex colours of
-    /// at most 1 by `albedo`.
+    /// Returns the bound for errors of `cosine` in cosines, of `stepped` in lit colours of at most
+    /// 1, and of `albedo` in vertex colours of at most 1.
     fn of(&self, cosine: f64, [stepped, albedo]: [f64; 2]) -> f64 {
         let highlight = highlight_error(self.lighting, self.power, self.half, cosine);
-        // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
+        // A falloff has twice the error of its distance, which is one error of a cosine; the colour
+        // has the error of the falloff.
         let falls = if self.lighting.is_attenuated() {
             2.0
         } else {
@@ -357,9 +383,11 @@ impl MaterialBound<'_> {
         lit + stepped * self.most + albedo * self.dull + self.other
     }
 
-    /// Returns the most that a highlight may be where an error moves L·N from 0: there it ends with a jump, if it is gated.
+    /// Returns the largest highlight where an error moves L·N away from 0. A gated highlight ends
+    /// there with a jump.
     ///
-    /// With L·N = 0 the cosine R·V is −L·V, and N·H at most √(1 − (L·V)²)/h = √((1 − L·V)/2), as h² = 2 + 2 L·V.
+    /// At L·N = 0 the cosine R·V is −L·V, and N·H is at most √(1 − (L·V)²)/h = √((1 − L·V)/2), as
+    /// h² = 2 + 2 L·V.
     fn jump(&self, error: Approximation) -> f64 {
         let lighting = self.lighting;
         let is_moved = error.cosine > 0.0 || error.moves_gate;
@@ -376,7 +404,8 @@ impl MaterialBound<'_> {
     }
 }
 
-/// Returns the part of a sum of terms, clamped at 1, that is lost by a relative error of the lengths that divide them.
+/// Returns how much of a sum of terms, clamped at 1, a relative error of the lengths that divide
+/// them takes away.
 fn lost(error: f64, sum: f64) -> f64 {
     sum.min(1.0) * error / (1.0 - error)
 }

@@ -1,4 +1,5 @@
-//! Extents of polygons: how far values are stepped over one, and how far they vary on it. Bounds of rounding errors need both.
+//! Ranges over a polygon: how many steps cross it and how much its attributes vary. Error bounds
+//! need both.
 
 use crate::frame::row_tiles::{STEEPEST, TILE_HEIGHT, TINY_HEIGHT, TINY_WIDTH};
 use crate::frame::{Frame, Polygon, ScreenVertex, SubPixel};
@@ -7,21 +8,23 @@ use crate::scene::Interpolation;
 use crate::shading::Variant;
 use glam::DVec3;
 
-/// The size of a polygon on the picture, and the variation of its vertex attributes.
+/// The size of a polygon in the picture, and the variation of its vertex attributes.
 pub(crate) struct Extent {
-    /// The most steps from a corner to a pixel: down the rows and across the columns, inside the picture.
+    /// The most steps from a corner to a pixel: down the rows and across the columns, within the
+    /// picture.
     pub steps: f64,
-    /// The largest weight of perspective over the smallest; 1 without.
+    /// The largest weight of perspective over the smallest; 1 without perspective.
     pub weights: f64,
-    /// The least cosine c of the angles between the corners' normals and their mean direction m; −1 if they have none.
+    /// The least cosine c of the angles between the corners' normals and their mean direction m; −1
+    /// if they have none.
     ///
-    /// No normal between the corners is shorter than c: it is a convex combination N of theirs, and |N| ≥ N·m ≥ c. The ends of a cut
-    /// edge count as corners, in place of the one that was made.
+    /// No normal between the corners is shorter than c: it is a convex combination N of theirs, and
+    /// |N| ≥ N·m ≥ c. A corner that clipping made is replaced by the ends of the edge that was cut.
     pub cosine: f64,
-    /// The most by which barycentric coordinates grow, in the row engine, from the pixel where a triangle's values begin to a
-    /// covered one.
+    /// How much barycentric coordinates grow at most, in the row engine, from the pixel where a
+    /// triangle's values begin to a covered one.
     pub growth: f64,
-    /// True if the row engine may draw it by barycentric coordinates.
+    /// True if the row engine may draw the polygon by barycentric coordinates.
     is_triangle: bool,
 }
 
@@ -52,7 +55,8 @@ impl Extent {
         }
     }
 
-    /// Returns the largest distance between the normals of two corners: 2 sin θ, as all are within θ of one direction.
+    /// Returns the largest distance between the normals of two corners: 2 sin θ, as all are within
+    /// θ of one direction.
     pub fn apart(&self) -> f64 {
         match self.cosine > 0.0 {
             true => 2.0 * libm::sqrt(f64::max(0.0, 1.0 - self.cosine * self.cosine)),
@@ -60,8 +64,9 @@ impl Extent {
         }
     }
 
-    /// Returns the roundings of values of at most 1 over a triangle in the row engine, 0 for other polygons: see
-    /// [`Variant::bound`]. `step` is [`Roundings::step`](super::Roundings::step), and corners differ by `apart`.
+    /// Returns the roundings of values of at most 1 over a triangle in the row engine, as
+    /// [`Variant::bound`] derives them; 0 for other polygons. `step` is
+    /// [`Roundings::step`](super::Roundings::step), and corners differ by `apart`.
     pub fn triangle_roundings(&self, step: f64, apart: f64) -> f64 {
         if !self.is_triangle {
             return 0.0;
@@ -72,7 +77,7 @@ impl Extent {
     }
 }
 
-/// Returns the least and the greatest value.
+/// Returns the least and the greatest of all values.
 pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
@@ -83,7 +88,8 @@ pub(crate) fn wide(v: [f32; 3]) -> DVec3 {
     DVec3::from_array(v.map(f64::from))
 }
 
-/// Replaces each corner that clipping made by its ends, between which it lies, until all are the scene's own. Calls `visit` with them.
+/// Calls `visit` with all corners. A corner that clipping made is replaced by the two ends of the
+/// edge it lies on, again and again until all are the scene's own.
 pub(crate) fn for_each_end(frame: &Frame, corners: &[u32], visit: &mut dyn FnMut(u32)) {
     for &corner in corners {
         match frame.clip_corner(corner) {
@@ -93,7 +99,7 @@ pub(crate) fn for_each_end(frame: &Frame, corners: &[u32], visit: &mut dyn FnMut
     }
 }
 
-/// Returns the least cosine of the angles between corners' normals and their mean direction.
+/// Returns the least cosine of the angles between the corners' normals and their mean direction.
 fn least_cosine(frame: &Frame, corners: &[u32]) -> f64 {
     let mut sum = DVec3::ZERO;
     for_each_end(frame, corners, &mut |v| sum += wide(frame.normal(v)));
@@ -109,9 +115,10 @@ fn least_cosine(frame: &Frame, corners: &[u32]) -> f64 {
 
 /// Returns [`Extent::growth`] of a triangle.
 ///
-/// Numbers begin at the first pixel of a block and of a tile, up to 7 columns and 15 rows away. An edge that is w columns wide and h
-/// rows high has a function that grows by h from column to column and by w from row to row, over the doubled area. Tiny triangles
-/// have exact coordinates at every pixel, and slivers at the first pixel of every row, from which no other one is more than 1 away.
+/// Values begin at the first pixel of a block and of a tile, up to 7 columns and 15 rows away. The
+/// function of an edge that is w columns wide and h rows high grows by h per column and by w per
+/// row, over the doubled area. Tiny triangles have exact coordinates at every pixel. Slivers have
+/// them at the first pixel of every row, and no other pixel of a row is more than 1 away.
 fn growth(corners: [&ScreenVertex; 3]) -> f64 {
     let [a, b, c] = corners.map(|v| [v.x, v.y].map(|at| f64::from(at.to_bits()) / 256.0));
     let size = |i: usize| {

@@ -1,5 +1,5 @@
-//! The cell of a pixel in the G-buffer: which of its values is depth, a varying, an extra, or the index of its uniforms. The row
-//! engine writes cells and kernels read them, both by [`CellLayout`].
+//! The cell of a pixel in the G-buffer: the order of its values. The row engine writes cells and
+//! kernels read them, both through [`CellLayout`].
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
@@ -12,19 +12,19 @@ use crate::shading::UniformsIndex;
 /// depth | varyings | extras | uniforms
 /// ```
 ///
-/// A block of pixels holds [`BLOCK`] depths, then as many of each other value.
+/// A block of [`BLOCK`] pixels stores their depths first, then as many of each other value in turn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct CellLayout {
-    /// The method's varyings, or the values of the pixels that its walk returns.
+    /// How many values the method has per pixel: its varyings, or what its walk returned.
     pub varyings: usize,
-    /// The varyings that the engine adds: [`Extras`](super::Extras).
+    /// How many values the engine adds: those of [`Extras`](super::Extras).
     pub extras: usize,
-    /// True if pixels have uniforms of their own, whose index stands last.
+    /// True if each pixel stores the index of its uniforms, which is its last value.
     pub has_uniforms: bool,
 }
 
 impl CellLayout {
-    /// The place of depth.
+    /// The index of depth.
     pub const DEPTH: usize = 0;
 
     /// Returns how many values a pixel has.
@@ -33,32 +33,34 @@ impl CellLayout {
         self.uniforms() + self.has_uniforms as usize
     }
 
-    /// Returns how many values a block of pixels has: the distance from one block to the next.
+    /// Returns how many values a block of pixels has, which is the distance from one block to the
+    /// next.
     #[inline(always)]
     pub const fn stride(self) -> usize {
         self.count() * BLOCK
     }
 
-    /// Returns the place of varying `i`. Extras follow the varyings as if they were such.
+    /// Returns the index of varying `i`. Extras follow as if they were further varyings.
     #[inline(always)]
     pub const fn varying(i: usize) -> usize {
         CellLayout::DEPTH + 1 + i
     }
 
-    /// Returns the place of extra `i`.
+    /// Returns the index of extra `i`.
     #[inline(always)]
     pub const fn extra(self, i: usize) -> usize {
         CellLayout::varying(self.varyings + i)
     }
 
-    /// Returns the place of the index of the uniforms; without [`CellLayout::has_uniforms`] the end of the cell.
+    /// Returns the index of the uniforms' index; without [`CellLayout::has_uniforms`] the end of
+    /// the cell.
     #[inline(always)]
     pub const fn uniforms(self) -> usize {
         self.extra(self.extras)
     }
 
-    /// Writes the values of a pixel, or of a triangle's corner, one after the other: depth, `varyings` with extras, and the index
-    /// of the uniforms, which is only asked for if it is kept.
+    /// Writes the values of a pixel, or of a triangle's corner, in order: depth, `varyings` with
+    /// extras, and the index of the uniforms. `uniforms` is called only if the index is stored.
     #[inline(always)]
     pub fn write(
         self,
@@ -76,13 +78,14 @@ impl CellLayout {
         }
     }
 
-    /// Returns the index of some uniforms as cells hold it. Exact: `Variant::plan` gives the row engine fewer than 2²⁴ polygons.
+    /// Converts an index of uniforms to the value that cells store. Exact, as `Variant::plan` gives
+    /// the row engine fewer than 2²⁴ polygons.
     #[inline(always)]
     pub fn of_uniforms(uniforms: UniformsIndex) -> f32 {
         uniforms.0 as f32
     }
 
-    /// Returns the index of some uniforms from the value that a cell holds.
+    /// Converts the value of a cell back to an index of uniforms.
     #[inline(always)]
     pub fn uniforms_of(value: f32) -> UniformsIndex {
         UniformsIndex(value as u32)
@@ -94,9 +97,9 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// All places of a cell are different, and together are the whole cell; a pixel is written to them.
+    /// All indices of a cell are different and fill it, and a pixel is written to them.
     #[test]
-    fn each_number_has_a_place() {
+    fn each_value_has_an_index() {
         for (varyings, extras, has_uniforms) in [
             (3, 0, false),
             (3, 0, true),
@@ -109,13 +112,13 @@ mod tests {
                 extras,
                 has_uniforms,
             };
-            let mut places = Vec::from([CellLayout::DEPTH]);
-            places.extend((0..varyings).map(CellLayout::varying));
-            places.extend((0..extras).map(|i| cell.extra(i)));
-            places.extend(has_uniforms.then(|| cell.uniforms()));
+            let mut indices = Vec::from([CellLayout::DEPTH]);
+            indices.extend((0..varyings).map(CellLayout::varying));
+            indices.extend((0..extras).map(|i| cell.extra(i)));
+            indices.extend(has_uniforms.then(|| cell.uniforms()));
             let all: Vec<usize> = (0..cell.count()).collect();
-            assert_eq!(places, all, "{cell:?}");
-            assert_eq!(cell.stride(), BLOCK * places.len());
+            assert_eq!(indices, all, "{cell:?}");
+            assert_eq!(cell.stride(), BLOCK * indices.len());
             let carried: Vec<f32> = (0..varyings + extras).map(|i| i as f32).collect();
             let mut values = alloc::vec![-1.0; cell.count()];
             cell.write(&mut values, 0.5, &carried, || UniformsIndex(1 << 23));

@@ -1,5 +1,24 @@
-//! Kernels: a method as a table of plain functions, with the loops over its vertices, runs and pixels in them. Engines call these and
-//! are not compiled for each method.
+//! Kernels: a compiled method, as a table of plain functions that contain the loops over its
+//! vertices, runs and pixels.
+//!
+//! Engines call these functions once per row, per batch of runs or per range of vertices, so
+//! engines are compiled once and not for each method. The loops:
+//!
+//! | loop | function | runs |
+//! |---|---|---|
+//! | vertices | `light` | scalar in `vertices`, in blocks of 8 in `vertex_blocks` |
+//! | pixels of a run | `RunLoop::visit` | scalar: starts a walk, then `walk.next()` and `shade` per pixel |
+//! | walk along runs | `walk` | SIMD, for methods whose pixels need the pixel before: stores the pixels, `shade_blocks` shades them later |
+//! | pixels of a row | `shade_blocks` | SIMD, from the G-buffer |
+//!
+//! The loops are generic over the method and inlined into one function per instruction set. Two
+//! literals compile the pixel loops several times: without `general`, the light model is on its
+//! fast path and there are no extras; without `coloured`, there are no vertex colours. [`Extras`]
+//! are the varyings that kernels add: position, vertex colour and weight.
+//!
+//! `runs.rs` has the runs that engines hand in and the [`Span`] that walks start from;
+//! `gbuffer_cell.rs` the layout of a pixel in the G-buffer; `operation_counts.rs` runs the same
+//! code on values that count; `walked.rs` reports each step to traces.
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
@@ -12,15 +31,15 @@ pub(crate) mod walked;
 
 #[cfg(feature = "simd")]
 use crate::number::simd::{Block, Token, deinterleaved, vectorize};
-use crate::number::{BLOCK, Level, Num, Vec3, vec3};
+use crate::number::{BLOCK, Num, SimdLevel, Vec3, vec3};
 use crate::shading::kernels::gbuffer_cell::CellLayout;
 use crate::shading::kernels::runs::{RunList, RunStart};
 #[cfg(feature = "simd")]
-use crate::shading::light::Stored;
+use crate::shading::light::UniformsRef;
 #[cfg(feature = "simd")]
 use crate::shading::light::at_most;
 use crate::shading::light::eye_frame::carried;
-use crate::shading::light::{LightModel, Lit, Uniforms};
+use crate::shading::light::{LightAt, LightModel, Uniforms};
 use crate::shading::walks::values::{Values, count, each, scaled};
 use crate::shading::walks::{Linear, Walk};
 use crate::shading::{
@@ -28,30 +47,30 @@ use crate::shading::{
     Shader, Span, Value, Visit,
 };
 #[cfg(feature = "simd")]
-use crate::shading::{LitAt, Varying};
+use crate::shading::{ShadingRate, Varying};
 #[cfg(feature = "simd")]
 use fearless_simd::*;
 
-/// The index of some uniforms in the list of a method on a frame. It is not the index of a material: under local lights each polygon
-/// may have uniforms of its own.
-#[doc(hidden)]
+/// The index of uniforms in the list that a method has for a frame. It is not the index of a
+/// material, because under local lights each polygon may have its own uniforms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UniformsIndex(pub u32);
+pub(crate) struct UniformsIndex(pub u32);
 
-/// The varyings that kernels add to those of a method, in this order.
+/// The varyings that kernels add to a method's own, in the order of the fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Extras {
-    /// The position of the point, where lights are seen from each pixel.
+    /// True if there is the position of the point, because lights are seen from each pixel.
     pub point: bool,
-    /// The vertex colour, where materials are multiplied by it at each pixel.
+    /// True if there is the vertex colour, because it multiplies the material at each pixel.
     pub albedo: bool,
-    /// The weight of perspective, 1/w, where varyings or extras must be divided by it.
+    /// True if there is the weight of perspective, 1/w, because varyings or extras must be divided
+    /// by it.
     pub weight: bool,
-    /// True if the method's own varyings are divided by the weight, too.
+    /// True if the method's own varyings are divided by the weight too.
     pub divides: bool,
 }
 
-/// The values of the extras at a pixel; those that are not there mean nothing.
+/// The values of the extras at a pixel. Those that [`Extras`] lacks mean nothing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extra<F> {
     pub point: Vec3<F>,
@@ -60,15 +79,15 @@ pub(crate) struct Extra<F> {
 }
 
 impl Extras {
-    /// Returns how many values they have.
+    /// Returns how many values the extras have.
     pub fn count(self) -> usize {
         3 * (usize::from(self.point) + usize::from(self.albedo)) + usize::from(self.weight)
     }
 
-    /// Returns the extras as literals tell of them, so that loops are compiled without those that are not there.
+    /// Returns the extras with absent ones as literals, so that loops are compiled without them.
     #[inline(always)]
     fn known(self, general: bool, coloured: bool) -> Extras {
-        debug_assert_eq!(self.albedo, coloured, "colours have loops of their own");
+        debug_assert_eq!(self.albedo, coloured, "colours have their own loops");
         Extras {
             point: general && self.point,
             albedo: coloured,
@@ -77,7 +96,8 @@ impl Extras {
         }
     }
 
-    /// Returns the extras from their values, which stand in the order of the fields; a missing one is `none`.
+    /// Reads the extras from `value`, which returns their values by index, in the order of the
+    /// fields; a missing one becomes `none`.
     #[inline(always)]
     fn of<F: Num>(self, none: F, value: impl Fn(usize) -> F) -> Extra<F> {
         let none = Extra {
@@ -99,7 +119,7 @@ impl Extras {
         extra
     }
 
-    /// Writes the extras of a vertex behind the method's own varyings.
+    /// Writes the extras of a vertex, which follow the method's own varyings.
     pub(crate) fn write(self, to: &mut [f32], point: [f32; 3], albedo: [f32; 3]) {
         let mut rest = to;
         for (_, vector) in [(self.point, point), (self.albedo, albedo)]
@@ -115,7 +135,7 @@ impl Extras {
         }
     }
 
-    /// Starts the walk of the extras, which stand behind `own` varyings of the method.
+    /// Starts the walk of the extras, which follow `own` varyings of the method.
     #[inline(always)]
     pub(crate) fn start<F: Num>(
         self,
@@ -138,7 +158,8 @@ impl Extras {
         }
     }
 
-    /// Divides the extras of a pixel by the weight of perspective if there is one, and its varyings if the method asks for it.
+    /// Divides the extras of a pixel by the weight of perspective if there is one, and the method's
+    /// varyings if it asks for that.
     #[inline(always)]
     pub(crate) fn divided<F: Num, P: Values<F>>(
         self,
@@ -187,18 +208,19 @@ impl<F: Num> ExtraWalk<F> {
     }
 }
 
-/// The vertices whose varyings are computed together: they have the same uniforms. SIMD kernels take whole blocks of them.
+/// Vertices with the same uniforms, whose varyings are computed together. SIMD kernels take whole
+/// blocks of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertices<'a> {
     pub uniforms: &'a Uniforms,
     pub normals: &'a [[f32; 3]],
-    /// Positions, one a normal; any vectors if nothing is lit from a position.
+    /// Positions, one per normal; any vectors if nothing is lit from a position.
     pub points: &'a [[f32; 3]],
-    /// Attributes, one a normal; none if neither the method nor the material reads them.
+    /// Attributes, one per normal; empty if neither the method nor the material reads them.
     pub attributes: &'a [[f32; 4]],
 }
 
-/// Runs of pixels that are shaded, or walked along, together.
+/// Runs of pixels that are shaded, or walked along, by one call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pixels<'a> {
     pub parameters: &'a [Value],
@@ -206,17 +228,17 @@ pub(crate) struct Pixels<'a> {
     pub uniforms: &'a [Uniforms],
     pub extras: Extras,
     pub constants: &'a PolygonConstants,
-    /// The runs, whose pixels stand one after the other.
+    /// The runs. Their pixels follow one another in the output.
     pub list: &'a RunList,
 }
 
 impl<'a> Pixels<'a> {
-    /// Returns the count of lights.
+    /// Returns how many lights there are.
     fn lights(&self) -> usize {
         self.uniforms.first().map_or(0, |all| all.lights.len())
     }
 
-    /// Returns neighbouring runs of the same uniforms together, each with its index.
+    /// Groups neighbouring runs with the same uniforms. Each run comes with its index.
     fn by_uniforms(
         &self,
     ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (usize, &'a Run)>)> {
@@ -230,7 +252,7 @@ impl<'a> Pixels<'a> {
         })
     }
 
-    /// Returns the kind of a run's polygon, and the run as a walk starts from it.
+    /// Returns the kind of a run's polygon, and what a walk along the run starts from.
     #[inline(always)]
     fn start<M: Method>(&self, index: usize, run: &Run) -> (u8, RunStart<'a, f32>) {
         let (kind, constants) = self.constants.of::<M>(self.lights(), run.polygon);
@@ -250,37 +272,42 @@ pub(crate) type PolygonKernel = fn(&[Value], &Uniforms, &Corners<'_, f32>, &mut 
 pub(crate) type PixelKernel = fn(&Pixels<'_>, &mut [[f32; 3]]);
 pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
-/// A compiled method. A row whose varyings hold values per light has three: for 1, up to 4 and up to 64 lights.
-#[doc(hidden)]
+/// A compiled method.
+///
+/// A method whose varyings hold values per light is compiled three times: for 1, up to 4 and up to
+/// 64 lights.
 #[derive(Clone, Copy, Debug)]
-pub struct Kernels {
-    /// Returns how many values a varying, a pixel and a polygon's constants take for this many lights.
+pub(crate) struct Kernels {
+    /// Returns how many values a varying, a pixel and a polygon's constants take for this many
+    /// lights.
     pub(crate) counts: fn(usize) -> [usize; 3],
     pub(crate) needs: Needs,
     pub(crate) carries: Carried,
     pub(crate) kinds: &'static [&'static str],
-    /// True if pixels are the varyings themselves.
+    /// True if a pixel is the interpolated varying itself.
     pub(crate) linear: bool,
-    /// True if SIMD walks along runs with these parameters: [`Shader::walks_along_runs`].
+    /// True if SIMD must walk along runs with these parameters: [`Shader::walks_along_runs`].
     pub(crate) walks_along_runs: fn(&[Value], &LightModel) -> bool,
-    /// Sets up a polygon, and returns its kind.
+    /// Computes the constants of a polygon, and returns its kind.
     pub(crate) polygon: PolygonKernel,
     /// Computes the varyings of vertices from normals and positions.
     pub(crate) vertices: VertexKernel,
     /// Shades runs: the scalar pixel loop.
     pub(crate) pixels: PixelKernel,
     /// Returns the kernels of an instruction set; `None` for scalar code.
-    pub(crate) simd: fn(Level) -> Option<&'static SimdKernels>,
+    pub(crate) simd: fn(SimdLevel) -> Option<&'static SimdKernels>,
 }
 
-/// The kernels of a method on one instruction set.
+/// The kernels of a method for one instruction set.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SimdKernels {
-    /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
+    /// Computes the varyings of vertices, for methods that are lit there; for other methods engines
+    /// use the scalar kernel.
     pub vertices: Option<VertexKernel>,
-    /// Walks along runs, for methods that remember the pixel before: writes each run plane by plane, in whole blocks.
+    /// Walks along runs and stores their pixels: for each run, all values of index 0, then all of
+    /// index 1, in whole blocks. Only for methods that remember the pixel before.
     pub walk: Option<WalkKernel>,
-    /// Shades one row of the G-buffer: pixels that were walked, or varyings.
+    /// Shades one row of the G-buffer, which holds stored pixels or varyings.
     pub shade: fn(&ShadeRow<'_>, &[f32], &mut RowColours<'_>),
 }
 
@@ -314,8 +341,8 @@ impl Kernels {
 }
 
 impl Kernels {
-    /// Makes the kernels of a method from those of `M`, which lights its vertices, and a plain function for its pixels: for methods
-    /// that do not compute on a [`Num`], as those in integers. They are scalar only, for the reason `why`.
+    /// Makes the kernels of a method that does not compute on a [`Num`], as those in integers.
+    /// Vertices are lit as by `M`, and `pixels` shades. They are scalar only, for the reason `why`.
     pub(crate) const fn of_functions<M: Method>(pixels: PixelKernel, why: &'static str) -> Kernels {
         Kernels {
             pixels,
@@ -329,47 +356,49 @@ impl Kernels {
     }
 }
 
-/// Returns the needs of a method: one of several kinds is scalar only, as the G-buffer does not keep them.
+/// Returns the needs of a method. Those of a method of several kinds are scalar only, as the
+/// G-buffer does not store kinds.
 const fn needs<M: Method>() -> Needs {
     let needs = M::NEEDS;
     Needs {
         scalar_only: match needs.scalar_only {
-            None if !M::Kinds::NAMES.is_empty() => Some(
-                "each kind of polygon takes another loop, and a block of pixels has one for all",
-            ),
+            None if !M::Kinds::NAMES.is_empty() => {
+                Some("each kind of polygon has its own loop, and a block of pixels has one for all")
+            }
             why => why,
         },
         ..needs
     }
 }
 
-/// True if a method may walk along runs, with some parameters.
+/// True if a method must walk along runs for some parameters. The parameters themselves decide when
+/// a frame is drawn.
 const fn may_walk_along_runs<M: Shader>() -> bool {
     M::NEEDS.reads_span() || <M::Walk<f32> as Walk<f32>>::REMEMBERS
 }
 
 /// Returns the kernels of a method on an instruction set.
 #[cfg_attr(not(feature = "simd"), expect(clippy::extra_unused_type_parameters))]
-fn by_level<M: Shader>(level: Level) -> Option<&'static SimdKernels> {
+fn by_level<M: Shader>(level: SimdLevel) -> Option<&'static SimdKernels> {
     match level {
         #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-        Level::Avx2 => Some(const { &SimdKernels::of::<M, Avx2, Avx2>() }),
+        SimdLevel::Avx2 => Some(const { &SimdKernels::of::<M, Avx2, Avx2>() }),
         #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-        Level::Avx512 => Some(const { &SimdKernels::of::<M, Avx2, Avx512>() }),
+        SimdLevel::Avx512 => Some(const { &SimdKernels::of::<M, Avx2, Avx512>() }),
         #[cfg(all(feature = "simd", target_arch = "aarch64"))]
-        Level::Neon => Some(const { &SimdKernels::of::<M, Neon, Neon>() }),
+        SimdLevel::Neon => Some(const { &SimdKernels::of::<M, Neon, Neon>() }),
         _ => None,
     }
 }
 
-/// Sets up a polygon.
+/// Computes the constants of a polygon.
 fn polygon<M: Method>(
     parameters: &[Value],
     uniforms: &Uniforms,
     polygon: &Corners<'_, f32>,
     to: &mut [f32],
 ) -> u8 {
-    let lit = Lit::new(uniforms.stored(), 0.0, true);
+    let lit = LightAt::new(uniforms.stored(), 0.0, true);
     let chosen = M::new(parameters, &uniforms.model).polygon(&lit, polygon);
     M::Kinds::put(chosen, |i, value| to[i] = *value)
 }
@@ -379,8 +408,8 @@ fn vertices<C: Carries>(job: &Vertices<'_>, out: &mut [f32]) {
     light::<C, f32>(job, true, out, |all| vec3(all[0]), |x| [x; BLOCK]);
 }
 
-/// Lights `F::WIDTH` vertices at a time: `gather` packs their vectors, `lanes` unpacks a value. Without
-/// `general`, a literal, the model is fast.
+/// Lights `F::WIDTH` vertices at a time. `gather` packs their vectors into lanes, and `lanes`
+/// unpacks a value. `general` is a literal; pass `false` only for models on the fast path.
 #[inline(always)]
 fn light<C: Carries, F: Num>(
     job: &Vertices<'_>,
@@ -405,7 +434,7 @@ fn light<C: Carries, F: Num>(
     let out = out.chunks_exact_mut((F::WIDTH * own).max(1));
     for (block, ((normals, points), out)) in vertices.zip(out).enumerate() {
         let n = gather(normals);
-        let mut lit = Lit::new(stored, n.x, general);
+        let mut lit = LightAt::new(stored, n.x, general);
         lit = lit.at(if general { gather(points) } else { n });
         let has_albedo = general && stored.model.has_albedo;
         if has_albedo || matches!(C::FROM, Carried::Attributes) {
@@ -421,6 +450,7 @@ fn light<C: Carries, F: Num>(
             varying,
             #[inline(always)]
             |i, value| {
+                // Lanes become vertices: engines read all values of a vertex next to one another.
                 let values = lanes(*value);
                 for k in 0..F::WIDTH {
                     out[k * own + i] = values[k];
@@ -430,7 +460,7 @@ fn light<C: Carries, F: Num>(
     }
 }
 
-/// Shades runs one pixel at a time: the lecture's loop.
+/// Shades runs one pixel at a time, with the lecture's loop.
 fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
         out = match is_general::<M>(job, uniforms) {
@@ -441,13 +471,14 @@ fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     }
 }
 
-/// True if runs have extras or general lights.
+/// True if runs have extras or general light.
 #[inline(always)]
 fn is_general<M: Method>(job: &Pixels<'_>, uniforms: &Uniforms) -> bool {
     M::NEEDS.general_only || uniforms.model.is_general || job.extras != Extras::default()
 }
 
-/// Shades runs without extras and general lights: a function of its own, whose loop then has more registers.
+/// Shades runs without extras and general light. It is a separate function, so that its loop has
+/// more registers.
 #[inline(never)]
 fn shade_fast_runs<'a, 'b, M: Method>(
     job: &Pixels<'_>,
@@ -458,7 +489,8 @@ fn shade_fast_runs<'a, 'b, M: Method>(
     shade_runs::<M>(job, uniforms, [false, false], runs, out)
 }
 
-/// Shades runs with vertex colours: a function of its own, so that others pay nothing for them.
+/// Shades runs with vertex colours. It is a separate function, so that other runs pay nothing for
+/// them.
 #[inline(never)]
 fn shade_coloured_runs<'a, 'b, M: Method>(
     job: &Pixels<'_>,
@@ -469,8 +501,10 @@ fn shade_coloured_runs<'a, 'b, M: Method>(
     shade_runs::<M>(job, uniforms, [true, true], runs, out)
 }
 
-/// Shades runs of the same uniforms, and returns the pixels after them. `general` and `coloured` are literals: without the first
-/// there are no extras and no general light, without the second no vertex colours.
+/// Shades runs with the same uniforms, and returns the pixels after them.
+///
+/// `general` and `coloured` are literals: without the first there are no extras and no general
+/// light, without the second no vertex colours.
 #[inline(always)]
 fn shade_runs<'a, 'b, M: Method>(
     job: &Pixels<'_>,
@@ -484,7 +518,7 @@ fn shade_runs<'a, 'b, M: Method>(
     let lights = stored.lights.len();
     let own = count::<<CarriesOf<M> as Carries>::Varying<f32>>(lights);
     let method = M::new(job.parameters, &stored.model);
-    let directional = Lit::new(stored, 0.0, general);
+    let directional = LightAt::new(stored, 0.0, general);
     for (index, run) in runs {
         let (kind, start) = job.start::<M>(index, run);
         let extra = extras.start(own, &start, 0.0);
@@ -497,16 +531,17 @@ fn shade_runs<'a, 'b, M: Method>(
             extras,
             here,
         };
+        // The kind is looked up once per run, so the loop over its pixels does not branch on it.
         method.kinds().visit(kind, run);
     }
     out
 }
 
-/// The loop over a run's pixels, for the polygon's kind.
+/// The loop over a run's pixels. `visit` is compiled for each kind of polygon.
 struct RunLoop<'a> {
     start: RunStart<'a, f32>,
     extra: ExtraWalk<f32>,
-    directional: Lit<'a, f32>,
+    directional: LightAt<'a, f32>,
     extras: Extras,
     here: &'a mut [[f32; 3]],
 }
@@ -517,7 +552,8 @@ impl<C: Carries> Visit<C> for RunLoop<'_> {
         let lit = self.directional;
         let span = Span::of_run(lit.count(), self.start, 0.0);
         let mut walk = kind.walk(&lit, span);
-        // An iterator counts triples by a division: 3 % of Gouraud's frames.
+        // Indexed, because an iterator would find the count of triples by a division: 3 % of
+        // Gouraud's frames.
         for x in 0..self.here.len() {
             let pixel = (walk.next(), self.extra.next());
             self.here[x] = colour(kind, lit, self.extras, pixel).array();
@@ -525,11 +561,11 @@ impl<C: Carries> Visit<C> for RunLoop<'_> {
     }
 }
 
-/// Returns the colour of a pixel from its state and its extras.
+/// Returns the colour of a pixel from the state of its walk and its extras.
 #[inline(always)]
 pub(crate) fn colour<M: Shader, F: Num>(
     method: M,
-    lit: Lit<'_, F>,
+    lit: LightAt<'_, F>,
     extras: Extras,
     (pixel, extra): (Pixel<M, F>, Extra<F>),
 ) -> Vec3<F> {
@@ -541,7 +577,7 @@ pub(crate) fn colour<M: Shader, F: Num>(
     method.shade(&lit, pixel)
 }
 
-/// A row of the G-buffer to be shaded.
+/// The job of shading a row of the G-buffer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadeRow<'a> {
     pub parameters: &'a [Value],
@@ -551,22 +587,24 @@ pub(crate) struct ShadeRow<'a> {
     pub cell: CellLayout,
 }
 
-/// The memory for the colours of a row, block by block.
+/// The memory that receives the colours of a row.
 #[derive(Debug)]
-pub enum RowColours<'a> {
-    /// Bytes, and the background of pixels that nothing covers.
+pub(crate) enum RowColours<'a> {
+    /// Bytes, and the background for pixels that no polygon covers.
     Bytes(&'a mut [[u8; 4]], [u8; 4]),
-    /// Red, green and blue: linear, not clamped; left as they are in blocks that nothing covers.
+    /// Red, green and blue: linear and not clamped. Blocks that no polygon covers keep their
+    /// values.
     Linear([&'a mut [f32]; 3]),
 }
 
 #[cfg(feature = "simd")]
 impl SimdKernels {
-    /// Compiles a method: its pixel loop for `S`, all else for `T`, which machines with `S` have too.
+    /// Compiles a method: its pixel loop for `S`, the rest for `T`. Every machine with `S` must
+    /// have `T`.
     const fn of<M: Shader, T: Token, S: Token>() -> SimdKernels {
         SimdKernels {
-            vertices: match M::NEEDS.lit_at {
-                LitAt::Pixel => None,
+            vertices: match M::NEEDS.shading_rate {
+                ShadingRate::Pixel => None,
                 _ => Some(vertex_blocks::<M, T>),
             },
             walk: match may_walk_along_runs::<M>() {
@@ -596,7 +634,11 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
     );
 }
 
-/// Walks along runs, a block at a time.
+/// Walks along runs and stores their pixels, a block at a time.
+///
+/// A run takes `length` places per value, in whole blocks: what the last block holds past the run's
+/// end means nothing. First come the pixel's values, then the extras, which are linear and need no
+/// walk of the method.
 #[cfg(feature = "simd")]
 fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
     let (simd, lights) = (S::get(), job.lights());
@@ -610,12 +652,13 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
             let zero = f32x8::splat(simd, 0.0);
             for (uniforms, runs) in job.by_uniforms() {
                 let method = M::new(job.parameters, &uniforms.model);
-                let lit = Lit::new(uniforms.stored(), zero, true);
+                let lit = LightAt::new(uniforms.stored(), zero, true);
                 for (index, run) in runs {
                     let (_, start) = job.start::<M>(index, run);
                     let length = (run.pixels as usize).next_multiple_of(BLOCK);
                     let (here, rest) = core::mem::take(&mut out).split_at_mut(planes * length);
                     out = rest;
+                    // One walk per run: its steps are a block long, and lane k starts at pixel k.
                     let mut walk = method.walk(&lit, Span::of_run(lights, start, zero));
                     for x in (0..length).step_by(BLOCK) {
                         each(
@@ -659,10 +702,11 @@ fn shade<M: Shader, T: Token, S: Token>(
                 _ if M::NEEDS.general_only || !(is_bytes && is_fast) => {
                     shade_blocks::<M, S>(job, stored, [true, false], cells, out)
                 }
-                // One light as a slice of length 1: its loop is unrolled.
+                // One light becomes a slice whose length the compiler knows, so that the loop over
+                // lights is unrolled.
                 [one] => {
                     let lights = &[*one];
-                    let stored = Stored { lights, ..stored };
+                    let stored = UniformsRef { lights, ..stored };
                     shade_blocks::<M, S>(job, stored, [false, false], cells, out)
                 }
                 _ => shade_blocks::<M, S>(job, stored, [false, false], cells, out),
@@ -671,8 +715,8 @@ fn shade<M: Shader, T: Token, S: Token>(
     );
 }
 
-/// Shades a row of the G-buffer with vertex colours: a loop of its own, so that others pay nothing for them, and one for all machines
-/// with `T`, so that the program stays small.
+/// Shades a row of the G-buffer with vertex colours. It is a separate function, so that other rows
+/// pay nothing for them, and compiled only for `T`, so that the program stays small.
 #[cfg(feature = "simd")]
 #[inline(never)]
 fn shade_coloured<M: Shader, T: Token>(
@@ -688,14 +732,16 @@ fn shade_coloured<M: Shader, T: Token>(
     );
 }
 
-/// Shades a row, a block at a time. `general` and `coloured` are literals: without the first there are no extras, and the model is
-/// fast; without the second there are no vertex colours. Cells hold pixels that
-/// were walked to, or varyings, each the start of a walk of one block.
+/// Shades a row, a block at a time. Cells hold stored pixels of a walk, or varyings, from which
+/// each block starts its own walk and takes one step.
+///
+/// `general` and `coloured` are literals: without the first there are no extras and the model is on
+/// the fast path, without the second there are no vertex colours.
 #[cfg(feature = "simd")]
 #[inline(always)]
 fn shade_blocks<M: Shader, S: Token>(
     job: &ShadeRow<'_>,
-    stored: Stored<'_>,
+    stored: UniformsRef<'_>,
     [general, coloured]: [bool; 2],
     row: &[f32],
     out: &mut RowColours<'_>,
@@ -703,13 +749,15 @@ fn shade_blocks<M: Shader, S: Token>(
     let (simd, lights) = (S::get(), stored.lights.len());
     let extras = job.extras.known(general, coloured);
     let method = M::new(job.parameters, &stored.model);
-    // Known when compiled, but for methods that may choose.
+    // A constant unless the method's parameters decide, so only one of the two arms below is
+    // compiled.
     let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();
     let planes = match is_walked {
         true => count::<Pixel<M, f32>>(lights),
         false => count::<Varying<M, f32>>(lights),
     };
-    // From counts that are known when compiled, so that the places of all loads are, too.
+    // Equals the engine's layout, but with counts that are known at compile time: the offsets of
+    // all loads below become constants.
     let cell = CellLayout {
         varyings: planes,
         extras: extras.count(),
@@ -717,6 +765,8 @@ fn shade_blocks<M: Shader, S: Token>(
     };
     debug_assert_eq!(cell, job.cell, "the engine's layout is the method's");
     let (stride, len) = (cell.stride(), BLOCK * cell.uniforms());
+    // A block of 16 pixels is loaded from two neighbouring cells of 8. One of 8 has `CELLS` = 1:
+    // both halves are its one cell.
     let second = (S::Block::CELLS - 1) * stride;
     let mut first = 0;
     for pair in row.chunks_exact(S::Block::CELLS * stride) {
@@ -724,13 +774,14 @@ fn shade_blocks<M: Shader, S: Token>(
         first = here.end;
         let cells = [&pair[..len], &pair[second..second + len]];
         let depth = S::Block::load(simd, cells, BLOCK * CellLayout::DEPTH);
+        // Pixels that no polygon covers have the depth ∞. If no lane is covered, nothing is shaded.
         if !(-depth).any_over(f32::NEG_INFINITY) {
             if let RowColours::Bytes(to, background) = out {
                 to[here].fill(*background);
             }
             continue;
         }
-        let lit = Lit::new(stored, depth, general);
+        let lit = LightAt::new(stored, depth, general);
         let pixel = if is_walked {
             each(
                 Pixel::<M, S::Block>::filled(lights, depth),
@@ -743,6 +794,7 @@ fn shade_blocks<M: Shader, S: Token>(
                 #[inline(always)]
                 |i, value| *value = S::Block::load(simd, cells, BLOCK * CellLayout::varying(i)),
             );
+            // With steps of 0 the first `next` returns the varyings themselves.
             let start = Span::of_block(lights, at, depth);
             method.walk(&lit, start).next()
         };
@@ -755,7 +807,8 @@ fn shade_blocks<M: Shader, S: Token>(
         match out {
             RowColours::Bytes(to, background) => {
                 if general {
-                    // What an integer does not hold is converted to the least one: clamped first.
+                    // A value that an `i32` cannot hold would be converted to the least one, so
+                    // clamp first. On the fast path no colour is that large.
                     let [r, g, b] = colour;
                     colour = [at_most(r, 255.0), at_most(g, 255.0), at_most(b, 255.0)];
                 }

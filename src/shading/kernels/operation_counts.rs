@@ -1,70 +1,75 @@
-//! Operation counts: a method runs on numbers that count.
+//! Operation counts: the same code that draws, run on values that count their operations.
 
 use crate::number::{Counted, Counter, Counts, Real, vec3};
 use crate::shading::kernels::colour;
 use crate::shading::kernels::runs::RunStart;
-use crate::shading::light::Lit;
+use crate::shading::light::LightAt;
 use crate::shading::light::eye_frame::carried;
 use crate::shading::walks::values::each;
 use crate::shading::walks::{GreatCircle, Walk};
 use crate::shading::{
-    Carries, CarriesOf, Extras, Kinds, LitAt, Local, Method, Shader, Span, SpanBench, SpanPlace,
-    Values, Variant, Visit, ramp,
+    Carries, CarriesOf, Extras, Kinds, Local, Method, Shader, ShadingRate, Span, SpanBench,
+    SpanPlace, Values, Variant, Visit, ramp,
 };
 use alloc::vec::Vec;
 
-/// The operations of one method at each rate, for a material of shininess 32 (five multiplications per light).
+/// The operations of a method at each rate, on a material of shininess 32 (five multiplications per
+/// light).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct OperationCounts {
-    /// Once a vertex.
+    /// Per vertex.
     pub vertex: Counts,
-    /// Once a polygon.
+    /// Per polygon.
     pub polygon: Counts,
-    /// Once an edge.
+    /// Per edge.
     pub edge: Counts,
-    /// Once an edge and scanline.
+    /// Per edge and scanline.
     pub edge_step: Counts,
-    /// Once a span: from two edges to the first pixel.
+    /// Per span: from two edges to the first pixel.
     pub span: Counts,
-    /// Once a pixel: stepping from the previous one.
+    /// Per pixel, to step from the previous one.
     pub walk: Counts,
-    /// Once a pixel: its colour.
+    /// Per pixel, to compute its colour.
     pub shade: Counts,
 }
 
-/// What was counted on a span.
+/// The result of counting on a span.
 pub(crate) struct CountedSpan {
     pub operations: OperationCounts,
-    /// The colour of the first pixel: that of an engine, to the bit.
+    /// The colour of the first pixel, equal to an engine's in every bit.
     #[cfg_attr(not(test), expect(dead_code))]
     pub colour: [f32; 3],
 }
 
-/// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices and edges: by the functions with
-/// which engines start edges and spans, walk and shade.
+/// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices
+/// and edges. It calls the functions by which engines start edges and spans, walk and shade.
 pub(crate) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
     let counter = Counter::default();
-    let value = |x: f32| counter.number(x);
+    let value = |x: f32| counter.counted(x);
     let three = |v: [f32; 3]| vec3(v.map(value));
-    let (entry, extras) = (variant.row(), bench.extras(variant));
+    let (row, extras) = (variant.row(), bench.extras(variant));
     let uniforms = bench.uniforms(variant, 1.0);
     let method = M::new(variant.parameters(), &uniforms.model);
     let (face, zero) = (three(SpanBench::FACE), value(0.0));
-    let lit = Lit::new(uniforms.stored(), zero, uniforms.model.is_general);
-    let is_polygon = matches!(entry.needs.lit_at, LitAt::Polygon | LitAt::PolygonMean);
+    let lit = LightAt::new(uniforms.stored(), zero, uniforms.model.is_general);
+    let is_polygon = matches!(
+        row.needs.shading_rate,
+        ShadingRate::Polygon | ShadingRate::PolygonMean
+    );
     let mut counts = OperationCounts::default();
 
-    // A loop: as a map of an array it would be compiled three times, for each method.
+    // A loop, because a map over the array would be compiled three times for each method.
     let mut corners = [const { Vec::new() }; 3];
     for (i, corner) in corners.iter_mut().enumerate() {
         counter.take();
-        let normal = match entry.needs.lit_at {
-            LitAt::Polygon => face,
-            LitAt::PolygonMean => {
+        let normal = match row.needs.shading_rate {
+            ShadingRate::Polygon => face,
+            ShadingRate::PolygonMean => {
                 let [a, b, c] = bench.normals.map(vec3);
                 three(((a + b + c) * (1.0 / 3.0)).array()).unit()
             }
-            LitAt::Vertex | LitAt::Pixel => three(bench.normals[i]),
+            ShadingRate::Vertex | ShadingRate::Pixel => three(bench.normals[i]),
         };
         let lit = lit.at(three(bench.points[i]));
         let varying = carried::<CarriesOf<M>, _>(&uniforms, &lit, normal);
@@ -79,10 +84,10 @@ pub(crate) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     if !is_polygon {
         counts.vertex = counter.take();
     }
-    if entry.needs.local == Local::PerPolygon && bench.is_local() {
-        // Light and eye as the polygon sees them.
+    if row.needs.local == Local::PerPolygon && bench.is_local() {
+        // Computes light and eye as the polygon sees them.
         let uniforms = variant.uniforms(&bench.lighting, 1.0);
-        let lit = Lit::new(uniforms.stored(), zero, true).at(three(bench.points[0]));
+        let lit = LightAt::new(uniforms.stored(), zero, true).at(three(bench.points[0]));
         lit.lights().count();
     }
     counts.polygon = counter.take();
@@ -124,7 +129,7 @@ pub(crate) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
         ends = [at, right];
     }
     if is_polygon {
-        // Nothing is interpolated.
+        // Lit once per polygon: nothing is interpolated.
         counter.take();
         (counts.edge, counts.edge_step) = Default::default();
     }
@@ -174,12 +179,12 @@ pub(crate) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     }
 }
 
-/// A run of the polygon's kind, as the engines' loop starts it, with one pixel.
+/// A run of one pixel, started as in the engines' loop, for the polygon's kind.
 struct CountedRun<'a, 'b> {
     counter: &'a Counter,
     counts: &'b mut OperationCounts,
     colour: &'b mut [f32; 3],
-    lit: Lit<'b, Counted<'a>>,
+    lit: LightAt<'b, Counted<'a>>,
     start: RunStart<'b, Counted<'a>>,
     own: usize,
     extras: Extras,
@@ -197,7 +202,7 @@ impl<C: Carries> Visit<C> for CountedRun<'_, '_> {
         counter.take();
         let pixel = walk.next();
         counts.walk = counter.take();
-        // Position and weight: those that are there.
+        // The additions that step position and weight, if they are there.
         counts.walk.additions += self.extras.count() as u32;
         let extra = extra.next();
         counter.take();
@@ -207,7 +212,7 @@ impl<C: Carries> Visit<C> for CountedRun<'_, '_> {
     }
 }
 
-/// Appends values to a list.
+/// Appends the values of a group to a list.
 fn put<'a, P: Values<Counted<'a>>>(group: P, list: &mut Vec<Counted<'a>>) {
     each(group, |_, value| list.push(*value));
 }
@@ -220,7 +225,8 @@ mod tests {
     use crate::scene::{Falloff, Interpolation};
     use crate::shading::{METHODS, On};
 
-    /// Returns the triangle of a bench as a frame, on which the span engine draws its span first.
+    /// Returns the triangle of a bench as a frame in which the span engine draws the bench's span
+    /// first.
     fn frame(bench: &SpanBench, interpolation: Interpolation) -> Frame {
         let mut builder = FrameBuilder::new(64, 64);
         let material = builder.lighting(bench.lighting.clone());
@@ -243,7 +249,8 @@ mod tests {
         builder.finish().expect("a frame in its range")
     }
 
-    /// What is counted is what an engine does: the colour of the first pixel is the same to the bit.
+    /// Counting runs the engine's own arithmetic: the colour of the first pixel is the same to the
+    /// bit.
     #[test]
     fn counted_spans_are_those_of_the_engine() {
         let local = |falloff, interpolation| SpanBench::local(20.0, 2, falloff, interpolation);
@@ -261,12 +268,12 @@ mod tests {
         ];
         for (index, (bench, interpolation)) in benches.iter().enumerate() {
             let frame = frame(bench, *interpolation);
-            for entry in METHODS {
-                let variant = entry.variant();
-                if (entry.fit)(On::Frame(&frame)).refused().is_some() {
+            for row in METHODS {
+                let variant = row.variant();
+                if (row.fit)(On::Frame(&frame)).refused().is_some() {
                     continue;
                 }
-                let counted = entry.count(bench, &variant);
+                let counted = row.count(bench, &variant);
                 let picture = variant
                     .render_linear_with(&frame, Renderer::LECTURE)
                     .expect("a method for the frame");

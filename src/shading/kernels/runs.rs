@@ -1,4 +1,14 @@
 //! Runs and spans: what engines hand to kernels, and what a walk starts from.
+//!
+//! A *span* is all pixels of a polygon between two edges on a scanline; a *run* is a piece of it,
+//! as the visible ones. The scanline engines start one in `ActiveEdges::add_run`
+//! (`src/raster/spans/active.rs`), [`SpanShader`](crate::shading::SpanShader) by [`RunList::add`],
+//! with the varyings at both ends of the span and the [`SpanPlace`] of the run. It stores two
+//! values for each varying: the value at the first pixel and its growth ([`ramp`]), or for methods
+//! that read their span the values at both ends ([`Needs::reads_span`]). Kernels wrap them in a
+//! [`Span`], which [`Shader::walk`] receives: [`Span::linear`] interpolates, [`Span::ends`],
+//! [`Span::parameter`] and [`Span::place`] tell where the run is on its span. Because the ends are
+//! those of the whole span, what hides parts of it changes no colour.
 
 use crate::number::{Num, Vec3};
 use crate::shading::walks::Linear;
@@ -6,38 +16,37 @@ use crate::shading::walks::values::each;
 use crate::shading::{Kinds, Method, Needs, Shader, UniformsIndex, Values, Varying};
 use alloc::vec::Vec;
 
-/// A run of pixels of one polygon on one scanline: a span, or a piece of one that is seen.
-#[doc(hidden)]
+/// A run of pixels of one polygon on one scanline: a span, or a visible piece of one.
 #[derive(Clone, Copy, Debug)]
-pub struct Run {
-    /// The uniforms that it is shaded with.
+pub(crate) struct Run {
+    /// The uniforms to shade it with.
     pub uniforms: UniformsIndex,
-    /// The polygon, an index into [`Frame::polygons`](crate::frame::Frame::polygons).
+    /// The index of the polygon in [`Frame::polygons`](crate::frame::Frame::polygons).
     pub polygon: u32,
-    /// The column of its first pixel.
+    /// The column of the first pixel.
     pub x: u32,
-    /// The count of its pixels.
+    /// How many pixels it has.
     pub pixels: u32,
 }
 
-/// The place of a run on its span: for methods that ask for it ([`Needs::spans`].
+/// The place of a run on its span, for methods that ask for it ([`Needs::spans`]).
 #[derive(Clone, Copy, Debug)]
-pub struct SpanPlace<T = f32> {
+pub(crate) struct SpanPlace<T = f32> {
     /// The scanline.
     pub y: u32,
-    /// The parameter at the centre of the run's first pixel: 0 at the left end of its span, 1 at the right one, whatever is seen of
-    /// it.
+    /// The parameter at the centre of the run's first pixel: 0 at the left end of the whole span, 1
+    /// at its right end.
     pub t0: T,
-    /// The growth of the parameter from pixel to pixel, `1 / (x_2 − x_1)`.
+    /// How much the parameter grows per pixel: `1 / (x_2 − x_1)`.
     pub dt: T,
     /// The first column of the whole span inside the picture.
     pub start: u32,
-    /// The count of the whole span's pixels inside the picture.
+    /// How many pixels the whole span has inside the picture.
     pub pixels: u32,
 }
 
-/// The values that runs start from, two for each varying and extra: the values at the first pixel and their growth from pixel
-/// to pixel, or for methods that read their span the values at both of its ends.
+/// The values that runs start from, two for each varying and extra: the value at the first pixel
+/// and its growth per pixel; or, for methods that read their span, the values at both ends.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Starts {
     values: Vec<f32>,
@@ -46,7 +55,7 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
-    /// Adds a run of as many values as the list was made for.
+    /// Adds a run. `N` must be the count of varyings and extras that the list was made for.
     #[inline(always)]
     pub fn push<const N: usize>(&mut self, first: [f32; N], second: [f32; N]) {
         debug_assert_eq!(self.count, N, "each run has all values that it starts from");
@@ -54,7 +63,8 @@ impl Starts {
             .extend_from_slice([first, second].as_flattened());
     }
 
-    /// Adds a run of zeros, and returns its values: the first ones of all varyings, then the second ones.
+    /// Adds a run of zeros and returns its values to be written: first those at the first pixel, or
+    /// at the left end, then the others.
     #[inline(always)]
     pub fn add(&mut self) -> [&mut [f32]; 2] {
         let from = self.values.len();
@@ -81,25 +91,26 @@ impl Starts {
 pub(crate) struct RunList {
     pub runs: Vec<Run>,
     pub starts: Starts,
-    /// The places of the runs, for methods that ask for them.
+    /// The place of each run, for methods that ask for it; otherwise empty.
     pub places: Vec<SpanPlace>,
 }
 
 impl RunList {
-    /// Makes an empty list for runs of `count` varyings and extras.
+    /// Makes an empty list for runs with `count` varyings and extras.
     pub fn new(count: usize) -> Self {
         let mut list = RunList::default();
         list.prepare(count);
         list
     }
 
-    /// Empties the list, for runs of `count` varyings and extras.
+    /// Empties the list and prepares it for runs with `count` varyings and extras.
     pub fn prepare(&mut self, count: usize) {
         self.clear();
         self.starts.count = count;
     }
 
-    /// Adds a run of a span: what its walk starts from, given the varyings at both ends, and its place if the method asks for it.
+    /// Adds a run of a span whose varyings are `a` and `b` at its ends. Stores the run's place if
+    /// the method asks for it.
     pub fn add(&mut self, needs: Needs, run: Run, [a, b]: [&[f32]; 2], place: SpanPlace) {
         let [first, second] = self.starts.add();
         for i in 0..first.len() {
@@ -118,7 +129,8 @@ impl RunList {
     }
 }
 
-/// Starts a linearly interpolated value: what it is at `t0` between `a` and `b`, and its growth in a step of `dt`.
+/// Returns the value and the growth from which a linear interpolation starts: the value at `t0`
+/// between `a` and `b`, and its growth over a step of `dt`.
 ///
 /// ```text
 /// ΔI = (I_2 − I_1) / (y_2 − y_1)  along edges,   ΔI = (I_2 − I_1) / (x_2 − x_1)  along scan lines      (L21 3.5, 4.1)
@@ -129,7 +141,10 @@ pub(crate) fn ramp<F: Num>(a: F, b: F, t0: F, dt: F) -> [F; 2] {
     [a + difference * t0, difference * dt] // 3.5, 4.1
 }
 
-/// What a walk starts from: a run, or a block of pixels whose varyings are known.
+/// What [`Shader::walk`] starts from: a run, or a block of pixels whose varyings are known.
+///
+/// Most methods call [`Span::linear`]. Methods that read their span ([`Needs::spans`]) call
+/// [`Span::ends`] and [`Span::parameter`].
 #[derive(Clone, Copy)]
 pub struct Span<'a, S: Shader, F: Num> {
     start: Start<'a, S, F>,
@@ -143,23 +158,24 @@ enum Start<'a, S: Shader, F: Num> {
     Run(RunStart<'a, F::One>),
 }
 
-/// A run, as kernels start it.
+/// A run in the form from which kernels start walks.
 #[derive(Clone, Copy)]
 pub(crate) struct RunStart<'a, T> {
     /// The two values of each varying: see [`Starts`].
     pub values: [&'a [T]; 2],
     /// The column of the first pixel.
     pub x: u32,
-    /// The count of its pixels.
+    /// How many pixels the run has.
     pub pixels: u32,
-    /// Its place, if the method asks for it.
+    /// The run's place on its span, if the method asks for it.
     pub place: Option<SpanPlace<T>>,
     /// The values that [`Shader::polygon`] returned for the polygon.
     pub constants: &'a [T],
 }
 
 impl<'a, S: Shader, F: Num> Span<'a, S, F> {
-    /// Starts a block from the varyings at each of its pixels. `zero` may be any value.
+    /// Makes the start of a block from the varyings at each of its pixels. Any value will do as
+    /// `zero`.
     #[cfg_attr(not(feature = "simd"), expect(dead_code))]
     #[inline(always)]
     pub(crate) fn of_block(lights: usize, at: Varying<S, F>, zero: F) -> Self {
@@ -170,7 +186,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         }
     }
 
-    /// Starts a run. `zero` may be any value.
+    /// Makes the start of a run. Any value will do as `zero`.
     #[inline(always)]
     pub(crate) fn of_run(lights: usize, run: RunStart<'a, F::One>, zero: F) -> Self {
         Span {
@@ -180,7 +196,8 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         }
     }
 
-    /// Starts a walk that interpolates linearly. A block starts with steps of 0, so that its one `next` returns the varyings.
+    /// Starts linear interpolation of the varyings. A block starts with steps of 0: its only `next`
+    /// returns the varyings.
     #[inline(always)]
     pub fn linear(self) -> Linear<Varying<S, F>> {
         let none = Varying::<S, F>::filled(self.lights, self.zero);
@@ -205,7 +222,8 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         }
     }
 
-    /// Returns the varyings at both ends of the span, of which the run may be a piece: for methods that read their span.
+    /// Returns the varyings at both ends of the whole span, of which the run may be a piece. For
+    /// methods that read their span.
     #[inline(always)]
     pub fn ends(&self) -> [Varying<S, F::One>; 2] {
         let (run, filled) = (
@@ -226,14 +244,16 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         ]
     }
 
-    /// Returns the parameter at the first pixel and its growth from pixel to pixel: see [`SpanPlace`].
+    /// Returns the parameter at the centre of the first pixel, 0 at the left end of the whole span
+    /// and 1 at its right end, and its growth per pixel. For methods that read their span.
     #[inline(always)]
     pub fn parameter(&self) -> [F::One; 2] {
         let place = self.place_of_run();
         [place.t0, place.dt]
     }
 
-    /// Returns the column and the row of the centre of the first pixel, or of each pixel of the first block, in pixels.
+    /// Returns column and row of the centre of the first pixel, or of each pixel in the first
+    /// block, in pixels. For methods that read their span.
     #[inline(always)]
     pub fn place(&self) -> [F; 2] {
         let (x, y) = (self.run().x, self.place_of_run().y);
@@ -244,13 +264,13 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
         ]
     }
 
-    /// Returns the count of the run's pixels.
+    /// Returns how many pixels the run has.
     #[inline(always)]
     pub(crate) fn pixels(&self) -> u32 {
         self.run().pixels
     }
 
-    /// Returns what [`Shader::polygon`] made of the polygon.
+    /// Returns the constants that [`Shader::polygon`] computed for the polygon.
     #[inline(always)]
     pub fn constants(&self) -> S::Constants<F::One> {
         let run = self.run();
@@ -282,7 +302,7 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
 }
 
 impl<T: Num> RunStart<'_, T> {
-    /// Returns the value of a varying at the first pixel and its growth from pixel to pixel.
+    /// Returns the value of a varying at the first pixel and its growth per pixel.
     #[inline(always)]
     pub fn ramp(&self, varying: usize) -> [T; 2] {
         let values = [self.values[0][varying], self.values[1][varying]];
@@ -292,10 +312,13 @@ impl<T: Num> RunStart<'_, T> {
         }
     }
 
-    /// Returns a varying at each pixel of the first block, and its growth from block to block. `zero` may be any value.
+    /// Returns a varying at each pixel of the first block, and its growth per block. Any value will
+    /// do as `zero`.
     #[inline(always)]
     pub fn block_ramp<F: Num<One = T>>(&self, varying: usize, zero: F) -> [F; 2] {
         let [at, step] = self.ramp(varying);
+        // One pixel at a time this spares a multiplication by 0 and one by 1, which change no
+        // value.
         match F::WIDTH {
             1 => [zero.of_each(|_| at), zero.of_each(|_| step)],
             width => [
@@ -306,40 +329,42 @@ impl<T: Num> RunStart<'_, T> {
     }
 }
 
-/// A corner of a polygon, as a method sets it up.
+/// A corner of a polygon, as [`Shader::polygon`] reads it.
 #[derive(Clone, Copy, Debug)]
 pub struct Corner<F> {
     /// The unit normal.
     pub normal: Vec3<F>,
-    /// Column and row on the picture, in pixels.
+    /// Column and row in the picture, in pixels.
     pub place: [F; 2],
-    /// near/w, the weight of perspective; 1 without.
+    /// near/w, the weight of perspective; 1 without perspective.
     pub weight: F,
     /// The position in the world.
     pub position: Vec3<F>,
 }
 
-/// A polygon, as a method sets it up: see [`Shader::polygon`].
+/// The corners of a polygon and their normals, as [`Shader::polygon`] reads them.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners<'a, F> {
-    /// Its corners, in order.
+    /// The corners, in order.
     pub all: &'a [Corner<F>],
-    /// Its own unit normal.
+    /// The polygon's own unit normal.
     pub face: Vec3<F>,
-    /// False for a piece that clipping made: the normals of its corners then mean nothing.
+    /// False for a piece that clipping has cut off: the normals of its corners then mean nothing,
+    /// so decide from `whole`.
     pub is_whole: bool,
-    /// Unit normals of corners of the whole polygon: all normals of the piece lie between these.
+    /// The unit normals at the corners of the whole polygon. All normals of the piece lie between
+    /// them.
     pub whole: &'a [Vec3<F>],
-    /// The mean of the normals of all corners of the whole polygon, not normalised.
+    /// The mean of the normals at all corners of the whole polygon, not normalised.
     pub mean: Vec3<F>,
 }
 
-/// The constants that a method set up for each polygon, by its index.
+/// The constants that a method has computed for each polygon, by the polygon's index.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PolygonConstants {
-    /// The kinds.
+    /// The kind of each polygon; unused by methods of one kind.
     pub kinds: Vec<u8>,
-    /// The values of each [`Shader::Constants`].
+    /// The constants of each polygon, one after the other: its [`Shader::Constants`].
     pub values: Vec<f32>,
 }
 

@@ -1,4 +1,4 @@
-//! A single span: the subject on which operations are counted and kernels timed.
+//! A single span, on which operations are counted and kernels are timed.
 
 use crate::mesh::Material;
 use crate::number::{Num, Vec3, vec3};
@@ -10,14 +10,15 @@ use crate::shading::{Carried, Corner, Corners, Extras, Local, On, OperationCount
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// A span between two unit normals, lit by some lights.
+/// A span between two unit normals, with its lights.
 #[derive(Clone, Debug)]
 pub struct SpanBench {
     pub(crate) lighting: Lighting,
-    /// The uniforms of methods as they are, and of those that turn normals into the eye's frame.
+    /// The uniforms of most methods, and those of methods that turn normals into the eye's frame.
     #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
     uniforms: [Uniforms; 2],
-    /// The unit normals of a triangle whose first two corners are the ends of the span, and their positions.
+    /// The unit normals and positions of a triangle whose first two corners are the ends of the
+    /// span.
     pub(crate) normals: [[f32; 3]; 3],
     pub(crate) points: [[f32; 3]; 3],
     perspective: bool,
@@ -28,18 +29,19 @@ const COLOUR: [f32; 3] = [0.9, 0.8, 0.7];
 impl SpanBench {
     /// The unit normal of the triangle.
     pub(crate) const FACE: [f32; 3] = [0.0, 0.0, 1.0];
-    /// The width and height of the triangle on the picture, in pixels.
+    /// The width and height of the triangle in the picture, in pixels.
     pub(crate) const LENGTH: f32 = 50.0;
-    /// t₀ and Δt of its edges down from the first scanline, whose centres lie at 0.5 pixels.
+    /// t₀ and Δt of its edges, which go down from the first scanline; the centres of that line lie
+    /// at 0.5 pixels.
     pub(crate) const EDGE: [f32; 2] = [0.5 / SpanBench::LENGTH, 1.0 / SpanBench::LENGTH];
-    /// t₀ and Δt of the span there, which is 49.5 pixels long.
+    /// t₀ and Δt of the span on the first scanline, which is 49.5 pixels long.
     pub(crate) const SPAN: [f32; 2] = [0.5 * (1.0 / 49.5), 1.0 / 49.5];
 
-    /// Its pixels: their centres are left of 49.5.
+    /// How many pixels the span has: those with their centre left of 49.5.
     pub(crate) const PIXELS: u32 = 49;
 
-    /// Returns the varyings at both ends of the span, from those of the corners by `vertex`: unit normals go along great circles if
-    /// they are `on_circles`.
+    /// Returns the varyings at both ends of the span, which `vertex` computes at the corners. If
+    /// `on_circles`, they are unit normals and edges carry them along great circles.
     pub(crate) fn ends_of_span(
         &self,
         on_circles: bool,
@@ -55,7 +57,7 @@ impl SpanBench {
         })
     }
 
-    /// Makes the triangle, `length` pixels wide and high, of values that `value` makes.
+    /// Makes the triangle, `length` pixels wide and high. `value` converts its values.
     pub(crate) fn polygon<F: Num>(&self, length: f32, value: impl Fn(f32) -> F) -> BenchPolygon<F> {
         let three = |v: [f32; 3]| vec3(v.map(&value));
         let normals = self.normals.map(three);
@@ -71,14 +73,15 @@ impl SpanBench {
         }
     }
 
-    /// Makes a span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1) or four,
-    /// and the default material.
+    /// Makes a span whose end normals enclose `degrees`, facing the viewer, with the default
+    /// material and one light in front of it (`lights` ≤ 1) or four.
     pub fn new(degrees: f32, lights: usize) -> Self {
         SpanBench::lit(degrees, if lights <= 1 { 1 } else { 4 }, None, false)
     }
 
-    /// Makes a span with one light (`lights` ≤ 1) or two, and the eye, at positions a few of its lengths away; lights grow
-    /// weaker by `falloff`, and varyings are linear on the screen or, with one light, in space.
+    /// Makes a span with one light (`lights` ≤ 1) or two, and the eye, at positions a few span
+    /// lengths away. Lights fall off by `falloff`. Varyings are linear on the screen or, with only
+    /// one light, in space.
     pub fn local(
         degrees: f32,
         lights: usize,
@@ -90,7 +93,8 @@ impl SpanBench {
         SpanBench::lit(degrees, count, Some(falloff), perspective)
     }
 
-    /// Makes a span with so many lights, of a falloff if they and the eye are at positions.
+    /// Makes a span with this many lights. With `local`, lights and eye are at positions, and
+    /// lights fall off by it.
     fn lit(degrees: f32, lights: usize, local: Option<Falloff>, perspective: bool) -> Self {
         let light = |i: usize| {
             let (sin, cos) = (libm::sin(i as f64), libm::cos(i as f64));
@@ -120,7 +124,7 @@ impl SpanBench {
         }
     }
 
-    /// Returns the reason why a method is not for its light, if it is not.
+    /// Returns the reason why a method refuses the light of this span, or `None`.
     pub fn refuses(&self, variant: &Variant) -> Option<&'static str> {
         let interpolation = match self.perspective {
             true => Interpolation::Perspective,
@@ -129,8 +133,8 @@ impl SpanBench {
         (variant.row().fit)(On::Spans(&self.lighting, interpolation)).refused()
     }
 
-    /// Returns the uniforms of a method with its default power function, at scale 1, which were made with the span: a timing repeats
-    /// what is done once per span, and not once per material.
+    /// Returns the uniforms of a method with its default power function, at scale 1. They were made
+    /// with the span, because a timing repeats what happens once per span, not once per material.
     #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
     pub(crate) fn prepared(&self, variant: &Variant) -> &Uniforms {
         let carries = variant.row().kernels(1, false).carries;
@@ -151,10 +155,10 @@ impl SpanBench {
         self.lighting.is_local()
     }
 
-    /// Returns the varyings that kernels add to those of a method.
+    /// Returns the varyings that kernels add to a method's own.
     pub(crate) fn extras(&self, variant: &Variant) -> Extras {
-        let entry = variant.row();
-        entry.extras(self.is_local(), self.perspective, false)
+        let row = variant.row();
+        row.extras(self.is_local(), self.perspective, false)
     }
 }
 
@@ -166,7 +170,7 @@ pub(crate) struct BenchPolygon<F> {
 }
 
 impl<F: Num> BenchPolygon<F> {
-    /// Returns it as methods set it up.
+    /// Returns the polygon as methods read it.
     pub fn corners(&self) -> Corners<'_, F> {
         let [a, b, c] = self.normals;
         Corners {
@@ -180,13 +184,14 @@ impl<F: Num> BenchPolygon<F> {
 }
 
 impl Variant {
-    /// Returns the operations of each kind that the method takes with one light (`lights` ≤ 1) or four, counted by running it on
-    /// numbers that count. Methods in integers cannot: of their spans and pixels it is what their loops say, one by one.
+    /// Returns the operations that the method takes at each rate with one light (`lights` ≤ 1) or
+    /// four. They are counted by running the method on values that count, or, for integer methods,
+    /// listed by hand: what their loops do per span and per pixel.
     pub fn operations(&self, lights: usize) -> OperationCounts {
         self.operations_on(&SpanBench::new(20.0, lights))
     }
 
-    /// Returns the operations of each kind that the method takes on a span.
+    /// Returns the operations that the method takes at each rate on a span.
     pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
         self.row().count(bench, self).operations
     }

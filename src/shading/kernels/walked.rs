@@ -1,10 +1,11 @@
-//! Walks that tell what they find: the values of each pixel of a run, for traces. Nothing here is in a loop that draws.
+//! Walks that report each step: the values of every pixel of a run, for traces. Nothing here is in
+//! a loop that draws.
 
 use super::{Extra, ExtraWalk, Extras, Pixels, is_general};
 use crate::shading::kernels::runs::RunStart;
 use crate::shading::walks::Walk;
 use crate::shading::walks::values::{Values, count, each};
-use crate::shading::{Carries, CarriesOf, Kinds, Lit, Method, Shader, Span, Visit};
+use crate::shading::{Carries, CarriesOf, Kinds, LightAt, Method, Shader, Span, Visit};
 use alloc::vec::Vec;
 
 /// Calls a function with each run of a job, in order.
@@ -15,9 +16,10 @@ pub(crate) type WalkedKernel = fn(&Pixels<'_>, &mut dyn FnMut(WalkedRun));
 pub(crate) struct Walked {
     /// The names of a varying's values: [`Carries::NAMES`].
     pub names: &'static [&'static str],
-    /// The names of a pixel's values, [`Shader::VALUES`], of a method without kinds.
+    /// The names of a pixel's values, [`Shader::VALUES`]; empty for methods of several kinds.
     pub values: &'static [&'static str],
-    /// Walks along runs as the scalar pixel loop does, and tells what it finds; `None` for plain functions, which have no walks.
+    /// Walks along runs as the scalar pixel loop does, and reports the values; `None` for plain
+    /// functions, which have no walks.
     pub walk: Option<WalkedKernel>,
 }
 
@@ -34,7 +36,7 @@ impl Walked {
         }
     }
 
-    /// Describes a method whose pixels are plain functions.
+    /// Describes a method whose pixels are computed by a plain function.
     pub const fn none<M: Method>() -> Walked {
         Walked {
             values: &[],
@@ -44,16 +46,17 @@ impl Walked {
     }
 }
 
-/// What a walk found along a run.
+/// The values that a walk had along a run.
 #[derive(Debug, Default)]
 pub(crate) struct WalkedRun {
     /// The name of the polygon's kind, if the method has kinds.
     pub kind: Option<&'static str>,
     /// The names of a pixel's values: [`Shader::VALUES`].
     pub names: &'static [&'static str],
-    /// The values of each pixel, then its position, colour and weight where they are there ([`Extras`]).
+    /// For each pixel its values, then its position, colour and weight if the run has them
+    /// ([`Extras`]).
     pub values: Vec<Vec<f32>>,
-    /// What each pixel was found by, by name: [`Walk::inside`].
+    /// The intermediate values of each pixel, by name: [`Walk::inside`].
     pub inside: Vec<(&'static str, Vec<Vec<f32>>)>,
 }
 
@@ -63,7 +66,7 @@ fn walked<M: Method>(job: &Pixels<'_>, to: &mut dyn FnMut(WalkedRun)) {
         let stored = uniforms.stored();
         let own = count::<<CarriesOf<M> as Carries>::Varying<f32>>(stored.lights.len());
         let method = M::new(job.parameters, &stored.model);
-        let lit = Lit::new(stored, 0.0, is_general::<M>(job, uniforms));
+        let lit = LightAt::new(stored, 0.0, is_general::<M>(job, uniforms));
         for (index, run) in runs {
             let (kind, start) = job.start::<M>(index, run);
             let walking = Walking {
@@ -85,7 +88,7 @@ struct Walking<'a, 'to> {
     start: RunStart<'a, f32>,
     extra: ExtraWalk<f32>,
     extras: Extras,
-    lit: Lit<'a, f32>,
+    lit: LightAt<'a, f32>,
     to: &'to mut dyn FnMut(WalkedRun),
 }
 
@@ -107,14 +110,15 @@ impl<C: Carries> Visit<C> for Walking<'_, '_> {
     }
 }
 
-/// Passes the values of a group to `to`, in order. Compiled for each method, so it does nothing else.
+/// Passes the values of a group to `to`, in order. It is compiled for each method, so it does
+/// nothing else.
 #[inline(never)]
 fn read<V: Values<f32>>(group: V, to: &mut dyn FnMut(f32)) {
     each(group, |_, value: &mut f32| to(*value));
 }
 
 impl WalkedRun {
-    /// Adds the extras that are there to the values of the last pixel.
+    /// Appends the extras that exist to the values of the last pixel.
     fn add_extra(&mut self, extras: Extras, extra: Extra<f32>) {
         let values = self.values.last_mut().expect("a pixel was added");
         if extras.point {
@@ -128,7 +132,7 @@ impl WalkedRun {
         }
     }
 
-    /// Notes a value that `pixel` was found by.
+    /// Adds an intermediate value of a pixel.
     fn see(&mut self, pixel: usize, name: &'static str, value: f32) {
         let known = self.inside.iter().position(|(known, _)| *known == name);
         let place = known.unwrap_or_else(|| {

@@ -1,18 +1,21 @@
-//! The frame of the eye and the first light, for methods that turn normals into it: z is toward the eye, and the light in the plane of x
-//! and z, so that K = V·N is the z of a normal and J = L·N saves a product.
+//! The frame of the eye and the first light, for methods that turn normals into it.
+//!
+//! Its z points toward the eye, and the first light lies in the plane of x and z. K = V·N is then
+//! the z of a normal, and J = L·N of the first light needs one product less.
 
 use crate::number::{Num, Vec3, vec3};
 use crate::scene::Place;
-use crate::shading::light::{Lit, Seen, Uniforms, vector};
+use crate::shading::light::{LightAt, SeenLight, Uniforms, vector};
 use crate::shading::{Carried, Carries};
 use glam::DVec3;
 
-/// Three unit vectors at right angles: the rows of a rotation.
+/// The rows of a rotation: three unit vectors at right angles.
 pub(crate) type EyeFrame = [Vec3<f32>; 3];
 
 impl Uniforms {
-    /// Turns the lights into the frame of eye and first light, and keeps it: vertices are turned into it, too. Lights or an eye at
-    /// positions stay where they are: [`Uniforms::seen_from`] turns them as a polygon sees them.
+    /// Turns the lights into the frame of the eye and the first light, and stores the frame, by
+    /// which vertices are turned too. Lights or an eye at positions stay where they are:
+    /// [`Uniforms::seen_from`] turns them as a polygon sees them.
     pub(crate) fn turned(mut self) -> Uniforms {
         let first = self.lights.first().map(|light| vector(light.place));
         let frame = frame_of(vector(self.model.eye), first);
@@ -27,11 +30,12 @@ impl Uniforms {
     }
 }
 
-/// Returns what a vertex with the unit normal `n` carries: made from `n` in the eye's frame, if the method asks for it.
+/// Returns the varyings of a vertex with the unit normal `n`, which is turned into the eye's frame
+/// if the method asks for it.
 #[inline(always)]
 pub(crate) fn carried<C: Carries, F: Num>(
     uniforms: &Uniforms,
-    lit: &Lit<'_, F>,
+    lit: &LightAt<'_, F>,
     n: Vec3<F>,
 ) -> C::Varying<F> {
     match C::FROM {
@@ -45,9 +49,9 @@ pub(crate) fn carried<C: Carries, F: Num>(
     }
 }
 
-/// Returns L·v of a light and a vector in the eye's frame, in which the first light has no y.
+/// Returns L·v of a light and a vector in the eye's frame, where the first light has no y.
 #[inline(always)]
-pub(crate) fn product<F: Num>(light: &Seen<'_, F>, v: Vec3<F>) -> F {
+pub(crate) fn product<F: Num>(light: &SeenLight<'_, F>, v: Vec3<F>) -> F {
     let product = v.z.mul_add(light.to.z, v.x * light.to.x);
     match light.index {
         0 => product,
@@ -55,10 +59,11 @@ pub(crate) fn product<F: Num>(light: &Seen<'_, F>, v: Vec3<F>) -> F {
     }
 }
 
-/// Returns three unit vectors at right angles, the last of them `view` and the second at right angles to `light` too; any such if
-/// light and eye are in one line, or there is no light.
+/// Returns three unit vectors at right angles: the last is `view`, the second is also at right
+/// angles to `light`. If light and eye are in one line, or there is no light, any second vector
+/// will do.
 fn frame_of(view: Vec3<f32>, light: Option<Vec3<f32>>) -> [Vec3<f32>; 3] {
-    // In `f64`: a light that is nearly in line with the eye would lose its digits.
+    // In `f64`, because in `f32` a light nearly in line with the eye would lose its digits.
     let wide = |v: Vec3<f32>| DVec3::from_array(v.array().map(f64::from));
     let z = wide(view).normalize_or(DVec3::Z);
     let across = |v: DVec3| v - v.dot(z) * z;

@@ -1,40 +1,41 @@
-//! The power functions of highlights, as pixel loops compute them.
+//! The power functions of highlights, in the form in which pixel loops compute them.
 
 use crate::number::Num;
 use crate::scene::Power;
 use alloc::vec::Vec;
 
-/// The power function of a highlight, as it is best computed.
+/// The power function of a highlight, sorted by how it is computed fastest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exponent {
-    /// 1, 2, 4, … 128: by so many squarings.
+    /// tⁿ with n = 1, 2, 4, … 128: this many squarings.
     Squarings(u32),
-    /// Any other whole number: by repeated squaring, at most 2 log₂ n multiplications.
+    /// tⁿ with any other whole n: repeated squaring, at most 2 log₂ n multiplications.
     Whole(u32),
-    /// Any other: by the backend's power function.
+    /// tⁿ with any other n: the power function of the arithmetic.
     Fractional(f32),
     /// e^(−n (1 − t)) = 2^(r (t − 1)), with r = n log₂ e.
     Exp(f32),
-    /// A table of tⁿ from the cosine `from` on, `scale` steps for a cosine of 1.
+    /// A table of tⁿ that starts at the cosine `from`.
     Table {
         /// The cosine of the first entry.
         from: f32,
-        /// The steps for a cosine of 1.
+        /// How many steps of the table a cosine of 1 takes.
         scale: f32,
     },
-    /// Lyon's function, `1 − (1 − t) slope` squared so many times.
+    /// Lyon's function: `1 − (1 − t) slope`, squared `squarings` times.
     Lyon {
         /// n / 2ᵏ.
         slope: f32,
         /// k.
         squarings: u32,
     },
-    /// Schlick's function of the exponent.
+    /// Schlick's function, with its exponent.
     Schlick(f32),
 }
 
 impl Exponent {
-    /// Makes a function for a shininess n of 0 or more, whose highlights begin at the cosine `faint`.
+    /// Chooses the function for a shininess n of 0 or more, whose highlights begin at the cosine
+    /// `faint`.
     pub fn new(power: Power, shininess: f32, faint: f32) -> Self {
         let n = shininess as u32;
         match power {
@@ -54,7 +55,7 @@ impl Exponent {
         }
     }
 
-    /// Returns the entries of a table; `None` for other functions.
+    /// Returns the entries of the table; `None` for other functions.
     pub(crate) fn table(self, shininess: f32, faint: f32) -> Option<Vec<f32>> {
         let Exponent::Table { scale, .. } = self else {
             return None;
@@ -66,7 +67,7 @@ impl Exponent {
         Some((0..=size).map(power).collect())
     }
 
-    /// True if it is tⁿ with n over 0.
+    /// True for tⁿ with n over 0.
     pub(crate) fn is_power(self) -> bool {
         match self {
             Exponent::Whole(n) => n > 0,
@@ -76,7 +77,7 @@ impl Exponent {
         }
     }
 
-    /// True if the function is not 0 at 0 as all others are.
+    /// True if the function is not 0 at 0.
     pub(crate) fn is_lit_at_zero(self) -> bool {
         match self {
             Exponent::Whole(0) | Exponent::Exp(_) => true,
@@ -85,7 +86,7 @@ impl Exponent {
         }
     }
 
-    /// Returns `base` to this power, from the entries `powers` if it is a table.
+    /// Returns `base` to this power, read from `powers` if it is a table.
     #[inline(always)]
     pub(crate) fn of_or_read<F: Num>(self, base: F, powers: &[f32]) -> F {
         match self {
@@ -94,8 +95,10 @@ impl Exponent {
         }
     }
 
-    /// Returns `base`, 0 or more, to this power; anything to the power 0 is 1. The one power function of all methods, so that
-    /// none is faster by a cheaper one; `Lit::power` calls its squarings directly.
+    /// Returns `base`, 0 or more, to this power; anything to the power 0 is 1.
+    ///
+    /// All methods use this one function, so that none is faster by a cheaper one. `LightAt::power`
+    /// calls its squarings directly.
     #[inline(always)]
     pub fn of<F: Num>(self, base: F) -> F {
         match self {
@@ -109,19 +112,20 @@ impl Exponent {
                 squared_up_to_7(linear, squarings)
             }
             Exponent::Schlick(n) => {
-                let t = -(-base).max(-1.0); // at most 1: there is a pole at n / (n − 1)
+                let t = -(-base).max(-1.0); // at most 1, because of the pole at n / (n − 1)
                 t / (t * (1.0 - n) + n)
             }
-            Exponent::Table { .. } => unreachable!("`Lit::power` reads tables"),
+            Exponent::Table { .. } => unreachable!("`LightAt::power` reads tables"),
         }
     }
 }
 
-/// Returns `x` to the power `n` of 1 or more, by squaring.
+/// Returns `x` to the power `n`, 1 or more, by repeated squaring.
 #[inline(always)]
 fn to_whole<F: Num>(x: F, n: u32) -> F {
     debug_assert!(n > 0);
     let (mut square, mut left) = (x, n);
+    // The trailing zeros of n first, so that the product starts from a power of x and not from 1.
     while left & 1 == 0 {
         square = square * square;
         left >>= 1;
@@ -137,19 +141,22 @@ fn to_whole<F: Num>(x: F, n: u32) -> F {
     power
 }
 
-/// [`Exponent::of_or_read`] as a call. Inlined in a scalar loop, compilers compute all functions at each pixel and then choose: what the
-/// others give is often subnormal, which takes a hundred times as long.
+/// Calls [`Exponent::of_or_read`] without inlining it. Inlined in a scalar loop, compilers compute
+/// all functions at each pixel and then choose; the results of those that are not chosen are often
+/// subnormal, which takes a hundred times as long.
 #[inline(never)]
 pub(crate) fn power_by_call<F: Num>(exponent: Exponent, base: F, powers: &[f32]) -> F {
     match exponent {
-        Exponent::Whole(n) if n > 0 => to_whole(base, n), // the usual one, before all others
+        Exponent::Whole(n) if n > 0 => to_whole(base, n), // the most frequent one first
         _ => exponent.of_or_read(base, powers),
     }
 }
 
-/// Returns `x` squared `times` times, of 7 at most. Without a loop: those of 16, 32 and 64 are most of what a highlight costs.
+/// Squares `x` `times` times, at most 7. It has no loop, because the powers 16, 32 and 64 are most
+/// of what a highlight costs.
 #[inline(always)]
 pub(crate) fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
+    // The bits of `times`, from 4 squarings down to 1.
     if times & 4 != 0 {
         x = x * x;
         x = x * x;
@@ -170,8 +177,8 @@ pub(crate) fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
 mod tests {
     use super::*;
 
-    /// Cosines that a method approximates may pass 1 by x: no function then passes eⁿˣ, falls below what it is at 1, or ends, but for 16 roundings
-    /// for each of n.
+    /// Approximate cosines may exceed 1 by x. No function then exceeds eⁿˣ, falls below its value
+    /// at 1, or stops being finite, but for 16 roundings for each of n.
     #[test]
     fn powers_of_cosines_over_1_are_little_over_1() {
         let functions = [

@@ -61,7 +61,7 @@ fn opposite_light_and_eye_have_no_highlight() {
         let x = i as f32 * 1e-6;
         let n = vec3([-0.6, 0.0, 0.8]); // on the side of L + V
         let point = [x, 0.3 * x, -2.0];
-        let lit = Lit::new(uniforms.stored(), 0.0, true).at(vec3(point));
+        let lit = LightAt::new(uniforms.stored(), 0.0, true).at(vec3(point));
         assert_eq!(lit.shade(n), vec3([0.25; 3]), "{x}");
         let light = lit.lights().next().expect("one light");
         let highlight = lit.highlight(&light, n.dot(light.to), n.dot(lit.view()));
@@ -73,7 +73,7 @@ fn opposite_light_and_eye_have_no_highlight() {
     }
 }
 
-/// A block of two numbers that asserts that products and powers are not subnormal.
+/// A block of two values that asserts that products and powers are not subnormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Normal([f32; 2]);
 
@@ -202,7 +202,7 @@ fn cosines(model: &LightModel) -> Vec<f32> {
 /// is `highlight`.
 fn lit<F: Num>(uniforms: &Uniforms, cosine: F, highlight: F, general: bool) -> F {
     let nowhere = vec3([cosine.broadcast(0.0); 3]);
-    let lit = Lit::new(uniforms.stored(), nowhere.x, general).at(nowhere);
+    let lit = LightAt::new(uniforms.stored(), nowhere.x, general).at(nowhere);
     let light = lit.lights().next().expect("one light");
     lit.add(lit.ambient(), &light, cosine, highlight).x
 }
@@ -334,10 +334,10 @@ fn four_lights(random: &mut Random, shininess: f32) -> Lighting {
 
 /// Returns the colours at unit normals.
 fn at<F: Num>(uniforms: &Uniforms, n: Vec3<F>, general: bool) -> Vec3<F> {
-    Lit::new(uniforms.stored(), n.x, general).at(n).shade(n)
+    LightAt::new(uniforms.stored(), n.x, general).at(n).shade(n)
 }
 
-/// The fast path gives the colours of the general one to the last bit.
+/// The fast path returns the colours of the general one to the last bit.
 #[test]
 fn the_fast_path_has_the_same_colours() {
     let mut random = Random::new(21);
@@ -425,7 +425,8 @@ fn pixels_do_not_depend_on_their_neighbours() {
     on_each_level!(of);
 }
 
-/// A cosine of 1 that is off by 4 e makes a highlight that is off by no more than the bound has room for, also where it passes 1.
+/// A cosine of 1 with an error of 4 e makes a highlight whose error is within the bound, also where
+/// the cosine exceeds 1.
 #[test]
 fn highlights_over_1_are_within_their_bound() {
     let material = Material {
@@ -443,7 +444,8 @@ fn highlights_over_1_are_within_their_bound() {
                 let at = |cosine| power_by_call(stored.model.exponent, cosine, stored.powers);
                 let off = f64::from(at(1.0 + 4.0 * e) - at(1.0));
                 let bound = highlight_error(&lighting, power, 2.0, e.into());
-                // The sum 1 + 4 e is rounded by 2⁻²⁴, which n multiplies, and so is the power itself.
+                // The sum 1 + 4 e is rounded by 2⁻²⁴, which n multiplies, and so is the power
+                // itself.
                 let rounding = f64::from(2.0 * (n + 1.0) * FAINT) * (1.0 + off.abs());
                 assert!(
                     off <= bound + rounding,
@@ -471,6 +473,6 @@ fn polygons_that_see_light_from_their_own_places_share_a_table_of_powers() {
 #[should_panic(expected = "a walk has no point")]
 fn a_pixel_without_a_point_has_none() {
     let uniforms = Uniforms::new(&shining(0.5, 20.0, Falloff::None), Power::default(), 1.0);
-    let lit = Lit::new(uniforms.stored(), 0.0f32, true);
+    let lit = LightAt::new(uniforms.stored(), 0.0f32, true);
     lit.at_pixel(vec3([1.0; 3]), false).point();
 }

@@ -4,18 +4,19 @@ use super::{GreatCircle, Walk};
 use crate::number::{Num, Vec3};
 use crate::shading::walks::values::{Values, each};
 
-/// Whatever grows as a sine and a cosine do, `F(k) = P cos kδ + Q sin kδ`: two additions and a multiplication a step.
+/// A value that varies as sines and cosines do, `F(k) = P cos kδ + Q sin kδ`: two additions and a
+/// multiplication per step.
 ///
 /// ```text
 /// F_(k+1) = 2 cos δ F_k − F_(k−1)                                   (Chebyshev)
-/// F_next = F + ΔF,   ΔF_next = ΔF − α F_next,   α = 4 sin² δ/2      the same in differences
+/// F_next = F + ΔF,   ΔF_next = ΔF − α F_next,   α = 4 sin² δ/2      (in differences)
 /// ```
-/// 2 cos δ is near 2 where steps are small, and its last bits are lost: over 1,024 steps of 30° in all the first line is off by
-/// 10⁻², the second by 10⁻⁶.
+/// For small steps 2 cos δ is near 2, and its last bits are lost. Over 1,024 steps that turn by 30°
+/// in all, the first line has an error of 10⁻², the second one of 10⁻⁶.
 ///
-/// In `f32` F is rounded at each step, and ΔF by its own size, δ at most, whose roundings the steps add up: after k steps F
-/// is off by at most k (½ + ½ kδ) 2⁻²⁴, with kδ the angle that was passed; and by 3 kδ 2⁻²⁴ for the roundings of α and of the first ΔF.
-#[doc(hidden)]
+/// In `f32` F is rounded at each step. ΔF is at most δ and is rounded relative to its own size, and
+/// the steps add up its roundings. After k steps, over the angle kδ, F has an error of at most k
+/// (½ + ½ kδ) 2⁻²⁴, and 3 kδ 2⁻²⁴ more for the roundings of α and the first ΔF.
 #[derive(Clone, Copy, Debug)]
 pub struct Chebyshev<F, V> {
     at: V,
@@ -24,7 +25,7 @@ pub struct Chebyshev<F, V> {
 }
 
 impl<F: Num, V: Values<F>> Chebyshev<F, V> {
-    /// Follows what is linear in the unit normals of a great circle: `of` gives it.
+    /// Follows `of(N)` along a great circle of unit normals N. `of` must be linear.
     ///
     /// ```text
     /// sin(x + δ) − sin x = sin δ cos x − h sin x,    h = 1 − cos δ = sin² δ / (1 + cos δ)
@@ -34,6 +35,7 @@ impl<F: Num, V: Values<F>> Chebyshev<F, V> {
         let sines = circle.sines;
         let ((sin_t, cos_t), (sin_rest, cos_rest)) = (sines.t, sines.rest);
         let (sin_step, cos_step) = sines.step;
+        // 1 − cos δ itself would lose the digits of a small angle.
         let h = sin_step * sin_step / (cos_step + 1.0);
         let grown = circle.to * (sin_step * cos_t - h * sin_t);
         let fallen = circle.from * (sin_step * cos_rest + h * sin_rest);
@@ -51,6 +53,7 @@ impl<F: Num, V: Values<F>> Walk<F> for Chebyshev<F, V> {
     #[inline(always)]
     fn next(&mut self) -> V {
         let here = self.at;
+        // ΔF_next uses F at the next pixel, so F steps first.
         self.at.zip(self.step, |at, step| at + step);
         let alpha = self.alpha;
         self.step.zip(self.at, |step, at| step - at * alpha);

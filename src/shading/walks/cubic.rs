@@ -1,4 +1,4 @@
-//! A cubic by three additions per pixel.
+//! A cubic in three additions per pixel.
 
 use super::Walk;
 use crate::number::Num;
@@ -11,11 +11,13 @@ use crate::shading::walks::values::{Values, each, scaled, sum};
 /// F_next = F + ΔF,   ΔF_next = ΔF + ΔΔF,   ΔΔF_next = ΔΔF + 6 d,      ΔF_0 = b + c + d,   ΔΔF_0 = 2 c + 6 d
 /// ```
 ///
-/// In `f32` each sum is rounded: after k steps F is off by at most `(k |F| + k²/2 |ΔF| + k³/6 |ΔΔF|) 2⁻²⁴`, with the largest values of each.
-/// Over n pixels ΔF is about the slope S over n, and ΔΔF the curvature C over n², so that this is at most `(|F| + S/2 + C/6) k 2⁻²⁴`.
+/// In `f32` each sum is rounded. After k steps F has an error of at most
+/// `(k |F| + k²/2 |ΔF| + k³/6 |ΔΔF|) 2⁻²⁴`, with the largest values of each. Over n pixels ΔF is
+/// about the slope S over n, and ΔΔF the curvature C over n², so the error is at most
+/// `(|F| + S/2 + C/6) k 2⁻²⁴`.
 ///
-/// A tuple of values steps together, as [`Linear`](super::Linear) steps it: additions of several cubics then share SIMD registers.
-#[doc(hidden)]
+/// The values of a group step together, as in [`Linear`](super::Linear), so that additions of
+/// several cubics share SIMD registers.
 #[derive(Clone, Copy, Debug)]
 pub struct Cubic<V> {
     at: V,
@@ -62,6 +64,7 @@ impl<F: Num, V: Values<F>> Walk<F> for Cubic<V> {
     #[inline(always)]
     fn next(&mut self) -> V {
         let here = self.at;
+        // From the lowest difference up: each takes the next one's value at this pixel.
         self.at = sum([here, self.first]);
         self.first = sum([self.first, self.second]);
         self.second = sum([self.second, self.third]);

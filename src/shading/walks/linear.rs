@@ -4,19 +4,19 @@ use super::Walk;
 use crate::number::Num;
 use crate::shading::walks::values::Values;
 
-/// A varying that is interpolated linearly: its value here, and its growth in a step.
+/// A varying that is interpolated linearly: its current value and its growth per step.
 ///
 /// ```text
 /// I_next = I_current + ΔI        (L21 3.6; for normals L21 4.2)
 /// ```
 ///
-/// In `f32` each addition is off by at most half a unit in the last place, so that after k steps the value is off by at most
-/// k · 2⁻²⁴ · max|I|.
+/// In `f32` each addition is rounded by at most half a unit in the last place. After k steps the
+/// value has an error of at most k · 2⁻²⁴ · max|I|.
 #[derive(Clone, Copy, Debug)]
 pub struct Linear<V> {
-    /// The value here.
+    /// The current value.
     pub at: V,
-    /// The growth in a step.
+    /// The growth per step.
     pub step: V,
 }
 
@@ -33,7 +33,7 @@ impl<F: Num, V: Values<F>> Walk<F> for Linear<V> {
     }
 }
 
-/// A value that stays: no operation a pixel.
+/// A value that is constant along a span. A pixel costs nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Constant<V>(pub V);
 

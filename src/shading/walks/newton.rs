@@ -1,36 +1,43 @@
-//! A square root that is followed from pixel to pixel by Newton's method.
+//! Fast Phong's root: a square root that follows the normal's length from pixel to pixel by
+//! Newton's method.
+//!
+//! [`Newton::new`] starts a span from a true root and chooses the count of steps; `Newton::root` is
+//! the iteration.
 
 use super::{Linear, Walk};
 use crate::number::{Num, Vec3};
 
-/// The count of steps of Newton's method a pixel takes, or a rule to choose it.
+/// How many steps of Newton's method a pixel takes, or a rule that chooses the count for each span.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NewtonSteps {
-    /// 0 (`auto`) takes as few as suffice.
+    /// The count that the user asked for; 0 (`auto`) takes as few as suffice.
     steps: u32,
     /// `within[s]`: up to this δ², s steps leave no more than the largest error.
     pub(super) within: [f32; Self::MOST as usize + 1],
 }
 
 impl NewtonSteps {
-    /// The most steps that can be asked for.
+    /// The most steps that a user can ask for.
     pub const MOST: u32 = 8;
-    /// The most steps that `auto` takes before it takes true roots: three steps cost as much as a root.
+    /// The most steps that `auto` takes before it takes true roots, because more steps cost as much
+    /// as a root.
     pub const MOST_OF_AUTO: u32 = 3;
-    /// The largest relative error of a length: of a diffuse cosine it is a quarter of a grey level.
+    /// The largest relative error of a length: in a diffuse cosine it is a quarter of a grey level.
     pub const LARGEST_ERROR: f32 = 1e-3;
 
-    /// Makes the rule for `steps` steps, 0 for `auto`, that leave a relative error of at most `largest_error`.
+    /// Makes the rule for `steps` steps, or 0 for `auto`, that leave a relative error of at most
+    /// `largest_error`.
     ///
-    /// A step whose guess is off by the relative error e leaves e² / (2 (1 + e)) of a guess that is too large, and
-    /// e² / (2 (1 − e)) of one that is too small. δ is how far the true length is from that of the step before, relative to the
-    /// least length along the span; the guess has itself an error of up to E:
+    /// A step whose guess has the relative error e leaves e² / (2 (1 + e)) if the guess is too
+    /// large, and e² / (2 (1 − e)) if it is too small. δ is the distance of the true length from
+    /// the one of the previous pixel, relative to the least length along the span. The guess itself
+    /// has an error of up to E:
     ///
     /// ```text
     /// |N + k ΔN|² ≥ D_min = N·N − min(0, N·ΔN)² / ΔN·ΔN,    δ² = ΔN·ΔN / D_min
     /// e_0 ≤ δ + E (1 + δ),    e ← e² / (2 (1 − e))
     /// ```
-    /// Backwards from E: the step before may have left e = −E + √(E² + 2E).
+    /// Solved backwards from E: the step before may have left e = −E + √(E² + 2E).
     pub fn new(steps: u32, largest_error: f32) -> Self {
         let mut within = [0.0; Self::MOST as usize + 1];
         let mut e = largest_error;
@@ -42,17 +49,19 @@ impl NewtonSteps {
         NewtonSteps { steps, within }
     }
 
-    /// True if the choice is left to the rule.
+    /// True if the rule chooses the count.
     #[inline(always)]
     pub fn is_auto(&self) -> bool {
         self.steps == 0
     }
 
-    /// Chooses the steps for a span whose normal starts as `n` and grows by `dn` a step; 0 is a true root.
+    /// Chooses the count of steps for a span whose normal starts as `n` and grows by `dn` per step,
+    /// with `square` = N·N. A count of 0 means a true root.
     ///
-    /// One pixel at a time a count that was asked for is taken as it is, as in the lecture. In blocks the guess is a whole
-    /// block away and fails the sooner: there it gives way to true roots. `auto` takes nothing else in blocks: eight roots take
-    /// no longer than the eight divisions of a step.
+    /// One pixel at a time, a count that the user asked for is used without a check, as in the
+    /// lecture. In blocks the guess is a whole block away and fails sooner, so there the count
+    /// gives way to true roots. `auto` always takes true roots in blocks, because eight roots take
+    /// no longer than the eight divisions of one step.
     #[inline(always)]
     fn of_span<F: Num>(&self, n: Vec3<F>, dn: Vec3<F>, square: F) -> u32 {
         let counts = match (self.steps, F::WIDTH) {
@@ -61,10 +70,13 @@ impl NewtonSteps {
             (steps, _) => steps..=steps,
         };
         let (along, step) = (n.dot(dn), dn.dot(dn));
-        // δ² ≤ T is ΔN·ΔN ≤ T D_min, times ΔN·ΔN.
+        // δ² ≤ T means ΔN·ΔN ≤ T D_min. Both sides are multiplied by ΔN·ΔN, so that a span of
+        // constant normals divides by nothing. The length shrinks only where N·ΔN < 0; otherwise
+        // the least length is the first one, and nothing is subtracted.
         let room = square * step - (along * along).gate(-along, 0.0);
         let growth = step * step;
         for count in counts {
+            // `any_over` asks all lanes: a block takes as many steps as its worst pixel needs.
             if !(growth - room * self.within[count as usize]).any_over(0.0) {
                 return count;
             }
@@ -73,7 +85,8 @@ impl NewtonSteps {
     }
 }
 
-/// A normal that is stepped along a span, its squared length, and its length by Newton's method from the previous pixel's.
+/// A normal that is stepped along a span, its squared length, and its length by Newton's method
+/// from the previous pixel's length.
 ///
 /// ```text
 /// N_next = N_current + ΔN                          (L21 4.2)
@@ -81,11 +94,13 @@ impl NewtonSteps {
 /// x_{n+1} = x_n − (x_n² − d_next²) / (2 x_n),      x_0 = d_current
 /// ```
 ///
-/// Three additions for N, three multiplications and two additions for N · N; then each step takes one multiplication, three
-/// additions and one division. The first pixel of a span starts from a true root.
+/// Three additions step N; three multiplications and two additions make N · N; then each of
+/// Newton's steps takes one multiplication, three additions and one division. The first pixel of a
+/// span starts from a true root.
 ///
-/// *Fails when* d grows by a large factor from one pixel to the next, as it does near normals that cancel: the steps then
-/// overshoot (x ≈ d²/2x_0) and the span darkens until they have come down again. [`NewtonSteps`] prevents that.
+/// *It fails where* d grows by a large factor from one pixel to the next, as near normals that
+/// cancel. The steps then overshoot (x ≈ d²/2x_0), and the span stays dark until they have come
+/// down again. [`NewtonSteps`] prevents that.
 #[derive(Clone, Copy, Debug)]
 pub struct Newton<F> {
     normal: Linear<Vec3<F>>,
@@ -94,7 +109,7 @@ pub struct Newton<F> {
 }
 
 impl<F: Num> Newton<F> {
-    /// Follows the normal that starts as `n` and grows by `dn` a step.
+    /// Follows the normal that starts as `n` and grows by `dn` per step.
     #[inline(always)]
     pub fn new(n: Vec3<F>, dn: Vec3<F>, steps: &NewtonSteps) -> Self {
         let square = n.dot(n);
@@ -105,12 +120,15 @@ impl<F: Num> Newton<F> {
         }
     }
 
-    /// Steps from the length before to that of `square`; `see` sees the guess and what each step makes of it.
+    /// Returns the root of `square`, starting from the previous pixel's length. Calls `see` with
+    /// the guess and the result of each step.
     #[inline(always)]
     fn root(&self, square: F, mut see: impl FnMut(F)) -> F {
         let mut x = self.length;
         see(x);
         for _ in 0..self.steps {
+            // Written as a correction, which is small, as are its roundings; (x + D/x)/2 would
+            // round the whole length.
             x = x - (x * x - square) / (x + x); // 4.4 by Newton's method
             see(x);
         }
@@ -119,7 +137,7 @@ impl<F: Num> Newton<F> {
 }
 
 impl<F: Num> Walk<F> for Newton<F> {
-    /// (d, D): the length, and the squared length itself, which the specular term uses.
+    /// (d, D): the length, and the squared length, which the specular term uses.
     type Pixel = (F, F);
 
     #[inline(always)]
@@ -127,12 +145,14 @@ impl<F: Num> Walk<F> for Newton<F> {
         let n = self.normal.next(); // 4.2
         let square = n.dot(n); // D = N · N
         if self.steps == 0 {
+            // No step is safe on this span: take true roots. The branch goes the same way for the
+            // whole span.
             return (square.sqrt(), square);
         }
         self.length = self.root(square, |_| ());
         (self.length, square)
     }
-    /// The guesses, the last of which is d; none where roots are true.
+    /// Reports the guesses, the last of which is d; none if roots are true.
     fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
         if self.steps > 0 {
             let n = self.normal.at;

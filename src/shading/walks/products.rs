@@ -1,6 +1,8 @@
-//! Products by name, where lights or the eye are at positions: a tuple of six would be read by counting parentheses.
+//! Products with names, where lights or the eye are at positions: in a tuple of six, readers would
+//! have to count parentheses.
 
-/// Defines a structure of named products, some of them one per light. With values it implements `Values`; with walks, `Walk`.
+/// Defines a structure of named products, some of them one per light. It implements `Values` if it
+/// holds values, and `Walk` if it holds walks.
 macro_rules! products {
     ($(#[$about:meta])* $name:ident { $($(#[$of_one:meta])* $one:ident),* } per light { $($(#[$of_each:meta])* $each:ident),* }) => {
         $(#[$about])*

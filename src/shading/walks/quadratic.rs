@@ -1,18 +1,20 @@
-//! A quadratic by two additions per pixel.
+//! A quadratic in two additions per pixel.
 
 use super::Walk;
 use crate::number::{Num, Vec3};
 
-/// The dot product of two vectors that grow linearly along a span, by forward differences (Duff 1979).
+/// The dot product of two vectors that grow linearly along a span, by forward differences (Duff
+/// 1979).
 ///
 /// ```text
 /// Q(k) = (A + k ΔA) · (B + k ΔB) = q + p k + s k²,     q = A·B,   p = A·ΔB + ΔA·B,   s = ΔA·ΔB
 /// Q_next = Q + ΔQ,   ΔQ_next = ΔQ + 2 s,               ΔQ_0 = p + s
 /// ```
 ///
-/// Two additions per pixel and no multiplication. In `f32` ΔQ is off by at most k · 2⁻²⁴ · max|ΔQ| after k steps, and Q by the
-/// sum of these: where Q runs from end to end of its range in n steps, max|ΔQ| is about 4 max|Q| / n, so that Q is off by at
-/// most about (1 + 2) k · 2⁻²⁴ · max|Q|.
+/// It takes two additions per pixel and no multiplication. In `f32` ΔQ has an error of at most k ·
+/// 2⁻²⁴ · max|ΔQ| after k steps, and Q the sum of these errors. Where Q crosses its range in n
+/// steps, max|ΔQ| is about 4 max|Q| / n, so the error of Q is at most about (1 + 2) k · 2⁻²⁴ ·
+/// max|Q|.
 #[derive(Clone, Copy, Debug)]
 pub struct Quadratic<F> {
     at: F,
@@ -21,20 +23,20 @@ pub struct Quadratic<F> {
 }
 
 impl<F: Num> Quadratic<F> {
-    /// Makes the dot product of `a` and `b`, which grow by `da` and `db` a step.
+    /// Makes the dot product of `a` and `b`, which grow by `da` and `db` per step.
     #[inline(always)]
     pub fn product(a: Vec3<F>, da: Vec3<F>, b: Vec3<F>, db: Vec3<F>) -> Self {
         Self::new(a.dot(b), a.dot(db) + da.dot(b), da.dot(db))
     }
 
-    /// Makes the squared length of `a`, which grows by `da` a step.
+    /// Makes the squared length of `a`, which grows by `da` per step.
     #[inline(always)]
     pub fn square(a: Vec3<F>, da: Vec3<F>) -> Self {
         let half = a.dot(da);
         Self::new(a.dot(a), half + half, da.dot(da))
     }
 
-    /// Makes 0.
+    /// Makes the quadratic that is 0 everywhere.
     #[inline(always)]
     pub fn zero(like: F) -> Self {
         let zero = like.broadcast(0.0);
@@ -63,6 +65,7 @@ impl<F: Num> Walk<F> for Quadratic<F> {
     #[inline(always)]
     fn next(&mut self) -> F {
         let here = self.at;
+        // Q first: it takes the difference of this pixel, before that becomes the next one's.
         self.at = here + self.step;
         self.step = self.step + self.second;
         here

@@ -1,16 +1,15 @@
-//! A reciprocal square root that is followed from pixel to pixel by Newton's method.
+//! A reciprocal square root that follows a quadratic from pixel to pixel by Newton's method.
 
 use super::{Quadratic, Walk};
 use crate::number::Num;
 
-/// 1/√D of a quadratic D, from the value of the previous pixel: no root and no division.
+/// 1/√D of a quadratic D, from the previous pixel's value: no root and no division.
 ///
 /// ```text
-/// r ← r (3/2 − (D/2) r²),      e ← −(3/2) e² − e³/2        e the relative error
+/// r ← r (3/2 − (D/2) r²),      e ← −(3/2) e² − e³/2        with e the relative error
 /// ```
-/// The step is Newton's method for 1/r² − D = 0. Unlike that for the root ([`super::Newton`]) it divides by nothing, and diverges
-/// where D grows threefold at once: [`WarmSteps`] chooses.
-#[doc(hidden)]
+/// A step is Newton's method for 1/r² − D = 0. Unlike the step for the root ([`super::Newton`]) it
+/// has no division, and it diverges where D grows threefold at once. [`WarmSteps`] prevents that.
 #[derive(Clone, Copy, Debug)]
 pub struct WarmRsqrt<F> {
     square: Quadratic<F>,
@@ -18,11 +17,12 @@ pub struct WarmRsqrt<F> {
     steps: u32,
 }
 
-/// The most steps that are taken: three cost more than a root and a division.
+/// The most steps that are taken: three would cost more than a root and a division.
 const MOST: u32 = 2;
 
 impl<F: Num> WarmRsqrt<F> {
-    /// Follows 1/√D of a quadratic from `square` on, by as many steps.
+    /// Follows 1/√D of the quadratic `square`, whose first value is `first`, by `steps` steps per
+    /// pixel; 0 takes true roots.
     #[inline(always)]
     pub fn new(square: Quadratic<F>, first: F, steps: u32) -> Self {
         WarmRsqrt {
@@ -33,8 +33,7 @@ impl<F: Num> WarmRsqrt<F> {
     }
 }
 
-/// The largest changes of a normal that one and two steps follow.
-#[doc(hidden)]
+/// The rule that chooses how many steps a span takes: one, two, or true roots.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WarmSteps {
     /// `within[s]`: up to this δ², s + 1 steps leave no more than the largest error.
@@ -44,8 +43,9 @@ pub struct WarmSteps {
 impl WarmSteps {
     /// Makes the rule for a relative error of at most `largest_error`, E.
     ///
-    /// δ is how far a length may be from that of the pixel before, relative to the least length along the span. The guess is off
-    /// by `e_0 ≤ δ + E (1 + δ)`, and a step leaves at most 2 e² of an e of up to 1. So backwards from E: `e ← √(e/2)`.
+    /// δ is the largest distance of a length from the one of the previous pixel, relative to the
+    /// least length along the span. The guess has an error of `e_0 ≤ δ + E (1 + δ)`, and a step
+    /// leaves at most 2 e² of an e of up to 1. So backwards from E: `e ← √(e/2)`.
     pub fn new(largest_error: f32) -> Self {
         let mut within = [0.0; MOST as usize];
         let mut e = largest_error;
@@ -57,14 +57,15 @@ impl WarmSteps {
         WarmSteps { within }
     }
 
-    /// Chooses the steps for a span whose squared lengths are D = `square`, of which a step changes `growth` = ΔN·ΔN and `along` =
-    /// N·ΔN; 0 is a true root and a division.
+    /// Chooses the count of steps for a span that starts with the squared length D = `square`,
+    /// where `growth` = ΔN·ΔN and `along` = N·ΔN; 0 is a true root and a division.
     ///
     /// ```text
     /// D_min = D − min(0, N·ΔN)² / ΔN·ΔN,      δ² = ΔN·ΔN / D_min ≤ T      times ΔN·ΔN
     /// ```
     #[inline(always)]
     pub fn of_span<F: Num>(&self, square: F, along: F, growth: F) -> u32 {
+        // The length shrinks only where N·ΔN < 0; otherwise the least length is the first one.
         let room = square * growth - (along * along).gate(-along, 0.0);
         let growth = growth * growth;
         for (steps, within) in (1..).zip(self.within) {
@@ -77,7 +78,8 @@ impl WarmSteps {
 }
 
 impl<F: Num> WarmRsqrt<F> {
-    /// Steps from the root before to 1/√`square`; `see` sees the guess and what each step makes of it.
+    /// Returns 1/√`square`, starting from the previous pixel's value. Calls `see` with the guess
+    /// and the result of each step.
     #[inline(always)]
     fn next_root(&self, square: F, mut see: impl FnMut(F)) -> F {
         let half = square * 0.5;
@@ -103,7 +105,7 @@ impl<F: Num> Walk<F> for WarmRsqrt<F> {
         self.root = self.next_root(square, |_| ());
         self.root
     }
-    /// The guesses, the last of which is 1/d; none where roots are true.
+    /// Reports the guesses, the last of which is 1/d; none if roots are true.
     fn inside(&self, see: &mut dyn FnMut(&'static str, F)) {
         if self.steps > 0 {
             let mut square = self.square;

@@ -1,11 +1,11 @@
-//! Great circles between unit normals, by incremental sines and cosines.
+//! Great circles between unit normals, by incremental sines and cosines (L21 4.7–4.12).
 
 use super::Walk;
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::shading::walks::values::{Values, each};
 
-/// The weights of spherical linear interpolation, `sin((1−t)φ)` and `sin(tφ)`, stepped by the addition theorems: four additions
-/// and eight multiplications per step.
+/// The weights of spherical linear interpolation, `sin((1−t)φ)` and `sin(tφ)`, stepped by the
+/// addition theorems: four additions and eight multiplications per step.
 ///
 /// ```text
 /// sin((t + Δt)φ)     = sin(tφ) cos(Δtφ) + cos(tφ) sin(Δtφ)                 (L21 4.9)
@@ -14,7 +14,8 @@ use crate::shading::walks::values::{Values, each};
 /// cos((1 − t − Δt)φ) = cos((1−t)φ) cos(Δtφ) + sin((1−t)φ) sin(Δtφ)         (L21 4.12)
 /// ```
 ///
-/// Each step multiplies by a rotation whose entries are rounded: the amplitude drifts by at most about 2⁻²³ a step.
+/// Each step multiplies by a rotation whose entries are rounded, so the amplitude drifts by at most
+/// about 2⁻²³ per step.
 #[derive(Clone, Copy, Debug)]
 pub struct Sines<F> {
     /// sin tφ, cos tφ.
@@ -26,7 +27,7 @@ pub struct Sines<F> {
 }
 
 impl<R: Real> Sines<R> {
-    /// Starts at `t0` and goes on by `dt` a step, over the angle `phi` in radians.
+    /// Starts at `t0` and steps by `dt`, over the angle `phi` in radians.
     #[inline(always)]
     pub fn new(phi: R, t0: R, dt: R) -> Self {
         Sines {
@@ -44,6 +45,7 @@ impl<F: Num> Walk<F> for Sines<F> {
     #[inline(always)]
     fn next(&mut self) -> (F, F) {
         let here = (self.rest.0, self.t.0);
+        // All four lines below need the old values.
         let ((sin_t, cos_t), (sin_rest, cos_rest)) = (self.t, self.rest);
         let (sin_step, cos_step) = self.step;
         self.t.0 = sin_t * cos_step + cos_t * sin_step; // 4.9
@@ -60,46 +62,55 @@ impl<F: Num> Walk<F> for Sines<F> {
     }
 }
 
-/// The great circle from one unit normal to another, at uniform speed; or what is linear in its normals, as their products with
-/// constant vectors are.
+/// The great circle from one unit normal to another, at uniform speed. It can also follow values
+/// that are linear in the normal, as its products with constant vectors.
 ///
 /// ```text
 /// N(t) = sin((1−t)φ) / sin φ · N_1 + sin(tφ) / sin φ · N_2,      cos φ = N_1 · N_2      (L21 4.7, 4.8)
 /// ```
+///
+/// A method that starts it sets [`Needs::GREAT_CIRCLES`](crate::shading::Needs::GREAT_CIRCLES), so
+/// that edges follow great circles too, and keeps the polygon's normal,
+/// [`Corners::face`](crate::shading::Corners::face), as its constants.
 #[derive(Clone, Copy, Debug)]
 pub struct GreatCircle<F, V = Vec3<F>> {
     /// N_1 / sin φ.
-    pub from: V,
+    pub(crate) from: V,
     /// N_2 / sin φ.
-    pub to: V,
+    pub(crate) to: V,
     /// The weights of both.
-    pub sines: Sines<F>,
+    pub(crate) sines: Sines<F>,
 }
 
-/// Below this angle, in radians, the circle is replaced by its chord: the weights are those of this angle, which differ from
-/// linear ones by less than φ²/16, 6·10⁻⁸, about half a unit in the last place of an `f32`.
+/// The angle in radians below which the circle is replaced by its chord. The weights are then
+/// computed for this angle, and differ from linear ones by less than φ²/16 = 6·10⁻⁸, about half a
+/// unit in the last place of an `f32`.
 const SMALLEST_ANGLE: f32 = 1e-3;
-/// Beyond this angle (179°) the great circle is not defined by its ends: the polygon's normal takes its place.
+/// The angle (179°) beyond which the ends do not determine a great circle: the polygon's normal
+/// replaces it.
 pub(crate) const LARGEST_ANGLE: f32 = 179.0 * core::f32::consts::PI / 180.0;
 
 impl<R: Real> GreatCircle<R> {
-    /// Starts at `t0` between the unit normals `a` (t = 0) and `b` (t = 1) and goes on by `dt` a step. `face` is the unit normal
-    /// of the polygon.
+    /// Starts at `t0` between the unit normals `a` (t = 0) and `b` (t = 1), and steps by `dt`.
+    /// `face` is the polygon's unit normal.
     #[inline(always)]
     pub fn new(face: Vec3<R>, [a, b]: [Vec3<R>; 2], t0: R, dt: R) -> Self {
         let (sum, difference) = (a + b, b - a);
         let (cos_half, sin_half) = (sum.dot(sum).sqrt(), difference.dot(difference).sqrt());
-        // φ = cos⁻¹(N_1 · N_2) as printed loses half of its digits near 0 and near π; the half-angle form does not.
+        // φ = cos⁻¹(N_1 · N_2) as printed loses half of its digits near 0 and near π; the
+        // half-angle form does not.
         let half = sin_half.atan2(cos_half);
         let phi = half + half; // φ
         let (a, b, phi, sin_phi) = if phi.value() > LARGEST_ANGLE {
+            // Nearly opposite ends: the span has the polygon's normal everywhere.
             let phi = phi.broadcast(SMALLEST_ANGLE);
             (face, face, phi, phi)
         } else if phi.value() < SMALLEST_ANGLE {
             let phi = phi.broadcast(SMALLEST_ANGLE);
             (a, b, phi, phi)
         } else {
-            // sin φ = 2 sin(φ/2) cos(φ/2), and |b − a| = 2 sin(φ/2), |a + b| = 2 cos(φ/2) for unit vectors.
+            // sin φ = 2 sin(φ/2) cos(φ/2), and |b − a| = 2 sin(φ/2), |a + b| = 2 cos(φ/2) for unit
+            // vectors.
             (a, b, phi, sin_half * 0.5 * cos_half) // sin φ
         };
         let scale = phi.broadcast(1.0) / sin_phi;
@@ -112,12 +123,16 @@ impl<R: Real> GreatCircle<R> {
     }
 }
 
-/// The most pixels of a block.
+/// The largest width of a block.
 const MOST: usize = 16;
 
 impl<F: Num> GreatCircle<F> {
-    /// Starts at `t0` as [`GreatCircle::new`], at each pixel of a block: from the recurrence itself, one sine a run instead of one
-    /// a pixel; then with steps a block long.
+    /// Starts like [`GreatCircle::new`], but at each pixel of a block, and with steps a block long.
+    /// In [`Shader::walk`](crate::shading::Shader::walk) `ends` are
+    /// [`Span::ends`](crate::shading::Span::ends), the next argument is
+    /// [`Span::parameter`](crate::shading::Span::parameter), and `like` is
+    /// [`LightAt::zero`](crate::shading::LightAt::zero). The recurrence itself computes the other
+    /// lanes, because a sine per run is cheaper than one per pixel.
     #[inline(always)]
     pub fn start(
         face: Vec3<F::One>,
@@ -136,7 +151,8 @@ impl<F: Num> GreatCircle<F> {
             sines.next();
             *lane = sines;
         }
-        // The step of a block: eight turns of the step of a pixel, as three doublings.
+        // The step of a block: the step of a pixel, doubled log₂ `WIDTH` times by the formulas for
+        // double angles.
         for _ in 0..F::WIDTH.trailing_zeros() {
             (sin, cos) = (sin * cos * 2.0, cos * cos - sin * sin);
         }
@@ -158,7 +174,19 @@ impl<F: Num> GreatCircle<F> {
     }
 }
 
-/// Returns a vector at all pixels of a block.
+impl<F: Num> GreatCircle<F> {
+    /// Follows `of(N)` in place of the normal N. `of` must be linear.
+    #[inline(always)]
+    pub fn map<V>(self, of: impl Fn(Vec3<F>) -> V) -> GreatCircle<F, V> {
+        GreatCircle {
+            from: of(self.from),
+            to: of(self.to),
+            sines: self.sines,
+        }
+    }
+}
+
+/// Returns a vector in all lanes of a block.
 #[inline(always)]
 fn splat<F: Num>(v: Vec3<F::One>, like: F) -> Vec3<F> {
     vec3([
@@ -169,7 +197,7 @@ fn splat<F: Num>(v: Vec3<F::One>, like: F) -> Vec3<F> {
 }
 
 impl<F: Num, V: Values<F>> GreatCircle<F, V> {
-    /// Returns the unit normal here.
+    /// Returns the current unit normal, or the value that is linear in it.
     #[inline(always)]
     pub fn normal(&self) -> V {
         let (from, to) = (self.sines.rest.0, self.sines.t.0);

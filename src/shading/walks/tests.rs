@@ -1,12 +1,13 @@
 //! Compares every recurrence with its closed form: pixel by pixel, and in blocks by the methods'
 //! walk kernels.
 
+use super::sines::Sines;
 use super::*;
 use crate::number::test_random::Random;
 use crate::number::{Vec3, vec3};
 use std::vec::Vec;
 
-/// Half a unit in the last place of numbers near 1.
+/// Half a unit in the last place of values near 1.
 const HALF_ULP: f64 = 1.0 / (1u64 << 24) as f64;
 
 fn values<T: Into<f64>>(mut walk: impl Walk<f32, Pixel = T>, count: usize) -> Vec<f64> {
@@ -24,7 +25,7 @@ fn linear_follows_the_line() {
         let most = f64::from(at.abs()).max(f64::from(at + 2048.0 * step).abs());
         for (k, value) in values(Linear { at, step }, 2048).into_iter().enumerate() {
             let truth = f64::from(at) + k as f64 * f64::from(step);
-            // Each addition rounds by half a unit in the last place of a number of at most `most`.
+            // Each addition rounds by half a unit in the last place of a value of at most `most`.
             let bound = (k as f64 + 2.0) * HALF_ULP * 2.0 * most.max(1e-30);
             assert!(
                 (value - truth).abs() <= bound,
@@ -139,7 +140,8 @@ fn quadratic_drifts_by_three_roundings_per_step() {
     }
 }
 
-/// [`Cubic`] is as far from the cubic as documented, beside the roundings of its coefficients, and not much nearer.
+/// [`Cubic`] is as far from the cubic as documented, beside the roundings of its coefficients, and
+/// not much nearer.
 #[test]
 fn cubic_drifts_as_its_differences_do() {
     let mut random = Random::new(12);
@@ -232,7 +234,7 @@ fn newton_follows_the_root() {
         let truth = f64::from(n.dot(n)).sqrt();
         let (length, square) = walk.next();
         assert_eq!(square, n.dot(n));
-        // One step rounds four operations on numbers near 1. The correction is small, so this is 2
+        // One step rounds four operations on values near 1. The correction is small, so this is 2
         // half units.
         assert!(
             (f64::from(length) - truth).abs() <= 4.0 * HALF_ULP,
@@ -278,7 +280,7 @@ fn thresholds_separate_numbers_of_steps() {
                 "{} of {allowed:.0e}",
                 steps - 1
             );
-            // The root is a difference of numbers up to 200 times as large, rounded to 2⁻²⁴. A step
+            // The root is a difference of values up to 200 times as large, rounded to 2⁻²⁴. A step
             // back doubles it.
             let share = after(steps) / allowed;
             assert!(
@@ -417,7 +419,7 @@ fn opposite_normals_give_the_face_normal() {
 mod blocks {
     use super::*;
     use crate::mesh::Material;
-    use crate::number::Level;
+    use crate::number::SimdLevel;
     use crate::number::simd::BLOCK;
     use crate::scene::{Light, Lighting, Power};
     use crate::shading::light::Uniforms;
@@ -428,13 +430,14 @@ mod blocks {
     use std::vec;
 
     /// Returns the planes of the pixels that a method with one light walks along, by instruction
-    /// set. The run starts from two values of each varying, at `t0` with steps of `dt`. A run before it and one behind it must not affect it.
+    /// set. The run starts from two values of each varying, at `t0` with steps of `dt`. The runs
+    /// before and after it must not affect it.
     fn walked(
         method: &str,
         parameters: &[Value],
         ([first, second], [t0, dt]): ([&[f32]; 2], [f32; 2]),
         pixels: usize,
-    ) -> Vec<(Level, Vec<Vec<f32>>)> {
+    ) -> Vec<(SimdLevel, Vec<Vec<f32>>)> {
         let light = Light::directional(DVec3::Z, [1.0; 3]);
         let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
         let uniforms = [Uniforms::new(&lighting, Power::default(), 1.0)];
@@ -473,7 +476,7 @@ mod blocks {
             .kernels(1, false);
         let [_, planes, _] = (kernels.counts)(1);
         let (before, length) = (planes * BLOCK, pixels.next_multiple_of(BLOCK));
-        Level::available()
+        SimdLevel::available()
             .skip(1)
             .map(|level| {
                 let walk = (kernels.simd)(level)
@@ -554,7 +557,7 @@ mod blocks {
     }
 
     /// Returns the lengths that fast Phong computes.
-    fn lengths(n: Line, steps: u32, pixels: usize) -> impl Iterator<Item = (Level, Vec<f32>)> {
+    fn lengths(n: Line, steps: u32, pixels: usize) -> impl Iterator<Item = (SimdLevel, Vec<f32>)> {
         let start = start([0.0; 2], [0.0; 2], n);
         let start = (start.each_ref().map(|list| &list[..]), [f32::NAN; 2]);
         let all = walked("fast-phong", &[steps_of(steps)], start, pixels).into_iter();
@@ -587,7 +590,7 @@ mod blocks {
                 }
             }
         }
-        let none = Level::available().count() == 1;
+        let none = SimdLevel::available().count() == 1;
         assert!(
             none || most > allowed / 100.0,
             "some span comes near what is allowed: {most:.1e}"

@@ -1,4 +1,5 @@
-//! Groups of values: varyings, pixels, constants of a polygon. In the G-buffer a varying or pixel takes one place per value.
+//! Groups of values: varyings, pixels, a polygon's constants. In the G-buffer each value of a
+//! varying or pixel has its own place.
 
 use crate::number::{Num, Vec3};
 
@@ -6,13 +7,15 @@ use crate::number::{Num, Vec3};
 pub trait Values<F: Num>: Copy {
     /// Makes a group for `lights` lights whose values are all `value`.
     fn filled(lights: usize, value: F) -> Self;
-    /// Passes its values to `to` in order, to be read or changed, with indices from `next` on.
+    /// Passes the values to `to` in order, to be read or changed. Their indices begin at `next`,
+    /// which moves on.
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F));
     /// Replaces each value x by `of(x, y)`, where y is the value at the same index of `other`.
     fn zip(&mut self, other: Self, of: impl Fn(F, F) -> F + Copy);
 }
 
-/// Calls `to` with each index and value, and returns the changed group. A closure can be marked `#[inline(always)]` only as an argument.
+/// Calls `to` with the index and a reference of each value, and returns the changed group. It is a
+/// function because a closure can be marked `#[inline(always)]` only as an argument.
 #[inline(always)]
 pub(crate) fn each<F: Num, P: Values<F>>(mut value: P, mut to: impl FnMut(usize, &mut F)) -> P {
     value.each(&mut 0, &mut to);
@@ -27,13 +30,13 @@ pub(crate) fn count<P: Values<f32>>(lights: usize) -> usize {
     count
 }
 
-/// Returns a group times a factor, value by value.
+/// Returns a group whose values are multiplied by `factor`.
 #[inline(always)]
 pub(crate) fn scaled<F: Num, P: Values<F>>(group: P, factor: F) -> P {
     each(group, |_, value| *value = *value * factor)
 }
 
-/// Returns the sum of some groups.
+/// Returns the sum of groups, value by value.
 #[inline(always)]
 pub(crate) fn sum<F: Num, P: Values<F>, const N: usize>(all: [P; N]) -> P {
     let mut sum = all[0];
@@ -43,7 +46,7 @@ pub(crate) fn sum<F: Num, P: Values<F>, const N: usize>(all: [P; N]) -> P {
     sum
 }
 
-/// No value.
+/// The empty group.
 impl<F: Num> Values<F> for () {
     #[inline(always)]
     fn filled(_: usize, _: F) {}
@@ -88,7 +91,7 @@ impl<F: Num> Values<F> for F {
     }
 }
 
-/// Implements [`Values`] for a structure: its fields in order.
+/// Implements [`Values`] for a structure, with its fields in order.
 macro_rules! values {
     ([$($parameter:ident),*] $name:ty, { $($field:tt: $kind:ty),+ }, $make:expr) => {
         impl<F: Num, $($parameter: Values<F>),*> Values<F> for $name {
@@ -115,19 +118,21 @@ values!([] Vec3<F>, { x: F, y: F, z: F }, |x, y, z| Vec3 { x, y, z });
 values!([A, B] (A, B), { 0: A, 1: B }, |a, b| (a, b));
 values!([A, B, C] (A, B, C), { 0: A, 1: B, 2: C }, |a, b, c| (a, b, c));
 
-/// Up to this many lights are all stepped and stored, without a count, so that their values stay in registers.
+/// The most lights for which all places are stepped and stored, without a count, so that the values
+/// stay in registers.
 const MOST_UNROLLED: usize = 4;
 
-/// One value per light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
+/// One value per light, for up to `L` lights. Only the values of lights that exist are stored, or
+/// all `L` if they are few.
 #[derive(Clone, Copy, Debug)]
 pub struct PerLight<F, const L: usize> {
-    /// The value of each light; those after the last light are never shaded.
+    /// The value of each light. Values after the last light are never shaded.
     pub values: [F; L],
     pub(crate) count: usize,
 }
 
 impl<F: Copy, const L: usize> PerLight<F, L> {
-    /// Makes room for the values of `lights` lights, all of them `first`.
+    /// Makes the values for `lights` lights, all of them `first`.
     #[inline(always)]
     pub fn new(lights: usize, first: F) -> Self {
         PerLight {
@@ -167,7 +172,7 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// Stores a group for `lights` lights and loads it again; returns its values.
+    /// Stores a group for `lights` lights, loads it again, and returns its values.
     fn put_and_taken<P: Values<f32>>(lights: usize, value: P) -> Vec<f32> {
         let all = |value: P| {
             let mut all = Vec::new();
@@ -206,7 +211,7 @@ mod tests {
         assert!(put_and_taken(1, ()).is_empty());
     }
 
-    /// Up to 4 lights all places are stepped, of more lights those that exist.
+    /// With up to 4 lights all places are stepped; with more, only the places of lights that exist.
     #[test]
     fn there_is_a_value_for_each_light() {
         fn of<const L: usize>(lights: usize) -> Vec<f32> {

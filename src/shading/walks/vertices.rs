@@ -1,34 +1,44 @@
-//! What vertices carry: the varyings, which edges and spans interpolate. Most methods carry one of those here.
+//! The varyings of vertices, which edges and spans interpolate. Most methods use one of the types
+//! here.
 
 use crate::number::{Num, Vec3};
-use crate::shading::{Lit, PerLight, Values};
+use crate::shading::{LightAt, PerLight, Values};
 
-/// What a vertex carries. A method with other varyings implements this itself, and sets `type Carries = Self`.
+/// What a vertex carries. A method with other varyings implements this itself and sets
+/// `type Carries = Self`.
+///
+/// Vertex loops are compiled once per type, so methods with equal varyings share them. An engine
+/// interpolates every value of [`Carries::Varying`] linearly, on the screen or in perspective.
 pub trait Carries: 'static {
-    /// What it is made from: what engines get ready.
+    /// What the varyings are computed from, so what engines must prepare.
     const FROM: Carried = Carried::Lit;
     /// The varyings: values, vectors and tuples of them.
     type Varying<F: Num>: Values<F>;
-    /// The names of its values, in order, for traces: a name that ends in `_i` stands for a value of each light.
+    /// The names of the values of [`Carries::Varying`], in order, for traces. A name that ends in
+    /// `_i` stands for one value per light.
     const NAMES: &'static [&'static str] = &[];
-    /// Returns the varyings of a vertex with the unit normal `n`; once per polygon for methods that are lit there.
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
+    /// Returns the varyings of a vertex with the unit normal `n`. Methods that are lit once per
+    /// polygon call it once per polygon.
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
 }
 
-/// What varyings are made from.
+/// What varyings are computed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Carried {
-    /// The normal itself: an engine may borrow the frame's normals and skip the vertex pass.
+    /// Only the normal, which is carried unchanged: an engine may read the frame's normals and skip
+    /// the vertex pass.
     Normal,
-    /// The normal and light.
+    /// The normal and the light.
     Lit,
-    /// The normal and light, both in the frame of eye and first light (`light/eye_frame.rs`), in which z is toward the eye.
+    /// The normal and the light, both in the frame of eye and first light (`light/eye_frame.rs`),
+    /// where z points to the eye.
     Turned,
-    /// [`Lit::attributes`], too.
+    /// The normal, the light and the vertex's own values, [`LightAt::attributes`].
     Attributes,
 }
 
-/// N.
+/// The normal N.
 #[derive(Clone, Copy, Debug)]
 pub struct Normal;
 
@@ -38,13 +48,12 @@ impl Carries for Normal {
     const NAMES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+    fn vertex<F: Num>(_: &LightAt<'_, F>, n: Vec3<F>) -> Vec3<F> {
         n
     }
 }
 
-/// N in the frame of eye and first light.
-#[doc(hidden)]
+/// The normal N in the frame of eye and first light.
 #[derive(Clone, Copy, Debug)]
 pub struct TurnedNormal;
 
@@ -54,13 +63,12 @@ impl Carries for TurnedNormal {
     const NAMES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+    fn vertex<F: Num>(_: &LightAt<'_, F>, n: Vec3<F>) -> Vec3<F> {
         n
     }
 }
 
-/// J = L·N of up to `L` lights and K = V·N; N.
-#[doc(hidden)]
+/// The products J = L·N of up to `L` lights and K = V·N, then the normal N.
 #[derive(Clone, Copy, Debug)]
 pub struct ProductsAndNormal<const L: usize>;
 
@@ -69,13 +77,12 @@ impl<const L: usize> Carries for ProductsAndNormal<L> {
     const NAMES: &'static [&'static str] = &["J_i", "K", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
         (lit.products(n), n)
     }
 }
 
-/// N, position, 1/w.
-#[doc(hidden)]
+/// The normal N, the position P, and 1/w.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalAndPlace;
 
@@ -84,12 +91,12 @@ impl Carries for NormalAndPlace {
     const NAMES: &'static [&'static str] = &["Nx", "Ny", "Nz", "Px", "Py", "Pz", "w"];
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
         (n, lit.point(), n.x.broadcast(1.0))
     }
 }
 
-/// The colour of a vertex by equation 2.1, clamped.
+/// The colour by equation 2.1, clamped to 0..=1.
 #[derive(Clone, Copy, Debug)]
 pub struct Colour;
 
@@ -98,7 +105,7 @@ impl Carries for Colour {
     const NAMES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> Vec3<F> {
         lit.clamped(lit.shade(n)) // 2.1
     }
 }

@@ -1,8 +1,10 @@
-//! Charts of the sphere of normals in the frame of the eye, and how far what they interpolate is from Phong's normals.
+//! Charts of the sphere of normals in the frame of the eye, and how far the normals that they
+//! interpolate are from Phong's.
 //!
-//! A chart draws the sphere on a plane; a method interpolates there and goes back. All bounds are of the angle between the normal n that
-//! it finds and Phong's, P/|P| with P = Σ b_i N_i, for any weights b_i ≥ 0 of any number of corners. As in
-//! [`Extent`], |P| ≥ c for the least cosine c of the N_i with their mean direction.
+//! A chart maps the sphere to a plane. A method interpolates there and maps back. All bounds are
+//! bounds of the angle between the method's normal n and Phong's, P/|P| with P = Σ b_i N_i, for any
+//! weights b_i ≥ 0 of any count of corners. As in [`Extent`], |P| ≥ c for the least cosine c of the
+//! N_i with their mean direction.
 
 use crate::frame::{Frame, Polygon};
 use crate::scene::Place;
@@ -12,11 +14,13 @@ use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::DVec3;
 
-/// The normals of a polygon as its eye sees them.
+/// The normals of a polygon in the frame of its eye.
 pub(crate) struct FromEye {
-    /// The unit normals of the corners, z toward the eye. The ends of a cut edge stand for the corner that was made.
+    /// The unit normals of the corners, with z toward the eye. A corner that clipping made is
+    /// replaced by the ends of the edge that was cut.
     normals: Vec<DVec3>,
-    /// The least cosine of a normal with the mean direction of all: no mean of them is shorter.
+    /// The least cosine of a normal with the mean direction of all: no mean of the normals is
+    /// shorter.
     least_length: f64,
 }
 
@@ -52,27 +56,32 @@ impl FromEye {
         }
     }
 
-    /// Bounds the angle between the normal of a chart and Phong's, in radians; π where nothing is known.
+    /// Returns a bound of the angle between the normal of a chart and Phong's, in radians; π where
+    /// no bound is known.
     ///
-    /// Let u_i = (x, y)/(1 + z) be the stereographic points of the corners, and g the way back. Both charts find n = g(a) with a = Σ b'_i u_i:
-    /// b' = b, or b'_i = b_i √κ_i / Σ for half vectors, which are (u_i, 1) √κ_i, where κ = 1/(1 + |u|²) = (1 + z)/2. Turn the sphere so
-    /// that n is at the eye. With d_i = u_i − a as complex numbers, N_i is then drawn at w_i = d_i/(1 + ā u_i), and its part across n is
+    /// Let u_i = (x, y)/(1 + z) be the stereographic points of the corners, and g the map back.
+    /// Both charts return n = g(a) with a = Σ b'_i u_i. For the stereographic chart b' = b. Half
+    /// vectors are (u_i, 1) √κ_i with κ = 1/(1 + |u|²) = (1 + z)/2, so b'_i = b_i √κ_i / Σ. Turn
+    /// the sphere so that n is at the eye. With d_i = u_i − a as complex numbers, N_i then has the
+    /// point w_i = d_i/(1 + ā u_i), and its part across n is
     ///
     /// ```text
     /// 2 w/(1 + |w|²) = 2 κ_i (d_i + a |d_i|²/(1 + |a|²))
     /// ```
     ///
-    /// Their sum with weights b_i is |P| times the sine of the angle. Of the first term, Σ b'_i d_i = 0 leaves the differences of κ_i
-    /// (or √κ_i) to any constant, half of their range at most; of the second, 2 |a|/(1 + |a|²) ≤ σ, the sine of the largest
-    /// angle of a normal and the eye. With all u_i within R of one point the mean of |d_i|² is R² at most, that of |d_i| R:
+    /// The sum of these parts with weights b_i is |P| times the sine of the angle. In the first
+    /// term, Σ b'_i d_i = 0 leaves the differences of κ_i (or √κ_i) from any constant, at most half
+    /// of their range. In the second, 2 |a|/(1 + |a|²) ≤ σ, the sine of the largest angle between a
+    /// normal and the eye. With all u_i within R of one point, the mean of |d_i|² is at most R²,
+    /// and that of |d_i| at most R:
     ///
     /// ```text
     /// c sin ≤ (κ_max − κ_min) R + σ κ_max R²              stereographic
     /// c sin ≤ (√κ_max − √κ_min) √κ_max R + σ κ_max R²     half vectors
     /// ```
     ///
-    /// The angle is below 90° where n·N_i = 1 − 2 |d_i|² κ_i κ(a) > 0 for all: there |d_i| ≤ 2 R, and no κ is over that of the point nearest
-    /// the eye.
+    /// The angle is below 90° where n·N_i = 1 − 2 |d_i|² κ_i κ(a) > 0 for all i: there |d_i| ≤ 2 R,
+    /// and no κ exceeds the κ of the point nearest the eye.
     pub fn angle(&self, chart: Chart) -> f64 {
         let drawn = |n: &DVec3| n.truncate() / (1.0 + n.z);
         let points: Vec<_> = self.normals.iter().map(drawn).collect();
@@ -85,7 +94,7 @@ impl FromEye {
         let least = kappa(furthest);
         let highest = self.normals.iter().map(|n| n.z).fold(-1.0, f64::max);
         let greatest = (1.0 + highest) / 2.0;
-        // A normal opposite to the eye has no place.
+        // A normal opposite to the eye has no point.
         let is_small = middle.is_finite() && 8.0 * libm::pow(radius * kappa(nearest), 2.0) < 1.0;
         if !(is_small && self.least_length > 0.0) {
             return PI;
@@ -102,17 +111,19 @@ impl FromEye {
         libm::asin(sine.min(1.0))
     }
 
-    /// Returns the angle between the normal of a map and Phong's, at most, in radians. A map is orthographic: it interpolates x and y, which
-    /// are those of P, and is off by `rounding` there.
+    /// Returns a bound of the angle between the normal of a map and Phong's, in radians. A map is
+    /// an orthographic chart: it interpolates x and y, which equal those of P up to an error of
+    /// `rounding`.
     ///
-    /// Both normals lean from the eye in the same direction, Phong's by θ, where sin θ = r/|P|, and the map's by sin⁻¹ r = sin⁻¹(|P| sin θ).
-    /// The difference grows with θ and with 1/|P|:
+    /// Both normals lean from the eye in the same direction: Phong's by θ with sin θ = r/|P|, the
+    /// map's by sin⁻¹ r = sin⁻¹(|P| sin θ). The difference grows with θ and with 1/|P|, so it is at
+    /// most
     ///
     /// ```text
     /// Θ − sin⁻¹(c sin Θ),     cos Θ = min z_i, or min z_i / c where that is negative
     /// ```
     ///
-    /// as P_z ≥ min z_i. Where r is near 1 a rounding e moves the map's normal by cos⁻¹(1 − e).
+    /// as P_z ≥ min z_i. Where r is near 1, a rounding e moves the map's normal by cos⁻¹(1 − e).
     pub fn angle_of_map(&self, rounding: f64) -> f64 {
         let c = self.least_length;
         let lowest = self.normals.iter().map(|n| n.z).fold(1.0, f64::min);
@@ -131,7 +142,7 @@ impl FromEye {
     }
 }
 
-/// Returns the error of cosines of unit vectors at most this angle apart.
+/// Returns the error of cosines of unit vectors that are at most this angle apart, in radians.
 pub(crate) fn of_angle(angle: f64) -> Approximation {
     Approximation {
         cosine: 2.0 * libm::sin(angle.min(PI) / 2.0),
@@ -144,7 +155,7 @@ mod tests {
     use super::*;
     use crate::number::test_random::Random;
 
-    /// Returns what a chart makes of normals with weights, z toward the eye.
+    /// Returns the normal that a chart interpolates between normals with weights, z toward the eye.
     fn through(chart: Option<Chart>, normals: &[DVec3], weights: &[f64]) -> DVec3 {
         let sum = |of: &dyn Fn(&DVec3) -> DVec3| -> DVec3 {
             let terms = normals.iter().zip(weights);
@@ -161,8 +172,8 @@ mod tests {
         }
     }
 
-    /// Random polygons of normals, near the eye and far from it, with random weights: no normal is farther from Phong's than
-    /// stated, and some are nearly as far.
+    /// Random polygons of normals, near the eye and far from it, with random weights: no normal is
+    /// farther from Phong's than stated, and some are nearly as far.
     #[test]
     fn no_normal_is_farther_from_phongs_than_stated() {
         let charts = [None, Some(Chart::Stereographic), Some(Chart::HalfVectors)];
@@ -222,7 +233,7 @@ mod tests {
         }
     }
 
-    /// Where nothing is known the bound says so, and is a number.
+    /// Where nothing is known, the bound is π and not NaN.
     #[test]
     fn a_normal_behind_the_back_of_the_eye_has_no_bound() {
         let normals = [DVec3::Z, DVec3::NEG_Z, DVec3::X];

@@ -1,5 +1,5 @@
-//! Half-reflection: a normal is the reflection of a span's first normal in a vector half-way, and needs no root (Hast, Barrera, Bengtsson
-//! 2001).
+//! Half-reflection: a normal is the reflection of a span's first normal in a vector half-way, so it
+//! needs no root (Hast, Barrera, Bengtsson 2001).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3, vec3};
@@ -8,40 +8,46 @@ use crate::shading::bounds::polygon_ranges::{for_each_end, wide};
 use crate::shading::methods::angles::chart_errors::of_angle;
 use crate::shading::walks::{Linear, Quadratic, Walk};
 use crate::shading::{
-    Approximation, Family, Info, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span,
+    Approximation, Family, Info, LightAt, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span,
     Spans, Stepped, Values,
 };
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::DVec3;
 
-/// Half-reflection, for up to `L` lights. The reflection of a unit vector in any vector M is a unit vector, and M may have any length:
+/// Half-reflection, for up to `L` lights. The reflection of a unit vector in a vector M is a unit
+/// vector, whatever the length of M:
 ///
 /// ```text
 /// n(t) = q M − N_1,   q = 2 (M·N_1)/(M·M),        M from N_1 to the bisector of N_1 and N_2
-/// J = L·n = q L·M − L·N_1,   K likewise
+/// J = L·n = q L·M − L·N_1,   K = V·n = q V·M − V·N_1
 /// ```
 ///
-/// n turns by twice the angle of M: it is N_1 at the first end and N_2 at the other one. Along a span M·N_1 and the products of M are
-/// linear, and M·M is a quadratic: one division a pixel and no root.
+/// n turns by twice the angle of M: it is N_1 at the first end and N_2 at the other. Along a span
+/// M·N_1 and the products of M are linear, and M·M is a quadratic. A pixel takes one division and
+/// no root.
 ///
-/// N_1 and N_2 are the unit normals at the ends of a span between linear edges, whose normals are shorter, or weighted by perspective. M
-/// begins and ends as long as these: so weights cancel as in Phong shading, and the middle of n is Phong's.
+/// N_1 and N_2 are the unit normals at the ends of a span. Its edges interpolate linearly, so the
+/// carried normals there are shorter than 1, or weighted by perspective. M begins and ends with
+/// their lengths, so weights cancel as in Phong shading, and the middle of n is Phong's.
 ///
-/// **Its error.** With φ the angle of the ends, h its half, and s the weight of the second end over that of the first, n is at
-/// the angle on the left from N_1, and Phong's normal on the right:
+/// **Its error.** Let φ be the angle of the ends, h its half, and s the weight of the second end
+/// over the weight of the first. From N_1 to n is the angle on the left, to Phong's normal the
+/// angle on the right:
 ///
 /// ```text
 /// 2 tan⁻¹(s sin h / (1 + s cos h)),       tan⁻¹(s sin φ / (1 + s cos φ))
 /// ```
 ///
-/// They are farthest apart where their derivatives by s agree, `s + 1/s = 2 (1 + cos h)`; at s = 1 they cross. Both grow with φ by a
-/// function `s (s + x)/(1 + 2 s x + s²)` of x = cos h and x = cos φ, which for s < 1 grows with x: the difference grows with φ. As for
-/// φ, two means A, B of normals that enclose 90° at most have `A·B ≥ min N_i·N_j` and |A|, |B| ≤ 1, so that they enclose no more than
-/// the two normals furthest apart.
+/// They differ most where their derivatives by s agree, `s + 1/s = 2 (1 + cos h)`; at s = 1 they
+/// cross. Both grow with φ by a function `s (s + x)/(1 + 2 s x + s²)` of x = cos h and x = cos φ.
+/// For s < 1 this function grows with x, so the difference grows with φ. A bound of φ: two means A,
+/// B of normals that enclose at most 90° have `A·B ≥ min N_i·N_j` and |A|, |B| ≤ 1, so they enclose
+/// no more than the two normals furthest apart.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HalfReflection<const L: usize>;
 
-/// Returns the largest angle between half-reflection and Phong's normals between ends that enclose `phi`.
+/// Returns the largest angle between normals by half-reflection and Phong's normals, between ends
+/// that enclose `phi`. In radians.
 fn angle(phi: f64) -> f64 {
     let (sin, cos) = libm::sincos(phi);
     let (sin_half, cos_half) = libm::sincos(phi / 2.0);
@@ -51,7 +57,7 @@ fn angle(phi: f64) -> f64 {
     (2.0 * half - libm::atan2(s * sin, 1.0 + s * cos)).abs()
 }
 
-/// Bounds the error of half-reflection on a polygon.
+/// Returns a bound of the error of half-reflection on a polygon.
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let mut normals = alloc::vec::Vec::new();
     for_each_end(frame, frame.corners(polygon), &mut |v| {
@@ -61,7 +67,7 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     of_angle(if phi <= FRAC_PI_2 { angle(phi) } else { PI })
 }
 
-/// Returns the largest angle between two of some unit normals.
+/// Returns the largest angle between two of the unit normals, in radians.
 fn widest(normals: &[DVec3]) -> f64 {
     let mut most = 0.0;
     for (i, a) in normals.iter().enumerate() {
@@ -82,22 +88,22 @@ impl<const L: usize> Shader for HalfReflection<L> {
         name: "half-reflection",
         ids: &["M14"],
         family: Family::Angles,
-        title: "the first normal of a span, reflected in a vector half-way: of unit length without a root",
+        title: "the first normal of a span, reflected in a vector half-way: unit length without a root",
         formula: "n(t) = q M - N1, q = 2 (M.N1) / (M.M);  M_next = M + dM, from N1 to the bisector of N1 and N2\n\
-                  J = q L.M - L.N1, K likewise;  I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
+                  J = q L.M - L.N1, K = q V.M - V.N1;  I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
         source: "Hast, Barrera, Bengtsson 2001",
         model: Model::PhongConstant,
         roundings: Roundings::new(32.0, 8.0, Stepped::Products),
-        derivation: "M.N1, L.M and V.M are each rounded by half of 2^-24 at each step, M.M by 3 as in duff-phong, and the reflection doubles \
+        derivation: "each step rounds M.N1, L.M and V.M by half of 2^-24 and M.M by 3 times that, as in duff-phong, and the reflection doubles \
                      both; ends of spans are normalised twice, and their products take 5 roundings each",
         approximation: |frame, polygon, _| approximation(frame, polygon),
-        fails: "where the ends of a span turn by more than 45 degrees; on triangles the picture depends on how they lie",
+        fails: "where the ends of a span turn by more than 45 degrees; the picture of a triangle depends on how it lies",
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         scalar_only: Some(
-            "half-reflection walks along spans, and a block of pixels normalises cheaper than it starts one",
+            "half-reflection sets up each span, which costs a block of pixels more than normalising it",
         ),
         ..Needs::PIXELS_BY_POLYGON
     };
@@ -107,7 +113,7 @@ impl<const L: usize> Shader for HalfReflection<L> {
     const VALUES: &'static [&'static str] = &["J_i", "K"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> HalfWalk<F, L> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> HalfWalk<F, L> {
         let ([a, b], [t0, dt]) = (span.ends(), span.parameter());
         let zero = lit.zero();
         let at = |v: Vec3<F::One>| {
@@ -136,21 +142,21 @@ impl<const L: usize> Shader for HalfReflection<L> {
         }
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
         lit.shade_products(products)
     }
 }
 
-/// Products of the unit normals of a half-reflection.
+/// The products of the unit normals along a span, by half-reflection.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfWalk<F, const L: usize> {
     /// M·N_1.
     along: Linear<F>,
     /// M·M.
     square: Quadratic<F>,
-    /// L·M of each light, V·M.
+    /// L·M of each light, and V·M.
     products: Linear<Products<F, L>>,
-    /// L·N_1 of each light, V·N_1.
+    /// L·N_1 of each light, and V·N_1.
     first: Products<F, L>,
 }
 
@@ -173,8 +179,9 @@ mod tests {
     use crate::number::test_random::Random;
     use std::vec::Vec;
 
-    /// Spans between random means of random polygons: the reflection is no farther from Phong's normal than stated, and nearly as
-    /// far somewhere; it is a unit vector from one end to the other.
+    /// Spans between random means of random polygons: the reflection is no farther from Phong's
+    /// normal than stated, and somewhere nearly as far; it is a unit vector from one end to the
+    /// other.
     #[test]
     fn no_reflection_is_farther_from_phongs_normal_than_stated() {
         let mut random = Random::new(14);
@@ -215,11 +222,12 @@ mod tests {
             }
         }
         assert!(nearest > 0.8, "{nearest}");
-        // The table of the catalogue: four times nearer to the great circle than Phong's is 0.134 degrees at 30, of which this is the most.
+        // The table of the catalogue: four times nearer to the great circle than Phong's is 0.134
+        // degrees at 30, of which this is the most.
         assert!(angle(30f64.to_radians()).to_degrees() < 0.134);
     }
 
-    /// The bound grows with the angle, as is derived.
+    /// The bound grows with the angle, as derived.
     #[test]
     fn the_bound_grows_with_the_angle() {
         let all = (0..=900).map(|i| angle(f64::from(i) / 900.0 * FRAC_PI_2));

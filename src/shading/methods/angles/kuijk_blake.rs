@@ -1,4 +1,5 @@
-//! Angular interpolation: along a great circle all cosines are those of angles that grow evenly (Kuijk, Blake 1989).
+//! Angular interpolation: along a great circle, all cosines are those of angles that grow evenly
+//! (Kuijk, Blake 1989).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3};
@@ -9,22 +10,25 @@ use crate::shading::light::powers::power_by_call;
 use crate::shading::methods::angles::slerp_phong::SlerpPhong;
 use crate::shading::walks::{Constant, LARGEST_ANGLE, Linear};
 use crate::shading::{
-    Approximation, Corners, Family, Fit, Info, Lit, Needs, Normal, On, PerLight, Pixel, Roundings,
-    Shader, Span, Stepped, Value,
+    Approximation, Corners, Family, Fit, Info, LightAt, Needs, Normal, On, PerLight, Pixel,
+    Roundings, Shader, Span, Stepped, Value,
 };
 
-/// Angular interpolation for highlights by the half vector, for up to `L` lights. Let m be the normal in the middle of a span, e the
-/// unit vector across it in the plane of the great circle, and φ the angle of the span. Whatever is not in that plane does not matter:
+/// Angular interpolation for highlights by the half vector, for up to `L` lights. Let m be the
+/// normal in the middle of a span, e the unit vector across it in the plane of the great circle,
+/// and φ the angle of the span. Only the parts of L and H in that plane matter:
 ///
 /// ```text
 /// N = m cos α + e sin α,       α = (t − ½) φ
-/// L·N = p cos(α − ψ),          p cos ψ = L·m,   p sin ψ = L·e;       H·N likewise
+/// L·N = p cos(α − ψ),          p cos ψ = L·m,   p sin ψ = L·e;       H·N in the same way
 /// ```
 ///
-/// So an angle takes one addition a pixel, and the cosine one read of a table, over the square of the angle, of which it is a smooth
-/// function. ψ is at most 180° and α at most 90°: beyond 90° the cosine is not over 0 anywhere.
+/// An angle thus takes one addition per pixel. The cosine takes one read of a table over the square
+/// of the angle, of which it is a smooth function. ψ is at most 180° and α at most 90°; beyond 90°
+/// the cosine is nowhere over 0.
 ///
-/// **Powers of cosines** are three parabolas, with two constants of the exponent n:
+/// **Powers of cosines** are approximated by three parabolas, with two constants that depend on the
+/// exponent n:
 ///
 /// ```text
 /// cosⁿ x ≈ 1 − x²/(ab)             |x| < a              a = (n + 5.6)/(n (0.09 n + 5.2))
@@ -32,8 +36,9 @@ use crate::shading::{
 ///          0                       elsewhere
 ///        = ((b − |x|)₊² / b − (a − |x|)₊² / a) / (b − a)
 /// ```
-/// with ₊ for what is over 0: the two parabolas and their slopes agree at a. Kuijk's constants of 1991 are those; in the paper they
-/// are mixed up. The power of p itself is taken once a span. [`fit_error`] says how far they are from the power.
+/// where ₊ replaces negative values by 0. The two parabolas and their slopes agree at a. These are
+/// Kuijk's constants of 1991; the paper of 1989 mixes them up. The power of p itself is computed
+/// once per span. [`fit_error`] is the error of the parabolas.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct KuijkBlake<const L: usize> {
     a: f32,
@@ -46,13 +51,15 @@ pub struct KuijkBlake<const L: usize> {
 /// The steps of the table of cosines, from 0 to the square of 90°.
 const STEPS: usize = 1024;
 const LARGEST_SQUARE: f64 = core::f64::consts::FRAC_PI_2 * core::f64::consts::FRAC_PI_2;
-/// cos √x. Between two entries a line is off by at most a quarter of 2⁻²²: the second derivative is 1/12 at most.
+/// cos √x. Between two entries a line has an error of at most a quarter of 2⁻²², because the second
+/// derivative is at most 1/12.
 static COSINES: [f32; STEPS + 1] = cosines();
 
-/// Ends of a span nearer than this have one normal: it is a few roundings of theirs.
+/// The angle between the ends of a span, in radians, below which they have one normal: it is a few
+/// of their roundings.
 const LEAST_ANGLE: f32 = 1e-6;
 
-/// Computes the table, by the series of the cosine: its 12 terms leave less than 10⁻¹⁸.
+/// Computes the table by the series of the cosine, whose 12 terms leave less than 10⁻¹⁸.
 const fn cosines() -> [f32; STEPS + 1] {
     let mut table = [0.0; STEPS + 1]; // of 90° too
     let mut i = 0;
@@ -69,7 +76,7 @@ const fn cosines() -> [f32; STEPS + 1] {
     table
 }
 
-/// Returns a and b of an exponent.
+/// Returns a and b for an exponent.
 fn constants(n: f64) -> [f64; 2] {
     [
         (n + 5.6) / (n * (0.09 * n + 5.2)),
@@ -77,8 +84,9 @@ fn constants(n: f64) -> [f64; 2] {
     ]
 }
 
-/// Bounds the difference between the parabolas and the power of a cosine, for exponents from 1 on: below 0.056, from 4 to 80 below
-/// 0.0235, then growing with the logarithm of n. A test searches all angles.
+/// Returns a bound of the difference between the parabolas and the power of a cosine, for exponents
+/// from 1 on: below 0.056, from 4 to 80 below 0.0235, then growing with the logarithm of n. A test
+/// searches all angles.
 fn fit_error(n: f64) -> f64 {
     match n {
         _ if n < 4.0 => 0.056,
@@ -87,13 +95,13 @@ fn fit_error(n: f64) -> f64 {
     }
 }
 
-/// States the error of highlights: that of the parabolas, of all lights in the brightest channel.
+/// Returns the error of highlights: the parabolas' error, for all lights in the brightest channel.
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let lighting = &frame.lightings()[polygon.material as usize];
     let lights = &lighting.lights;
     let sum = |c: usize| lights.iter().map(|l| f64::from(l.specular[c])).sum::<f64>();
     let most = [0, 1, 2].map(sum).into_iter().fold(0.0, f64::max);
-    // Near such a light nothing is said of its strength.
+    // Near a light of this falloff its strength has no bound.
     let is_strong = |falloff| matches!(falloff, Falloff::InverseSquare | Falloff::Inverse);
     let colour = match lights.iter().any(|light| is_strong(light.falloff)) {
         true => 1.0,
@@ -112,7 +120,7 @@ impl<const L: usize> Shader for KuijkBlake<L> {
         name: "kuijk-blake",
         ids: &["M13"],
         family: Family::Angles,
-        title: "angles along great circles by one addition each, cosines from a table, and their powers by three parabolas",
+        title: "angles along great circles by one addition each, cosines from a table, and powers by three parabolas",
         formula: "L.N = p cos x, x_next = x + d, d the angle of a pixel;  N.H = q cos y, y_next = y + d\n\
                   I = Ia ka + Ip kd p cos x + Ip ks q^n f(y);  f(y) = (max(0, b - |y|)^2 / b - max(0, a - |y|)^2 / a) / (b - a)\n\
                   a = (n + 5.6) / (n (0.09 n + 5.2));  b = (n + 65) / (5 n + 31.7)",
@@ -120,17 +128,17 @@ impl<const L: usize> Shader for KuijkBlake<L> {
         claimed: "two additions a pixel, in the most economic of its two forms",
         model: Model::Slerp,
         roundings: Roundings::new(40.0, 2.1, Stepped::GreatCircles),
-        derivation: "angles are rounded by 2^-23 at each step while they are below 4, and those of edges as in slerp-phong; both inverse \
+        derivation: "each step rounds angles by 2^-23 while they are below 4, and those of edges as in slerp-phong; both inverse \
                      tangents, roots and products of a span take 30, the table 4",
         approximation: |frame, polygon, _| approximation(frame, polygon),
-        fails: "under exponents over 100, which the parabolas do not follow; on short spans, which pay two inverse tangents, two roots and \
-                a power a light; as slerp-phong, on triangles",
+        fails: "for exponents over 100, which the parabolas do not follow; on short spans, which pay two inverse tangents, two roots and \
+                a power per light; as slerp-phong, on triangles",
         has_power: false,
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs {
         general_only: true,
-        scalar_only: Some("kuijk-blake reads tables, which a block of pixels does one by one"),
+        scalar_only: Some("kuijk-blake reads tables, which a block of pixels must do one by one"),
         ..SlerpPhong::<L>::NEEDS
     };
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
@@ -141,10 +149,10 @@ impl<const L: usize> Shader for KuijkBlake<L> {
     fn on(on: On<'_>) -> Fit {
         on.each(|lighting, _| {
             if lighting.specular != SpecularModel::Blinn {
-                return Some("it follows the angle of N.H, and these highlights are R.V");
+                return Some("its highlights are by N.H, not by R.V");
             }
             let is_low = lighting.shininess < 1.0;
-            is_low.then_some("its parabolas are for exponents from 1 on")
+            is_low.then_some("its parabolas need an exponent of 1 or more")
         })
     }
     #[inline(always)]
@@ -159,11 +167,11 @@ impl<const L: usize> Shader for KuijkBlake<L> {
         }
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+    fn polygon<R: Real>(self, _: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
         polygon.face
     }
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let ([from, to], [t0, dt]) = (span.ends(), span.parameter());
         let (sum, difference) = (from + to, to - from);
         let (cos, sin) = (sum.dot(sum).sqrt(), difference.dot(difference).sqrt());
@@ -173,7 +181,8 @@ impl<const L: usize> Shader for KuijkBlake<L> {
             true => (span.constants(), difference * 0.0, half * 0.0),
             false => {
                 let middle = sum * (one / cos);
-                // Of ends that are nearly the same normal the difference is all rounding, and in any direction, that of the middle too.
+                // If both ends have nearly the same normal, their difference is all rounding and
+                // has any direction, even along the middle.
                 let across = difference - middle * difference.dot(middle);
                 let length = across.dot(across).sqrt();
                 let over = (one / length.max(LEAST_ANGLE)).gate(length, LEAST_ANGLE);
@@ -195,7 +204,7 @@ impl<const L: usize> Shader for KuijkBlake<L> {
                     (here - p_sin.atan2(p_cos), size) // α − ψ, p
                 },
             );
-            // No power of a cosine up to the faintest that is seen is subnormal; less is none.
+            // Powers of cosines up to `faint` may be subnormal and are not seen: they become 0.
             let faint = lit.model.faint;
             let least = size_of_highlight.max(faint);
             let power = power_by_call(lit.model.exponent, least, &[]).gate(least, faint); // pⁿ
@@ -212,12 +221,13 @@ impl<const L: usize> Shader for KuijkBlake<L> {
         (angles, Constant(sizes))
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
         const SCALE: f32 = (STEPS as f64 / LARGEST_SQUARE) as f32;
         let ((angles, angles_of_highlights), (sizes, powers)) = pixel;
         let mut colour = lit.ambient();
         for light in lit.lights() {
             let x = angles.values[light.index];
+            // The square is clamped to the end of the table, whose entry, at 90°, is 0.
             let place = -((-(x * x * SCALE)).max(-(STEPS as f32)));
             let l_n = place.lookup(&COSINES) * sizes.values[light.index];
             let highlight = self.power(angles_of_highlights.values[light.index]);
@@ -234,9 +244,10 @@ impl<const L: usize> Shader for KuijkBlake<L> {
 }
 
 impl<const L: usize> KuijkBlake<L> {
-    /// Returns the power of the cosine of an angle, by three parabolas.
+    /// Returns the power of an angle's cosine, by three parabolas.
     #[inline(always)]
     fn power<F: Num>(self, angle: F) -> F {
+        // |x|, from the only maximum that the arithmetic has.
         let angle = angle.max(0.0) + (-angle).max(0.0);
         let (wide, narrow) = ((-angle + self.b).max(0.0), (-angle + self.a).max(0.0));
         wide * wide * self.over_b - narrow * narrow * self.over_a
@@ -248,7 +259,7 @@ mod tests {
     use super::*;
     use core::f64::consts::FRAC_PI_2;
 
-    /// The table is the cosine to less than its stated error, and 0 at a right angle.
+    /// The table differs from the cosine by less than its stated error, and is 0 at a right angle.
     #[test]
     fn the_table_is_the_cosine() {
         let mut most = 0.0f64;
@@ -262,7 +273,8 @@ mod tests {
         assert_eq!(Num::lookup(STEPS as f32, &COSINES), 0.0);
     }
 
-    /// The parabolas are no farther from the power than stated, which is less than five times as much.
+    /// The parabolas are no farther from the power than stated, and at some angle more than a fifth
+    /// as far.
     #[test]
     fn parabolas_are_as_near_to_the_power_as_stated() {
         let mut n = 1.0;

@@ -1,4 +1,4 @@
-//! Interpolation of angles, or by another chart of the sphere.
+//! Methods that interpolate angles, or the coordinates of another chart of the sphere of normals.
 
 pub(crate) mod chart_errors;
 pub(crate) mod half_reflection;

@@ -1,4 +1,4 @@
-//! Phong maps: a picture of a lit ball, read at the x and y of the normal, as demos had it.
+//! Phong maps: a picture of a lit ball, read at the x and y of the normal, as demos did it.
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
@@ -7,23 +7,24 @@ use crate::shading::bounds::polygon_ranges::Extent;
 use crate::shading::light::eye_frame;
 use crate::shading::methods::angles::chart_errors::{FromEye, of_angle};
 use crate::shading::{
-    Approximation, Carried, Carries, Family, Info, Linear, Lit, Needs, Perspective, Pixel,
-    Roundings, Shader, Span, Standing, Stepped,
+    Approximation, Carried, Carries, Family, Info, LightAt, Linear, Needs, Perspective, Pixel,
+    Roundings, Shader, Span, Stepped, Tier,
 };
 
-/// A Phong map of unlimited resolution: N_x and N_y are interpolated in the frame whose z is toward the eye, and a pixel has the colour
-/// of the ball's picture there, that of
+/// A Phong map of unlimited resolution. N_x and N_y are interpolated in the frame whose z points to
+/// the eye. A pixel has the colour of the ball's picture there, which is the colour of
 ///
 /// ```text
 /// N = (N_x, N_y, √max(0, 1 − N_x² − N_y²))
 /// ```
 ///
-/// A demo reads that colour from a table. Here a root stands in its place, so that no error is the table's. [`FromEye::angle_of_map`] derives
-/// how far the normal is from Phong's.
+/// A demo reads this colour from a table. Here a root takes its place, so that the picture has no
+/// errors of a table. [`FromEye::angle_of_map`] derives the distance of the normal from Phong's.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhongMap;
 
-/// Bounds the error of a map on a polygon. At the ball's rim roundings of N_x and N_y count for more: two at each step, and 16 before.
+/// Returns a bound of the error of a map on a polygon. At the ball's rim roundings of N_x and N_y
+/// count for more: two per step, and 16 before.
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let extent = Extent::of(frame, polygon);
     let rounding = (16.0 + 2.0 * extent.steps) * extent.weights / (1u64 << 24) as f64;
@@ -35,16 +36,16 @@ impl Shader for PhongMap {
         name: "phong-map",
         ids: &["M18"],
         family: Family::Angles,
-        standing: Standing::Exhibit,
+        tier: Tier::Exhibit,
         title: "x and y of the normal, interpolated, as a place on the picture of a lit ball",
         formula: "Nx_next = Nx + dNx;  Ny_next = Ny + dNy, z toward the eye;  Nz = sqrt(max(0, 1 - Nx^2 - Ny^2));  eq 2.1",
         source: "Elias; Hammersley 1997, with a root in place of the table",
         model: Model::PhongConstant,
         roundings: Roundings::new(24.0, 2.5, Stepped::Cosines),
-        derivation: "a turned normal takes 4 roundings, z, J and K 9, and two numbers half of 2^-24 each at a step; under perspective \
-                     so does a weight; what is more at the rim of the ball is part of the error by design",
+        derivation: "a turned normal takes 4 roundings, z, J and K 9; each step rounds both values by half of 2^-24, and under perspective \
+                     the weight; roundings that grow at the rim of the ball are part of the error by design",
         approximation: |frame, polygon, _| approximation(frame, polygon),
-        fails: "back faces are lit like front faces; between corners far apart normals are turned toward the eye",
+        fails: "back faces are lit like front faces; between corners that are far apart, normals are turned toward the eye",
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs {
@@ -60,11 +61,11 @@ impl Shader for PhongMap {
     const VALUES: &'static [&'static str] = &["Nx", "Ny"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<(F, F)> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Linear<(F, F)> {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (x, y): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, (x, y): Pixel<Self, F>) -> Vec3<F> {
         let square = x.mul_add(x, y * y);
         let z = (-square + 1.0).max(0.0).sqrt();
         let n = Vec3 { x, y, z };
@@ -83,7 +84,7 @@ impl Carries for PhongMap {
     const NAMES: &'static [&'static str] = &["Nx", "Ny"];
 
     #[inline(always)]
-    fn vertex<F: Num>(_: &Lit<'_, F>, n: Vec3<F>) -> (F, F) {
+    fn vertex<F: Num>(_: &LightAt<'_, F>, n: Vec3<F>) -> (F, F) {
         (n.x, n.y)
     }
 }

@@ -1,14 +1,16 @@
-//! Slerp Phong shading by Chebyshev's recurrence: `J` and `K` by two additions and a product each (Barrera, Hast, Bengtsson 2004).
+//! Slerp Phong shading by Chebyshev's recurrence: two additions and a product each for `J` and `K`
+//! (Barrera, Hast, Bengtsson 2004).
 
 use crate::number::{Num, Real, Vec3};
 use crate::shading::methods::angles::slerp_phong::SlerpPhong;
 use crate::shading::walks::{Chebyshev, GreatCircle};
 use crate::shading::{
-    Corners, Info, Lit, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span, Standing, Stepped,
+    Corners, Info, LightAt, Needs, Normal, PerLight, Pixel, Roundings, Shader, Span, Stepped, Tier,
 };
 
-/// Slerp Phong shading whose span needs no sines: of normals along a great circle all products are `P cos kδ + Q sin kδ`, which
-/// [`Chebyshev`] follows. Edges are those of [`SlerpPhong`], and so is the set-up of a span, but for the first differences.
+/// Slerp Phong shading whose spans need no sines. All products of normals along a great circle are
+/// `P cos kδ + Q sin kδ`, which [`Chebyshev`] follows. Edges are stepped as in [`SlerpPhong`], and
+/// a span is set up in the same way, but for the first differences.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SlerpChebyshev<const L: usize>;
 
@@ -16,15 +18,15 @@ impl<const L: usize> Shader for SlerpChebyshev<L> {
     const INFO: Info = Info {
         name: "slerp-chebyshev",
         ids: &["M12"],
-        standing: Standing::Asked,
+        tier: Tier::Asked,
         title: "J = L.N and K = V.N along great circles, by Chebyshev's recurrence",
-        formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 4 sin^2(d/2), d the angle of a pixel; K likewise\n\
+        formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 4 sin^2(d/2), d the angle of a pixel; K in the same way\n\
                   I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
         source: "Barrera, Hast, Bengtsson 2004; L21 4.4, eq 4.7",
         roundings: Roundings::new(28.0, 2.1, Stepped::GreatCircles),
-        derivation: "F is rounded at each step, dF by its size: k (0.5 + 0.5 phi) roundings after k steps, phi the angle of the span, \
-                     pi at most; and 3 phi each for a, for the first dF and for the sines of the first pixel, 28 in all",
-        fails: "as slerp-phong: the set-up of a span is the same",
+        derivation: "F is rounded at each step, and dF relative to its size: k (0.5 + 0.5 phi) roundings after k steps, with phi the angle of the span, \
+                     at most pi; and 3 phi each for a, for the first dF and for the sines of the first pixel, 28 in all",
+        fails: "as slerp-phong: a span has the same set-up",
         ..SlerpPhong::<1>::INFO
     };
     const NEEDS: Needs = SlerpPhong::<L>::NEEDS;
@@ -34,11 +36,11 @@ impl<const L: usize> Shader for SlerpChebyshev<L> {
     const VALUES: &'static [&'static str] = &["J_i", "K"];
 
     #[inline(always)]
-    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+    fn polygon<R: Real>(self, _: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
         polygon.face
     }
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let circle =
             GreatCircle::start(span.constants(), span.ends(), span.parameter(), lit.zero());
         Chebyshev::along(
@@ -48,7 +50,7 @@ impl<const L: usize> Shader for SlerpChebyshev<L> {
         ) // 4.8
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
         lit.shade_products(products)
     }
 }

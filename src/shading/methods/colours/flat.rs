@@ -3,8 +3,8 @@
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::shading::{
-    Colour, Constant, Family, Info, Lit, LitAt, Needs, Perspective, Pixel, Roundings, Shader, Span,
-    Standing, Stepped,
+    Colour, Constant, Family, Info, LightAt, Needs, Perspective, Pixel, Roundings, Shader,
+    ShadingRate, Span, Stepped, Tier,
 };
 
 /// Flat (uniform) shading: the polygon's own normal, lit once (L21 2.1).
@@ -18,18 +18,18 @@ impl Shader for Flat {
         name: "flat",
         ids: &["M01"],
         family: Family::Colours,
-        standing: Standing::Default,
+        tier: Tier::Default,
         title: "one colour per polygon, from its own normal",
-        formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
+        formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, with N the polygon's normal by Newell's formula",
         source: "L21 2, eq 2.1 (Bouknight 1970)",
         model: Model::Flat,
         roundings: Roundings::new(4.0, 0.0, Stepped::Colours),
         derivation: "nothing is stepped; L.N and R.V take 8 roundings each of at most half of 2^-24",
-        fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
+        fails: "every polygon edge is visible, and the eye exaggerates it (Mach bands)",
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs {
-        lit_at: LitAt::Polygon,
+        shading_rate: ShadingRate::Polygon,
         perspective: Perspective::Unaffected,
         ..Needs::PIXELS_BY_POLYGON
     };
@@ -39,11 +39,11 @@ impl Shader for Flat {
     const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
         Constant(span.linear().at)
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {
         colour
     }
 }

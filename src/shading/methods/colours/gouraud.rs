@@ -1,13 +1,14 @@
-//! Gouraud shading: vertex colours, interpolated linearly (L21 3).
+//! Gouraud shading: vertex colours are interpolated linearly (L21 3).
 
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::shading::{
-    Colour, Family, Info, Linear, Lit, LitAt, Local, Needs, Perspective, Pixel, Roundings, Shader,
-    Span, Standing, Stepped,
+    Colour, Family, Info, LightAt, Linear, Local, Needs, Perspective, Pixel, Roundings, Shader,
+    ShadingRate, Span, Stepped, Tier,
 };
 
-/// Gouraud shading: eq 2.1 at the vertices, then one addition per channel along edges and spans (L21 3.5–3.6).
+/// Gouraud shading: equation 2.1 at the vertices, then one addition per channel along edges and
+/// spans (L21 3.5–3.6).
 ///
 /// The vertex colours are clamped to 0..=1 before they are interpolated, so no pixel needs a clamp.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,20 +19,20 @@ impl Shader for Gouraud {
         name: "gouraud",
         ids: &["M02"],
         family: Family::Colours,
-        standing: Standing::Default,
+        tier: Tier::Default,
         title: "vertex colours, interpolated along edges and spans",
         formula: "dI = (I2 - I1) / (y2 - y1) along edges, (I2 - I1) / (x2 - x1) along spans; I_next = I + dI",
         source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",
         claimed: "one addition a pixel and channel (L21 3.6)",
         model: Model::Gouraud,
         roundings: Roundings::new(4.0, 1.0, Stepped::Colours),
-        derivation: "a vertex is lit as in flat shading; each step of a colour of at most 1 rounds by half of 2^-24, and so does the \
-                     weight under perspective",
+        derivation: "a vertex is lit as in flat shading; each step rounds a colour of at most 1 by half of 2^-24, and under perspective \
+                     the weight too",
         fails: "highlights inside a polygon are lost or smeared; the slope of the intensity still jumps at edges",
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs {
-        lit_at: LitAt::Vertex,
+        shading_rate: ShadingRate::Vertex,
         local: Local::PerVertex,
         perspective: Perspective::Divides,
         ..Needs::PIXELS
@@ -42,11 +43,11 @@ impl Shader for Gouraud {
     const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear() // 3.5, 3.6
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {
         colour
     }
 }

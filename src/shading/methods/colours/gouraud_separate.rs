@@ -1,18 +1,20 @@
-//! Gouraud shading with diffuse and specular light interpolated apart (L21 3; OpenGL's separate specular colour).
+//! Gouraud shading that interpolates diffuse and specular light separately (L21 3; OpenGL's
+//! separate specular colour).
 
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::shading::methods::colours::gouraud::Gouraud;
 use crate::shading::{
-    Carries, Family, Info, Linear, Lit, Needs, Pixel, Roundings, Shader, Span, Stepped,
+    Carries, Family, Info, LightAt, Linear, Needs, Pixel, Roundings, Shader, Span, Stepped,
 };
 
-/// Gouraud shading whose vertex colours are not clamped: ambient and diffuse light in one colour, specular light in another,
-/// both interpolated, summed and clamped at each pixel.
+/// Gouraud shading with two vertex colours that are not clamped, ambient plus diffuse light and
+/// specular light. Both are interpolated, then summed and clamped at each pixel.
 ///
-/// As interpolation is linear this is the unclamped sum of vertex colours, clamped last: where lights add up to over
-/// 1 at a vertex, [`Gouraud`] shows a slope that starts at once, and this method a plateau first. Kept apart, the two
-/// colours can be treated apart: a texture would be multiplied by the first only.
+/// As interpolation is linear, a pixel is the interpolated sum of the vertex colours, clamped last.
+/// Where lights add up to more than 1 at a vertex, [`Gouraud`] shows a slope that starts at once,
+/// and this method first a plateau. Separate colours can be treated differently: a texture would
+/// multiply only the first.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GouraudSeparate;
 
@@ -26,8 +28,8 @@ impl Shader for GouraudSeparate {
         source: "L21 3, eq 3.5, 3.6; OpenGL 1.2, 2.13.1 (separate specular colour)",
         model: Model::GouraudSeparate,
         roundings: Roundings::new(6.0, 1.0, Stepped::Sums),
-        derivation: "as Gouraud, with two colours that are stepped, added, and at most the sum of all light between them",
-        fails: "as Gouraud",
+        derivation: "as gouraud, with two colours that are stepped and added; together they are at most the sum of all light",
+        fails: "as gouraud",
         ..Gouraud::INFO
     };
     const NEEDS: Needs = Gouraud::NEEDS;
@@ -37,11 +39,11 @@ impl Shader for GouraudSeparate {
     const VALUES: &'static [&'static str] = &["Dr", "Dg", "Db", "Sr", "Sg", "Sb"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         span.linear() // 3.5, 3.6
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, (diffuse, specular): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, (diffuse, specular): Pixel<Self, F>) -> Vec3<F> {
         diffuse + specular
     }
 }
@@ -51,7 +53,7 @@ impl Carries for GouraudSeparate {
     const NAMES: &'static [&'static str] = &["Dr", "Dg", "Db", "Sr", "Sg", "Sb"];
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
         lit.shade_apart(n) // 2.1
     }
 }

@@ -1,4 +1,4 @@
-//! Colours, constant or interpolated: no normal at a pixel.
+//! Methods that interpolate colours, or have one per polygon, and need no normal at a pixel.
 
 pub(crate) mod flat;
 pub(crate) mod flat_average;

@@ -1,4 +1,5 @@
-//! Highlights by the difference of two vectors: nothing is normalised at a pixel (Lyon 1993; Loisel about 1996).
+//! Highlights from the difference of two vectors, with nothing normalised at a pixel (Lyon 1993;
+//! Loisel about 1996).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
@@ -7,25 +8,30 @@ use crate::scene::{Interpolation, SpecularModel};
 use crate::shading::bounds::polygon_ranges::Extent;
 use crate::shading::walks::Quadratic;
 use crate::shading::{
-    Approximation, Family, Fit, Info, Linear, Lit, Needs, Normal, On, PerLight, Pixel, Roundings,
-    Shader, Span, Stepped,
+    Approximation, Family, Fit, Info, LightAt, Linear, Needs, Normal, On, PerLight, Pixel,
+    Roundings, Shader, Span, Stepped,
 };
 
-/// Phong shading whose normals stay as long as interpolation makes them, for up to `L` lights. J = L·N takes one addition a pixel, and the
-/// squared difference of N and H two, as it is a quadratic:
+/// Phong shading that uses normals with the length that interpolation leaves them, for up to `L`
+/// lights. J = L·N takes one addition per pixel. The squared difference of N and H takes two, as it
+/// is a quadratic:
 ///
 /// ```text
 /// E = |N − H|² = N·N − 2 N·H + 1,      t = 1 − E/2
 /// ```
-/// For a unit normal t is N·H. With `power=lyon` the highlight is `(1 − n E/2ᵏ⁺¹)` squared k times, as published.
+/// For a unit normal t is N·H. With `power=lyon` the highlight is `(1 − n E/2ᵏ⁺¹)`, squared k
+/// times, as published.
 ///
-/// **Its error.** With |N| = 1 − u, u at most 1 − ℓ on a polygon, J is too small by u of itself, and
+/// **Its error.** Let |N| = 1 − u, with u at most 1 − ℓ on a polygon. Then J is too small by the
+/// share u, and
 ///
 /// ```text
 /// t − N·H/|N| = (1 − N·H/|N|) u − u²/2
 /// ```
-/// A power of at most n t^(n−1) a cosine makes of the first part at most u/ℓ, as n (1 − t) t^(n−1) ≤ 1 for all functions of
-/// [`Power`](crate::scene::Power), and n u²/2 of the second: at its peak the error is of second order, where that of N·H is n u.
+/// The power multiplies an error of the cosine by at most n t^(n−1). It makes of the first part at
+/// most u/ℓ, as n (1 − t) t^(n−1) ≤ 1 for all functions of [`Power`](crate::scene::Power), and of
+/// the second part n u²/2. At the peak of a highlight the error is thus of second order, where N·H
+/// would have an error of n u.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DifferenceVector<const L: usize>;
 
@@ -62,7 +68,7 @@ impl<const L: usize> Shader for DifferenceVector<L> {
         claimed: "two additions and a table a pixel for the highlight (Loisel)",
         model: Model::PhongConstant,
         roundings: Roundings::new(14.0, 3.5, Stepped::Products),
-        derivation: "J takes half a rounding a step, E up to 3 of numbers of at most 4, which is halved; products of the first normal take 12",
+        derivation: "a step rounds J by half of 2^-24, and E, which is halved, up to 3 times at values of at most 4; the products of the first normal take 12",
         approximation: |frame, polygon, _| approximation(frame, polygon),
         fails: "where normals turn by more than 20 degrees over a polygon: its middle is darker",
         ..Info::OF_PIXELS
@@ -70,7 +76,7 @@ impl<const L: usize> Shader for DifferenceVector<L> {
     const NEEDS: Needs = Needs {
         general_only: true,
         scalar_only: Some(
-            "difference-vector saves a root a pixel, and eight lanes take theirs at once",
+            "difference-vector saves a root per pixel, but SIMD takes eight roots at once",
         ),
         ..Needs::PIXELS_BY_POLYGON
     };
@@ -81,15 +87,15 @@ impl<const L: usize> Shader for DifferenceVector<L> {
 
     fn on(on: On<'_>) -> Fit {
         on.each(|lighting, how| match (lighting.specular, how) {
-            (SpecularModel::Phong, _) => Some("its highlights are those of N.H, not of R.V"),
+            (SpecularModel::Phong, _) => Some("its highlights are by N.H, not by R.V"),
             (_, Interpolation::Perspective) => {
-                Some("its normals keep the length that perspective changes")
+                Some("it uses the length of normals, which perspective changes")
             }
             _ => None,
         })
     }
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let Linear { at: n, step: dn } = span.linear();
         let (j, k) = lit.products::<L>(n);
         let (dj, dk) = lit.products::<L>(dn);
@@ -107,7 +113,7 @@ impl<const L: usize> Shader for DifferenceVector<L> {
         (Linear { at: j, step: dj }, differences)
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (j, e): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, (j, e): Pixel<Self, F>) -> Vec3<F> {
         let mut colour = lit.ambient();
         for light in lit.lights() {
             let cosine = -(e.values[light.index] * 0.5 - 1.0);

@@ -1,4 +1,5 @@
-//! Forward differences with N·H: the cosine of a highlight takes one addition, and no product of two others (Duff 1979).
+//! Forward differences with N·H: the cosine of a highlight takes one addition and no product (Duff
+//! 1979).
 
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
@@ -6,22 +7,22 @@ use crate::scene::{Lighting, SpecularModel};
 use crate::shading::walks::Quadratic;
 use crate::shading::walks::values::scaled;
 use crate::shading::{
-    Carries, Family, Fit, Info, Linear, Lit, Needs, On, PerLight, Pixel, Roundings, Shader, Span,
-    Stepped,
+    Carries, Family, Fit, Info, LightAt, Linear, Needs, On, PerLight, Pixel, Roundings, Shader,
+    Span, Stepped,
 };
 
-/// Duff's forward differences for highlights by the half vector, for up to `L` lights: `J = L·N` and `M = H·N` of each light by one
-/// addition each, `D = N·N` by two, then one root and one division, which serve all lights.
+/// Duff's forward differences for highlights by the half vector, for up to `L` lights. A pixel
+/// takes one addition each for `J = L·N` and `M = H·N` of each light, two for `D = N·N`, then one
+/// root and one division, which serve all lights.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DuffHalf<const L: usize>;
 
-/// Returns the reason why a method that follows M = N·H along a span is not for a material, if it is not.
+/// Returns the reason why a method that follows M = N·H along a span refuses a material, or `None`.
 pub(crate) fn refuses_light(lighting: &Lighting) -> Option<&'static str> {
     if lighting.specular != SpecularModel::Blinn {
-        return Some("it follows N.H, and these highlights are R.V");
+        return Some("its highlights are by N.H, not by R.V");
     }
-    let reason =
-        "it follows N.H for lights and an eye at infinity, and one of them is at a position";
+    let reason = "it steps N.H for lights and an eye at infinity, and one of them is at a position";
     lighting.is_local().then_some(reason)
 }
 
@@ -36,14 +37,14 @@ impl<const L: usize> Shader for DuffHalf<L> {
         source: "Duff 1979; H as CS171 2",
         model: Model::Phong,
         roundings: Roundings::new(8.0, 2.0, Stepped::Products),
-        derivation: "as duff-phong; H is rounded too, by two",
+        derivation: "as duff-phong; computing H takes 2 more roundings",
         fails: "as duff-phong; for N.H only, with lights and eye at infinity",
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs {
         general_only: true,
         scalar_only: Some(
-            "duff-half steps differences from pixel to pixel, and a block of pixels would keep two values a light",
+            "duff-half steps differences from pixel to pixel, and a block of pixels would store two values per light",
         ),
         ..Needs::PIXELS
     };
@@ -56,13 +57,13 @@ impl<const L: usize> Shader for DuffHalf<L> {
         on.each(|lighting, _| refuses_light(lighting))
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let Linear { at, step } = span.linear();
         let ((at, n), (step, dn)) = (at, step);
         (Linear { at, step }, Quadratic::square(n, dn))
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
         lit.shade_half_products(scaled(products, d.broadcast(1.0) / d.sqrt()))
     }
 }
@@ -72,7 +73,7 @@ impl<const L: usize> Carries for DuffHalf<L> {
     const NAMES: &'static [&'static str] = &["J_i", "M_i", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
         (lit.half_products(n), n)
     }
 }

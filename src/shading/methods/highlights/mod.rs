@@ -1,4 +1,4 @@
-//! Another formula for highlights: by N and H alone.
+//! Methods with another formula for highlights, from N and H.
 
 pub(crate) mod difference_vector;
 pub(crate) mod duff_half;

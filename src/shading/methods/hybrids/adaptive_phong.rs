@@ -1,4 +1,5 @@
-//! Phong shading at the least price within a stated error: each polygon takes the cheapest pixel loop that keeps to it.
+//! Phong shading at the least cost within a stated error: each polygon uses the cheapest pixel loop
+//! that keeps within it.
 
 use crate::frame::Frame;
 use crate::number::{Num, Real, Vec3, vec3};
@@ -9,13 +10,13 @@ use crate::shading::methods::roots::phong_rsqrt::PhongRsqrt;
 use crate::shading::walks::values::{scaled, values};
 use crate::shading::walks::{Quadratic, Walk};
 use crate::shading::{
-    Approximation, Chosen, Corners, Family, Fit, Info, LightModel, Linear, Lit, Method,
-    MethodParameter, Normal, On, OneOf, Pixel, Roundings, Shader, Span, Standing, Stepped, Value,
+    Approximation, Chosen, Corners, Family, Fit, Info, LightAt, LightModel, Linear, Method,
+    MethodParameter, Normal, On, OneOf, Pixel, Roundings, Shader, Span, Stepped, Tier, Value,
     Values,
 };
 
-/// Adaptive Phong shading: of five kinds of pixel loops a polygon takes the cheapest whose error is derived
-/// to be within `levels`. [`super::adaptive_plan`] has the derivation.
+/// Adaptive Phong shading. Each polygon uses the cheapest of five kinds of pixel loops whose error
+/// is derived to be within `levels`. [`super::adaptive_plan`] has the derivation.
 ///
 /// ```text
 /// linear    I = a + r C                        C = (Σ k_d Lᵀ) N   of all lights in front, r a constant, or C = 0 and a the one colour
@@ -25,24 +26,27 @@ use crate::shading::{
 /// exact     as phong-rsqrt
 /// ```
 ///
-/// J = L·N is followed for those lights only whose highlight may be seen on the polygon, or whose J changes its sign there: two at most.
-/// Without `MANY` there is one light at most, which is followed on all curved polygons: C is then no help.
+/// J = L·N is stepped only for lights whose highlight may be seen on the polygon, or whose J
+/// changes its sign there: at most two. Without `MANY` there is at most one light, which all curved
+/// polygons step, so that C is no help.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AdaptivePhong<const MANY: bool> {
     levels: f32,
 }
 
-/// Polygons whose mean run is shorter than this gain nothing: set-up and the span engine take most of their time. With one light there is
-/// less to save at a pixel.
+/// The least mean length of a run, in pixels, for which planning pays. On shorter ones, set-up and
+/// the span engine take most of the time. With one light there is less to save at a pixel, so runs
+/// must be longer.
 const LEAST_RUN_OF_ONE: f64 = 6.0;
 const LEAST_RUN: f64 = 4.0;
-/// The polygons by which a frame is judged.
+/// How many polygons are examined to judge a frame.
 const SAMPLES: usize = 256;
 
-/// True if plans pay on a frame: lights and eye are at infinity, a material has one colour, some highlights are gated, and runs are not too short, judged by some polygons
-/// spread over all.
+/// True if plans pay on a frame: lights and eye are at infinity, materials have one colour each,
+/// some highlights are gated, and runs are not too short. Polygons spread over the whole list are a
+/// sample.
 fn is_worth_planning(frame: &Frame) -> bool {
-    // Highlights of other gates are drawn by the root: see `plan`.
+    // Plans refuse the other gates: all their polygons would be drawn by `phong-rsqrt`.
     let is_gated = |lighting: &Lighting| lighting.gate == SpecularGate::Gated;
     if frame.is_local() || frame.is_coloured() || !frame.lightings().iter().any(is_gated) {
         return false;
@@ -72,7 +76,7 @@ fn is_worth_planning(frame: &Frame) -> bool {
     area > least * rows
 }
 
-/// Returns a vector, the same for all pixels of a number like `zero`.
+/// Returns a vector in all lanes of a block like `zero`.
 #[inline(always)]
 fn all<F: Num>(zero: F, v: Vec3<F::One>) -> Vec3<F> {
     vec3([
@@ -82,26 +86,28 @@ fn all<F: Num>(zero: F, v: Vec3<F::One>) -> Vec3<F> {
     ])
 }
 
-/// True if D falls below a share of its greatest value along a run: of D = q + 2 a k + g k², which is `end` at the last pixel. D is convex: it is
-/// greatest at an end, and least at one or at k = −a/g, where it is q − a²/g.
+/// True if D falls below a `share` of its greatest value along a run. D = q + 2 a k + g k² at pixel
+/// k, and `end` at the `last` one. D is convex: it is greatest at an end, and least at an end or at
+/// k = −a/g, where it is q − a²/g.
 #[inline(always)]
 fn is_uneven<F: Num>([q, a, g]: [F; 3], end: F, share: F, last: f32) -> bool {
     let is_over = |a: F, b: F| (a - b).any_over(0.0);
     let (of_start, of_end) = (share * q, share * end);
     let turns = (-a).any_over(0.0) && (a + g * last).any_over(0.0);
+    // The minimum lies inside the run if D falls at its start and rises at its end.
     let bottom = q * g - a * a; // times g
     is_over(of_start, end)
         || is_over(of_end, q)
         || turns && (is_over(of_start * g, bottom) || is_over(of_end * g, bottom))
 }
 
-/// Returns the product of a matrix, given by its rows, with a vector.
+/// Returns the product of a matrix, as its rows, with a vector.
 #[inline(always)]
 fn times<F: Num>(rows: [Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
     vec3([rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)])
 }
 
-/// Returns the most lights that are followed on a polygon.
+/// Returns how many lights a polygon can follow at most.
 const fn most(many: bool) -> usize {
     if many { plan::MOST } else { 1 }
 }
@@ -111,8 +117,8 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
         name: "adaptive-phong",
         ids: &["M29"],
         family: Family::Hybrids,
-        standing: Standing::Default,
-        title: "for each polygon the cheapest of five pixel loops whose error is derived to be within a number of grey levels",
+        tier: Tier::Default,
+        title: "for each polygon the cheapest of five pixel loops whose error is derived to be within a limit in grey levels",
         formula: "D = N.N >= 1 - s;  s = max |Ni - m|^2;  1/sqrt(D) ~ r, k0 + k1 D, k0 + k1 D + k2 D^2 or itself\n\
                   I = Ia ka + (sum Ip kd L^T) N r + Ip ks (2 (J r)(K r) - L.V)^n of lights whose highlight may be seen",
         source: "ours; differences as Duff 1979, polynomials for the root as Bishop, Weimer 1986",
@@ -125,13 +131,13 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
         )],
         roundings: Roundings::new(8.0, 2.0, Stepped::Products),
         derivation: "as the coarser of phong-rsqrt and duff-phong in each term; the error by design, levels/255 of a colour, is derived in \
-                     the code, from corners alone",
+                     the code, from corners only",
         approximation: |_, _, parameters| Approximation {
-            colour: parameters[0].number().unwrap_or_default() / 255.0,
+            colour: parameters[0].decimal().unwrap_or_default() / 255.0,
             ..Approximation::NONE
         },
-        fails: "on polygons of few pixels planning takes longer than it saves: there phong-rsqrt draws the frame, and where lights or \
-                eye are at positions",
+        fails: "on polygons of few pixels, planning takes longer than it saves: there, and where lights or eye are at positions, phong-rsqrt draws \
+                the frame",
         ..Info::OF_PIXELS
     };
     type Kinds = (
@@ -148,7 +154,7 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
                 Fit::LeavesTo(<PhongRsqrt as Shader>::INFO.name)
             }
             On::Spans(lighting, _) if lighting.vertex_colours => {
-                Fit::Refuses("its plans hold one colour a material, and none of vertices")
+                Fit::Refuses("its plans hold one colour per material, and no vertex colours")
             }
             _ => Fit::Draws,
         }
@@ -156,11 +162,11 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
     #[inline(always)]
     fn new(parameters: &[Value], _: &LightModel) -> Self {
         AdaptivePhong {
-            levels: parameters[0].number().unwrap_or_default() as f32,
+            levels: parameters[0].decimal().unwrap_or_default() as f32,
         }
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let plan = plan::plan(self.levels, !MANY, lit, polygon);
         let zero = lit.zero();
         let mut rows = [vec3([zero; 3]); 3];
@@ -196,7 +202,7 @@ impl<const MANY: bool> Method for AdaptivePhong<MANY> {
     }
 }
 
-/// The product of C, by its rows, with a normal along a run.
+/// Returns the walk of C N along a run, from the rows of C.
 #[inline(always)]
 fn colours<F: Num>(
     zero: F,
@@ -210,7 +216,7 @@ fn colours<F: Num>(
     }
 }
 
-/// Linear in the normal: a + r C.
+/// The kind of polygons whose colour is linear in the normal: a + r C.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OneColour;
 
@@ -222,7 +228,7 @@ impl Shader for OneColour {
     const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let (rows, base) = span.constants();
         let Linear { at, step } = colours(lit.zero(), rows, span.linear());
         Linear {
@@ -231,12 +237,12 @@ impl Shader for OneColour {
         }
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Vec3<F>) -> Vec3<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, colour: Vec3<F>) -> Vec3<F> {
         colour
     }
 }
 
-/// Dull: a + C r, of a line r of D.
+/// The kind of polygons without highlights: a + C r, with r a line in D.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dull;
 
@@ -248,7 +254,7 @@ impl Shader for Dull {
     const VALUES: &'static [&'static str] = &["Cr", "Cg", "Cb", "r"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let (rows, factors) = span.constants();
         let [k0, k1] = factors.map(|k| lit.zero().of_each(|_| k));
         let normal = span.linear();
@@ -258,18 +264,20 @@ impl Shader for Dull {
         (colours(lit.zero(), rows, normal), r)
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (colour, r): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, (colour, r): Pixel<Self, F>) -> Vec3<F> {
         lit.ambient() + colour * r
     }
 }
 
-/// Curved: C r, and J r and K r of followed lights, where r is a parabola of D; with `ROOT` it is 1/√D.
+/// The kind of polygons with highlights: C r, and J r and K r of the followed lights, with r a
+/// parabola of D, or 1/√D with `ROOT`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Curved<const MANY: bool, const ROOT: bool>;
 
 impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
     const INFO: Info = Info::of_kind(if ROOT { "root" } else { "curved" });
-    // C by rows; the factors; followed lights, each as its index and what is followed of it
+    // C by rows; the factors; the followed lights, each as its index and the parts that are
+    // followed.
     type Constants<F: Num> = ([Vec3<F>; 3], Vec3<F>, [(F, (F, F)); plan::MOST]);
     type Carries = Normal;
     type Walk<F: Num> = CurvedWalk<F, MANY>;
@@ -277,7 +285,7 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
         &["J_a", "J_b", "K", "Cr", "Cg", "Cb", "D", "k0", "k1", "k2"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let (rows, factors, followed) = span.constants();
         let (normal, zero) = (span.linear(), lit.zero());
         let (n, dn) = (normal.at, normal.step);
@@ -325,7 +333,7 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
         }
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
         let CurvedPixel {
             j, k, d, factors, ..
         } = pixel;
@@ -339,6 +347,7 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
         }
         let v_n = k * r;
         for (followed, j) in pixel.followed.0.into_iter().zip(j).take(most(MANY)) {
+            // The branches here go the same way along the whole run.
             if MANY && !(followed.diffuse || followed.highlight) {
                 continue;
             }
@@ -357,7 +366,8 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
     }
 }
 
-/// The lights that a run follows, at each of its pixels. Nothing of it is stepped, so it takes no room in the G-buffer.
+/// The lights that a run follows. Each pixel has the list, but no value of it is stepped, so it has
+/// no place in the G-buffer.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FollowedLights([Followed; plan::MOST]);
 
@@ -378,7 +388,7 @@ pub struct CurvedPixel<F> {
     /// J of each followed light, and K.
     j: [F; plan::MOST],
     k: F,
-    /// The colour of lights in front, times |N|.
+    /// The colour of the lights in front, times |N|.
     colour: Vec3<F>,
     /// D, and the factors of the parabola for 1/√D.
     d: F,
@@ -391,29 +401,30 @@ values!([] CurvedPixel<F>, { j: [F; plan::MOST], k: F, colour: Vec3<F>, d: F, fa
 
 type Products<F> = ([F; plan::MOST], F); // J of each followed light, K
 
-/// What curved polygons step along a run.
+/// The walk of a curved polygon along a run.
 #[derive(Clone, Copy, Debug)]
 pub struct CurvedWalk<F, const MANY: bool> {
-    /// The colour of lights in front, times N.
+    /// C N, the colour of the lights in front times |N|.
     colour: Linear<Vec3<F>>,
     products: Linear<Products<F>>,
     /// D.
     square: Quadratic<F>,
-    /// N along the run, and the products where it starts.
+    /// N along the run, and the products at its first pixel.
     normal: Linear<Vec3<F>>,
     first: Products<F>,
     factors: Vec3<F>,
     followed: [Followed; plan::MOST],
-    /// The pixels up to the last start, those left to the next one, and between two.
+    /// How many pixels lie before the last start, are left until the next one, and lie between two
+    /// starts.
     passed: u32,
     left: u32,
     every: u32,
 }
 
 impl<F: Num, const MANY: bool> CurvedWalk<F, MANY> {
-    /// Starts differences and products anew, without the roundings of the steps before.
+    /// Restarts differences and products, which drops the roundings of all steps before.
     #[inline(always)]
-    fn start_anew(&mut self) {
+    fn restart(&mut self) {
         self.passed += self.every;
         self.left = self.every;
         let k = self.passed as f32;
@@ -430,8 +441,10 @@ impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
+        // Sums gather roundings, so they are restarted every `every` pixels, before these exceed
+        // the plan's share.
         if self.left == 0 {
-            self.start_anew();
+            self.restart();
         }
         self.left -= 1;
         let (mut j, k) = (self.first.0, self.products.at.1);

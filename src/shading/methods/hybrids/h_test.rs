@@ -1,4 +1,5 @@
-//! Gouraud's diffuse light everywhere, Phong's highlights where a polygon may have one (Harrison, Mitchell, Watt 1988).
+//! Gouraud's diffuse light everywhere, and Phong's highlights where a polygon may have one
+//! (Harrison, Mitchell, Watt 1988).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -8,33 +9,40 @@ use crate::shading::bounds::polygon_ranges::{Extent, for_each_end, wide};
 use crate::shading::light::magnitude;
 use crate::shading::methods::quadratics::over_triangle::plain;
 use crate::shading::{
-    Approximation, Carries, Chosen, Corners, Family, Fit, Info, Linear, Lit, Method, Needs, On,
+    Approximation, Carries, Chosen, Corners, Family, Fit, Info, LightAt, Linear, Method, Needs, On,
     OneOf, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use glam::DVec3;
 
-/// The H-test. Ambient and diffuse light is that of vertices, interpolated as by Gouraud, so that there are no seams; normals are followed
-/// on those polygons only on which a highlight may be over half a grey level, and only highlights are computed from them.
+/// The H-test. Ambient and diffuse light is interpolated between vertices, as in Gouraud shading,
+/// so that there are no seams. Only polygons on which a highlight may exceed half a grey level step
+/// their normals, and only highlights are computed from these.
 ///
-/// The test is exact and errs to one side. All normals of a polygon are in the cone of half-angle w about the mean direction m of its
-/// corners' normals, cos w = min N_i·m; a highlight of at least T^n, `T = (½ level / k_s)^(1/n)`, needs
+/// The test never misses a highlight. All normals of a polygon lie in the cone of half-angle w
+/// about the mean direction m of its corners' normals, cos w = min N_i·m. A highlight of at least
+/// T^n, `T = (½ level / k_s)^(1/n)`, needs
 ///
 /// ```text
 /// N·H ≥ T      or      R·V = 2 (L·N)(V·N) − L·V ≥ T,  so that  (N·H)² ≥ (T + L·V)/(1 + L·V)   as  (L·N)(V·N) ≤ (N·H |L + V|/2)²
 /// ```
-/// A polygon is dull if the angle between m and H is over w + acos of that bound, or, unless highlights are ungated, if the light is
-/// behind all of its corners. Ungated, a surface that both light and eye are behind shines as well: there −H counts, too, for R·V.
+/// A polygon is dull if the angle between m and H exceeds w + acos of that bound; or, unless
+/// highlights are ungated, if the light is behind all of its corners. Ungated, a surface shines as
+/// well if both light and eye are behind it: for R·V, −H counts there too.
 ///
-/// **Its error.** Of a light whose J is p at most and −q at least at the corners the interpolated diffuse term is too dark by J (1/|N| − 1)
-/// ≤ p (1/ℓ − 1) where it is in front, ℓ the least length; and the chord of max(0, J) is p q/(p + q) over it at most.
+/// **Its error.** Let a light have J of at most p and at least −q at the corners. Where it is in
+/// front, the interpolated diffuse term is too dark by J (1/|N| − 1) ≤ p (1/ℓ − 1), with ℓ the
+/// least length. The chord of max(0, J) is at most p q/(p + q) above it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HTest;
 
-/// Grey levels of 255 that a highlight left out may have.
+/// The largest highlight that is left out, in grey levels of 255.
 const FAINT: f32 = 0.5;
 
-/// True if a highlight may be seen on a polygon with normals between these.
-fn may_shine<F: Num>(lit: &Lit<'_, F>, normals: impl Iterator<Item = Vec3<f32>> + Clone) -> bool {
+/// True if a highlight may be seen on a polygon whose normals lie between these.
+fn may_shine<F: Num>(
+    lit: &LightAt<'_, F>,
+    normals: impl Iterator<Item = Vec3<f32>> + Clone,
+) -> bool {
     const ROUNDINGS: f32 = 1e-5;
     let exponent = lit.model.exponent;
     let sum = normals.clone().fold(vec3([0.0; 3]), |sum, n| sum + n);
@@ -63,12 +71,14 @@ fn may_shine<F: Num>(lit: &Lit<'_, F>, normals: impl Iterator<Item = Vec3<f32>> 
             false => Num::sqrt(f32::max(0.0, (least + l_v) / (1.0 + l_v))),
         };
         let bound = (bound - ROUNDINGS).clamp(0.0, 1.0);
-        // cos (w + acos bound): both are at most a right angle.
+        // cos (w + acos bound), by the addition theorem: both angles are at most a right angle, so
+        // both sines are positive.
         let sines = (1.0 - cosine * cosine) * (1.0 - bound * bound);
         let farthest = cosine * bound - Num::sqrt(sines);
         let h = (to + view) * light.half;
         let toward = mean.dot(h);
-        // With light and eye both behind, R·V is as it is in front: the square forgets the sign.
+        // With light and eye both behind, R·V has the value that it has in front, because (N·H)²
+        // has no sign.
         let toward = match is_gated || is_halfway {
             true => toward,
             false => toward.abs(),
@@ -126,11 +136,11 @@ impl Method for HTest {
     type Kinds = (Dull, Shining);
 
     fn on(on: On<'_>) -> Fit {
-        let reason = "whether a highlight may be seen is known of lights and an eye at infinity";
+        let reason = "it finds highlights only of lights at infinity, for an eye at infinity";
         on.each(|lighting, _| lighting.is_local().then_some(reason))
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let normals = polygon.whole.iter().map(|n| plain(*n));
         match may_shine(lit, normals) {
             true => OneOf::Second(()),
@@ -139,7 +149,7 @@ impl Method for HTest {
     }
 }
 
-/// Polygons without a highlight: the colour.
+/// The kind of polygons without a highlight: only the colour is stepped.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dull;
 
@@ -151,7 +161,7 @@ impl Shader for Dull {
     const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let Linear { at, step } = span.linear();
         Linear {
             at: at.0,
@@ -159,12 +169,12 @@ impl Shader for Dull {
         }
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, colour: Vec3<F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, colour: Vec3<F>) -> Vec3<F> {
         lit.times_albedo(colour)
     }
 }
 
-/// Polygons with one: the colour and N.
+/// The kind of polygons that may have a highlight: the colour and N are stepped.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shining;
 
@@ -176,11 +186,11 @@ impl Shader for Shining {
     const VALUES: &'static [&'static str] = &["Ir", "Ig", "Ib", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (colour, n): Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, (colour, n): Pixel<Self, F>) -> Vec3<F> {
         let mut colour = lit.times_albedo(colour);
         let n = n.unit();
         let v_n = n.dot(lit.view()); // K = V · N
@@ -198,7 +208,7 @@ impl Carries for HTest {
     const NAMES: &'static [&'static str] = &["Ir", "Ig", "Ib", "Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
         // Pixels multiply by the vertex colour, as the reference does.
         let lit = &lit.with_albedo(vec3([n.x.broadcast(1.0); 3]));
         let mut colour = lit.ambient();

@@ -5,7 +5,8 @@ use crate::number::Counts;
 use crate::shading::methods::integers::{self, Line, Normals, sum};
 use crate::shading::{Family, Info, Value};
 
-/// J and K by an addition, D by two, 1/√D by table: [`crate::integer::fast`].
+/// Fast Phong shading with an addition each for J and K, two for D, and 1/√D from a table:
+/// [`crate::integer::Span::fast`].
 pub(crate) struct Fast;
 
 impl Line for Fast {
@@ -24,7 +25,7 @@ impl Line for Fast {
     fn counts(lights: u32, parameters: &[Value]) -> [Counts; 3] {
         let newton = integers::steps(parameters);
         [
-            // J of each light and K; three products of the ends, and the polynomial of D
+            // J of each light and K, three products of the ends, and the polynomial of D.
             sum([
                 (1, integers::RECIPROCAL),
                 (2 * (lights + 1), integers::DOT),

@@ -1,26 +1,27 @@
-//! Fast Phong shading in integers, as the lecture prints it: three divisions a pixel: an exhibit.
+//! Fast Phong shading in integers as the lecture prints it, with three divisions per pixel: an
+//! exhibit.
 
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::number::Counts;
 use crate::shading::methods::integers::{self, Line, Normals, sum};
-use crate::shading::{Approximation, Family, Info, Roundings, Standing, Stepped, Value};
+use crate::shading::{Approximation, Family, Info, Roundings, Stepped, Tier, Value};
 
-/// `Span::fast_as_printed` of [`crate::integer`].
+/// Fast Phong shading by `Span::fast_as_printed` of [`crate::integer`].
 pub(crate) struct FastPrinted;
 
 impl Line for FastPrinted {
     const INFO: Info = Info {
         name: "integer-fast-printed",
         family: Family::Roots,
-        standing: Standing::Exhibit,
+        tier: Tier::Exhibit,
         title: "fast Phong shading in integers, as the lecture prints it: three divisions a pixel",
         formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  d_next = (d + N.N / d) / 2\n\
               I = table(J / d) + table(2 J K / (N.N) - L.V)",
         source: "L21 4.2, 4.3, eq 4.3, 4.4, 4.6",
         roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
-        derivation: "no bound: one step of Newton's from the pixel before follows |N| where a pixel turns little",
+        derivation: "no bound: one of Newton's steps from the previous pixel follows |N| where normals turn little from pixel to pixel",
         approximation: |_, _, _| Approximation::NONE,
-        fails: "where normals turn by more than some 2 degrees a pixel; it knows one light, at infinity, and highlights by R.V only",
+        fails: "where normals turn by more than some 2 degrees per pixel; it supports one light, at infinity, and highlights by R.V only",
         ..integers::INFO
     };
     type Shell = Normals<1>;

@@ -8,12 +8,12 @@ use crate::shading::kernels::{Pixels, Vertices};
 use crate::shading::light::Uniforms;
 use crate::shading::methods::integers::{self, sum};
 use crate::shading::{
-    Approximation, Colour, Constant, Family, Fit, Info, Kernels, Lit, LitAt, Local, MethodRow,
-    Needs, On, Perspective, Pixel, Shader, Span, Spans, Standing,
+    Approximation, Colour, Constant, Family, Fit, Info, Kernels, LightAt, Local, MethodRow, Needs,
+    On, Perspective, Pixel, Shader, ShadingRate, Span, Spans, Tier,
 };
 
-/// Gouraud shading in integers: colours by two additions a pixel, red and blue in one ([`crate::integer::gouraud`]). Vertices are lit by the
-/// loop of naive Phong shading.
+/// Gouraud shading in integers: two additions per pixel step a colour, with red and blue in one
+/// ([`crate::integer::gouraud`]). The loop of naive Phong shading lights the vertices.
 #[derive(Clone, Copy, Debug, Default)]
 struct Colours;
 
@@ -21,7 +21,7 @@ const INFO: Info = Info {
     name: "integer-gouraud",
     ids: &[],
     family: Family::Colours,
-    standing: Standing::Asked,
+    tier: Tier::Asked,
     title: "vertex colours, interpolated in integers",
     formula: "I = table(L.N) + table(R.V) at vertices;  I_next = I + dI, red and blue in one sum",
     source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",
@@ -32,13 +32,14 @@ const INFO: Info = Info {
     approximation: |frame, polygon, _| {
         let lighting = &frame.lightings()[polygon.material as usize];
         let vertex = integers::error(lighting, 0.0, integers::Form::Refined);
-        // Steps are cut by up to 2⁻¹⁶, which is 1/256 over a piece of a span; its ends are rounded to fields of 9 bits.
+        // Steps are cut by up to 2⁻¹⁶ each, 1/256 of a level over a piece of a span, and its ends
+        // are rounded to fields of 9 bits.
         Approximation {
             colour: vertex.colour + 1.0 / 256.0 + 1.0 / 512.0,
             ..vertex
         }
     },
-    fails: "highlights inside a polygon are lost, and its edges are seen, as with gouraud; lights and eye are at infinity",
+    fails: "highlights inside a polygon are lost, and its edges are visible, as with gouraud; lights and eye must be at infinity",
     has_power: false,
     parameters: &[],
 };
@@ -67,7 +68,7 @@ pub(crate) const ENTRY: MethodRow =
 impl Shader for Colours {
     const INFO: Info = Info::OF_PIXELS;
     const NEEDS: Needs = Needs {
-        lit_at: LitAt::Vertex,
+        shading_rate: ShadingRate::Vertex,
         local: Local::PerVertex,
         perspective: Perspective::ScreenOnly,
         spans: Spans::Ends,
@@ -82,28 +83,30 @@ impl Shader for Colours {
         on.each(|lighting, how| integers::refuses(lighting, how, integers::LIGHTS))
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
         Constant(span.linear().at)
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, colour: Pixel<Self, F>) -> Vec3<F> {
         colour
     }
 }
 
-/// Bit and fractional bits of red, green and blue in the fields of a colour of 8 bits a channel: see [`integer::Pixel`].
+/// The lowest bit and the count of fractional bits of red, green and blue in a colour of 8 bits per
+/// channel: see [`integer::Pixel`].
 const FIELDS: [(u32, u32); 3] = [(11, 1), (21, 2), (0, 1)];
 
-/// Returns the channels of a colour in fields, of which the tables' ½ is taken off.
+/// Returns the channels of a colour in fields, without the ½ that the tables add.
 fn channels(fields: u32) -> [f32; 3] {
     FIELDS.map(|(at, fraction)| {
         let one = 1 << fraction;
+        // The mask keeps 8 bits and the fraction.
         let field = fields >> at & (256 * one - 1);
         (field as f32 - 0.5 * one as f32) / (255 * one) as f32
     })
 }
 
-/// Returns a colour in fields, rounded, with ½.
+/// Returns a colour in fields, rounded, with the ½ that the tables add.
 fn fields(channels: Vec3<f32>) -> u32 {
     let channels = channels.array();
     (0..3).fold(0, |sum, c| {
@@ -126,7 +129,7 @@ fn vertices(job: &Vertices<'_>, out: &mut [f32]) {
     }
 }
 
-/// Returns the colour of a normal in fields.
+/// Returns the colour of a normal, in fields.
 fn colour<H: Highlight>(uniforms: &Uniforms, normal: Vec3<f32>) -> u32 {
     let n = integers::vector(normal);
     match uniforms.lights.len() {
@@ -137,7 +140,7 @@ fn colour<H: Highlight>(uniforms: &Uniforms, normal: Vec3<f32>) -> u32 {
     }
 }
 
-/// Shades runs.
+/// Shades runs, one pixel at a time.
 fn pixels(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
     let mut rest = out;
     for (index, run) in job.list.runs.iter().enumerate() {

@@ -1,14 +1,16 @@
-//! Methods in integers, for processors without a floating-point unit: the loops of [`crate::integer`] on the spans of the engines.
+//! Methods in integers, for processors without a floating-point unit: the engines' spans, shaded by
+//! the loops of [`crate::integer`].
 //!
 //! ```text
 //! edges (f32, the span engine's) ─► normals at both ends of a span ─► 15 bits ─► a loop in integers ─► 8 bits a channel
 //! ```
 //!
-//! A span is shaded whole, whatever is seen of it, and its visible pixels are copied: so nothing that is fitted over it changes with what
-//! hides parts of it. Spans of over [`integer::Span::MAX`] pixels are shaded in pieces.
+//! A span is always shaded whole, and its visible pixels are copied, so that nothing that is fitted
+//! over it depends on what hides parts of it. Spans of more than [`integer::Span::MAX`] pixels are
+//! shaded in pieces.
 //!
-//! [`integer::ErrorBound`] derives the errors against the closed form from the formats. Colours are those of 8 bits: half a level of it is
-//! a part that no other method has.
+//! [`integer::ErrorBound`] derives the errors against the closed form from the formats. Colours
+//! have 8 bits; their error of half a level is one that no other method has.
 
 pub(crate) mod fast;
 pub(crate) mod fast_printed;
@@ -32,7 +34,7 @@ use crate::shading::kernels::{PixelKernel, Pixels};
 use crate::shading::light::Uniforms;
 use crate::shading::walks::GreatCircle;
 use crate::shading::{
-    Approximation, Constant, Corners, Extras, Fit, Info, Lit, Method, MethodParameter, Needs,
+    Approximation, Constant, Corners, Extras, Fit, Info, LightAt, Method, MethodParameter, Needs,
     Normal, On, Perspective, Pixel, Roundings, RunList, Shader, Span, SpanBench, SpanPlace, Spans,
     Stepped, UniformsIndex, Value, Variant, Vertices,
 };
@@ -40,27 +42,27 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use fixed::types::U16F16;
 
-/// The pixels of a span that are shaded at once.
+/// How many pixels of a span are shaded at once.
 const MOST: usize = integer::Span::MAX;
-/// The lights of the methods that know several.
+/// How many lights these methods support, but for those that support one.
 pub(crate) const LIGHTS: usize = 4;
-/// The least cosine of the angles between normals and their mean for which [`ErrorBound`] holds: normals are up to 90° apart, and up to
-/// 60° of [`Form::Waves`].
+/// The least cosine of the angles between normals and their mean for which [`ErrorBound`] holds:
+/// normals are up to 90° apart, and up to 60° apart for [`Form::Waves`].
 const LEAST_COSINE: f64 = core::f64::consts::FRAC_1_SQRT_2;
 const LEAST_COSINE_OF_WAVES: f64 = 0.866_025_403_784_438_6;
 
-/// What the span engine's edges round: as of naive Phong shading.
+/// The roundings of the span engine's edges, as in naive Phong shading.
 pub(crate) const ROUNDINGS: Roundings = Roundings::new(4.0, 0.9, Stepped::Cosines);
-/// The same on great circles: as of slerp Phong shading.
+/// The roundings of edges along great circles, as in slerp Phong shading.
 pub(crate) const CIRCLE_ROUNDINGS: Roundings = Roundings::new(28.0, 2.1, Stepped::GreatCircles);
-/// The reason for the stated approximation.
-pub(crate) const DERIVATION: &str = "edges as of naive-phong; then normals, cosines and roots are rounded to 15 bits, cosines to the \
-                                     entries of tables, and colours to 8 bits: the formats' errors are those of the approximation";
-/// What these methods are not for.
+/// The derivation of the stated approximation.
+pub(crate) const DERIVATION: &str = "edges as in naive-phong; then normals, cosines and roots are rounded to 15 bits, cosines to the \
+                                     entries of tables, and colours to 8 bits: the approximation contains these errors of the formats";
+/// Where these methods fail.
 pub(crate) const FAILS: &str =
-    "where normals turn by more than 90 degrees over a polygon; lights and eye are at infinity";
+    "where normals turn by more than 90 degrees over a polygon; lights and eye must be at infinity";
 
-/// The parameter of methods that find 1/|N| by table.
+/// The parameter of methods that read 1/|N| from a table.
 pub(crate) const PARAMETERS: &[MethodParameter] = &[MethodParameter::whole(
     "steps",
     "Newton's steps after the table of 1/|N|",
@@ -84,20 +86,22 @@ pub(crate) const INFO: Info = Info {
     ..Info::OF_PIXELS
 };
 
-/// A method: its loop over a piece of a span.
+/// An integer method: its loop over a piece of a span, and what the loop costs.
 pub(crate) trait Line: Sized + 'static {
     /// The description of the method.
     const INFO: Info;
-    /// What it asks of engines: [`Normals`] or [`Circles`].
+    /// The method that engines see: [`Normals`] or [`Circles`].
     type Shell: Method;
-    /// The most lights that it knows.
+    /// The most lights that it supports.
     const LIGHTS: usize = LIGHTS;
     /// Shades runs by its loop.
     const PIXELS: PixelKernel = pixels::<Self>;
 
-    /// Returns the operations of a span's set-up, of a step and of a pixel with so many lights, as the loops stand.
+    /// Returns the operations of a span's set-up, of a step and of a pixel with this many lights,
+    /// as listed by hand from the loops.
     fn counts(lights: u32, parameters: &[Value]) -> [Counts; 3];
-    /// Shades `line` from the normal at its first pixel to that at the pixel after its last.
+    /// Shades `line` between the normal at its first pixel and the normal at the pixel after its
+    /// last.
     fn shade<H: Highlight, const L: usize>(
         parameters: &[Value],
         span: integer::Span,
@@ -106,8 +110,9 @@ pub(crate) trait Line: Sized + 'static {
     );
 }
 
-/// Interpolates normals over spans that engines keep: what the methods in integers ask of engines. Those for one light are the
-/// methods as printed, which know highlights by R·V only.
+/// The method that engines see in the place of an integer method: it interpolates normals and
+/// stores the ends of spans. With one light it stands for the methods as printed, which support
+/// highlights by R·V only.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Normals<const LIGHTS: usize>;
 
@@ -127,20 +132,20 @@ impl<const LIGHTS: usize> Shader for Normals<LIGHTS> {
         on.each(|lighting, how| {
             let is_halfway = lighting.specular == SpecularModel::Blinn;
             refuses(lighting, how, LIGHTS).or((LIGHTS == 1 && is_halfway)
-                .then_some("as printed, its highlights are those of R.V, not of N.H"))
+                .then_some("as printed, its highlights are by R.V, not by N.H"))
         })
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Constant<Vec3<F>> {
         Constant(span.linear().at)
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
         n
     }
 }
 
-/// Carries unit normals along great circles, as [`Normals`] carries them along lines.
+/// Like [`Normals`], with unit normals along great circles instead of lines.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Circles;
 
@@ -158,24 +163,25 @@ impl Shader for Circles {
         on.each(|lighting, how| refuses(lighting, how, 1))
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+    fn polygon<R: Real>(self, _: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
         polygon.face
     }
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, _: Span<'_, Self, F>) -> Constant<Vec3<F>> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, _: Span<'_, Self, F>) -> Constant<Vec3<F>> {
         Constant(vec3([lit.zero(); 3]))
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
         n
     }
 }
 
-/// The reason why methods in integers are scalar only.
+/// The reason why integer methods are scalar only.
 pub(crate) const WHY: &str = "it computes in integers, one pixel at a time";
 const WHY_SCALAR: Option<&'static str> = Some(WHY);
 
-/// Returns the reason why a material is not for methods in integers of so many lights.
+/// Returns the reason why a material is refused by integer methods that support this many lights,
+/// or `None`.
 pub(crate) fn refuses(
     lighting: &Lighting,
     interpolation: Interpolation,
@@ -184,45 +190,45 @@ pub(crate) fn refuses(
     let n = lighting.shininess;
     let is_whole = (1.0..=1000.0).contains(&n) && n == libm::floorf(n);
     if lighting.is_local() {
-        return Some("in integers, lights and eye are at infinity");
+        return Some("integer methods need lights and an eye at infinity");
     }
     if interpolation == Interpolation::Perspective {
-        return Some("in integers, normals are interpolated on the screen");
+        return Some("integer methods interpolate normals on the screen, not in perspective");
     }
     if lighting.lights.len() > lights {
         return Some(match lights {
-            1 => "in integers, it has one light",
-            _ => "in integers, it has at most four lights",
+            1 => "this integer method supports one light",
+            _ => "integer methods support at most four lights",
         });
     }
     if lighting.vertex_colours {
         return Some(
-            "in integers, a material has one colour (`--colours off` leaves out those of vertices)",
+            "integer methods support one colour per material (`--colours off` ignores vertex colours)",
         );
     }
     if lighting.gate != SpecularGate::Gated {
-        return Some("in integers, highlights end where L·N = 0");
+        return Some("integer methods need highlights that end where L·N = 0");
     }
     if !is_whole {
-        return Some("in integers, exponents are whole numbers from 1 to 1000");
+        return Some("integer methods need an exponent that is a whole number from 1 to 1000");
     }
     None
 }
 
-/// Returns a vector in 15 fractional bits, rounded, or 0 if it is no number: a frame's builder takes any finite normal, and lines between such
-/// may overflow.
+/// Returns a vector with 15 fractional bits, rounded. Vectors that are not finite become 0: a
+/// frame's builder accepts any finite normal, and interpolation between large ones may overflow.
 pub(crate) fn vector(v: Vec3<f32>) -> Vector {
     Vector::from_f32(v.array()).unwrap_or_default()
 }
 
-/// Makes the tables of a material for each light: the first one has the ambient light.
+/// Makes the tables of a material, one per light. The first one contains the ambient light.
 pub(crate) fn materials(lighting: &Lighting) -> Vec<Material<Rgb888>> {
     let shininess = (lighting.shininess as u32).clamp(1, 1000);
     let colour = |c: [f32; 3]| c.map(|c| U16F16::saturating_from_num(c.max(0.0)));
     let none = [0.0; 3];
     let mut ambient = lighting.ambient;
     let lit = lighting.lights.iter().map(|l| (l.diffuse, l.specular));
-    // A material without lights has ambient light all the same.
+    // A material without lights still has ambient light, which needs a table.
     let dark = lighting.lights.is_empty().then_some((none, none));
     lit.chain(dark)
         .map(|(diffuse, specular)| {
@@ -237,7 +243,7 @@ pub(crate) fn materials(lighting: &Lighting) -> Vec<Material<Rgb888>> {
         .collect()
 }
 
-/// Makes the lights of uniforms that hold materials in integers.
+/// Makes the lights of uniforms that hold integer tables.
 pub(crate) fn lights<const L: usize>(uniforms: &Uniforms) -> [Light<'_, Rgb888>; L] {
     let direction = |place: Place<Vec3<f32>>| match place {
         Place::Infinite(v) | Place::Local(v) => vector(v),
@@ -253,7 +259,7 @@ pub(crate) fn lights<const L: usize>(uniforms: &Uniforms) -> [Light<'_, Rgb888>;
     })
 }
 
-/// Shades runs by the loop `M`.
+/// Shades runs by the loop `M`, between normals that are linear on the screen.
 pub(crate) fn pixels<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
     let along = |index: usize, t: f32| {
         let [a, b] = ends(job, index);
@@ -280,7 +286,7 @@ pub(crate) fn ends(job: &Pixels<'_>, index: usize) -> [Vec3<f32>; 2] {
     ends.map(|end| vec3([end[0], end[1], end[2]]))
 }
 
-/// Runs of the same uniforms, and the pixels that they are shaded into.
+/// Runs with the same uniforms, and the pixels to write.
 struct Group<'a, 'o, A> {
     job: &'a Pixels<'a>,
     uniforms: &'a Uniforms,
@@ -290,7 +296,8 @@ struct Group<'a, 'o, A> {
     along: &'a A,
 }
 
-/// Shades runs by the loop `M`, between the normals that `along` returns for a run's span.
+/// Shades runs by the loop `M`. `along` returns the normal of a run's span, by the run's index and
+/// a parameter.
 fn shade<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]], along: &impl Fn(usize, f32) -> Vector) {
     let (mut first, mut rest) = (0, out);
     for runs in (job.list.runs).chunk_by(|a, b| a.uniforms == b.uniforms) {
@@ -319,7 +326,7 @@ pub(crate) fn is_dull(uniforms: &Uniforms) -> bool {
 }
 
 impl<A: Fn(usize, f32) -> Vector> Group<'_, '_, A> {
-    /// Shades the runs by the loop for as many lights as there are.
+    /// Shades the runs by the loop that is compiled for this many lights.
     fn by_lights<M: Line, H: Highlight>(self) {
         match self.uniforms.lights.len() {
             0 | 1 => self.shade::<M, H, 1>(),
@@ -349,8 +356,10 @@ impl<A: Fn(usize, f32) -> Vector> Group<'_, '_, A> {
     }
 }
 
-/// Shades the pieces of a span that a run shows, and copies its pixels. `at` returns what `draw` starts from, at a parameter of the
-/// span: at the first pixel of a piece and at the pixel after its last.
+/// Shades the pieces of a span that a run shows, and copies the run's pixels.
+///
+/// `draw` shades a piece between two values of `at`: the one at its first pixel and the one at the
+/// pixel after its last. `at` takes a parameter of the span, 0 to 1.
 pub(crate) fn shade_run<T: Copy>(
     job: &Pixels<'_>,
     index: usize,
@@ -360,10 +369,10 @@ pub(crate) fn shade_run<T: Copy>(
 ) {
     let (run, place) = (&job.list.runs[index], job.list.places[index]);
     let (all, mut done) = (place.pixels as usize, 0);
-    // The pixel of the span that the run begins with.
+    // The index of the run's first pixel in its span.
     let before = (run.x - place.start) as usize;
     debug_assert!(before + out.len() <= all, "a run is a piece of its span");
-    // No pixel lies beyond the ends of its span, but for rounding.
+    // Pixels lie between the ends of their span, except for rounding.
     let at = |pixel: usize| {
         let steps = pixel as f32 - before as f32;
         at((place.t0 + steps * place.dt).clamp(0.0, 1.0))
@@ -374,14 +383,15 @@ pub(crate) fn shade_run<T: Copy>(
         let count = (all - first).min(MOST);
         let mut line = [Rgb888::default(); MOST];
         let line = &mut line[..count];
-        // The loop wants what is at the pixel after the last, which lies beyond the end of the span: so the last pixel stands alone.
+        // The loop needs the value at the pixel after the last. After the span's last pixel there
+        // is none, so this pixel is a piece of its own, whose both values are its own.
         let inner = match first + count < all {
             true => count,
             false => count - 1,
         };
         let end = at(first + inner);
         let (inner, last) = line.split_at_mut(inner);
-        // In a loop, so that what it calls is compiled once.
+        // A loop, so that the code of `draw` is compiled once.
         for (pixels, from) in [(inner, at(first)), (last, end)] {
             if !pixels.is_empty() {
                 draw(pixels, from, end);
@@ -395,20 +405,21 @@ pub(crate) fn shade_run<T: Copy>(
     }
 }
 
-/// The form of a loop, for its errors.
+/// The form of a loop, which decides its errors.
 #[derive(Clone, Copy)]
 pub(crate) enum Form {
-    /// 1/|N| is of the table alone.
+    /// 1/|N| comes from the table only.
     Table,
-    /// 1/|N| is refined by a step of Newton's.
+    /// 1/|N| from the table is refined by one of Newton's steps.
     Refined,
-    /// Cosines are parabolas.
+    /// Cosines are parabolas along the span.
     Parabola,
-    /// Cosines are sines, by a recurrence.
+    /// Cosines are sines along the span, by a recurrence.
     Waves,
 }
 
-/// Bounds the error of a form on a material, where normals turn by `angle` along a span.
+/// Returns a bound of a form's error on a material, where normals turn by `angle` along a span, in
+/// radians.
 pub(crate) fn error(lighting: &Lighting, angle: f64, form: Form) -> Approximation {
     let largest = |channels: [f32; 3]| f64::from(channels.into_iter().fold(0.0, f32::max));
     let levels: f64 = (lighting.lights.iter())
@@ -428,14 +439,14 @@ pub(crate) fn error(lighting: &Lighting, angle: f64, form: Form) -> Approximatio
         })
         .sum();
     Approximation {
-        // Without a light there is a table all the same.
+        // At least one level: the table of ambient light is rounded even without a light.
         colour: levels.max(1.0) / 255.0,
         moves_gate: true,
         ..Approximation::NONE
     }
 }
 
-/// Bounds the error of a form on a polygon.
+/// Returns a bound of a form's error on a polygon.
 pub(crate) fn approximation(frame: &Frame, polygon: &Polygon, form: Form) -> Approximation {
     let cosine = Extent::of(frame, polygon).cosine.min(1.0);
     let least = match form {
@@ -443,7 +454,7 @@ pub(crate) fn approximation(frame: &Frame, polygon: &Polygon, form: Form) -> App
         _ => LEAST_COSINE,
     };
     if cosine < least {
-        // The formats are not made for such normals: a channel may be anything.
+        // The formats are not made for these normals: a channel may have any value.
         return Approximation {
             colour: 1.0,
             ..Approximation::NONE
@@ -453,7 +464,7 @@ pub(crate) fn approximation(frame: &Frame, polygon: &Polygon, form: Form) -> App
     error(lighting, 2.0 * libm::acos(cosine), form)
 }
 
-/// Some additions, multiplications, reads of tables and comparisons.
+/// Returns counts of additions, multiplications, reads of tables and comparisons.
 const fn work(additions: u32, multiplications: u32, lookups: u32, comparisons: u32) -> Counts {
     Counts {
         additions,
@@ -467,7 +478,7 @@ const fn work(additions: u32, multiplications: u32, lookups: u32, comparisons: u
     }
 }
 
-/// Adds up work, each so many times.
+/// Adds up counts, each multiplied by the count before it.
 pub(crate) fn sum<const N: usize>(all: [(u32, Counts); N]) -> Counts {
     all.into_iter()
         .fold(Counts::default(), |sum, (times, one)| Counts {
@@ -480,7 +491,8 @@ pub(crate) fn sum<const N: usize>(all: [(u32, Counts); N]) -> Counts {
         })
 }
 
-// The parts of the loops in `src/integer/`, by the names that they have there; shifts and masks are not counted.
+// The parts of the loops in `src/integer/`, with their names there. Shifts and masks are not
+// counted.
 pub(crate) const ADDITION: Counts = work(1, 0, 0, 0);
 pub(crate) const DOT: Counts = work(2, 3, 0, 0);
 pub(crate) const ROOT: Counts = work(1, 0, 1, 0);
@@ -494,7 +506,7 @@ pub(crate) const RAMP: Counts = work(2, 1, 0, 0);
 /// `Quadratic::polynomial`, and `Quadratic::through`.
 pub(crate) const POLYNOMIAL: Counts = work(1, 3, 0, 0);
 pub(crate) const THROUGH: Counts = work(5, 6, 0, 4);
-/// Clamps.
+/// A clamp.
 pub(crate) const CLAMP: Counts = work(0, 0, 0, 1);
 /// A division.
 pub(crate) const DIVISION: Counts = Counts {
@@ -502,7 +514,8 @@ pub(crate) const DIVISION: Counts = Counts {
     ..work(0, 0, 0, 0)
 };
 
-/// The colour of a pixel: two entries of tables a light, sums that are clamped; cosines too where they are `clamped`.
+/// Returns the operations of a pixel's colour: per light two entries of tables and clamped sums,
+/// and clamped cosines if `clamped`.
 pub(crate) fn colour(lights: u32, clamped: bool) -> Counts {
     let further = work(3, 0, 0, 0);
     let cosine = work(0, 0, 0, if clamped { 1 } else { 0 });
@@ -513,9 +526,9 @@ pub(crate) fn colour(lights: u32, clamped: bool) -> Counts {
     ])
 }
 
-/// Returns the operations of a method with a highlight by R·V: those of the engine on vertices and edges, and those of the method on a
-/// span, which `of` states for up to `most` lights as the loops stand. The colour is the
-/// kernel's.
+/// Returns the operations of a method with a highlight by R·V. Those of the engine on vertices and
+/// edges are counted; those of the method on a span come from `of`, which lists them for up to
+/// `most` lights. The colour is the kernel's.
 pub(crate) fn counted<M: Method>(
     bench: &SpanBench,
     variant: &Variant,
@@ -524,7 +537,7 @@ pub(crate) fn counted<M: Method>(
     of: impl Fn(u32) -> [Counts; 3],
 ) -> CountedSpan {
     if bench.is_local() {
-        // Frames with lights at positions are refused.
+        // Lights at positions are refused, so nothing is drawn.
         return CountedSpan {
             operations: OperationCounts::default(),
             colour: [0.0; 3],

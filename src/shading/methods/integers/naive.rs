@@ -5,7 +5,8 @@ use crate::number::Counts;
 use crate::shading::methods::integers::{self, Line, Normals, sum};
 use crate::shading::{Family, Info, Value};
 
-/// N by three additions, J, K and D by products, 1/√D by table: [`crate::integer::naive`].
+/// Naive Phong shading with three additions for N, products for J, K and D, and 1/√D from a table:
+/// [`crate::integer::Span::naive`].
 pub(crate) struct Naive;
 
 impl Line for Naive {

@@ -1,23 +1,23 @@
-//! Naive Phong shading in integers, as the lecture prints it: an exhibit.
+//! Naive Phong shading in integers as the lecture prints it: an exhibit.
 
 use crate::integer::{Highlight, Light, Rgb888, Span};
 use crate::number::Counts;
 use crate::shading::methods::integers::{self, Form, Line, Normals, sum};
-use crate::shading::{Family, Info, Standing, Value};
+use crate::shading::{Family, Info, Tier, Value};
 
-/// `Span::naive_as_printed` of [`crate::integer`].
+/// Naive Phong shading by `Span::naive_as_printed` of [`crate::integer`].
 pub(crate) struct NaivePrinted;
 
 impl Line for NaivePrinted {
     const INFO: Info = Info {
         name: "integer-naive-printed",
         family: Family::Roots,
-        standing: Standing::Exhibit,
+        tier: Tier::Exhibit,
         title: "naive Phong shading in integers, as the lecture prints it",
         formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  I = table(L.N_unit) + table(R.V)",
         source: "L21 4.1, eq 4.1, 4.2",
         approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Refined),
-        fails: "where normals turn by more than 90 degrees over a polygon; it knows one light, at infinity, and highlights by R.V only",
+        fails: "where normals turn by more than 90 degrees over a polygon; it supports one light, at infinity, and highlights by R.V only",
         ..integers::INFO
     };
     type Shell = Normals<1>;

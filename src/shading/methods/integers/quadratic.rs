@@ -5,7 +5,8 @@ use crate::number::Counts;
 use crate::shading::methods::integers::{self, Form, Line, Normals, sum};
 use crate::shading::{Family, Info, Value};
 
-/// L·N and R·V by two additions each, through both ends and the middle of a span: [`crate::integer::quadratic`].
+/// L·N and R·V as parabolas through both ends and the middle of a span, by two additions each:
+/// [`crate::integer::Span::quadratic`].
 pub(crate) struct Parabolas;
 
 impl Line for Parabolas {

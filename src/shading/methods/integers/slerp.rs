@@ -7,7 +7,8 @@ use crate::shading::kernels::PixelKernel;
 use crate::shading::methods::integers::{self, Circles, Form, Line, sum};
 use crate::shading::{Family, Info, Value};
 
-/// J and K along great circles by two additions and a product each: `Span::slerp` of [`crate::integer`].
+/// J and K along great circles, by two additions and a product each: `Span::slerp` of
+/// [`crate::integer`].
 pub(crate) struct Waves;
 
 impl Line for Waves {
@@ -15,13 +16,13 @@ impl Line for Waves {
         name: "integer-slerp",
         family: Family::Angles,
         title: "J = L.N and K = V.N along great circles, in integers",
-        formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 2 (1 - cos d), d the angle of a pixel;  K likewise\n\
+        formula: "J_next = J + dJ;  dJ_next = dJ - a J_next;  a = 2 (1 - cos d), d the angle of a pixel;  K in the same way\n\
               I = table(J) + table(2 J K - L.V)",
         source: "L21 4.4, eq 4.7; Barrera, Hast, Bengtsson 2004",
         model: Model::Slerp,
         roundings: integers::CIRCLE_ROUNDINGS,
         approximation: |frame, polygon, _| integers::approximation(frame, polygon, Form::Waves),
-        fails: "where normals turn by more than 90 degrees along a span; it knows one light, at infinity",
+        fails: "where normals turn by more than 90 degrees along a span; it supports one light, at infinity",
         ..integers::INFO
     };
     type Shell = Circles;
@@ -30,7 +31,7 @@ impl Line for Waves {
 
     fn counts(_: u32, _: &[Value]) -> [Counts; 3] {
         [
-            // θ, φ and their sines by series, and the first differences of J and K
+            // θ, φ and their sines by series, and the first differences of J and K.
             sum([
                 (1, integers::RECIPROCAL),
                 (1, integers::DOT),

@@ -1,4 +1,5 @@
-//! Phong shading of a smoother surface: normals as quadratics over triangles, which follow inflections (van Overveld, Wyvill 1997).
+//! Phong shading of a smoother surface: normals are quadratics over triangles, which follow
+//! inflections (van Overveld, Wyvill 1997).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -9,28 +10,31 @@ use crate::shading::methods::quadratics::over_triangle::{
 use crate::shading::methods::roots::phong_rsqrt::PhongRsqrt;
 use crate::shading::walks::Quadratic;
 use crate::shading::{
-    Approximation, Chosen, Corner, Corners, Family, Info, Lit, Method, Needs, Normal, OneOf, Pixel,
-    Roundings, Shader, Span, Spans, Stepped,
+    Approximation, Chosen, Corner, Corners, Family, Info, LightAt, Method, Needs, Normal, OneOf,
+    Pixel, Roundings, Shader, Span, Spans, Stepped,
 };
 
-/// Biquadratic normals. Linear ones hide inflections: an edge between two equal normals is shaded flat, though its ends may lie as on an S.
-/// Here the normal half-way along an edge is the sum of both, reflected in the plane across the edge, and a triangle's normals are the
-/// quadratic through its three and these three (also of PN triangles, Vlachos 2001):
+/// Biquadratic normals. Linear normals hide inflections: an edge between two equal normals is
+/// shaded flat, even if its ends lie as on an S. Here the normal half-way along an edge is the sum
+/// of both, reflected in the plane across the edge. A triangle's normals are the quadratic through
+/// its three normals and these three (as in PN triangles, Vlachos 2001):
 ///
 /// ```text
 /// N_m = unit(N_1 + N_2 − v (P_2 − P_1)),     v = 2 (P_2 − P_1)·(N_1 + N_2) / |P_2 − P_1|²
 /// N = Σ N_i b_i (2 b_i − 1) + 4 Σ N_ij b_i b_j,     normalised at each pixel
 /// ```
-/// Under perspective b_i is a_i w_i/Σ a_j w_j of those on the screen, a_i. Times (Σ a_j w_j)² all of it is a quadratic on the screen again, and the
-/// factor is lost when N is normalised. Polygons of more corners, pieces that clipping cut, slivers and wide triangles are shaded as by
+/// Under perspective b_i is a_i w_i/Σ a_j w_j, with a_i those on the screen. Multiplied by (Σ a_j
+/// w_j)², N is again a quadratic on the screen, and normalising removes the factor. Polygons with
+/// more corners, pieces that clipping has cut off, slivers and wide triangles are shaded by
 /// [`PhongRsqrt`](crate::shading::methods::roots::phong_rsqrt::PhongRsqrt).
 ///
-/// **Its distance from Phong's picture.** N differs from the linear normal by `Σ 4 b_i b_j (N_ij − (N_i + N_j)/2)`, at most 4/3 of the longest of
-/// these vectors, and its direction by at most 2/ℓ times as much, with ℓ the least length of linear normals.
+/// **Its distance from Phong's picture.** N differs from the linear normal by
+/// `Σ 4 b_i b_j (N_ij − (N_i + N_j)/2)`, at most 4/3 of the longest of these vectors. Its direction
+/// differs by at most 2/ℓ times as much, with ℓ the least length of linear normals.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BiquadraticNormals;
 
-/// Returns the unit normal half-way along an edge, from unit normals and positions of its ends.
+/// Returns the unit normal half-way along an edge, from the unit normals and positions of its ends.
 #[inline(always)]
 fn midway<R: Real>([n1, n2]: [Vec3<R>; 2], [p1, p2]: [Vec3<R>; 2]) -> Vec3<R> {
     let (sum, edge) = (n1 + n2, p2 - p1);
@@ -76,12 +80,12 @@ impl Method for BiquadraticNormals {
         title: "normals as quadratics over triangles that follow inflections of the surface",
         formula: "Nm = unit(N1 + N2 - v (P2 - P1));  v = 2 (P2 - P1).(N1 + N2) / |P2 - P1|^2\n\
                   N = sum Ni bi (2 bi - 1) + 4 (N12 b1 b2 + N23 b2 b3 + N31 b3 b1);  N_next = N + dN;  dN_next = dN + ddN;  eq 2.1 of N / |N|",
-        source: "van Overveld, Wyvill 1997; the same normals half-way as Vlachos 2001",
+        source: "van Overveld, Wyvill 1997; the normals half-way are those of Vlachos 2001",
         model: Model::PhongConstant,
         roundings: Roundings::new(40.0, 3.0, Stepped::Products),
-        derivation: "as six-point, of vectors; the normal half-way takes 10 roundings, and is normalised once more at the pixel",
+        derivation: "as six-point, for vectors; the normal half-way takes 10 roundings, and is normalised again at the pixel",
         approximation: |frame, polygon, _| approximation(frame, polygon),
-        fails: "it is another surface: flat faces between unlike normals become waves",
+        fails: "it shades another surface: flat faces between unlike normals become waves",
         ..Info::OF_PIXELS
     };
     const NEEDS: Needs = Needs {
@@ -94,7 +98,7 @@ impl Method for BiquadraticNormals {
     type Kinds = (QuadraticOfNormals, PhongRsqrt);
 
     #[inline(always)]
-    fn polygon<R: Real>(self, _: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, _: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let &[a, b, c] = polygon.all else {
             return OneOf::Second(());
         };
@@ -120,7 +124,7 @@ impl Method for BiquadraticNormals {
     }
 }
 
-/// Normals as a quadratic over a triangle.
+/// The kind of polygons whose normals are a quadratic over a triangle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct QuadraticOfNormals;
 
@@ -132,7 +136,7 @@ impl Shader for QuadraticOfNormals {
     const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let ((of, from), [x, y]) = (span.constants(), span.place());
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
         [
@@ -142,7 +146,7 @@ impl Shader for QuadraticOfNormals {
         ]
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
         PhongRsqrt.shade(lit, n)
     }
 }

@@ -1,4 +1,5 @@
-//! Phong shading by Taylor's quadratic about the middle of a triangle: no root and no division at a pixel (Bishop, Weimer 1986).
+//! Phong shading by Taylor's quadratic about the middle of a triangle, with no root and no division
+//! at a pixel (Bishop, Weimer 1986).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Real, Vec3, vec3};
@@ -13,30 +14,34 @@ use crate::shading::methods::quadratics::over_triangle_at_positions::{
 };
 use crate::shading::methods::roots::duff_phong::{DuffOfNormals, DuffPhongLocal};
 use crate::shading::{
-    Approximation, Chosen, Corner, Corners, Family, Info, Lit, Method, Needs, OneOf, Roundings,
+    Approximation, Chosen, Corner, Corners, Family, Info, LightAt, Method, Needs, OneOf, Roundings,
     Spans, Stepped, Values,
 };
 
-/// Taylor's quadratics, for up to `L` lights: with `v = v_0 + x v_x + y v_y` the interpolated normal, from the middle of a triangle,
+/// Taylor's quadratics, for up to `L` lights. With `v = v_0 + x v_x + y v_y` the interpolated
+/// normal, from the middle of a triangle,
 ///
 /// ```text
-/// J/|N| = L·v / √(v·v)  ~  T_0 + T_1 x + T_2 y + T_3 x² + T_4 xy + T_5 y²,     K/|N| likewise
+/// J/|N| = L·v / √(v·v)  ~  T_0 + T_1 x + T_2 y + T_3 x² + T_4 xy + T_5 y²,     K/|N| in the same way
 /// ```
-/// which a run steps by two additions. The coefficients come from values that carry their derivatives ([`Jet`]): the printed ones, as they
-/// are copied about, are wrong twice. Under perspective v is that of N/w. Polygons of more corners, pieces that clipping cut, slivers,
-/// and triangles whose normals turn by more than about 60° are shaded as by [`DuffPhong`](crate::shading::methods::roots::duff_phong::DuffPhong).
+/// which a run steps by two additions. The coefficients come from values that carry their
+/// derivatives ([`Jet`]), because the printed ones, as they are usually copied, contain two
+/// mistakes. Under perspective v is N/w. Polygons with more corners, pieces that clipping has cut
+/// off, slivers, and triangles whose normals turn by more than about 60° are shaded as in
+/// [`DuffPhong`](crate::shading::methods::roots::duff_phong::DuffPhong).
 ///
-/// **Its error.** The rest of Taylor's formula is a third derivative: with r the longest distance of a corner's v from v_0 and ℓ the least
-/// length of v, g = v/|v| is followed to
+/// **Its error.** The rest of Taylor's formula is a third derivative. With r the longest distance
+/// of a corner's v from v_0, ℓ the least length of v, and g = v/|v|,
 ///
 /// ```text
 /// |g − T| ≤ ⅙ |g‴| r³ ≤ ½ (r/ℓ)³,     |g‴| ≤ 3/ℓ³
 /// ```
-/// as [`SixPoint`](crate::shading::methods::quadratics::six_point::SixPoint) says. Corners themselves are not met: neighbours differ along their edge by as much.
+/// as [`SixPoint`](crate::shading::methods::quadratics::six_point::SixPoint) derives. The quadratic
+/// misses the corners themselves, so neighbours differ along their edge by as much.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BishopWeimer<const L: usize>;
 
-/// Bounds the error of Taylor's quadratics on a polygon.
+/// Returns a bound of the error of Taylor's quadratics on a polygon.
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let Some(corners) = narrow_triangle(frame, polygon) else {
         return Approximation::NONE;
@@ -50,20 +55,22 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     }
 }
 
-/// Returns the middle of a triangle on the picture.
+/// Returns the middle of a triangle in the picture, in pixels.
 #[inline(always)]
 fn middle<R: Real>([a, b, c]: [Corner<R>; 3]) -> [R; 2] {
     [0, 1].map(|i| (a.place[i] + b.place[i] + c.place[i]) * (1.0 / 3.0))
 }
 
-/// A value as a function of x and y, cut off after the second order: the coefficients of 1, x, y, x², xy, y².
+/// A value as a function of x and y, cut off after the second order: the coefficients of 1, x, y,
+/// x², xy, y².
 #[derive(Clone, Copy)]
 struct Jet<R>([R; 6]);
 
 /// A vector as a linear function of x and y: the coefficients of 1, x, y.
 type Plane<R> = [Vec3<R>; 3];
 
-/// Returns the vector through those at the corners of a triangle, from its middle on.
+/// Returns the linear vector through three vectors at the corners of a triangle, from its middle
+/// on.
 #[inline(always)]
 fn plane<R: Real>([a, b, c]: [Vec3<R>; 3], Growth { p, q, r, s }: Growth<R>) -> Plane<R> {
     let (to_b, to_c) = (b - a, c - a);
@@ -86,14 +93,14 @@ impl<R: Real> Jet<R> {
         ])
     }
 
-    /// Makes a function that is linear.
+    /// Makes a linear function.
     #[inline(always)]
     fn linear([c, x, y]: [R; 3]) -> Jet<R> {
         let zero = c.broadcast(0.0);
         Jet([c, x, y, zero, zero, zero])
     }
 
-    /// Makes the product of two vectors that are linear.
+    /// Makes the product of two linear vectors.
     #[inline(always)]
     fn dot([v, vx, vy]: Plane<R>, [w, wx, wy]: Plane<R>) -> Jet<R> {
         Jet([
@@ -106,7 +113,7 @@ impl<R: Real> Jet<R> {
         ])
     }
 
-    /// Returns the product.
+    /// Returns the product with another function.
     #[inline(always)]
     fn times(self, Jet([c, x, y, xx, xy, yy]): Jet<R>) -> Jet<R> {
         let [r, rx, ry, rxx, rxy, ryy] = self.0;
@@ -126,7 +133,7 @@ impl<R: Real> Jet<R> {
         self.times(self)
     }
 
-    /// Returns the sum with another one times a factor.
+    /// Returns the sum of this function and `other` times a factor.
     #[inline(always)]
     fn plus(self, Jet(other): Jet<R>, factor: f32) -> Jet<R> {
         let mut sum = self.0;
@@ -136,7 +143,8 @@ impl<R: Real> Jet<R> {
         Jet(sum)
     }
 
-    /// Returns 1 over the root: with q what is added to 1, divided by the constant part,
+    /// Returns 1 over the root. Let d be the constant part, and d (1 + q) the function; to the
+    /// second order
     ///
     /// ```text
     /// 1/√(d (1 + q)) = (1 − q/2 + 3 q²/8) / √d
@@ -172,7 +180,7 @@ const BISHOP_WEIMER: Info = Info {
     roundings: Roundings::new(40.0, 3.0, Stepped::Products),
     derivation: "as six-point; coefficients take three times as many roundings, as products of derivatives",
     approximation: |frame, polygon, _| approximation(frame, polygon),
-    fails: "where normals turn by more than 15 degrees over a triangle; neighbours differ along their edge, which is seen as seams",
+    fails: "where normals turn by more than 15 degrees over a triangle; neighbours differ along their edge, which shows as seams",
     ..Info::OF_PIXELS
 };
 
@@ -189,7 +197,7 @@ impl<const L: usize> Method for BishopWeimer<L> {
     type Kinds = (Quadratics<L>, DuffOfNormals<L>);
 
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let mut constants = OverPolygon::<R, L>::filled(lit.count(), lit.zero());
         let Some(([a, b, c], growth)) = set_up_triangle(polygon) else {
             return OneOf::Second(());
@@ -214,7 +222,8 @@ impl<const L: usize> Method for BishopWeimer<L> {
     }
 }
 
-/// The vectors over a triangle that are linear on the screen: N/w, those toward places over w, and 1/w.
+/// The vectors over a triangle that are linear on the screen: N/w, the vectors toward lights and
+/// eye over w, and 1/w.
 struct Vectors<R> {
     corners: [Placed<R>; 3],
     growth: Growth<R>,
@@ -225,10 +234,10 @@ struct Vectors<R> {
     weight: Jet<R>,
 }
 
-// Not inlined: they are the same for any count of lights.
+// Not inlined, because the code is equal for any count of lights.
 impl<R: Real> Vectors<R> {
     #[inline(never)]
-    fn of(lit: &Lit<'_, R>, corners: [Placed<R>; 3], growth: Growth<R>) -> Self {
+    fn of(lit: &LightAt<'_, R>, corners: [Placed<R>; 3], growth: Growth<R>) -> Self {
         let (zero, none) = (lit.zero(), vec3([lit.zero(); 3]));
         let weight = plane(corners.map(|(v, _)| vec3([v.weight, zero, zero])), growth);
         let n = plane(corners.map(|(v, _)| v.normal * v.weight), growth);
@@ -290,8 +299,10 @@ impl<R: Real> Vectors<R> {
     }
 }
 
-/// Taylor's quadratics where a light or the eye is at a position, for up to `L` lights: of L·V and of each light's strength beside J and K,
-/// by derivatives of the vectors toward them. Triangles to which a light or the eye is near take Duff's way.
+/// Taylor's quadratics where a light or the eye is at a position, for up to `L` lights. Beside J
+/// and K there are quadratics of L·V and of each light's strength, from derivatives of the vectors
+/// toward lights and eye. Triangles that are near to a light or the eye are shaded by Duff's
+/// method.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BishopWeimerLocal<const L: usize>;
 
@@ -306,7 +317,7 @@ impl<const L: usize> Method for BishopWeimerLocal<L> {
     type Kinds = (QuadraticsLocal<L>, DuffPhongLocal<L>);
 
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let mut constants = OverTriangle::<R, L>::filled(lit.count(), lit.zero());
         let Some((corners, growth)) = set_up_placed(lit, polygon) else {
             return OneOf::Second(());

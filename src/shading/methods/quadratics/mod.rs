@@ -1,4 +1,4 @@
-//! Quadratics over a polygon or a span in place of unit vectors.
+//! Methods with quadratics over a polygon or a span in place of unit vectors.
 
 pub(crate) mod biquadratic_normals;
 pub(crate) mod bishop_weimer;

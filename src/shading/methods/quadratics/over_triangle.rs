@@ -1,31 +1,37 @@
-//! Products of unit normals as quadratics over a triangle: what methods share that make one per polygon.
+//! Products of unit normals as quadratics over a triangle, for the methods that set up one per
+//! polygon.
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
 use crate::shading::walks::Quadratic;
 use crate::shading::walks::values::{each, scaled, sum};
-use crate::shading::{Corner, Corners, Info, Lit, Normal, PerLight, Pixel, Shader, Span, Values};
+use crate::shading::{
+    Corner, Corners, Info, LightAt, Normal, PerLight, Pixel, Shader, Span, Values,
+};
 
 /// J of each light, and K.
 pub(crate) type Products<F, const L: usize> = (PerLight<F, L>, F);
 
-/// The coefficients of 1, x, y, x², xy, y², and the point of the picture from which x and y are counted.
+/// The coefficients of 1, x, y, x², xy, y², and the point of the picture from which x and y are
+/// measured, in pixels.
 pub(crate) type OverPolygon<F, const L: usize> = ([Products<F, L>; 6], [F; 2]);
 
-/// The largest D/ℓ for which there are quadratics, that of three normals 60° apart: D is the longest distance between two of the
-/// weighted normals, ℓ the least length between them.
+/// The largest D/ℓ for which quadratics are used, which three normals 60° apart have. D is the
+/// longest distance between two of the weighted normals, and ℓ the least length between them.
 pub(crate) const WIDEST: f32 = 1.25;
-/// The most by which barycentric coordinates grow from one side of a triangle's box to the other: more loses too many digits.
+/// The most by which barycentric coordinates may grow across a triangle's box: more growth loses
+/// too many digits.
 const STEEPEST: f32 = 64.0;
 
-/// Returns the vector as plain `f32`: operations that choose a polygon's kind are not counted.
+/// Returns the vector as plain `f32`, so that operations that choose a polygon's kind are not
+/// counted.
 #[inline(always)]
 pub(crate) fn plain<R: Real>(v: Vec3<R>) -> Vec3<f32> {
     vec3([v.x.value(), v.y.value(), v.z.value()])
 }
 
-/// Returns a value that ℓ is not below: of v = Σ b_i N_i w_i the part along the mean direction m of the corners is at least
-/// min w_i · min N_i·m.
+/// Returns a lower bound of ℓ: the part of v = Σ b_i N_i w_i along the mean direction m of the
+/// corners is at least min w_i · min N_i·m.
 pub(crate) fn least_length(corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let mean = (corners[0].0 + corners[1].0 + corners[2].0).unit();
     let least = |of: [f32; 3]| of[0].min(of[1]).min(of[2]);
@@ -38,14 +44,15 @@ pub(crate) fn longest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
     Num::sqrt(square(a - b).max(square(b - c)).max(square(c - a)))
 }
 
-/// Returns the longest distance of three vectors from their mean.
+/// Returns the longest distance of one of three vectors from their mean.
 pub(crate) fn farthest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
     let middle = (a + b + c) * (1.0 / 3.0);
     let square = |v: Vec3<f32>| (v - middle).dot(v - middle);
     Num::sqrt(square(a).max(square(b)).max(square(c)))
 }
 
-/// Returns a distance `across` three unit vectors times their weights, over ℓ; more than any value where ℓ may be 0.
+/// Returns a distance `across` three unit vectors times their weights, over ℓ; infinity where ℓ may
+/// be 0.
 pub(crate) fn relative(across: fn([Vec3<f32>; 3]) -> f32, corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let length = least_length(corners);
     match length > 0.0 {
@@ -59,7 +66,8 @@ pub(crate) fn width(corners: [(Vec3<f32>, f32); 3]) -> f32 {
     relative(longest, corners)
 }
 
-/// Returns the unit normals and weights of a polygon of a frame, if it is a whole triangle and not too [wide](WIDEST).
+/// Returns the unit normals and weights of a polygon of a frame, if it is a whole triangle that is
+/// not too [wide](WIDEST).
 pub(crate) fn narrow_triangle(frame: &Frame, polygon: &Polygon) -> Option<[(Vec3<f32>, f32); 3]> {
     let &[a, b, c] = frame.corners(polygon) else {
         return None;
@@ -69,7 +77,8 @@ pub(crate) fn narrow_triangle(frame: &Frame, polygon: &Polygon) -> Option<[(Vec3
     (is_whole && width(corners) <= WIDEST).then_some(corners)
 }
 
-/// Returns the corners of a polygon as a method sets it up, and their growth, if it is such a triangle, and no sliver.
+/// Returns the corners of a polygon and the growth over it, if it is a whole triangle that is not
+/// too wide, and no sliver.
 #[inline(always)]
 pub(crate) fn set_up_triangle<R: Real>(
     polygon: &Corners<'_, R>,
@@ -82,7 +91,8 @@ pub(crate) fn set_up_triangle<R: Real>(
     (polygon.is_whole && width <= WIDEST).then_some(([a, b, c], growth))
 }
 
-/// The growth of the barycentric coordinates b and c of a triangle: `b = p x + q y`, `c = r x + s y`, from its first corner.
+/// The growth of the barycentric coordinates b and c over a triangle: `b = p x + q y`,
+/// `c = r x + s y`, from its first corner.
 #[derive(Clone, Copy)]
 pub(crate) struct Growth<R> {
     pub p: R,
@@ -92,7 +102,8 @@ pub(crate) struct Growth<R> {
 }
 
 impl<R: Real> Growth<R> {
-    /// Returns the growth over a triangle; `None` if it has no area, or is so thin that too many digits are lost.
+    /// Returns the growth over a triangle; `None` if it has no area, or is so thin that too many
+    /// digits would be lost.
     #[inline(always)]
     pub fn of([a, b, c]: [&Corner<R>; 3]) -> Option<Growth<R>> {
         let from_a = |at: [R; 2]| [at[0] - a.place[0], at[1] - a.place[1]];
@@ -107,8 +118,9 @@ impl<R: Real> Growth<R> {
     }
 }
 
-/// Returns the coefficients of 1, x, y, x², xy, y², from the first corner, of the quadratic through values at three corners A, B, C and
-/// half-way along the edges AB, BC, CA. In the barycentric coordinates b, c of the second and third corner it is
+/// Returns the quadratic through values at three corners A, B, C and half-way along the edges AB,
+/// BC, CA: its coefficients of 1, x, y, x², xy, y², from the first corner. In the barycentric
+/// coordinates b, c of the second and third corners it is
 ///
 /// ```text
 /// F = A + b (4 AB − 3 A − B) + c (4 CA − 3 A − C) + b² 2 (A + B − 2 AB) + c² 2 (A + C − 2 CA) + bc 4 (A + BC − AB − CA)
@@ -136,13 +148,14 @@ pub(crate) fn lagrange<R: Real, P: Values<R>>(
     ]
 }
 
-/// Returns the sum of some values, each times a factor.
+/// Returns the sum of values, each multiplied by its factor.
 #[inline(always)]
 fn mixed<F: Num, P: Values<F>, const N: usize>(all: [(P, f32); N]) -> P {
     sum(all.map(|(value, factor)| each(value, |_, x| *x = *x * factor)))
 }
 
-/// Products as quadratics over a polygon: a kind of polygons, beside [`DuffOfNormals`](crate::shading::methods::roots::duff_phong::DuffOfNormals).
+/// The kind of polygons whose products are quadratics; the other kind is
+/// [`DuffOfNormals`](crate::shading::methods::roots::duff_phong::DuffOfNormals).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Quadratics<const L: usize>;
 
@@ -154,7 +167,7 @@ impl<const L: usize> Shader for Quadratics<L> {
     const VALUES: &'static [&'static str] = &["J_i", "K"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let ((of, from), [x, y]) = (span.constants(), span.place());
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
         let mut j = PerLight::new(lit.count(), Quadratic::zero(lit.zero()));
@@ -164,12 +177,12 @@ impl<const L: usize> Shader for Quadratics<L> {
         (j, along(each_of(|i| of[i].1), from))
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
         lit.shade_products(products)
     }
 }
 
-/// Returns a quadratic in x and y along a row.
+/// Returns the walk of a quadratic in x and y along a row, from a point.
 #[inline(always)]
 pub(crate) fn along<F: Num>(
     [c, cx, cy, cxx, cxy, cyy]: [F::One; 6],
@@ -177,11 +190,13 @@ pub(crate) fn along<F: Num>(
 ) -> Quadratic<F> {
     let all = |value: F::One| x.of_each(|_| value);
     let (curve, slope) = (all(cxx), all(cx) + all(cxy) * y);
+    // Horner's scheme in y, then in x; only x grows along a row, so the second difference comes
+    // from x² only.
     let at = all(c) + (all(cy) + all(cyy) * y) * y + (slope + curve * x) * x;
     Quadratic::new(at, slope + curve * x * 2.0, curve)
 }
 
-/// Returns the six values that `of` gives.
+/// Returns `of` of 0 to 5.
 #[inline(always)]
 pub(crate) fn each_of<T>(of: impl Fn(usize) -> T) -> [T; 6] {
     [of(0), of(1), of(2), of(3), of(4), of(5)]

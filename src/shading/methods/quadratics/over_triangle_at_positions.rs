@@ -1,4 +1,5 @@
-//! Products of vectors toward lights and eye at positions, as quadratics over a triangle: what methods share that make one per polygon.
+//! Products of vectors toward lights and eye at positions as quadratics over a triangle, for the
+//! methods that set up one per polygon.
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Real, Vec3, vec3};
@@ -9,18 +10,18 @@ use crate::shading::methods::quadratics::over_triangle::{
 use crate::shading::walks::Quadratic;
 use crate::shading::walks::products;
 use crate::shading::{
-    Approximation, Corner, Corners, Info, Lit, NormalAndPlace, PerLight, Pixel, Shader, Span,
+    Approximation, Corner, Corners, Info, LightAt, NormalAndPlace, PerLight, Pixel, Shader, Span,
 };
 
 products! {
-    /// Products of unit vectors: K = V·N; J = L·N and L·V of each light, and its strength.
+    /// The products of unit vectors: K = V·N; J = L·N and L·V of each light, and its strength.
     UnitProducts { k } per light { j, l_v, strength }
 }
 
 /// The coefficients of 1, x, y, x², xy, y².
 type Coefficients<F, const L: usize> = [UnitProducts<F, L>; 6];
 
-/// The coefficients, and the point of the picture from which x and y are counted.
+/// The coefficients, and the point of the picture from which x and y are measured, in pixels.
 pub(crate) type OverTriangle<F, const L: usize> = (Coefficients<F, L>, [F; 2]);
 
 /// Sets the coefficients of K.
@@ -48,11 +49,12 @@ pub(crate) fn set_light<F: Copy, const L: usize>(
 /// A corner of a triangle and its position in the world.
 pub(crate) type Placed<R> = (Corner<R>, Vec3<R>);
 
-/// Returns the corners of a polygon as a method sets it up, and their growth, if it is a triangle over which products are quadratics: no
-/// sliver, and no light, eye or normal turns or changes by too much. Not inlined: it is the same for any count of lights.
+/// Returns the corners of a polygon and the growth over it, if products are quadratics there: if it
+/// is a triangle but no sliver, and no vector toward a light or the eye, and no normal, changes by
+/// too much. Not inlined, because the code is equal for any count of lights.
 #[inline(never)]
 pub(crate) fn set_up_placed<R: Real>(
-    lit: &Lit<'_, R>,
+    lit: &LightAt<'_, R>,
     polygon: &Corners<'_, R>,
 ) -> Option<([Placed<R>; 3], Growth<R>)> {
     let ([a, b, c], growth) = set_up_triangle(polygon)?;
@@ -63,19 +65,21 @@ pub(crate) fn set_up_placed<R: Real>(
         .then_some((corners, growth))
 }
 
-/// The way across a triangle of vectors by which a quadratic's error grows.
+/// A measure of the distance across a triangle of vectors, by which a quadratic's error grows.
 pub(crate) type Across = fn([Vec3<f32>; 3]) -> f32;
 
 /// Unit normals, positions and weights of the corners of a triangle.
 ///
-/// **The error of a quadratic** is a share of the third derivative along a line. For the direction g = v/|v| of a vector v that is linear on
-/// the screen, as N/w and (p − P)/w are, and with a = D/ℓ of a way D `across` the triangle and the least length ℓ of v
+/// **The error of a quadratic** is a share of the third derivative along a line. Let v be a vector
+/// that is linear on the screen, as N/w and (p − P)/w are, g = v/|v| its direction, and a = D/ℓ
+/// with a distance D `across` the triangle and the least length ℓ of v. Then
 ///
 /// ```text
 /// |g′| ≤ a,   |g″| ≤ √(4/3) a²,   |g‴| ≤ 3 a³,      so that of the product of two   |(g·h)‴| ≤ 3 (a + b)³
 /// ```
-/// as those of a unit vector at the angle atan(s/h) on a line at the distance h from 0. The nth derivative of 1/r is at most n!/rⁿ⁺¹ there, and
-/// that of 1/r² (n + 1)!/rⁿ⁺². So of strengths, with ρ the share of the largest weight w by which weights differ,
+/// as for a unit vector at the angle atan(s/h) on a line at the distance h from 0. There the nth
+/// derivative of 1/r is at most n!/rⁿ⁺¹, and that of 1/r² at most (n + 1)!/rⁿ⁺². For strengths,
+/// with ρ the difference of weights as a share of the largest weight w, this gives
 ///
 /// ```text
 /// |(w/|v|)‴| ≤ 6 (a + ρ)³ w/ℓ,      |(w²/|v|²)‴| ≤ 24 (a + ρ)³ w²/ℓ²
@@ -84,7 +88,8 @@ pub(crate) type Across = fn([Vec3<f32>; 3]) -> f32;
 pub(crate) struct Triangle(pub(crate) [(Vec3<f32>, Vec3<f32>, f32); 3]);
 
 impl Triangle {
-    /// Returns the largest third derivative of a product, over 3: (a + b)³ of the two vectors that turn by most.
+    /// Returns a third of the largest third derivative of a product: (a + b)³ of the two vectors
+    /// that turn most.
     fn turn(
         &self,
         across: Across,
@@ -99,7 +104,8 @@ impl Triangle {
         most * most * most
     }
 
-    /// Returns the largest third derivative of a light's strength, over 3, as a factor and the strength that it multiplies; 0 without falloff.
+    /// Returns a third of the largest third derivative of a light's strength, as a factor and the
+    /// strength that it multiplies; 0 without falloff.
     pub(crate) fn fall(&self, across: Across, (place, falloff): Light) -> [f32; 2] {
         let Some(to) = self.vectors(place) else {
             return [0.0; 2];
@@ -132,7 +138,8 @@ impl Triangle {
         }
     }
 
-    /// Returns the unit vectors from the corners to a position, and their lengths, times the weights; `None` for one at infinity.
+    /// Returns the unit vectors from the corners to a position, and their lengths times the
+    /// weights; `None` for a place at infinity.
     fn vectors(&self, place: Place<Vec3<f32>>) -> Option<[(Vec3<f32>, f32); 3]> {
         let Place::Local(position) = place else {
             return None;
@@ -144,7 +151,8 @@ impl Triangle {
         }))
     }
 
-    /// True if quadratics follow products and strengths as far as those of normals alone may be followed: see [`WIDEST`].
+    /// True if quadratics follow products and strengths as closely as [`WIDEST`] demands for
+    /// normals.
     fn is_narrow(
         &self,
         eye: Place<Vec3<f32>>,
@@ -159,8 +167,8 @@ impl Triangle {
 /// The place of a light, and its falloff.
 type Light = (Place<Vec3<f32>>, Falloff);
 
-/// Bounds the error on a polygon of quadratics that are off by a `share` of their third derivatives: see [`Triangle`]. None where
-/// vectors are followed.
+/// Returns a bound of the error on a polygon of quadratics whose error is a `share` of their third
+/// derivatives: see [`Triangle`]. The bound is 0 where the vectors are stepped instead.
 pub(crate) fn approximation(
     frame: &Frame,
     polygon: &Polygon,
@@ -196,7 +204,8 @@ pub(crate) fn approximation(
     }
 }
 
-/// Products as quadratics over a polygon: a kind of polygons, beside [`DuffPhongLocal`](crate::shading::methods::roots::duff_phong::DuffPhongLocal).
+/// The kind of polygons whose products are quadratics; the other kind is
+/// [`DuffPhongLocal`](crate::shading::methods::roots::duff_phong::DuffPhongLocal).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct QuadraticsLocal<const L: usize>;
 
@@ -208,7 +217,7 @@ impl<const L: usize> Shader for QuadraticsLocal<L> {
     const VALUES: &'static [&'static str] = &["K", "J_i", "L_i.V", "strength_i"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let ((of, from), [x, y]) = (span.constants(), span.place());
         let from = [x - x.of_each(|_| from[0]), y - y.of_each(|_| from[1])];
         let mut walk = UnitProducts::new(lit.count(), Quadratic::zero(lit.zero()));
@@ -221,7 +230,7 @@ impl<const L: usize> Shader for QuadraticsLocal<L> {
         walk
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
         let mut colour = lit.ambient();
         for index in 0..lit.count() {
             let falls = lit.stored[index].falloff != Falloff::None;

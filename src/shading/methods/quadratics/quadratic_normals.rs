@@ -1,4 +1,5 @@
-//! Phong shading by a quadratic of unit normals along each span: nothing is normalised at a pixel (Hast, Barrera, Bengtsson 2002).
+//! Phong shading by a quadratic through unit normals along each span, with nothing normalised at a
+//! pixel (Hast, Barrera, Bengtsson 2002).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Num, Vec3};
@@ -6,26 +7,31 @@ use crate::reference::Model;
 use crate::shading::bounds::polygon_ranges::Extent;
 use crate::shading::walks::Quadratic;
 use crate::shading::{
-    Approximation, Family, Info, Lit, Needs, Normal, Pixel, Roundings, Shader, Span, Spans, Stepped,
+    Approximation, Family, Info, LightAt, Needs, Normal, Pixel, Roundings, Shader, Span, Spans,
+    Stepped,
 };
 
-/// Quadratic vectors: of the normals at both ends of a span and in its middle unit vectors are made, and the quadratic through them is
-/// stepped by six additions a pixel. It is so nearly of length 1 that it is lit as it is.
+/// Quadratic vectors. The normals at both ends of a span and in its middle are normalised, and the
+/// quadratic through them is stepped by six additions per pixel. Its length is so nearly 1 that it
+/// is not normalised again.
 ///
 /// ```text
-/// N(t) = N_1 + (4 N_m − 3 N_1 − N_2) t + 2 (N_1 + N_2 − 2 N_m) t²,     N_m = (N_1 + N_2)/|N_1 + N_2| of the ends as they are
+/// N(t) = N_1 + (4 N_m − 3 N_1 − N_2) t + 2 (N_1 + N_2 − 2 N_m) t²,     N_m = (N_1 + N_2)/|N_1 + N_2| of the ends before they are normalised
 /// ```
-/// Edges are those of naive Phong, so that neighbours agree on theirs. Under perspective the middle is that of the screen, where N/w is
-/// linear.
+/// Edges are stepped as in naive Phong shading, so neighbours agree on them. Under perspective the
+/// middle is the middle on the screen, where N/w is linear.
 ///
-/// **Its error.** Along a span v = a + t (b − a) and g = v/|v|. The quadratic through three points of g is off by
+/// **Its error.** Along a span let v = a + t (b − a) and g = v/|v|. The quadratic Πg through three
+/// points of g has an error of
 ///
 /// ```text
 /// |g − Πg| ≤ ⅙ |g‴| max |t (t − ½) (t − 1)| = ⅙ |g‴| √3/36 ≤ 0.0241 (|b − a|/ℓ)³,     |g‴| ≤ 3 |b − a|³/ℓ³
 /// ```
-/// with ℓ the least length of v, as [`SixPoint`](crate::shading::methods::quadratics::six_point::SixPoint) says. Both ends are between the corners: their distance is at
-/// most that of two corners, 2 sin θ for unit normals within θ of one direction, or for weights of up to w times the least
-/// `2 w sin θ + w − 1`; and ℓ is at least cos θ.
+/// with ℓ the least length of v, as
+/// [`SixPoint`](crate::shading::methods::quadratics::six_point::SixPoint) derives. Both ends lie
+/// between the corners, so their distance is at most that of two corners: 2 sin θ for unit normals
+/// within θ of one direction, or `2 w sin θ + w − 1` for weights of up to w times the least; and ℓ
+/// is at least cos θ.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct QuadraticNormals;
 
@@ -54,8 +60,8 @@ impl Shader for QuadraticNormals {
         claimed: "no normalisation",
         model: Model::PhongConstant,
         roundings: Roundings::new(24.0, 3.0, Stepped::Cosines),
-        derivation: "unit vectors take 3 roundings, the quadratic's coefficients 8 of them; each component is a quadratic, off by 3 a step \
-                     of numbers of at most 1, and as a vector by no more along L or V",
+        derivation: "unit vectors take 3 roundings, the quadratic's coefficients 8 of them; each component is a quadratic of values of at most 1, which \
+                     gathers 3 per step, and as a vector no more along L or V",
         approximation: |frame, polygon, _| approximation(frame, polygon),
         fails: "where normals turn by more than 60 degrees along a span; on short spans, which pay three roots",
         ..Info::OF_PIXELS
@@ -63,7 +69,7 @@ impl Shader for QuadraticNormals {
     const NEEDS: Needs = Needs {
         spans: Spans::Ends,
         scalar_only: Some(
-            "quadratic-normals sets up each span by three roots, where eight lanes take one each for eight pixels",
+            "quadratic-normals takes three roots to set up a span, where SIMD takes the roots of eight pixels at once",
         ),
         ..Needs::PIXELS_BY_POLYGON
     };
@@ -73,7 +79,7 @@ impl Shader for QuadraticNormals {
     const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         let [a, b] = span.ends();
         let [t0, dt] = span.parameter();
         let (n1, nm, n2) = (a.unit(), (a + b).unit(), b.unit());
@@ -93,7 +99,7 @@ impl Shader for QuadraticNormals {
         ]
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
         let v_n = n.dot(lit.view()); // K = V · N
         let mut colour = lit.ambient();
         for light in lit.lights() {

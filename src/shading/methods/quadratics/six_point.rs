@@ -1,4 +1,5 @@
-//! Phong shading by one quadratic a polygon: no root and no division at a pixel (Seiler 1998).
+//! Phong shading by one quadratic per polygon, with no root and no division at a pixel (Seiler
+//! 1998).
 
 use crate::frame::{Frame, Polygon};
 use crate::number::{Real, Vec3};
@@ -11,58 +12,65 @@ use crate::shading::methods::quadratics::over_triangle_at_positions::{
 };
 use crate::shading::methods::roots::duff_phong::{DuffOfNormals, DuffPhongLocal};
 use crate::shading::{
-    Approximation, Chosen, Corner, Corners, Family, Info, LightModel, Lit, Method, MethodParameter,
-    Needs, OneOf, Roundings, Spans, Standing, Stepped, Value, Values,
+    Approximation, Chosen, Corner, Corners, Family, Info, LightAt, LightModel, Method,
+    MethodParameter, Needs, OneOf, Roundings, Spans, Stepped, Tier, Value, Values,
 };
 
-/// Six-point quadratics, for up to `L` lights: `J = L·N` and `K = V·N` of *unit* normals are computed at the corners of a triangle
-/// and half-way along its edges. The quadratic through these six points in the barycentric coordinates b, c of two corners
+/// Six-point quadratics, for up to `L` lights. `J = L·N` and `K = V·N` of *unit* normals are
+/// computed at the corners of a triangle and half-way along its edges. The quadratic through these
+/// six points, in the barycentric coordinates b, c of two corners, is
 ///
 /// ```text
 /// F = A + b (4 AB − 3 A − B) + c (4 AC − 3 A − C) + b² 2 (A + B − 2 AB) + c² 2 (A + C − 2 AC) + bc 4 (A + BC − AB − AC)
 /// ```
 ///
-/// is one in x and y, which a run steps by two additions. Triangles that share an edge share three of the points, so that the
-/// picture has no seams. Under perspective the points are those of the screen, where N/w is linear: half-way stands
-/// N_1/w_1 + N_2/w_2. Other polygons, pieces that clipping cut, slivers, and triangles whose normals turn by more than about 60° are
-/// shaded as by [`DuffPhong`](crate::shading::methods::roots::duff_phong::DuffPhong).
+/// It is a quadratic in x and y, which a run steps by two additions. Triangles that share an edge
+/// share three of the points, so the picture has no seams. Under perspective the points are those
+/// on the screen, where N/w is linear: the value half-way is N_1/w_1 + N_2/w_2. Other polygons,
+/// pieces that clipping has cut off, slivers, and triangles whose normals turn by more than about
+/// 60° are shaded as in [`DuffPhong`](crate::shading::methods::roots::duff_phong::DuffPhong).
 ///
-/// **Its error.** Let v = Σ b_i N_i w_i be the normal that is interpolated, D the longest distance between two of the N_i w_i, and ℓ the
-/// least length of v, so that g = v/|v| is what the quadratic Πg follows. With φ_i the weights of the six points p_i (Ciarlet, Wagschal
-/// 1971)
+/// **Its error.** Let v = Σ b_i N_i w_i be the interpolated normal, D the longest distance between
+/// two of the N_i w_i, and ℓ the least length of v. The quadratic Πg follows g = v/|v|. With φ_i
+/// the weights of the six points p_i (Ciarlet, Wagschal 1971)
 ///
 /// ```text
 /// |g − Πg| ≤ ⅙ Σ |φ_i| |g‴| |v − v(p_i)|³,     |g‴| ≤ 3/ℓ³
 /// ```
-/// where g‴ is the third derivative along a line: that of a unit vector whose angle is atan(s/h) at the distance h of the line from
-/// 0. `|v − v(p_i)|` is at most D times half of the sum of the differences of the coordinates, with which the sum is below 0.204
-/// everywhere on a triangle: the error is below 0.102 (D/ℓ)³. As for ℓ, v is at least as long as its part along the mean direction m of
-/// the corners: min w_i · min N_i·m.
+/// where g‴ is the third derivative along a line, of a unit vector whose angle is atan(s/h) at the
+/// distance h of the line from 0. `|v − v(p_i)|` is at most D times half of the sum of the
+/// differences of the coordinates. With this, the sum is below 0.204 everywhere on a triangle, so
+/// the error is below 0.102 (D/ℓ)³. As for ℓ, v is at least as long as its part along the mean
+/// direction m of the corners: min w_i · min N_i·m.
 ///
-/// **Midpoints after Barrera.** With `midpoints=barrera` normals half-way along edges take no root (Barrera, Hast, Bengtsson 2006):
+/// **Midpoints after Barrera.** With `midpoints=barrera`, normals half-way along edges take no root
+/// (Barrera, Hast, Bengtsson 2006):
 ///
 /// ```text
 /// (N_1 + N_2)/|N_1 + N_2| ~ (N_1 + N_2) (5 − N_1·N_2)/8,    of length √(1 − u/2) (1 + u/4) ≤ 1,    u = 1 − N_1·N_2
 /// ```
-/// Their weights in F, 4 b_i b_j, sum to 4/3 at most: the error is larger by 4/3 of the shortest one's lack. Under perspective, where weights
-/// of corners differ, they are exact.
+/// Their weights in F, 4 b_i b_j, sum to at most 4/3, so the error grows by 4/3 of what the
+/// shortest one lacks. Under perspective, where the weights of corners differ, midpoints are always
+/// exact.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SixPoint<const L: usize> {
     is_near: bool,
 }
 
-/// The place of `barrera` among the words of the only parameter.
+/// The value `barrera` of the only parameter.
 const BARRERA: Value = Value::Word(1);
 
-/// The share of the third derivative by which quadratics are off: a sixth of the sum of weights and cubes of distances.
+/// The error of quadratics as a share of the third derivative: a sixth of the sum of weights and
+/// cubes of distances.
 const SHARE: f64 = 0.204 / 6.0;
 
-/// True if corners have the same weight.
+/// True if all corners have the same weight.
 fn is_alike([a, b, c]: [f32; 3]) -> bool {
     a == b && b == c
 }
 
-/// Returns the unit normals half-way along the edges AB, BC, CA: near ones, if they are asked for and corners have the same weight.
+/// Returns the unit normals half-way along the edges AB, BC, CA: by Barrera's polynomial if
+/// `is_near` and corners have the same weight.
 #[inline(always)]
 fn midway<R: Real>(corners: [Corner<R>; 3], is_near: bool) -> [Vec3<R>; 3] {
     if is_near && is_alike(corners.map(|corner| corner.weight.value())) {
@@ -73,13 +81,13 @@ fn midway<R: Real>(corners: [Corner<R>; 3], is_near: bool) -> [Vec3<R>; 3] {
     [(a, b), (b, c), (c, a)].map(|(a, b)| (a + b).unit())
 }
 
-/// Returns how much shorter than 1 the near midpoint of two unit normals is.
+/// Returns how much shorter than 1 Barrera's midpoint of two unit normals is.
 fn lack([a, b]: [Vec3<f32>; 2]) -> f64 {
     let u = f64::from(1.0 - a.dot(b)).clamp(0.0, 2.0);
     1.0 - libm::sqrt(1.0 - u / 2.0) * (1.0 + u / 4.0)
 }
 
-/// Bounds the error of six-point products on a polygon: see [`SixPoint`].
+/// Returns a bound of the error of six-point products on a polygon: see [`SixPoint`].
 fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Approximation {
     let Some(corners) = narrow_triangle(frame, polygon) else {
         return Approximation::NONE;
@@ -105,7 +113,7 @@ const SIX_POINT: Info = Info {
     name: "six-point",
     ids: &["M10"],
     family: Family::Quadratics,
-    standing: Standing::Default,
+    tier: Tier::Default,
     title: "J = L.N and K = V.N as quadratics over each triangle",
     formula: "F(b) = sum Fi bi (2 bi - 1) + 4 (F12 b1 b2 + F23 b2 b3 + F31 b3 b1) of unit normals;  F_next = F + dF;  \
               dF_next = dF + ddF\nI = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
@@ -113,7 +121,7 @@ const SIX_POINT: Info = Info {
     model: Model::Phong,
     fails: "where normals turn by more than 30 degrees over a triangle: a highlight may end, or peak, elsewhere",
     roundings: Roundings::new(24.0, 3.0, Stepped::Products),
-    derivation: "as duff-phong, whose roots other polygons take; the coefficients of a quadratic take 6 roundings of sums of up to \
+    derivation: "as duff-phong, which shades other polygons; the coefficients of a quadratic take 6 roundings of sums of up to \
                  8 products of at most 1, and x^2 and y^2 as many, of coordinates of at most 1",
     approximation,
     parameters: &[MethodParameter::word(
@@ -143,7 +151,7 @@ impl<const L: usize> Method for SixPoint<L> {
         }
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let Some(([a, b, c], growth)) = set_up_triangle(polygon) else {
             return OneOf::Second(());
         };
@@ -155,13 +163,14 @@ impl<const L: usize> Method for SixPoint<L> {
     }
 }
 
-/// Returns the light at six points as they see it, and their unit normals: corners, and half-way along the edges AB, BC, CA on the screen.
+/// Returns six points, each as the light seen from it and its unit normal: the corners, then
+/// half-way along the edges AB, BC, CA on the screen.
 #[inline(never)]
 fn six_points<'a, R: Real>(
-    lit: &Lit<'a, R>,
+    lit: &LightAt<'a, R>,
     [a, b, c]: [Placed<R>; 3],
     is_near: bool,
-) -> [(Lit<'a, R>, Vec3<R>); 6] {
+) -> [(LightAt<'a, R>, Vec3<R>); 6] {
     let [ab, bc, ca] = midway([a.0, b.0, c.0], is_near);
     let at = |(corner, point): Placed<R>| (lit.at(point), corner.normal);
     let half_way = |normal, (a, p): Placed<R>, (b, q): Placed<R>| {
@@ -181,15 +190,16 @@ fn six_points<'a, R: Real>(
 
 /// Returns the quadratic of K.
 #[inline(never)]
-fn of_view<R: Real>(points: &[(Lit<'_, R>, Vec3<R>); 6], growth: Growth<R>) -> [R; 6] {
+fn of_view<R: Real>(points: &[(LightAt<'_, R>, Vec3<R>); 6], growth: Growth<R>) -> [R; 6] {
     let [a, b, c, ab, bc, ca] = points.map(|(lit, n)| n.dot(lit.view()));
     lagrange([a, b, c], [ab, bc, ca], growth)
 }
 
-/// Returns the quadratics of J, L·V and the strength of a light. Not inlined: it is the same for any count of lights.
+/// Returns the quadratics of J, L·V and the strength of a light. Not inlined, because the code is
+/// equal for any count of lights.
 #[inline(never)]
 fn of_light<R: Real>(
-    points: &[(Lit<'_, R>, Vec3<R>); 6],
+    points: &[(LightAt<'_, R>, Vec3<R>); 6],
     light: usize,
     growth: Growth<R>,
 ) -> [(R, R, R); 6] {
@@ -201,9 +211,10 @@ fn of_light<R: Real>(
     lagrange([a, b, c], [ab, bc, ca], growth)
 }
 
-/// Six-point quadratics where a light or the eye is at a position, for up to `L` lights: of L·V and of each light's strength beside J and K,
-/// from positions half-way along edges on the screen, `(P_1/w_1 + P_2/w_2)/(1/w_1 + 1/w_2)`. Triangles to which a light or the eye
-/// is near take Duff's way.
+/// Six-point quadratics where a light or the eye is at a position, for up to `L` lights. Beside J
+/// and K there are quadratics of L·V and of each light's strength, with positions half-way along
+/// edges on the screen, `(P_1/w_1 + P_2/w_2)/(1/w_1 + 1/w_2)`. Triangles that are near to a light
+/// or the eye are shaded by Duff's method.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SixPointLocal<const L: usize>(SixPoint<L>);
 
@@ -222,7 +233,7 @@ impl<const L: usize> Method for SixPointLocal<L> {
         SixPointLocal(SixPoint::new(parameters, model))
     }
     #[inline(always)]
-    fn polygon<R: Real>(self, lit: &Lit<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
+    fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let Some((corners, growth)) = set_up_placed(lit, polygon) else {
             return OneOf::Second(());
         };
@@ -291,7 +302,7 @@ mod tests {
         })
     }
 
-    /// The sum of weights and cubes of distances that the bound takes for granted.
+    /// The sum of weights and cubes of distances is below the constant in the bound.
     #[test]
     fn the_sum_of_the_bound_is_below_its_constant() {
         let distance =
@@ -306,7 +317,8 @@ mod tests {
         assert!((0.2..0.204).contains(&most), "{most}");
     }
 
-    /// Random triangles of normals, with and without weights: the error is below the bound, and not far below it somewhere.
+    /// Random triangles of normals, with and without weights: the error is below the bound, and
+    /// somewhere not far below it.
     #[test]
     fn no_quadratic_is_farther_from_the_unit_normal_than_stated() {
         let mut random = Random::new(10);
@@ -345,8 +357,8 @@ mod tests {
         assert!(most > 0.2, "{most}");
     }
 
-    /// Random triangles at random distances from a light, with and without weights: the quadratic of a strength is off by less than is
-    /// stated, and not by far less somewhere.
+    /// Random triangles at random distances from a light, with and without weights: the error of a
+    /// strength's quadratic is below the bound, and somewhere not far below it.
     #[test]
     fn no_quadratic_is_farther_from_a_strength_than_stated() {
         let mut random = Random::new(11);

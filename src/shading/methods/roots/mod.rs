@@ -1,4 +1,5 @@
-//! Normals or products of normals, and a root or a quotient at each pixel.
+//! Methods that interpolate normals or products of normals and take a root or a quotient at each
+//! pixel.
 
 pub(crate) mod duff_newton;
 pub(crate) mod duff_phong;

@@ -1,16 +1,19 @@
-//! Phong shading from normals with scalars, for processors that shade a block of pixels at a time, row by row.
+//! Phong shading from normals by scalars, for processors that shade a block of pixels at a time,
+//! row by row.
 
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::shading::{
-    Info, Linear, Lit, Normal, Pixel, Roundings, Shader, Span, Standing, Stepped,
+    Info, LightAt, Linear, Normal, Pixel, Roundings, Shader, Span, Stepped, Tier,
 };
 
-/// Naive Phong shading without its vectors: N by three additions per pixel, then `J = L·N`, `K = V·N`, `D = N·N` and one
-/// reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
+/// Naive Phong shading without vectors at the light: three additions per pixel for N, then
+/// `J = L·N`, `K = V·N`, `D = N·N` and one reciprocal root `r = 1/√D`. The cosines are `J r` and
+/// `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
 ///
-/// It steps three values for any count of lights, where fast Phong steps one per light, one for K and two for D. Varyings stay
-/// in memory until a row is shaded: three of them need less, and products are cheaper than memory.
+/// It steps three values for any count of lights, where fast Phong steps one per light, one for K
+/// and two for D. Varyings stay in memory until a row is shaded, and memory costs more than
+/// products, so few varyings are fast.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhongRsqrt;
 
@@ -18,13 +21,13 @@ impl Shader for PhongRsqrt {
     const INFO: Info = Info {
         name: "phong-rsqrt",
         ids: &["M03b"],
-        standing: Standing::Default,
+        tier: Tier::Default,
         title: "normals interpolated; J = L.N, K = V.N, D = N.N and 1/sqrt(D) at every pixel",
         formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = 1 / sqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.1-4.3, eq 4.5, with one root and one division for all cosines of a pixel",
         model: Model::Phong,
         roundings: Roundings::new(8.0, 0.9, Stepped::Cosines),
-        derivation: "as naive-phong at a step; L takes 1, J and K 2.5, D 3 of which its root has half, the root and the quotient 1 each, the \
+        derivation: "as naive-phong at a step; L takes 1, J and K 2.5; D takes 3, of which its root has half; the root and the quotient take 1 each, the \
                      products with r and R.V half each",
         fails: "as naive-phong",
         ..Info::OF_PIXELS
@@ -35,11 +38,11 @@ impl Shader for PhongRsqrt {
     const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear() // 4.2
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
         let r = n.dot(n).rsqrt(); // D = N · N
         let v_n = n.dot(lit.view()) * r; // K = V · N
         let mut colour = lit.ambient();

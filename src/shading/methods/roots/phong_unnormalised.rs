@@ -1,23 +1,26 @@
-//! Phong shading without normalising, as CS171 prints it: what goes wrong.
+//! Phong shading without normalising, as CS171 prints it. It shows what goes wrong.
 
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::shading::bounds::polygon_ranges::Extent;
 use crate::shading::{
-    Approximation, Info, Linear, Lit, Needs, Normal, Perspective, Pixel, Roundings, Shader, Span,
-    Standing, Stepped,
+    Approximation, Info, LightAt, Linear, Needs, Normal, Perspective, Pixel, Roundings, Shader,
+    Span, Stepped, Tier,
 };
 
-/// Phong shading whose interpolated normals are lit as they are (CS171 3, Algorithm 7). Between corners they are shorter than 1:
+/// Phong shading that lights interpolated normals without normalising them (CS171 3, Algorithm 7).
+/// Between corners they are shorter than 1:
 ///
 /// ```text
 /// |N(t)|² = 1 − 4 t (1 − t) sin² φ/2        between unit normals at the angle φ
 /// ```
 ///
-/// Diffuse light fades by cos φ/2 in the middle, highlights by the power n of it.
+/// In the middle, diffuse light is darker by the factor cos φ/2, and highlights by the n-th power
+/// of it.
 ///
-/// **Its error.** `J = |N| J_unit` is off by 1 − |N| at most. A convex combination N of unit normals N_i has |N| ≥ N·m ≥ c, with m their
-/// mean direction and c the least N_i·m, whatever the weights: 1 − c.
+/// **Its error.** `J = |N| J_unit` has a relative error of 1 − |N|, which is at most 1 − c: any
+/// convex combination N of unit normals N_i has
+/// |N| ≥ N·m ≥ c, with m their mean direction and c the least N_i·m.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhongUnnormalised;
 
@@ -25,13 +28,13 @@ impl Shader for PhongUnnormalised {
     const INFO: Info = Info {
         name: "phong-unnormalised",
         ids: &["M16"],
-        standing: Standing::Exhibit,
+        tier: Tier::Exhibit,
         title: "normals, interpolated and not normalised",
         formula: "N_next = N + dN;  J = L.N;  K = V.N;  I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
         source: "CS171 3, Algorithm 7, as printed",
         model: Model::Phong,
         roundings: Roundings::new(12.0, 1.8, Stepped::Cosines),
-        derivation: "as naive-phong; J and K take 3 roundings each, and under perspective a weight is stepped too, and divided by",
+        derivation: "as naive-phong; J and K take 3 roundings each, and under perspective a weight is stepped too, by which N is divided",
         approximation: |frame, polygon, _| Approximation {
             length: 1.0 - Extent::of(frame, polygon).cosine.max(0.0),
             ..Approximation::NONE
@@ -42,7 +45,7 @@ impl Shader for PhongUnnormalised {
     const NEEDS: Needs = Needs {
         perspective: Perspective::Divides,
         scalar_only: Some(
-            "phong-unnormalised saves roots, which a block of pixels takes for next to nothing",
+            "phong-unnormalised saves roots, which cost a block of pixels almost nothing",
         ),
         ..Needs::PIXELS
     };
@@ -52,11 +55,11 @@ impl Shader for PhongUnnormalised {
     const VALUES: &'static [&'static str] = &["Nx", "Ny", "Nz"];
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
         let v_n = n.dot(lit.view()); // K = V · N
         let mut colour = lit.ambient();
         for light in lit.lights() {
@@ -72,7 +75,8 @@ mod tests {
     use crate::number::test_random::Random;
     use glam::DVec3;
 
-    /// No combination of unit normals is shorter than the least cosine with their mean direction, and some are nearly as short.
+    /// No combination of unit normals is shorter than the least cosine with their mean direction,
+    /// and some are nearly as short.
     #[test]
     fn no_normal_is_shorter_than_stated() {
         let mut random = Random::new(16);

@@ -1,4 +1,4 @@
-//! Polynomials in place of the root.
+//! Methods with polynomials in place of the root.
 
 pub(crate) mod cubic_phong;
 pub(crate) mod series_phong;
