@@ -1,4 +1,4 @@
-//! A builder of frames, which checks them once.
+//! A builder of frames, which checks everything once.
 
 use super::guard::{self, Checked, FINITE, POSITION};
 use super::painter_order::back_to_front;
@@ -14,14 +14,16 @@ use crate::sync::Arc;
 use alloc::vec::Vec;
 use glam::DVec4;
 
-/// A builder of a frame: collects vertices and polygons, then checks them once, so no reader of the frame needs to.
+/// A builder of a frame. It collects vertices and polygons and then checks them once, so code that
+/// reads the frame need not check again.
 ///
-/// `examples/own_triangles.rs` is a whole program. For one frame after another keep the builder: [`FrameBuilder::frame`] lends its
-/// frame, and [`FrameBuilder::clear`] empties it. The next frame is made in the memory of the last: from the second frame of a
-/// size on nothing is allocated, but what clipping and sorting take.
+/// `examples/own_triangles.rs` is a whole program. To make one frame after another, keep the
+/// builder: [`FrameBuilder::frame`] lends its frame, and [`FrameBuilder::clear`] empties it. The
+/// next frame reuses the memory of the last one. After the first frame of a given size, only
+/// clipping and sorting allocate.
 ///
 /// ```
-/// use fastphong::frame::{FrameBuilder, Vertex, sub_pixel};
+/// use fastphong::frame::{FrameBuilder, Vertex};
 /// use fastphong::glam::DVec3;
 /// use fastphong::mesh::Material;
 /// use fastphong::picture::Picture8;
@@ -36,14 +38,8 @@ use glam::DVec4;
 /// for step in 0..3 {
 ///     builder.clear();
 ///     let corners = [[8, 8], [24, 56], [40, 8]].map(|[x, y]| {
-///         builder.vertex(Vertex {
-///             x: sub_pixel(x + 8 * step),
-///             y: sub_pixel(y),
-///             depth: 0.5,
-///             inv_w: 1.0,
-///             normal: [0.0, 0.0, 1.0],
-///             material,
-///         })
+///         let place = [f64::from(x + 8 * step), f64::from(y)];
+///         builder.vertex(Vertex { material, ..Vertex::new(place, 0.5, [0.0, 0.0, 1.0]) })
 ///     });
 ///     builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
 ///     let frame = builder.frame()?;
@@ -55,14 +51,14 @@ use glam::DVec4;
 /// ```
 #[derive(Clone, Debug)]
 pub struct FrameBuilder {
-    /// Settings and materials as they were given, and the frame that was made last. Its first vertices are those that were given; what
-    /// clipping added stands behind them.
+    /// The caller's settings and materials, and the last frame. Its first vertices are the ones
+    /// that were passed; behind them are the vertices that clipping added.
     frame: Frame,
-    /// True for each vertex that was given a position; empty if none was.
+    /// True for each vertex that has a position; empty if none has.
     has_position: Vec<bool>,
-    /// The vertices that were given in clip space, in ascending order, and their positions.
+    /// The vertices that were passed in clip space, in ascending order, and their positions.
     in_clip_space: Vec<(u32, DVec4)>,
-    /// Polygons, means, clip corners and counts as they were given.
+    /// Polygons, means, clip corners and counts as they were passed.
     polygons: Vec<Polygon>,
     means: Vec<(u32, Mean)>,
     clip_corners: Vec<ClipCorner>,
@@ -70,7 +66,8 @@ pub struct FrameBuilder {
 }
 
 impl FrameBuilder {
-    /// Starts an empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on
+    /// Returns a builder of an empty frame of `width` × `height` samples. By default each sample is
+    /// a pixel, the background is black, the depth buffer holds `f32`, and attributes are linear on
     /// the screen.
     pub fn new(width: u32, height: u32) -> Self {
         FrameBuilder {
@@ -84,7 +81,7 @@ impl FrameBuilder {
         }
     }
 
-    /// Removes all vertices and polygons, and keeps their memory. Settings and materials stay as they are.
+    /// Removes all vertices and polygons, and keeps their memory. Settings and materials stay.
     pub fn clear(&mut self) -> &mut Self {
         let geometry = self.geometry();
         let Geometry {
@@ -112,37 +109,38 @@ impl FrameBuilder {
         self
     }
 
-    /// Removes all materials: for lights that change, before they are added anew.
+    /// Removes all materials. Call it when lights change, then add the materials again.
     pub fn clear_lightings(&mut self) -> &mut Self {
         self.frame.lightings.clear();
         self
     }
 
-    /// Sets the size of the frame in samples, as [`FrameBuilder::new`].
+    /// Sets the size of the frame in samples, as in [`FrameBuilder::new`].
     pub fn size(&mut self, width: u32, height: u32) -> &mut Self {
         (self.frame.width, self.frame.height) = (width, height);
         self
     }
 
-    /// Sets the samples of a pixel along each side: 1, 2, 4 or 8. Width and height of the frame must be multiples of it.
+    /// Sets how many samples a pixel has along each side: 1, 2, 4 or 8. The frame's width and
+    /// height must be multiples of it.
     pub fn samples(&mut self, samples: u32) -> &mut Self {
         self.frame.samples = samples;
         self
     }
 
-    /// Sets the colour of pixels that nothing covers.
+    /// Sets the linear colour of pixels that no polygon covers.
     pub fn background(&mut self, colour: Rgb) -> &mut Self {
         self.frame.background = colour;
         self
     }
 
-    /// Sets the interpolation of attributes over the screen.
+    /// Sets how attributes are interpolated over the screen.
     pub fn interpolation(&mut self, interpolation: Interpolation) -> &mut Self {
         self.frame.interpolation = interpolation;
         self
     }
 
-    /// Sets the method of hidden surface removal.
+    /// Sets how hidden surfaces are removed.
     pub fn hidden_surfaces(&mut self, how: HiddenSurfaces) -> &mut Self {
         self.frame.hidden_surfaces = how;
         self
@@ -154,7 +152,8 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the distances from the eye at which depth is 0 and 1. Without it they are 0 and 1.
+    /// Sets the distances from the eye at which depth is 0 and 1. By default they are 0 and 1,
+    /// orthographic.
     pub fn depth_range(&mut self, range: DepthRange) -> &mut Self {
         self.frame.depth_range = range;
         self
@@ -166,26 +165,35 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the counts of the scene's polygons by their fate, to which clipping of this frame adds.
+    /// Sets what a colour means where polygons cover a pixel in part. It matters only with several
+    /// samples per pixel.
+    pub fn alpha(&mut self, alpha: Alpha) -> &mut Self {
+        self.frame.alpha = alpha;
+        self
+    }
+
+    /// Sets the initial statistics: how many of the scene's polygons were culled or left out.
+    /// Clipping adds to them.
     pub fn stats(&mut self, stats: FrameStats) -> &mut Self {
         self.stats = stats;
         self
     }
 
-    /// Adds a material with the light on it; returns its number. Directions of any length become unit vectors.
+    /// Adds a material with the light on it, and returns its index. Directions of any length become
+    /// unit vectors.
     pub fn lighting(&mut self, mut lighting: Lighting) -> u32 {
         guard::make_unit(&mut lighting);
         self.frame.lightings.push(lighting);
         (self.frame.lightings.len() - 1) as u32
     }
 
-    /// Sets the point in the world that positions count from. See [`Frame::origin`].
+    /// Sets the point in the world from which positions are measured. See [`Frame::origin`].
     pub fn origin(&mut self, point: [f64; 3]) -> &mut Self {
         self.frame.origin = point;
         self
     }
 
-    /// Adds a vertex; returns its number. A normal of any length becomes a unit vector.
+    /// Adds a vertex, and returns its index. A normal of any length becomes a unit vector.
     pub fn vertex(&mut self, vertex: Vertex) -> u32 {
         let Vertex {
             x,
@@ -198,19 +206,25 @@ impl FrameBuilder {
         self.add(ScreenVertex { x, y, depth, inv_w }, normal, material)
     }
 
-    /// Adds a vertex by its position in clip space, `[x, y, z, w]`; returns its number. Polygons of such vertices are clipped as those
-    /// of scenes are: each at the planes of the view and at the guard band, whole polygons in clip space and not triangle by
-    /// triangle. A vertex behind the eye, whose w is not over 0, is one like any other. A normal of any length becomes a unit vector.
+    /// Adds a vertex by its position in clip space, `[x, y, z, w]`, and returns its index. A normal
+    /// of any length becomes a unit vector.
     ///
-    /// Clip space is that of [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix): x and y go from −w to w, from left to right
-    /// and from bottom to top. What else counts depends on [`FrameBuilder::depth_range`]:
+    /// Polygons of such vertices are clipped as a scene's polygons are: each whole polygon in clip
+    /// space, at the planes of the view and at the guard band. A vertex behind the eye, whose w is
+    /// 0 or less, is allowed.
     ///
-    /// - perspective: w is the distance from the eye along the line of sight, and is cut at the near and the far distance. z is
-    ///   not read, so that matrices with depths from −1 to 1, reversed ones and those without a far plane all do;
-    /// - orthographic, and without a range: w is 1, and z is cut at 0, the near plane, and at 1.
+    /// Clip space is the one of [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix): x and y
+    /// go from −w to w, from left to right and from bottom to top. The rest depends on
+    /// [`FrameBuilder::depth_range`]:
     ///
-    /// Vertices on the screen and in clip space may be in one frame, but not in one polygon that must be cut. A polygon that is
-    /// outside the view is left out, as one without an area: see [`Frame::stats`]. No side is culled.
+    /// - perspective: w is the distance from the eye along the line of sight, and is clipped at the
+    ///   near and the far distance. z is not read. So matrices with depths from −1 to 1, reversed
+    ///   ones and those without a far plane all work;
+    /// - orthographic, or no range set: w is 1, and z is clipped at 0, the near plane, and at 1.
+    ///
+    /// A frame may have vertices on the screen and in clip space. A polygon that mixes both must
+    /// not need clipping. A polygon outside the view is left out, and so is one without an area:
+    /// see [`Frame::stats`]. No side is culled.
     ///
     /// ```
     /// use fastphong::frame::{DepthRange, FrameBuilder};
@@ -223,7 +237,7 @@ impl FrameBuilder {
     /// let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z));
     /// builder.depth_range(DepthRange::Perspective { near: 0.1, far: 100.0 });
     /// builder.interpolation(Interpolation::Perspective);
-    /// // A floor from far before the eye to far behind it.
+    /// // A floor that reaches from far in front of the eye to far behind it.
     /// let projection = DMat4::from_cols_array(&[
     ///     0.75, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, -1.0, 0.0, 0.0, -0.1, 0.0,
     /// ]);
@@ -252,7 +266,7 @@ impl FrameBuilder {
         (self.frame.vertices.len() - 1) as u32
     }
 
-    /// Removes what making the last frame added to what was given.
+    /// Removes everything that the last frame added.
     fn take_back(&mut self) {
         let frame = &mut self.frame;
         frame.vertices.truncate(frame.geometry.normals.len());
@@ -262,16 +276,16 @@ impl FrameBuilder {
         frame.means.clear();
     }
 
-    /// Returns the frame's geometry, which is shared with no other yet.
+    /// Returns the frame's geometry, unshared. Copies it if a clone of the frame still uses it.
     fn geometry(&mut self) -> &mut Geometry {
         Arc::make_mut(&mut self.frame.geometry)
     }
 
-    /// Sets the position of a vertex: one for every vertex, or for none, if no light and no eye is at a position. Clip corners need
-    /// none. See [`Frame::position`].
+    /// Sets the position of a vertex, as in [`Frame::position`]. If a light or the eye is at a
+    /// position, every vertex needs one, except clip corners; else set it for all or for none.
     ///
     /// # Panics
-    /// When there is no such vertex.
+    /// If there is no such vertex.
     pub fn position(&mut self, vertex: u32, position: [f32; 3]) -> &mut Self {
         let geometry = self.geometry();
         let count = geometry.normals.len();
@@ -282,18 +296,18 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the colour of a vertex: its attributes are the colour and 1.
+    /// Sets the colour of a vertex: its attributes become the colour and 1.
     ///
     /// # Panics
-    /// When there is no such vertex.
+    /// If there is no such vertex.
     pub fn colour(&mut self, vertex: u32, [r, g, b]: [f32; 3]) -> &mut Self {
         self.attributes(vertex, [r, g, b, 1.0])
     }
 
-    /// Sets the attributes of a vertex: four numbers for a method of your own. See [`Frame::attributes`].
+    /// Sets the attributes of a vertex: four values for your own method. See [`Frame::attributes`].
     ///
     /// # Panics
-    /// When there is no such vertex.
+    /// If there is no such vertex.
     pub fn attributes(&mut self, vertex: u32, attributes: [f32; 4]) -> &mut Self {
         let geometry = self.geometry();
         let count = geometry.normals.len();
@@ -302,18 +316,18 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the mean for the next polygon to that of `corners`, at least one: the mean of a clipped piece is that of its whole
-    /// polygon.
+    /// Sets the mean of the next polygon to the mean of `corners`, of which there must be at least
+    /// one. Use it for the pieces of a clipped polygon, whose mean is the whole polygon's.
     ///
     /// # Panics
-    /// When there is no such vertex.
+    /// If there is no such vertex.
     pub fn mean_of(&mut self, corners: &[u32]) -> &mut Self {
         let mean = self.frame.mean_of(corners);
         self.mean(mean)
     }
 
-    /// Sets the mean of the corners of the next polygon. A normal that is longer than 1, as no mean of unit vectors is, becomes a
-    /// unit vector.
+    /// Sets the mean of the next polygon's corners. A mean of unit vectors is never longer than 1,
+    /// so a longer normal becomes a unit vector.
     pub fn mean(&mut self, mut mean: Mean) -> &mut Self {
         let square: f32 = mean.normal.iter().map(|n| n * n).sum();
         if square > 1.0 {
@@ -324,15 +338,17 @@ impl FrameBuilder {
         self
     }
 
-    /// Declares that a vertex lies between two others; vertices must be named in ascending order.
+    /// Declares that a vertex lies on the edge between two others. Declare vertices in ascending
+    /// order.
     pub fn clip_corner(&mut self, corner: ClipCorner) -> &mut Self {
         let face = guard::unit(corner.face);
         self.clip_corners.push(ClipCorner { face, ..corner });
         self
     }
 
-    /// Adds a polygon in drawing order: the vertex numbers of its corners in either winding, its normal for flat shading, which
-    /// becomes a unit vector, and any number to tell it by ([`Polygon::source`]). It has the material of its first corner.
+    /// Adds a polygon, in drawing order. `corners` are vertex indices in either winding. `normal`
+    /// is for flat shading, and becomes a unit vector. `source` is an id of your choice
+    /// ([`Polygon::source`]). The polygon has the material of its first corner.
     pub fn polygon(&mut self, corners: &[u32], normal: [f32; 3], source: u32) -> &mut Self {
         let geometry = self.geometry();
         let material = corners
@@ -356,28 +372,32 @@ impl FrameBuilder {
         self
     }
 
-    /// Checks and returns the frame; under the painter's algorithm its polygons are sorted from back to front.
+    /// Checks and returns the frame. Under the painter's algorithm its polygons are sorted from
+    /// back to front.
     ///
     /// # Errors
-    /// [`FrameError`] for the first size, count, number or index that is outside its range, a normal or a direction of length 0 or not
-    /// finite, and a vertex without a position where one is needed: it names the item and the number.
+    /// [`FrameError`] for the first size, count, value or index that is outside its range, a normal
+    /// or a direction that is not finite or has length 0, or a vertex that lacks a needed position.
+    /// It names the item and the value.
     pub fn finish(mut self) -> Result<Frame, FrameError> {
         self.make()?;
         Ok(self.frame)
     }
 
-    /// Checks and lends the frame, as [`FrameBuilder::finish`] returns it; the builder keeps what it was given, and may be given more.
+    /// Checks and lends the frame that [`FrameBuilder::finish`] would return. The builder keeps
+    /// everything that it was passed, and you can add more.
     ///
-    /// A clone of the frame keeps its geometry, which the builder then copies when it changes.
+    /// A clone of the frame keeps its geometry; the builder then copies the geometry when it
+    /// changes.
     ///
     /// # Errors
-    /// [`FrameError`] as [`FrameBuilder::finish`].
+    /// [`FrameError`] as for [`FrameBuilder::finish`].
     pub fn frame(&mut self) -> Result<&Frame, FrameError> {
         self.make()?;
         Ok(&self.frame)
     }
 
-    /// Makes the frame of what was given.
+    /// Makes the frame from what was passed.
     fn make(&mut self) -> Result<(), FrameError> {
         self.take_back();
         let frame = &mut self.frame;
@@ -407,7 +427,8 @@ impl FrameBuilder {
         }
         frame.check_means()?;
         clip_space.clip(frame, &self.polygons)?;
-        // A vertex without a place on the picture has no weight.
+        // A vertex without a place on the picture has the least positive weight, which must not
+        // count.
         let weights = frame.vertices.iter().map(|v| v.inv_w);
         let weights = weights.filter(|w| *w > f64::MIN_POSITIVE);
         let [least, largest] = [
@@ -450,7 +471,8 @@ impl Frame {
         }
     }
 
-    /// True if size, samples, origin and depth make sense together.
+    /// Checks that size, samples, clipping, background, depth range and origin are in their ranges
+    /// and fit together.
     pub(crate) fn check_settings(&self) -> Result<(), FrameError> {
         let side = 1..=Scene::MAX_SIDE;
         let &Frame {
@@ -477,13 +499,14 @@ impl Frame {
             "green of the background",
             "blue of the background",
         ];
-        guard::numbers(FrameItem::Picture, names, self.background, &PIXEL)?;
+        guard::check_all(FrameItem::Picture, names, self.background, &PIXEL)?;
         self.depth_range.check()?;
         let names = ["x of the origin", "y of the origin", "z of the origin"];
-        guard::numbers(FrameItem::Scene, names, self.origin, &COORDINATE)
+        guard::check_all(FrameItem::Scene, names, self.origin, &COORDINATE)
     }
 
-    /// Checks that every material has the same number of lights, and all their numbers.
+    /// Checks that every material has the same count of lights, and that all values are in their
+    /// ranges.
     pub(crate) fn check_lightings(&self) -> Result<(), FrameError> {
         let lights = self.light_count();
         for lighting in &self.lightings {
@@ -497,7 +520,7 @@ impl Frame {
         all.try_for_each(|(material, lighting)| guard::lighting(material, lighting))
     }
 
-    /// Sorts the polygons from back to front, under the painter's algorithm.
+    /// Sorts the polygons from back to front, if the frame uses the painter's algorithm.
     pub(crate) fn sort(&mut self) {
         if let HiddenSurfaces::Painter(key) = self.hidden_surfaces {
             let order = back_to_front(self, key);
@@ -517,7 +540,7 @@ impl Frame {
             }
             previous = Some(corner.vertex);
             let item = FrameItem::ClipCorner(index);
-            guard::number(item, "its parameter", corner.t, &PIXEL)?;
+            guard::check(item, "its parameter", corner.t, &PIXEL)?;
             guard::direction(item, NORMAL, corner.face)?;
         }
         Ok(())
@@ -526,35 +549,35 @@ impl Frame {
     fn check_vertex(&self, index: usize) -> Checked {
         let item = FrameItem::Vertex(index);
         let vertex = self.vertex(index as u32);
-        guard::number(item, "its column", vertex.x, &GUARD)?;
-        guard::number(item, "its row", vertex.y, &GUARD)?;
+        guard::check(item, "its column", vertex.x, &GUARD)?;
+        guard::check(item, "its row", vertex.y, &GUARD)?;
         let (depth, weight) = match self.clipping {
             Clipping::Planes => (&depths(self.depth_range), &WEIGHT),
             Clipping::NdcCube => (&FINITE, &FINITE),
         };
-        guard::number(item, "its depth", vertex.depth, depth)?;
-        guard::number(item, "its near/w", vertex.inv_w, weight)?;
+        guard::check(item, "its depth", vertex.depth, depth)?;
+        guard::check(item, "its near/w", vertex.inv_w, weight)?;
         if self.clip_corner(index as u32).is_none() {
             guard::direction(item, NORMAL, vertex.normal)?;
         }
         let geometry = &self.geometry;
         if let Some(position) = geometry.positions.get(index) {
-            guard::numbers(item, POSITION, *position, &DISTANCE)?;
+            guard::check_all(item, POSITION, *position, &DISTANCE)?;
         }
         if let Some(attributes) = geometry.attributes.get(index) {
-            guard::numbers(item, ["an attribute"; 4], *attributes, &FINITE)?;
+            guard::check_all(item, ["an attribute"; 4], *attributes, &FINITE)?;
             let material = self.lightings.get(vertex.material as usize);
             if material.is_some_and(|lighting| lighting.vertex_colours) {
                 let [r, g, b, _] = *attributes;
-                guard::numbers(item, guard::COLOUR, [r, g, b], &STRENGTH)?;
+                guard::check_all(item, guard::COLOUR, [r, g, b], &STRENGTH)?;
             }
         }
         let materials = NumberRange::new(
             0.0,
             self.lightings.len() as f64 - 1.0,
-            "the number of a material that was added",
+            "the index of a material that was added",
         );
-        guard::number(item, "its material", vertex.material, &materials)
+        guard::check(item, "its material", vertex.material, &materials)
     }
 
     fn check_polygon(&self, index: usize, polygon: &Polygon) -> Checked {
@@ -575,9 +598,9 @@ impl Frame {
         for (first, mean) in &self.means {
             let index = self.polygons.partition_point(|p| p.first < *first);
             let item = FrameItem::Polygon(index);
-            guard::numbers(item, names, mean.position, &DISTANCE)?;
-            guard::numbers(item, NORMAL_MEAN, mean.normal, &FINITE)?;
-            guard::numbers(item, guard::COLOUR, mean.colour, &FINITE)?;
+            guard::check_all(item, names, mean.position, &DISTANCE)?;
+            guard::check_all(item, NORMAL_MEAN, mean.normal, &FINITE)?;
+            guard::check_all(item, guard::COLOUR, mean.colour, &FINITE)?;
         }
         Ok(())
     }
@@ -595,7 +618,7 @@ const NORMAL_MEAN: [&str; 3] = [
     "z of its mean normal",
 ];
 
-/// Places that a vertex may have on the picture.
+/// The pixel coordinates that a vertex may have.
 const GUARD: NumberRange = NumberRange::new(
     -(Frame::GUARD as f64),
     Frame::GUARD as f64,
@@ -603,13 +626,14 @@ const GUARD: NumberRange = NumberRange::new(
 );
 const _: () = assert!(Frame::GUARD == 32_768);
 
-/// How far rounding may put a vertex beyond the near or the far plane: a cut is up to 10⁻⁹ of its largest coordinate beyond it
-/// (`View::is_on_picture`), which is up to 2¹⁵ + 1 times w in the guard band.
+/// How far rounding may move a vertex beyond the near or the far plane. A cut may lie beyond its
+/// plane by up to 10⁻⁹ of its largest coordinate (`View::is_on_picture`), which in the guard band
+/// is up to 2¹⁵ + 1 times w.
 const BEYOND: f64 = 1.0 / (1 << 14) as f64;
 const WEIGHT: NumberRange =
     NumberRange::new(f64::from_bits(1), 1.0 + BEYOND, "a number over 0, up to 1");
 
-/// Returns the depths between the near and the far plane.
+/// Returns the range of depths between the near and the far plane.
 fn depths(range: DepthRange) -> NumberRange {
     let [near, far] = range.depths();
     match range {
@@ -622,7 +646,8 @@ fn depths(range: DepthRange) -> NumberRange {
     }
 }
 
-/// Checks that no vertex lacks a position where others have theirs, or where a light or the eye is at a position.
+/// Checks that no vertex lacks a position if other vertices have theirs, or if a light or the eye
+/// is at a position.
 fn check_positions(frame: &Frame, has_position: &[bool]) -> Checked {
     if !frame.is_local() && has_position.is_empty() {
         return Ok(());

@@ -3,18 +3,18 @@
 use super::guard::{self, Checked};
 use crate::scene::{Camera, Projection};
 
-/// The distances along the line of sight at which depth is 0 and 1.
+/// The distances along the line of sight at which depth is 0 and 1: the near and the far plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DepthRange {
-    /// Depth is linear in the distance d: z = (d − n) / (f − n), and is compared as that.
+    /// Depth is linear in the distance d: z = (d − n) / (f − n). The depth test compares z.
     Orthographic {
         /// The distance at which depth is 0.
         near: f64,
         /// The distance at which depth is 1; over `near`.
         far: f64,
     },
-    /// Depth is linear in the reciprocal of the distance w: z = f/(f − n) · (1 − n/w). It is compared
-    /// as −1/w, which has the same order.
+    /// Depth is linear in the reciprocal of the distance w: z = f/(f − n) · (1 − n/w). The depth
+    /// test compares −1/w, which has the same order.
     Perspective {
         /// The distance at which depth is 0; over 0.
         near: f64,
@@ -33,8 +33,8 @@ impl DepthRange {
         }
     }
 
-    /// Returns z/w on the lecture's scale, 0 at the near plane and 1 at the far plane, for a depth as
-    /// [`Vertex::depth`](super::Vertex::depth) holds it.
+    /// Returns z/w on the lecture's scale, 0 at the near plane and 1 at the far plane. `depth` is
+    /// in the form of [`Vertex::depth`](super::Vertex::depth).
     ///
     /// ```text
     /// perspective:  z = f/(f − n) · (1 − n/w),  depth = −1/w
@@ -47,8 +47,8 @@ impl DepthRange {
         }
     }
 
-    /// Returns the depths at the near and the far plane, as [`Vertex::depth`](super::Vertex::depth)
-    /// holds them.
+    /// Returns the depths at the near and the far plane, in the form of
+    /// [`Vertex::depth`](super::Vertex::depth).
     pub fn depths(self) -> [f64; 2] {
         match self {
             DepthRange::Orthographic { .. } => [0.0, 1.0],
@@ -56,7 +56,7 @@ impl DepthRange {
         }
     }
 
-    /// Checks that near and far are in their ranges and in order.
+    /// Checks that both distances are in their ranges and in order.
     pub(super) fn check(self) -> Checked {
         let (near, far) = self.ends();
         let is_perspective = matches!(self, DepthRange::Perspective { .. });
@@ -65,7 +65,7 @@ impl DepthRange {
 }
 
 impl From<&Camera> for DepthRange {
-    /// Takes the near and the far plane of `camera`.
+    /// Returns the range between the near and the far plane of `camera`.
     fn from(camera: &Camera) -> Self {
         let Camera { near, far, .. } = *camera;
         match camera.projection {
@@ -76,7 +76,7 @@ impl From<&Camera> for DepthRange {
 }
 
 impl Default for DepthRange {
-    /// Makes the distance the depth.
+    /// Returns the orthographic range from 0 to 1, where depth is the distance.
     fn default() -> Self {
         DepthRange::Orthographic {
             near: 0.0,

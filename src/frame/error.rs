@@ -1,24 +1,27 @@
-//! The error of frames that cannot be made.
+//! The error of a frame that cannot be made.
 
 use super::Frame;
 use crate::number::Written;
 use crate::scene::Scene;
 use core::fmt;
 
-/// The item of a scene or a frame whose number is wrong. Items are counted from 0, in the order in which they were given.
+/// The item of a scene or a frame that has a wrong value. Items count from 0, in the order in which
+/// they were passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FrameItem {
-    /// The camera, or the depth range that stands for it.
+    /// The camera, or the depth range in its place.
     Camera,
     /// The picture: its background.
     Picture,
-    /// The scene as a whole: its ambient light, the origin of its positions.
+    /// The scene as a whole: its ambient light, or the origin of its positions.
     Scene,
     /// A light of a scene.
     Light(usize),
     /// An object of a scene.
     Object(usize),
-    /// A material: in a scene counted over all objects, each of which has those of its mesh and a default one.
+    /// A material. A scene counts them over all objects; each object has the materials of its mesh
+    /// and then a default one.
     Material(usize),
     /// A light as it falls on a material.
     LightOn {
@@ -54,70 +57,78 @@ impl fmt::Display for FrameItem {
     }
 }
 
-/// The reason why a frame could not be made.
+/// The reason why a frame cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum FrameError {
     /// A side of the picture is 0 or over [`Scene::MAX_SIDE`].
     Size {
-        /// Pixels a row.
+        /// Pixels in a row.
         width: u32,
         /// Rows.
         height: u32,
     },
-    /// Samples a pixel along each side that are not 1, 2, 4 or 8, or no divisor of the frame's width and height, or too many.
+    /// The samples of a pixel along each side are not 1, 2, 4 or 8, do not divide the frame's width
+    /// and height, or make the frame too large.
     Samples {
-        /// The number asked for.
+        /// How many samples were asked for.
         samples: u32,
     },
-    /// [`Clipping::NdcCube`](crate::scene::Clipping) with
-    /// [`Interpolation::Perspective`](crate::scene::Interpolation), for which corners behind the eye have no weight.
+    /// [`Clipping::NdcCube`](crate::scene::Clipping) together with
+    /// [`Interpolation::Perspective`](crate::scene::Interpolation). Corners behind the eye have no
+    /// weight for it.
     Unclipped,
-    /// More lights than [`Scene::MAX_LIGHTS`], or not as many on every material.
+    /// A material has more lights than [`Scene::MAX_LIGHTS`], or not as many as the others.
     Lights {
-        /// The number asked for.
+        /// How many lights the material has.
         found: usize,
     },
-    /// A number is outside its range, as NaN is outside of every range.
-    Number {
-        /// The item that has it.
+    /// A value is outside its range. NaN is outside every range.
+    Value {
+        /// The item that has the value.
         item: FrameItem,
-        /// Its name, as "red of its colour".
+        /// The value's name, like "red of its colour".
         name: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
         /// The range, in words.
         expected: &'static str,
     },
     /// A light of a scene stands at a vertex, where the direction toward it is undefined.
     LightAtVertex {
-        /// The number of the light.
+        /// The index of the light.
         light: usize,
-        /// The vertex in world space.
+        /// The vertex's position in world space.
         point: [f64; 3],
     },
-    /// A vertex was given no position, but a light or the eye is at a position, or other vertices have theirs.
+    /// A vertex has no position, but a light or the eye is at a position, or other vertices have
+    /// theirs.
     Position {
-        /// The number of the vertex.
+        /// The index of the vertex.
         index: usize,
     },
-    /// More corners or vertices than 32-bit numbers can name.
+    /// There are more corners or vertices than 32-bit indices can name.
     TooLarge,
-    /// Perspective interpolation where the farthest vertex is over 2⁶⁰ times as far away as the nearest.
+    /// Perspective interpolation is asked for, but the farthest vertex is over 2⁶⁰ times as far
+    /// away as the nearest.
     Weights,
-    /// A vertex of a scene has no place on the picture: it is outside the guard band, or its weight is not positive.
+    /// A vertex has no place on the picture: it is outside the guard band, or its weight is not
+    /// positive.
     Vertex {
-        /// The number of the vertex.
+        /// The index of the vertex.
         index: usize,
     },
-    /// A polygon has fewer than three corners, or names a vertex or a material that does not exist, or vertices of two materials; or it
-    /// must be cut, and not all of its vertices were given in clip space.
+    /// A polygon has fewer than three corners, or refers to a vertex or a material that does not
+    /// exist, or to vertices of two materials. Or it must be clipped, but not all of its vertices
+    /// are in clip space.
     Polygon {
-        /// The number of the polygon.
+        /// The index of the polygon.
         index: usize,
     },
-    /// A clip corner names a vertex that does not exist, or does not come before it, or is not in ascending order.
+    /// A clip corner refers to a vertex that does not exist, or does not come after its ends, or is
+    /// out of order.
     ClipCorner {
-        /// The number of the clip corner.
+        /// The index of the clip corner.
         index: usize,
     },
 }
@@ -147,7 +158,7 @@ impl fmt::Display for FrameError {
                 "{found} lights, where at most {} are possible, the same on every material",
                 Scene::MAX_LIGHTS
             ),
-            FrameError::Number {
+            FrameError::Value {
                 item,
                 name,
                 value,
@@ -167,7 +178,7 @@ impl fmt::Display for FrameError {
                  other vertices have theirs"
             ),
             FrameError::TooLarge => {
-                write!(f, "the scene has more corners than 32-bit numbers can name")
+                write!(f, "the scene has more corners than 32-bit indices can name")
             }
             FrameError::Weights => write!(
                 f,
@@ -197,7 +208,8 @@ impl fmt::Display for FrameError {
     }
 }
 
-/// A number that may have been an `f32`, and is then written with the digits that tell it from others of these.
+/// A value that may have been an `f32`. It is then written with just enough digits to tell it from
+/// other `f32` values.
 struct Short(f64);
 
 impl fmt::Display for Short {
@@ -205,7 +217,8 @@ impl fmt::Display for Short {
         let Short(value) = *self;
         let (narrow, size) = (value as f32, value.abs());
         match f64::from(narrow) == value {
-            // From 2²⁴ on the digits of an `f32` are not those of the whole number that it is.
+            // From 2²⁴ on, the shortest digits of an `f32` are not the digits of the integer that
+            // it holds.
             true if (1e-5..16_777_216.0).contains(&size) => write!(f, "{narrow}"),
             true if size > 0.0 && size.is_finite() && !(1e-5..1e16).contains(&size) => {
                 write!(f, "{narrow:e}")

@@ -1,31 +1,35 @@
-//! The part of a frame that does not depend on the camera, shared between all frames of one scene.
+//! The part of a frame that does not depend on the camera. All frames of one scene share it.
 
 use super::Polygon;
 use alloc::vec::Vec;
 use glam::{DAffine3, DVec3};
 
-/// Attributes of vertices, corner lists and normals of polygons.
+/// The attributes of vertices, and the corner lists and normals of polygons.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Geometry {
     /// Unit vertex normals in world space.
     pub normals: Vec<[f32; 3]>,
-    /// The lighting of each vertex.
+    /// The lighting of each vertex, an index.
     pub materials: Vec<u32>,
-    /// Four numbers a vertex, or none: a colour and 1 where a mesh gave no others.
+    /// Four values per vertex, or an empty list: a colour and 1 where a mesh set no other
+    /// attributes.
     pub attributes: Vec<[f32; 4]>,
-    /// Positions from the origin of the frame, one per vertex, or none: those of [`Geometry::models`] then.
+    /// Positions relative to the frame's origin, one per vertex. If empty, positions come from
+    /// [`Geometry::models`].
     pub positions: Vec<[f32; 3]>,
-    /// Positions of vertices in model space, one per vertex, or none.
+    /// Positions in model space, one per vertex, or none.
     pub models: Models,
-    /// True if all vertices are there a second time, numbered after all others, with their normals negated.
+    /// True if every vertex exists a second time, with its normal negated. The second half follows
+    /// all others in order.
     pub two_sided: bool,
-    /// The corner lists of all polygons; where there are two sides, once more for the vertices of the second.
+    /// The corner lists of all polygons. If there are two sides, they follow once more with the
+    /// vertices of the second side.
     pub corners: Vec<u32>,
     /// Unit normals of polygons in world space.
     pub faces: Vec<[f32; 3]>,
 }
 
-/// Positions in model space, each coordinate in an array of its own, object after object.
+/// Positions in model space, object after object. Each coordinate has its own array.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Models {
     pub x: Vec<f32>,
@@ -34,19 +38,21 @@ pub(crate) struct Models {
     pub objects: Vec<PlacedModel>,
 }
 
-/// The vertices of an object, which follow those of the object before, and its place in the world.
+/// An object's vertices, which follow the vertices of the object before, and its place in the
+/// world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedModel {
-    /// The vertex after its last.
+    /// The vertex after its last one.
     pub end: usize,
-    /// Model space to world space.
+    /// The transform from model space to world space.
     pub transform: DAffine3,
     /// The largest magnitude of a coordinate along each axis of model space.
     pub extent: DVec3,
 }
 
 impl PlacedModel {
-    /// Returns how far positions of the object reach from its translation, along each axis of the world at most.
+    /// Returns the largest distance of the object's positions from its translation, along each axis
+    /// of the world. It is an upper bound.
     pub fn reach(&self) -> DVec3 {
         let linear = self.transform.matrix3;
         linear.x_axis.abs() * self.extent.x
@@ -70,7 +76,7 @@ impl Models {
         )
     }
 
-    /// Returns the number of the object that a vertex belongs to.
+    /// Returns the index of the object that a vertex belongs to.
     #[inline]
     pub fn object_of(&self, vertex: usize) -> usize {
         self.objects.partition_point(|object| object.end <= vertex)
@@ -78,10 +84,10 @@ impl Models {
 }
 
 impl Geometry {
-    /// The attributes of a vertex that was given none.
+    /// The attributes of a vertex for which none were set.
     pub const NO_ATTRIBUTES: [f32; 4] = [1.0; 4];
 
-    /// Returns the number of vertices, on both sides together.
+    /// Returns how many vertices there are, on both sides together.
     #[inline(always)]
     pub fn vertex_count(&self) -> usize {
         self.normals.len() * if self.two_sided { 2 } else { 1 }
@@ -147,7 +153,8 @@ impl Geometry {
             .to_array()
     }
 
-    /// Returns the front vertex of a vertex on the second side; `None` for a vertex on the first.
+    /// Returns the vertex on the first side that a vertex on the second side copies; `None` for a
+    /// vertex on the first side.
     #[inline]
     fn front(&self, vertex: u32) -> Option<usize> {
         let front = (vertex as usize).checked_sub(self.normals.len())?;

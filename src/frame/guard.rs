@@ -1,8 +1,10 @@
-//! The guard of frames: what a scene, a builder or a span shader gives is in its range (`scene/ranges.rs`), or an error names the
-//! item and the number. Directions and normals are made unit vectors here.
+//! The guard of frames. It checks that the values of a scene, a builder or a span shader are in
+//! their ranges (`scene/ranges.rs`); an error names the item and the value. Directions and normals
+//! become unit vectors here.
 //!
-//! A scene's camera, lights and materials are checked each time a frame is made of it, as they may have changed; its objects once, when
-//! it is prepared; what a builder was given when it is finished.
+//! A scene's camera, lights and materials are checked each time a frame is made, as they may have
+//! changed. Its objects are checked once, when the scene is prepared, and what was passed to a
+//! builder is checked when the frame is made.
 
 use super::{FrameError, FrameItem, PlacedModel};
 use crate::mesh::Material;
@@ -18,21 +20,21 @@ use crate::scene::{
 };
 use glam::DVec3;
 
-/// A number that is in its range, or not.
+/// The result of a check.
 pub(super) type Checked = Result<(), FrameError>;
 
-/// What there is of numbers at all.
+/// The range of all finite values.
 pub(super) const FINITE: NumberRange = NumberRange::new(-f64::MAX, f64::MAX, "a finite number");
 
-/// The length of a vector that has a direction.
+/// The range of a direction's length.
 const NOT_ZERO: NumberRange = NumberRange::new(
     f64::from_bits(1),
     f64::INFINITY,
     "a direction: not all numbers 0",
 );
 
-/// Checks a number.
-pub(super) fn number(
+/// Checks that a value is in its range.
+pub(super) fn check(
     item: FrameItem,
     name: &'static str,
     value: impl Into<f64>,
@@ -41,7 +43,7 @@ pub(super) fn number(
     let value = value.into();
     match range.holds(value) {
         true => Ok(()),
-        false => Err(FrameError::Number {
+        false => Err(FrameError::Value {
             item,
             name,
             value,
@@ -50,30 +52,31 @@ pub(super) fn number(
     }
 }
 
-/// Checks the numbers of a list that has a name for each.
-pub(super) fn numbers<const N: usize>(
+/// Checks that the values of a list, each with its own name, are in one range.
+pub(super) fn check_all<const N: usize>(
     item: FrameItem,
     names: [&'static str; N],
     values: [impl Into<f64>; N],
     range: &NumberRange,
 ) -> Checked {
     let mut all = names.into_iter().zip(values);
-    all.try_for_each(|(name, value)| number(item, name, value, range))
+    all.try_for_each(|(name, value)| check(item, name, value, range))
 }
 
-/// Checks that a vector has a direction: the last of the names is that of its length.
+/// Checks that a vector has a direction. The last of the names is the name of its length.
 pub(super) fn direction(
     item: FrameItem,
     [x, y, z, length]: [&'static str; 4],
     vector: [impl Into<f64>; 3],
 ) -> Checked {
     let vector = vector.map(Into::into);
-    numbers(item, [x, y, z], vector, &FINITE)?;
+    check_all(item, [x, y, z], vector, &FINITE)?;
     let longest = DVec3::from_array(vector).abs().max_element();
-    number(item, length, longest, &NOT_ZERO)
+    check(item, length, longest, &NOT_ZERO)
 }
 
-/// Returns the unit vector along `vector`: itself, to the bit, where it is one but for rounding, or has no direction.
+/// Returns the unit vector along `vector`. A vector that is a unit vector but for rounding, or has
+/// no direction, keeps its bits.
 pub(crate) fn unit(vector: [f32; 3]) -> [f32; 3] {
     let wide = DVec3::from_array(vector.map(f64::from));
     match is_unit(wide) {
@@ -93,22 +96,22 @@ pub(super) fn camera(camera: &Camera) -> Checked {
         ),
     ];
     for (names, place) in places {
-        numbers(ITEM, names, place.to_array(), &COORDINATE)?;
+        check_all(ITEM, names, place.to_array(), &COORDINATE)?;
     }
     let names = ["x of up", "y of up", "z of up", "the length of up"];
     direction(ITEM, names, camera.up.to_array())?;
     let apart = (camera.eye - camera.target).abs().max_element();
     let different = NumberRange::new(f64::from_bits(1), f64::INFINITY, "two different points");
     let name = "the distance from the eye to the target";
-    number(ITEM, name, apart, &different)?;
+    check(ITEM, name, apart, &different)?;
     let tilt = camera.view().cross(direction::unit(camera.up)).length();
     let name = "the sine of the angle between up and the line of sight";
-    number(ITEM, name, tilt, &TILT)?;
+    check(ITEM, name, tilt, &TILT)?;
     match camera.projection {
         Projection::Orthographic { half_height } => {
-            number(ITEM, "the half height", half_height, &HALF_HEIGHT)?
+            check(ITEM, "the half height", half_height, &HALF_HEIGHT)?
         }
-        Projection::Perspective { fovy } => number(ITEM, "the field of view", fovy, &FOVY)?,
+        Projection::Perspective { fovy } => check(ITEM, "the field of view", fovy, &FOVY)?,
     }
     let is_perspective = matches!(camera.projection, Projection::Perspective { .. });
     planes([camera.near, camera.far], is_perspective)
@@ -118,8 +121,8 @@ pub(super) fn camera(camera: &Camera) -> Checked {
 pub(super) fn planes([near, far]: [f64; 2], is_perspective: bool) -> Checked {
     const ITEM: FrameItem = FrameItem::Camera;
     let range = if is_perspective { &NEAR } else { &PLANE };
-    number(ITEM, "the near distance", near, range)?;
-    number(ITEM, "the far distance", far, &PLANE)?;
+    check(ITEM, "the near distance", near, range)?;
+    check(ITEM, "the far distance", far, &PLANE)?;
     match near < far {
         true => Ok(()),
         false => Err(no_depth(far)),
@@ -128,7 +131,7 @@ pub(super) fn planes([near, far]: [f64; 2], is_perspective: bool) -> Checked {
 
 /// Makes the error for planes with nothing between them.
 pub(super) fn no_depth(far: f64) -> FrameError {
-    FrameError::Number {
+    FrameError::Value {
         item: FrameItem::Camera,
         name: "the far distance",
         value: far,
@@ -136,20 +139,20 @@ pub(super) fn no_depth(far: f64) -> FrameError {
     }
 }
 
-/// Checks what does not depend on objects: ambient light and lights.
+/// Checks what does not depend on objects: the ambient light and the lights.
 pub(super) fn lights(scene: &Scene) -> Checked {
     let names = [
         "red of the ambient light",
         "green of the ambient light",
         "blue of the ambient light",
     ];
-    numbers(FrameItem::Scene, names, scene.ambient, &STRENGTH)?;
+    check_all(FrameItem::Scene, names, scene.ambient, &STRENGTH)?;
     let found = scene.lights.len();
     if found > Scene::MAX_LIGHTS {
         return Err(FrameError::Lights { found });
     }
     let mut lights = scene.lights.iter().enumerate();
-    lights.try_for_each(|(number, light)| self::light(number, light))
+    lights.try_for_each(|(index, light)| self::light(index, light))
 }
 
 /// Checks a light of a scene.
@@ -157,9 +160,9 @@ fn light(index: usize, light: &Light) -> Checked {
     let item = FrameItem::Light(index);
     match light.place {
         Place::Infinite(to) => direction(item, DIRECTION, to.to_array())?,
-        Place::Local(at) => numbers(item, POSITION, at.to_array(), &COORDINATE)?,
+        Place::Local(at) => check_all(item, POSITION, at.to_array(), &COORDINATE)?,
     }
-    numbers(item, COLOUR, light.colour, &STRENGTH)?;
+    check_all(item, COLOUR, light.colour, &STRENGTH)?;
     falloff(item, light.falloff)
 }
 
@@ -197,7 +200,7 @@ const SPECULAR: [&str; 3] = [
 
 fn falloff(item: FrameItem, falloff: Falloff) -> Checked {
     match falloff {
-        Falloff::Attenuation(k) => number(item, "its attenuation", k, &STRENGTH),
+        Falloff::Attenuation(k) => check(item, "its attenuation", k, &STRENGTH),
         Falloff::None | Falloff::InverseSquare | Falloff::Inverse => Ok(()),
     }
 }
@@ -206,19 +209,19 @@ fn falloff(item: FrameItem, falloff: Falloff) -> Checked {
 pub(super) fn materials(materials: &[Material]) -> Checked {
     for (index, material) in materials.iter().enumerate() {
         let item = FrameItem::Material(index);
-        numbers(item, AMBIENT, material.ambient, &STRENGTH)?;
-        numbers(item, DIFFUSE, material.diffuse, &STRENGTH)?;
-        numbers(item, SPECULAR, material.specular, &STRENGTH)?;
-        number(item, "its exponent", material.shininess, &STRENGTH)?;
+        check_all(item, AMBIENT, material.ambient, &STRENGTH)?;
+        check_all(item, DIFFUSE, material.diffuse, &STRENGTH)?;
+        check_all(item, SPECULAR, material.specular, &STRENGTH)?;
+        check(item, "its exponent", material.shininess, &STRENGTH)?;
     }
     Ok(())
 }
 
-/// Checks an object's transform, and its way of averaging normals.
+/// Checks an object's transform and the rule for its normals.
 pub(super) fn object(index: usize, object: &Object) -> Checked {
     let item = FrameItem::Object(index);
     if let NormalSource::Crease(degrees) = object.normals.source {
-        number(item, "the crease angle of its normals", degrees, &CREASE)?;
+        check(item, "the crease angle of its normals", degrees, &CREASE)?;
     }
     let linear = object.transform.matrix3;
     let columns = [linear.x_axis, linear.y_axis, linear.z_axis];
@@ -227,19 +230,19 @@ pub(super) fn object(index: usize, object: &Object) -> Checked {
         "the size that its transform gives to y",
         "the size that its transform gives to z",
     ];
-    numbers(item, names, columns.map(direction::length), &SIZE)?;
+    check_all(item, names, columns.map(direction::length), &SIZE)?;
     let name = "the volume that its transform leaves of a cube";
-    number(item, name, volume(linear), &VOLUME)?;
+    check(item, name, volume(linear), &VOLUME)?;
     let names = [
         "x of its translation",
         "y of its translation",
         "z of its translation",
     ];
     let translation = object.transform.translation.to_array();
-    numbers(item, names, translation, &COORDINATE)
+    check_all(item, names, translation, &COORDINATE)
 }
 
-/// Checks the vertex colours of an object, by which its materials are multiplied.
+/// Checks an object's vertex colours, which multiply its materials.
 pub(super) fn colours(index: usize, object: &Object) -> Checked {
     let item = FrameItem::Object(index);
     let names = [
@@ -248,12 +251,13 @@ pub(super) fn colours(index: usize, object: &Object) -> Checked {
         "blue of a vertex colour",
     ];
     let mut colours = object.mesh.colours().iter();
-    colours.try_for_each(|colour| numbers(item, names, colour.to_array(), &STRENGTH))
+    colours.try_for_each(|colour| check_all(item, names, colour.to_array(), &STRENGTH))
 }
 
 /// Checks where an object is in the world: the positions that its polygons use.
 pub(super) fn positions(index: usize, object: &Object, model: &PlacedModel) -> Checked {
-    // Its bounds are there already. Only where they reach too far it is asked which position does.
+    // The object's bounds are known. Only if they reach too far, the positions are searched for the
+    // culprit.
     let farthest = model.reach() + model.transform.translation.abs();
     if COORDINATE.holds_all(farthest) {
         return Ok(());
@@ -265,7 +269,7 @@ pub(super) fn positions(index: usize, object: &Object, model: &PlacedModel) -> C
         "z of a position in the world",
     ];
     let mut points = object.world_points();
-    points.try_for_each(|point| numbers(item, names, point.to_array(), &COORDINATE))
+    points.try_for_each(|point| check_all(item, names, point.to_array(), &COORDINATE))
 }
 
 /// Checks that no light of `scene` stands at a vertex of `objects`.
@@ -285,10 +289,10 @@ pub(super) fn lights_off_vertices(scene: &Scene, objects: &[Object]) -> Checked 
     Ok(())
 }
 
-/// Returns the light on material number `material` with directions that are unit vectors.
+/// Returns the light on material `material`, with unit vectors as directions.
 ///
 /// # Errors
-/// [`FrameError`] as [`lighting`], and [`FrameError::Lights`] for more lights than there may be.
+/// [`FrameError`] as for [`lighting`], and [`FrameError::Lights`] for more lights than allowed.
 pub(crate) fn lit(lighting: &Lighting, material: usize) -> Result<Lighting, FrameError> {
     let found = lighting.lights.len();
     if found > Scene::MAX_LIGHTS {
@@ -300,7 +304,7 @@ pub(crate) fn lit(lighting: &Lighting, material: usize) -> Result<Lighting, Fram
     Ok(lit)
 }
 
-/// Makes the directions of the light on a material unit vectors.
+/// Turns the directions of the light on a material into unit vectors.
 pub(super) fn make_unit(lighting: &mut Lighting) {
     let lights = lighting.lights.iter_mut().map(|light| &mut light.place);
     for place in lights.chain([&mut lighting.view]) {
@@ -310,14 +314,14 @@ pub(super) fn make_unit(lighting: &mut Lighting) {
     }
 }
 
-/// Checks the light on material number `material`.
+/// Checks the light on material `material`.
 ///
 /// # Errors
-/// [`FrameError::Number`] for the first number that is out of its range, and for a direction of length 0.
+/// [`FrameError::Value`] for the first value out of its range, and for a direction of length 0.
 pub(super) fn lighting(material: usize, lighting: &Lighting) -> Checked {
     let item = FrameItem::Material(material);
-    numbers(item, AMBIENT, lighting.ambient, &STRENGTH)?;
-    number(item, "its exponent", lighting.shininess, &STRENGTH)?;
+    check_all(item, AMBIENT, lighting.ambient, &STRENGTH)?;
+    check(item, "its exponent", lighting.shininess, &STRENGTH)?;
     let names = [
         "x of the direction toward the eye",
         "y of the direction toward the eye",
@@ -332,8 +336,8 @@ pub(super) fn lighting(material: usize, lighting: &Lighting) -> Checked {
 
 fn light_on(item: FrameItem, light: &LightTerm) -> Checked {
     place(item, light.place, DIRECTION, POSITION)?;
-    numbers(item, DIFFUSE, light.diffuse, &STRENGTH)?;
-    numbers(item, SPECULAR, light.specular, &STRENGTH)?;
+    check_all(item, DIFFUSE, light.diffuse, &STRENGTH)?;
+    check_all(item, SPECULAR, light.specular, &STRENGTH)?;
     falloff(item, light.falloff)
 }
 
@@ -345,6 +349,6 @@ fn place(
 ) -> Checked {
     match place {
         Place::Infinite(vector) => direction(item, toward, vector),
-        Place::Local(point) => numbers(item, at, point, &DISTANCE),
+        Place::Local(point) => check_all(item, at, point, &DISTANCE),
     }
 }

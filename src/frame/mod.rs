@@ -1,9 +1,47 @@
-//! A frame: projected polygons and the light on them, the interface between geometry and shading.
+//! Projected polygons and the light on them, ready to draw.
 //!
-//! `projection/` makes it from a scene, and may fail; so may [`FrameBuilder`]. Past it there is only arithmetic that cannot fail and
-//! does not know where polygons come from. The engines and the `f64` reference all take the same frame, the barycentric renderer
-//! after `triangulate.rs` cut it into triangles. So what differs between their pictures is shading and not geometry. `painter_order.rs`
-//! sorts a frame for the painter's algorithm.
+//! A [`Frame`] is the interface between geometry and shading. Making a frame may fail; drawing it
+//! cannot, unless the method refuses it. There are two ways to make one:
+//!
+//! | you have | hold from frame to frame | next frame |
+//! |---|---|---|
+//! | a [`Scene`] | a [`PreparedScene`] and a [`Frame`] | [`PreparedScene::frame_into`] |
+//! | your own vertices, on the screen or in clip space | a [`FrameBuilder`] | [`FrameBuilder::clear`], your vertices and polygons, [`FrameBuilder::frame`] |
+//!
+//! Both reuse their memory. From the second frame of a size on, only clipping and sorting allocate
+//! memory that grows with the scene. For a single picture, [`Scene::frame`] and
+//! [`FrameBuilder::finish`] are shorter.
+//!
+//! ```
+//! use fastphong::glam::{DAffine3, DVec3};
+//! use fastphong::mesh::builtin::builtin;
+//! use fastphong::picture::Picture8;
+//! use fastphong::raster::DrawOptions;
+//! use fastphong::scene::Scene;
+//! use fastphong::shading::methods;
+//!
+//! let mut scene = Scene::of_mesh(builtin("torus")?);
+//! (scene.width, scene.height) = (64, 48);
+//! // Once: vertex normals, distinct vertices, normals of polygons.
+//! let mut prepared = scene.prepare()?;
+//! let mut frame = prepared.frame()?;
+//! let mut picture = Picture8::new(64, 48, [0; 4]);
+//! let method = methods::PHONG_RSQRT.variant();
+//! for step in 0..3 {
+//!     // Each time: move the object, project, and draw.
+//!     prepared.set_transform(0, DAffine3::from_rotation_y(0.1 * f64::from(step)))?;
+//!     prepared.frame_into(&mut frame)?;
+//!     method.draw(&frame, &mut picture, DrawOptions::default())?;
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Inside
+//!
+//! All engines and the `f64` reference read the same frame; the barycentric renderer reads it after
+//! `triangulate.rs` cut it into triangles. So their pictures differ by shading and not by geometry.
+//! `projection/` makes a frame from a scene, and `painter_order.rs` sorts a frame for the painter's
+//! algorithm.
 
 mod builder;
 mod depth_range;
@@ -12,9 +50,10 @@ mod error;
 mod geometry;
 pub(crate) mod guard;
 mod painter_order;
-pub mod perspective;
+pub(crate) mod perspective;
 mod projection;
 pub(crate) mod row_tiles;
+#[doc(hidden)]
 pub mod triangulate;
 
 pub use builder::FrameBuilder;
@@ -30,16 +69,18 @@ use crate::sync::Arc;
 use alloc::vec::Vec;
 use projection::Scratch;
 
-/// A coordinate on the picture in pixels (of a supersampled frame: in samples), snapped to 1/256: x to the right, y
-/// downward, (0, 0) the outer corner of the first pixel, so that pixel centres lie at ½.
+/// A coordinate on the picture in pixels (in samples, if a pixel has several), snapped to 1/256. x
+/// goes to the right, y downward. (0, 0) is the outer corner of the first pixel, so pixel centres
+/// lie at ½.
 ///
-/// Make it of a float by [`sub_pixel`]: the type's own `from_num` panics or wraps beyond ±2²³ pixels.
+/// Make it from a float with [`sub_pixel`]: the type's own `from_num` panics or wraps beyond ±2²³
+/// pixels.
 pub type SubPixel = fixed::types::I24F8;
 
-/// Returns a coordinate of so many pixels, to the nearest 1/256, halves to even.
+/// Returns a coordinate in pixels, rounded to the nearest 1/256, halves to even.
 ///
-/// What is beyond the type's range becomes its end, and what is no number its upper end: [`FrameBuilder::finish`] refuses both, as
-/// they lie beyond [`Frame::GUARD`].
+/// A value beyond the type's range saturates, and NaN becomes the upper end of the range.
+/// [`FrameBuilder::finish`] refuses both, as they lie beyond [`Frame::GUARD`].
 pub fn sub_pixel(pixels: impl Into<f64>) -> SubPixel {
     let bits = libm::rint(pixels.into() * 256.0);
     match bits.is_nan() {
@@ -51,8 +92,9 @@ pub fn sub_pixel(pixels: impl Into<f64>) -> SubPixel {
 
 /// Projected polygons in drawing order, and the light on them.
 ///
-/// The frames of one [`PreparedScene`] share all that does not depend on the camera: normals, materials, corner lists. Each
-/// frame owns screen coordinates and the polygons that are seen.
+/// All frames of one [`PreparedScene`] share what does not depend on the camera: normals,
+/// materials, corner lists. Each frame owns its screen coordinates and the list of its visible
+/// polygons.
 #[derive(Clone, Debug)]
 pub struct Frame {
     pub(crate) width: u32,
@@ -63,85 +105,90 @@ pub struct Frame {
     pub(crate) hidden_surfaces: HiddenSurfaces,
     pub(crate) clipping: Clipping,
     pub(crate) depth_range: DepthRange,
-    /// A power of two by which weights of perspective are multiplied: see [`Frame::weight`].
+    /// A power of two that multiplies weights of perspective: see [`Frame::weight`].
     pub(crate) weight_scale: f64,
     pub(crate) encoding: Encoding,
     pub(crate) alpha: Alpha,
     pub(crate) origin: [f64; 3],
     pub(crate) geometry: Arc<Geometry>,
-    /// The vertices of the geometry, then those that clipping made.
+    /// The vertices of the geometry, and behind them the vertices that clipping made.
     pub(crate) vertices: Vec<ScreenVertex>,
-    /// Materials of the vertices that clipping made.
+    /// The materials of the vertices that clipping made.
     pub(crate) cut_materials: Vec<u32>,
-    /// Means of cut polygons, by the index of their first corner, in ascending order.
+    /// The means of cut polygons, by the index of their first corner, in ascending order.
     pub(crate) means: Vec<(u32, Mean)>,
     pub(crate) clip_corners: Vec<ClipCorner>,
-    /// Corner lists of cut polygons; their indices continue those of the geometry's lists.
+    /// The corner lists of cut polygons. Their indices continue the indices of the geometry's
+    /// lists.
     pub(crate) cut_corners: Vec<u32>,
     pub(crate) polygons: Vec<Polygon>,
     pub(crate) lightings: Vec<Lighting>,
-    /// True if any of them is local: methods ask for each polygon, and there may be many materials.
+    /// True if any lighting is local. Stored, because methods ask for each polygon and there may be
+    /// many materials.
     pub(crate) is_local: bool,
     pub(crate) stats: FrameStats,
     pub(crate) scratch: Scratch,
 }
 
 impl Frame {
-    /// No coordinate of a vertex is farther than this from 0, in pixels: twice the largest picture, which leaves room
-    /// for the exact products of the edge walk in 64 bits (2²⁴ · 2²⁴ · 2).
+    /// The largest distance of a vertex from 0 along an axis, in pixels: twice the largest picture.
+    /// It leaves room for the exact products of the edge walk in 64 bits (2²⁴ · 2²⁴ · 2).
     pub const GUARD: i32 = 2 * Scene::MAX_SIDE as i32;
 
-    /// Returns the samples of a row: its pixels, unless each has several. All coordinates of the frame count samples.
+    /// Returns how many samples a row has: its pixels, unless a pixel has several samples. All
+    /// coordinates of the frame are in samples.
     pub fn width(&self) -> usize {
         self.width as usize
     }
 
-    /// Returns the number of rows of samples.
+    /// Returns how many rows of samples there are.
     pub fn height(&self) -> usize {
         self.height as usize
     }
 
-    /// Returns the samples of a pixel along each side: 1, 2, 4 or 8.
+    /// Returns how many samples a pixel has along each side: 1, 2, 4 or 8.
     pub fn samples(&self) -> usize {
         self.samples as usize
     }
 
-    /// Returns the pixels of a row of the picture.
+    /// Returns how many pixels a row of the picture has.
     pub fn picture_width(&self) -> usize {
         (self.width / self.samples) as usize
     }
 
-    /// Returns the number of rows of the picture.
+    /// Returns how many rows the picture has.
     pub fn picture_height(&self) -> usize {
         (self.height / self.samples) as usize
     }
 
-    /// Returns the colour of pixels that nothing covers.
+    /// Returns the linear colour of pixels that no polygon covers.
     pub fn background(&self) -> Rgb {
         self.background
     }
 
-    /// Returns the interpolation of attributes over the screen.
+    /// Returns how attributes are interpolated over the screen.
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
 
-    /// Returns the method of hidden surface removal.
+    /// Returns how hidden surfaces are removed.
     pub fn hidden_surfaces(&self) -> HiddenSurfaces {
         self.hidden_surfaces
     }
 
-    /// Returns the kind of clipping. Under [`Clipping::NdcCube`] samples are drawn where their depth is in 0..=1.
+    /// Returns the kind of clipping. Under [`Clipping::NdcCube`] a sample is drawn if its depth is
+    /// in 0..=1.
     pub fn clipping(&self) -> Clipping {
         self.clipping
     }
 
-    /// True if nearer polygons hide farther ones (strictly less depth wins); without it, later ones hide earlier ones.
+    /// True if nearer polygons hide farther ones (a strictly smaller depth wins). If false, later
+    /// polygons hide earlier ones.
     pub fn depth_test(&self) -> bool {
         matches!(self.hidden_surfaces, HiddenSurfaces::ZBuffer(_))
     }
 
-    /// Returns the distances at which depth is 0 and 1, from which depth at each sample is computed.
+    /// Returns the distances at which depth is 0 and 1.
     pub fn depth_range(&self) -> DepthRange {
         self.depth_range
     }
@@ -151,45 +198,48 @@ impl Frame {
         self.encoding
     }
 
-    /// Returns the meaning of colours where polygons cover a pixel in part: straight alpha unless [`Frame::set_alpha`] said
-    /// otherwise.
+    /// Returns what a colour means where polygons cover a pixel in part: straight alpha, unless
+    /// [`FrameBuilder::alpha`] or [`Frame::set_alpha`] set something else.
     pub fn alpha(&self) -> Alpha {
         self.alpha
     }
 
-    /// Sets the meaning of colours where polygons cover a pixel in part, for all pictures that are drawn from now on, also
-    /// when [`PreparedScene::frame_into`] has filled the frame anew. Only frames with several samples per pixel have such pixels.
+    /// Sets what a colour means where polygons cover a pixel in part. The setting stays when
+    /// [`PreparedScene::frame_into`] fills the frame anew. It only matters for frames with several
+    /// samples per pixel.
     pub fn set_alpha(&mut self, alpha: Alpha) {
         self.alpha = alpha;
     }
 
-    /// Returns the point in the world that [`Frame::position`] and positions of lights and eye count from: the eye, or the
-    /// middle of a scene that the eye is far from; 0 if none was given.
+    /// Returns the point in the world from which [`Frame::position`] and the positions of lights
+    /// and eye are measured. It is the eye, or the middle of a scene that is far from the eye; 0 if
+    /// none was set.
     pub fn origin(&self) -> [f64; 3] {
         self.origin
     }
 
-    /// Returns all vertices in screen space. Not all of them need be corners of a polygon; those without pixel coordinates
-    /// (behind the eye, far outside the view) stand at 0, 0.
+    /// Returns all vertices in screen space. Some may be the corner of no polygon. Vertices without
+    /// pixel coordinates (behind the eye, far outside the view) are at 0, 0.
     pub fn vertices(&self) -> &[ScreenVertex] {
         &self.vertices
     }
 
-    /// Returns the unit normal of a vertex in world space (L21 3.1). At a clip corner it means nothing.
+    /// Returns the unit normal of a vertex in world space (L21 3.1). It means nothing at a clip
+    /// corner.
     #[inline(always)]
     pub fn normal(&self, vertex: u32) -> [f32; 3] {
         self.geometry.normal(vertex)
     }
 
-    /// Returns the unit normals of all vertices as one slice; `None` with clip corners, second sides, or attributes that are
-    /// not linear on the screen.
+    /// Returns the unit normals of all vertices as one slice. `None` if the frame has clip corners
+    /// or second sides, or if attributes are not linear on the screen.
     pub(crate) fn normals_on_screen(&self) -> Option<&[[f32; 3]]> {
         let normals = &self.geometry.normals;
         (self.interpolation == Interpolation::Screen && normals.len() == self.vertices.len())
             .then_some(normals)
     }
 
-    /// Returns the material of a vertex: its index in [`Frame::lightings`].
+    /// Returns the material of a vertex, an index into [`Frame::lightings`].
     #[inline(always)]
     pub fn material(&self, vertex: u32) -> u32 {
         match self.geometry.material(vertex) {
@@ -198,10 +248,10 @@ impl Frame {
         }
     }
 
-    /// Returns a vertex without its position and colour, as [`FrameBuilder::vertex`] takes it.
+    /// Returns a vertex as [`FrameBuilder::vertex`] accepts it, without position and colour.
     ///
     /// # Panics
-    /// When there is no such vertex.
+    /// If there is no such vertex.
     pub fn vertex(&self, vertex: u32) -> Vertex {
         let ScreenVertex { x, y, depth, inv_w } = self.vertices[vertex as usize];
         Vertex {
@@ -214,10 +264,12 @@ impl Frame {
         }
     }
 
-    /// Returns the weight by which what a vertex carries is interpolated: 1/w under perspective
-    /// interpolation, in a unit in which the frame's nearest vertex has about 1; else 1.
+    /// Returns the weight by which a vertex's varyings are interpolated. Under perspective
+    /// interpolation it is 1/w, in a unit in which the nearest vertex of the frame has about 1.
+    /// Else it is 1.
     ///
-    /// Only ratios of weights matter. near/w itself may be so small that its square is 0 in `f32`.
+    /// Only ratios of weights matter, so the unit is free. near/w itself may be so small that its
+    /// square is 0 in `f32`.
     #[inline(always)]
     pub(crate) fn weight(&self, vertex: u32) -> f32 {
         match self.interpolation {
@@ -226,24 +278,26 @@ impl Frame {
         }
     }
 
-    /// Returns near/w of a vertex in that unit.
+    /// Returns near/w of a vertex in this unit.
     #[inline(always)]
     pub(crate) fn scaled_weight(&self, vertex: &ScreenVertex) -> f32 {
         (vertex.inv_w * self.weight_scale) as f32
     }
 
-    /// Chooses the unit of weights, where near/w goes from `least` to `largest`, or is rounded down to powers of two.
+    /// Chooses the unit of weights. near/w goes from `least` to `largest`; both may be rounded down
+    /// to powers of two.
     ///
     /// # Errors
-    /// [`FrameError::Weights`] if perspective interpolation needs weights that methods cannot square in `f32`: measured, pictures
-    /// are right up to a ratio of 10¹⁸ and wrong from 10²⁰ on.
+    /// [`FrameError::Weights`] if perspective interpolation would need weights whose squares
+    /// methods cannot compute in `f32`. Measured: pictures are right up to a ratio of 10¹⁸ and
+    /// wrong from 10²⁰ on.
     pub(crate) fn scale_weights(&mut self, least: f64, largest: f64) -> Result<(), FrameError> {
         const MOST: f64 = (1u64 << 60) as f64;
         if !(largest > 0.0 && largest.is_finite()) {
             self.weight_scale = 1.0;
             return Ok(());
         }
-        // A power of two changes no bit of a ratio.
+        // A power of two changes no bit of a ratio's mantissa.
         self.weight_scale = libm::scalbn(1.0, -libm::frexp(largest).1);
         let is_used = self.interpolation == Interpolation::Perspective;
         match is_used && least < largest / MOST {
@@ -252,38 +306,42 @@ impl Frame {
         }
     }
 
-    /// Returns the position of a vertex relative to [`Frame::origin`], in world units along the axes of the world: points near
-    /// the eye, where precision matters, have small coordinates. 0 if the frame was given no positions. At a clip corner it
-    /// means nothing, like the normal.
+    /// Returns the position of a vertex relative to [`Frame::origin`], in world units along the
+    /// world's axes. Points near the eye, where precision matters, have small coordinates. It is 0
+    /// if the frame has no positions, and means nothing at a clip corner.
     #[inline(always)]
     pub fn position(&self, vertex: u32) -> [f32; 3] {
         self.geometry.position(vertex, self.origin)
     }
 
-    /// Returns the attributes of a vertex, which a method may read ([`Lit::attributes`](crate::shading::Lit::attributes)): four numbers of
-    /// [`FrameBuilder::attributes`] or of [`MeshBuilder::attributes`](crate::mesh::MeshBuilder::attributes), else its colour and 1. At a clip
-    /// corner they mean nothing.
+    /// Returns the attributes of a vertex, which a method may read
+    /// ([`LightAt::attributes`](crate::shading::LightAt::attributes)). They are four values of
+    /// [`FrameBuilder::attributes`] or of
+    /// [`MeshBuilder::attributes`](crate::mesh::MeshBuilder::attributes), else the vertex's colour
+    /// and 1. They mean nothing at a clip corner.
     pub fn attributes(&self, vertex: u32) -> [f32; 4] {
         self.geometry.attributes(vertex)
     }
 
-    /// Returns the colour of a vertex, linear: the first three of its attributes; white if the frame was given none. At a
-    /// clip corner it means nothing.
+    /// Returns the linear colour of a vertex, which is the first three of its attributes; white if
+    /// the frame has none. It means nothing at a clip corner.
     #[inline(always)]
     pub fn colour(&self, vertex: u32) -> [f32; 3] {
         let [r, g, b, _] = self.geometry.attributes(vertex);
         [r, g, b]
     }
 
-    /// Returns the mean of a polygon's corners as they were before it was clipped or cut into triangles.
+    /// Returns the mean of a polygon's corners before the polygon was clipped or cut into
+    /// triangles.
     pub fn mean(&self, polygon: &Polygon) -> Mean {
         let stated = self.stated_mean(polygon);
         stated.unwrap_or_else(|| self.mean_of(self.corners(polygon)))
     }
 
-    /// Returns the mean that was stated for a polygon, as for pieces of others; `None` if it is that of its own corners.
+    /// Returns the mean that was stored for a polygon, as it is for pieces of other polygons.
+    /// `None` if the polygon's own corners have it.
     pub(crate) fn stated_mean(&self, polygon: &Polygon) -> Option<Mean> {
-        // Corner lists do not overlap, so the first corner tells polygons apart.
+        // Corner lists do not overlap, so a polygon is known by its first corner.
         let place = self
             .means
             .binary_search_by_key(&polygon.first, |&(first, _)| first);
@@ -313,7 +371,7 @@ impl Frame {
         }
     }
 
-    /// True if a material is multiplied by vertex colours.
+    /// True if any material is multiplied by vertex colours.
     pub(crate) fn is_coloured(&self) -> bool {
         self.lightings
             .iter()
@@ -325,7 +383,7 @@ impl Frame {
         self.is_local
     }
 
-    /// Returns the vertices that clipping made, in ascending order of their number.
+    /// Returns the vertices that clipping made, by ascending index.
     pub fn clip_corners(&self) -> &[ClipCorner] {
         &self.clip_corners
     }
@@ -343,7 +401,7 @@ impl Frame {
         &self.polygons
     }
 
-    /// Returns the vertex numbers of a polygon's corners, in order.
+    /// Returns the vertices at a polygon's corners, in order.
     #[inline]
     pub fn corners(&self, polygon: &Polygon) -> &[u32] {
         let (first, count) = (polygon.first as usize, polygon.count as usize);
@@ -361,31 +419,31 @@ impl Frame {
         self.geometry.face(polygon.face)
     }
 
-    /// Returns the light on each material; all have the same number of lights.
+    /// Returns the light on each material. All materials have the same count of lights.
     pub fn lightings(&self) -> &[Lighting] {
         &self.lightings
     }
 
-    /// Returns the number of lights.
+    /// Returns how many lights there are.
     pub fn light_count(&self) -> usize {
         self.lightings.first().map_or(0, |l| l.lights.len())
     }
 
-    /// Returns counts of the scene's polygons by their fate.
+    /// Returns what became of the scene's polygons, as counts.
     pub fn stats(&self) -> FrameStats {
         self.stats
     }
 
-    /// Puts the polygons into another order: `order` has the number of each once.
+    /// Puts the polygons into another order. `order` holds the index of each polygon once.
     pub(crate) fn reorder(&mut self, order: &[u32]) {
         self.polygons = order
             .iter()
-            .map(|&number| self.polygons[number as usize])
+            .map(|&index| self.polygons[index as usize])
             .collect();
     }
 
-    /// Returns a copy with other polygons over the same vertices: `pieces` gives the corner lists that replace each
-    /// polygon.
+    /// Returns a copy with other polygons over the same vertices. `pieces` calls its second
+    /// argument with each corner list that replaces a polygon.
     pub(crate) fn with_pieces(
         &self,
         mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32])),

@@ -1,15 +1,17 @@
-//! The painter's algorithm: polygons sorted from back to front, so that later ones hide earlier ones (L5).
+//! The painter's algorithm: polygons sorted from back to front, so that later ones hide earlier
+//! ones (L5).
 //!
-//! Sorting takes O(n log n), and the sorted frame is then drawn without looking at depth. The key is one number per polygon:
-//! the depth of its corners, their mean or that of the farthest one. One number cannot order all scenes, and for some
-//! no order is right at all (L5: *Can have unresolvable depth order*):
-//! [`conflicts`](crate::raster::painter_conflicts::conflicts) finds both.
+//! Sorting takes O(n log n). The sorted frame is then drawn without looking at depth. The sort key
+//! is one value per polygon: the mean depth of its corners, or the depth of the farthest one. No
+//! single value can order every scene, and for some scenes no order is right at all (L5: *Can have
+//! unresolvable depth order*). `conflicts` in `raster/painter_conflicts.rs` finds both.
 
 use super::{Frame, Polygon};
 use crate::scene::PainterKey;
 use alloc::vec::Vec;
 
-/// Returns the numbers of the polygons of `frame` from back to front by `key`; polygons of equal keys keep their order.
+/// Returns the indices of the polygons of `frame` from back to front by `key`. Polygons with equal
+/// keys keep their order.
 pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
     let keys: Vec<f64> = frame
         .polygons()
@@ -27,7 +29,8 @@ pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
 
 /// Returns the depth by which a polygon is sorted.
 fn key_of(frame: &Frame, polygon: &Polygon, key: PainterKey) -> f64 {
-    // As engines round them: what lies equally far away but for the last bits of an `f64` keeps its order.
+    // Depths are rounded as in the engines, so polygons that differ only in the last bits of an
+    // `f64` keep their order.
     let depths = frame
         .corners(polygon)
         .iter()

@@ -1,11 +1,15 @@
-//! The sizes that the row engine works in: it draws by them, and bounds of errors are derived from them.
+//! The sizes that the row engine works with. It draws by them, and error bounds are derived from
+//! them.
 
-/// Up to this many pixels wide the row engine draws a triangle pixel by pixel, eight triangles at a time.
+/// The largest width, in pixels, of triangles that the row engine draws pixel by pixel, eight
+/// triangles at a time.
 pub(crate) const TINY_WIDTH: i32 = 5;
-/// And up to this many pixels high: its box has no more pixels than an `i32` has bits.
+/// The largest height, in pixels, of those triangles. Their boxes have no more pixels than an `i32`
+/// has bits.
 pub(crate) const TINY_HEIGHT: i32 = 6;
-/// Barycentric coordinates of a triangle that it draws block by block grow by at most this from pixel to pixel: the triangle is not
-/// thinner than a quarter of one.
+/// The largest growth of a barycentric coordinate from pixel to pixel, in triangles that the row
+/// engine draws block by block: they are at least a quarter of a pixel thick.
 pub(crate) const STEEPEST: i32 = 4;
-/// Scanlines of its tiles: enough to amortise the restart of edges, few enough to give every thread work.
+/// How many scanlines a tile has: enough to amortise the restart of edges, few enough to keep every
+/// thread busy.
 pub(crate) const TILE_HEIGHT: usize = 16;

@@ -1,9 +1,9 @@
-//! Polygons into triangles by ear clipping, exactly, on the snapped corners.
+//! Cutting polygons into triangles by ear clipping, exactly, on the snapped corners.
 //!
-//! Why exact: crossing parity adds up. A triangle that is cut off and the polygon that is left share an edge, which
-//! counts twice, that is not at all; so the parities of all triangles sum to the parity of the polygon at every pixel
-//! centre, whatever is cut off. All that remains to be shown for "each pixel once" is that no two triangles overlap, and
-//! that is asked of the result.
+//! Why exactly? Because crossing parity adds up. A triangle that is cut off and the rest of the
+//! polygon share an edge. It counts twice, which is to say not at all. So at every pixel centre the
+//! parities of all triangles sum to the parity of the polygon, whatever is cut off. Each pixel is
+//! covered once if also no two triangles overlap, and that is checked on the result.
 
 use super::{Frame, Polygon, ScreenVertex, SubPixel};
 use alloc::collections::BTreeMap;
@@ -12,27 +12,30 @@ use alloc::vec::Vec;
 /// A frame of triangles.
 #[derive(Clone, Debug)]
 pub struct Triangulated {
-    /// A frame of the same vertices, with triangles in place of the polygons of more than three corners, in the same order.
-    /// They keep the material, the normal and the number in the scene of the polygon that they come from.
+    /// A frame of the same vertices, in which triangles replace the polygons of more than three
+    /// corners, in the same order. They keep the material, the normal and the
+    /// [`source`](Polygon::source) of their polygon.
     pub frame: Frame,
-    /// The polygon that each triangle comes from, an index into [`Frame::polygons`] of the frame that was cut.
+    /// The polygon that each triangle comes from, an index into [`Frame::polygons`] of the original
+    /// frame.
     pub origins: Vec<u32>,
-    /// Polygons that were left out because they cross or overlap themselves on the picture.
+    /// How many polygons were left out because they cross or overlap themselves on the picture.
     pub not_simple: usize,
 }
 
-/// Returns `frame` with all its polygons cut into triangles that cover the same pixels.
+/// Returns `frame` with all polygons cut into triangles that cover the same pixels.
 ///
-/// A convex polygon becomes the fan about its first corner, whatever the view: its diagonals turn with it. Polygons with the same
-/// corners are all cut as the first of them, whichever corner each begins with and whichever way it runs, so that none of them
-/// shows through another. Corners that add no area (repeated ones, points of spikes) may
-/// be left out, and a polygon that has no area altogether gives no triangle. Takes time with the square of the number of
-/// corners, with its cube in bad cases.
+/// A convex polygon becomes the fan about its first corner. So its diagonals turn with it and do
+/// not depend on the view. Polygons with equal corners are all cut like the first of them,
+/// whichever corner each begins with and whichever way it runs, so none of them shows through
+/// another. Corners that add no area (repeated ones, points of spikes) may be left out, and a
+/// polygon without any area yields no triangle. The time grows with the square of the count of
+/// corners, in bad cases with its cube.
 pub fn triangulated(frame: &Frame) -> Triangulated {
     let walks = walks_of_equal_polygons(frame);
-    let (mut not_simple, mut origins, mut number) = (0, Vec::new(), 0..);
+    let (mut not_simple, mut origins, mut indices) = (0, Vec::new(), 0..);
     let triangles = frame.with_pieces(|polygon, add| {
-        let origin = number.next().unwrap_or(u32::MAX);
+        let origin = indices.next().unwrap_or(u32::MAX);
         let mut add = |piece: &[u32]| {
             origins.push(origin);
             add(piece);
@@ -48,7 +51,7 @@ pub fn triangulated(frame: &Frame) -> Triangulated {
             .collect();
         match ears(&places) {
             Some(ears) => ears.iter().for_each(|&[a, b, c]| {
-                // Pieces run as their own polygon does.
+                // The pieces run the same way round as their polygon.
                 let [b, c] = if walk.is_back { [c, b] } else { [b, c] };
                 add(&[a, b, c].map(corner));
             }),
@@ -62,7 +65,7 @@ pub fn triangulated(frame: &Frame) -> Triangulated {
     }
 }
 
-/// A way around a polygon: the corner that it begins with, and whether it runs from the last corner to the first.
+/// A way around a polygon: the corner that it begins with, and its direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Walk {
     start: usize,
@@ -70,12 +73,13 @@ struct Walk {
 }
 
 impl Walk {
-    /// Returns the corner after `step` steps, of `count` ones.
+    /// Returns the corner after `step` steps around `count` corners.
     fn at(self, step: usize, count: usize) -> usize {
         (self.start + if self.is_back { count - step } else { step }) % count
     }
 
-    /// Returns the way around `polygon` that comes by the corners of `first` in their order, if there is one.
+    /// Returns a way around `polygon` that visits the corners of `first` in their order, if there
+    /// is one.
     fn along(polygon: &[ScreenVertex], first: &[ScreenVertex]) -> Option<Walk> {
         let count = polygon.len();
         let is_along = |walk: &Walk| (0..count).all(|i| polygon[walk.at(i, count)] == first[i]);
@@ -85,15 +89,16 @@ impl Walk {
     }
 }
 
-/// Returns the polygons of more than three corners that have the corners of an earlier one, by their numbers: each with the way
-/// around it that the first of them takes.
+/// Finds the polygons of more than three corners whose corners equal the corners of an earlier one.
+/// Returns them by index, each with the way around it that follows the first of them.
 fn walks_of_equal_polygons(frame: &Frame) -> BTreeMap<u32, Walk> {
     let polygons = frame.polygons();
-    let vertices = |number: u32| -> Vec<ScreenVertex> {
-        let corners = frame.corners(&polygons[number as usize]).iter();
+    let vertices = |index: u32| -> Vec<ScreenVertex> {
+        let corners = frame.corners(&polygons[index as usize]).iter();
         corners.map(|&v| frame.vertices()[v as usize]).collect()
     };
-    // Equal polygons have equal sums, in whatever order corners are added. Others that do are told apart below.
+    // Equal polygons have equal sums, in whatever order their corners are added. Polygons with
+    // equal sums by chance are told apart below.
     let sum = |polygon: &Polygon| {
         let corners = frame.corners(polygon).iter();
         corners.fold(0_u64, |sum, &v| {
@@ -103,7 +108,7 @@ fn walks_of_equal_polygons(frame: &Frame) -> BTreeMap<u32, Walk> {
     let mut sums: Vec<(u64, u32)> = (0..)
         .zip(polygons)
         .filter(|(_, polygon)| polygon.count > 3)
-        .map(|(number, polygon)| (sum(polygon), number))
+        .map(|(index, polygon)| (sum(polygon), index))
         .collect();
     sums.sort_unstable();
     let mut walks = BTreeMap::new();
@@ -112,10 +117,10 @@ fn walks_of_equal_polygons(frame: &Frame) -> BTreeMap<u32, Walk> {
         .filter(|alike| alike.len() > 1)
     {
         let mut firsts: Vec<Vec<ScreenVertex>> = Vec::new();
-        for &(_, number) in alike {
-            let polygon = vertices(number);
+        for &(_, index) in alike {
+            let polygon = vertices(index);
             match firsts.iter().find_map(|first| Walk::along(&polygon, first)) {
-                Some(walk) => _ = walks.insert(number, walk),
+                Some(walk) => _ = walks.insert(index, walk),
                 None => firsts.push(polygon),
             }
         }
@@ -123,18 +128,19 @@ fn walks_of_equal_polygons(frame: &Frame) -> BTreeMap<u32, Walk> {
     walks
 }
 
-/// Mixes the bits of a vertex, so that sums of different ones differ.
+/// Mixes the bits of a vertex, so that sums of different vertices differ.
 fn mixed(vertex: &ScreenVertex) -> u64 {
-    // Adding 0 makes the two zeros one.
+    // Adding 0 turns −0 into 0.
     let bits = |c: f64| (c + 0.0).to_bits();
     let weights = bits(vertex.depth) ^ bits(vertex.inv_w).rotate_left(32);
-    // The odd number next to 2⁶⁴ over the golden ratio spreads close numbers over all bits.
+    // The odd integer nearest to 2⁶⁴ over the golden ratio spreads close values over all bits.
     let spread = |bits: u64| bits.wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let place = spread(vertex.packed());
     spread(place ^ place >> 32 ^ weights)
 }
 
-/// A column and a row in 1/256 pixel: at most 2²³ from 0 ([`Frame::GUARD`] pixels), so that twice an area is below 2⁵⁰.
+/// A column and a row in 1/256 pixel. Each is at most 2²³ from 0 ([`Frame::GUARD`] pixels), so
+/// twice an area is below 2⁵⁰.
 type Position = (i64, i64);
 
 fn place(vertex: &ScreenVertex) -> Position {
@@ -142,15 +148,16 @@ fn place(vertex: &ScreenVertex) -> Position {
     (bits(vertex.x), bits(vertex.y))
 }
 
-/// Returns twice the signed area of a triangle: positive where it runs clockwise on the picture.
+/// Returns twice the signed area of a triangle: positive if it runs clockwise on the picture.
 fn area(a: Position, b: Position, c: Position) -> i64 {
     (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
 }
 
-/// Returns the triangles of a polygon as indices into its list of corners; `None` if it is not simple.
+/// Cuts a polygon into triangles, which are indices into its list of corners. Returns `None` if the
+/// polygon is not simple.
 fn ears(places: &[Position]) -> Option<Vec<[usize; 3]>> {
     let origin = *places.first()?;
-    // A polygon of 2³² corners adds at most 2³² areas of 2⁵⁰.
+    // A polygon of 2³² corners adds at most 2³² areas of 2⁵⁰, which needs more than 64 bits.
     let whole: i128 = places
         .windows(2)
         .map(|edge| i128::from(area(origin, edge[0], edge[1])))
@@ -168,14 +175,15 @@ fn ears(places: &[Position]) -> Option<Vec<[usize; 3]>> {
         sign,
     };
     let mut triangles = Vec::new();
-    // Starting beside the first corner and staying there makes the fan about it.
+    // Starting beside the first corner and staying there yields the fan about it.
     let mut at = 1;
     while ring.left.len() > 3 {
         let next = |test: &dyn Fn(usize) -> bool| {
             let n = ring.left.len();
             (at..at + n).map(|i| i % n).find(|&i| test(i))
         };
-        // A part cut off where two parts touch leaves a spike, whose corners would pass for those of an ear.
+        // Cutting off a part where two parts touch leaves a spike. It must go first, as its corners
+        // would pass for corners of an ear.
         at = if let Some(spike) = next(&|i| ring.is_spike(i)) {
             spike
         } else if let Some(ear) =
@@ -184,6 +192,8 @@ fn ears(places: &[Position]) -> Option<Vec<[usize; 3]>> {
             triangles.push(ring.corner(ear));
             ear
         } else {
+            // No ear: a corner without an area can be dropped. If there is none either, the polygon
+            // is not simple.
             next(&|i| ring.area_at(i) == 0)?
         };
         ring.left.remove(at);
@@ -196,17 +206,17 @@ fn ears(places: &[Position]) -> Option<Vec<[usize; 3]>> {
     are_apart(places, &triangles, sign).then_some(triangles)
 }
 
-/// The rest of a polygon while ears are cut off.
+/// The rest of a polygon, while ears are cut off.
 struct Ring<'a> {
     places: &'a [Position],
     /// The corners that are left, in order.
     left: Vec<usize>,
-    /// 1 for a polygon that runs clockwise on the picture, −1 for the others.
+    /// 1 for a polygon that runs clockwise on the picture, −1 for any other.
     sign: i64,
 }
 
 impl Ring<'_> {
-    /// Returns the corner `i` of those that are left, between its neighbours.
+    /// Returns corner `i` of the corners that are left, between its neighbours.
     fn corner(&self, i: usize) -> [usize; 3] {
         let n = self.left.len();
         [
@@ -216,21 +226,22 @@ impl Ring<'_> {
         ]
     }
 
-    /// Returns twice the area at the corner `i`: positive where the polygon is convex.
+    /// Returns twice the area at corner `i`: positive if the polygon is convex there.
     fn area_at(&self, i: usize) -> i64 {
         let [a, b, c] = self.corner(i).map(|k| self.places[k]);
         self.sign * area(a, b, c)
     }
 
-    /// True if the polygon goes to the corner `i` and back to where it came from.
+    /// True if the polygon goes to corner `i` and straight back to where it came from.
     fn is_spike(&self, i: usize) -> bool {
         let [a, _, c] = self.corner(i).map(|k| self.places[k]);
         a == c
     }
 
-    /// True if the triangle at the corner `i` can be cut off: the corner is convex, no other corner lies in the triangle
-    /// and no edge crosses the cut. Corners at the places of the triangle's own do not count. A corner *on* its two outer
-    /// edges, where the polygon touches itself, counts if `strict`.
+    /// True if the triangle at corner `i` can be cut off: the corner is convex, no other corner
+    /// lies in the triangle, and no edge crosses the cut. Corners that coincide with the triangle's
+    /// own do not count. A corner *on* its two outer edges, where the polygon touches itself,
+    /// counts if `strict`.
     fn is_ear(&self, i: usize, strict: bool) -> bool {
         if self.area_at(i) <= 0 {
             return false;
@@ -263,9 +274,9 @@ fn segments_cross(a: Position, b: Position, p: Position, q: Position) -> bool {
     opposite(area(a, b, p), area(a, b, q)) && opposite(area(p, q, a), area(p, q, b))
 }
 
-/// True if no two of the triangles overlap. All have an area of this sign.
+/// True if no two triangles overlap. All must have an area of this sign.
 fn are_apart(places: &[Position], triangles: &[[usize; 3]], sign: i64) -> bool {
-    // Two convex shapes are apart if an edge of one has the other on its outer side.
+    // Two convex shapes are apart if all of one lies on the outer side of an edge of the other.
     let separates = |t: &[Position; 3], other: &[Position; 3]| {
         (0..3).any(|k| {
             other
@@ -291,7 +302,8 @@ mod tests {
 
     type Points = Vec<(f64, f64)>;
 
-    /// Cuts polygons and asks that each pixel is covered as often as before. Returns how many were left out.
+    /// Cuts polygons and checks that each pixel is covered as often as before. Returns how many
+    /// polygons were left out.
     fn check(side: u32, polygons: &[&[(f64, f64)]]) -> usize {
         let frame = shape(side, side, polygons);
         let cut = triangulated(&frame);
@@ -342,7 +354,7 @@ mod tests {
         let mut random = Random::new(6);
         let stars = [star(&mut random, 7), star(&mut random, 12)];
         for polygon in [&pentagon[..], &arrowhead, &touching, &stars[0], &stars[1]] {
-            // A first, then all that are equal to it, and in between one that is not.
+            // The polygon, then one that differs, then all polygons that are equal to the first.
             let mut turned = vec![polygon.to_vec(), vec![(0.0, 0.0); 4]];
             for turn in 0..2 * polygon.len() {
                 let mut copy = polygon.to_vec();
@@ -355,7 +367,8 @@ mod tests {
             let lists: Vec<&[(f64, f64)]> = turned.iter().map(|list| &list[..]).collect();
             let frame = shape(65, 65, &lists);
             let cut = triangulated(&frame);
-            // The places of each piece, from the least on: whichever corner it begins with and whichever way it runs.
+            // The corners of each piece in ascending order, so that the corner that it begins with
+            // and its direction do not matter.
             let mut pieces = vec![Vec::new(); lists.len()];
             for (piece, &origin) in cut.frame.polygons().iter().zip(&cut.origins) {
                 let corners = cut.frame.corners(piece);
@@ -500,7 +513,8 @@ mod tests {
         );
     }
 
-    /// Corners in the directions of their numbers about the middle: star-shaped, of any concavity.
+    /// Returns a star-shaped polygon: its corners stand at equal angles around the middle, at
+    /// random distances.
     fn star(random: &mut Random, corners: usize) -> Points {
         (0..corners)
             .map(|k| {
@@ -558,7 +572,7 @@ mod tests {
         }
     }
 
-    /// True if no two edges of a polygon meet but neighbours in their common corner.
+    /// True if no two edges of a polygon meet, except neighbours in their common corner.
     fn is_simple(p: &[Position]) -> bool {
         let n = p.len();
         let on = |a: Position, b: Position, q: Position| {

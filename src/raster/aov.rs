@@ -1,16 +1,19 @@
-//! Pictures beside shaded colours: depth, normals, polygon numbers, coverage, and interpolated colours and checkerboards.
+//! Pictures of other quantities than shaded colours: depth, normals, polygon indices, coverage,
+//! interpolated colours and checkerboards.
 //!
-//! A mean of depths or of polygon numbers means nothing: where a frame has several samples per pixel these pictures have
-//! [`Frame::width`] × [`Frame::height`] of them, not filtered.
+//! A mean of depths or of polygon indices would mean nothing. So these pictures are not filtered:
+//! they have one pixel per sample, [`Frame::width`] × [`Frame::height`] of them.
 //!
-//! Colours of vertices and checkerboards (L5, Interpolation Across Triangles) are linear on the screen, or, if the frame asks for
-//! it, linear in space for one division per pixel. Under a perspective camera the first bends the squares of a board at every
-//! diagonal (L5, *What's wrong?*), the second does not.
+//! Vertex colours and checkerboards (L5, Interpolation Across Triangles) are filtered like any
+//! picture. They are linear on the screen, or, if the frame asks for perspective interpolation,
+//! linear in space for one division per pixel. Under a perspective camera interpolation on the
+//! screen bends the squares of a board at every diagonal (L5, *What's wrong?*); interpolation in
+//! space does not.
 
 use super::barycentric::{self, Edges};
 use super::engine::Renderer;
 use super::setup::{Varyings, finish, unit};
-use super::spans::{NOTHING, scan};
+use super::spans::{NO_POLYGON, scan};
 use super::target::{Target, drawn, drawn_anyhow, linear_samples};
 use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Rgb};
@@ -19,26 +22,27 @@ use crate::shading::{RunList, UniformsIndex, Variant};
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Returns the number of the polygon seen at each pixel, an index into [`Frame::polygons`], or [`NOTHING`].
+/// Returns the index in [`Frame::polygons`] of the polygon seen at each sample, or [`NO_POLYGON`].
 ///
-/// These are those of the span engine, which do not depend on the shading method. [`Variant::polygon_numbers`] has those of every
-/// scanline engine.
-pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
-    let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
+/// The span engine decides, so the picture does not depend on the shading method.
+/// [`Variant::polygon_indices`] asks any scanline engine.
+pub fn polygon_indices(frame: &Frame) -> Picture<u32> {
+    let mut picture = Picture::new(frame.width(), frame.height(), NO_POLYGON);
     scan(frame, &Varyings::none(), &mut |row, line, _| {
-        for (x, number) in picture.row_mut(row).iter_mut().enumerate() {
-            *number = line.polygon(x);
+        for (x, polygon) in picture.row_mut(row).iter_mut().enumerate() {
+            *polygon = line.polygon(x);
         }
     });
     picture
 }
 
-/// What takes the number of a row, and a function from columns to polygon numbers.
+/// A function that receives a row's index, and a function from columns to polygon indices.
 #[cfg(feature = "cli")]
 type VisitRow<'a> = &'a mut dyn FnMut(usize, &dyn Fn(usize) -> u32);
 
-/// Calls `visit` with each row on which anything is drawn: its number, and a function that returns the number of the polygon at a
-/// column, as [`polygon_numbers`] has it. The picture is never in memory as a whole.
+/// Calls `visit` for each row on which anything is drawn. It passes the row's index and a function
+/// that returns the index of the polygon at a column, as [`polygon_indices`] does. The picture is
+/// never in memory as a whole.
 #[cfg(feature = "cli")]
 pub(crate) fn for_each_polygon_row(frame: &Frame, visit: VisitRow<'_>) {
     scan(frame, &Varyings::none(), &mut |row, line, _| {
@@ -47,22 +51,23 @@ pub(crate) fn for_each_polygon_row(frame: &Frame, visit: VisitRow<'_>) {
 }
 
 impl Variant {
-    /// Returns the number of the polygon seen at each sample where `renderer` draws this method, an index into
-    /// [`Frame::polygons`], or [`NOTHING`].
+    /// Returns the index in [`Frame::polygons`] of the polygon seen at each sample where `renderer`
+    /// draws this method, or [`NO_POLYGON`].
     ///
-    /// Where two polygons have equal depths, but for rounding, engines, instruction sets and methods may show different ones:
-    /// the numbers are those of the loops that draw the method.
-    pub fn polygon_numbers(&self, frame: &Frame, renderer: Renderer) -> Picture<u32> {
+    /// Where two polygons have equal depths but for rounding, engines, instruction sets and methods
+    /// may show different ones. So the loops that draw the method decide.
+    pub fn polygon_indices(&self, frame: &Frame, renderer: Renderer) -> Picture<u32> {
         #[cfg(feature = "simd")]
         if let Some(Renderer::Row(level)) = self.plan(frame, renderer).renderer() {
-            return super::rows::polygon_numbers(self, frame, level);
+            return super::rows::polygon_indices(self, frame, level);
         }
         let _ = renderer; // without SIMD there is one engine
-        polygon_numbers(frame)
+        polygon_indices(frame)
     }
 }
 
-/// Returns the depth at each pixel as it is compared, 0 at the near plane, 1 at the far plane; infinite where nothing is seen.
+/// Returns the depth at each sample as the depth test compares it: 0 at the near plane, 1 at the
+/// far plane, and infinite where nothing is seen.
 pub fn depth(frame: &Frame) -> Picture<f32> {
     let mut picture = Picture::new(frame.width(), frame.height(), f32::INFINITY);
     scan(frame, &Varyings::none(), &mut |row, line, _| {
@@ -73,10 +78,11 @@ pub fn depth(frame: &Frame) -> Picture<f32> {
     picture
 }
 
-/// Calls `visit` with every span of every polygon, hidden ones too: polygon number, row, and the pixels whose centres it covers.
+/// Calls `visit` with every span of every polygon, hidden ones too. It passes the polygon's index,
+/// the row, and the pixels whose centres the span covers.
 ///
-/// Rows come in order, and within a row polygons in drawing order. A pixel is covered when its centre has an odd number of the
-/// polygon's edges to its left.
+/// Rows come in order from the top, and within a row polygons come in drawing order. A pixel is
+/// covered if an odd number of the polygon's edges lie left of its centre.
 pub fn coverage(frame: &Frame, mut visit: impl FnMut(u32, usize, Range<usize>)) {
     scan(frame, &Varyings::none(), &mut |row, line, _| {
         for span in line.spans() {
@@ -85,7 +91,7 @@ pub fn coverage(frame: &Frame, mut visit: impl FnMut(u32, usize, Range<usize>)) 
     });
 }
 
-/// Calls `visit` with the varyings at each pixel that is seen: column, row, numbers.
+/// Calls `visit` with column, row and varyings of each visible pixel.
 fn interpolate(
     frame: &Frame,
     varyings: &Varyings<'_>,
@@ -93,12 +99,12 @@ fn interpolate(
     visit: &mut dyn FnMut(usize, usize, [f32; 4]),
 ) {
     const COUNT: usize = 4;
-    let numbers = |at: &[f32]| [at[0], at[1], at[2], at[3]];
+    let values = |at: &[f32]| [at[0], at[1], at[2], at[3]];
     let mut list = RunList::new(COUNT);
     match edges {
         Some(edges) => {
             barycentric::scan(frame, varyings, edges, &mut |_, x, row, list| {
-                visit(x, row, numbers(list.starts.of(0)[0]));
+                visit(x, row, values(list.starts.of(0)[0]));
                 list.clear();
             });
         }
@@ -107,7 +113,7 @@ fn interpolate(
                 list.clear();
                 let uniforms = UniformsIndex(0); // nothing is lit
                 edges.add_run(span, (row, pixels.clone()), uniforms, &mut list);
-                let [mut at, step] = list.starts.of(0).map(numbers);
+                let [mut at, step] = list.starts.of(0).map(values);
                 for x in pixels {
                     visit(x, row, at);
                     at.iter_mut().zip(step).for_each(|(at, step)| *at += step);
@@ -117,7 +123,8 @@ fn interpolate(
     }
 }
 
-/// Returns the unit normal at each pixel, in world space, as (N + 1)/2; alpha 0 where nothing is seen.
+/// Returns the unit normal at each sample, in world space, as (N + 1)/2; alpha is 0 where nothing
+/// is seen.
 pub fn normals(frame: &Frame) -> LinearPicture {
     let varyings = of_vertices(frame, |vertex| frame.normal(vertex));
     let mut picture = linear_samples(frame);
@@ -128,7 +135,8 @@ pub fn normals(frame: &Frame) -> LinearPicture {
     picture
 }
 
-/// Returns three numbers per vertex as varyings, followed by 1; all times the weight of perspective where the frame asks for it.
+/// Makes varyings of three values per vertex, followed by 1. All four are multiplied by the weight
+/// of perspective if the frame asks for it.
 fn of_vertices(frame: &Frame, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static> {
     let all = (0..frame.vertices().len() as u32).map(of);
     let mut values: Vec<f32> = all.flat_map(|[x, y, z]| [x, y, z, 1.0]).collect();
@@ -137,25 +145,29 @@ fn of_vertices(frame: &Frame, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static>
     Varyings::of_vertices(values, 4)
 }
 
-/// Returns the colours of the vertices ([`Frame::colour`]), interpolated: linear, clamped to 0..=1; alpha 0 where nothing is
-/// seen. The span engine draws them, or with `edges` the barycentric renderer (CS171 1, Algorithm 2), which passes over
-/// polygons of more than three corners.
+/// Returns the interpolated colours of the vertices ([`Frame::colour`]), linear and clamped to
+/// 0..=1; alpha is 0 where nothing is seen. `None` lets the span engine draw them. `Some(edges)`
+/// lets the barycentric renderer (CS171 1, Algorithm 2), which skips polygons of more than three
+/// corners.
 pub fn vertex_colours(frame: &Frame, edges: Option<Edges>) -> LinearPicture {
     shown(frame, edges, |vertex| frame.colour(vertex), |colour| colour)
 }
 
-/// Returns a checkerboard on the world's x and z, the plane of a floor: alpha 0 where nothing is seen.
+/// Returns a checkerboard on the world's x and z, the plane of a floor; alpha is 0 where nothing is
+/// seen.
 /// ```text
 /// C(x, z) = c_1 if ⌊x/s⌋ + ⌊z/s⌋ is even, else c_2      (L5, Image Function, whose plane is x, y)
 /// ```
-/// `size` is s, in world units, over 0; `colours` are c_1 and c_2. It is drawn as [`vertex_colours`] are.
+/// `size` is s, the side of a square in world units, over 0. `colours` are c_1 and c_2, linear.
+/// `edges` chooses the engine as in [`vertex_colours`].
 pub fn checkerboard(
     frame: &Frame,
     edges: Option<Edges>,
     size: f64,
     colours: [Rgb; 2],
 ) -> LinearPicture {
-    // An even number of squares more or less makes no difference: far from 0, coordinates stay as small as they can be.
+    // Moving the board by a whole number of periods leaves it unchanged, and keeps coordinates
+    // small far from 0.
     let period = 2048.0 * size;
     let origin = frame.origin();
     let origin = origin.map(|o| o - libm::rint(o / period) * period);
@@ -172,7 +184,8 @@ pub fn checkerboard(
     })
 }
 
-/// Returns a picture of three numbers per vertex: `colour` of the interpolated numbers at each sample.
+/// Draws a picture of three values per vertex: interpolates them, and stores what `colour` makes of
+/// them at each sample.
 fn shown(
     frame: &Frame,
     edges: Option<Edges>,
@@ -182,15 +195,15 @@ fn shown(
     let is_weighted = frame.interpolation() == Interpolation::Perspective;
     let varyings = of_vertices(frame, of);
     let draw = |target: &mut dyn Target| {
-        interpolate(frame, &varyings, edges, &mut |x, row, numbers| {
-            let [a, b, c, weight] = numbers;
+        interpolate(frame, &varyings, edges, &mut |x, row, values| {
+            let [a, b, c, weight] = values;
             let w = if is_weighted { 1.0 / weight } else { 1.0 };
             target.store(x, row, &[colour([a * w, b * w, c * w])]);
         });
     };
     match edges {
         None => drawn(frame, draw),
-        // The barycentric renderer comes back to samples that it drew.
+        // The barycentric renderer may draw a sample again after it left the row.
         Some(_) => drawn_anyhow(frame, draw),
     }
 }

@@ -1,16 +1,19 @@
-//! The method that draws naive Phong's picture in the least time.
+//! The choice of a method that draws naive Phong's picture in the least time.
 
 use super::engine::Renderer;
 use crate::frame::Frame;
 use crate::shading::Variant;
 
 impl Variant {
-    /// Chooses the method that draws naive Phong's picture of `frame` fastest by `renderer`, and says why.
+    /// Chooses the fastest method that draws naive Phong's picture of `frame` with `renderer`, and
+    /// returns it with the reason.
     ///
-    /// The rule has no clock in it: it takes the method that was fastest in the report of every shipped scene
-    /// (`report/README.md`) among those that interpolate normals and light each pixel from them, as naive Phong does, so that
-    /// no picture is more than one grey level of 255 away from naive Phong's. Methods that step cosines or `N·N` along a span
-    /// are left out: Duff's is up to 1.5 times as fast in spans of many pixels, but [`Variant::bound`] promises no such level.
+    /// The rule measures nothing. It picks the method that was fastest in the report of every
+    /// shipped scene (`report/README.md`). It considers only methods that interpolate normals and
+    /// light each pixel from them, as naive Phong does, so no picture is more than one grey level
+    /// of 255 away from naive Phong's. It leaves out methods that step cosines or `N·N` along a
+    /// span: Duff's is up to 1.5 times as fast in spans of many pixels, but [`Variant::bound`]
+    /// cannot promise one grey level for it.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;

@@ -1,4 +1,4 @@
-//! A picture as bands of scanlines, which are drawn independently, on several threads.
+//! A picture as bands of scanlines, which several threads draw independently.
 
 use super::depth::DepthTest;
 use super::target::{Format, Rows, Surface, Target};
@@ -6,18 +6,21 @@ use crate::number::parallel::{for_each_chunk, threads};
 use alloc::vec;
 use core::ops::Range;
 
-/// A function that draws one band: takes its number, its scanlines, and the target of its rows, which count from its first.
+/// A function that draws one band. It receives the band's index, its scanlines, and the target of
+/// its rows, where row 0 is the band's first.
 pub(super) type DrawBand<'a> = dyn Fn(usize, Range<usize>, &mut dyn Target) + Sync + 'a;
 
-/// A function that runs a [`DrawBand`] on every band of a picture, for any pixel format: takes the height of bands in scanlines
-/// of samples. Bands are drawn in any order, on as many threads as the current pool has.
+/// A function that runs a [`DrawBand`] on every band of a picture in any pixel format. It receives
+/// the height of a band in scanlines of samples. Bands are drawn in any order, on as many threads
+/// as the current pool has.
 pub(super) type EachBand<'a> = dyn FnMut(usize, &DrawBand<'_>) + 'a;
 
-/// Bands that are drawn before they are given away, for each thread: some are done sooner than others.
+/// How many bands per thread are drawn before their pixels are handed on. Some bands finish sooner
+/// than others, and more bands keep every thread busy.
 const BANDS_A_THREAD: usize = 4;
 
-/// Draws a picture that is never in memory as a whole: gives its pixels to `take` from the top, some bands at a time, until it
-/// returns false.
+/// Draws a picture that is never in memory as a whole. Passes its pixels to `take` from the top,
+/// some bands at a time, until `take` returns false.
 pub(super) fn stream_bands<F: Format<Pixel = [u8; 4]>>(
     surface: Surface<'_, F>,
     height: usize,
@@ -47,7 +50,7 @@ pub(super) fn stream_bands<F: Format<Pixel = [u8; 4]>>(
     }
 }
 
-/// Draws bands of `height` scanlines of samples from the `first` on: as many as there are rows.
+/// Draws bands of `height` scanlines of samples, from band `first` on, until all rows are drawn.
 pub(super) fn draw_bands<F: Format>(
     surface: Surface<'_, F>,
     (height, first): (usize, usize),
@@ -58,13 +61,13 @@ pub(super) fn draw_bands<F: Format>(
     assert!(height.is_multiple_of(frame.samples()), "whole pixels");
     let a_band = height / frame.samples();
     for_each_chunk(rows, a_band, &|start, mut rows: Rows<'_, F::Pixel>| {
-        let number = first + start / a_band;
-        let scanlines = number * height..((number + 1) * height).min(frame.height());
+        let index = first + start / a_band;
+        let scanlines = index * height..((index + 1) * height).min(frame.height());
         if frame.samples() > 1 || !surface.format.is_levels() {
             surface.clear(&mut rows); // levels are stored in whole rows
         }
         surface.draw_rows(rows, |target| {
-            draw(number, scanlines, target);
+            draw(index, scanlines, target);
         });
     });
 }

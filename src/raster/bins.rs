@@ -1,4 +1,5 @@
-//! The bins of the row engine: the polygons that meet each band of scanlines, so that threads can draw bands independently.
+//! The bins of the row engine: the polygons that meet each band of scanlines. With them threads
+//! draw bands independently.
 
 use crate::frame::{Frame, Polygon, ScreenVertex};
 use crate::number::parallel::collect;
@@ -6,50 +7,53 @@ use crate::number::vectorized;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Polygons that are sorted into bands together; chunks are sorted apart from one another.
+/// How many polygons are sorted into bands together. Chunks are sorted independently of one
+/// another.
 const CHUNK: usize = 1 << 13;
-/// Polygons that are read, and then bounded, together.
+/// How many polygons are read, and then bounded, together.
 const GROUP: usize = 64;
 
 /// A column and a row in sub-pixels.
 type Point = [i32; 2];
 
-/// A polygon with its corners, if it is a triangle. Bands read these sequentially; polygons and their corner lists are scattered
-/// over memory, and would be two dependent reads.
+/// A polygon with its corners, if it is a triangle. A band reads these sequentially. Polygons and
+/// their corner lists are scattered over memory, and following them would cost two dependent reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Listed {
-    /// The number of the polygon.
-    pub number: u32,
-    /// The corners of a triangle; [`Listed::QUADRANGLE`] or [`Listed::OTHER`] for any other polygon.
+    /// The polygon, an index into [`Frame::polygons`].
+    pub index: u32,
+    /// The corners of a triangle, or [`Listed::QUADRANGLE`] or [`Listed::OTHER`] for any other
+    /// polygon.
     pub corners: [u32; 3],
 }
 
 impl Listed {
-    /// Stands for the corners of a quadrangle.
+    /// Marks a quadrangle in place of corners.
     pub const QUADRANGLE: [u32; 3] = [u32::MAX, 4, 4];
-    /// Stands for the corners of a polygon that is neither.
+    /// Marks a polygon of any other shape in place of corners.
     pub const OTHER: [u32; 3] = [u32::MAX; 3];
 
-    /// True if it is a triangle.
+    /// True if the polygon is a triangle.
     #[inline(always)]
     pub fn is_triangle(&self) -> bool {
         self.corners[0] != Listed::OTHER[0]
     }
 
-    /// True if it is a quadrangle.
+    /// True if the polygon is a quadrangle.
     #[inline(always)]
     pub fn is_quadrangle(&self) -> bool {
         self.corners == Listed::QUADRANGLE
     }
 }
 
-/// Polygons by band of scanlines, each band's in drawing order. Polygons whose bounding box holds no pixel centre are left out.
+/// Polygons by band of scanlines, in drawing order within each band. Polygons whose bounding box
+/// holds no pixel centre are left out.
 #[derive(Debug)]
 pub(crate) struct Bins {
     chunks: Vec<BinChunk>,
 }
 
-/// Consecutive polygons, by band; after the last band, those that are in none.
+/// Consecutive polygons by band. Behind the last band come those that are in no band.
 #[derive(Clone, Debug, Default)]
 struct BinChunk {
     starts: Vec<u32>,
@@ -60,13 +64,14 @@ impl Bins {
     /// Sorts the polygons of `frame` into bands of `height` scanlines, a power of two.
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
-        let chunk = |number| BinChunk::new(frame, height, number * CHUNK);
+        let chunk = |index| BinChunk::new(frame, height, index * CHUNK);
         Bins {
             chunks: collect(chunks, 1, chunk),
         }
     }
 
-    /// Returns the polygons that may cover pixels of band `band`, by ascending numbers from list to list and within each.
+    /// Returns the lists of polygons that may cover pixels of band `band`. Their indices ascend
+    /// within each list and from list to list.
     pub fn band(&self, band: usize) -> impl Iterator<Item = &[Listed]> {
         self.chunks.iter().map(move |chunk| {
             &chunk.polygons[chunk.starts[band] as usize..chunk.starts[band + 1] as usize]
@@ -75,8 +80,10 @@ impl Bins {
 }
 
 impl BinChunk {
-    /// Sorts the polygons from number `first` on: a counting sort. Every polygon is in some list, if only in that of the
-    /// polygons that are in no band: most have one place, so that the branch predictor is seldom wrong.
+    /// Sorts one chunk of polygons, which begins at polygon `first`, by counting sort.
+    ///
+    /// Polygons that are in no band get their own list behind the last band. So nearly every
+    /// polygon is written exactly once, and the branch predictor is seldom wrong.
     fn new(frame: &Frame, height: usize, first: usize) -> Self {
         let all = &frame.polygons()[first..];
         let all = &all[..CHUNK.min(all.len())];
@@ -91,15 +98,16 @@ impl BinChunk {
                 let mut points = [[[0; 2]; GROUP]; 3];
                 for (group, polygons) in all.chunks(GROUP).enumerate() {
                     for (k, polygon) in polygons.iter().take(GROUP).enumerate() {
-                        let number = (first + group * GROUP + k) as u32;
+                        let index = (first + group * GROUP + k) as u32;
                         let (corners, [a, b, c]) = read(frame, polygon);
-                        read_entries[k] = Listed { number, corners };
+                        read_entries[k] = Listed { index, corners };
                         (points[0][k], points[1][k], points[2][k]) = (a, b, c);
                     }
                     entries.extend_from_slice(&read_entries[..polygons.len()]);
                     find_bands(frame, &points, height, &mut ranges, group * GROUP);
                 }
-                // A difference array of the polygons per band; prefix sums follow below.
+                // Counts polygons per band as a difference array: +1 where a polygon begins, −1
+                // behind its last band. Prefix sums follow below.
                 let [from, end] = &ranges;
                 for (&from, &end) in from[..all.len()].iter().zip(end) {
                     starts[usize::from(from)] = starts[usize::from(from)].wrapping_add(1);
@@ -107,6 +115,8 @@ impl BinChunk {
                 }
             },
         );
+        // Two prefix sums in one loop: `here` is how many polygons meet this band, `before` how
+        // many entries come before it. Differences may be negative, so sums wrap.
         let (mut here, mut before) = (0u32, 0);
         for start in &mut starts {
             here = here.wrapping_add(*start);
@@ -130,13 +140,14 @@ impl BinChunk {
     }
 }
 
-/// Returns the corners for [`Listed`], and three points with the bounding box of a polygon.
+/// Returns the corners for [`Listed`], and three points that have the polygon's bounding box.
 #[inline(always)]
 fn read(frame: &Frame, polygon: &Polygon) -> ([u32; 3], [Point; 3]) {
     let (vertices, shared) = (frame.vertices(), &frame.geometry.corners[..]);
     let point = |v: u32| position(&vertices[v as usize]);
     let first = polygon.first as usize;
-    // Without looking for the owner of the corners first, as `Frame::corners` does: those of pieces stand elsewhere.
+    // The corner list is tried directly. `Frame::corners` would first look for its owner, as pieces
+    // of clipped polygons have their lists elsewhere.
     if polygon.count == 3
         && let Some(&[a, b, c]) = shared.get(first..first + 3)
     {
@@ -156,8 +167,9 @@ fn read(frame: &Frame, polygon: &Polygon) -> ([u32; 3], [Point; 3]) {
     }
 }
 
-/// Stores the bands of `height` scanlines whose pixel centres the bounding box of each polygon of a group holds, from place
-/// `first` on: the first band and the one after the last, or the one after all bands where it holds no centre.
+/// Stores, for each polygon of a group, the bands of `height` scanlines that hold a pixel centre of
+/// its bounding box: the first band, and the one after the last. A polygon whose box holds no
+/// centre gets the list behind all bands. Results begin at index `first`.
 #[inline(always)]
 fn find_bands(
     frame: &Frame,
@@ -168,12 +180,13 @@ fn find_bands(
 ) {
     let limit = [[frame.width() as i32, frame.height() as i32]; GROUP];
     let (mut begin, mut stop) = ([[0; 2]; GROUP], [[0; 2]; GROUP]);
-    // Columns and rows one after the other, as they stand in memory.
+    // Columns and rows are handled alike, one after the other as they stand in memory: one loop
+    // that the compiler turns into vectors.
     let [a, b, c] = corners;
     let (a, b, c) = (a.as_flattened(), b.as_flattened(), c.as_flattened());
     for i in 0..2 * GROUP {
         let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
-        // `first_centre` in 32 bits: coordinates are within ±2²³.
+        // `first_centre` in 32 bits: coordinates are within ±2²³, so the sum does not overflow.
         begin.as_flattened_mut()[i] = ((least + 127) >> 8).max(0);
         stop.as_flattened_mut()[i] = ((most + 127) >> 8).min(limit.as_flattened()[i]);
     }
@@ -182,19 +195,20 @@ fn find_bands(
     let (from, end) = (&mut from[first..][..GROUP], &mut end[first..][..GROUP]);
     for k in 0..GROUP {
         let ([left, top], [right, bottom]) = (begin[k], stop[k]);
+        // `&` and not `&&`: a branch here would often be mispredicted.
         let is_there = (left < right) & (top < bottom);
         let band = |row: i32| if is_there { row >> log_height } else { nowhere } as u16;
         (from[k], end[k]) = (band(top), band(bottom - 1) + 1);
     }
 }
 
-/// Returns the column and the row of a vertex in sub-pixels.
+/// Returns column and row of a vertex in sub-pixels.
 #[inline(always)]
 fn position(vertex: &ScreenVertex) -> Point {
     [vertex.x.to_bits(), vertex.y.to_bits()]
 }
 
-/// Returns the left upper and the right lower corner of the bounding box of two points.
+/// Returns the upper left and the lower right corner of the bounding box of two points.
 #[inline(always)]
 fn box_of(a: Point, b: Point) -> [Point; 2] {
     [
@@ -203,7 +217,7 @@ fn box_of(a: Point, b: Point) -> [Point; 2] {
     ]
 }
 
-/// Returns the left upper and the right lower corner of the bounding box of a polygon of any shape.
+/// Returns the upper left and the lower right corner of the bounding box of a polygon of any shape.
 #[inline(never)]
 fn bounds(frame: &Frame, corners: &[u32]) -> [Point; 2] {
     let (mut least, mut most) = ([i32::MAX; 2], [i32::MIN; 2]);

@@ -1,11 +1,12 @@
-//! Depth at a sample: from the interpolated number to the one that is compared. The depth test is `SampleDepth::seen`; blocks are
-//! tested by `Writer` in `rows/tile.rs`, and depths that are compared as they are interpolated by `VisibleLine::draw` in
-//! `spans/line.rs`.
+//! Depth at a sample: how the interpolated value becomes the depth that is compared.
+//! `SampleDepth::seen` is the depth test of a sample. `Writer` in `rows/tile.rs` tests blocks, and
+//! `VisibleLine::draw` in `spans/line.rs` has a shortcut for depths that are compared as they are
+//! interpolated.
 
 use crate::frame::{DepthRange, Frame, ScreenVertex};
 use crate::scene::{Clipping, DepthSource, HiddenSurfaces};
 
-/// The rule by which depth is computed at a sample, stored and compared. Less is nearer.
+/// The rule by which depth is computed at a sample, stored and compared. A smaller depth is nearer.
 ///
 /// ```text
 /// interpolated, 32 bits:     d = q,                       q = the corners' depth: −1/w, or z if orthographic
@@ -13,25 +14,27 @@ use crate::scene::{Clipping, DepthSource, HiddenSurfaces};
 /// per sample, perspective:   z = f/(f−n) · (1 − q),       q = n/w at the corners; or d = −q/n
 /// per sample, orthographic:  z = 1/(f−n) · (q − n),       q = the distance of the corners
 /// ```
-/// Levels are those of z, as the lecture has them: the third line is L5's z ↦ (f+n)/(f−n) + (1/z) · 2fn/(f−n) with z = −w, moved
-/// from −1..1 to 0..1. Floats hold d = −1/w under perspective, whose relative precision is the same at every distance.
+/// Depth in levels is z, as the lecture has it. The third line is L5's z ↦ (f+n)/(f−n) + (1/z) ·
+/// 2fn/(f−n) with z = −w, moved from −1..1 to 0..1. Depth in floats is d = −1/w under perspective,
+/// because its relative precision is the same at every distance.
 #[derive(Clone, Copy, Debug)]
 pub struct SampleDepth {
     quantity: Quantity,
     range: DepthRange,
-    /// Multiplies 1/w of a corner where that is interpolated.
+    /// The factor of 1/w at the corners, where 1/w is interpolated.
     weight_scale: f64,
     origin: f32,
     factor: f32,
-    /// The largest integer that depth is stored as, if it is stored as integers.
+    /// The largest integer that depth is stored as; `None` if it is stored as a float.
     pub most: Option<u32>,
     /// True if nearer samples hide farther ones.
     pub hides: bool,
-    /// The least and the largest depth of samples that are drawn, if others are not: the ends of the NDC cube.
+    /// The smallest and the largest depth of samples that are drawn: the ends of the NDC cube.
+    /// `None` if all samples are drawn.
     pub cube: Option<[f32; 2]>,
 }
 
-/// The number that is interpolated.
+/// The quantity that is interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
     /// The depth of the corners.
@@ -43,7 +46,7 @@ enum Quantity {
 }
 
 impl SampleDepth {
-    /// Returns the rule of `frame`.
+    /// Returns the rule that `frame` asks for.
     pub fn new(frame: &Frame) -> Self {
         let buffer = match frame.hidden_surfaces() {
             HiddenSurfaces::ZBuffer(buffer) => Some(buffer),
@@ -69,7 +72,7 @@ impl SampleDepth {
                 (Quantity::Distance, near, 1.0 / (far - near))
             }
         };
-        // Levels are of z, 0 at the near plane and 1 at the far one.
+        // Levels store z, which is 0 at the near plane and 1 at the far one.
         let ends = match most {
             Some(_) => [0.0, 1.0],
             None => range.depths(),
@@ -86,17 +89,17 @@ impl SampleDepth {
         }
     }
 
-    /// True if depth is interpolated, not computed at each sample.
+    /// True if depth is interpolated and not computed at each sample.
     pub fn is_interpolated(&self) -> bool {
         matches!(self.quantity, Quantity::Depth | Quantity::Z)
     }
 
-    /// True if the interpolated number itself is stored and compared, without any other test.
+    /// True if the interpolated value itself is stored and compared, without any other test.
     pub fn is_plain(&self) -> bool {
         self.hides && self.is_interpolated() && self.most.is_none() && self.cube.is_none()
     }
 
-    /// Returns the number of a corner that is interpolated.
+    /// Returns the value of a corner that is interpolated.
     #[inline(always)]
     pub fn of_corner(&self, vertex: &ScreenVertex) -> f32 {
         match self.quantity {
@@ -110,17 +113,19 @@ impl SampleDepth {
         }
     }
 
-    /// Returns the depth that is stored for a sample with the interpolated number `q`.
+    /// Returns the depth to store for a sample whose interpolated value is `q`.
     #[inline(always)]
     pub fn stored(&self, q: f32) -> f32 {
         self.kept((q - self.origin) * self.factor)
     }
 
-    /// Returns the depth to store for a sample with the interpolated number `q`, if it passes the test against the stored `depth`.
+    /// Returns the depth to store for a sample whose interpolated value is `q`, if it passes the
+    /// test against the stored `depth`.
     #[inline(always)]
     pub fn seen(&self, q: f32, depth: f32) -> Option<f32> {
         let d = (q - self.origin) * self.factor; // q itself where depth is interpolated
-        // CS171 3, Algorithm 5, is the sample in the cube? The picture ends at the cube's other faces.
+        // CS171 3, Algorithm 5 asks if the sample is in the cube. Only depth is tested here, as the
+        // picture ends at the cube's other faces.
         let is_inside = self
             .cube
             .is_none_or(|[near, far]| (near..=far).contains(&d));
@@ -128,17 +133,20 @@ impl SampleDepth {
         (is_inside && (!self.hides || kept < depth)).then_some(kept)
     }
 
-    /// Returns the depth `d` as the depth buffer stores it: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
+    /// Returns the depth `d` as the depth buffer stores it: the float itself, or an integer in
+    /// 0..=2ᵇ − 1, which an `f32` holds exactly.
     #[inline(always)]
     pub fn kept(&self, d: f32) -> f32 {
         match self.most {
             None => d,
-            // The product has at most 48 bits: exact in f64, and the conversion clamps at both ends.
+            // The product has at most 48 bits and so is exact in f64. The conversion clamps at 0,
+            // and `min` at the other end.
             Some(most) => (((f64::from(d) * f64::from(most) + 0.5) as u32).min(most)) as f32,
         }
     }
 
-    /// Returns z, 0 at the near plane and 1 at the far one, that the stored `kept` stands for.
+    /// Returns the z that a stored depth stands for: 0 at the near plane, 1 at the far one,
+    /// infinite for an empty sample.
     pub fn shown(&self, kept: f32) -> f32 {
         match self.most {
             _ if kept.is_infinite() => kept,
@@ -148,32 +156,35 @@ impl SampleDepth {
     }
 }
 
-/// The test that a sample of a frame must pass against the depth that the caller keeps for it.
+/// The test that a sample must pass against the caller's depth buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum DepthTest {
-    /// It is drawn where its depth is less: it is nearer.
+    /// Draws a sample if its depth is less: it is nearer.
     #[default]
     Less,
-    /// It is drawn where its depth is less or equal: over the same frame again, as for a second light, or over a coplanar one.
+    /// Draws a sample if its depth is less or equal. Use it to draw over the same frame again, as
+    /// for a second light, or over a coplanar one.
     LessOrEqual,
-    /// The buffer is reversed, and the sample drawn where its value is greater: it is nearer. Values are 1/w under perspective, else
-    /// from 1 at the near plane down to 0 at the far one; −∞ where there is nothing yet, or 0.
+    /// Draws a sample if its value is greater, in a reversed buffer: it is nearer. Values are 1/w
+    /// under perspective, else they go from 1 at the near plane down to 0 at the far one. An empty
+    /// sample holds −∞ or 0.
     Greater,
-    /// The buffer is reversed, and the sample drawn where its value is greater or equal.
+    /// Draws a sample if its value is greater or equal, in a reversed buffer.
     GreaterOrEqual,
 }
 
-/// The depth that the caller of an engine keeps for a row of samples.
+/// The caller's depths for one row of samples.
 pub(super) struct CallersDepth<'a> {
     pub stored: &'a mut [f32],
     pub test: CallersTest,
 }
 
-/// The test of pixels against the caller's depth, by which they are drawn or left out.
+/// The test of samples against the caller's depth, which draws them or leaves them out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CallersTest {
     pub test: DepthTest,
-    /// The sum of a depth and the reversed one: 0 under perspective, else 1.
+    /// The sum of a depth and its reversed value: 0 under perspective, else 1.
     end: f32,
 }
 
@@ -186,10 +197,11 @@ impl CallersTest {
         CallersTest { test, end }
     }
 
-    /// Compares the depth of a pixel with the one that the caller keeps for it: stores it there if it passes the test, and becomes
-    /// infinite, as if nothing had been drawn, if it does not. Returns true if the pixel is hidden.
+    /// Compares a pixel's depth with the caller's. If the pixel passes, stores its depth in the
+    /// caller's buffer. Else makes the pixel's depth infinite, as if nothing had been drawn there.
+    /// Returns true if the pixel is hidden.
     ///
-    /// Literals choose the test, outside of the loop over pixels.
+    /// Callers choose the test by literals, outside of their loops over pixels.
     #[inline(always)]
     pub fn hide<const REVERSED: bool, const EQUAL: bool>(
         self,
@@ -211,15 +223,17 @@ impl CallersTest {
     }
 }
 
-/// Returns the depths `z` of a block as levels of a depth buffer whose largest is `most`, which is below 2²⁴: exactly as
-/// [`SampleDepth::kept`] does, half-way up. For instruction sets whose products are fused with sums.
+/// Returns the depths `z` of a block as levels of a depth buffer whose largest level is `most`,
+/// which is below 2²⁴. Rounds exactly as [`SampleDepth::kept`] does, halves upward. For instruction
+/// sets that fuse a product with a sum.
 ///
 /// ```text
 /// c = ⌊fl(z most)⌋,    level = c + [z most − c ≥ ½]
 /// ```
-/// The rounded product fl(z most) may reach the next whole number c, but then z most is nearer than ½ to it, and the level is
-/// c. Below 2²³ the difference from c + ½, which is exact there, is rounded once and keeps its sign. From 2²³ on z is ½ or
-/// more, so that z most − c is a multiple of 2⁻²⁴ of at most ½, which is exact.
+/// The rounded product fl(z most) may reach the next integer c. Then z most is nearer than ½ to it,
+/// and the level is c. Below 2²³ the sum c + ½ is exact; the difference from it is rounded once and
+/// keeps its sign. From 2²³ on z is ½ or more, so z most − c is a multiple of 2⁻²⁴ of at most ½,
+/// which is exact.
 #[cfg(feature = "simd")]
 #[inline(always)]
 pub(super) fn level_of<S: fearless_simd::Simd>(
@@ -267,7 +281,8 @@ mod tests {
             [-1e-9, 1.000_001, -3.0, 9.0].map(|z| sixteen.kept(z)),
             [0.0, 65535.0, 0.0, 65535.0]
         );
-        // Every level of 24 bits is an f32, and is kept as itself; neighbouring floats below 1 are different levels.
+        // Every level of 24 bits is an f32, and is stored as itself. Neighbouring floats below 1
+        // are different levels.
         let fine = keeping(DepthBits::TwentyFour);
         for level in (0..1 << 24)
             .step_by(9973)
@@ -283,7 +298,8 @@ mod tests {
         );
     }
 
-    /// A block's levels are those of its samples one by one, around every border between two levels of 16 bits and many of 24.
+    /// A block gets the levels that its samples get one by one, around every border between two
+    /// levels of 16 bits and many of 24.
     #[cfg(all(feature = "simd", target_arch = "x86_64"))]
     #[test]
     fn blocks_keep_the_same_levels() {

@@ -1,50 +1,51 @@
-//! Depth ties: samples at which rounding decides which of two polygons is seen, and doubled faces.
+//! Depth ties: samples at which rounding decides which of two polygons is seen; and doubled faces.
 
 use super::setup::Varyings;
-use super::spans::{NOTHING, scan};
+use super::spans::{NO_POLYGON, scan};
 use crate::frame::{Frame, Polygon, ScreenVertex, SubPixel};
 use crate::raster::depth::SampleDepth;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// What a depth test cannot decide on a frame.
+/// How many samples of a frame the depth test cannot decide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DepthTies {
-    /// The samples that any polygon covers.
+    /// The samples that some polygon covers.
     pub covered: usize,
-    /// Those at which the polygon seen and another one are as near as rounding can tell: engines may show
-    /// either.
+    /// The samples at which the visible polygon and another one are equally near within rounding.
+    /// Engines may show either.
     pub samples: usize,
-    /// The polygons that meet there.
+    /// The polygons that tie at some sample.
     pub polygons: usize,
-    /// Polygons with the same corners as one before them, which is seen in their place. No rounding decides
-    /// between these.
+    /// Polygons with the same corners as an earlier one, which is seen in their place. Rounding
+    /// does not decide between these.
     pub doubled: usize,
 }
 
-/// Roundings of a depth on its way to a sample that are allowed for, each by half a unit of the largest of a
-/// polygon: corner, edge, span and their steps. The worst case grows with the size of the picture; the errors of
-/// steps have either sign, and their sum stays far below.
+/// How many roundings of a depth are allowed for on its way to a sample: at the corner, the edge,
+/// the span and their steps. Each is half a unit in the last place of the polygon's largest depth.
+/// The worst case grows with the size of the picture. But the errors of steps have either sign, so
+/// their sum stays far below.
 const ROUNDINGS: f32 = 16.0;
 
-/// The depth of a polygon's plane, and what is uncertain of it.
+/// How uncertain a polygon's depth is, and what the search has found out about the polygon.
 #[derive(Clone, Copy, Debug, Default)]
 struct Uncertainty {
     /// How far a depth may be off.
     depth: f32,
-    /// True once the polygon was met at a tie.
+    /// True once the polygon tied at some sample.
     is_tied: bool,
-    /// True once an equal polygon hid it.
+    /// True once an equal polygon hid this one.
     is_doubled: bool,
 }
 
-/// Counts the samples of `frame` at which the depth test is left to rounding.
+/// Counts the samples of `frame` at which rounding decides the depth test.
 ///
-/// Two depths are a tie if they differ by less than both are uncertain: by rounding, and by the growth of depth
-/// over 1/256 pixel, to which corners are snapped. Where depth is stored as levels, equal levels are a tie. A frame
-/// that is drawn without a depth test has none.
+/// Two depths tie if they differ by less than the sum of their uncertainties. A depth is uncertain
+/// by rounding, and by its growth over 1/256 pixel, to which corners are snapped. Where depth is
+/// stored as levels, equal levels tie. A frame that is drawn without a depth test has no ties.
 ///
-/// Takes the time of finding the spans, and of looking at each sample of each span once more.
+/// It takes the time of finding the spans and of looking at each of their samples once more.
 pub fn depth_ties(frame: &Frame) -> DepthTies {
     let rule = SampleDepth::new(frame);
     let mut ties = DepthTies::default();
@@ -60,14 +61,14 @@ pub fn depth_ties(frame: &Frame) -> DepthTies {
         })
         .collect();
     let mut is_tied = vec![false; frame.width()];
-    let mut equal = ((NOTHING, NOTHING), false);
+    let mut equal = ((NO_POLYGON, NO_POLYGON), false);
     scan(frame, &Varyings::none(), &mut |_, line, _| {
         is_tied.fill(false);
         for span in line.spans() {
             let (polygon, mut q) = (span.polygon, span.depth);
             for x in span.start..span.end {
                 let seen = line.polygon(x as usize);
-                if seen != polygon && seen != NOTHING {
+                if seen != polygon && seen != NO_POLYGON {
                     let gap = (rule.stored(q) - line.stored(x as usize)).abs();
                     let [here, there] = [polygon, seen].map(|p| polygons[p as usize].depth);
                     if gap <= here + there {
@@ -87,7 +88,7 @@ pub fn depth_ties(frame: &Frame) -> DepthTies {
             }
         }
         ties.samples += is_tied.iter().filter(|is_tied| **is_tied).count();
-        let covered = (0..frame.width()).filter(|x| line.polygon(*x) != NOTHING);
+        let covered = (0..frame.width()).filter(|x| line.polygon(*x) != NO_POLYGON);
         ties.covered += covered.count();
     });
     ties.polygons = polygons.iter().filter(|p| p.is_tied).count();
@@ -95,7 +96,7 @@ pub fn depth_ties(frame: &Frame) -> DepthTies {
     ties
 }
 
-/// Returns how far the depth of a polygon may be off at a sample, as it is stored.
+/// Returns how far a polygon's stored depth may be off at a sample.
 fn uncertainty(frame: &Frame, polygon: &Polygon, rule: SampleDepth) -> f32 {
     if rule.most.is_some() {
         return 0.0;
@@ -125,10 +126,11 @@ fn uncertainty(frame: &Frame, polygon: &Polygon, rule: SampleDepth) -> f32 {
     (snapped + rounded) as f32
 }
 
-/// True if polygons have the same corners on the screen, whichever comes first and whichever way they run.
+/// True if two polygons have the same corners on the screen, whichever corner they begin with and
+/// whichever way they run.
 fn are_equal(frame: &Frame, polygons: [u32; 2]) -> bool {
-    let [a, b] = polygons.map(|number| {
-        let corners = frame.corners(&frame.polygons()[number as usize]).iter();
+    let [a, b] = polygons.map(|index| {
+        let corners = frame.corners(&frame.polygons()[index as usize]).iter();
         let mut corners: Vec<&ScreenVertex> =
             corners.map(|&v| &frame.vertices()[v as usize]).collect();
         corners.sort_by(|p, q| p.compare(q));
@@ -145,7 +147,7 @@ mod tests {
     use crate::scene::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Lighting};
     use glam::DVec3;
 
-    /// Corners of a polygon: column, row, depth.
+    /// The corners of a polygon: column, row, depth.
     type Corners<'a> = &'a [[f64; 3]];
 
     fn ties(polygons: &[Corners], change: impl Fn(&mut FrameBuilder)) -> DepthTies {
@@ -153,7 +155,7 @@ mod tests {
         change(&mut builder);
         let material = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
         let material = builder.lighting(material);
-        for (number, corners) in (0..).zip(polygons) {
+        for (index, corners) in (0..).zip(polygons) {
             let corners = corners.iter().map(|&[x, y, depth]| {
                 builder.vertex(Vertex {
                     x: SubPixel::from_num(x),
@@ -165,7 +167,7 @@ mod tests {
                 })
             });
             let corners: Vec<u32> = corners.collect();
-            builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+            builder.polygon(&corners, [0.0, 0.0, 1.0], index);
         }
         depth_ties(&builder.finish().expect("corners inside the guard band"))
     }

@@ -1,4 +1,5 @@
-//! Drawing into what the caller owns: the options, and what cannot be drawn.
+//! Drawing into memory that the caller owns: the options, and the reasons why a frame cannot be
+//! drawn.
 
 use super::depth::DepthTest;
 use super::engine::Renderer;
@@ -10,83 +11,121 @@ use crate::scene::{DepthBits, HiddenSurfaces};
 use crate::shading::Variant;
 use core::fmt;
 
-/// What [`Variant::draw`] does with pixels that no polygon covers.
+/// The treatment of pixels that no polygon covers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Background {
     /// They become the frame's background, with alpha 0.
     #[default]
     Drawn,
-    /// They stay as they are, and the frame is drawn over the picture. Of several samples a pixel the covered share lies over what
-    /// was there, in linear light.
+    /// They keep their colour: the frame is drawn over the picture. With several samples per pixel,
+    /// the covered share is blended over the old colour in linear light.
     Kept,
 }
 
-/// How [`Variant::draw`] draws. `DrawOptions::default()` is the lecture's engine over the frame's background.
+/// The options of [`Variant::draw`]. `DrawOptions::default()` draws with the span engine over the
+/// frame's background. Start from it or from [`DrawOptions::by`], and set the rest:
 ///
-/// There is no viewport and no scissor among them: [`Variant::draw`] says what to do in their place.
+/// ```
+/// use fastphong::raster::{Background, DrawOptions, Renderer};
+///
+/// let mut depth = vec![f32::INFINITY; 64 * 48];
+/// let options = DrawOptions::by(Renderer::fastest())
+///     .background(Background::Kept)
+///     .depth(&mut depth);
+/// ```
+///
+/// There is no viewport and no scissor here: [`Variant::draw`] says what to do instead.
 #[derive(Debug, Default)]
+#[non_exhaustive]
 pub struct DrawOptions<'a> {
-    /// The engine and instruction set: [`Renderer::fastest`], or the default, whose bits are the same on every machine.
+    /// The engine and its instruction set. The default draws the same bits on every machine;
+    /// [`Renderer::fastest`] is faster.
     pub renderer: Renderer,
-    /// What becomes of pixels that nothing covers.
+    /// What happens to pixels that no polygon covers.
     pub background: Background,
-    /// A depth buffer of the caller's: [`Frame::width`] × [`Frame::height`] values, one a sample, row by row from the top. They are
-    /// depths as [`Vertex::depth`](crate::frame::Vertex::depth) is: −1/w under perspective, else from 0 to 1; infinite where there is
-    /// nothing yet. A sample is drawn where its depth passes [`DrawOptions::depth_test`] against the value, which then becomes its
-    /// depth: so several frames share a picture, and your own rasterizer may draw between them. Wants a frame with a depth
-    /// buffer of 32 bits.
+    /// Your depth buffer, if there is one: [`Frame::width`] × [`Frame::height`] values, one per
+    /// sample, row by row from the top.
+    ///
+    /// Values are depths as in [`Vertex::depth`](crate::frame::Vertex::depth): −1/w under
+    /// perspective, else from 0 to 1; infinite where nothing is drawn yet. A sample is drawn if its
+    /// depth passes [`depth_test`](field@DrawOptions::depth_test) against the value, and the value
+    /// then becomes its depth. So several frames can share a picture, and your own rasterizer can
+    /// draw between them. The frame must have a depth buffer of 32 bits.
     pub depth: Option<&'a mut [f32]>,
-    /// The comparison with [`DrawOptions::depth`], and whether that buffer is reversed. Within a frame the nearest polygon hides
-    /// the others in any case.
+    /// How samples are compared with [`depth`](field@DrawOptions::depth), and if that buffer is
+    /// reversed. Within a frame the nearest polygon always hides the others.
     pub depth_test: DepthTest,
 }
 
-impl DrawOptions<'_> {
-    /// Returns the options of drawing by `renderer`, over the frame's background.
+impl<'a> DrawOptions<'a> {
+    /// Returns options that draw with `renderer`, over the frame's background.
     pub fn by(renderer: Renderer) -> Self {
         DrawOptions {
             renderer,
             ..DrawOptions::default()
         }
     }
+
+    /// Sets what happens to pixels that no polygon covers.
+    pub fn background(mut self, background: Background) -> Self {
+        self.background = background;
+        self
+    }
+
+    /// Sets your depth buffer. See [`DrawOptions::depth`](field@DrawOptions::depth).
+    pub fn depth(mut self, depth: &'a mut [f32]) -> Self {
+        self.depth = Some(depth);
+        self
+    }
+
+    /// Sets how samples are compared with your depth buffer.
+    pub fn depth_test(mut self, test: DepthTest) -> Self {
+        self.depth_test = test;
+        self
+    }
 }
 
-/// The reason why a frame could not be drawn; nothing was written then.
+/// The reason why a frame was not drawn. Nothing has been written then.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum DrawError {
-    /// The picture has another size than the frame's picture.
+    /// The picture does not have the size of the frame's picture.
     Size {
         /// Width and height of the picture.
         found: [usize; 2],
-        /// Width and height that the frame asks for.
+        /// Width and height that the frame needs.
         expected: [usize; 2],
     },
-    /// Rows of the picture are nearer to each other than they are long.
+    /// The stride of the picture is shorter than its rows.
     Stride {
-        /// The distance of rows, in pixels.
+        /// The distance from one row to the next, in pixels.
         stride: usize,
-        /// The pixels of a row.
+        /// The length of a row, in pixels.
         width: usize,
     },
-    /// The picture was given fewer pixels than its rows take.
+    /// The picture's memory is too small for its rows.
     Pixels {
-        /// The number of pixels.
+        /// How many pixels there is memory for.
         found: usize,
-        /// The least number.
+        /// How many pixels the rows need.
         expected: usize,
     },
-    /// The depth buffer has not one number for each sample.
+    /// The depth buffer does not have one value for each sample.
     Depth {
-        /// The numbers in it.
+        /// How many values it has.
         found: usize,
-        /// The samples of the frame.
+        /// How many samples the frame has.
         expected: usize,
     },
-    /// A depth buffer was given for a frame that is drawn without one: by the painter's algorithm, or in order.
+    /// A depth buffer was passed for a frame that is drawn without one: by the painter's algorithm,
+    /// or in order.
     DepthNotTested,
-    /// A depth buffer was given for a frame whose own is rounded to so many bits.
+    /// A depth buffer was passed for a frame that rounds depth to fewer than 32 bits. Holds the
+    /// frame's bits.
     DepthRounded(DepthBits),
-    /// The method is not for such frames, with the reason: see [`Shader::on`](crate::shading::Shader::on).
+    /// The method refuses this frame: see [`Shader::on`](crate::shading::Shader::on). Holds the
+    /// reason.
     Refused(&'static str),
 }
 
@@ -110,7 +149,7 @@ impl fmt::Display for DrawError {
             ),
             DrawError::Depth { found, expected } => write!(
                 f,
-                "the depth buffer has {found} numbers: the frame has {expected} samples"
+                "the depth buffer has {found} values: the frame has {expected} samples"
             ),
             DrawError::DepthNotTested => f.write_str(
                 "the frame is drawn in order, without a depth test: leave the depth buffer out, or give the frame one",
@@ -127,7 +166,7 @@ impl fmt::Display for DrawError {
 
 impl core::error::Error for DrawError {}
 
-/// Returns why `picture` and the depth buffer of `options` are not those of `frame`, if they are not.
+/// Checks that `picture` and the caller's depth buffer fit `frame`.
 fn check(frame: &Frame, picture: &PictureMut<'_>, depth: Option<&[f32]>) -> Result<(), DrawError> {
     let &PictureMut {
         width,
@@ -143,7 +182,8 @@ fn check(frame: &Frame, picture: &PictureMut<'_>, depth: Option<&[f32]>) -> Resu
     if stride < width {
         return Err(DrawError::Stride { stride, width });
     }
-    // The last row need not be followed by what lies between two. No memory has as many pixels as do not fit.
+    // The last row may end with its last pixel, without the gap that separates two rows. The
+    // product saturates: no memory holds that many pixels.
     let expected = stride.saturating_mul(height - 1).saturating_add(width);
     let found = picture.len();
     if found < expected {
@@ -166,10 +206,12 @@ fn check(frame: &Frame, picture: &PictureMut<'_>, depth: Option<&[f32]>) -> Resu
 }
 
 impl Variant {
-    /// Draws `frame` into a picture that the caller owns, and returns the renderer that drew: the one of `options`, or the span
-    /// engine where [`Variant::plan`] says so. Eight bits a channel are encoded as the frame asks, floats are linear.
+    /// Draws `frame` into a picture that the caller owns. Returns the renderer that drew: the one
+    /// of `options`, or the span engine where [`Variant::plan`] says so. Pictures with eight bits
+    /// per channel are encoded as the frame asks; floats stay linear.
     ///
-    /// Two frames of one size, drawn one after the other with one depth buffer, make the picture of both:
+    /// Two frames of one size, drawn one after the other with one depth buffer, make one picture of
+    /// both:
     ///
     /// ```
     /// use fastphong::glam::{DAffine3, DVec3};
@@ -191,8 +233,8 @@ impl Variant {
     /// let method = Variant::parse("phong-rsqrt")?;
     /// for (frame, background) in [(&torus, Background::Drawn), (&sphere, Background::Kept)] {
     ///     let picture = PictureMut::argb(&mut window, 64, 48).stride(80);
-    ///     let depth = Some(&mut depth[..]);
-    ///     method.draw(frame, picture, DrawOptions { background, depth, ..Default::default() })?;
+    ///     let options = DrawOptions::default().background(background).depth(&mut depth);
+    ///     method.draw(frame, picture, options)?;
     /// }
     /// assert_eq!(window[80 * 24 + 32] >> 24, 255, "something is in the middle");
     /// assert!(depth[64 * 24 + 32] < 1.0);
@@ -201,17 +243,20 @@ impl Variant {
     ///
     /// # A viewport, a scissor, a stencil
     ///
-    /// A frame always fills the picture that it is given, and nothing beyond it is written:
+    /// A frame always fills the whole picture that it is drawn into, and nothing beyond it is
+    /// written:
     ///
-    /// - **Viewport**: give it a part of the picture, [`PictureMut::part`], and a frame of that size.
-    /// - **Scissor**: polygons are cut off at the edges of their frame, exactly. So a scissor rectangle is a frame of its size, whose
-    ///   vertices are moved by its corner (of a [`FrameBuilder`](crate::frame::FrameBuilder), by whole pixels), in that part of
-    ///   the picture.
-    /// - **Stencil**, of any shape, and a scissor for scenes: a depth buffer that holds −∞ where nothing is to be drawn (+∞ if
-    ///   it is reversed), with [`Background::Kept`].
+    /// - **Viewport**: pass a part of the picture, [`PictureMut::part`], and a frame of that size.
+    /// - **Scissor**: polygons are cut off exactly at the edges of their frame. So a scissor
+    ///   rectangle is a frame of its size, drawn into that part of the picture. Move the vertices
+    ///   by the rectangle's corner (in a [`FrameBuilder`](crate::frame::FrameBuilder), by whole
+    ///   pixels).
+    /// - **Stencil** of any shape, or a scissor for scenes: pass a depth buffer that holds −∞ where
+    ///   nothing shall be drawn (+∞ if it is reversed), with [`Background::Kept`].
     ///
     /// # Errors
-    /// [`DrawError`] where picture, depth buffer and frame do not go together, or the method is not for the frame.
+    /// [`DrawError`] if picture, depth buffer and frame do not fit together, or the method refuses
+    /// the frame.
     pub fn draw<'p>(
         &self,
         frame: &Frame,
@@ -243,7 +288,7 @@ impl Variant {
     }
 }
 
-/// A frame to be drawn into some pixels: all that does not depend on their format.
+/// The job of drawing a frame, without anything that depends on the pixel format.
 struct Drawing<'a> {
     variant: &'a Variant,
     frame: &'a Frame,

@@ -1,20 +1,21 @@
-//! The choice of an engine: the span engine is scalar, the row engine SIMD.
+//! The choice of an engine. The span engine is scalar, the row engine uses SIMD.
 
-use crate::number::Level;
+use crate::number::SimdLevel;
 use crate::number::parallel;
 
-/// A set of loops that draw a frame.
+/// A set of loops that draws a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Engine {
-    /// One pixel at a time: active edges, a depth buffer of one line, and visible runs that are walked and shaded once, the
-    /// lecture's way.
+    /// One pixel at a time, the lecture's way: active edges, a depth buffer of one line, and
+    /// visible runs that are walked and shaded once.
     Span,
-    /// SIMD: a deferred renderer, whose varyings are kept in a G-buffer until each row is shaded once.
+    /// SIMD: a deferred renderer, which stores varyings in a G-buffer and shades each row once.
     Row,
 }
 
 impl Engine {
-    /// Returns the name on the command line.
+    /// Returns the engine's name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Engine::Span => "span",
@@ -23,41 +24,44 @@ impl Engine {
     }
 }
 
-/// An engine with its instruction set. The current pool of `rayon` gives the number of threads (feature `threads`).
+/// An engine with its instruction set. The current pool of `rayon` decides how many threads it uses
+/// (feature `threads`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Renderer {
     /// The span engine, one pixel at a time.
     #[default]
     Span,
-    /// The row engine on these SIMD instructions. On [`Level::Scalar`], or where this machine does not have them, the span
-    /// engine draws: see [`crate::shading::Variant::plan`].
-    Row(Level),
+    /// The row engine on these SIMD instructions. On [`SimdLevel::Scalar`], or on a machine without
+    /// them, the span engine draws instead: see [`crate::shading::Variant::plan`].
+    Row(SimdLevel),
 }
 
 impl Renderer {
-    /// The lecture's own form: spans, one pixel at a time, on one thread. Its pictures are the same bits on every platform,
-    /// and every other renderer is measured against it.
+    /// The span engine, which draws as the lecture does: one pixel at a time, on one thread. Its
+    /// pictures are the same bits on every platform, and every other renderer is compared with it.
     pub const LECTURE: Renderer = Renderer::Span;
 
-    /// Returns the engine that runs on `level`: the span engine on [`Level::Scalar`], the row engine on any other.
-    pub fn on(level: Level) -> Renderer {
+    /// Returns the renderer for `level`: the span engine on [`SimdLevel::Scalar`], the row engine
+    /// on any other.
+    pub fn on(level: SimdLevel) -> Renderer {
         match level {
-            Level::Scalar => Renderer::Span,
+            SimdLevel::Scalar => Renderer::Span,
             level => Renderer::Row(level),
         }
     }
 
-    /// Returns the fastest that this machine has.
+    /// Returns the fastest renderer of this machine.
     pub fn fastest() -> Renderer {
-        Renderer::on(Level::best())
+        Renderer::on(SimdLevel::best())
     }
 
-    /// Returns all that this machine has, the lecture's own form first.
+    /// Returns all renderers of this machine, [`Renderer::LECTURE`] first.
     pub fn available() -> impl Iterator<Item = Renderer> {
-        Level::available().map(Renderer::on)
+        SimdLevel::available().map(Renderer::on)
     }
 
-    /// Returns the loops.
+    /// Returns the engine.
     pub fn engine(self) -> Engine {
         match self {
             Renderer::Span => Engine::Span,
@@ -66,15 +70,16 @@ impl Renderer {
     }
 
     /// Returns the instruction set of the pixel loops.
-    pub fn level(self) -> Level {
+    pub fn level(self) -> SimdLevel {
         match self {
-            Renderer::Span => Level::Scalar,
+            Renderer::Span => SimdLevel::Scalar,
             Renderer::Row(level) => level,
         }
     }
 
-    /// Returns how many threads walk and shade its pixels: one in the span engine, in the row engine those of the current
-    /// pool of `rayon`, which is one without the feature `threads`. Both light vertices on all threads of the pool.
+    /// Returns how many threads walk and shade pixels. The span engine uses one. The row engine
+    /// uses all threads of the current pool of `rayon`, or one without the feature `threads`. Both
+    /// light vertices on all threads of the pool.
     pub fn threads(self) -> usize {
         match self {
             Renderer::Span => 1,
@@ -83,34 +88,37 @@ impl Renderer {
     }
 }
 
-/// The polygons of a frame that a method draws in one way.
+/// A kind of polygon of a method, and how many polygons of a frame the method draws in that way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct PolygonKind {
-    /// The name of the kind.
+    /// The kind's name.
     pub name: &'static str,
-    /// The polygons.
+    /// How many polygons are of this kind.
     pub polygons: usize,
 }
 
-/// The answer to a method, a frame and a renderer: see [`crate::shading::Variant::plan`].
+/// The answer to which renderer draws a frame: see [`crate::shading::Variant::plan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Plan {
-    /// The renderer that was asked for draws.
+    /// The requested renderer draws.
     AsAsked(Renderer),
     /// Another renderer draws.
     Instead {
         /// The renderer.
         renderer: Renderer,
-        /// The reason, as a sentence without its full stop.
+        /// Why the requested renderer does not draw: a sentence without its full stop.
         reason: &'static str,
     },
-    /// The method is not for such frames ([`crate::shading::Shader::on`]), with the reason: no renderer draws it.
+    /// No renderer draws, because the method refuses this frame ([`crate::shading::Shader::on`]).
+    /// Holds the reason.
     Refused(&'static str),
 }
 
 impl Plan {
-    /// Returns the renderer that draws, if one does.
+    /// Returns the renderer that draws; `None` if the method refuses the frame.
     pub fn renderer(self) -> Option<Renderer> {
         match self {
             Plan::AsAsked(renderer) | Plan::Instead { renderer, .. } => Some(renderer),
@@ -118,7 +126,7 @@ impl Plan {
         }
     }
 
-    /// Returns the reason why it is not the renderer that was asked for, if it is not.
+    /// Returns why the requested renderer does not draw; `None` if it does.
     pub fn reason(self) -> Option<&'static str> {
         match self {
             Plan::AsAsked(_) => None,

@@ -1,4 +1,5 @@
-//! Conflicts of the painter's algorithm: pairs drawn in the wrong order, and polygons that no order draws right.
+//! Conflicts of the painter's algorithm: pairs of polygons drawn in the wrong order, and polygons
+//! that no order draws right.
 //!
 //! ```
 //! use fastphong::mesh::builtin::builtin;
@@ -8,7 +9,7 @@
 //! let mut scene = Scene::of_mesh(builtin("teapot").unwrap());
 //! scene.hidden_surfaces = HiddenSurfaces::Painter(PainterKey::Mean);
 //! scene.culling = Culling::None;
-//! // The handle and the spout of the teapot go through its side.
+// The teapot's handle and spout go through its side.
 //! let found = conflicts(&scene.frame().unwrap());
 //! assert!(found.interpenetrating > 0 && !found.cycles.is_empty());
 //! ```
@@ -24,30 +25,34 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::mem::replace;
 
-/// The conflicts of drawing the polygons of a frame in their order, without a depth test.
+/// The conflicts of drawing a frame's polygons in their order, without a depth test.
 ///
-/// A polygon *hides* another if it is nearer at a pixel that both cover. Polygons are named by their places in
-/// [`Frame::polygons`].
+/// A polygon *hides* another if it is nearer at a pixel that both cover. Polygons are named by
+/// their index in [`Frame::polygons`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Conflicts {
-    /// Pairs (a, b) of which a hides b and is drawn before it all the same, in ascending order. Of two polygons that cut
-    /// each other on the picture each hides the other: such a pair is here once, whatever the order.
+    /// Pairs (a, b) where a hides b but is drawn before it, in ascending order. If two polygons cut
+    /// each other on the picture, each hides the other; the pair is then listed once, in either
+    /// drawing order.
     pub wrong: Vec<(u32, u32)>,
-    /// The number of pairs that hide each other: they cut each other on the picture.
+    /// How many pairs hide each other: they cut each other on the picture.
     pub interpenetrating: usize,
-    /// Polygons that hide each other in a ring, so that no order draws them right: each group as large as it gets
-    /// (strongly connected components of two polygons or more), its members in ascending order.
+    /// Groups of polygons that hide each other in a ring, so that no order draws them right. Each
+    /// group is as large as possible (a strongly connected component of two polygons or more), with
+    /// its members in ascending order.
     pub cycles: Vec<Vec<u32>>,
 }
 
-/// Depths that differ by a smaller share of the larger one are taken for equal: engines round each to `f32`, by at most 2⁻²⁵ of it,
-/// and cannot tell them apart.
+/// Depths that differ by less than this share of the larger one count as equal. Engines round each
+/// to `f32`, by at most 2⁻²⁵ of it, and cannot tell them apart.
 const SAME_DEPTH: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// Finds the conflicts of drawing the polygons of `frame` in their order, whether or not it is the painter's.
+/// Finds the conflicts of drawing the polygons of `frame` in their order, be it the painter's or
+/// another.
 ///
-/// It goes over the scanlines. Where two spans of a row overlap, both depths are linear, so that the two ends of the overlap
-/// tell which is nearer. Takes O(s d) for s spans of which d lie over each other.
+/// It looks at every scanline. Where two spans of a row overlap, both depths are linear, so the two
+/// ends of the overlap decide which polygon is nearer. Takes O(s d) for s spans, of which d lie
+/// over each other.
 pub fn conflicts(frame: &Frame) -> Conflicts {
     // All pairs (a, b) of which a hides b.
     let mut hides = BTreeSet::new();
@@ -63,11 +68,11 @@ pub fn conflicts(frame: &Frame) -> Conflicts {
     }
 }
 
-/// Adds the pairs that the spans of row `y` show to `hides`.
+/// Adds to `hides` the pairs that the spans of row `y` show.
 fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTreeSet<(u32, u32)>) {
     let tests_samples = frame.clipping() == Clipping::NdcCube;
     spans.sort_unstable_by_key(|span| (span.start, span.polygon));
-    // The spans that reach the pixel looked at.
+    // The spans that reach the current pixel.
     let mut open: Vec<(usize, u32, Scanline<'_>)> = Vec::new();
     for span in spans {
         let (start, stop, polygon) = (span.start as usize, span.end as usize, span.polygon);
@@ -76,7 +81,8 @@ fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTr
         scanline.cut(frame.corners(&frame.polygons()[polygon as usize]), y);
         for (end, other, others_scanline) in &open {
             let (first, last) = (start, stop.min(*end) - 1);
-            // Under the test of each sample the ends need not be seen.
+            // The depth of each sample is tested against the cube. So the ends of the overlap may
+            // be invisible, and every pixel is compared.
             let step = if tests_samples { 1 } else { last - first };
             for x in (first..=last).step_by(step.max(1)) {
                 let depths = (depth(frame, &scanline, x), depth(frame, others_scanline, x));
@@ -94,17 +100,19 @@ fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTr
     }
 }
 
-/// Returns the depth of a polygon at a pixel that shows it when nothing hides it.
+/// Returns a polygon's depth at a pixel; `None` if the polygon is not drawn there even when nothing
+/// hides it.
 fn depth(frame: &Frame, scanline: &Scanline, x: usize) -> Option<f64> {
     let depth = scanline.weights(x)?.sum(|v| frame.vertices()[v].depth);
     let [near, far] = frame.depth_range().depths();
     (frame.clipping() == Clipping::Planes || (near..=far).contains(&depth)).then_some(depth)
 }
 
-/// Returns the strongly connected components of two polygons or more of `count` polygons.
+/// Returns the strongly connected components of two polygons or more, of `count` polygons.
 ///
-/// Two searches (Kosaraju and Sharir): polygons in the order in which a search from them ends; then, the last ones first, the
-/// polygons that lead to each and were not met before are its component.
+/// This is the algorithm of Kosaraju and Sharir, with two searches. The first lists polygons in the
+/// order in which a depth-first search leaves them. The second takes them in reverse: the component
+/// of a polygon is every polygon that leads to it and was not met before.
 fn cycles(hides: &BTreeSet<(u32, u32)>, count: usize) -> Vec<Vec<u32>> {
     let forward: Vec<(u32, u32)> = hides.iter().copied().collect();
     let mut backward: Vec<(u32, u32)> = hides.iter().map(|&(a, b)| (b, a)).collect();
@@ -127,11 +135,12 @@ fn cycles(hides: &BTreeSet<(u32, u32)>, count: usize) -> Vec<Vec<u32>> {
     cycles
 }
 
-/// Appends the polygons that `root` leads to and that were not met before, itself included, in the order in which a depth-first
-/// search leaves them. `edges` are in ascending order. Without recursion.
+/// Appends `root` and the polygons that it leads to, except those met before, in the order in which
+/// a depth-first search leaves them. `edges` must be in ascending order. The search has its own
+/// stack and does not recurse.
 fn search(edges: &[(u32, u32)], root: u32, is_met: &mut [bool], left: &mut Vec<u32>) {
     let first_edge = |polygon: u32| edges.partition_point(|(from, _)| *from < polygon);
-    // Polygons on the path, each with the edge to be followed next.
+    // The polygons on the path, each with the edge to follow next.
     let mut path = Vec::new();
     let mut next = Some(root);
     loop {
@@ -158,7 +167,7 @@ mod tests {
     use super::*;
     use crate::number::test_random::Random;
 
-    /// Finds cycles by definition: two polygons are in one if each leads to the other.
+    /// Finds cycles by their definition: two polygons are in one cycle if each leads to the other.
     fn by_reachability(hides: &BTreeSet<(u32, u32)>, count: usize) -> Vec<Vec<u32>> {
         let mut leads = vec![vec![false; count]; count];
         hides
@@ -191,8 +200,8 @@ mod tests {
         let mut found = 0;
         for round in 0..500 {
             let count = 2 + round % 15;
-            let mut number = || random.below(count as u64) as u32;
-            let pairs = (0..count * 3 / 2).map(|_| (number(), number()));
+            let mut polygon = || random.below(count as u64) as u32;
+            let pairs = (0..count * 3 / 2).map(|_| (polygon(), polygon()));
             let hides: BTreeSet<(u32, u32)> = pairs.filter(|(a, b)| a != b).collect();
             assert_eq!(
                 cycles(&hides, count),

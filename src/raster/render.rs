@@ -1,4 +1,4 @@
-//! Rendering: from a method and a frame to a picture, by the engine that a renderer asks for.
+//! Rendering: from a method and a frame to a picture, with the engine that a renderer asks for.
 
 #[cfg(feature = "simd")]
 use super::bands::{draw_bands, stream_bands};
@@ -10,7 +10,7 @@ use super::setup::SetUp;
 use super::spans;
 use super::target::{Eight, Floats, Format, Rgba, Rows, Surface, rows_of};
 use crate::frame::Frame;
-use crate::number::Level;
+use crate::number::SimdLevel;
 #[cfg(feature = "simd")]
 use crate::picture::encoding::Encoder;
 use crate::picture::encoding::store;
@@ -20,11 +20,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 impl Variant {
-    /// Draws `frame` as a stored picture, by the lecture's engine: [`Variant::draw`] into a new picture.
+    /// Draws `frame` as a stored picture with the span engine. It is [`Variant::draw`] into a new
+    /// picture.
     ///
     /// # Errors
-    /// [`DrawError::Refused`] when the method is not for such frames, as some of [`METHODS`](crate::shading::METHODS) say of some.
-    ///
+    /// [`DrawError::Refused`] if the method refuses this frame, as some of
+    /// [`METHODS`](crate::shading::METHODS) do.
     /// ```
     /// use fastphong::mesh::builtin::builtin;
     /// use fastphong::scene::Scene;
@@ -35,7 +36,7 @@ impl Variant {
     /// let frame = scene.frame()?;
     /// let picture = Variant::parse("gouraud")?.render(&frame)?;
     /// assert_eq!(picture.get(32, 24)[3], 255, "the sphere is in the middle");
-    /// // Every method that is for the frame covers the same pixels.
+    /// // All methods that draw the frame cover the same pixels.
     /// for method in METHODS.iter().map(|method| method.variant()) {
     ///     match method.render(&frame) {
     ///         Ok(other) => {
@@ -50,7 +51,8 @@ impl Variant {
         self.render_with(frame, Renderer::LECTURE)
     }
 
-    /// Draws `frame` before rounding, as [`Variant::render`] does: linear channels, in 0..=1.
+    /// Draws `frame` as [`Variant::render`] does, but before rounding: channels are linear, in
+    /// 0..=1.
     ///
     /// # Errors
     /// As [`Variant::render`].
@@ -58,7 +60,7 @@ impl Variant {
         self.render_linear_with(frame, Renderer::LECTURE)
     }
 
-    /// Draws as [`Variant::render`], by another renderer.
+    /// Draws as [`Variant::render`] with another renderer.
     ///
     /// # Errors
     /// As [`Variant::render`].
@@ -67,7 +69,7 @@ impl Variant {
         self.render_anew(frame, renderer, [0; 4])
     }
 
-    /// Draws as [`Variant::render_linear`], by another renderer.
+    /// Draws as [`Variant::render_linear`] with another renderer.
     ///
     /// # Errors
     /// As [`Variant::render`].
@@ -90,22 +92,23 @@ impl Variant {
     where
         for<'a> &'a mut Picture<T>: Into<PictureMut<'a>>,
     {
-        // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write to it, each
-        // in rows of its own.
+        // Every pixel is drawn or becomes background, so the initial value is never seen. Zeroed
+        // memory stays untouched until the threads that draw write to it, each in its own rows.
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), zero);
         self.draw(frame, &mut picture, DrawOptions::by(renderer))?;
         Ok(picture)
     }
 
-    /// Returns the renderer that draws `frame` with this method where `renderer` is asked for: the span engine, with a reason,
-    /// if the row engine cannot draw it; none if the method is not for such frames.
+    /// Says which renderer draws `frame` with this method if `renderer` is asked for. Where the row
+    /// engine cannot draw it, the span engine does, with a reason. Where the method refuses the
+    /// frame, none does.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
         if let Some(reason) = (self.row().fit)(On::Frame(frame)).refused() {
             return Plan::Refused(reason);
         }
         let depth = SampleDepth::new(frame);
         let reason = match renderer {
-            Renderer::Row(level) if level == Level::Scalar || !level.is_available() => {
+            Renderer::Row(level) if level == SimdLevel::Scalar || !level.is_available() => {
                 Some("the row engine needs SIMD instructions that this machine does not have")
             }
             Renderer::Row(_) if self.row().scalar_only().is_some() => self.row().scalar_only(),
@@ -115,7 +118,7 @@ impl Variant {
             Renderer::Row(_) if depth.cube.is_some() => {
                 Some("the row engine does not test samples against the NDC cube")
             }
-            // The number of a material is a float in the G-buffer.
+            // The G-buffer holds the index of the uniforms as a float, which is exact below 2²⁴.
             Renderer::Row(_) if frame.polygons().len() >= 1 << 24 => {
                 Some("the row engine takes less than 2^24 polygons")
             }
@@ -130,8 +133,9 @@ impl Variant {
         }
     }
 
-    /// Returns how many polygons of `frame` the method draws by each of its kinds ([`crate::shading::Method::Kinds`]), in their order;
-    /// nothing for methods that do not tell polygons apart.
+    /// Returns how many polygons of `frame` the method draws by each of its kinds
+    /// ([`crate::shading::Method::Kinds`]), in their order. Empty for methods that treat all
+    /// polygons alike.
     pub fn polygon_kinds(&self, frame: &Frame) -> Vec<PolygonKind> {
         let names = self.row().kinds();
         if names.is_empty() {
@@ -151,18 +155,20 @@ impl Variant {
             .collect()
     }
 
-    /// Returns the kind by which the method draws each polygon, as an index into [`crate::shading::Method::Kinds`].
+    /// Returns the kind by which the method draws each polygon, an index into
+    /// [`crate::shading::Method::Kinds`].
     #[doc(hidden)]
     pub fn kinds_of_polygons(&self, frame: &Frame) -> Vec<u8> {
-        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
+        let setup = SetUp::new(self, frame, SimdLevel::Scalar, 1.0, Vec::new());
         match setup.kinds() {
-            // The method has no kinds; or another one stands in, which the first kind is as exact as.
+            // Either the method has no kinds, or another method stands in for it, which is as exact
+            // as the first kind.
             [] => vec![0; frame.polygons().len()],
             kinds => kinds.to_vec(),
         }
     }
 
-    /// Draws rows of the picture of a frame.
+    /// Draws rows of a frame's picture.
     pub(super) fn draw_rows<F: Format>(
         &self,
         renderer: Renderer,
@@ -182,16 +188,17 @@ impl Variant {
         }
         let _ = renderer; // without SIMD there is one engine
         surface.clear(&mut rows);
-        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
+        let setup = SetUp::new(self, frame, SimdLevel::Scalar, 1.0, Vec::new());
         surface.draw_rows(rows, |target| spans::draw(&setup, target));
     }
 
-    /// Draws `frame` as a stored picture, and gives its pixels to `take` from the top, some rows at a time, each soon after it was
-    /// drawn. The picture is in memory as a whole only where the span engine draws it: for files larger than memory.
+    /// Draws `frame` as a stored picture and passes its pixels to `take` from the top, some rows at
+    /// a time, soon after they are drawn. Use it for files larger than memory: only the span engine
+    /// keeps the whole picture in memory.
     ///
     /// # Errors
-    /// [`DrawError::Refused`] if the method is not for such frames, before anything is drawn; and within it the error of `take`, after
-    /// which no more is drawn.
+    /// [`DrawError::Refused`], before anything is drawn, if the method refuses the frame. The inner
+    /// result is the first error of `take`, after which nothing more is drawn.
     ///
     /// ```
     /// use core::convert::Infallible;
@@ -237,7 +244,8 @@ impl Variant {
         }
     }
 
-    /// Draws the triangles of `frame` with the barycentric renderer. Returns `None` if it does not have this method.
+    /// Draws the triangles of `frame` with the barycentric renderer. Returns `None` if that
+    /// renderer does not have this method.
     #[doc(hidden)]
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
         match frame.encoding() {
@@ -251,13 +259,13 @@ impl Variant {
         }
     }
 
-    /// Draws as [`Variant::render_barycentric`], before rounding.
+    /// Draws as [`Variant::render_barycentric`], but before rounding.
     #[doc(hidden)]
     pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
         self.triangles(Surface::new(frame, Floats), edges, [0.0; 4])
     }
 
-    /// Draws the triangles of a frame over an empty picture.
+    /// Draws a frame's triangles over an empty picture.
     fn triangles<F: Format>(
         &self,
         surface: Surface<'_, F>,
@@ -270,7 +278,7 @@ impl Variant {
         let frame = surface.frame;
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), zero);
         surface.clear(&mut rows_of(frame, &mut picture));
-        let setup = SetUp::new(self, frame, Level::Scalar, 1.0, Vec::new());
+        let setup = SetUp::new(self, frame, SimdLevel::Scalar, 1.0, Vec::new());
         surface.draw_anyhow(rows_of(frame, &mut picture), |target| {
             barycentric::draw(&setup, edges, target);
         });

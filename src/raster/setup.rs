@@ -1,47 +1,50 @@
-//! The set-up before the first scanline: uniforms are made once per material, and once per polygon where each polygon sees light from
-//! its own place. Then vertices, corners or polygons are lit, each once, by the method's vertex kernel. All of this runs on all threads.
-//! The loop over vertices is `light` in `shading/kernels/mod.rs`.
+//! The set-up before the first scanline. First it computes uniforms, once per material, or once per
+//! polygon where each polygon sees light from its own place. Then the method's vertex kernel lights
+//! vertices, corners or polygons, each once. All of this runs on all threads. The loop over
+//! vertices is `light` in `shading/kernels/mod.rs`.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;
-use crate::number::{BLOCK, Level, Vec3, vec3};
+use crate::number::{BLOCK, SimdLevel, Vec3, vec3};
 use crate::scene::Interpolation;
 use crate::shading::light::Uniforms;
 use crate::shading::walks::GreatCircle;
 use crate::shading::{
-    Carried, Corner, Corners, Extras, Kernels, LitAt, Local, Pixels, PolygonConstants, RunList,
-    UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
+    Carried, Corner, Corners, Extras, Kernels, Local, Pixels, PolygonConstants, RunList,
+    ShadingRate, UniformsIndex, Value, Variant, VertexKernel, Vertices, ramp,
 };
 use alloc::borrow::Cow;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The element that a varying belongs to.
+/// The kind of element that a varying belongs to.
 #[derive(Clone, Debug)]
 pub(super) enum Per {
-    /// A vertex, by its number.
+    /// A vertex: one varying per index of a vertex.
     Vertex,
-    /// A corner of a polygon, where light is seen from the polygon: by the number of the polygon's first corner and its own.
+    /// A corner of a polygon, where each polygon sees light from its own place. A corner's varying
+    /// is at the index stored here for its polygon, plus the corner's place in the polygon.
     Corner(Vec<u32>),
-    /// A polygon, by its number: nothing is interpolated.
+    /// A polygon: one varying per index of a polygon, and nothing is interpolated.
     Polygon,
 }
 
-/// Numbers that are interpolated, or that hold over polygons.
+/// Values that are interpolated over polygons, or constant over them.
 #[derive(Clone, Debug)]
 pub(super) struct Varyings<'a> {
     pub values: Cow<'a, [f32]>,
-    /// Numbers of each varying.
+    /// How many values each varying has.
     pub count: usize,
     pub per: Per,
-    /// True for unit normals, which edges carry along great circles; extras may follow them.
+    /// True for unit normals that edges carry along great circles. Extras may follow the normal.
     pub great_circles: bool,
-    /// True if runs start from the varyings at both ends of their spans, and know their places there.
+    /// True if runs start from the varyings at both ends of their spans, and store their places
+    /// there.
     pub keeps_ends: bool,
 }
 
 impl<'a> Varyings<'a> {
-    /// Takes `count` numbers per vertex, interpolated linearly.
+    /// Makes varyings of `count` values per vertex, interpolated linearly.
     pub fn of_vertices(values: impl Into<Cow<'a, [f32]>>, count: usize) -> Self {
         Varyings {
             values: values.into(),
@@ -52,61 +55,62 @@ impl<'a> Varyings<'a> {
         }
     }
 
-    /// Returns no numbers, for engines that only find what is visible.
+    /// Makes empty varyings, for engines that only find which polygon is visible.
     pub fn none() -> Self {
         Varyings::of_vertices(&[][..], 0)
     }
 
-    /// Returns the numbers of corner `corner` of polygon `number`, whose vertex is `vertex`.
+    /// Returns the values of corner `corner` of `polygon`, whose vertex is `vertex`.
     #[inline(always)]
-    pub fn of_corner(&self, number: u32, corner: u32, vertex: u32) -> &[f32] {
-        self.of_corner_with(self.count, number, [corner, vertex])
+    pub fn of_corner(&self, polygon: u32, corner: u32, vertex: u32) -> &[f32] {
+        self.of_corner_with(self.count, polygon, [corner, vertex])
     }
 
-    /// Returns the numbers of a corner and its vertex as [`Varyings::of_corner`] does, where `count` is [`Varyings::count`]: a literal,
-    /// so that loops over them are unrolled.
+    /// Returns the same values as [`Varyings::of_corner`]. `count` must equal [`Varyings::count`];
+    /// callers pass a literal, so that the compiler unrolls loops over the values.
     #[inline(always)]
-    pub fn of_corner_with(&self, count: usize, number: u32, [corner, vertex]: [u32; 2]) -> &[f32] {
-        debug_assert_eq!(count, self.count, "all numbers of the corner");
+    pub fn of_corner_with(&self, count: usize, polygon: u32, [corner, vertex]: [u32; 2]) -> &[f32] {
+        debug_assert_eq!(count, self.count, "all values of the corner");
         let place = match &self.per {
             Per::Vertex => vertex,
-            Per::Corner(first) => first[number as usize] + corner,
-            Per::Polygon => number,
+            Per::Corner(first) => first[polygon as usize] + corner,
+            Per::Polygon => polygon,
         };
         &self.values[place as usize * count..][..count]
     }
 
-    /// Returns the numbers of polygon `number`, if they hold over all of it.
+    /// Returns the values of `polygon`, if they are constant over it.
     #[inline(always)]
-    pub fn of_polygon(&self, number: u32) -> Option<&[f32]> {
+    pub fn of_polygon(&self, polygon: u32) -> Option<&[f32]> {
         match self.per {
-            Per::Polygon => Some(self.of_corner(number, 0, 0)),
+            Per::Polygon => Some(self.of_corner(polygon, 0, 0)),
             _ => None,
         }
     }
 }
 
-/// A method on a frame, ready to be drawn.
+/// A method on a frame, ready to draw.
 pub(super) struct SetUp<'a> {
     pub frame: &'a Frame,
     pub kernels: &'static Kernels,
     pub parameters: &'a [Value],
     pub extras: Extras,
-    /// Those of the polygons, where each sees light and eye at positions from its own place; then those of the materials. The
-    /// numbers of polygons come first, so that the row engine, which stores them as floats, has exact ones.
+    /// The uniforms of the polygons, if each polygon sees light and eye at positions from its own
+    /// place; behind them the uniforms of the materials. Polygons come first because the row engine
+    /// stores indices as floats, and small ones are exact.
     pub uniforms: Vec<Uniforms>,
-    /// True if each polygon has uniforms of its own.
+    /// True if each polygon has its own uniforms.
     pub is_by_polygon: bool,
     pub varyings: Varyings<'a>,
-    /// What the method sets up for each polygon.
+    /// The constants that the method computes for each polygon.
     constants: PolygonConstants,
-    /// Lights vertices on the instruction set of the engine.
+    /// Lights vertices, on the engine's instruction set.
     light: VertexKernel,
 }
 
-/// Vertices that are lit by one call.
+/// How many vertices one call lights.
 const BATCH: usize = 64;
-/// Vertices that are lit on one thread.
+/// How many vertices one thread lights at a time.
 const CHUNK: usize = 1 << 13;
 
 /// A vertex to be lit.
@@ -115,17 +119,18 @@ struct Item {
     uniforms: UniformsIndex,
     normal: [f32; 3],
     position: [f32; 3],
-    /// Its attributes, if the method or its material reads them.
+    /// The vertex's attributes, if the method or its material reads them.
     attributes: [f32; 4],
 }
 
 impl<'a> SetUp<'a> {
-    /// Computes uniforms and varyings of a method on a frame: on an instruction set, with colours multiplied by a scale, in memory
-    /// whose contents do not matter.
+    /// Computes the uniforms and varyings of a method on a frame, on instruction set `level`.
+    /// Colours are multiplied by `scale`. The varyings reuse `memory`, whose contents do not
+    /// matter.
     pub fn new(
         variant: &'a Variant,
         frame: &'a Frame,
-        level: Level,
+        level: SimdLevel,
         scale: f32,
         memory: Vec<f32>,
     ) -> Self {
@@ -134,12 +139,13 @@ impl<'a> SetUp<'a> {
         SetUp::by(kernels, variant, frame, level, scale, memory)
     }
 
-    /// Computes them for these kernels of the method's, which may be for more lights than there are.
+    /// Computes them with these kernels of the method, which may be compiled for more lights than
+    /// the frame has.
     pub fn by(
         kernels: &'static Kernels,
         variant: &'a Variant,
         frame: &'a Frame,
-        level: Level,
+        level: SimdLevel,
         scale: f32,
         memory: Vec<f32>,
     ) -> Self {
@@ -169,8 +175,10 @@ impl<'a> SetUp<'a> {
             light: vertices.unwrap_or(kernels.vertices),
         };
         let is_weighted = is_perspective && entry.needs.perspective.is_weighted();
-        (all.varyings.values, all.varyings.per) = match entry.needs.lit_at {
-            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(entry.needs.lit_at, memory),
+        (all.varyings.values, all.varyings.per) = match entry.needs.shading_rate {
+            ShadingRate::Polygon | ShadingRate::PolygonMean => {
+                all.light_polygons(entry.needs.shading_rate, memory)
+            }
             _ if is_by_polygon && !kernels.needs.great_circles() => {
                 all.light_corners(is_weighted, memory)
             }
@@ -180,7 +188,7 @@ impl<'a> SetUp<'a> {
         all
     }
 
-    /// Has the method set up every polygon, if it sets up anything.
+    /// Computes the method's constants for every polygon, if it has any.
     fn set_up_polygons(&self) -> PolygonConstants {
         let (frame, mut constants) = (self.frame, PolygonConstants::default());
         let [_, _, count] = (self.kernels.counts)(frame.light_count());
@@ -188,7 +196,8 @@ impl<'a> SetUp<'a> {
         if count == 0 && !has_kinds {
             return constants;
         }
-        // A polygon is set up in one record, so that threads share a list: its kind, then its numbers.
+        // Each polygon has one record, its kind and then its values. So threads share a single
+        // list.
         let polygons = frame.polygons();
         let stride = 1 + count;
         let mut records = vec![0.0; polygons.len() * stride];
@@ -197,9 +206,9 @@ impl<'a> SetUp<'a> {
             CHUNK * stride,
             &|first, records: &mut [f32]| {
                 let (mut corners, mut whole) = (Vec::new(), Vec::new());
-                for (number, record) in (first / stride..).zip(records.chunks_exact_mut(stride)) {
-                    let polygon = self.corners_of(&polygons[number], &mut corners, &mut whole);
-                    let uniforms = &self.uniforms[self.uniforms_of(number as u32).0 as usize];
+                for (index, record) in (first / stride..).zip(records.chunks_exact_mut(stride)) {
+                    let polygon = self.corners_of(&polygons[index], &mut corners, &mut whole);
+                    let uniforms = &self.uniforms[self.uniforms_of(index as u32).0 as usize];
                     let kind = (self.kernels.polygon)(
                         self.parameters,
                         uniforms,
@@ -220,7 +229,8 @@ impl<'a> SetUp<'a> {
         constants
     }
 
-    /// Returns a polygon as methods set it up, in two lists that are made anew.
+    /// Returns a polygon as methods read it. Its lists live in `corners` and `whole`, which are
+    /// overwritten.
     fn corners_of<'c>(
         &self,
         polygon: &Polygon,
@@ -247,7 +257,8 @@ impl<'a> SetUp<'a> {
                 .corners(polygon)
                 .iter()
                 .all(|&v| frame.clip_corner(v).is_none()),
-            // That of a polygon's own corners is simple enough for the loop over all polygons.
+            // The mean of the polygon's own corners is computed here, which is simple enough for a
+            // loop over all polygons.
             mean: match frame.stated_mean(polygon) {
                 Some(mean) => vec3(mean.normal),
                 None => {
@@ -260,8 +271,9 @@ impl<'a> SetUp<'a> {
         }
     }
 
-    /// Collects the normals of the scene's vertices between which a corner's normal lies: its own, or those at the ends of the edge
-    /// on which clipping made it.
+    /// Collects the normals of the scene's own vertices between which a corner's normal lies: the
+    /// corner's own normal, or the normals at both ends of the edge on which clipping made the
+    /// corner.
     fn collect_whole(&self, corner: u32, whole: &mut Vec<Vec3<f32>>) {
         match self.frame.clip_corner(corner) {
             None => whole.push(vec3(self.frame.normal(corner))),
@@ -272,21 +284,22 @@ impl<'a> SetUp<'a> {
         }
     }
 
-    /// Returns the kind of each polygon; nothing if the method has no kinds.
+    /// Returns the kind of each polygon; empty if the method has no kinds.
     pub fn kinds(&self) -> &[u8] {
         &self.constants.kinds
     }
 
-    /// Returns the number of the uniforms of a polygon.
+    /// Returns the index of a polygon's uniforms.
     #[inline(always)]
-    pub fn uniforms_of(&self, number: u32) -> UniformsIndex {
+    pub fn uniforms_of(&self, polygon: u32) -> UniformsIndex {
         match self.is_by_polygon {
-            true => UniformsIndex(number),
-            false => UniformsIndex(self.frame.polygons()[number as usize].material),
+            true => UniformsIndex(polygon),
+            false => UniformsIndex(self.frame.polygons()[polygon as usize].material),
         }
     }
 
-    /// Returns the number of the uniforms of a material, as vertices have them that no polygon lights.
+    /// Returns the index of a material's uniforms, which vertices use that are lit without regard
+    /// to their polygon.
     #[inline(always)]
     pub fn uniforms_of_material(&self, material: u32) -> UniformsIndex {
         debug_assert!(
@@ -300,7 +313,7 @@ impl<'a> SetUp<'a> {
         UniformsIndex(before + material)
     }
 
-    /// Returns the job of a kernel that shades runs, or walks along them.
+    /// Returns the job for a kernel that shades runs or walks along them.
     pub fn pixels<'p>(&'p self, list: &'p RunList) -> Pixels<'p> {
         Pixels {
             parameters: self.parameters,
@@ -311,7 +324,7 @@ impl<'a> SetUp<'a> {
         }
     }
 
-    /// Lights every vertex, or borrows the frame's normals where a method interpolates nothing else.
+    /// Lights every vertex, or borrows the frame's normals if the method interpolates nothing else.
     fn light_vertices(&self, is_weighted: bool, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
         let (frame, count, is_local) = (self.frame, self.varyings.count, self.frame.is_local());
         let has_one_material = frame.lightings().len() == 1;
@@ -320,7 +333,7 @@ impl<'a> SetUp<'a> {
         if let Some(normals) = alone.filter(|_| self.passes_normals()) {
             return (normals.as_flattened().into(), Per::Vertex);
         }
-        // Normals of one material need not be gathered.
+        // With a single material the normals need not be gathered.
         let reads_attributes = self.reads_attributes();
         let ready = alone.filter(|_| has_one_material && !is_local && !reads_attributes);
         let item = |i: usize| {
@@ -329,7 +342,7 @@ impl<'a> SetUp<'a> {
                 true => frame.position(vertex),
                 false => [0.0; 3],
             };
-            // The only material need not be read.
+            // With a single material its index need not be read.
             let material = (!has_one_material).then(|| frame.material(vertex));
             Item {
                 uniforms: self.uniforms_of_material(material.unwrap_or(0)),
@@ -344,7 +357,8 @@ impl<'a> SetUp<'a> {
         (values.into(), Per::Vertex)
     }
 
-    /// True if the varyings are the frame's normals: where edges follow great circles, those that clipping made are not.
+    /// True if the varyings are the frame's normals. Where edges follow great circles they are not:
+    /// clipping then puts its corners' normals on the circle.
     fn passes_normals(&self) -> bool {
         self.kernels.carries == Carried::Normal && !self.varyings.great_circles
     }
@@ -354,7 +368,7 @@ impl<'a> SetUp<'a> {
         self.kernels.carries == Carried::Attributes || self.frame.is_coloured()
     }
 
-    /// Returns the attributes of a vertex, if anything reads them.
+    /// Returns a vertex's attributes, or zeros if nothing reads them.
     #[inline(always)]
     fn attributes(&self, vertex: u32) -> [f32; 4] {
         match self.reads_attributes() {
@@ -363,7 +377,7 @@ impl<'a> SetUp<'a> {
         }
     }
 
-    /// Returns a corner to be lit by the light that its polygon sees.
+    /// Returns a corner, to be lit by the light that its polygon sees.
     fn corner(&self, polygon: u32, vertex: u32) -> Item {
         Item {
             uniforms: self.uniforms_of(polygon),
@@ -374,16 +388,16 @@ impl<'a> SetUp<'a> {
     }
 
     /// Lights each polygon once.
-    fn light_polygons(&self, at: LitAt, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
+    fn light_polygons(&self, at: ShadingRate, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
         let frame = self.frame;
-        let item = |number: usize| {
-            let polygon = &frame.polygons()[number];
+        let item = |index: usize| {
+            let polygon = &frame.polygons()[index];
             let normal = match at {
-                LitAt::PolygonMean => vec3(frame.mean(polygon).normal).unit().array(),
+                ShadingRate::PolygonMean => vec3(frame.mean(polygon).normal).unit().array(),
                 _ => frame.polygon_normal(polygon),
             };
             Item {
-                uniforms: self.uniforms_of(number as u32),
+                uniforms: self.uniforms_of(index as u32),
                 normal,
                 position: [0.0; 3],
                 attributes: match frame.is_coloured() {
@@ -399,7 +413,7 @@ impl<'a> SetUp<'a> {
         (values.into(), Per::Polygon)
     }
 
-    /// Lights the corners of each polygon by the light that the polygon sees.
+    /// Lights the corners of each polygon by the light that this polygon sees.
     fn light_corners(&self, is_weighted: bool, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
         let (frame, count) = (self.frame, self.varyings.count);
         let (first, corners) = all_corners(frame);
@@ -410,9 +424,9 @@ impl<'a> SetUp<'a> {
             CHUNK * count,
             &|start, values: &mut [f32]| {
                 let corners = &corners[start / count..];
-                for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
+                for (&(index, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
                     if frame.clip_corner(vertex).is_some() {
-                        to.copy_from_slice(&self.clipped(number, vertex));
+                        to.copy_from_slice(&self.clipped(index, vertex));
                     }
                     if is_weighted {
                         let weight = frame.weight(vertex);
@@ -424,21 +438,22 @@ impl<'a> SetUp<'a> {
         (values.into(), Per::Corner(first))
     }
 
-    /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
-    fn clipped(&self, number: u32, vertex: u32) -> Vec<f32> {
+    /// Returns the varying of a vertex on `polygon`. A corner that clipping made is interpolated
+    /// between the ends of its edge; any other vertex is lit.
+    fn clipped(&self, polygon: u32, vertex: u32) -> Vec<f32> {
         let Some(corner) = self.frame.clip_corner(vertex) else {
-            let item = |_| self.corner(number, vertex);
+            let item = |_| self.corner(polygon, vertex);
             return self.lit(Vec::new(), 1, &[], &item);
         };
-        let ends = [corner.a, corner.b].map(|v| self.clipped(number, v));
+        let ends = [corner.a, corner.b].map(|v| self.clipped(polygon, v));
         let mut to = vec![0.0; self.varyings.count];
         between(self.varyings.great_circles, &corner, &ends, &mut to);
         to
     }
 
-    /// Lights `count` vertices, on several threads and on an instruction set: in whole blocks, as kernels may take no others. What
-    /// `values` holds before does not matter. If they are all of the first material and without extras, their normals may be
-    /// `ready` in a row.
+    /// Lights `count` vertices on several threads. Kernels may only take whole blocks, so the last
+    /// one is padded. The contents of `values` do not matter. If all vertices have the first
+    /// material and no extras, `ready` may hold their normals in a row.
     fn lit(
         &self,
         mut values: Vec<f32>,
@@ -453,7 +468,7 @@ impl<'a> SetUp<'a> {
             "normals in a row are those of all vertices, and have nothing beside them"
         );
         values.resize(count * stride, 0.0);
-        // Without varyings the chunks have a size all the same.
+        // Chunks need a size even if there are no varyings.
         let size = CHUNK * stride.max(1);
         for_each_chunk(&mut values[..], size, &|first, mut rest: &mut [f32]| {
             let mut first = first / stride;
@@ -461,7 +476,7 @@ impl<'a> SetUp<'a> {
                 let whole = rest.len() / stride / BLOCK * BLOCK;
                 let normals = &ready[first..first + whole];
                 let (here, others) = rest.split_at_mut(whole * stride);
-                // Directional lights do not ask for points.
+                // Directional lights do not read points.
                 self.light(self.uniforms_of_material(0), [normals; 2], &[], here);
                 (rest, first) = (others, first + whole);
             }
@@ -470,9 +485,11 @@ impl<'a> SetUp<'a> {
             let mut lit = vec![0.0; BATCH * own];
             while !rest.is_empty() {
                 let most = BATCH.min(rest.len() / stride);
+                // Vertices with the same uniforms are gathered until they change or the batch is
+                // full.
                 let mut next = item(first);
-                let (number, mut k) = (next.uniforms, 0);
-                while next.uniforms == number {
+                let (uniforms, mut k) = (next.uniforms, 0);
+                while next.uniforms == uniforms {
                     (normals[k], points[k]) = (next.normal, next.position);
                     attributes[k] = next.attributes;
                     k += 1;
@@ -484,7 +501,7 @@ impl<'a> SetUp<'a> {
                 let padded = k.next_multiple_of(BLOCK);
                 let to = &mut lit[..padded * own];
                 let vectors = [&normals[..padded], &points[..padded]];
-                self.light(number, vectors, &attributes[..padded], to);
+                self.light(uniforms, vectors, &attributes[..padded], to);
                 let (here, others) = rest.split_at_mut(k * stride);
                 // The engine's own varyings follow the method's.
                 for (k, to) in here.chunks_exact_mut(stride).enumerate() {
@@ -498,7 +515,7 @@ impl<'a> SetUp<'a> {
         values
     }
 
-    /// Lights vertices of the same uniforms.
+    /// Lights vertices that share their uniforms.
     fn light(
         &self,
         uniforms: UniformsIndex,
@@ -517,7 +534,8 @@ impl<'a> SetUp<'a> {
     }
 }
 
-/// Returns the uniforms of each polygon, which sees light and eye from its own place, and then those of the materials.
+/// Returns the uniforms of each polygon, which sees light and eye from its own place, and behind
+/// them the uniforms of the materials.
 fn by_polygon(frame: &Frame, materials: Vec<Uniforms>) -> Vec<Uniforms> {
     let polygons = frame.polygons();
     let Some(first) = materials.first() else {
@@ -534,7 +552,8 @@ fn by_polygon(frame: &Frame, materials: Vec<Uniforms>) -> Vec<Uniforms> {
     all
 }
 
-/// Returns the index of each polygon's first corner among the corners of all polygons, and of each corner its polygon and its vertex.
+/// Returns the index of each polygon's first corner in the list of all corners, and the polygon and
+/// vertex of each corner.
 fn all_corners(frame: &Frame) -> (Vec<u32>, Vec<(u32, u32)>) {
     let polygons = frame.polygons();
     let mut count = 0;
@@ -549,12 +568,13 @@ fn all_corners(frame: &Frame) -> (Vec<u32>, Vec<(u32, u32)>) {
         &mut corners[..],
         CHUNK,
         &|start, part: &mut [(u32, u32)]| {
-            // The polygon with the first corner of this part, of which some corners may be in the part before.
+            // The polygon of this part's first corner. Some of its corners may belong to the part
+            // before.
             let begun = first.partition_point(|first| *first as usize <= start) - 1;
             let skipped = start - first[begun] as usize;
-            let all = (begun..polygons.len()).flat_map(|number| {
-                let vertices = frame.corners(&polygons[number]).iter();
-                vertices.map(move |&vertex| (number as u32, vertex))
+            let all = (begun..polygons.len()).flat_map(|index| {
+                let vertices = frame.corners(&polygons[index]).iter();
+                vertices.map(move |&vertex| (index as u32, vertex))
             });
             for (to, corner) in part.iter_mut().zip(all.skip(skipped)) {
                 *to = corner;
@@ -564,7 +584,8 @@ fn all_corners(frame: &Frame) -> (Vec<u32>, Vec<(u32, u32)>) {
     (first, corners)
 }
 
-/// Stores what a corner that clipping made carries: what lies between the ends of its edge, which are never lit again.
+/// Stores the varying of a corner that clipping made: it lies between the varyings at the ends of
+/// its edge, and is never lit again.
 fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &mut [f32]) {
     let [a, b] = ends;
     for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
@@ -577,8 +598,8 @@ fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &m
     }
 }
 
-/// Fills in the `values` per vertex of the corners that clipping made, and multiplies all by the weights of perspective if
-/// `is_weighted`.
+/// Computes the `values` of the corners that clipping made, and multiplies all values by the
+/// weights of perspective if `is_weighted`.
 pub(super) fn finish(
     frame: &Frame,
     values: &mut [f32],
@@ -605,9 +626,9 @@ pub(super) fn finish(
     }
 }
 
-/// Returns the normal that numbers begin with.
-pub(super) fn unit(numbers: &[f32]) -> Vec3<f32> {
-    vec3([numbers[0], numbers[1], numbers[2]])
+/// Returns the normal that `values` begin with.
+pub(super) fn unit(values: &[f32]) -> Vec3<f32> {
+    vec3([values[0], values[1], values[2]])
 }
 
 #[cfg(test)]
@@ -618,7 +639,7 @@ mod tests {
     use alloc::format;
     use glam::DVec3;
 
-    /// Chunks begin and end within polygons, and there are more polygons than a chunk holds.
+    /// Uses more polygons than a chunk holds, so that chunks begin and end inside polygons.
     #[test]
     fn polygons_and_corners_of_several_chunks_are_those_of_one_loop() {
         let mesh = builtin("sphere?rings=160&segments=160").expect("a built-in mesh");
@@ -629,14 +650,9 @@ mod tests {
         assert!(polygons.len() > CHUNK, "{} polygons", polygons.len());
         let (first, corners) = all_corners(&frame);
         let mut expected = Vec::new();
-        for (number, polygon) in (0..).zip(polygons) {
-            assert_eq!(first[number as usize] as usize, expected.len());
-            expected.extend(
-                frame
-                    .corners(polygon)
-                    .iter()
-                    .map(|&vertex| (number, vertex)),
-            );
+        for (index, polygon) in (0..).zip(polygons) {
+            assert_eq!(first[index as usize] as usize, expected.len());
+            expected.extend(frame.corners(polygon).iter().map(|&vertex| (index, vertex)));
         }
         assert!(corners == expected && corners.len() % CHUNK != 0);
 
@@ -652,7 +668,8 @@ mod tests {
         }
     }
 
-    /// An engine reads the frame's normals in place of varyings where they are the same, and nowhere else.
+    /// An engine reads the frame's normals in place of varyings where both are equal, and nowhere
+    /// else.
     #[test]
     fn normals_stand_for_varyings_only_where_they_are_the_same() {
         type Case = (fn(&mut Scene), bool);
@@ -677,19 +694,19 @@ mod tests {
             let frame = scene.frame().expect("a scene in its range");
             for method in ["naive-phong", "phong-rsqrt"] {
                 let variant = Variant::parse(method).expect("a method");
-                let setup = SetUp::new(&variant, &frame, Level::Scalar, 1.0, Vec::new());
+                let setup = SetUp::new(&variant, &frame, SimdLevel::Scalar, 1.0, Vec::new());
                 let Varyings { values, count, .. } = &setup.varyings;
                 let is_borrowed = matches!(values, Cow::Borrowed(_));
                 assert_eq!(is_borrowed, is_there);
                 let clipped = |v: u32| frame.clip_corner(v).is_some();
                 let vertices = (0..).zip(frame.vertices()).filter(|(v, _)| !clipped(*v));
-                for (number, vertex) in vertices {
+                for (index, vertex) in vertices {
                     let weight = match scene.interpolation {
                         Interpolation::Perspective => frame.scaled_weight(vertex),
                         Interpolation::Screen => 1.0,
                     };
-                    let expected = frame.normal(number).map(|x| x * weight);
-                    assert_eq!(values[number as usize * count..][..3], expected, "{number}");
+                    let expected = frame.normal(index).map(|x| x * weight);
+                    assert_eq!(values[index as usize * count..][..3], expected, "{index}");
                 }
             }
         }

@@ -1,4 +1,5 @@
-//! The targets of engines: rows of pixels in any format, directly or through a box filter over several samples.
+//! The targets that engines draw into: rows of pixels in any format, stored directly or through a
+//! box filter over several samples.
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine draws levels
 
@@ -11,13 +12,13 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-/// A way to store pixels.
+/// A pixel format.
 pub(super) trait Format: Copy + Sync {
     /// A pixel in memory.
     type Pixel: Copy + Send + Sync;
-    /// Stores a linear colour and alpha, clamped to 0..=1.
+    /// Converts a linear colour and alpha, clamped to 0..=1, to a pixel.
     fn of(self, rgba: [f32; 4]) -> Self::Pixel;
-    /// Stores a run of linear colours, of covered pixels.
+    /// Stores a run of linear colours of covered pixels.
     #[inline(always)]
     fn store(self, pixels: &mut [Self::Pixel], colours: &[[f32; 3]]) {
         for (pixel, &[r, g, b]) in pixels.iter_mut().zip(colours) {
@@ -26,11 +27,11 @@ pub(super) trait Format: Copy + Sync {
     }
     /// Returns the linear colour and alpha of a pixel.
     fn linear(self, pixel: Self::Pixel) -> [f32; 4];
-    /// True if pixels are levels of linear intensity, which kernels compute themselves.
+    /// True if pixels are levels of linear intensity, which kernels can compute themselves.
     fn is_levels(self) -> bool;
-    /// Stores such levels: red, green, blue and alpha.
+    /// Converts levels of red, green, blue and alpha to a pixel.
     fn of_levels(self, rgba: [u8; 4]) -> Self::Pixel;
-    /// Returns pixels as levels, if they are in this order in memory.
+    /// Returns the pixels as levels, if memory holds them in this order.
     fn levels(_pixels: &mut [Self::Pixel]) -> Option<&mut [[u8; 4]]> {
         None
     }
@@ -57,7 +58,7 @@ impl Format for Floats {
     }
 }
 
-/// An order of four channels in a pixel.
+/// An order of a pixel's four channels.
 pub(super) trait Order: Copy + Sync {
     type Pixel: Copy + Send + Sync;
     fn pack(rgba: [u8; 4]) -> Self::Pixel;
@@ -114,10 +115,10 @@ impl Order for Argb {
     }
 }
 
-/// Eight bits a channel.
+/// Eight bits per channel.
 #[derive(Clone, Copy)]
 pub(super) struct Eight<'a, O> {
-    /// Stores intensities with a transfer function; `None` for linear levels.
+    /// The transfer function that intensities are stored with; `None` stores linear levels.
     encoder: Option<&'a Encoder>,
     order: PhantomData<O>,
 }
@@ -143,7 +144,7 @@ impl<O: Order> Format for Eight<'_, O> {
     #[inline(always)]
     fn store(self, pixels: &mut [O::Pixel], colours: &[[f32; 3]]) {
         let pixels = pixels.iter_mut().zip(colours);
-        // Decided before the loop and not for each pixel.
+        // The choice is made once, before the loop.
         match self.encoder {
             None => pixels.for_each(|(pixel, &[r, g, b])| {
                 *pixel = O::pack([quantise(r), quantise(g), quantise(b), 255]);
@@ -171,18 +172,19 @@ impl<O: Order> Format for Eight<'_, O> {
     }
 }
 
-/// Rows of pixels from the top, and the depth of their samples.
+/// Rows of pixels from the top, and the caller's depth of their samples.
 pub(super) struct Rows<'a, P> {
     pub pixels: &'a mut [P],
     /// The distance from one row to the next; the last row may be shorter.
     pub stride: usize,
-    /// The rows of pixels.
+    /// How many rows there are.
     pub count: usize,
-    /// The depth buffer of the caller, if there is one: the samples of a row of pixels, then those of the next.
+    /// The caller's depth buffer, if there is one: all samples of the first row of pixels, then
+    /// those of the next.
     pub depth: Option<&'a mut [f32]>,
-    /// The test against that depth.
+    /// The test against the caller's depth.
     pub test: DepthTest,
-    /// The samples of a row of pixels.
+    /// How many samples a row of pixels has.
     pub samples: usize,
 }
 
@@ -215,12 +217,14 @@ impl<P: Send> Parts for Rows<'_, P> {
     }
 }
 
-/// Rows of samples that take finished runs, however they are stored: engines are compiled once for all formats.
+/// Rows of samples that receive finished runs in any format. Engines draw through this trait, so
+/// they are compiled once for all formats.
 pub(super) trait Target {
     /// Stores a run of pixels from (`x`, `row`) on, linear and not clamped.
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]);
-    /// Returns memory for row `row` as levels of linear intensity, if it is stored as such: the caller then writes all of them,
-    /// alpha 0 where there is nothing, and calls [`Target::finish`].
+    /// Returns memory for row `row` as levels of linear intensity, if the picture stores them. The
+    /// caller then writes the whole row, with alpha 0 where nothing is drawn, and calls
+    /// [`Target::finish`].
     #[cfg(feature = "simd")]
     fn levels(&mut self, _row: usize) -> Option<&mut [[u8; 4]]> {
         None
@@ -228,24 +232,25 @@ pub(super) trait Target {
     /// Stores the levels of a row.
     #[cfg(feature = "simd")]
     fn finish(&mut self, _row: usize) {}
-    /// Returns the depth of the samples of row `row` that the caller keeps.
+    /// Returns the caller's depth for the samples of row `row`.
     fn depth(&mut self, row: usize) -> Option<CallersDepth<'_>>;
 }
 
-/// A picture of a frame in some format, of which rows are drawn.
+/// A frame's picture in some format, into whose rows engines draw.
 #[derive(Clone, Copy)]
 pub(super) struct Surface<'a, F> {
     pub frame: &'a Frame,
     pub format: F,
-    /// True if pixels that nothing covers stay as they are.
+    /// True if pixels that no polygon covers keep their colour.
     pub keeps_background: bool,
 }
 
-/// Rows of pixels that are stored as they are drawn.
+/// Rows of pixels that are stored as they are drawn, one sample per pixel.
 struct Direct<'a, F: Format> {
     surface: Surface<'a, F>,
     rows: Rows<'a, F::Pixel>,
-    /// The levels of a row, unless they are written where they belong.
+    /// The levels of a row that are still to be converted; unused where kernels write them in
+    /// place.
     line: Vec<[u8; 4]>,
 }
 
@@ -303,17 +308,19 @@ fn depth_row<'r, P>(
     Some(CallersDepth { stored, test })
 }
 
-/// A box filter in linear light: the mean of each pixel's covered samples, or of all n × n, where the background stands for
-/// samples that nothing covers, as [`Alpha`] says; alpha is the covered share. Over a background that is kept, the covered share
-/// of a pixel lies over what was there.
+/// A box filter in linear light. A pixel's colour is the mean of its covered samples, or of all n ×
+/// n samples, where the background fills in for uncovered ones: [`Alpha`] chooses. Alpha is the
+/// covered share. Over a background that is kept, the covered share of a pixel is blended over the
+/// old colour.
 ///
-/// Sums are exact: an f64 holds any 64 numbers of 24 bits each and of one magnitude, so that a constant colour stays constant.
+/// Sums are exact, so a constant colour stays constant: an f64 holds the sum of 64 values of 24
+/// bits and one magnitude.
 struct BoxFilter<'a, F: Format> {
     surface: Surface<'a, F>,
     rows: Rows<'a, F::Pixel>,
-    /// The row of pixels that is being collected; those before it are finished.
+    /// The row of pixels that is being collected. The rows before it are finished.
     row: usize,
-    /// Sum of the colours and number of the covered samples, by pixel.
+    /// The sum of colours and the count of covered samples, for each pixel.
     sums: Vec<([f64; 3], u32)>,
 }
 
@@ -348,7 +355,7 @@ impl<F: Format> BoxFilter<'_, F> {
 }
 
 impl<F: Format> Target for BoxFilter<'_, F> {
-    /// Takes rows in order.
+    /// Expects rows in order.
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
         let samples = self.surface.frame.samples();
         if row / samples != self.row {
@@ -369,7 +376,7 @@ impl<F: Format> Target for BoxFilter<'_, F> {
 }
 
 impl<'a, F: Format> Surface<'a, F> {
-    /// Makes a surface on which the background is drawn.
+    /// Returns a surface on which the background is drawn.
     pub fn new(frame: &'a Frame, format: F) -> Self {
         Surface {
             frame,
@@ -389,7 +396,8 @@ impl<'a, F: Format> Surface<'a, F> {
         }
     }
 
-    /// Has `draw` draw samples, row by row, into rows that hold the background. Row 0 is the first of them.
+    /// Lets `draw` draw samples, row by row, into rows that already hold the background. Row 0 is
+    /// the first of `rows`.
     pub fn draw_rows(self, rows: Rows<'_, F::Pixel>, draw: impl FnOnce(&mut dyn Target)) {
         if self.frame.samples() == 1 {
             return draw(&mut Direct {
@@ -408,7 +416,7 @@ impl<'a, F: Format> Surface<'a, F> {
         filter.flush();
     }
 
-    /// Has `draw` draw samples in any order, as [`Surface::draw_rows`] does: all samples are kept until it is done.
+    /// Lets `draw` draw samples in any order into `rows`. Keeps all samples until it is done.
     pub fn draw_anyhow(self, rows: Rows<'_, F::Pixel>, draw: impl FnOnce(&mut dyn Target)) {
         let frame = self.frame;
         if frame.samples() == 1 {
@@ -432,21 +440,21 @@ impl<'a, F: Format> Surface<'a, F> {
     }
 }
 
-/// Makes a linear picture of `frame`: has `draw` draw samples, row by row.
+/// Returns a linear picture of `frame` into which `draw` draws samples, row by row.
 pub(super) fn drawn(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> LinearPicture {
     let mut picture = empty(frame);
     Surface::new(frame, Floats).draw_rows(rows_of(frame, &mut picture), draw);
     picture
 }
 
-/// Makes a linear picture of `frame`: has `draw` draw samples in any order.
+/// Returns a linear picture of `frame` into which `draw` draws samples, in any order.
 pub(super) fn drawn_anyhow(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> LinearPicture {
     let mut picture = empty(frame);
     Surface::new(frame, Floats).draw_anyhow(rows_of(frame, &mut picture), draw);
     picture
 }
 
-/// Returns all rows of a picture.
+/// Returns all rows of a picture, without a depth buffer.
 pub(super) fn rows_of<'a, P: Copy>(frame: &Frame, picture: &'a mut Picture<P>) -> Rows<'a, P> {
     Rows {
         stride: picture.width(),
@@ -458,14 +466,14 @@ pub(super) fn rows_of<'a, P: Copy>(frame: &Frame, picture: &'a mut Picture<P>) -
     }
 }
 
-/// Returns an empty linear picture for `frame`: its background, alpha 0.
+/// Returns an empty linear picture for `frame`: its background, with alpha 0.
 fn empty(frame: &Frame) -> LinearPicture {
     let [r, g, b] = frame.background();
     let (width, height) = (frame.picture_width(), frame.picture_height());
     Picture::new(width, height, Floats.of([r, g, b, 0.0]))
 }
 
-/// Returns an empty linear picture with a pixel for each sample.
+/// Returns an empty linear picture with one pixel per sample.
 pub(super) fn linear_samples(frame: &Frame) -> LinearPicture {
     let [r, g, b] = frame.background();
     Picture::new(frame.width(), frame.height(), Floats.of([r, g, b, 0.0]))

@@ -1,27 +1,29 @@
-//! Clipping in homogeneous space: before the division by w, where every polygon still is one.
+//! Clipping in homogeneous space, before the division by w, where a polygon behind the eye is still
+//! a polygon.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use glam::DVec4;
 
-/// A half-space of clip space: inside is where `plane · position ≥ 0`.
+/// A half-space of clip space. A position is inside if `normal · position ≥ 0`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
     pub normal: DVec4,
-    /// True if w is positive on both sides, so that a parameter linear on the screen exists.
+    /// True if w is positive on both sides of the plane, so that a cut has a parameter that is
+    /// linear on the screen.
     pub in_front: bool,
-    /// The w of all its points, if it is the same for all.
+    /// The w of all points on the plane; `None` if it varies.
     pub w: Option<f64>,
 }
 
-/// A corner on its way through the planes: its position, and the number of the vertex whose attributes it has.
+/// A corner on its way through the planes: its position, and the vertex whose attributes it has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HomogeneousCorner {
     pub position: DVec4,
     pub vertex: u32,
 }
 
-/// A corner that a plane makes on the way from `a` to `b`.
+/// A new corner, where a plane cuts the edge from `a` to `b`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cut {
     pub a: HomogeneousCorner,
@@ -32,10 +34,10 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// Intersects the edge between two corners with the plane.
+    /// Cuts the edge between two corners at a plane that separates them.
     ///
-    /// The ends are put in a canonical order first, so that the two polygons at an edge, which go along it in opposite
-    /// directions, get the same corner to the last bit.
+    /// The ends are put in a canonical order first. So the two polygons at an edge, which run along
+    /// it in opposite directions, get the same corner to the last bit.
     fn new(plane: &Plane, p: HomogeneousCorner, q: HomogeneousCorner) -> Self {
         let (a, b) = if canonical(p.position, q.position) == Ordering::Greater {
             (q, p)
@@ -45,22 +47,24 @@ impl Cut {
         let (da, db) = (plane.normal.dot(a.position), plane.normal.dot(b.position));
         debug_assert!((da < 0.0) != (db < 0.0), "the plane is between the ends");
         let t = (da / (da - db)).clamp(0.0, 1.0);
-        // a + (b − a) is not always b: a corner on the plane stays where it is.
+        // a + (b − a) is not always b in floats. Returning b itself leaves a corner on the plane
+        // where it is.
         let mut position = match t < 1.0 {
             true => a.position + (b.position - a.position) * t,
             false => b.position,
         };
-        // Rounded, it might lie behind the eye where the near plane is very near.
+        // Where the near plane is very near, rounding could put the corner behind the eye.
         if let Some(w) = plane.w {
             position.w = w;
         }
         Cut { a, b, t, position }
     }
 
-    /// Returns the parameter of the cut on the screen, where both ends are in front of the eye.
+    /// Returns the parameter of the cut on the screen, if both ends are in front of the eye.
     ///
-    /// The near plane cuts first. But a corner that it makes, of ends that are some 10¹⁶ times as far from the eye, may be rounded
-    /// to behind the eye: it has no place on the screen, and keeps the parameter in space.
+    /// The near plane cuts first, so they normally are. But if the ends of an edge are some 10¹⁶
+    /// times as far away as the near plane, rounding may put its cut behind the eye. The cut then
+    /// has no place on the screen, and keeps its parameter in space.
     pub fn t_on_screen(&self) -> f64 {
         let (wa, wb) = (self.a.position.w, self.b.position.w);
         match wa > 0.0 && wb > 0.0 {
@@ -70,6 +74,7 @@ impl Cut {
     }
 }
 
+/// Orders positions by their coordinates.
 fn canonical(p: DVec4, q: DVec4) -> Ordering {
     let pairs = p.to_array().into_iter().zip(q.to_array());
     pairs
@@ -78,12 +83,15 @@ fn canonical(p: DVec4, q: DVec4) -> Ordering {
         .unwrap_or(Ordering::Equal)
 }
 
-/// Clips `polygon` to the inside of `plane`: gives no piece, one, or several if a concave polygon is cut apart. Each has three
-/// corners or more. A polygon that only touches the plane from outside has no piece; one that lies in the plane stays whole.
+/// Clips `polygon` to the inside of `plane`, and calls `piece` for each piece that is left: none,
+/// one, or several if a concave polygon is cut apart. Each has three corners or more. A polygon
+/// that only touches the plane from outside leaves no piece; one that lies in the plane stays
+/// whole.
 ///
-/// `vertex` gives each new corner a number. The new corners lie on one line; from left to right along it they are pairs
-/// of ends of the new edges. Joining them in that order, rather than in the order of the polygon, leaves no edges that
-/// run back along the plane and no bridges between pieces.
+/// `vertex` makes the vertex of each new corner and returns its index. All new corners lie on one
+/// line. From one end of the line to the other, consecutive pairs of them are the ends of the new
+/// edges. Joining them in this order, and not in the order of the polygon, leaves no edges that run
+/// back along the plane and no bridges between pieces.
 pub(crate) fn clip(
     polygon: &[HomogeneousCorner],
     plane: &Plane,
@@ -100,7 +108,8 @@ pub(crate) fn clip(
     let Some(outside) = (0..count).find(|&i| !is_inside(i)) else {
         return piece(polygon);
     };
-    // Runs of inside corners, each with its two cuts; starting from an outside corner none is split in two.
+    // Finds the runs of inside corners, each with a cut at both ends. Starting from an outside
+    // corner splits no run.
     let mut runs: Vec<Vec<HomogeneousCorner>> = Vec::new();
     let at = |step: usize| (outside + step) % count;
     let mut first = 0;
@@ -109,7 +118,7 @@ pub(crate) fn clip(
         let behind = (before + 1..count).find(|&step| !is_inside(at(step)));
         let behind = behind.unwrap_or(count);
         first = behind;
-        // What only touches the plane has no area inside.
+        // A run that only touches the plane has no area inside.
         if (before + 1..behind).all(|step| distances[at(step)] == 0.0) {
             continue;
         }
@@ -135,19 +144,20 @@ pub(crate) fn clip(
 /// Joins several runs of corners into closed pieces along the cutting line.
 fn join(runs: &[Vec<HomogeneousCorner>], piece: &mut impl FnMut(&[HomogeneousCorner])) {
     debug_assert!(runs.len() >= 2, "one run is a piece by itself");
-    // The ends in order along the line: (position, run, whether it is the run's beginning).
+    // The ends in order along the line, each with its position, its run, and true if it is the
+    // run's beginning.
     let along = line_direction(runs);
     let mut ends: Vec<(DVec4, usize, bool)> = Vec::new();
-    for (number, run) in runs.iter().enumerate() {
-        ends.push((run[0].position, number, true));
-        ends.push((run[run.len() - 1].position, number, false));
+    for (index, run) in runs.iter().enumerate() {
+        ends.push((run[0].position, index, true));
+        ends.push((run[run.len() - 1].position, index, false));
     }
     let place = |position| along.dot(flat(position));
     ends.sort_by(|a, b| {
         let places = place(a.0).total_cmp(&place(b.0));
         places.then(canonical(a.0, b.0))
     });
-    // Each run's ending is followed by the beginning that is its neighbour on the line.
+    // Each run's ending is followed by the beginning next to it on the line.
     let mut follower = alloc::vec![usize::MAX; runs.len()];
     for pair in ends.chunks_exact(2) {
         match *pair {
@@ -155,7 +165,8 @@ fn join(runs: &[Vec<HomogeneousCorner>], piece: &mut impl FnMut(&[HomogeneousCor
             | [(_, ending, false), (_, beginning, true)] => {
                 follower[ending] = beginning;
             }
-            // A polygon that crosses itself: no pairing is right, so it stays one piece, bridges and all.
+            // The polygon crosses itself and no pairing is right. It stays one piece, bridges
+            // included.
             _ => return piece(&runs.concat()),
         }
     }
@@ -178,7 +189,7 @@ fn join(runs: &[Vec<HomogeneousCorner>], piece: &mut impl FnMut(&[HomogeneousCor
     }
 }
 
-/// Divides a position by w, or returns its direction where w is 0 or too small to divide by.
+/// Divides a position by w. Returns its direction if w is 0 or too small to divide by.
 fn flat(p: DVec4) -> glam::DVec3 {
     if p.w.is_normal() {
         p.truncate() / p.w
@@ -187,8 +198,9 @@ fn flat(p: DVec4) -> glam::DVec3 {
     }
 }
 
-/// Returns the direction of the cutting line: from one end to the one farthest from it. Of a polygon that is not plane the ends lie
-/// on no line: it is the least end, so that pieces depend neither on where the polygon begins nor on how it runs.
+/// Returns the direction of the cutting line: from the least end, in canonical order, to the end
+/// farthest from it. A polygon that is not flat has ends on no line; then starting at the least one
+/// makes pieces independent of where the polygon begins and how it runs.
 fn line_direction(runs: &[Vec<HomogeneousCorner>]) -> glam::DVec3 {
     let ends = runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
     let mut ends: Vec<DVec4> = ends.map(|end| end.position).collect();
@@ -205,7 +217,8 @@ mod tests {
     use super::*;
     use crate::number::test_random::Random;
 
-    /// Two polygons go along their common edge in opposite directions, and must be cut at the same place to the last bit.
+    /// Two polygons run along their common edge in opposite directions, and must be cut at the same
+    /// place to the last bit.
     #[test]
     fn a_cut_does_not_depend_on_the_direction() {
         let mut random = Random::new(13);
@@ -217,9 +230,9 @@ mod tests {
         let mut cuts = 0;
         while cuts < 1000 {
             let mut corner = |vertex| {
-                let mut number = || f64::from(random.signed()) * 7.3;
+                let mut value = || f64::from(random.signed()) * 7.3;
                 HomogeneousCorner {
-                    position: DVec4::new(number(), number(), number(), number()),
+                    position: DVec4::new(value(), value(), value(), value()),
                     vertex,
                 }
             };
@@ -251,7 +264,7 @@ mod tests {
 
     #[test]
     fn the_middle_of_an_edge_on_the_screen_is_nearer_to_its_near_end_in_space() {
-        // From x = −2 at w = 2 to x = 6 at w = 6: x/w is 0, half-way from −1 to 1, where x is 0.
+        // From x = −2 at w = 2 to x = 6 at w = 6. Half-way from −1 to 1 x/w is 0, and there x is 0.
         assert_eq!(cut(2.0, 6.0, 0.25).t_on_screen(), 0.5);
         assert_eq!(cut(6.0, 2.0, 0.75).t_on_screen(), 0.5);
     }
@@ -264,7 +277,8 @@ mod tests {
         }
     }
 
-    /// Coordinates of −`most`..=`most`, so that corners often coincide or lie on planes.
+    /// Returns an integer coordinate in −`most`..=`most`, so that corners often coincide or lie on
+    /// planes.
     fn whole(random: &mut Random, most: u64) -> f64 {
         random.below(2 * most + 1) as f64 - most as f64
     }
@@ -346,7 +360,8 @@ mod tests {
 
     #[test]
     fn teeth_that_end_at_a_plane_leave_no_piece_beside_the_one_that_passes_it() {
-        // Three teeth upward: to y = 2, to y = 1 by a corner, to y = 1 by an edge.
+        // Three teeth point upward: one to y = 2, one to y = 1 with a corner, one to y = 1 with an
+        // edge.
         let outline = [
             [0.0, 0.0],
             [9.0, 0.0],
@@ -364,8 +379,9 @@ mod tests {
         assert_eq!(pieces[0].len(), 4);
     }
 
-    /// The lower part of a U is one piece: its cuts are joined in the order of x/w, which is not that of x. The second U is so far
-    /// away that only differences of places have the direction of the line.
+    /// The lower part of a U is one piece. Its cuts must be joined in the order of x/w, which
+    /// differs from the order of x. The second U is so far away that only differences of positions
+    /// show the direction of the line.
     #[test]
     fn a_u_cut_through_its_arms_is_one_piece() {
         for y_cut in [0.0, 2e9] {
@@ -394,7 +410,7 @@ mod tests {
         }
     }
 
-    /// A cut at an end is that end to the last bit, in whatever order the ends are.
+    /// A cut at an end equals that end to the last bit, in either order of the ends.
     #[test]
     fn a_corner_on_a_plane_stays_where_it_is() {
         let on = [0.1 + 0.2, 0.7, 0.0, 1.0];
@@ -411,7 +427,8 @@ mod tests {
         }
     }
 
-    /// Any polygon in a plane of the picture: convex, concave, crossing itself, with repeated corners, on a line or a point.
+    /// Tries any polygon in a plane of the picture: convex, concave, crossing itself, with repeated
+    /// corners, on a line or a point.
     #[test]
     fn the_pieces_on_both_sides_of_a_plane_add_up_to_the_polygon() {
         let mut random = Random::new(29);
@@ -433,7 +450,8 @@ mod tests {
                 let pieces = pieces(&corners, &plane);
                 cut_apart += usize::from(pieces.len() > 1);
                 for corner in pieces.iter().flatten() {
-                    // t, the product and the sum are each rounded: 3 · 2⁻⁵³ of 8 in a coordinate; 7 times that in the product.
+                    // t, the product and the sum are each rounded: 3 · 2⁻⁵³ of 8 in a coordinate,
+                    // and 7 times that in the product.
                     let least = -1.9e-14;
                     assert!(
                         plane.normal.dot(corner.position) >= least,
@@ -448,14 +466,14 @@ mod tests {
                 assert_eq!(sides, [whole; 2]);
                 continue;
             }
-            // At most 40 cut corners, each with an error of 2.7e-15 beside edges of at most 12.
+            // At most 40 cut corners, each with an error of 2.7e-15, next to edges of at most 12.
             let error = (sides[0] + sides[1] - whole).abs();
             assert!(error < 2e-12, "{corners:?} {normal:?} {sides:?} {whole}");
         }
         assert!(cut_apart > 1000, "{cut_apart}");
     }
 
-    /// A triangle is convex: neither part turns over, and neither is larger than the whole.
+    /// A triangle is convex, so neither part turns over, and neither is larger than the whole.
     #[test]
     fn both_parts_of_a_triangle_turn_as_the_whole_does() {
         let mut random = Random::new(31);
@@ -474,7 +492,8 @@ mod tests {
         }
     }
 
-    /// Polygons that need not be flat, with w of any sign and 0, through several planes one after the other.
+    /// Cuts polygons that need not be flat, with w of any sign and 0, at several planes one after
+    /// the other.
     #[test]
     fn what_is_left_of_any_polygon_is_inside_all_planes() {
         let mut random = Random::new(37);
@@ -492,7 +511,8 @@ mod tests {
             for part in &parts {
                 assert!(part.len() >= 3, "{corners:?} {planes:?}");
                 for corner in part {
-                    // As above, of 6 in each of four coordinates, of normals of length 4: for each of four cuts.
+                    // As above, with 6 in each of four coordinates and normals of length 4, for
+                    // each of four cuts.
                     let inside = |plane: &Plane| plane.normal.dot(corner.position) >= -1e-13;
                     assert!(planes.iter().all(inside), "{corners:?} {planes:?}");
                 }
@@ -502,8 +522,8 @@ mod tests {
         assert!(left > 1000, "{left}");
     }
 
-    /// Whatever corner a polygon begins with and whichever way it runs, its pieces have the same edges, if it is not plane and
-    /// crosses itself too.
+    /// The pieces have the same edges, whatever corner a polygon begins with and whichever way it
+    /// runs, even if it is not flat and crosses itself.
     #[test]
     fn pieces_do_not_depend_on_where_a_polygon_begins() {
         let mut random = Random::new(17);
@@ -512,9 +532,9 @@ mod tests {
         for round in 0..2000 {
             let corners: Vec<HomogeneousCorner> = (0..4 + round % 5)
                 .map(|vertex| {
-                    let mut number = || f64::from(random.signed());
+                    let mut value = || f64::from(random.signed());
                     HomogeneousCorner {
-                        position: DVec4::new(number(), number(), number(), 1.0),
+                        position: DVec4::new(value(), value(), value(), 1.0),
                         vertex,
                     }
                 })

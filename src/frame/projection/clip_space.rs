@@ -1,4 +1,5 @@
-//! Vertices that a frame builder was given in clip space: placed on the picture and clipped as those of scenes are.
+//! Vertices that a frame builder received in clip space. They are placed on the picture and clipped
+//! as a scene's vertices are.
 
 use super::clip::HomogeneousCorner;
 use super::cut::{Cutter, EdgeOf};
@@ -10,24 +11,24 @@ use crate::scene::{Camera, Clipping, Culling, Projection, Scene};
 use alloc::vec::Vec;
 use glam::{DVec3, DVec4};
 
-/// Coordinates with which clipping can compute: see [`View::is_in_range`].
+/// The range of coordinates with which clipping can compute: see [`View::is_in_range`].
 const CLIP: NumberRange = NumberRange::new(-1e140, 1e140, "a number from -1e140 to 1e140");
-/// The w of vertices of a frame without perspective.
+/// The range of w in a frame without perspective.
 const ONE: NumberRange =
     NumberRange::new(1.0, 1.0, "1, as the frame's depth range is orthographic");
 
 const NAMES: [&str; 4] = [
-    "x of its place in clip space",
-    "y of its place in clip space",
-    "z of its place in clip space",
-    "w of its place in clip space",
+    "x of its position in clip space",
+    "y of its position in clip space",
+    "z of its position in clip space",
+    "w of its position in clip space",
 ];
 
-/// Vertices in clip space, and the settings of the frame that they are in.
+/// Vertices in clip space, and the settings of their frame.
 pub(in crate::frame) struct ClipSpace<'a> {
     /// The vertices, in ascending order, and their positions.
     vertices: &'a [(u32, DVec4)],
-    /// The frame's settings as those of a scene; its camera stands anywhere.
+    /// The frame's settings in the form of a scene. Where its camera stands does not matter.
     settings: Scene,
 }
 
@@ -59,11 +60,11 @@ impl<'a> ClipSpace<'a> {
         ClipSpace { vertices, settings }
     }
 
-    /// Places all vertices on the picture; those beyond a plane have no place, like those of scenes.
+    /// Places all vertices on the picture. A vertex beyond a plane gets no place, as in scenes.
     ///
     /// # Errors
-    /// [`FrameError::Number`] for the first coordinate that is outside its range, and [`FrameError::Vertex`] for a vertex whose place
-    /// no number of a frame holds.
+    /// [`FrameError::Value`] for the first coordinate outside its range, and [`FrameError::Vertex`]
+    /// for a vertex whose place does not fit in a frame.
     pub fn place(&self, frame: &mut Frame) -> Checked {
         if self.vertices.is_empty() {
             return Ok(());
@@ -71,9 +72,9 @@ impl<'a> ClipSpace<'a> {
         let view = View::new(&self.settings)?;
         for &(vertex, position) in self.vertices {
             let item = FrameItem::Vertex(vertex as usize);
-            guard::numbers(item, NAMES, position.to_array(), &CLIP)?;
+            guard::check_all(item, NAMES, position.to_array(), &CLIP)?;
             if !view.is_perspective() {
-                guard::number(item, NAMES[3], position.w, &ONE)?;
+                guard::check(item, NAMES[3], position.w, &ONE)?;
             }
             let position = self.position(position);
             let placed = match view.codes(position) & BEYOND_PLANES {
@@ -89,7 +90,8 @@ impl<'a> ClipSpace<'a> {
         Ok(())
     }
 
-    /// Returns a position as scenes clip it: see [`Camera::precise_clip_matrix`](crate::scene::Camera).
+    /// Returns a position in the form that scenes are clipped in: see
+    /// [`Camera::precise_clip_matrix`](crate::scene::Camera).
     fn position(&self, position: DVec4) -> DVec4 {
         let Camera { near, far, .. } = self.settings.camera;
         match self.settings.camera.projection {
@@ -101,11 +103,12 @@ impl<'a> ClipSpace<'a> {
         }
     }
 
-    /// Makes the frame's polygons of those that it was given: those outside the view are left out, and pieces stand in the place of
-    /// those that were cut.
+    /// Makes the frame's polygons from `polygons`. Polygons outside the view are left out, and
+    /// pieces replace the polygons that are cut.
     ///
     /// # Errors
-    /// [`FrameError::Polygon`] for a polygon that must be cut and has vertices that are only on the screen.
+    /// [`FrameError::Polygon`] for a polygon that must be cut but has vertices that are only on the
+    /// screen.
     pub fn clip(&self, frame: &mut Frame, polygons: &[Polygon]) -> Checked {
         if self.vertices.is_empty() {
             return Ok(());
@@ -122,6 +125,7 @@ impl<'a> ClipSpace<'a> {
         let mut clipped = polygons.iter().enumerate().map(|(index, polygon)| {
             let corners = frame.corners(polygon).iter().map(|&v| codes[v as usize]);
             let (all, any) = corners.fold((Codes::MAX, 0), |(all, any), c| (all & c, any | c));
+            // The planes that all corners are beyond, and the planes that any corner is beyond.
             match any & BEYOND_PLANES {
                 _ if all & !BEYOND_PLANES != 0 => frame.stats.outside += 1,
                 0 => seen.push(*polygon),
@@ -136,7 +140,7 @@ impl<'a> ClipSpace<'a> {
         clipped
     }
 
-    /// Adds to `to` the pieces of a polygon that are inside all planes.
+    /// Cuts a polygon, and adds to `to` its pieces inside all planes.
     fn cut(
         &self,
         view: &View<'_>,
@@ -161,7 +165,7 @@ impl<'a> ClipSpace<'a> {
         Ok(())
     }
 
-    /// Returns a vertex on its way through the planes; `None` for one that is only on the screen.
+    /// Returns a vertex as clipping reads it; `None` for a vertex that is only on the screen.
     fn corner(&self, vertex: u32) -> Option<HomogeneousCorner> {
         let place = self.vertices.binary_search_by_key(&vertex, |&(v, _)| v);
         let (_, position) = self.vertices[place.ok()?];

@@ -1,4 +1,4 @@
-//! Polygons that reach beyond a plane are cut: the pieces inside are added to the frame.
+//! Cutting polygons that reach beyond a plane, and adding the pieces inside to the frame.
 
 use super::clip::{Cut, HomogeneousCorner, Plane, clip};
 use super::polygons::{Piece, PolygonTable};
@@ -11,7 +11,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::DMat4;
 
-/// A cutter of a scene's polygons, which adds the pieces to the frame.
+/// A cutter of a scene's polygons, which adds their pieces to the frame.
 pub(super) struct Cutting<'a> {
     pub view: &'a View<'a>,
     pub table: &'a PolygonTable,
@@ -20,7 +20,8 @@ pub(super) struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    /// Adds the pieces of a polygon that are inside all planes, and counts it as clipped, or as outside if nothing is.
+    /// Adds the pieces of a polygon that are inside all planes. Counts the polygon as clipped, or
+    /// as outside if nothing is left of it.
     pub fn polygon(&mut self, polygon: usize) {
         let geometry = self.frame.geometry.clone();
         let (first, count) = self.table.corners(polygon);
@@ -65,15 +66,17 @@ impl Cutting<'_> {
     }
 }
 
-/// A cutter of polygons in clip space, wherever they come from: the vertices, corners and means of their pieces go into the frame.
+/// A cutter of polygons in clip space from any source. It adds vertices, corners and means of the
+/// pieces to the frame.
 pub(in crate::frame) struct Cutter<'a> {
     pub view: &'a View<'a>,
     pub frame: &'a mut Frame,
 }
 
 impl Cutter<'_> {
-    /// Cuts a polygon whose whole has this mean, and counts it as clipped, or as outside if nothing of it is inside all planes.
-    /// Returns the first corner and the corner count of each piece that is drawn.
+    /// Cuts a polygon, and counts it as clipped, or as outside if nothing is left of it. `mean` is
+    /// the mean of the whole polygon. Returns the first corner and the count of corners of each
+    /// piece that is drawn.
     pub fn pieces(
         &mut self,
         corners: Vec<HomogeneousCorner>,
@@ -93,8 +96,9 @@ impl Cutter<'_> {
             }
             pieces = inside;
         }
-        // Cuts of edges that reach some 10⁹ times as far as they are away may be rounded to beyond the plane that made them, and
-        // 1/w of those nearer than 10⁻³⁸ is no `f32`.
+        // Two kinds of cuts have no place on the picture. On edges that reach some 10⁹ times as far
+        // as they are away, rounding may put a cut beyond its plane. And nearer than 10⁻³⁸, 1/w is
+        // no `f32`.
         let is_placed = |corner: &HomogeneousCorner| {
             self.view.is_on_picture(corner.position)
                 && self
@@ -118,7 +122,7 @@ impl Cutter<'_> {
         pieces.map(|piece| self.piece(piece, mean)).collect()
     }
 
-    /// True if a piece of this signed area on the picture is drawn; counts it if not.
+    /// True if a piece with this signed area on the picture is drawn. Counts it if it is not.
     fn is_drawn(&mut self, area: i128) -> bool {
         let culled = match self.view.scene.culling {
             Culling::Back => area > 0,
@@ -130,7 +134,7 @@ impl Cutter<'_> {
         !culled && area != 0
     }
 
-    /// Adds the corners of a piece to the frame. Returns the first of them and their count.
+    /// Adds the corners of a piece to the frame. Returns the first of them and how many there are.
     fn piece(&mut self, corners: &[HomogeneousCorner], mean: Mean) -> (u32, u32) {
         debug_assert!(corners.len() >= 3, "clipping leaves polygons");
         let frame = &mut *self.frame;
@@ -142,31 +146,33 @@ impl Cutter<'_> {
         (first, corners.len() as u32)
     }
 
-    /// Makes the vertex where a plane cuts an edge: its attributes lie between those of the edge's ends.
+    /// Adds the vertex where a plane cuts an edge, and returns its index. Its attributes lie
+    /// between the attributes of the edge's ends.
     fn vertex(&mut self, cut: &Cut, plane: &Plane, edge: &EdgeOf) -> u32 {
-        let number = self.frame.vertices.len() as u32;
+        let index = self.frame.vertices.len() as u32;
         self.frame.vertices.push(self.view.vertex(cut.position));
         self.frame.cut_materials.push(edge.material);
-        // Attributes that are linear on the screen are divided there, where both ends have a place on it.
+        // Attributes that are linear on the screen are divided there, if both ends have a place on
+        // it.
         let on_screen = self.view.scene.interpolation == Interpolation::Screen && plane.in_front;
         let t = if on_screen { cut.t_on_screen() } else { cut.t };
         let (a, b) = (cut.a.vertex, cut.b.vertex);
         debug_assert!(
-            a.max(b) < number,
+            a.max(b) < index,
             "the ends of an edge are numbered before its cuts"
         );
         self.frame.clip_corners.push(ClipCorner {
-            vertex: number,
+            vertex: index,
             a,
             b,
             t: t as f32,
             face: edge.face,
         });
-        number
+        index
     }
 }
 
-/// The attributes that a vertex on an edge takes from the edge's polygon.
+/// What a vertex on an edge inherits from the edge's polygon.
 pub(in crate::frame) struct EdgeOf {
     pub material: u32,
     pub face: [f32; 3],
@@ -182,8 +188,9 @@ mod tests {
     use alloc::sync::Arc;
     use glam::{DAffine3, DVec3, Vec3};
 
-    /// Returns a scene of polygons, each with a material of its own, that a camera in the origin sees toward −z: on 4 × 4 pixels, one
-    /// a unit, (0, 0) in the middle; near plane at z = −1, far plane at z = −3.
+    /// Returns a scene of polygons, each with its own material. A camera at the origin looks toward
+    /// −z at 4 × 4 pixels, each one unit wide, with (0, 0) in the middle. The near plane is at z =
+    /// −1, the far plane at z = −3.
     fn scene(polygons: &[&[[f32; 3]]]) -> Scene {
         let positions = polygons.concat().into_iter().map(Vec3::from_array);
         let mut builder = MeshBuilder::new(positions.collect());
@@ -222,7 +229,7 @@ mod tests {
         scene.frame().expect("a frame")
     }
 
-    /// Returns column, row and depth of the corners of a polygon.
+    /// Returns column, row and depth of a polygon's corners.
     fn outline(frame: &Frame, polygon: usize) -> Vec<[f64; 3]> {
         let corners = frame.corners(&frame.polygons()[polygon]).iter();
         let vertices = corners.map(|&v| frame.vertices()[v as usize]);
@@ -231,7 +238,7 @@ mod tests {
             .collect()
     }
 
-    /// A square that rises to the right, from the middle between the planes through the near one.
+    /// A square that rises to the right, from half-way between the planes through the near plane.
     const RISING: [[f32; 3]; 4] = [
         [-1.0, -1.0, -2.0],
         [1.0, -1.0, 0.0],
@@ -265,7 +272,7 @@ mod tests {
                 ..counts(2)
             }
         );
-        for (number, top) in [(0, 0.5), (1, 1.5)] {
+        for (index, top) in [(0, 0.5), (1, 1.5)] {
             let bottom: f64 = top + 2.0;
             let expected = [
                 [1.0, bottom, 0.5],
@@ -273,16 +280,16 @@ mod tests {
                 [2.0, top, 0.0],
                 [1.0, top, 0.5],
             ];
-            let mut found = outline(&frame, number);
+            let mut found = outline(&frame, index);
             let first = found.iter().position(|at| *at == expected[0]);
             found.rotate_left(first.expect("its first corner"));
             assert_eq!(found, expected);
-            let polygon = &frame.polygons()[number];
-            assert_eq!(polygon.source, number as u32);
-            assert_eq!(polygon.material, number as u32);
+            let polygon = &frame.polygons()[index];
+            assert_eq!(polygon.source, index as u32);
+            assert_eq!(polygon.material, index as u32);
             let corners = frame.corners(polygon);
-            assert!(corners.iter().all(|&v| frame.material(v) == number as u32));
-            // Of the whole polygon.
+            assert!(corners.iter().all(|&v| frame.material(v) == index as u32));
+            // The mean is the whole polygon's.
             assert_eq!(
                 frame.mean(polygon).position,
                 [0.0, 2.0 - 0.5 * (top + bottom) as f32, -1.0]
@@ -290,12 +297,14 @@ mod tests {
         }
     }
 
-    /// As is said of [`Interpolation`]: on the screen unless by perspective, where that exists.
+    /// As documented at [`Interpolation`]: linear on the screen unless by perspective, where the
+    /// screen has a place for both ends.
     #[test]
     fn attributes_are_divided_on_the_screen_only_behind_the_near_plane() {
         let through = |z: [f32; 2]| [[-0.5, 0.0, z[0]], [0.5, 0.0, z[1]], [0.5, 0.5, z[1]]];
         let (near, far) = (through([-1.5, -0.5]), through([-2.0, -4.0]));
-        // Both planes are half-way along the edges in space. The far one is at (½ · 4) / (½ · 2 + ½ · 4) on the screen.
+        // Both planes are half-way along the edges in space. On the screen the far one is at (½
+        // · 4) / (½ · 2 + ½ · 4).
         for (corners, interpolation, t) in [
             (near, Interpolation::Screen, 0.5),
             (near, Interpolation::Perspective, 0.5),
@@ -377,10 +386,11 @@ mod tests {
         }
     }
 
-    /// As large from the front as from behind: the sides of its lobes on the picture cancel.
+    /// The polygon looks as large from the front as from behind: on the picture its lobes cancel.
     #[test]
     fn a_clipped_polygon_of_no_side_is_lit_from_the_front() {
-        // On the picture an hourglass that lies on its side; the left lobe is in front of the near plane.
+        // On the picture this is an hourglass on its side. The left lobe is in front of the near
+        // plane.
         let mut scene = scene(&[&[
             [-1.0, 1.0, -2.0],
             [-1.0, -1.0, -2.0],
@@ -398,7 +408,7 @@ mod tests {
 
     #[test]
     fn a_polygon_that_is_beyond_either_of_two_planes_everywhere_is_outside() {
-        // Its way from behind the near plane to the left side of the guard band is outside both.
+        // Its way from behind the near plane to the left side of the guard band lies outside both.
         let frame = frame(&scene(&[&[
             [0.0, 0.0, 0.0],
             [-1e6, 1.0, -2.0],
@@ -415,8 +425,8 @@ mod tests {
         assert_eq!(frame.polygons().len(), 0);
     }
 
-    /// The upper edge runs from far behind the eye to far before it. Its cuts are rounded to 2⁻⁵³ of its length, up to 10⁻³ in depth,
-    /// to this side of the plane or beyond it.
+    /// The upper edge runs from far behind the eye to far in front of it. Its cuts are rounded to
+    /// 2⁻⁵³ of its length, which is up to 10⁻³ in depth, to either side of the plane.
     #[test]
     fn polygons_whose_cuts_are_rounded_to_beyond_the_plane_are_not_drawn() {
         let mut unprojected = 0;

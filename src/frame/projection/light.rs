@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 impl Scene {
-    /// Returns the lights, with directions as unit vectors, and positions relative to `origin` as [`Frame::position`] gives those of
-    /// vertices.
+    /// Returns the lights with unit vectors as directions. Positions are relative to `origin`, as
+    /// in [`Frame::position`].
     fn lights_from(&self, origin: DVec3) -> Vec<Light> {
         let from_origin = |light: &Light| Light {
             place: match light.place {
@@ -20,7 +20,7 @@ impl Scene {
         self.lights.iter().map(from_origin).collect()
     }
 
-    /// Computes the light on each of `materials`; positions count from `origin`.
+    /// Computes the light on each of `materials`, with positions relative to `origin`.
     pub(super) fn light(
         &self,
         materials: &[Material],
@@ -40,7 +40,7 @@ impl Scene {
         );
     }
 
-    /// Returns the light on `material`; `lights` as [`Scene::lights_from`] gives them.
+    /// Returns the light on `material`. `lights` come from [`Scene::lights_from`].
     fn lighting(&self, material: &Material, lights: &[Light], view: Place<DVec3>) -> Lighting {
         let far = Lighting::new(material, self.ambient, lights, self.camera.view());
         Lighting {

@@ -1,12 +1,14 @@
-//! From a scene to a frame: transformed, projected, culled, clipped and snapped.
+//! From a scene to a frame: transforms, projects, culls, clips and snaps polygons.
 //!
-//! In two steps. [`Scene::prepare`] does once what does not depend on the camera: vertex normals, distinct vertices,
-//! normals of polygons. [`PreparedScene::frame_into`] does for each picture what does: all vertices through the camera in
-//! blocks; then one bit for each polygon that is seen; then the polygons of those bits, in the order of the scene. Bits
-//! first, because then it is known where each polygon of the frame stands, and parts can be made on several threads.
+//! This takes two steps. [`Scene::prepare`] does once what does not depend on the camera: it
+//! computes vertex normals, distinct vertices and normals of polygons.
+//! [`PreparedScene::frame_into`] does the rest for each picture. It takes all vertices through the
+//! camera in blocks, then finds one bit per polygon that is seen, and then writes the polygons of
+//! those bits, in the order of the scene. Bits come first, because they say where each polygon of
+//! the frame belongs, and so several threads can write parts of the list.
 //!
-//! `moving.rs` moves an object of a prepared scene. `clip_space.rs` places and clips what a frame builder was given in clip space, by the
-//! same planes.
+//! `moving.rs` moves an object of a prepared scene. `clip_space.rs` places and clips the vertices
+//! that a frame builder received in clip space, by the same planes.
 
 mod clip;
 mod clip_space;
@@ -38,7 +40,7 @@ use vertices::Placed;
 use view::{Codes, View};
 
 impl Scene {
-    /// Projects the scene: returns its polygons as the camera sees them, and the light on them.
+    /// Projects the scene. Returns its polygons as the camera sees them, and the light on them.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
@@ -50,33 +52,33 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// [`FrameError`] when the picture's size, the number of lights or a number of camera, lights, materials or objects is outside its
-    /// range, or no direction: what scene files and flags refuse is refused here.
+    /// [`FrameError`] if the picture's size, the count of lights, or a value of the camera, a
+    /// light, a material or an object is outside its range, or if a direction has none. It refuses
+    /// what scene files and flags refuse.
     pub fn frame(&self) -> Result<Frame, FrameError> {
         self.prepare()?.frame()
     }
 
-    /// Does everything that does not depend on the camera, once, for drawing the scene more than once.
+    /// Does once what does not depend on the camera. Use it to draw the scene more than once.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
     /// use fastphong::scene::Scene;
     /// use glam::DVec3;
     ///
-    /// let scene = Scene::of_mesh(builtin("teapot?res=4").unwrap());
+    /// let mut scene = Scene::of_mesh(builtin("teapot?res=4").unwrap());
     /// let mut prepared = scene.prepare().unwrap();
     /// let mut frame = prepared.frame().unwrap();
-    /// let mut camera = scene.camera;
     /// for _ in 0..3 {
-    ///     camera.eye += DVec3::X;
-    ///     prepared.set_camera(camera);
+    ///     scene.camera.eye += DVec3::X;
+    ///     prepared.set_camera(scene.camera);
     ///     prepared.frame_into(&mut frame).unwrap();
     /// }
-    /// assert_eq!(frame.polygons(), Scene { camera, ..scene }.frame().unwrap().polygons());
+    /// assert_eq!(frame.polygons(), scene.frame().unwrap().polygons());
     /// ```
     ///
     /// # Errors
-    /// [`FrameError`] as [`Scene::frame`], for the scene's own camera.
+    /// [`FrameError`] as for [`Scene::frame`], with the scene's own camera.
     pub fn prepare(&self) -> Result<PreparedScene, FrameError> {
         View::new(self)?;
         guard::lights(self)?;
@@ -101,7 +103,7 @@ impl Scene {
             guard::positions(index, object, model)?;
         }
         guard::lights_off_vertices(self, &self.objects)?;
-        // Only the settings of the scene are left.
+        // The objects are in the geometry now; only the settings of the scene are kept.
         let settings = Scene {
             objects: Vec::new(),
             lights: self.lights.clone(),
@@ -120,21 +122,21 @@ impl Scene {
 
 /// A scene ready to be drawn by any camera: its objects as distinct vertices and corner lists.
 ///
-/// Made by [`Scene::prepare`]. Its objects are those of that moment; camera, size, lights, materials and the objects' transforms
-/// may change from frame to frame.
+/// [`Scene::prepare`] makes it, with the objects of that moment. Camera, size, lights, materials
+/// and the objects' transforms may change from frame to frame.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
-    /// A scene without its objects.
+    /// The scene without its objects.
     settings: Scene,
     geometry: Arc<Geometry>,
     table: PolygonTable,
     materials: Vec<Material>,
-    /// True for materials of meshes with vertex colours.
+    /// True for the materials of meshes with vertex colours.
     coloured: Vec<bool>,
     moving: Moving,
 }
 
-/// Memory that making a frame needs and that the next one needs again.
+/// Memory that one frame needs and the next one reuses.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     codes: Vec<Codes>,
@@ -143,7 +145,7 @@ pub(crate) struct Scratch {
 }
 
 impl Clone for Scratch {
-    /// Returns empty memory: nothing of this one is needed.
+    /// Returns empty memory, as no content is ever reused.
     fn clone(&self) -> Self {
         Scratch::default()
     }
@@ -155,7 +157,7 @@ impl PreparedScene {
         &self.settings.camera
     }
 
-    /// Sets the camera.
+    /// Sets the camera of the next frame.
     pub fn set_camera(&mut self, camera: Camera) {
         self.settings.camera = camera;
     }
@@ -165,22 +167,23 @@ impl PreparedScene {
         (self.settings.width, self.settings.height) = (width, height);
     }
 
-    /// Sets the samples per pixel along each side, as [`Scene::samples`].
+    /// Sets how many samples a pixel has along each side, as [`Scene::samples`] does.
     pub fn set_samples(&mut self, samples: u32) {
         self.settings.samples = samples;
     }
 
-    /// Sets the lights. Whether one of them stands at a vertex is not asked any more: the direction toward it is undefined there.
+    /// Sets the lights. It is not checked again that none of them stands at a vertex, where the
+    /// direction toward it is undefined.
     pub fn set_lights(&mut self, lights: Vec<Light>) {
         self.settings.lights = lights;
     }
 
-    /// True if a material is multiplied by vertex colours.
+    /// True if vertex colours multiply a material.
     pub(crate) fn is_coloured(&self, material: u32) -> bool {
         self.settings.colours && self.coloured[material as usize]
     }
 
-    /// The materials of all objects, which may be changed.
+    /// Returns the materials of all objects, so that you can change them.
     pub fn materials_mut(&mut self) -> &mut [Material] {
         &mut self.materials
     }
@@ -188,18 +191,19 @@ impl PreparedScene {
     /// Returns a new frame: the scene as its camera sees it.
     ///
     /// # Errors
-    /// [`FrameError`] as [`Scene::frame`].
+    /// [`FrameError`] as for [`Scene::frame`].
     pub fn frame(&self) -> Result<Frame, FrameError> {
         let mut frame = Frame::empty(1, 1);
         self.frame_into(&mut frame)?;
         Ok(frame)
     }
 
-    /// Makes `frame`, whatever it was, the scene as its camera sees it, in the memory that it has: from the second frame on
-    /// nothing is allocated that grows with the scene, but what clipping and sorting take.
+    /// Replaces `frame` by the scene as its camera sees it, in the memory that `frame` has. From
+    /// the second frame on, nothing is allocated that grows with the scene, except for clipping and
+    /// sorting.
     ///
     /// # Errors
-    /// [`FrameError`] as [`Scene::frame`]; the frame then is empty.
+    /// [`FrameError`] as for [`Scene::frame`]; `frame` is then empty.
     pub fn frame_into(&self, frame: &mut Frame) -> Result<(), FrameError> {
         let mut scratch = core::mem::take(&mut frame.scratch);
         let done = self.fill(frame, &mut scratch);
@@ -253,7 +257,8 @@ impl PreparedScene {
             };
             for_each_cut(chunks, |polygon| cutting.polygon(polygon));
             let cuts = frame.vertices[self.geometry.vertex_count()..].iter();
-            // One without a place has no weight.
+            // A vertex without a place on the picture has the least positive weight, which must not
+            // count.
             for weight in cuts.map(|v| v.inv_w).filter(|w| *w > f64::MIN_POSITIVE) {
                 (least, largest) = (least.min(weight), largest.max(weight));
             }
@@ -271,7 +276,8 @@ impl PreparedScene {
         Ok(())
     }
 
-    /// Copies all settings into the frame, and empties the lists that are filled polygon by polygon.
+    /// Copies all settings into the frame, and empties the lists that are filled polygon by
+    /// polygon.
     fn settings(&self, frame: &mut Frame, view: &View<'_>) {
         let scene = &self.settings;
         (frame.width, frame.height, frame.samples) = (view.width, view.height, scene.samples);
@@ -309,10 +315,11 @@ impl PreparedScene {
         Ok(placed)
     }
 
-    /// Returns the point that positions count from. Under a local light or viewer, `f32` must hold what matters: around the eye
-    /// where that is among the objects or not far from them, else around their middle.
+    /// Returns the point from which positions are measured. With a local light or viewer, `f32`
+    /// must be precise where it matters. So it is the eye, if the eye is among the objects or not
+    /// far from them, else the middle of the objects.
     fn origin(&self) -> DVec3 {
-        // As far as a mesh may be from 0 until it gets an origin of its own.
+        // How far a mesh may be from 0, in sizes of the scene, until it gets its own origin.
         const FAR: f64 = 16.0;
         let eye = self.settings.camera.eye;
         let boxes = self.geometry.models.objects.iter().map(|object| {
@@ -329,30 +336,32 @@ impl PreparedScene {
     }
 }
 
-/// What `diagnose` looks at beside frames.
+/// Access for `diagnose`, which looks at more than frames.
 #[cfg(feature = "cli")]
 impl PreparedScene {
-    /// The settings of the next frame, which may be changed, but for [`Scene::two_sided`]; objects are not among them.
+    /// Returns the settings of the next frame, so that they can be changed, except
+    /// [`Scene::two_sided`]. Objects are not among them.
     pub(crate) fn settings_mut(&mut self) -> &mut Scene {
         &mut self.settings
     }
 
-    /// Returns the vertices, corner lists and normals of the whole scene, whatever its camera sees of them.
+    /// Returns the vertices, corner lists and normals of the whole scene, independent of the
+    /// camera.
     pub(crate) fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
-    /// Returns the materials, by [`Polygon::material`].
+    /// Returns the materials, indexed by [`Polygon::material`].
     pub(crate) fn materials(&self) -> &[Material] {
         &self.materials
     }
 
-    /// Returns the number of polygons of the scene.
+    /// Returns how many polygons the scene has.
     pub(crate) fn polygon_count(&self) -> usize {
         self.table.count
     }
 
-    /// Returns the vertices at the corners of a polygon of the scene, whatever its camera sees of it.
+    /// Returns the vertices at the corners of a polygon of the scene, independent of the camera.
     pub(crate) fn corners(&self, polygon: usize) -> &[u32] {
         let (first, count) = self.table.corners(polygon);
         &self.geometry.corners[first as usize..][..count as usize]

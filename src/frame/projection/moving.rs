@@ -1,7 +1,8 @@
-//! Objects of a prepared scene that move: what depends on their transforms, and nothing else, is computed anew.
+//! Moving the objects of a prepared scene: only what depends on their transforms is computed anew.
 //!
 //! Frames share the geometry of the scene that they were made from. So a scene whose objects move
-//! keeps two of them in turn: one that the last frame may still show, and one to change.
+//! keeps two geometries and alternates between them: the last frame may still show one, while the
+//! other changes.
 
 use super::PreparedScene;
 use super::prepare::{ModelNormals, NormalMap, bits_of_normals, reverse_corners};
@@ -12,25 +13,25 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use glam::DAffine3;
 
-/// The objects of a prepared scene, and what moving them needs.
+/// The objects of a prepared scene, and what is needed to move them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Moving {
     /// The objects as they stand now.
     pub objects: Vec<Object>,
-    /// The normals of each object in model space, once it was moved.
+    /// The normals of each object in model space, once the object was moved.
     normals: Vec<Option<Arc<ModelNormals>>>,
-    /// The geometry that was changed before the present one.
+    /// The geometry that was in use before the present one.
     spare: Option<Posed>,
 }
 
-/// A geometry, and the transforms that its objects have there.
+/// A geometry, and the transforms that its objects have in it.
 #[derive(Clone, Debug)]
 struct Posed {
     geometry: Arc<Geometry>,
     transforms: Vec<DAffine3>,
 }
 
-/// The vertices, corners and polygons of an object in the geometry of its scene.
+/// Where an object's vertices, corners and polygons are in the geometry of its scene.
 struct Place {
     vertices: Range<usize>,
     corners: Range<usize>,
@@ -38,21 +39,23 @@ struct Place {
 }
 
 impl PreparedScene {
-    /// Moves an object: gives it another transform, as [`Object::transform`]. Objects count from 0, in the order of
+    /// Moves an object: sets its [`Object::transform`]. Objects count from 0, in the order of
     /// [`Scene::objects`](crate::scene::Scene).
     ///
-    /// Takes time in proportion to this object, however large the others are, and the next frame is the one of the scene prepared anew,
-    /// bit for bit. The first call for an object costs as much as preparing it. Frames that were made before stay as they are, so
-    /// the first call also copies the geometry: from then on there are two, which frames that are made again and again
-    /// ([`PreparedScene::frame_into`]) share in turn.
+    /// The time is proportional to this object's size, however large the others are. The next frame
+    /// equals the frame of the scene prepared anew, bit for bit. The first call for an object costs
+    /// as much as preparing it. Earlier frames do not change, so the first call also copies the
+    /// geometry. From then on there are two, and frames that are made again and again
+    /// ([`PreparedScene::frame_into`]) use them in turn.
     ///
     /// ```
     /// use fastphong::glam::{DAffine3, DVec3};
     /// use fastphong::mesh::builtin::builtin;
-    /// use fastphong::scene::{Object, Scene};
+    /// use fastphong::scene::Scene;
     ///
     /// let mut scene = Scene::of_mesh(builtin("sphere").unwrap());
-    /// scene.objects.push(Object { mesh: builtin("torus").unwrap().into(), ..scene.objects[0].clone() });
+    /// scene.objects.push(scene.objects[0].clone());
+    /// scene.objects[1].mesh = builtin("torus").unwrap().into();
     /// let mut prepared = scene.prepare().unwrap();
     /// let mut frame = prepared.frame().unwrap();
     /// for step in 0..3 {
@@ -64,8 +67,9 @@ impl PreparedScene {
     /// ```
     ///
     /// # Errors
-    /// [`FrameError`] as [`Scene::frame`](crate::scene::Scene::frame) gives it for the object: a transform that flattens it, or a place
-    /// out of range, or one of its vertices where a light stands. Also if there is no such object. It then stays where it was.
+    /// [`FrameError`] as [`Scene::frame`](crate::scene::Scene::frame) would return it for the
+    /// object: a transform that flattens it, a place out of range, or a vertex where a light
+    /// stands. Also if there is no such object. The object then stays where it was.
     pub fn set_transform(&mut self, object: usize, transform: DAffine3) -> Result<(), FrameError> {
         self.check_transform(object, transform)?;
         let (object, index) = (&self.moving.objects[object], object);
@@ -85,14 +89,14 @@ impl PreparedScene {
         Ok(())
     }
 
-    /// Checks what [`PreparedScene::set_transform`] is asked for.
+    /// Checks the arguments of [`PreparedScene::set_transform`].
     fn check_transform(&self, index: usize, transform: DAffine3) -> Result<(), FrameError> {
         let Some(object) = self.moving.objects.get(index) else {
-            return Err(FrameError::Number {
+            return Err(FrameError::Value {
                 item: FrameItem::Scene,
                 name: "the index of the object to move",
                 value: index as f64,
-                expected: "that of an object of the scene, from 0",
+                expected: "the index of an object, from 0",
             });
         };
         let moved = Object {
@@ -108,7 +112,8 @@ impl PreparedScene {
         guard::lights_off_vertices(&self.settings, core::slice::from_ref(&moved))
     }
 
-    /// Makes the geometry one that no frame shares, with all objects where they are now.
+    /// Makes sure that no frame shares the geometry, and that all objects are in it where they
+    /// stand now.
     fn own_geometry(&mut self) {
         if Arc::get_mut(&mut self.geometry).is_some() {
             return;
@@ -146,7 +151,7 @@ impl Moving {
         }
     }
 
-    /// Moves those objects of a geometry to their places that were elsewhere when it was put aside.
+    /// Moves the objects of a geometry that have moved since it was last in use.
     fn catch_up(&self, transforms: &[DAffine3], turned: &[u32], geometry: &mut Geometry) {
         let bits = |transform: &DAffine3| transform.to_cols_array().map(f64::to_bits);
         for (index, (object, before)) in self.objects.iter().zip(transforms).enumerate() {
@@ -175,7 +180,8 @@ impl Moving {
         }
     }
 
-    /// Puts an object of a geometry where its transform says: its normals, and the winding of its corners.
+    /// Updates an object of a geometry to its transform: its normals, and the winding of its
+    /// corners.
     fn pose(&self, index: usize, turned: &[u32], geometry: &mut Geometry, place: Place) {
         let (object, normals) = (&self.objects[index], &self.normals[index]);
         let Some(normals) = normals else {
@@ -201,7 +207,8 @@ impl Moving {
     }
 }
 
-/// Writes the normals of an object's polygons, negated where the normals of their corners say that the front is elsewhere.
+/// Writes the normals of an object's polygons. Negates those of polygons whose corners have normals
+/// on the other side.
 fn map_faces(
     map: &NormalMap,
     normals: &ModelNormals,

@@ -1,4 +1,5 @@
-//! The polygons of a scene that do not change with the camera, and which of them a camera sees.
+//! The part of a scene's polygons that does not change with the camera, and which polygons a camera
+//! sees.
 
 use super::view::{BEYOND_PLANES, Codes};
 use super::winding::{self, NO_PLACES, Places};
@@ -8,30 +9,32 @@ use crate::number::vectorized;
 use crate::scene::{Clipping, Culling, Scene};
 use alloc::vec::Vec;
 
-/// Words of a chunk of polygons.
+/// How many words of bits a chunk of polygons has.
 const WORDS: usize = 32;
-/// Polygons that one thread takes at a time: one a bit.
+/// How many polygons one thread takes at a time: one per bit.
 pub(super) const CHUNK: usize = 64 * WORDS;
 
-/// All polygons of a scene: their corners, materials and normals, known before any camera.
+/// All polygons of a scene: their corners, materials and normals, known before there is a camera.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PolygonTable {
     pub count: usize,
-    /// The index of the first corner of each polygon and, last, the end of all corners; empty if all are triangles.
+    /// The index of each polygon's first corner and, last, the end of all corners. Empty if all
+    /// polygons are triangles.
     pub starts: Vec<u32>,
-    /// The lighting of each polygon; empty where all have the first.
+    /// The lighting of each polygon. Empty if all have the first.
     pub materials: Vec<u32>,
-    /// One bit per polygon: 1 if it has a normal. Without one it is never drawn.
+    /// One bit per polygon: 1 if it has a normal. A polygon without one is never drawn.
     pub has_normal: Vec<u64>,
-    /// The polygons, in ascending order, that have an area but no normal: see [`crate::mesh::newell::areas_cancel`].
+    /// The polygons, in ascending order, that have an area but no normal: see
+    /// [`crate::mesh::newell::areas_cancel`].
     pub cancelling: Vec<u32>,
-    /// The polygons, in ascending order, whose front is where their corners run clockwise: two-sided lighting follows the normals
-    /// that are given for these corners.
+    /// The polygons, in ascending order, whose front is where their corners run clockwise.
+    /// Two-sided lighting follows the normals that the mesh has for these corners.
     pub turned: Vec<u32>,
 }
 
 impl PolygonTable {
-    /// Returns the index of the first corner of a polygon, and their number.
+    /// Returns the index of a polygon's first corner, and how many corners it has.
     #[inline(always)]
     pub fn corners(&self, polygon: usize) -> (u32, u32) {
         match self.starts.get(polygon..polygon + 2) {
@@ -51,7 +54,8 @@ impl PolygonTable {
     }
 }
 
-/// Returns a bit for each of 64 polygons from `first` on that is among `polygons`, in ascending order.
+/// Returns a bit for each of the 64 polygons from `first` on: 1 if it is in the ascending list
+/// `polygons`.
 #[inline(never)]
 fn bits_of(polygons: &[u32], first: usize) -> u64 {
     let after = &polygons[polygons.partition_point(|&p| (p as usize) < first)..];
@@ -60,23 +64,23 @@ fn bits_of(polygons: &[u32], first: usize) -> u64 {
         .fold(0, |bits, k| bits | 1 << k)
 }
 
-/// The visibility of 64 polygons that follow one another: a bit each.
+/// The visibility of 64 consecutive polygons, a bit each.
 #[derive(Clone, Copy, Debug, Default)]
 struct VisibilityWord {
-    /// It is drawn as it is.
+    /// Drawn whole.
     drawn: u64,
-    /// It is lit from behind.
+    /// Lit from behind.
     back: u64,
-    /// It must be cut.
+    /// To be cut.
     cut: u64,
 }
 
-/// The visibility of [`CHUNK`] polygons that follow one another.
+/// The visibility of [`CHUNK`] consecutive polygons.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Chunk {
     words: [VisibilityWord; WORDS],
     stats: FrameStats,
-    /// The number of polygons of the frame before this chunk, pieces included.
+    /// How many polygons of the frame come before this chunk, pieces included.
     before: usize,
     /// The first piece that belongs to this chunk or a later one.
     first_piece: usize,
@@ -91,14 +95,15 @@ pub(super) struct Piece {
     pub is_back: bool,
 }
 
-/// The scene as culling reads it: corner lists, vertices on the screen, planes that they are beyond.
+/// A scene as culling reads it: corner lists, vertices on the screen, and the planes that vertices
+/// are beyond.
 pub(super) struct Sight<'a> {
     pub scene: &'a Scene,
     pub table: &'a PolygonTable,
-    /// The corner lists of the polygons, all vertices on their first side.
+    /// The corner lists of the polygons, with vertices of the first side.
     pub corners: &'a [u32],
     pub vertices: &'a [ScreenVertex],
-    /// The planes that each vertex is beyond; `None` where none is beyond any.
+    /// The planes that each vertex is beyond; `None` if no vertex is beyond any.
     pub codes: Option<&'a [Codes]>,
 }
 
@@ -106,28 +111,28 @@ impl Sight<'_> {
     /// Culls all polygons, on several threads.
     pub fn find(&self, chunks: &mut Vec<Chunk>) {
         chunks.resize(self.table.count.div_ceil(CHUNK), Chunk::default());
-        for_each_chunk(&mut chunks[..], 1, &|number, chunk: &mut [Chunk]| {
+        for_each_chunk(&mut chunks[..], 1, &|index, chunk: &mut [Chunk]| {
             chunk[0] = Chunk::default();
             vectorized(
                 #[inline(always)]
-                || self.chunk(number, &mut chunk[0]),
+                || self.chunk(index, &mut chunk[0]),
             );
         });
     }
 
-    /// Culls the polygons of chunk `number`.
+    /// Culls the polygons of chunk `index`.
     #[inline(always)]
-    fn chunk(&self, number: usize, chunk: &mut Chunk) {
-        let end = self.table.count.min((number + 1) * CHUNK);
+    fn chunk(&self, index: usize, chunk: &mut Chunk) {
+        let end = self.table.count.min((index + 1) * CHUNK);
         let mut places = NO_PLACES;
-        let (mut first, mut k) = (number * CHUNK, 0);
+        let (mut first, mut k) = (index * CHUNK, 0);
         while first < end {
             chunk.words[k] = self.word(first, (end - first).min(64), &mut places, &mut chunk.stats);
             (first, k) = (first + 64, k + 1);
         }
     }
 
-    /// Culls up to 64 polygons from `first` on.
+    /// Culls up to 64 polygons from `first` on, with a bit for each.
     #[inline(always)]
     fn word(
         &self,
@@ -152,21 +157,21 @@ impl Sight<'_> {
             .codes
             .map_or((0, 0), |codes| self.beyond(codes, first, count));
         let has_normal = self.table.has_normal[first / 64];
-        let number = |bits: u64| bits.count_ones() as usize;
+        let count_of = |bits: u64| bits.count_ones() as usize;
         stats.polygons += count;
-        stats.outside += number(outside);
+        stats.outside += count_of(outside);
         let inside = all & !outside;
         let no_normal = inside & !has_normal;
         let cancelling = match no_normal {
             0 => 0,
             _ => no_normal & bits_of(&self.table.cancelling, first),
         };
-        stats.no_area += number(no_normal & !cancelling);
-        stats.cancelling += number(cancelling);
+        stats.no_area += count_of(no_normal & !cancelling);
+        stats.cancelling += count_of(cancelling);
         let mut cut = inside & has_normal & beyond;
         let whole = inside & has_normal & !beyond;
         if self.scene.clipping == Clipping::NdcCube {
-            stats.unprojected += number(cut);
+            stats.unprojected += count_of(cut);
             cut = 0;
         }
         let culled = match self.scene.culling {
@@ -174,9 +179,10 @@ impl Sight<'_> {
             Culling::Front => counter_clockwise,
             Culling::None => 0,
         };
-        stats.culled += number(whole & culled);
-        stats.edge_on += number(whole & !(clockwise | counter_clockwise));
-        // y points downward on the picture: what runs clockwise there has an area over 0, and is seen from behind.
+        stats.culled += count_of(whole & culled);
+        stats.edge_on += count_of(whole & !(clockwise | counter_clockwise));
+        // y points downward on the picture. A polygon that runs clockwise there has an area over 0,
+        // and is seen from behind.
         let back = match self.scene.two_sided {
             true if self.table.turned.is_empty() => clockwise,
             true => clockwise ^ bits_of(&self.table.turned, first),
@@ -189,10 +195,12 @@ impl Sight<'_> {
         }
     }
 
-    /// Returns a bit for each polygon that is outside the view, and for each that has a corner beyond a plane.
+    /// Returns a bit for each polygon that is outside the view, and a bit for each that has a
+    /// corner beyond a plane.
     #[inline(always)]
     fn beyond(&self, codes: &[Codes], first: usize, count: usize) -> (u64, u64) {
-        // The planes that all corners of each polygon are beyond, and those that any is.
+        // The planes that all corners of a polygon are beyond, and the planes that any corner is
+        // beyond.
         let (mut all, mut any) = ([0; 64], [0; 64]);
         if self.table.starts.is_empty() {
             for (k, triangle) in self.triangles(first, count.min(64)).iter().enumerate() {
@@ -210,6 +218,8 @@ impl Sight<'_> {
             }
         }
         let (mut outside, mut beyond) = ([0; 64], [0; 64]);
+        // Flags as bytes in a separate loop, which the compiler turns into vectors. `winding::bits`
+        // packs them.
         for k in 0..64 {
             outside[k] = u8::from(all[k] & !BEYOND_PLANES != 0);
             beyond[k] = u8::from(any[k] & BEYOND_PLANES != 0);
@@ -217,7 +227,7 @@ impl Sight<'_> {
         (winding::bits(&outside), winding::bits(&beyond))
     }
 
-    /// Returns the corners of some polygons, where all are triangles.
+    /// Returns the corners of some polygons, if all are triangles.
     #[inline(always)]
     fn triangles(&self, first: usize, count: usize) -> &[[u32; 3]] {
         self.corners[3 * first..3 * (first + count)].as_chunks().0
@@ -232,19 +242,20 @@ impl Sight<'_> {
 
 /// Calls `visit` for each polygon that must be cut, in order.
 pub(super) fn for_each_cut(chunks: &[Chunk], mut visit: impl FnMut(usize)) {
-    for (number, word) in chunks.iter().flat_map(|chunk| &chunk.words).enumerate() {
+    for (index, word) in chunks.iter().flat_map(|chunk| &chunk.words).enumerate() {
         let mut cut = word.cut;
         while cut != 0 {
-            visit(64 * number + cut.trailing_zeros() as usize);
+            visit(64 * index + cut.trailing_zeros() as usize);
             cut &= cut - 1;
         }
     }
 }
 
-/// Adds up the counts, and gives each chunk its place in the frame. Returns the number of polygons.
+/// Adds up the counts, and finds where each chunk's polygons belong in the frame. Returns how many
+/// polygons the frame has.
 pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameStats) -> usize {
     let (mut total, mut piece) = (0, 0);
-    for (number, chunk) in chunks.iter_mut().enumerate() {
+    for (index, chunk) in chunks.iter_mut().enumerate() {
         (chunk.before, chunk.first_piece) = (total, piece);
         total += chunk
             .words
@@ -253,7 +264,7 @@ pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameSt
             .sum::<usize>();
         let own = pieces[piece..]
             .iter()
-            .take_while(|p| (p.source as usize) < (number + 1) * CHUNK)
+            .take_while(|p| (p.source as usize) < (index + 1) * CHUNK)
             .count();
         (total, piece) = (total + own, piece + own);
         for (sum, count) in [
@@ -271,16 +282,17 @@ pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameSt
     total
 }
 
-/// A writer of the polygons of a frame, from the chunks that they come from.
+/// A writer of a frame's polygons from the chunks that have their bits.
 pub(super) struct Filling<'a> {
     pub table: &'a PolygonTable,
-    /// The number of corners before those of the second side.
+    /// How many corners there are before the corners of the second side.
     pub corner_count: u32,
     pub pieces: &'a [Piece],
 }
 
 impl Filling<'_> {
-    /// Writes all polygons that are drawn, in the order of the scene.
+    /// Writes all visible polygons in the order of the scene. `first` is the index of the first
+    /// chunk.
     pub fn fill(&self, first: usize, chunks: &[Chunk], out: &mut [Polygon]) {
         match chunks {
             [] => (),
@@ -301,11 +313,11 @@ impl Filling<'_> {
     }
 
     #[inline(always)]
-    fn fill_chunk(&self, number: usize, chunk: &Chunk, mut out: &mut [Polygon]) {
+    fn fill_chunk(&self, index: usize, chunk: &Chunk, mut out: &mut [Polygon]) {
         let mut pieces = self.pieces[chunk.first_piece..].iter();
         let is_plain = self.table.starts.is_empty() && self.table.materials.is_empty();
         for (k, word) in chunk.words.iter().enumerate() {
-            let first = number * CHUNK + 64 * k;
+            let first = index * CHUNK + 64 * k;
             if word.cut != 0 {
                 out = self.fill_cut(first, word, &mut pieces, out);
                 continue;
@@ -331,7 +343,8 @@ impl Filling<'_> {
         }
     }
 
-    /// Writes the polygons of any word, and the pieces that stand in the place of some; gives what is left of `out`.
+    /// Writes the polygons of any word, and pieces in place of polygons that were cut. Returns the
+    /// rest of `out`.
     #[inline(never)]
     fn fill_cut<'o>(
         &self,
@@ -397,10 +410,12 @@ impl Filling<'_> {
     }
 }
 
-/// Writes triangles of the first lighting that are seen from the front: where all of a scene are such, nothing is looked up.
+/// Writes triangles of the first lighting that are seen from the front. A scene of nothing else
+/// needs no table.
 #[inline(always)]
 fn fill_plain(first: usize, drawn: u64, out: &mut [Polygon]) {
     let mut left = drawn;
+    // Bits are taken from the lowest on: `left & (left − 1)` clears the lowest one.
     for place in out {
         let source = first as u32 + left.trailing_zeros();
         left &= left.wrapping_sub(1);
@@ -414,7 +429,7 @@ fn fill_plain(first: usize, drawn: u64, out: &mut [Polygon]) {
     }
 }
 
-/// Returns the number of the normal of a polygon in the frame.
+/// Returns the index of a polygon's normal in the frame, with the mark of a normal that is negated.
 #[inline(always)]
 fn face(source: u32, is_back: bool) -> u32 {
     source | if is_back { Polygon::FLIPPED } else { 0 }

@@ -1,4 +1,5 @@
-//! Preparation of a scene: all that does not depend on the camera, as distinct vertices, corner lists and normals.
+//! The preparation of a scene: distinct vertices, corner lists and normals, which do not depend on
+//! the camera.
 
 use super::polygons::PolygonTable;
 use crate::frame::{FrameError, Geometry, Models, PlacedModel, Polygon};
@@ -12,30 +13,33 @@ use crate::scene::{Object, Scene};
 use alloc::vec::Vec;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-/// Elements that one thread takes at a time.
+/// How many elements one thread takes at a time.
 const CHUNK: usize = 4096;
 
-/// The geometry collected object after object.
+/// The geometry of a scene, collected object after object.
 #[derive(Default)]
 pub(super) struct Preparation {
     pub geometry: Geometry,
     pub table: PolygonTable,
     pub materials: Vec<Material>,
-    /// True for materials of meshes with vertex colours, which may be lit.
+    /// True for the materials of meshes with vertex colours that may be lit.
     pub coloured: Vec<bool>,
 }
 
-/// One object on its way.
+/// An object that is being added.
 struct Source<'a> {
     mesh: &'a PolygonMesh,
     normals: NormalMap,
-    /// The lighting of the first material of the mesh; after the last follows that of polygons without one.
+    /// The lighting of the mesh's first material. Behind its last material comes the lighting of
+    /// polygons without one.
     first_material: u32,
 }
 
 impl Preparation {
+    /// Prepares all objects of a scene.
+    ///
     /// # Errors
-    /// [`FrameError::TooLarge`] when 32-bit numbers cannot name all corners.
+    /// [`FrameError::TooLarge`] if 32-bit indices cannot name all corners.
     pub fn new(scene: &Scene) -> Result<Self, FrameError> {
         let sides = if scene.two_sided { 2 } else { 1 };
         let meshes = || scene.objects.iter().map(|object| &object.mesh);
@@ -46,7 +50,7 @@ impl Preparation {
                 v + mesh.positions().len(),
             )
         });
-        // Clipping adds vertices and corners: the second half of the numbers is left for them.
+        // Clipping adds vertices and corners, so half of all indices are left for them.
         if sides * (corners.max(positions)) >= 1 << 31 || polygons >= Polygon::FLIPPED as usize {
             return Err(FrameError::TooLarge);
         }
@@ -122,7 +126,8 @@ impl Preparation {
         });
     }
 
-    /// Turns polygons whose winding contradicts the normals that are given for their corners: these say where the front is.
+    /// Turns polygons whose winding contradicts the mesh's own normals at their corners. These
+    /// normals say where the front is.
     fn turn_against_normals(&mut self, object: &Object, normals: &[DVec3], first: usize) {
         let mesh = &*object.mesh;
         let takes_given = matches!(
@@ -141,7 +146,7 @@ impl Preparation {
         }
     }
 
-    /// Adds a vertex for each position, as each has one normal and one material.
+    /// Adds a vertex for each position, because each position has one normal and one material.
     fn vertices_by_position(&mut self, source: &Source<'_>, values: &[Vec3], normal_of: &[u32]) {
         let mesh = source.mesh;
         let geometry = &mut self.geometry;
@@ -181,22 +186,23 @@ impl Preparation {
         }
     }
 
-    /// Adds a vertex for each position, normal and material that come together at a corner.
+    /// Adds a vertex for each combination of position, normal and material at a corner.
     fn vertices_by_corner(&mut self, source: &Source<'_>, normals: CornerNormals) {
         let mesh = source.mesh;
         let normals = normals.by_corner(mesh);
         let geometry = &mut self.geometry;
         let first = geometry.normals.len();
         let keys = source.corner_keys(&normals);
-        let (numbers, count) = number_distinct(keys.len(), |corner| keys[corner]);
+        let (indices, count) = number_distinct(keys.len(), |corner| keys[corner]);
         let in_world = collect(normals.values.len(), CHUNK, |i| {
             source.normals.vertex(normals.values[i])
         });
         if has_attributes(mesh) {
             geometry.attributes.resize(first, Geometry::NO_ATTRIBUTES);
         }
-        for (number, &[position, normal, material]) in numbers.iter().zip(&keys) {
-            if geometry.normals.len() == first + *number as usize {
+        for (index, &[position, normal, material]) in indices.iter().zip(&keys) {
+            // An index that is new is the next one, so its vertex is added now.
+            if geometry.normals.len() == first + *index as usize {
                 geometry.normals.push(in_world[normal as usize]);
                 geometry.materials.push(material);
                 geometry.models.push(mesh.positions()[position as usize]);
@@ -205,7 +211,7 @@ impl Preparation {
             }
         }
         debug_assert_eq!(geometry.normals.len(), first + count);
-        let corners = numbers.iter().map(|number| first as u32 + number);
+        let corners = indices.iter().map(|index| first as u32 + index);
         geometry.corners.extend(corners);
     }
 
@@ -248,7 +254,7 @@ impl Source<'_> {
             || (1..self.mesh.polygon_count()).all(|p| self.material(p) == self.material(0))
     }
 
-    /// Returns position, normal and material of each corner: corners that agree are one vertex.
+    /// Returns position, normal and material of each corner. Corners that agree share a vertex.
     fn corner_keys(&self, normals: &VertexNormals) -> Vec<[u32; 3]> {
         let mesh = self.mesh;
         let mut keys = Vec::with_capacity(mesh.corners().len());
@@ -263,9 +269,9 @@ impl Source<'_> {
     }
 }
 
-/// The map from normals of a model to normals in the world.
+/// The map from normals in model space to normals in the world.
 pub(super) struct NormalMap {
-    /// Normals of the model to normals in the world, up to their lengths.
+    /// The matrix for normals, up to their lengths.
     matrix: DMat3,
     /// True if the transform mirrors, so that corners change their winding.
     pub mirrored: bool,
@@ -276,8 +282,8 @@ impl NormalMap {
         let linear = transform.matrix3;
         let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
         let determinant = x.dot(y.cross(z));
-        // The inverse transpose is the cofactor matrix over the determinant: its sign is enough, normals are
-        // normalised, and a singular matrix still has cofactors.
+        // The inverse transpose is the cofactor matrix over the determinant. As normals are
+        // normalised, the determinant's sign is enough, and a singular matrix still has cofactors.
         let sign = if determinant < 0.0 { -1.0 } else { 1.0 };
         NormalMap {
             matrix: DMat3::from_cols(y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign),
@@ -291,7 +297,7 @@ impl NormalMap {
         direction.normalize_or(DVec3::Z).as_vec3().to_array()
     }
 
-    /// Writes the unit normals of polygons in the world; zero for a polygon that has none.
+    /// Writes the unit normals of polygons in the world; zero for a polygon without a normal.
     pub fn polygons(&self, normals: &[DVec3], faces: &mut [[f32; 3]]) {
         for_each_chunk((faces, normals), CHUNK, &|_,
                                                   (faces, normals): (
@@ -299,7 +305,8 @@ impl NormalMap {
             &[DVec3],
         )| {
             for (face, &normal) in faces.iter_mut().zip(normals) {
-                // Newell's sum is one of cross products, which the cofactor matrix carries to world space.
+                // Newell's sum consists of cross products, which the cofactor matrix carries to
+                // world space.
                 let in_world = unit_normal(self.matrix * normal).unwrap_or(DVec3::ZERO);
                 *face = in_world.as_vec3().to_array();
             }
@@ -307,14 +314,15 @@ impl NormalMap {
     }
 }
 
-/// The normals of an object in model space, as [`Preparation`] made its polygons and vertices of them.
+/// The normals of an object in model space, from which [`Preparation`] made its polygons and
+/// vertices.
 #[derive(Debug)]
 pub(super) struct ModelNormals {
-    /// Sums of Newell's formula.
+    /// The sums of Newell's formula, one per polygon.
     pub polygons: Vec<DVec3>,
-    /// Unit vectors.
+    /// Distinct vertex normals, as unit vectors.
     values: Vec<Vec3>,
-    /// The entry of `values` that each vertex of the geometry has.
+    /// The index into `values` of each vertex of the geometry.
     of_vertices: Vec<u32>,
 }
 
@@ -335,10 +343,10 @@ impl ModelNormals {
             normals => {
                 let normals = normals.by_corner(mesh);
                 let keys = source.corner_keys(&normals);
-                let (numbers, count) = number_distinct(keys.len(), |corner| keys[corner]);
+                let (indices, count) = number_distinct(keys.len(), |corner| keys[corner]);
                 let mut of_vertices = Vec::with_capacity(count);
-                for (number, [_, normal, _]) in numbers.iter().zip(&keys) {
-                    if of_vertices.len() == *number as usize {
+                for (index, [_, normal, _]) in indices.iter().zip(&keys) {
+                    if of_vertices.len() == *index as usize {
                         of_vertices.push(*normal);
                     }
                 }
@@ -368,14 +376,15 @@ impl ModelNormals {
     }
 }
 
-/// Reverses the corner list of each polygon of `mesh`; `corners` begins with the first of them.
+/// Reverses the corner list of each polygon of `mesh`. `corners` begins with the first polygon's
+/// list.
 pub(super) fn reverse_corners(mesh: &PolygonMesh, corners: &mut [u32]) {
     for polygon in 0..mesh.polygon_count() {
         corners[mesh.corner_range(polygon)].reverse();
     }
 }
 
-/// Returns a bit for each of 64 polygons from 64 `word` on: 1 if it has a normal.
+/// Returns a bit for each of the 64 polygons of a word: 1 if it has a normal.
 pub(super) fn bits_of_normals(faces: &[[f32; 3]], word: usize) -> u64 {
     let faces = &faces[64 * word..faces.len().min(64 * word + 64)];
     let bits = faces.iter().rev();
@@ -390,7 +399,7 @@ impl Models {
     }
 }
 
-/// Returns the index of the first corner of each polygon and, last, of the end of all corners.
+/// Returns the index of each polygon's first corner and, last, the end of all corners.
 fn starts<'a>(meshes: impl Iterator<Item = &'a PolygonMesh>, polygons: usize) -> Vec<u32> {
     let mut starts = Vec::with_capacity(polygons + 1);
     let mut first = 0;
@@ -407,7 +416,7 @@ fn has_attributes(mesh: &PolygonMesh) -> bool {
     !(mesh.attributes().is_empty() && mesh.colours().is_empty())
 }
 
-/// Returns the attributes of a position: its own, or its colour and 1.
+/// Returns the attributes at a position: its own, or its colour and 1.
 fn attributes(mesh: &PolygonMesh, position: usize) -> Option<[f32; 4]> {
     let own = mesh.attributes().get(position).copied();
     let colour = || mesh.colours().get(position).map(|c| [c.x, c.y, c.z, 1.0]);

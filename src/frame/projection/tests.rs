@@ -20,7 +20,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 
-/// A corner with all its frame data: vertex, position from the eye, colour.
+/// A corner with all its frame data: vertex, position relative to the eye, and colour.
 type PlainCorner = (Vertex, [f32; 3], [f32; 3]);
 
 /// A polygon that needs no clipping, and its corners.
@@ -37,7 +37,7 @@ struct Plainly<'a> {
     view: View<'a>,
     scene: &'a Scene,
     polygons: Vec<PlainPolygon>,
-    /// The numbers of polygons that must be clipped.
+    /// The indices of polygons that must be clipped.
     cut: BTreeSet<u32>,
     stats: FrameStats,
 }
@@ -233,14 +233,14 @@ fn corners(frame: &Frame, polygon: usize) -> Vec<PlainCorner> {
 }
 
 /// Frames equal a polygon-by-polygon projection bit by bit: coordinates, weights, normals and
-/// numbers. Pieces of clipped polygons keep the place of the whole.
+/// indices. Pieces of clipped polygons take the place of the whole.
 #[test]
 fn frames_equal_plain_projection() {
     let mut cut = 0;
     // The scene `million` has the sphere of the others.
     for scene in SCENES.iter().filter(|scene| scene.name != "million") {
-        for (number, variant) in variants(&shipped(scene.name)).iter().enumerate() {
-            let name = alloc::format!("{}, variant {number}", scene.name);
+        for (index, variant) in variants(&shipped(scene.name)).iter().enumerate() {
+            let name = alloc::format!("{}, variant {index}", scene.name);
             let plainly = Plainly::of(variant);
             let frame = variant.frame().expect("a frame");
             assert!(frame.polygons().is_sorted_by_key(|p| p.source), "{name}");
@@ -318,7 +318,7 @@ fn a_reused_frame_equals_a_new_one() {
                 .iter()
                 .map(|variant| variant.camera)
                 .collect();
-            for (number, &camera) in cameras.iter().chain(&cameras).enumerate() {
+            for (index, &camera) in cameras.iter().chain(&cameras).enumerate() {
                 prepared.set_camera(camera);
                 prepared.frame_into(&mut frame).expect("a frame");
                 let new = Scene {
@@ -327,7 +327,7 @@ fn a_reused_frame_equals_a_new_one() {
                 }
                 .frame()
                 .expect("a frame");
-                assert_same(&frame, &new, &alloc::format!("{name}, camera {number}"));
+                assert_same(&frame, &new, &alloc::format!("{name}, camera {index}"));
             }
             let memory = |frame: &Frame| {
                 (
@@ -395,7 +395,7 @@ fn a_camera_that_sees_nothing_leaves_an_empty_frame() {
     });
     let refused = prepared.frame_into(&mut frame);
     let item = FrameItem::Camera;
-    assert!(matches!(refused, Err(FrameError::Number { item: of, .. }) if of == item));
+    assert!(matches!(refused, Err(FrameError::Value { item: of, .. }) if of == item));
     assert!(frame.polygons().is_empty() && frame.vertices().is_empty());
     prepared.set_camera(scene.camera);
     prepared.set_size(0, 10);
@@ -462,7 +462,7 @@ fn threads_change_nothing() {
     }
 }
 
-/// A frame knows it without looking at each of its materials, whichever of them it is that is local.
+/// A frame knows if it is local without looking at each material, whichever of them is local.
 #[test]
 fn a_frame_is_local_if_a_light_or_the_eye_is() {
     let mut scene = resolve(&SCENES[0].load().unwrap()).unwrap().scene;
@@ -497,13 +497,13 @@ fn moves(object: &Object) -> [DAffine3; 5] {
     ]
 }
 
-/// Returns a sphere with its normals, of which every second polygon runs clockwise seen from outside.
+/// Returns a sphere with its own normals. Every second polygon runs clockwise seen from outside.
 fn half_against_its_normals() -> PolygonMesh {
     let sphere = builtin("sphere?rings=8&segments=9").expect("a shape");
     let mut builder = MeshBuilder::new(sphere.positions().to_vec());
-    for (number, polygon) in sphere.polygons().enumerate() {
+    for (index, polygon) in sphere.polygons().enumerate() {
         let mut polygon = polygon.to_vec();
-        if number % 2 == 1 {
+        if index % 2 == 1 {
             polygon.reverse();
         }
         builder.polygon(&polygon);
@@ -516,15 +516,15 @@ fn half_against_its_normals() -> PolygonMesh {
     builder.finish().expect("a mesh")
 }
 
-/// A prepared scene whose objects move equals the scene prepared anew, whichever of them moved last and whether frames share what it
-/// had; and frames that were made before stay as they were.
+/// A prepared scene whose objects move equals the scene prepared anew, whichever object moved last
+/// and whether or not frames share its geometry. Earlier frames do not change.
 #[test]
 fn a_scene_whose_objects_move_equals_a_new_one() {
     let mut count = 0;
     let scenes = SCENES.iter().map(|scene| shipped(scene.name));
     for scene in scenes.filter(|scene| scene.objects.len() > 1) {
-        for (number, mut scene) in variants(&scene).into_iter().enumerate() {
-            if number == 1 {
+        for (index, mut scene) in variants(&scene).into_iter().enumerate() {
+            if index == 1 {
                 scene.objects[1].normals = NormalSource::Crease(25.0).into();
             }
             if scene.two_sided {
@@ -547,7 +547,7 @@ fn a_scene_whose_objects_move_equals_a_new_one() {
                 }
                 prepared.frame_into(&mut frame).expect("a frame");
                 let new = scene.frame().expect("a frame");
-                let name = alloc::format!("variant {number}, step {step}");
+                let name = alloc::format!("variant {index}, step {step}");
                 assert_same(&frame, &new, &name);
                 let positions = |frame: &Frame| -> Vec<[f32; 3]> {
                     let vertices = 0..frame.vertices().len() as u32;
@@ -562,7 +562,8 @@ fn a_scene_whose_objects_move_equals_a_new_one() {
     assert!(count > 10_000, "the test asks little: {count} polygons");
 }
 
-/// From the third move on nothing is copied: the two geometries of a scene whose frames are made again take turns.
+/// From the third move on nothing is copied: a scene whose frames are made again alternates between
+/// two geometries.
 #[test]
 fn moving_an_object_again_and_again_copies_nothing() {
     let scene = shipped("polygons");
@@ -581,7 +582,7 @@ fn moving_an_object_again_and_again_copies_nothing() {
     assert!(places.iter().skip(2).zip(&places).all(|(a, b)| a == b));
 }
 
-/// What a scene with the object there refuses is refused, by the same error, and nothing has moved.
+/// A move that a scene would refuse is refused by the same error, and nothing has moved.
 #[test]
 fn an_object_goes_nowhere_that_a_scene_refuses() {
     let mut scene = shipped("local-lights");
@@ -603,7 +604,7 @@ fn an_object_goes_nowhere_that_a_scene_refuses() {
         scene.objects[1].transform = transform;
         let expected = scene.frame().expect_err("a wrong transform");
         let found = prepared.set_transform(1, transform).expect_err("the same");
-        // By their texts: NaN is not equal to itself.
+        // Compared by their texts, because NaN is not equal to itself.
         assert_eq!(alloc::format!("{found}"), alloc::format!("{expected}"));
     }
     let error = prepared
@@ -611,12 +612,13 @@ fn an_object_goes_nowhere_that_a_scene_refuses() {
         .expect_err("no such object");
     assert_eq!(
         alloc::format!("{error}"),
-        "the scene: the index of the object to move is 2: expected that of an object of the scene, from 0"
+        "the scene: the index of the object to move is 2: expected the index of an object, from 0"
     );
     assert_same(&prepared.frame().expect("a frame"), &before, "unmoved");
 }
 
-/// Builds the frame of a scene from the clip coordinates of its vertices, as a program does that has a matrix and polygons.
+/// Builds the frame of a scene from the clip coordinates of its vertices, like a program that has a
+/// matrix and polygons.
 fn from_clip_space(scene: &Scene) -> Frame {
     let prepared = scene.prepare().expect("a scene");
     let seen = prepared.frame().expect("a frame");
@@ -656,7 +658,8 @@ fn from_clip_space(scene: &Scene) -> Frame {
     builder.finish().expect("a frame")
 }
 
-/// Polygons that a builder is given in clip space are placed and cut as those of the scene are, to the bit.
+/// Polygons that a builder receives in clip space are placed and cut like the scene's polygons, to
+/// the bit.
 #[test]
 fn polygons_in_clip_space_are_those_of_a_scene() {
     let (mut cut, mut whole) = (0, 0);
@@ -668,8 +671,8 @@ fn polygons_in_clip_space_are_those_of_a_scene() {
         "terrain",
         "local-lights",
     ] {
-        for (number, mut scene) in variants(&shipped(name)).into_iter().enumerate() {
-            let name = alloc::format!("{name}, variant {number}");
+        for (index, mut scene) in variants(&shipped(name)).into_iter().enumerate() {
+            let name = alloc::format!("{name}, variant {index}");
             (scene.culling, scene.two_sided) = (Culling::None, false);
             let (expected, found) = (scene.frame().expect("a frame"), from_clip_space(&scene));
             let [a, b] = [expected.stats(), found.stats()];
@@ -680,7 +683,7 @@ fn polygons_in_clip_space_are_those_of_a_scene() {
             );
             assert!(expected.vertices() == found.vertices(), "{name}");
             assert!(expected.clip_corners() == found.clip_corners(), "{name}");
-            // Scenes leave out whole polygons that have no area; nothing is drawn of them.
+            // Scenes leave out whole polygons without an area, of which nothing is drawn.
             let has_area = |p: &&Polygon| {
                 let corners = found
                     .corners(p)
@@ -714,7 +717,8 @@ fn polygons_in_clip_space_are_those_of_a_scene() {
     );
 }
 
-/// What no place in clip space is names its vertex and its number; what is behind the eye is cut away.
+/// A vertex without a valid place in clip space is an error that names the vertex and the value. A
+/// vertex behind the eye is cut away.
 #[test]
 fn places_in_clip_space_are_checked() {
     let made = |range: DepthRange, places: [[f64; 4]; 3], on_screen: bool| {
@@ -742,15 +746,15 @@ fn places_in_clip_space_are_checked() {
     let with = |place: [f64; 4]| [[0.0, 0.0, 0.5, 1.0], [0.5, 0.0, 0.5, 1.0], place];
     assert_eq!(
         text(made(perspective, with([0.0, f64::NAN, 0.5, 1.0]), false)),
-        "vertex 2: y of its place in clip space is NaN: expected a number from -1e140 to 1e140"
+        "vertex 2: y of its position in clip space is NaN: expected a number from -1e140 to 1e140"
     );
     assert_eq!(
         text(made(plain, with([0.0, 0.5, f64::INFINITY, 1.0]), false)),
-        "vertex 2: z of its place in clip space is inf: expected a number from -1e140 to 1e140"
+        "vertex 2: z of its position in clip space is inf: expected a number from -1e140 to 1e140"
     );
     assert_eq!(
         text(made(plain, with([0.0, 0.5, 0.5, 2.0]), false)),
-        "vertex 2: w of its place in clip space is 2: expected 1, as the frame's depth range is orthographic"
+        "vertex 2: w of its position in clip space is 2: expected 1, as the frame's depth range is orthographic"
     );
     for w in [0.0, -0.0, -3.0, -30.0] {
         let places = [
@@ -776,14 +780,15 @@ fn places_in_clip_space_are_checked() {
             "{w}"
         );
     }
-    // Of vertices that are only on the screen nothing is known beyond a plane.
+    // A vertex that is only on the screen has no position beyond a plane.
     let mixed = made(perspective, with([0.0, 0.5, 0.5, 1.5]), true);
     assert_eq!(mixed.expect("uncut").polygons().len(), 1);
     let mixed = made(perspective, with([0.0, 0.5, 0.5, -1.0]), true);
     assert_eq!(mixed.map(|_| ()), Err(FrameError::Polygon { index: 0 }));
 }
 
-/// A builder that is kept makes the same frames as new ones, and stays where its memory is, whatever errors come between.
+/// A kept builder makes the same frames as new ones, and reuses its memory, whatever errors come
+/// between.
 #[test]
 fn a_builder_that_is_kept_makes_the_same_frames() {
     let fill = |builder: &mut FrameBuilder, turn: f64| {
@@ -835,7 +840,7 @@ fn a_builder_that_is_kept_makes_the_same_frames() {
             fill(&mut kept, 0.2 * f64::from(step));
         }
         let expected = new.finish().expect("a frame");
-        // Twice: what was given is still there.
+        // Twice, because what was passed must still be there.
         for _ in 0..2 {
             let frame = kept.frame().expect("a frame");
             assert_same(frame, &expected, "kept");
@@ -843,7 +848,7 @@ fn a_builder_that_is_kept_makes_the_same_frames() {
         }
     }
     assert!(cut > 100, "the test asks little: {cut}");
-    // A frame that someone keeps stays as it was.
+    // A frame that someone keeps must not change.
     let before = kept.frame().expect("a frame").clone();
     let again = before.clone();
     kept.clear().size(16, 16);

@@ -1,4 +1,4 @@
-//! All vertices through the camera: blocks of them at once where nothing stands in the way.
+//! All vertices through the camera, in whole blocks wherever a block is inside all planes.
 
 use super::view::{BEYOND_PLANES, Codes, View, reach};
 use crate::frame::{FrameError, Models, ScreenVertex, SubPixel};
@@ -8,22 +8,23 @@ use crate::scene::{Clipping, Projection};
 use crate::sync::{AtomicBool, AtomicUsize, Ordering};
 use glam::{DMat4, DVec4};
 
-/// Vertices that are placed together, in arrays of their coordinates, so that the compiler makes vectors of them.
+/// How many vertices are placed together, in arrays of their coordinates, so that the compiler uses
+/// vector instructions.
 const BLOCK: usize = 32;
-/// Vertices that one thread takes at a time.
+/// How many vertices one thread takes at a time.
 const CHUNK: usize = 64 * BLOCK;
 
-/// A number that rounds by addition: a number of magnitude below 2⁵¹ becomes an integer, halves to even as `rint` does, and leaves the
-/// integer in the lowest bits.
+/// A constant that rounds by addition: 1.5 · 2⁵². Adding a float below 2⁵¹ in magnitude rounds it
+/// to an integer, halves to even as `rint` does, and leaves the integer in the lowest bits.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
-/// What is known of vertices once they are placed.
+/// What is known about vertices once they are placed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
-    /// True if any is beyond a plane.
+    /// True if any vertex is beyond a plane.
     pub is_any_beyond: bool,
-    /// The least and the largest near/w of those on the picture, rounded down to powers of two; +∞ and 0 if none is on it, or
-    /// nothing is weighted.
+    /// The least and the largest near/w of the vertices on the picture, rounded down to powers of
+    /// two. They are +∞ and 0 if no vertex is on the picture, or nothing is weighted.
     pub weights: [f64; 2],
 }
 
@@ -41,13 +42,14 @@ impl Placed {
     }
 }
 
-/// The bits of an `f64` below its exponent.
+/// How many bits of an `f64` are below its exponent.
 const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
 
-/// Places all vertices, and says for each which planes it is beyond.
+/// Places all vertices, and finds for each the planes that it is beyond.
 ///
 /// # Errors
-/// [`FrameError::Vertex`] for the first vertex that is nowhere: a number of it is not finite, or its weight not positive.
+/// [`FrameError::Vertex`] for the first vertex without a valid place: a value of it is not finite,
+/// or its weight is not positive.
 pub(super) fn place(
     view: &View<'_>,
     models: &Models,
@@ -55,7 +57,8 @@ pub(super) fn place(
     codes: &mut [Codes],
 ) -> Result<Placed, FrameError> {
     let (is_any_beyond, first_invalid) = (AtomicBool::new(false), AtomicUsize::new(usize::MAX));
-    // Exponents of weights, which are in the order of the weights.
+    // Weights are compared by their exponents, which are in the order of the weights and fit in an
+    // atomic integer.
     let exponent = |weight: f64| (weight.to_bits() >> MANTISSA) as usize;
     let exponents = Placed::NONE.weights.map(|w| AtomicUsize::new(exponent(w)));
     for_each_chunk((vertices, codes), CHUNK, &|first,
@@ -98,25 +101,25 @@ pub(super) fn place(
     }
 }
 
-/// One coordinate of the vertices of a block.
+/// A coordinate of each vertex of a block.
 type Coord = [f64; BLOCK];
 
-/// The way of one object's vertices onto the picture.
+/// The projection of one object's vertices onto the picture.
 struct Placing<'a> {
     view: &'a View<'a>,
     matrix: DMat4,
-    /// Samples a row, and rows.
+    /// How many samples a row has, and how many rows there are.
     size: [f64; 2],
     is_perspective: bool,
-    /// True if polygons are cut by the guard band.
+    /// True if polygons are cut at the guard band.
     clips: bool,
-    /// Reach of the guard band in x/w and y/w.
+    /// How far the guard band reaches in x/w and y/w.
     guard: [f64; 2],
     /// The near distance.
     near: f64,
-    /// How much of z is to be at most w.
+    /// The factor of z in the condition that [`View::z_scale`] describes.
     z_scale: f64,
-    /// Between them w is positive, and 1/w far inside the range of an `f32`.
+    /// Between these limits w is positive, and 1/w is far inside the range of an `f32`.
     least_w: f64,
     most_w: f64,
 }
@@ -145,7 +148,8 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// Places vertices from `first` on. Returns true if any is beyond a plane, or the number of one that is nowhere.
+    /// Places vertices from index `first` on. Returns what is known about them, or the index of a
+    /// vertex without a valid place.
     #[inline(always)]
     fn vertices(
         &self,
@@ -155,7 +159,7 @@ impl<'a> Placing<'a> {
         codes: &mut [Codes],
     ) -> Result<Placed, usize> {
         let mut placed = Placed::NONE;
-        // The last block may have fewer vertices than there is room for.
+        // The last block may have fewer vertices. It is placed in a whole block and then copied.
         let (mut last, mut last_codes) = ([ScreenVertex::default(); BLOCK], [0; BLOCK]);
         let mut at = 0;
         while at < vertices.len() {
@@ -200,6 +204,8 @@ impl<'a> Placing<'a> {
         let (c_x, c_y) = (self.row(0, &x, &y, &z), self.row(1, &x, &y, &z));
         let (c_z, c_w) = (self.row(2, &x, &y, &z), self.row(3, &x, &y, &z));
         let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
+        // The fast paths: the whole block is inside the view, or at least inside the guard band,
+        // where every vertex has its place but may be beyond a side of the view.
         if is_inside || (self.clips && self.all_inside(self.guard, &c_x, &c_y, &c_z, &c_w)) {
             let weights = if self.is_perspective {
                 self.on_picture::<true>(&c_x, &c_y, &c_z, &c_w, out)
@@ -218,7 +224,7 @@ impl<'a> Placing<'a> {
         for i in 0..count {
             let clip = DVec4::new(c_x[i], c_y[i], c_z[i], c_w[i]);
             codes[i] = self.view.codes(clip);
-            // The tolerance of cuts is not for a mesh's own vertices.
+            // Cuts are tolerated a little beyond a plane, but a mesh's own vertices are not.
             out[i] = match codes[i] & BEYOND_PLANES {
                 0 => self.view.vertex(clip),
                 _ => self.view.nowhere(),
@@ -237,7 +243,8 @@ impl<'a> Placing<'a> {
         Ok(placed)
     }
 
-    /// Returns one coordinate in clip space, in the order of additions of a product of matrix and vector.
+    /// Returns one coordinate in clip space. Products are added in the order of a product of matrix
+    /// and vector.
     #[inline(always)]
     fn row(&self, row: usize, x: &Coord, y: &Coord, z: &Coord) -> Coord {
         let matrix = self.matrix.row(row);
@@ -248,11 +255,12 @@ impl<'a> Placing<'a> {
         clip
     }
 
-    /// True if all are between the near and the far plane, and x and y within `reach` times w: finite then, and inside
-    /// every plane that is as far out or farther.
+    /// True if all vertices lie between the near and the far plane, and x and y are within `reach`
+    /// times w. They are then finite, and inside every plane that is as far out or farther.
     #[inline(always)]
     fn all_inside(&self, reach: [f64; 2], x: &Coord, y: &Coord, z: &Coord, w: &Coord) -> bool {
         let mut inside = true;
+        // `&` in place of `&&` keeps the loop without branches, so that it runs on vectors.
         for i in 0..BLOCK {
             // As the planes compute it: the sign of a difference is exact.
             let (right, bottom) = (reach[0] * w[i], reach[1] * w[i]);
@@ -263,8 +271,9 @@ impl<'a> Placing<'a> {
         inside
     }
 
-    /// Computes the vertices that [`View::vertex`] gives inside all planes, to the bit. Orthographic ones have w = 1. Returns the
-    /// least and the largest weight, if there are any.
+    /// Computes the vertices to the same bits as [`View::vertex`] does inside all planes.
+    /// Orthographic vertices have w = 1. Returns the least and the largest weight, if there are
+    /// any.
     #[inline(always)]
     fn on_picture<const PERSPECTIVE: bool>(
         &self,
@@ -298,7 +307,7 @@ impl<'a> Placing<'a> {
     }
 }
 
-/// Divides by w, unless it is 1.
+/// Divides by w. Without perspective w is 1, and nothing is divided.
 #[inline(always)]
 fn over<const PERSPECTIVE: bool>(c: f64, w: f64) -> f64 {
     if PERSPECTIVE { c / w } else { c }
@@ -310,7 +319,8 @@ fn nearest(pixels: f64) -> SubPixel {
     SubPixel::from_bits((pixels * 256.0 + ROUNDING).to_bits() as i32)
 }
 
-/// Computes the sides of the view that vertices between near and far plane are beyond, as [`View::codes`] has them.
+/// Computes the sides of the view that each vertex is beyond, as [`View::codes`] does, for vertices
+/// between the near and the far plane.
 #[inline(always)]
 fn sides(x: &Coord, y: &Coord, w: &Coord, codes: &mut [Codes; BLOCK]) {
     for i in 0..BLOCK {
@@ -320,7 +330,7 @@ fn sides(x: &Coord, y: &Coord, w: &Coord, codes: &mut [Codes; BLOCK]) {
     }
 }
 
-/// Loads a block of numbers; if there are fewer, the last one fills it.
+/// Loads a block of coordinates. A block that is not full is filled with copies of its last vertex.
 #[inline(always)]
 fn lanes(all: &[f32], from: usize, count: usize) -> Coord {
     let of_block = &all[from..from + count];

@@ -1,4 +1,5 @@
-//! The view: from a position in the world to clip space, to the planes that it is beyond, to pixel coordinates.
+//! The view: from a position in the world to clip space, to the planes that it is beyond, and to
+//! pixel coordinates.
 
 use super::clip::Plane;
 use crate::frame::{DepthRange, Frame, FrameError, ScreenVertex, SubPixel, guard, sub_pixel};
@@ -7,27 +8,28 @@ use crate::scene::{
 };
 use glam::{DMat4, DVec4};
 
-/// The planes that a position is beyond: one bit per side of the view (left, right, bottom, top, near, far), and from
-/// [`BEYOND_PLANES`] on one a plane of [`View::planes`].
+/// The planes that a position is beyond. There is one bit per side of the view (left, right,
+/// bottom, top, near, far), and from [`BEYOND_PLANES`] on, one per plane of [`View::planes`].
 pub(super) type Codes = u16;
 
 /// The bits of the planes at which polygons are cut.
 pub(super) const BEYOND_PLANES: Codes = 0xFF00;
 
-/// A camera and a picture, and the numbers that follow from them.
+/// A camera and a picture, and what is computed from them once.
 pub(super) struct View<'a> {
     /// The settings; objects are ignored.
     pub scene: &'a Scene,
-    /// Samples a row, and rows of them: what coordinates count.
+    /// How many samples a row has, and how many rows there are: the unit of coordinates.
     pub width: u32,
     pub height: u32,
-    /// To clip space: see [`Camera::precise_clip_matrix`](crate::scene::Camera).
+    /// The matrix to clip space: see [`Camera::precise_clip_matrix`](crate::scene::Camera).
     pub clip_matrix: DMat4,
-    /// How much of z is to be at most w: 1, and under perspective the near distance.
+    /// The factor of z in the condition z · `z_scale` ≤ w. Under perspective this is the near
+    /// plane, and the factor is the near distance; else it is the far plane, and the factor is 1.
     pub z_scale: f64,
-    /// Near and far, then the four sides of the guard band.
+    /// The near and the far plane, then the four sides of the guard band.
     pub planes: [Plane; 6],
-    /// True if anything is to be interpolated with 1/w.
+    /// True if anything is interpolated with 1/w.
     pub needs_inv_w: bool,
 }
 
@@ -69,7 +71,7 @@ impl<'a> View<'a> {
                 };
                 (1.0, [plane(DVec4::Z), band(DVec4::W - DVec4::Z)])
             }
-            // z goes from 1 down to 0: (f − w)/(f − n) n ≤ w is n ≤ w.
+            // z goes from 1 down to 0, so (f − w)/(f − n) n ≤ w is n ≤ w.
             Projection::Perspective { .. } => {
                 let plane = |normal, in_front, w| Plane {
                     normal,
@@ -113,8 +115,8 @@ impl<'a> View<'a> {
         bits(&[x < -w, x > w, y < -w, y > w, near, far]) | bits(&beyond_planes) << 8
     }
 
-    /// True if clipping can compute with a position: its coordinates are finite, and stay so in distances from planes, up to
-    /// 2¹⁵ times as large, and in their squares.
+    /// True if clipping can compute with a position. Its coordinates must be finite, and so must
+    /// distances from planes, which are up to 2¹⁵ times as large, and their squares.
     pub fn is_in_range(clip: DVec4) -> bool {
         const MOST: f64 = 1e140;
         clip.is_finite() && clip.abs().max_element() <= MOST
@@ -123,7 +125,7 @@ impl<'a> View<'a> {
     /// True if a position has pixel coordinates.
     pub fn is_on_picture(&self, clip: DVec4) -> bool {
         match self.scene.clipping {
-            // Cuts are rounded, and may lie beyond the plane that made them.
+            // Cuts are rounded, and may lie a little beyond the plane that made them.
             Clipping::Planes => {
                 let least = -1e-9 * clip.abs().max_element();
                 self.planes
@@ -135,8 +137,8 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Returns a vertex without pixel coordinates: in the first corner of the picture, as far away as can be, with a weight that
-    /// is none.
+    /// Returns a vertex without pixel coordinates: at the first corner of the picture, as far away
+    /// as possible, and with the least positive weight.
     pub fn nowhere(&self) -> ScreenVertex {
         ScreenVertex {
             x: SubPixel::ZERO,
@@ -146,7 +148,8 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Returns the vertex at a position. If it has no pixel coordinates, only its attributes matter.
+    /// Returns the vertex at a position. If the position has no pixel coordinates, only the
+    /// vertex's attributes matter.
     pub fn vertex(&self, clip: DVec4) -> ScreenVertex {
         if !self.is_on_picture(clip) {
             return self.nowhere();
@@ -165,13 +168,14 @@ impl<'a> View<'a> {
         }
     }
 
-    /// True if all numbers of a vertex are such as a frame may have.
+    /// True if a frame may hold all values of a vertex.
     pub fn is_valid(&self, v: &ScreenVertex) -> bool {
         let guard = SubPixel::from_num(Frame::GUARD);
         let inside = |c: SubPixel| -guard <= c && c <= guard;
         let weighs =
             v.inv_w.is_finite() && (v.inv_w > 0.0 || self.scene.clipping == Clipping::NdcCube);
-        // Engines compare depth in `f32`: nothing is to be so far away that 1/w is none there.
+        // Engines compare depth in `f32`. There 1/w must not vanish, however far away the vertex
+        // is.
         let depth = v.depth as f32;
         let is_far = self.is_perspective() && !depth.is_normal();
         inside(v.x) && inside(v.y) && depth.is_finite() && !is_far && weighs
@@ -181,7 +185,7 @@ impl<'a> View<'a> {
         matches!(self.scene.camera.projection, Projection::Perspective { .. })
     }
 
-    /// Returns what the depth test compares at a position: see [`Vertex::depth`](crate::frame::Vertex).
+    /// Returns the value that the depth test compares: see [`Vertex::depth`](crate::frame::Vertex).
     pub fn depth(&self, clip: DVec4) -> f64 {
         match self.is_perspective() {
             true => -1.0 / clip.w,
@@ -205,13 +209,13 @@ impl<'a> View<'a> {
     }
 }
 
-/// Returns the reach of the guard band in x/w or y/w, along a side of the picture of `side` samples: on the picture one
-/// longest side beyond its edges.
+/// Returns how far the guard band reaches in x/w or y/w, along a side of the picture with `side`
+/// samples. On the picture it reaches one longest possible side beyond the edges.
 pub(super) fn reach(side: u32) -> f64 {
     1.0 + 2.0 * f64::from(Scene::MAX_SIDE) / f64::from(side)
 }
 
-/// Packs flags into bits, the first the lowest.
+/// Packs flags into bits, the first one lowest.
 pub(super) fn bits(beyond: &[bool]) -> Codes {
     beyond
         .iter()

@@ -1,23 +1,23 @@
-//! Winding: the orientation of polygons on the picture, 64 of them at a time.
+//! Winding: which way polygons run on the picture, 64 of them at a time.
 //!
-//! In loops of their own: first all places are read, which need not wait for one another; then all areas are computed, several
-//! at once. Areas are exact: coordinates are within ±2²³, their differences within ±2²⁴, and areas of triangles and
-//! quadrangles within ±2⁴⁹.
+//! There are two loops. The first reads all positions, so that reads need not wait for one another.
+//! The second computes all areas, several at once. Areas are exact: coordinates are within ±2²³,
+//! their differences within ±2²⁴, and areas of triangles and quadrangles within ±2⁴⁹.
 
 use crate::frame::{ScreenVertex, SubPixel};
 
-/// The polygons of a batch: one a bit.
+/// How many polygons a batch has: one per bit.
 const MOST: usize = 64;
 
-/// Places of up to four corners of polygons: see [`ScreenVertex::place`].
+/// The positions of up to four corners of each polygon: see [`ScreenVertex::packed`].
 pub(super) type Places = [[u64; MOST]; 4];
 
-/// Memory for places.
+/// Empty memory for positions.
 pub(super) const NO_PLACES: Places = [[0; MOST]; 4];
 
-/// Returns the triangles, of up to 64, that run clockwise on the picture, and those that run counter-clockwise: a bit each, the
-/// first the lowest.
-/// Bits past the last triangle mean nothing.
+/// Returns a bit for each triangle, of up to 64, that runs clockwise on the picture, and a bit for
+/// each that runs counter-clockwise. The first triangle's bit is the lowest. Bits past the last
+/// triangle mean nothing.
 #[inline(always)]
 pub(super) fn of_triangles(
     triangles: &[[u32; 3]],
@@ -35,7 +35,7 @@ pub(super) fn of_triangles(
     signs([a, b], [a, c])
 }
 
-/// Does the same for `count` polygons of any shape: their corner lists by number.
+/// Returns these bits for `count` polygons of any shape. `polygon` returns a corner list by index.
 #[inline(always)]
 pub(super) fn of_polygons<'a>(
     count: usize,
@@ -47,11 +47,11 @@ pub(super) fn of_polygons<'a>(
     for k in 0..count.min(MOST) {
         let corners = polygon(k);
         let ((a, b), (c, d)) = match *corners {
-            // Its last corner twice makes it a quadrangle.
+            // A triangle is a quadrangle whose last corner comes twice.
             [a, b, c] => ((a, b), (c, c)),
             [a, b, c, d] => ((a, b), (c, d)),
             _ => {
-                // A quadrangle whose area is 1, 0 or −1.
+                // Any other polygon is replaced by a quadrangle whose area is 1, 0 or −1.
                 let sign = area(corners, vertices).signum() as i32;
                 (places[0][k], places[1][k], places[2][k], places[3][k]) =
                     (0, 0, 1, u64::from(sign as u32) << 32);
@@ -78,8 +78,9 @@ fn area(corners: &[u32], vertices: &[ScreenVertex]) -> i128 {
     )
 }
 
-/// Returns twice the signed area on the picture in sub-pixels: y points downward, so counter-clockwise polygons have a negative
-/// one. Products have at most 2⁴⁷; 2²⁷ corners of them need more than 64 bits.
+/// Returns twice the signed area on the picture in sub-pixels². y points downward, so
+/// counter-clockwise polygons have a negative area. A product is at most 2⁴⁷, and the sum over 2²⁷
+/// corners needs more than 64 bits.
 pub(super) fn doubled_area(corners: impl Iterator<Item = [SubPixel; 2]> + Clone) -> i128 {
     let following = corners.clone().skip(1).chain(corners.clone().take(1));
     let bits = |c: SubPixel| i64::from(c.to_bits());
@@ -89,7 +90,8 @@ pub(super) fn doubled_area(corners: impl Iterator<Item = [SubPixel; 2]> + Clone)
         .sum()
 }
 
-/// Returns bits for the cross products of two vectors that are over 0, and for those below 0.
+/// Returns a bit for each cross product of two vectors that is over 0, and a bit for each that is
+/// below 0.
 #[inline(always)]
 fn signs(u: [&[u64; MOST]; 2], v: [&[u64; MOST]; 2]) -> (u64, u64) {
     let (mut above, mut below) = (0, 0);
@@ -97,27 +99,30 @@ fn signs(u: [&[u64; MOST]; 2], v: [&[u64; MOST]; 2]) -> (u64, u64) {
         let [u_x, u_y] = difference(u[0][k], u[1][k]);
         let [v_x, v_y] = difference(v[0][k], v[1][k]);
         let product = u_x * v_y - v_x * u_y;
-        // By shifts and not by comparisons, as vectors of 64-bit numbers: 2⁴⁹ is far from the sign bit.
+        // Shifts and not comparisons, because the loop runs on vectors of 64-bit integers. 2⁴⁹ is
+        // far from the sign bit, so negation cannot overflow.
         above |= ((-product) as u64 >> 63) << k;
         below |= (product as u64 >> 63) << k;
     }
     (above, below)
 }
 
-/// Returns the vector from one place to another: to the right and downward.
+/// Returns the vector from one position to another: to the right and downward.
 #[inline(always)]
 fn difference(from: u64, to: u64) -> [i64; 2] {
-    // As lower halves of 64-bit differences: these are what a vector multiplies, without unpacking.
+    // The differences are taken in the lower halves of 64-bit integers, which vector instructions
+    // multiply without unpacking.
     let (x, y) = (to.wrapping_sub(from), (to >> 32).wrapping_sub(from >> 32));
     [i64::from(x as i32), i64::from(y as i32)]
 }
 
-/// Packs 64 flags, 0 or 1, into bits, the first the lowest.
+/// Packs 64 flags, 0 or 1, into bits, the first one lowest.
 #[inline(always)]
 pub(super) fn bits(flags: &[u8; MOST]) -> u64 {
     let mut all = 0;
     for (k, group) in flags.as_chunks::<8>().0.iter().enumerate() {
-        // Each summand 2^(56 − 7 i) of the factor carries flag i from bit 8 i to bit 56 + i; no two products meet in a bit.
+        // The factor has the summands 2^(56 − 7 i). Summand i carries flag i from bit 8 i to bit
+        // 56 + i, and no two products meet in a bit.
         let group = u64::from_le_bytes(*group).wrapping_mul(0x0102_0408_1020_4080) >> 56;
         all |= group << (8 * k);
     }
@@ -132,7 +137,7 @@ mod tests {
     use crate::number::vectorized;
     use std::vec::Vec;
 
-    /// The definition, in as many bits as it needs.
+    /// Computes the result by its definition, in as many bits as it takes.
     fn plainly(polygons: &[Vec<u32>], vertices: &[ScreenVertex]) -> (u64, u64) {
         let all = |of: fn(i128) -> bool| {
             polygons.iter().rev().fold(0, |bits, corners| {
@@ -142,7 +147,8 @@ mod tests {
         (all(|area| area > 0), all(|area| area < 0))
     }
 
-    /// Vertices close together, of which many polygons have no area; up to the whole guard band; and only its corners.
+    /// Returns vertices close together, so that many polygons have no area; or in the whole guard
+    /// band; or only at its corners.
     fn vertices(random: &mut Random, round: usize) -> Vec<ScreenVertex> {
         let guard = 256 * Frame::GUARD;
         let (origin, unit, reach) = [
@@ -176,7 +182,7 @@ mod tests {
                     .collect()
             };
             let polygons: Vec<Vec<u32>> = (0..count).map(&mut corners).collect();
-            // What was there before must not matter.
+            // Old contents must not matter.
             let mut places = [[u64::MAX / 3; MOST]; 4];
             let polygon = |k: usize| &polygons[k][..];
             let of_all = [

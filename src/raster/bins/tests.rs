@@ -1,5 +1,5 @@
-//! Compares the lists of bands with the definition: covered pixels, and bounding boxes that hold a
-//! pixel centre.
+//! Compares the lists of bands with their definition: covered pixels, and bounding boxes that hold
+//! a pixel centre.
 
 use super::*;
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
@@ -11,15 +11,16 @@ use core::ops::Range;
 use glam::DVec3;
 use std::collections::BTreeSet;
 
-/// Builds a frame of polygons with three to six corners, in and out of the picture. Many cover no pixel.
+/// Builds a frame of polygons with three to six corners, in and out of the picture. Many cover no
+/// pixel.
 fn frame(random: &mut Random, polygons: usize, width: usize, height: usize) -> Frame {
     let mut builder = FrameBuilder::new(width as u32, height as u32);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
-    for number in 0..polygons {
-        let reach = [128, 2000, 40_000][number % 3];
+    for index in 0..polygons {
+        let reach = [128, 2000, 40_000][index % 3];
         let middle =
             [width, height].map(|side| random.below(side as u64 * 512) as i32 - side as i32 * 128);
-        let corners: Vec<u32> = (0..3 + number % 4)
+        let corners: Vec<u32> = (0..3 + index % 4)
             .map(|_| {
                 let [x, y] = middle.map(|at| SubPixel::from_bits(at + random.below(reach) as i32));
                 builder.vertex(Vertex {
@@ -32,7 +33,7 @@ fn frame(random: &mut Random, polygons: usize, width: usize, height: usize) -> F
                 })
             })
             .collect();
-        builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
+        builder.polygon(&corners, [0.0, 0.0, 1.0], index as u32);
     }
     builder.finish().expect("corners inside the guard band")
 }
@@ -48,34 +49,30 @@ fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
         );
         let bins = Bins::new(&frame, rows);
         let mut covering = BTreeSet::new();
-        coverage(&frame, |number, row, _| {
-            covering.extend([(row / rows, number)])
+        coverage(&frame, |index, row, _| {
+            covering.extend([(row / rows, index)])
         });
         for band in 0..height.div_ceil(rows) {
-            let polygons: Vec<u32> = bins
-                .band(band)
-                .flatten()
-                .map(|entry| entry.number)
-                .collect();
+            let polygons: Vec<u32> = bins.band(band).flatten().map(|entry| entry.index).collect();
             assert!(
                 polygons.is_sorted_by(|a, b| a < b),
                 "ascending, each once: {polygons:?}"
             );
             let missing = covering
                 .iter()
-                .find(|(at, number)| *at == band && !polygons.contains(number));
+                .find(|(at, index)| *at == band && !polygons.contains(index));
             assert_eq!(missing, None, "round {round}, bands of {rows}");
-            for number in polygons {
+            for index in polygons {
                 assert!(
-                    has_centre(&frame, number, band * rows..((band + 1) * rows).min(height)),
-                    "{number}"
+                    has_centre(&frame, index, band * rows..((band + 1) * rows).min(height)),
+                    "{index}"
                 );
             }
         }
     }
 }
 
-/// Triangles are distinguished from other polygons, also in groups after one with other shapes, and
+/// Triangles are told apart from other polygons, also in groups behind one with other shapes, and
 /// in a list with all chunks.
 #[test]
 fn triangles_are_distinguished_from_other_polygons() {
@@ -85,8 +82,8 @@ fn triangles_are_distinguished_from_other_polygons() {
                 let mut builder = FrameBuilder::new(8, 8);
                 let material =
                     builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
-                for number in 0..count {
-                    let corners: Vec<u32> = (0..if Some(number) == other { corners } else { 3 })
+                for index in 0..count {
+                    let corners: Vec<u32> = (0..if Some(index) == other { corners } else { 3 })
                         .map(|corner| {
                             let [x, y] = [[0, 0], [900, 0], [900, 900], [500, 950], [0, 900]]
                                 [corner]
@@ -101,14 +98,14 @@ fn triangles_are_distinguished_from_other_polygons() {
                             })
                         })
                         .collect();
-                    builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
+                    builder.polygon(&corners, [0.0, 0.0, 1.0], index as u32);
                 }
                 let whole = builder.finish().expect("corners inside the guard band");
                 let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
                 for frame in [&whole, &pieces] {
                     let bins = Bins::new(frame, 8);
                     let others = bins.band(0).flatten().filter(|entry| !entry.is_triangle());
-                    let others = others.map(|entry| entry.number as usize);
+                    let others = others.map(|entry| entry.index as usize);
                     assert!(others.eq(other), "{other:?} of {count}");
                 }
             }
@@ -125,7 +122,7 @@ fn triangles_are_listed_with_their_corners_and_quadrangles_as_such() {
         let bins = Bins::new(frame, 8);
         for band in 0..5 {
             for entry in bins.band(band).flatten() {
-                let corners = frame.corners(&frame.polygons()[entry.number as usize]);
+                let corners = frame.corners(&frame.polygons()[entry.index as usize]);
                 triangles += usize::from(corners.len() == 3);
                 quadrangles += usize::from(corners.len() == 4);
                 let expected = match *corners {
@@ -145,7 +142,7 @@ fn triangles_are_listed_with_their_corners_and_quadrangles_as_such() {
     );
 }
 
-/// A polygon is listed in the bands of its bounding box, also over several chunks and in frames of
+/// A polygon is listed in the bands of its bounding box, also over several chunks, and in frames of
 /// pieces, which have their own corner lists.
 #[test]
 fn polygons_are_listed_in_the_bands_of_their_bounds() {
@@ -165,14 +162,10 @@ fn polygons_are_listed_in_the_bands_of_their_bounds() {
         for band in 0..height.div_ceil(rows) {
             let of_band = band * rows..((band + 1) * rows).min(height);
             let expected: Vec<u32> = (0..count as u32)
-                .filter(|&number| has_centre(&whole, number, of_band.clone()))
+                .filter(|&index| has_centre(&whole, index, of_band.clone()))
                 .collect();
             for bins in [&of_whole, &of_pieces] {
-                let found: Vec<u32> = bins
-                    .band(band)
-                    .flatten()
-                    .map(|entry| entry.number)
-                    .collect();
+                let found: Vec<u32> = bins.band(band).flatten().map(|entry| entry.index).collect();
                 assert!(
                     found == expected,
                     "{count} polygons, band {band} of {rows} rows"
@@ -182,10 +175,10 @@ fn polygons_are_listed_in_the_bands_of_their_bounds() {
     }
 }
 
-/// True if the bounding box of a polygon holds a pixel centre in the scanlines `rows`. It includes
-/// left and top and excludes right and bottom.
-fn has_centre(frame: &Frame, number: u32, rows: Range<usize>) -> bool {
-    let corners = frame.corners(&frame.polygons()[number as usize]);
+/// True if the bounding box of a polygon holds a pixel centre in the scanlines `rows`. The box
+/// includes its left and top sides and excludes its right and bottom sides.
+fn has_centre(frame: &Frame, index: u32, rows: Range<usize>) -> bool {
+    let corners = frame.corners(&frame.polygons()[index as usize]);
     let all = |of: fn(&ScreenVertex) -> SubPixel| {
         let all = corners
             .iter()

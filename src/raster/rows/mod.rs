@@ -1,4 +1,4 @@
-//! The row engine: a deferred renderer, on SIMD.
+//! The row engine: a deferred renderer on SIMD.
 //!
 //! ```text
 //! bin ───────► set up ────────► rasterise ──────────────► G-buffer ─► shade ─► picture
@@ -8,35 +8,45 @@
 //!                               runs.rs   run by run
 //! ```
 //!
-//! Polygons are binned into bands of 16 scanlines. Those of a band are set up in batches and rasterised, in drawing order, with a
-//! depth test: the method's varyings, or the pixels that its walk returns, are written into a tile, the band's G-buffer, beside depth
-//! and material. Then each row is shaded once, by `shade_blocks` in `shading/kernels/mod.rs`. So the shading cost per pixel does not
-//! depend on the size of triangles, and hidden pixels are never shaded. Bands are independent: each is one job for a thread.
+//! Polygons are binned into bands of 16 scanlines. The polygons of a band are set up in batches and
+//! rasterised in drawing order, with a depth test, into a tile: the band's G-buffer. A pixel of the
+//! tile holds depth, material, and the method's varyings or the values that its walk returns. Then
+//! `shade_blocks` in `shading/kernels/mod.rs` shades each row once. So the shading cost per pixel
+//! does not depend on the size of triangles, and hidden pixels are never shaded. Bands are
+//! independent: each is one job for a thread.
 //!
-//! Where each polygon has one colour, that colour is the only varying, packed as the picture stores it (`packed.rs`).
+//! Where each polygon has one colour, that colour is the only varying, packed as the picture stores
+//! it (`packed.rs`).
 //!
-//! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
-//! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles and slivers by the crossings
-//! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Runs of
-//! small convex quadrangles are found for eight quadrangles at a time, and are the same to the bit. Only the three slerp methods and fast Phong
-//! with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
+//! Three coverage paths find the same pixels:
+//!
+//! - *tiny* triangles are tested pixel by pixel, eight triangles at a time;
+//! - *small* triangles are tested by edge functions, eight pixels at a time;
+//! - everything else is drawn by *runs*. Large triangles and slivers find their runs by the
+//!   crossings of their edges. Runs of other polygons, and of methods with more than `MOST` values
+//!   per pixel, come from the active edges of the span engine. Small convex quadrangles find them
+//!   eight quadrangles at a time, with the same result to the bit.
+//!
+//! Some methods remember the pixel before, as the slerp methods and fast Phong with a fixed count
+//! of Newton's steps. Their walk kernels take many runs at a time.
 //!
 //! Who calls whom, for one frame:
 //!
 //! ```text
-//! draw                 once        sets the method up and bins; its caller chooses where bands go: a picture, or rows that stream
+//! draw                 once        sets the method up and bins; its caller sends bands to a picture or streams them row by row
 //!   each_band          once        runs the closure below for every band, on the threads of the pool (../bands.rs)
-//!     fill_tile        a band      with this thread's buffers
-//!       rasterise      a band      compiled for an instruction set (`with_level!`): goes through the band's polygons in order
+//!     fill_tile        a band      works in this thread's buffers
+//!       rasterise      a band      is compiled for an instruction set (`with_level!`); goes through the band's polygons in order
 //!         triangles    a batch     set-up, coverage and plane equations of up to 32 triangles
 //!         quads        a batch     set-up and runs of up to 8 convex quadrangles
-//!         add_polygon  a polygon   runs of all others, in a queue
-//!         draw_runs    a queue     walks along them, and writes them into the tile
+//!         add_polygon  a polygon   finds the runs of any other polygon and queues them
+//!         draw_runs    a queue     walks along the runs and writes them into the tile
 //!     shade            a row       calls the method's kernel, stretch by stretch
 //! ```
 //!
-//! A method is its [`Kernels`](crate::shading::Kernels) here, called for a stretch of a row or a batch of runs. All of this is
-//! compiled once per instruction set.
+//! A method appears here as its [`Kernels`](crate::shading::Kernels), which are called for a
+//! stretch of a row or a batch of runs. So this engine is compiled once per instruction set, and
+//! not once per method.
 
 mod packed;
 mod quads;
@@ -51,18 +61,18 @@ use super::bands::EachBand;
 use super::bins::{Bins, Listed};
 use super::depth::SampleDepth;
 use super::setup::{SetUp, Varyings};
-use super::spans::NOTHING;
+use super::spans::NO_POLYGON;
 use super::spans::active::ActiveEdges;
 use crate::frame::row_tiles::TILE_HEIGHT as HEIGHT;
 use crate::frame::{Frame, Polygon};
-use crate::number::Level;
+use crate::number::SimdLevel;
 use crate::number::lanes::Lanes;
 use crate::number::parallel::for_each_chunk;
 use crate::number::simd::{BLOCK, Token, vectorize};
 use crate::picture::Picture;
 use crate::picture::encoding::quantise;
 use crate::shading::light::Uniforms;
-use crate::shading::{CellLayout, LitAt, SimdKernels, UniformsIndex, Variant, WalkKernel};
+use crate::shading::{CellLayout, ShadingRate, SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::cell::RefCell;
@@ -71,26 +81,26 @@ use quads::QuadBatch;
 use runs::RunQueue;
 use shade::RowBuffers;
 use small::{RowStarts, SmallTriangle};
-use tile::{MOST, NumberCount, Tile};
+use tile::{MOST, Tile, ValueCount};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, bits};
 
-/// Evaluates an expression in which a name stands for the [`Token`] of a level.
+/// Evaluates an expression in which a name stands for the [`Token`] of an instruction set.
 macro_rules! with_level {
     ($level:expr, $token:ident => $work:expr) => {
         match $level {
             #[cfg(target_arch = "x86_64")]
-            $crate::number::Level::Avx2 => {
+            $crate::number::SimdLevel::Avx2 => {
                 type $token = fearless_simd::Avx2;
                 $work
             }
             #[cfg(target_arch = "x86_64")]
-            $crate::number::Level::Avx512 => {
+            $crate::number::SimdLevel::Avx512 => {
                 type $token = fearless_simd::Avx512;
                 $work
             }
             #[cfg(target_arch = "aarch64")]
-            $crate::number::Level::Neon => {
+            $crate::number::SimdLevel::Neon => {
                 type $token = fearless_simd::Neon;
                 $work
             }
@@ -100,7 +110,7 @@ macro_rules! with_level {
 }
 use with_level;
 
-/// Memory that a thread keeps from tile to tile, and from frame to frame.
+/// The buffers that a thread keeps from tile to tile and from frame to frame.
 #[derive(Debug, Default)]
 struct Buffers {
     tile: Tile,
@@ -121,27 +131,29 @@ std::thread_local! {
 
 /// A method on a frame, and the layout of its pixels.
 struct RowEngine<'a> {
-    level: Level,
+    level: SimdLevel,
     setup: SetUp<'a>,
     kernels: &'a SimdKernels,
-    /// Walks along runs, if the method remembers the pixel before.
+    /// The kernel that walks along runs, if the method remembers the pixel before.
     walk: Option<WalkKernel>,
-    /// True if triangles are drawn by plane equations, not run by run as all other polygons are.
+    /// True if triangles are drawn by plane equations. Else they are drawn by runs, like all other
+    /// polygons.
     is_planar: bool,
     test: SampleDepth,
     cell: CellLayout,
-    /// The uniforms that all pixels can be shaded with, if there are any such.
+    /// The uniforms that all pixels can be shaded with, if one set will do.
     only: Option<UniformsIndex>,
-    /// True if the only varying is a polygon's colour: `packed.rs`.
+    /// True if a polygon's packed colour is the only varying: see `packed.rs`.
     is_packed: bool,
     background: [u8; 4],
 }
 
-/// Draws a method on a frame, tile by tile. `is_levels` where the picture stores levels of linear intensity.
+/// Draws a method on a frame, tile by tile. `is_levels` says that the picture stores levels of
+/// linear intensity.
 pub(super) fn draw(
     variant: &Variant,
     frame: &Frame,
-    level: Level,
+    level: SimdLevel,
     is_levels: bool,
     each_band: &mut EachBand<'_>,
 ) {
@@ -158,9 +170,9 @@ pub(super) fn draw(
         false => packed,
     };
     let bins = Bins::new(frame, HEIGHT);
-    each_band(HEIGHT, &|number, band, target| {
+    each_band(HEIGHT, &|index, band, target| {
         BUFFERS.with_borrow_mut(|buffers| {
-            rows.fill_tile(&bins, (number, &band), buffers);
+            rows.fill_tile(&bins, (index, &band), buffers);
             for row in 0..band.len() {
                 rows.shade(row, buffers, target);
             }
@@ -175,28 +187,30 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the number of the polygon that is seen at each sample where a method is drawn, or [`NOTHING`].
+/// Returns the index of the polygon that is seen at each sample where a method is drawn, or
+/// [`NO_POLYGON`].
 ///
-/// Depth is rounded as coverage path and instruction set have it, so that of two polygons of nearly equal depth each may show
-/// another one. The tiles are therefore filled by the method's own loops, with polygon numbers in the place of varyings.
-pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) -> Picture<u32> {
-    let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
+/// Coverage paths and instruction sets round depth differently, so of two polygons at nearly equal
+/// depth they may show different ones. The tiles are therefore filled by the method's own loops,
+/// with polygon indices in place of varyings.
+pub(super) fn polygon_indices(variant: &Variant, frame: &Frame, level: SimdLevel) -> Picture<u32> {
+    let mut picture = Picture::new(frame.width(), frame.height(), NO_POLYGON);
     let Some(rows) = RowEngine::new(variant, frame, level, 1.0, Vec::new()) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
-    let rows = rows.numbering();
+    let rows = rows.showing_indices();
     let bins = Bins::new(frame, HEIGHT);
     let a_band = HEIGHT * frame.width();
     for_each_chunk(
         picture.pixels_mut(),
         a_band,
         &|start, pixels: &mut [u32]| {
-            let number = start / a_band;
-            let band = number * HEIGHT..((number + 1) * HEIGHT).min(frame.height());
+            let index = start / a_band;
+            let band = index * HEIGHT..((index + 1) * HEIGHT).min(frame.height());
             BUFFERS.with_borrow_mut(|buffers| {
-                rows.fill_tile(&bins, (number, &band), buffers);
+                rows.fill_tile(&bins, (index, &band), buffers);
                 for (row, to) in pixels.chunks_exact_mut(frame.width()).enumerate() {
-                    rows.take_numbers(row, &mut buffers.tile, to);
+                    rows.take_indices(row, &mut buffers.tile, to);
                 }
             });
         },
@@ -204,14 +218,16 @@ pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) ->
     picture
 }
 
-/// Returns the number of some uniforms that all pixels can be shaded with, if there are any: where the method reads none there but
-/// the scale, or where all polygons have the same ones. Objects of a scene bring their own materials, which are often equal.
-fn only_uniforms(setup: &SetUp<'_>, lit_at: LitAt) -> Option<UniformsIndex> {
+/// Returns the index of uniforms that all pixels can be shaded with, if there are any. One set will
+/// do if the method reads only the scale at a pixel, or if all polygons have equal uniforms. A
+/// scene's objects bring their own materials, which are often equal.
+fn only_uniforms(setup: &SetUp<'_>, shading_rate: ShadingRate) -> Option<UniformsIndex> {
     let (frame, polygons) = (setup.frame, setup.frame.polygons());
     // A frame without polygons may have no material either.
     let first = polygons.first()?.material;
-    if lit_at != LitAt::Pixel {
-        // Colours that are too large for the fast path are then clamped, whichever material they are of.
+    if shading_rate != ShadingRate::Pixel {
+        // If any material is too bright for the fast path, its uniforms are chosen for all: then
+        // colours are clamped, whichever material they belong to.
         let is_slow = |uniforms: &Uniforms| !uniforms.model.is_fast;
         let slow = setup.uniforms.iter().position(is_slow);
         return Some(UniformsIndex(slow.unwrap_or(0) as u32));
@@ -225,11 +241,12 @@ fn only_uniforms(setup: &SetUp<'_>, lit_at: LitAt) -> Option<UniformsIndex> {
 }
 
 impl<'a> RowEngine<'a> {
-    /// Sets up a method on a frame: see [`SetUp::new`]. Returns `None` if the method has no loops for the instruction set.
+    /// Sets up a method on a frame, with the parameters of [`SetUp::new`]. Returns `None` if the
+    /// method has no loops for the instruction set.
     fn new(
         variant: &'a Variant,
         frame: &'a Frame,
-        level: Level,
+        level: SimdLevel,
         scale: f32,
         memory: Vec<f32>,
     ) -> Option<RowEngine<'a>> {
@@ -241,7 +258,7 @@ impl<'a> RowEngine<'a> {
         let walk = kernels
             .walk
             .filter(|_| setup.uniforms.first().is_some_and(walks_along));
-        let only = only_uniforms(&setup, variant.row().needs.lit_at);
+        let only = only_uniforms(&setup, variant.row().needs.shading_rate);
         let extras = setup.extras.count();
         let varyings = match walk {
             Some(_) => walked,
@@ -267,8 +284,9 @@ impl<'a> RowEngine<'a> {
         })
     }
 
-    /// Puts the number of each polygon in the place of varyings and materials. Coverage paths and depths stay as they are.
-    fn numbering(mut self) -> Self {
+    /// Changes the engine so that pixels hold the index of their polygon in place of varyings and
+    /// material. Coverage paths and depths do not change.
+    fn showing_indices(mut self) -> Self {
         self.setup.varyings = Varyings::none();
         self.setup.is_by_polygon = true;
         self.cell = CellLayout {
@@ -279,8 +297,9 @@ impl<'a> RowEngine<'a> {
         self
     }
 
-    /// Moves the polygon numbers of row `row` out of a tile of an engine that is [numbering](Self::numbering).
-    fn take_numbers(&self, row: usize, tile: &mut Tile, to: &mut [u32]) {
+    /// Moves the polygon indices of row `row` out of a tile, and empties the row. The engine must
+    /// be [showing indices](Self::showing_indices).
+    fn take_indices(&self, row: usize, tile: &mut Tile, to: &mut [u32]) {
         let blocks = tile.drawn();
         let cells = tile.row(row, blocks.clone());
         let to = to.get_mut(blocks.start * BLOCK..).unwrap_or_default();
@@ -288,25 +307,20 @@ impl<'a> RowEngine<'a> {
         for (to, block) in to.chunks_mut(BLOCK).zip(blocks) {
             for (x, to) in to.iter_mut().enumerate() {
                 if block[BLOCK * CellLayout::DEPTH + x] < f32::INFINITY {
-                    let number = block[BLOCK * tile.cell.uniforms() + x];
-                    *to = CellLayout::uniforms_of(number).0;
+                    let index = block[BLOCK * tile.cell.uniforms() + x];
+                    *to = CellLayout::uniforms_of(index).0;
                 }
             }
         }
         tile.clear_row(row);
     }
 
-    /// Empties a tile and rasterises all polygons of a band into it.
-    fn fill_tile(
-        &self,
-        bins: &Bins,
-        (number, band): (usize, &Range<usize>),
-        buffers: &mut Buffers,
-    ) {
+    /// Prepares an empty tile and rasterises all polygons of a band into it.
+    fn fill_tile(&self, bins: &Bins, (index, band): (usize, &Range<usize>), buffers: &mut Buffers) {
         let width = self.setup.frame.width();
         buffers.tile.prepare(HEIGHT, width, self.cell);
         buffers.queue.prepare(self.setup.varyings.count);
-        for polygons in bins.band(number) {
+        for polygons in bins.band(index) {
             with_level!(self.level, S => self.rasterise::<S>(polygons, band, buffers));
         }
     }
@@ -319,9 +333,10 @@ impl<'a> RowEngine<'a> {
         while let Some(next) = rest.first() {
             let mut taken = 1;
             if next.is_triangle() && self.is_planar {
-                // Triangles are drawn at once: runs from before them come first.
+                // Triangles are drawn immediately. So runs that wait in the queue are drawn before
+                // them, to keep the drawing order.
                 self.draw_runs(simd, buffers);
-                // The numbers that most methods have on most scenes.
+                // Compiled separately for the value counts that most methods have on most scenes.
                 taken = match self.cell.count() {
                     2 => self.triangles::<S, 2>(simd, rest, rows, buffers),
                     5 => self.triangles::<S, 5>(simd, rest, rows, buffers),
@@ -345,7 +360,7 @@ impl<'a> RowEngine<'a> {
                     let active = active.get_or_insert_with(new);
                     for listed in &rest[..taken] {
                         let queue = &mut buffers.queue;
-                        queue.add_polygon(&self.setup, active, listed.number, rows);
+                        queue.add_polygon(&self.setup, active, listed.index, rows);
                     }
                 }
             }
@@ -357,7 +372,7 @@ impl<'a> RowEngine<'a> {
         self.draw_runs(simd, buffers);
     }
 
-    /// Draws triangles from the front of `polygons`, and returns their number.
+    /// Draws triangles from the front of `polygons`, and returns how many it took.
     #[inline(never)]
     fn triangles<S: Token, const N: usize>(
         &self,
@@ -376,6 +391,8 @@ impl<'a> RowEngine<'a> {
                 let all = tiny | others;
                 batch.set_up_planes::<S, N>(m, &self.setup, (self.cell, self.test), all);
                 let writer = &mut buffers.tile.writer::<S, N>(m, self.test);
+                // Triangles are drawn in order, whichever path each takes: equal depths must not
+                // change places.
                 for k in bits(all) {
                     if others >> k & 1 == 0 {
                         fragments.draw(m, batch, k, writer);
@@ -390,8 +407,9 @@ impl<'a> RowEngine<'a> {
         taken
     }
 
-    /// Draws quadrangles from the front of `polygons`, and returns their number and true; or, if the first one is not of those that
-    /// [`QuadBatch`] draws, the number of the polygons that runs must draw, and false.
+    /// Draws quadrangles from the front of `polygons`. Returns how many it drew, and true. If
+    /// [`QuadBatch`] cannot draw the first one, returns how many polygons the run path must draw,
+    /// and false.
     #[inline(never)]
     fn quads<S: Token, const N: usize>(
         &self,
@@ -400,7 +418,7 @@ impl<'a> RowEngine<'a> {
         rows: &Range<usize>,
         buffers: &mut Buffers,
     ) -> (usize, bool) {
-        let (frame, count) = (self.setup.frame, NumberCount::<N>(self.cell.count()));
+        let (frame, count) = (self.setup.frame, ValueCount::<N>(self.cell.count()));
         let taken = buffers.quads.gather(frame, polygons);
         vectorize(
             simd,
@@ -412,8 +430,10 @@ impl<'a> RowEngine<'a> {
                 if others & 1 == 1 {
                     return (others.trailing_ones() as usize, false);
                 }
-                // Quadrangles are drawn at once: runs from before them come first.
+                // Quadrangles are drawn immediately. So runs that wait in the queue are drawn
+                // before them, to keep the drawing order.
                 self.draw_runs(simd, buffers);
+                // The batch ends at the first quadrangle that the run path must draw.
                 let taken = taken.min(others.trailing_zeros() as usize);
                 let drawn = bounded.drawn & ((1 << taken) - 1);
                 let Buffers { quads, tile, .. } = buffers;
@@ -429,7 +449,7 @@ impl<'a> RowEngine<'a> {
         )
     }
 
-    /// Draws the runs that were found.
+    /// Draws the runs that wait in the queue.
     #[inline(never)]
     fn draw_runs<S: Token>(&self, simd: S, buffers: &mut Buffers) {
         let Buffers { tile, queue, .. } = buffers;
@@ -449,8 +469,9 @@ impl<'a> RowEngine<'a> {
     }
 }
 
-/// Gathers triangles from the front of `polygons` and finds their places in a tile. Returns their number, bits for the tiny ones
-/// that cover a pixel, and bits for those that are not tiny.
+/// Gathers triangles from the front of `polygons` and finds their pixels in a tile. Returns how
+/// many it took, a bit for each tiny triangle that covers a pixel, and a bit for each triangle that
+/// is not tiny.
 #[inline(never)]
 fn find<S: Token>(
     simd: S,

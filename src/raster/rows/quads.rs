@@ -1,13 +1,14 @@
-//! Convex quadrangles, eight at a time in the lanes of a block: their edges are stepped from row to row, and each row gives a run of
-//! each quadrangle.
+//! Convex quadrangles, eight at a time in the lanes of a block. Their edges step from row to row,
+//! and each row yields a run of each quadrangle.
 //!
-//! A quadrangle is no plane: what it carries is interpolated between its edges, as the span engine does it. So it is done here, by
-//! the same operations in the same order, and the bits are those of the run path (`runs.rs`).
+//! A quadrangle has no plane equation: its varyings are interpolated between its edges, as in the
+//! span engine. This file does the same operations in the same order, so its bits equal the bits of
+//! the run path (`runs.rs`).
 
 use super::HEIGHT;
 use super::runs::{RunPlace, draw_run};
-use super::tile::{MOST, NumberCount, Writer};
-use super::triangles::{Numbers, bits};
+use super::tile::{MOST, ValueCount, Writer};
+use super::triangles::{Values, bits};
 use crate::frame::Frame;
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
@@ -18,46 +19,48 @@ use crate::shading::CellLayout;
 use core::ops::Range;
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x8, f64x4, i32x8, mask32x8};
 
-/// Corners, and edges: edge i runs from corner i to the next one.
+/// How many corners a quadrangle has, and how many edges: edge i runs from corner i to the next
+/// one.
 const CORNERS: usize = 4;
-/// Columns and rows of corners differ by less than so many sub-pixels: then 32 bits hold the difference of two products of such
-/// differences, and floats of 24 bits hold 256 times one.
+/// The corners of one quadrangle must be less than this many sub-pixels apart in each direction.
+/// Then 32 bits hold the difference of two products of such distances, and 256 times a distance is
+/// exact in the 24 bits of a float.
 const REACH: i32 = 1 << 15;
 
-/// An integer, or a float, for each quadrangle.
+/// An integer or a float for each quadrangle.
 type Ints = [i32; BLOCK];
 type Floats = [f32; BLOCK];
 
-/// Quadrangles as they are gathered, and their runs in a tile.
+/// Gathered quadrangles, and their runs in a tile.
 #[derive(Debug, Default)]
 #[repr(align(32))]
 pub(crate) struct QuadBatch {
     count: usize,
-    /// The polygons, and the vertices of their corners.
+    /// The polygons, and the vertices at their corners.
     polygons: [u32; BLOCK],
     vertices: [[u32; CORNERS]; BLOCK],
-    /// Columns and rows of the corners in sub-pixels.
+    /// Columns and rows of the corners, in sub-pixels.
     x: [Ints; CORNERS],
     y: [Ints; CORNERS],
-    /// The numbers of the corners, in the order of [`CellLayout`].
-    numbers: [[Floats; MOST]; CORNERS],
+    /// The values at the corners, in the order of [`CellLayout`].
+    values: [[Floats; MOST]; CORNERS],
     edges: [Edges; CORNERS],
-    /// The first row of each, and the number of its rows.
+    /// The first row of each quadrangle, and how many rows it has.
     rows: [Ints; 2],
-    /// The runs of each row, from the first row of each quadrangle on.
+    /// The runs of each row, counted from each quadrangle's own first row.
     runs: [Runs; HEIGHT],
 }
 
-/// An edge of each quadrangle where it begins.
+/// An edge of each quadrangle, at the row where it begins.
 #[derive(Debug, Default)]
 struct Edges {
-    /// The row where it begins, from the first of the quadrangle on; −1 if it crosses none.
+    /// The row where the edge begins, counted from the quadrangle's first; −1 if it crosses no row.
     begins: Ints,
     /// −1 for a left edge, else 0.
     is_left: Ints,
-    /// The crossing: see [`Crossings`].
+    /// The crossing there: see [`Crossings`].
     crossing: [Ints; 5],
-    /// The numbers there, and their growth from row to row.
+    /// The values there, and their growth from row to row.
     at: [Floats; MOST],
     step: [Floats; MOST],
 }
@@ -65,15 +68,16 @@ struct Edges {
 /// A run of each quadrangle.
 #[derive(Debug, Default)]
 struct Runs {
-    /// The first pixel and the one after the last; none where the first is not less.
+    /// The first pixel, and the one after the last. The run is empty if the first is not less.
     pixels: [Ints; 2],
-    /// The numbers at the first pixel, and their growth from pixel to pixel.
+    /// The values at the first pixel, and their growth from pixel to pixel.
     at: [Floats; MOST],
     step: [Floats; MOST],
 }
 
-/// Eight crossings as [`EdgeCrossing`](crate::raster::spans::edge::EdgeCrossing) has them, in 32 bits: `pixel − rest / denominator`.
-/// Denominators are 256 times a height below [`REACH`], and so below 2²³.
+/// Eight crossings in 32 bits, stored as [`EdgeCrossing`](crate::raster::spans::edge::EdgeCrossing)
+/// stores one: `pixel − rest / denominator`. A denominator is 256 times a height below [`REACH`],
+/// and so below 2²³.
 #[derive(Clone, Copy)]
 struct Crossings<S: Simd> {
     pixel: i32x8<S>,
@@ -84,27 +88,33 @@ struct Crossings<S: Simd> {
 }
 
 impl<S: Simd> Crossings<S> {
-    /// Returns the crossings of edges with scanlines whose centres lie `past` below their upper ends: columns of the upper ends,
-    /// widths and heights, all in sub-pixels, and 256 over the heights, rounded.
+    /// Returns the crossings of edges with scanlines whose centres lie `past` sub-pixels below the
+    /// edges' upper ends. The array holds the columns of the upper ends, the widths and the
+    /// heights, all in sub-pixels. `over` is 256 over the heights, rounded.
     ///
-    /// Quotients are rounded to one of two neighbours and then put right: a float is less than ½ off.
+    /// Each division is done in floats and then corrected. A float quotient is less than ½ off, so
+    /// rounding it yields one of two neighbours, and the sign of the remainder says which.
     #[inline(always)]
     fn new(m: Lanes<S>, past: i32x8<S>, [x, dx, dy]: [i32x8<S>; 3], over: f32x8<S>) -> Self {
         let half = m.splat(0.5);
         let denominator = dy << 8;
-        // The quotient is −½ or more, and below REACH / 256 + 1.
+        // The numerator is the crossing's distance from the centre of pixel 0, times the
+        // denominator. The quotient is −½ or more, and below REACH / 256 + 1.
         let numerator = (x - m.int(128)) * dy + past * dx;
         let quotient = m.float(numerator) * (over * m.splat(1.0 / 65536.0));
+        // `quotient + ½` is not negative, so truncation rounds it to the nearest integer.
         let pixel = m.truncated(quotient + half);
         let rest = pixel * denominator - numerator;
         let is_left = rest >> 31;
-        // Moved over 0, where conversions round down.
+        // Conversions truncate toward 0. Adding REACH keeps the slope over 0, so that they round
+        // down.
         let slope = m.float(dx) * (over * m.splat(1.0 / 256.0));
         let step = m.truncated(slope + m.splat(REACH as f32 + 0.5)) - m.int(REACH);
         let step_rest = dx - step * dy;
         let is_over = step_rest >> 31;
         Crossings {
-            // Less −1 is one more.
+            // `is_left` is −1 where the remainder is negative: subtracting it moves one pixel to
+            // the right.
             pixel: pixel - is_left,
             rest: rest + (denominator & is_left),
             step_pixels: step + is_over,
@@ -113,14 +123,15 @@ impl<S: Simd> Crossings<S> {
         }
     }
 
-    /// Returns the distances to the centres of the pixels.
+    /// Returns the distances from the crossings to the centres of their pixels, in pixels.
     #[inline(always)]
     fn offset(&self, m: Lanes<S>) -> [f64x4<S>; 2] {
         let (rest, denominator) = (wide(m, self.rest), wide(m, self.denominator));
         [rest[0] / denominator[0], rest[1] / denominator[1]]
     }
 
-    /// Steps to the next scanline.
+    /// Steps to the next scanline. It is `EdgeCrossing::advance` with a mask in place of the
+    /// branch.
     #[inline(always)]
     fn advance(&mut self) {
         let rest = self.rest - self.step_rest;
@@ -160,7 +171,7 @@ struct Side<S: Simd> {
 }
 
 impl<S: Simd> Side<S> {
-    /// Returns a side of level edges in column 0, until others [begin](Side::begin).
+    /// Returns a side of vertical edges in column 0, until other edges [begin](Side::begin).
     #[inline(always)]
     fn new(m: Lanes<S>) -> Self {
         Side {
@@ -176,7 +187,7 @@ impl<S: Simd> Side<S> {
         }
     }
 
-    /// Goes on with the edges of `begins`, with `count` numbers.
+    /// Switches to the edges in the lanes of `begins`, with `count` values.
     #[inline(always)]
     fn begin(&mut self, m: Lanes<S>, edges: &Edges, begins: mask32x8<S>, count: usize) {
         let (here, new) = (&mut self.crossing, Crossings::load(m, &edges.crossing));
@@ -185,7 +196,8 @@ impl<S: Simd> Side<S> {
         here.step_pixels = begins.select(new.step_pixels, here.step_pixels);
         here.step_rest = begins.select(new.step_rest, here.step_rest);
         here.denominator = begins.select(new.denominator, here.denominator);
-        // Of the others all bits: see `Lanes::select`.
+        // `Lanes::select` reads its mask as all bits or none. Where bits are set, the old edge goes
+        // on.
         let others = (!begins).to_vector();
         for i in 0..count {
             self.at[i] = m.select(others, self.at[i], m.load(&edges.at[i]));
@@ -193,7 +205,7 @@ impl<S: Simd> Side<S> {
         }
     }
 
-    /// Steps to the next scanline.
+    /// Steps to the next scanline, with `count` values.
     #[inline(always)]
     fn advance(&mut self, count: usize) {
         self.crossing.advance();
@@ -206,15 +218,16 @@ impl<S: Simd> Side<S> {
 /// Eight quadrangles in relation to a tile.
 #[derive(Clone, Copy)]
 pub(super) struct Bounded<S: Simd> {
-    /// The columns of their boxes: none where nothing is to be drawn.
+    /// The first column of each box and the one after the last. A quadrangle that is not drawn has
+    /// an empty range, which widens no other.
     columns: [i32x8<S>; 2],
-    /// The first rows in the tile.
+    /// The first row of each quadrangle in the tile.
     first: i32x8<S>,
-    /// The left ends of their boxes, in whole pixels and in sub-pixels.
+    /// The left end of each box: rounded down to a whole pixel, in pixels and in sub-pixels.
     origin: [i32x8<S>; 2],
-    /// −1 where the corners run the other way around.
+    /// −1 where the corners run the other way round.
     turned: i32x8<S>,
-    /// A bit for each that is drawn here, and for each that the run path must draw.
+    /// A bit for each quadrangle that is drawn here, and for each that the run path must draw.
     pub drawn: u32,
     pub others: u32,
 }
@@ -230,26 +243,27 @@ impl<S: Simd> Bounded<S> {
     }
 }
 
-/// `first_centre` in 32 bits: coordinates are within ±2²³.
+/// Returns the first row (or column) whose centre does not lie before `at`: `first_centre` in 32
+/// bits, for coordinates within ±2²³.
 #[inline(always)]
 fn centre<S: Simd>(m: Lanes<S>, at: i32x8<S>) -> i32x8<S> {
     (at + m.int(127)) >> 8
 }
 
 impl QuadBatch {
-    /// Gathers the positions of quadrangles from the front of `polygons` until there are eight, or a polygon has another shape.
-    /// Returns their number.
+    /// Gathers the positions of quadrangles from the front of `polygons`, until there are eight or
+    /// a polygon has another shape. Returns how many it gathered.
     #[inline(always)]
     pub fn gather(&mut self, frame: &Frame, polygons: &[Listed]) -> usize {
         let vertices = frame.vertices();
         let mut k = 0;
         for listed in polygons.iter().take(BLOCK) {
-            let corners = || frame.corners(&frame.polygons()[listed.number as usize]);
+            let corners = || frame.corners(&frame.polygons()[listed.index as usize]);
             let quadrangle = listed.is_quadrangle().then(corners);
             let Some(corners) = quadrangle.and_then(<[u32]>::as_array::<CORNERS>) else {
                 break;
             };
-            (self.polygons[k], self.vertices[k]) = (listed.number, *corners);
+            (self.polygons[k], self.vertices[k]) = (listed.index, *corners);
             for (i, corner) in corners.iter().enumerate() {
                 let vertex = &vertices[*corner as usize];
                 (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
@@ -260,7 +274,8 @@ impl QuadBatch {
         k
     }
 
-    /// Bounds the quadrangles by a picture `width` pixels wide and the rows of a tile.
+    /// Bounds the quadrangles by a picture `width` pixels wide and by the rows of a tile, and
+    /// decides which are drawn here.
     #[inline(always)]
     pub fn bound<S: Simd>(&mut self, m: Lanes<S>, width: usize, rows: &Range<usize>) -> Bounded<S> {
         let of = |corner: &Ints| m.load_int(corner);
@@ -279,12 +294,15 @@ impl QuadBatch {
         let is_there = columns[0].less(columns[1]) & first.less(end) & is_gathered;
         let reach = m.int(REACH);
         let is_small = (right - left).less(reach) & (bottom - top).less(reach);
-        // It is convex if it turns only one way: four turns of less than half a circle are one circle. Where a corner turns back
-        // on itself, another one turns the other way, or there is no area.
+        // A quadrangle is convex if it turns one way only: four turns of less than half a circle
+        // make one full circle. A corner that turns back on itself has a turn of 0; then another
+        // corner turns the other way, or there is no area.
         let (mut lefts, mut rights) = (m.int(0), m.int(0));
         for i in 0..CORNERS {
             let (j, k) = ((i + 1) % CORNERS, (i + 2) % CORNERS);
             let turn = (x[j] - x[i]) * (y[k] - y[j]) - (y[j] - y[i]) * (x[k] - x[j]);
+            // The sign bit of `lefts` collects a turn below 0, the sign bit of `rights` a turn
+            // over 0. Both are set if the quadrangle turns both ways.
             (lefts, rights) = (lefts | turn, rights | (m.int(0) - turn));
         }
         let is_drawn = is_there & is_small & m.int(-1).less(lefts & rights);
@@ -292,6 +310,8 @@ impl QuadBatch {
         m.store_int((end - first) & is_drawn, &mut self.rows[1]);
         let all = m.int(-1);
         Bounded {
+            // An undrawn quadrangle gets the range from i32::MAX to 0, which a minimum and a
+            // maximum ignore.
             columns: [
                 columns[0] | ((is_drawn ^ all) & m.int(i32::MAX)),
                 columns[1] & is_drawn,
@@ -304,7 +324,8 @@ impl QuadBatch {
         }
     }
 
-    /// Reads the `N` numbers of `cell`, or any of them for `N` = 0, at the corners of the quadrangles whose bits `drawn` has.
+    /// Reads the `N` values of `cell` at the corners of the quadrangles in the mask `drawn`. `N` =
+    /// 0 stands for any count.
     #[inline(always)]
     pub fn read<const N: usize>(
         &mut self,
@@ -313,37 +334,38 @@ impl QuadBatch {
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
-        let count = NumberCount::<N>(cell.count());
+        let count = ValueCount::<N>(cell.count());
         let all = N.saturating_sub(CellLayout::varying(0));
         let is_known = N > 0 && !cell.has_uniforms && varyings.count == all;
         for k in bits(drawn) {
-            let number = self.polygons[k];
-            for (corner, (&vertex, to)) in (0..).zip(self.vertices[k].iter().zip(&mut self.numbers))
+            let polygon = self.polygons[k];
+            for (corner, (&vertex, to)) in (0..).zip(self.vertices[k].iter().zip(&mut self.values))
             {
                 let depth = test.of_corner(&vertices[vertex as usize]);
-                let mut line: Numbers = Default::default();
+                let mut line: Values = Default::default();
                 if is_known {
-                    let varying = varyings.of_corner_with(all, number, [corner, vertex]);
+                    let varying = varyings.of_corner_with(all, polygon, [corner, vertex]);
                     cell.write(&mut line, depth, varying, || unreachable!("it has none"));
                 } else {
-                    let varying = varyings.of_corner(number, corner, vertex);
-                    cell.write(&mut line, depth, varying, || setup.uniforms_of(number));
+                    let varying = varyings.of_corner(polygon, corner, vertex);
+                    cell.write(&mut line, depth, varying, || setup.uniforms_of(polygon));
                 }
-                for (to, number) in to.iter_mut().zip(line).take(count.get()) {
-                    to[k] = number;
+                for (to, value) in to.iter_mut().zip(line).take(count.get()) {
+                    to[k] = value;
                 }
             }
         }
     }
 
-    /// Finds the runs of the quadrangles in a tile of the rows `rows`, with `N` numbers, or `count`.
+    /// Finds the runs of the quadrangles in a tile of the scanlines `rows`, with `N` values, or
+    /// `count` if `N` is 0.
     #[inline(always)]
     pub fn find_runs<S: Simd, const N: usize>(
         &mut self,
         m: Lanes<S>,
         bounded: &Bounded<S>,
         (width, rows): (usize, &Range<usize>),
-        count: NumberCount<N>,
+        count: ValueCount<N>,
     ) {
         for edge in 0..CORNERS {
             self.start_edges(m, edge, bounded, rows, count);
@@ -351,6 +373,9 @@ impl QuadBatch {
         let count = count.get();
         let [mut left, mut right] = [Side::new(m); 2];
         let most = self.rows[1].iter().copied().max().unwrap_or(0);
+        // All quadrangles go down together, each from its own first row. On each side at most one
+        // edge begins per row, and replaces the edge that ended above it. A quadrangle that has run
+        // out of rows is stepped on to no effect: `draw` reads only its own rows.
         for (row, to) in (0..most).zip(&mut self.runs) {
             for edges in &self.edges {
                 let begins = m.load_int(&edges.begins).simd_eq(m.int(row));
@@ -370,7 +395,8 @@ impl QuadBatch {
         }
     }
 
-    /// Starts edge `edge` of the quadrangles where it begins in a tile of the rows `rows`.
+    /// Starts edge `edge` of each quadrangle at the row where it begins in a tile of the scanlines
+    /// `rows`.
     #[inline(always)]
     fn start_edges<S: Simd, const N: usize>(
         &mut self,
@@ -378,7 +404,7 @@ impl QuadBatch {
         edge: usize,
         bounded: &Bounded<S>,
         rows: &Range<usize>,
-        count: NumberCount<N>,
+        count: ValueCount<N>,
     ) {
         let all = m.int(-1);
         let (i, j) = (edge, (edge + 1) % CORNERS);
@@ -391,20 +417,23 @@ impl QuadBatch {
         let crosses = first.less(centre(m, bottom).min(m.int(rows.end as i32)));
         let past = (first << 8) + m.int(128) - top;
         let height = m.float(bottom - top);
-        // Over 0 for every edge that crosses a row; what becomes of the others does not matter.
+        // The height is over 0 for every edge that crosses a row. The others divide by 0, and their
+        // results are never read.
         let over = m.splat(256.0) / height;
         let size = [x - bounded.origin[1], x_below - x, bottom - top];
         let mut crossing = Crossings::new(m, past, size, over);
         crossing.pixel += bounded.origin[0];
         let to = &mut self.edges[edge];
+        // −1 where the edge crosses no row: an or with all ones.
         m.store_int((first - bounded.first) | (crosses ^ all), &mut to.begins);
-        // With the corners the right way around, right edges go down.
+        // If the corners run clockwise, right edges go down. Running the other way flips every bit
+        // of the mask.
         let is_right: i32x8<S> = goes_down.to_vector() ^ bounded.turned;
         m.store_int(is_right ^ all, &mut to.is_left);
         crossing.store(m, &mut to.crossing);
         let (t0, dt) = (m.float(past) / height, over);
         for n in 0..count.get() {
-            let [from, to_next] = [m.load(&self.numbers[i][n]), m.load(&self.numbers[j][n])];
+            let [from, to_next] = [m.load(&self.values[i][n]), m.load(&self.values[j][n])];
             let [a, b] = [
                 goes_down.select(from, to_next),
                 goes_down.select(to_next, from),
@@ -415,7 +444,7 @@ impl QuadBatch {
         }
     }
 
-    /// Draws quadrangle `k` into the tile that begins with row `top`.
+    /// Draws quadrangle `k` into a tile whose first row is `top`.
     #[inline(always)]
     pub fn draw<S: Simd, const N: usize>(
         &self,
@@ -469,8 +498,8 @@ impl Runs {
     }
 }
 
-/// Returns the parameter between two crossings at the centres of the pixels `start`, and its growth from pixel to pixel: in `f64`,
-/// as the span engine finds it.
+/// Returns the parameter between two crossings at the centres of the pixels `start`, and its growth
+/// from pixel to pixel. It is computed in `f64`, as in the span engine.
 #[inline(always)]
 fn parameter<S: Simd>(
     m: Lanes<S>,
@@ -492,14 +521,14 @@ fn parameter<S: Simd>(
     ]
 }
 
-/// Converts integers below 2²⁴, which are exact as `f32` too.
+/// Converts integers to `f64`. They are below 2²⁴, so the `f32` in between is exact.
 #[inline(always)]
 fn wide<S: Simd>(m: Lanes<S>, x: i32x8<S>) -> [f64x4<S>; 2] {
     let (low, high) = m.0.widen_f32x8(m.float(x));
     [low, high]
 }
 
-/// Starts numbers as [`ramp`](crate::shading::ramp) does.
+/// Returns first values and growth, as [`ramp`](crate::shading::ramp) computes them.
 #[inline(always)]
 fn ramp<S: Simd>(a: f32x8<S>, b: f32x8<S>, t0: f32x8<S>, dt: f32x8<S>) -> [f32x8<S>; 2] {
     let difference = b - a;

@@ -1,4 +1,5 @@
-//! The run path: large triangles, polygons of any shape, and methods that remember the pixel before, by runs of pixels on a scanline.
+//! The run path: draws large triangles, polygons of any shape, and methods that remember the pixel
+//! before, by runs of pixels on a scanline.
 
 use super::tile::{Tile, Writer};
 use super::triangles::Batch;
@@ -14,54 +15,56 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
 
-/// The place of a run: its row in the tile, depth at its first pixel and its growth.
+/// The place of a run: its row in the tile, the depth at its first pixel, and the growth of depth
+/// per pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RunPlace {
     pub row: usize,
     pub depth: [f32; 2],
 }
 
-/// Runs that wait to be walked along, all of them by one call.
+/// Runs that wait for one call to walk along them all.
 #[derive(Debug, Default)]
 pub(crate) struct RunQueue {
     places: Vec<RunPlace>,
     list: RunList,
     /// The pixels that the walks return.
     walked: Vec<f32>,
-    /// Blocks of all runs.
+    /// How many blocks all runs have.
     blocks: usize,
-    /// The edges of a polygon, from the top down, each with its first row.
+    /// A polygon's edges from the top down, each with its first row.
     edges: Vec<(i32, TableEdge)>,
 }
 
-/// Blocks that are walked along by one call: their pixels stay in the first cache.
+/// How many blocks one call walks along. Their pixels stay in the first cache.
 const MOST_BLOCKS: usize = 128;
 
 impl RunQueue {
-    /// Makes ready for runs of so many varyings and extras.
+    /// Prepares for runs with `count` values, varyings and extras together.
     pub fn prepare(&mut self, count: usize) {
         self.list.prepare(count);
     }
 
-    /// True if the runs are enough to be drawn.
+    /// True if there are enough runs to draw.
     pub fn is_full(&self) -> bool {
         self.blocks >= MOST_BLOCKS
     }
 
-    /// Adds the runs of polygon `number`, of any shape: its edges step what they carry from row to row.
+    /// Adds the runs of `polygon`, which may have any shape. Its edges step their varyings from row
+    /// to row.
     pub fn add_polygon(
         &mut self,
         setup: &SetUp<'_>,
         active: &mut ActiveEdges<'_>,
-        number: u32,
+        polygon: u32,
         rows: &Range<usize>,
     ) {
         let frame = setup.frame;
-        let (uniforms, width) = (setup.uniforms_of(number), frame.width() as u32);
+        let (uniforms, width) = (setup.uniforms_of(polygon), frame.width() as u32);
         let mut edges = core::mem::take(&mut self.edges);
         edges.clear();
         let (top, bottom) = (rows.start as i32, rows.end as i32);
-        for_each_edge(frame, top..bottom, number, |row, edge| {
+        for_each_edge(frame, top..bottom, polygon, |row, edge| {
             edges.push((row, edge))
         });
         edges.sort_by_key(|(row, _)| *row);
@@ -71,7 +74,8 @@ impl RunQueue {
             let count = rest.iter().position(is_later).unwrap_or(rest.len());
             let (new, later) = rest.split_at(count);
             rest = later;
-            // In most rows no edge begins or ends: they are stepped where they are and not copied.
+            // In most rows no edge begins or ends. Then the edges are stepped in place and not
+            // copied.
             if !(new.is_empty() && active.step(row)) {
                 active.next(new.iter().map(|(_, edge)| edge), row);
             }
@@ -97,7 +101,7 @@ impl RunQueue {
         self.list.runs.is_empty()
     }
 
-    /// Reports the blocks of a tile that the runs may draw.
+    /// Reports to `tile` the blocks that the runs may draw.
     pub fn extend(&self, tile: &mut Tile) {
         for run in &self.list.runs {
             let pixels = pixels_of(run);
@@ -105,8 +109,8 @@ impl RunQueue {
         }
     }
 
-    /// Draws the runs, in order, with the varyings and extras of `cell`: as `walk` returns them, if the method has a walk, else
-    /// interpolated.
+    /// Draws the runs in order, with the varyings and extras of `cell`. They are the values that
+    /// `walk` returns, if the method has a walk, and are interpolated otherwise.
     #[inline(always)]
     pub fn draw<S: Simd>(
         &mut self,
@@ -119,7 +123,8 @@ impl RunQueue {
         let count = cell.varyings + cell.extras;
         if let Some(walk) = walk {
             let room = self.blocks * BLOCK * count;
-            // Padding of a block before and after: block loads may overrun, and those lanes are masked.
+            // Block loads may overrun a run at either end, and a mask drops those lanes. So a block
+            // of padding stands before and behind.
             let len = self.walked.len().max(room + 2 * BLOCK);
             self.walked.resize(len, 0.0);
             let job = setup.pixels(&self.list);
@@ -134,13 +139,15 @@ impl RunQueue {
             );
             if walk.is_some() {
                 let length = pixels.len().next_multiple_of(BLOCK);
+                // Starts a block early, as the run's first block may begin up to 7 pixels before
+                // the run.
                 let from = &self.walked[walked - BLOCK..walked + length * count + BLOCK];
                 draw_run(
                     m,
                     (*place, pixels),
                     &mut writer,
                     #[inline(always)]
-                    |number, x| match number - CellLayout::varying(0) {
+                    |index, x| match index - CellLayout::varying(0) {
                         plane if plane < count => {
                             m.load(&from[(BLOCK as isize + x) as usize + plane * length..])
                         }
@@ -155,7 +162,7 @@ impl RunQueue {
                     (*place, pixels),
                     &mut writer,
                     #[inline(always)]
-                    |number, x| match number - CellLayout::varying(0) {
+                    |index, x| match index - CellLayout::varying(0) {
                         i if i < count => m.ramp(at[i], x as i32, step[i]),
                         _ => uniforms,
                     },
@@ -174,15 +181,18 @@ fn pixels_of(run: &Run) -> Range<usize> {
     run.x as usize..(run.x + run.pixels) as usize
 }
 
-/// Draws a run. `number` returns each number but depth, at the block that begins `x` pixels after the run's first one.
+/// Draws a run. `value(i, x)` returns value i, of any but depth, for the block that begins `x`
+/// pixels after the run's first pixel; `x` may be negative.
 #[inline(always)]
 pub(super) fn draw_run<S: Simd, const N: usize>(
     m: Lanes<S>,
     (RunPlace { row, depth }, pixels): (RunPlace, Range<usize>),
     writer: &mut Writer<'_, S, N>,
-    number: impl Fn(usize, isize) -> f32x8<S>,
+    value: impl Fn(usize, isize) -> f32x8<S>,
 ) {
     for block in pixels.start / BLOCK..pixels.end.div_ceil(BLOCK) {
+        // Blocks lie at multiples of 8 pixels in the tile, so the first one may begin before the
+        // run.
         let x = (block * BLOCK) as isize - pixels.start as isize;
         writer.put(
             (row * writer.blocks + block) * writer.stride(),
@@ -190,14 +200,14 @@ pub(super) fn draw_run<S: Simd, const N: usize>(
             #[inline(always)]
             |i| match i {
                 CellLayout::DEPTH => m.ramp(depth[0], x as i32, depth[1]),
-                _ => number(i, x),
+                _ => value(i, x),
             },
         );
     }
 }
 
-/// Draws large triangle `k` of a batch into the tile that begins with row `top`: pixels between the crossings of its edges with the
-/// scanlines.
+/// Draws large triangle `k` of a batch into a tile whose first row is `top`. The pixels of a row
+/// lie between the crossings of two edges with it.
 #[inline(always)]
 pub(super) fn draw_large<S: Simd, const N: usize>(
     m: Lanes<S>,
@@ -207,7 +217,8 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
 ) {
     let [x, y] = [&batch.x, &batch.y].map(|at| [at[0][k], at[1][k], at[2][k]]);
     let [columns, rows] = [&batch.columns, &batch.rows].map(|ends| ends[0][k]..ends[1][k]);
-    // Twice the area of the triangle of corners i and j and a point, below 0 where it runs the other way around.
+    // Twice the area of the triangle of corners i and j and a point. It is below 0 where the
+    // triangle runs the other way round.
     let doubled = |i: usize, j: usize, px: i64, py: i64| {
         let [xi, xj, yi, yj] = [x[i], x[j], y[i], y[j]].map(i64::from);
         (xj - xi) * (py - yi) - (yj - yi) * (px - xi)
@@ -217,11 +228,16 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
         return;
     }
     let over_area = 1.0 / area as f32;
+    // A quotient of two areas is a barycentric coordinate, whichever way the triangle runs:
+    // numerator and `area` have one sign.
     let scale = 256.0 * over_area;
     let across = [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale];
+    // The growth of the second and third corner's coordinates per column. A column is 256
+    // sub-pixels.
     let count = writer.count.get();
     let step = batch.planes.growth(m, k, count, across);
-    // From the top corner two edges go down; the third one follows one of them.
+    // Two edges go down from the top corner. The shorter one ends at the middle corner, from which
+    // the third edge goes on.
     let [above, middle, below] = [0, 1, 2].map(|i| [x[i], y[i]].map(SubPixel::from_bits));
     let bend = first_centre(middle[1]).clamp(rows.start, rows.end);
     let mut long = EdgeCrossing::new(above, below, rows.start);
@@ -235,6 +251,7 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
         let mut short = EdgeCrossing::new(from, to, rows.start);
         for row in rows {
             let (p, q) = (long.pixel(), short.pixel());
+            // Either edge may be the left one: the crossings are ordered without a branch.
             let (start, end) = (p.min(q).max(columns.start), p.max(q).min(columns.end));
             if start < end {
                 let [px, py] = [start, row].map(|at| 256 * i64::from(at) + 128);
@@ -258,9 +275,11 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
     }
 }
 
-/// Returns a number below 0 at those pixels of block `block` that a run does not have.
+/// Returns values below 0 in the lanes of block `block` that a run does not cover.
 #[inline(always)]
 fn outside<S: Simd>(m: Lanes<S>, block: usize, pixels: &Range<usize>) -> i32x8<S> {
     let (first, k) = ((block * BLOCK) as i32, m.counted());
+    // The first difference is below 0 left of the run, the second one right of it. An or keeps
+    // either sign.
     (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }

@@ -1,5 +1,5 @@
-//! Shading: one row of the G-buffer to colours, by one call of the method's kernel for each stretch of one material. The loop over
-//! its pixels is `shade_blocks` in `shading/kernels/mod.rs`.
+//! Shading: turns a row of the G-buffer into colours, by one call of the method's kernel for each
+//! stretch of one material. The loop over the pixels is `shade_blocks` in `shading/kernels/mod.rs`.
 
 use super::tile::Tile;
 use super::{Buffers, RowEngine, with_level};
@@ -11,21 +11,22 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{SimdBase, SimdMask, i32x8};
 
-/// Pixels that kernels take at a time, at most: rows are shaded from a multiple of this on.
+/// How many pixels kernels take at a time, at most. Rows are shaded in multiples of it, from a
+/// multiple of it on.
 const STEP: usize = 2 * BLOCK;
 
-/// The colours of a row, where they do not go straight into the picture.
+/// Buffers for the colours of a row that cannot go straight into the picture.
 #[derive(Debug, Default)]
 pub(crate) struct RowBuffers {
     bytes: Vec<[u8; 4]>,
     channels: [Vec<f32>; 3],
     run: Vec<[f32; 3]>,
-    /// Stretches of a row, with their uniforms.
+    /// The stretches of a row, with their uniforms.
     stretches: Vec<(UniformsIndex, Range<usize>)>,
 }
 
 impl RowEngine<'_> {
-    /// Shades row `row` of a tile into `target`, and empties it.
+    /// Shades row `row` of a tile into `target`, and empties the row.
     pub(super) fn shade(&self, row: usize, buffers: &mut Buffers, target: &mut dyn Target) {
         let Buffers { tile, line, .. } = buffers;
         let width = self.setup.frame.width();
@@ -61,7 +62,7 @@ impl RowEngine<'_> {
         tile.clear_row(row);
     }
 
-    /// Shades some pixels of row `row` of a tile, all with the same uniforms.
+    /// Shades pixels of row `row` of a tile that share their uniforms.
     #[inline(always)]
     fn shade_stretch(
         &self,
@@ -71,6 +72,8 @@ impl RowEngine<'_> {
         line: &mut RowBuffers,
         target: &mut dyn Target,
     ) {
+        // Kernels shade whole steps. Pixels of a step that belong to another stretch are shaded in
+        // vain and not copied.
         let steps = pixels.start / STEP * STEP..pixels.end.next_multiple_of(STEP);
         let cells = tile.row(row, steps.start / BLOCK..steps.end / BLOCK);
         let job = ShadeRow {
@@ -115,8 +118,11 @@ impl RowEngine<'_> {
         }
     }
 
-    /// Finds stretches of the pixels `drawn` of a row, and for each the number of some uniforms that all of its drawn pixels have.
-    /// Block by block: most blocks go on with the number of the pixels before.
+    /// Splits the pixels `drawn` of a row into stretches, and finds for each the uniforms that all
+    /// of its visible pixels have.
+    ///
+    /// It tests a block at a time. Most blocks only have pixels with the same uniforms as the
+    /// pixels before.
     pub(super) fn find_stretches<S: Token>(
         &self,
         tile: &Tile,
@@ -135,14 +141,17 @@ impl RowEngine<'_> {
                 for (start, block) in starts.zip(cells.chunks_exact(tile.stride())) {
                     let depth = m.load(&block[BLOCK * CellLayout::DEPTH..]);
                     let all = &block[BLOCK * self.cell.uniforms()..][..BLOCK];
-                    let (numbers, mut later) = (m.load(all), u32::MAX);
+                    let (indices, mut later) = (m.load(all), u32::MAX);
                     let is_empty: i32x8<S> = depth.simd_ge(m.splat(f32::INFINITY)).to_vector();
                     loop {
-                        // No number is below 0.
-                        let is_same = numbers.simd_eq(m.splat(same.unwrap_or(-1.0)));
+                        // Indices are 0 or more, so −1 equals none of them and the first visible
+                        // pixel starts a stretch.
+                        let is_same = indices.simd_eq(m.splat(same.unwrap_or(-1.0)));
+                        // Lanes that are visible and have other uniforms, from the lane after the
+                        // last change on. An empty pixel joins any stretch.
                         let others = m.bits_not_negative(is_same.to_vector() | is_empty) & later;
                         let k = others.trailing_zeros() as usize;
-                        // The last block may end behind the picture.
+                        // The last block may end beyond the picture.
                         if k >= BLOCK || start + k >= drawn.end {
                             break;
                         }
@@ -153,7 +162,7 @@ impl RowEngine<'_> {
                         (same, later) = (Some(all[k]), u32::MAX << k);
                     }
                 }
-                // A row that shows nothing is background whatever it is shaded with.
+                // A row without visible pixels becomes background with any uniforms.
                 let first = || self.setup.uniforms_of_material(0);
                 to.push((
                     same.map_or_else(first, CellLayout::uniforms_of),

@@ -1,4 +1,5 @@
-//! Small triangles, block by block, by edge functions: narrow ones over their whole boxes, others between the limits of each row.
+//! Small triangles, drawn block by block by edge functions. Narrow ones draw their whole boxes,
+//! others only the blocks between the limits of each row.
 
 use super::tile::{MOST, Writer};
 use super::triangles::Batch;
@@ -7,41 +8,45 @@ use crate::number::simd::BLOCK;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 
-/// The numbers of a block of pixels, depth first.
-type BlockNumbers<S> = [f32x8<S>; MOST];
+/// The values of a block of pixels, depth first.
+type BlockValues<S> = [f32x8<S>; MOST];
 
-/// A small triangle that is drawn block by block.
+/// A small triangle, which is drawn block by block.
 ///
-/// Its numbers are exact, but for roundings, at the first pixel of its first block, or of the first one of each row, and grow from
-/// there.
+/// Its values are exact but for rounding at the first pixel of its first block (or of the first
+/// block of each row), and grow from there.
 ///
-/// That costs accuracy where a triangle is thin. Barycentric coordinates are in 0..=1 where it is covered and grow by at most
-/// [`STEEPEST`](crate::frame::row_tiles::STEEPEST) a pixel. A covered pixel is at most 15 rows and 15 columns from where numbers begin, so
-/// that no coordinate is over 121 on the way; 6 roundings of that where they begin, one of each of 17 sums, and 6 of each of 30
-/// steps, are below 3600 · 2⁻²⁴, which is below 2⁻¹² of how far corners are apart. Along a row, from its first block on, it is
-/// less: where a coordinate grows by more than 1 a pixel no two pixels of a row are covered. A triangle that is 2 pixels thick is
+/// That costs accuracy where a triangle is thin. Barycentric coordinates are in 0..=1 where it is
+/// covered, and grow by at most [`STEEPEST`](crate::frame::row_tiles::STEEPEST) per pixel. A
+/// covered pixel is at most 15 rows and 15 columns from where values begin, so no coordinate is
+/// over 121 on the way. The roundings are 6 of that at the start, one in each of 17 sums, and 6 in
+/// each of 30 steps. Together they are below 3600 · 2⁻²⁴, which is below 2⁻¹² of how far corners
+/// are apart. Along a row, from its first block on, they are smaller: where a coordinate grows by
+/// more than 1 per pixel, no two pixels of a row are covered. A triangle that is 2 pixels thick is
 /// within 2⁻¹⁵. `Variant::bound` counts these roundings for each triangle (`Extent::growth`).
 pub(super) struct SmallTriangle<'a, S: Simd> {
     m: Lanes<S>,
     batch: &'a Batch,
-    /// The number in the batch.
+    /// The index in the batch.
     k: usize,
-    /// The blocks of a row between which it lies.
+    /// The blocks of a row between which the triangle lies.
     blocks: [usize; 2],
-    /// The growth of its edge functions to each pixel of a block, from block to block, and from row to row.
+    /// The growth of its edge functions from a block's first pixel to each of its pixels, from
+    /// block to block, and from row to row.
     ramp: [i32x8<S>; 3],
     across: [i32x8<S>; 3],
     down: [i32x8<S>; 3],
 }
 
-/// The first blocks of eight rows of a small triangle.
+/// The first blocks in eight rows of a small triangle, one row per lane.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowStarts {
     /// The first block, counted from the triangle's first, and the one after the last.
     blocks: [[i32; BLOCK]; 2],
+    /// The edge functions at the first pixel of the first block.
     functions: [[i32; BLOCK]; 3],
-    /// The numbers that are interpolated, at the first pixel of the first block.
-    numbers: [[f32; BLOCK]; MOST],
+    /// The interpolated values at the first pixel of the first block.
+    values: [[f32; BLOCK]; MOST],
 }
 
 impl<'a, S: Simd> SmallTriangle<'a, S> {
@@ -63,7 +68,7 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
     }
 
-    /// Draws it into the tile that begins with row `top`.
+    /// Draws the triangle into a tile whose first row is `top`.
     #[inline(always)]
     pub fn draw<const N: usize>(
         &self,
@@ -81,7 +86,8 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
     }
 
-    /// Draws one or two blocks a row, all of them: finding the limits of each row would take longer.
+    /// Draws all blocks of the box, one or two per row. Finding the limits of each row would take
+    /// longer.
     #[inline(always)]
     fn narrow<const N: usize>(&self, rows: Range<usize>, writer: &mut Writer<'_, S, N>) {
         let (m, k, [_, b, c]) = (self.m, self.k, &self.batch.edges);
@@ -124,7 +130,7 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
     }
 
-    /// Draws any number of blocks a row, between the limits of each row.
+    /// Draws any number of blocks per row, between the limits of each row.
     #[inline(always)]
     fn wide<const N: usize>(
         &self,
@@ -142,7 +148,7 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
         let first_block = rows.start * writer.blocks + self.blocks[0];
         for row in 0..rows.len() {
-            // The limits of eight rows are found at once, in the lanes of a block.
+            // The limits of eight rows are found at once, a row in each lane.
             let of_eight = row % BLOCK;
             if of_eight == 0 {
                 self.start_rows(starts, row, count);
@@ -151,9 +157,11 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
             let mut functions = grown([first_of(0), first_of(1), first_of(2)], self.ramp);
             let mut at = ramps;
             for i in 0..count {
-                at[i] = m.splat(starts.numbers[i][of_eight]) + ramps[i];
+                at[i] = m.splat(starts.values[i][of_eight]) + ramps[i];
             }
             let before = first_block + row * writer.blocks;
+            // Limits are block indices from 0 on. An empty row has an end of at most its start, and
+            // the loop below does nothing.
             let [from, to] = [starts.blocks[0][of_eight], starts.blocks[1][of_eight]];
             let mut place = (before + from as u32 as usize) * stride;
             for _ in from..to {
@@ -172,14 +180,15 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
     }
 
-    /// Finds the limits of eight rows from its row `row` on, and the first blocks there, with `count` numbers. Rows past its last
-    /// are not drawn: 32 bits need not hold their results.
+    /// Finds the limits of eight rows, from the triangle's row `row` on, and the values at their
+    /// first blocks. There are `count` values. Rows past the last one may overflow 32 bits, but are
+    /// not drawn.
     #[inline(always)]
     fn start_rows(&self, starts: &mut RowStarts, row: usize, count: usize) {
         let (m, k, edges) = (self.m, self.k, &self.batch.edges);
         let over_area = m.splat(self.batch.over_area[k]);
-        let number = m.counted() + m.int(row as i32);
-        let at = |edge: usize| m.int(edges[edge].at[k]) + number * self.down[edge];
+        let rows = m.counted() + m.int(row as i32);
+        let at = |edge: usize| m.int(edges[edge].at[k]) + rows * self.down[edge];
         let mut start = [at(0), at(1), at(2)];
         let [from, to] = self.limits(start);
         m.store_int(from, &mut starts.blocks[0]);
@@ -193,21 +202,24 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let ([at, to_b, to_c], b, c) = (&self.batch.planes.0[k], weight(1), weight(2));
         for i in 0..count {
             let value = m.splat(to_b[i]).mul_add(b, m.splat(at[i]));
-            m.store(m.splat(to_c[i]).mul_add(c, value), &mut starts.numbers[i]);
+            m.store(m.splat(to_c[i]).mul_add(c, value), &mut starts.values[i]);
         }
     }
 
-    /// Returns the blocks of rows, counted from the first, between which all functions are over 0, from their values `start` at the
-    /// rows' first pixels.
+    /// Returns the first block of each row, and the one after the last, between which all edge
+    /// functions may be over 0. Blocks count from the triangle's first. `start` holds the functions
+    /// at the first pixel of the rows' first blocks.
     ///
-    /// The zero of a function is off by three roundings: with at most 62 columns by less than 2⁻¹⁶ of one. One more block is
-    /// drawn where that could matter.
+    /// Three roundings go into the zero of a function. With at most 62 columns they move it by less
+    /// than 2⁻¹⁶ of a column. Where that could matter, one more block is drawn.
     #[inline(always)]
     fn limits(&self, start: [i32x8<S>; 3]) -> [i32x8<S>; 2] {
         let (m, k, [first, end]) = (self.m, self.k, self.blocks);
         let blocks = 1.0 / BLOCK as f32;
         let doubt = m.splat(blocks / 1024.0);
         let (mut from, mut to) = (m.splat(0.0), m.splat(((end - first) * BLOCK - 1) as f32));
+        // Left edges raise `from`, right edges lower `to`. `begins` and `ends` are set up so that
+        // every edge may do both: the wrong one changes nothing.
         for (edge, start) in self.batch.edges.iter().zip(start) {
             let here = m.float(start);
             from = from.max(here * m.splat(edge.begins[k]));
@@ -218,9 +230,9 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         [m.truncated(from.mul_add(blocks, -doubt)), end]
     }
 
-    /// Returns the growth of its numbers where the coordinates grow by `growth`.
+    /// Returns the growth of the values where the coordinates grow by `growth`.
     #[inline(always)]
-    fn growth(&self, count: usize, growth: [f32; 2]) -> BlockNumbers<S> {
+    fn growth(&self, count: usize, growth: [f32; 2]) -> BlockValues<S> {
         let steps = self.batch.planes.growth(self.m, self.k, count, growth);
         let mut grown = [self.m.splat(0.0); MOST];
         for i in 0..count {
@@ -230,13 +242,14 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
     }
 }
 
-/// Returns a number below 0 at pixels that are not covered.
+/// Returns values below 0 at pixels that are not covered: the sign of an or is set where any
+/// function is below 0.
 #[inline(always)]
 fn outside<S: Simd>([a, b, c]: [i32x8<S>; 3]) -> i32x8<S> {
     a | b | c
 }
 
-/// Returns edge functions one step further.
+/// Returns edge functions one step on.
 #[inline(always)]
 pub(super) fn grown<S: Simd>(at: [i32x8<S>; 3], step: [i32x8<S>; 3]) -> [i32x8<S>; 3] {
     [at[0] + step[0], at[1] + step[1], at[2] + step[2]]

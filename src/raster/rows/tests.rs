@@ -10,7 +10,7 @@ use crate::number::test_random::Random;
 use crate::picture::Picture8;
 use crate::raster::depth::CallersDepth;
 use crate::raster::target::Target;
-use crate::raster::{DrawOptions, Renderer, coverage, polygon_numbers};
+use crate::raster::{DrawOptions, Renderer, coverage, polygon_indices};
 use crate::scene::{Light, Lighting, Scene};
 use crate::shading::METHODS;
 use alloc::vec;
@@ -21,7 +21,7 @@ use glam::DVec3;
 fn frame(width: usize, height: usize, triangles: &[[[i32; 2]; 3]]) -> Frame {
     let mut builder = FrameBuilder::new(width as u32, height as u32);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
-    for (number, triangle) in (0..).zip(triangles) {
+    for (index, triangle) in (0..).zip(triangles) {
         let corners = triangle.map(|place| {
             let [x, y] = place.map(SubPixel::from_bits);
             builder.vertex(Vertex {
@@ -33,7 +33,7 @@ fn frame(width: usize, height: usize, triangles: &[[[i32; 2]; 3]]) -> Frame {
                 material,
             })
         });
-        builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+        builder.polygon(&corners, [0.0, 0.0, 1.0], index);
     }
     builder.finish().expect("corners inside the guard band")
 }
@@ -54,14 +54,14 @@ fn soup(random: &mut Random, width: usize, height: usize) -> Vec<[[i32; 2]; 3]> 
     (0..150).map(&mut triangle).collect()
 }
 
-/// Pixels of two varyings, for the coordinates.
+/// Pixels of two varyings, which hold the coordinates.
 const TWO_VARYINGS: CellLayout = CellLayout {
     varyings: 2,
     extras: 0,
     has_uniforms: false,
 };
 
-/// A pixel (row and column), with the barycentric coordinates of the second and third corner.
+/// A pixel (row and column) with the barycentric coordinates of the second and third corner.
 type Pixel = ((usize, usize), [f32; 2]);
 
 /// Returns the pixels that `draw` writes into an empty tile.
@@ -78,13 +78,13 @@ fn drawn<S: Token>(
     for row in rows.clone() {
         let blocks = 0..width.div_ceil(BLOCK);
         let blocks = tile.row(row - rows.start, blocks).chunks_exact(stride);
-        for (block, numbers) in blocks.enumerate() {
-            for k in (0..BLOCK).filter(|k| numbers[*k] != f32::INFINITY) {
+        for (block, values) in blocks.enumerate() {
+            for k in (0..BLOCK).filter(|k| values[*k] != f32::INFINITY) {
                 let x = block * BLOCK + k;
-                assert_eq!(numbers[k], 0.5, "the depth");
+                assert_eq!(values[k], 0.5, "the depth");
                 // Pixels beyond the picture are drawn but never shown.
                 if x < width {
-                    found.push(((row, x), [numbers[BLOCK + k], numbers[2 * BLOCK + k]]));
+                    found.push(((row, x), [values[BLOCK + k], values[2 * BLOCK + k]]));
                 }
             }
         }
@@ -92,8 +92,8 @@ fn drawn<S: Token>(
     found
 }
 
-/// Asserts that coordinates are in 0..=1, up to the error that [`SmallTriangle`] derives:
-/// 3600 · 2⁻²⁴.
+/// Asserts that coordinates are in 0..=1, up to the error that [`SmallTriangle`] derives: 3600 ·
+/// 2⁻²⁴.
 #[track_caller]
 fn assert_weights(pixels: &[Pixel]) {
     let out = 3600.0 / (1 << 24) as f32;
@@ -107,15 +107,15 @@ fn places(pixels: &[Pixel]) -> Vec<(usize, usize)> {
     pixels.iter().map(|(place, _)| *place).collect()
 }
 
-/// Checks every coverage path and returns the number of pixels found by each.
+/// Checks every coverage path and returns how many pixels each found.
 fn check<S: Token>(
     frame: &Frame,
     rows: Range<usize>,
     expected: &[Vec<(usize, usize)>],
 ) -> [usize; 4] {
     let (simd, width) = (S::get(), frame.width());
-    let listed = |(number, polygon)| Listed {
-        number,
+    let listed = |(index, polygon)| Listed {
+        index,
         corners: frame.corners(polygon).try_into().expect("a triangle"),
     };
     let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
@@ -134,7 +134,7 @@ fn check<S: Token>(
             ..
         } = &mut buffers;
         for k in 0..BATCH {
-            // The varyings are depth and the coordinates themselves.
+            // The values of a pixel are the depth and the coordinates themselves.
             batch.planes.0[k] = [[0.0; triangles::LINE]; 3];
             (
                 batch.planes.0[k][0][0],
@@ -143,7 +143,7 @@ fn check<S: Token>(
             ) = (0.5, 1.0, 1.0);
         }
         for (k, listed) in rest[..taken].iter().enumerate() {
-            let expected = expected[listed.number as usize].iter().copied();
+            let expected = expected[listed.index as usize].iter().copied();
             let expected: Vec<_> = expected.filter(|(row, _)| rows.contains(row)).collect();
             let (m, at) = (Lanes(simd), (width, &rows, SampleDepth::new(frame)));
             if (tiny | others) >> k & 1 == 0 {
@@ -193,8 +193,8 @@ fn tiles_cover_the_pixels_of_spans() {
             let soup = soup(&mut random, width, height);
             let frame = frame(width, height, &soup);
             let mut expected = vec![vec![]; soup.len()];
-            coverage(&frame, |number, row, pixels| {
-                expected[number as usize].extend(pixels.map(|x| (row, x)));
+            coverage(&frame, |index, row, pixels| {
+                expected[index as usize].extend(pixels.map(|x| (row, x)));
             });
             expected
                 .iter_mut()
@@ -213,7 +213,8 @@ fn tiles_cover_the_pixels_of_spans() {
     on_each_level!(of);
 }
 
-/// Vertices are lit in memory that the frame before left: the picture is that of a thread that drew nothing before.
+/// Vertices are lit in memory that an earlier frame left. The picture must equal the one of a
+/// thread that drew nothing before.
 #[test]
 fn memory_that_is_kept_leaves_no_trace() {
     let Some(renderer) = Renderer::available().nth(1) else {
@@ -236,14 +237,14 @@ fn memory_that_is_kept_leaves_no_trace() {
     assert!(after.pixels() == alone.join().expect("a picture").pixels());
 }
 
-/// Triangles and quadrangles of all sizes in one plane, each with a colour of its own, which tells its number: red is
-/// (number + 1)/256. Depths are equal but for rounding.
+/// Builds triangles and quadrangles of all sizes in one plane. The colour of each tells its index:
+/// red is (index + 1)/256. Depths are equal but for rounding.
 fn coplanar(lights: usize) -> Frame {
     let (width, height) = (100, 70);
     let mut builder = FrameBuilder::new(width, height);
     let lights = vec![Light::directional(DVec3::Z, [0.0; 3]); lights];
-    for (number, triangle) in (0..).zip(soup(&mut Random::new(29), 100, 70)) {
-        let ambient = [(number + 1) as f32 / 256.0, 0.0, 0.0];
+    for (index, triangle) in (0..).zip(soup(&mut Random::new(29), 100, 70)) {
+        let ambient = [(index + 1) as f32 / 256.0, 0.0, 0.0];
         let colour = Material {
             ambient,
             ..Material::default()
@@ -264,22 +265,23 @@ fn coplanar(lights: usize) -> Frame {
         let [a, b, c] = triangle.map(&mut corner);
         let between = [0, 1].map(|i| (triangle[0][i] + triangle[2][i]) / 2 + 300);
         let d = corner(between);
-        let corners = &[a, b, c, d][..if number % 3 == 0 { 4 } else { 3 }];
-        builder.polygon(corners, [0.0, 0.0, 1.0], number);
+        let corners = &[a, b, c, d][..if index % 3 == 0 { 4 } else { 3 }];
+        builder.polygon(corners, [0.0, 0.0, 1.0], index);
     }
     builder.finish().expect("corners inside the guard band")
 }
 
-/// With eight lights some methods interpolate more than plane equations hold, and draw triangles by runs.
+/// With eight lights some methods interpolate more values than plane equations hold, and draw
+/// triangles by runs.
 #[test]
-fn polygon_numbers_are_those_of_the_polygons_that_each_method_shows() {
+fn polygon_indices_are_those_of_the_polygons_that_each_method_shows() {
     for (lights, renderer) in [1, 8]
         .into_iter()
         .flat_map(|lights| Renderer::available().map(move |renderer| (lights, renderer)))
     {
         let frame = coplanar(lights);
         let mut found = Vec::new();
-        // Those in integers have no level of their own for each polygon.
+        // Methods in integers have no separate level for each polygon.
         for entry in METHODS.iter().filter(|entry| !entry.is_integer) {
             let variant = entry.variant();
             if variant.plan(&frame, renderer).renderer() != Some(renderer) {
@@ -288,19 +290,19 @@ fn polygon_numbers_are_those_of_the_polygons_that_each_method_shows() {
             let picture = variant
                 .render_linear_with(&frame, renderer)
                 .expect("a method for the frame");
-            let numbers = variant.polygon_numbers(&frame, renderer);
-            for (pixel, number) in picture.pixels().iter().zip(numbers.pixels()) {
+            let indices = variant.polygon_indices(&frame, renderer);
+            for (pixel, index) in picture.pixels().iter().zip(indices.pixels()) {
                 let shown = ((256.0 * pixel[0]).round() as u32).wrapping_sub(1);
-                assert_eq!(*number, shown, "{variant} by {renderer:?}");
+                assert_eq!(*index, shown, "{variant} by {renderer:?}");
             }
-            if !found.contains(&numbers) {
-                found.push(numbers);
+            if !found.contains(&indices) {
+                found.push(indices);
             }
         }
-        // Else the test would see no difference between coverage paths, or between engines.
+        // Otherwise the test would see no difference between coverage paths, or between engines.
         let is_row = renderer != Renderer::Span;
         assert_eq!(found.len(), 1 + usize::from(is_row), "{renderer:?}");
-        assert_eq!(found.contains(&polygon_numbers(&frame)), !is_row);
+        assert_eq!(found.contains(&polygon_indices(&frame)), !is_row);
     }
 }
 
@@ -320,11 +322,12 @@ impl Target for Levels<'_> {
     }
 }
 
-/// Draws a method on a frame as [`draw`] does, with packed colours if `packs`. Returns the picture, and true if they were packed.
+/// Draws a method on a frame as [`draw`] does, with packed colours if `packs`. Returns the picture,
+/// and true if colours were packed.
 fn drawn_as_levels(
     variant: &Variant,
     frame: &Frame,
-    level: Level,
+    level: SimdLevel,
     packs: bool,
 ) -> (Picture8, bool) {
     let mut engine = RowEngine::new(variant, frame, level, 255.0, Vec::new()).expect("loops");
@@ -335,10 +338,10 @@ fn drawn_as_levels(
     let mut picture = Picture8::new(width, height, [1; 4]);
     let bins = Bins::new(frame, HEIGHT);
     let mut buffers = Buffers::default();
-    for (number, first) in (0..height).step_by(HEIGHT).enumerate() {
+    for (index, first) in (0..height).step_by(HEIGHT).enumerate() {
         let band = first..(first + HEIGHT).min(height);
         let mut rows = Picture8::new(width, band.len(), [1; 4]);
-        engine.fill_tile(&bins, (number, &band), &mut buffers);
+        engine.fill_tile(&bins, (index, &band), &mut buffers);
         for row in 0..band.len() {
             engine.shade(row, &mut buffers, &mut Levels(&mut rows));
         }
@@ -348,14 +351,15 @@ fn drawn_as_levels(
 }
 
 /// Returns the instruction sets of this machine that the row engine has loops for.
-fn levels() -> impl Iterator<Item = Level> {
+fn levels() -> impl Iterator<Item = SimdLevel> {
     Renderer::available().filter_map(|renderer| match renderer {
         Renderer::Row(level) => Some(level),
         _ => None,
     })
 }
 
-/// Triangles and quadrangles, each of a material of its own, in a picture whose width is not a multiple of a block.
+/// Draws triangles and quadrangles, each of its own material, in a picture whose width is not a
+/// multiple of a block.
 #[test]
 fn packed_colours_are_those_of_unpacked_ones() {
     let frame = coplanar(1);
@@ -367,7 +371,10 @@ fn packed_colours_are_those_of_unpacked_ones() {
             }
             let (plain, _) = drawn_as_levels(&variant, &frame, level, false);
             let (packed, is_packed) = drawn_as_levels(&variant, &frame, level, true);
-            let is_by_polygon = matches!(entry.needs.lit_at, LitAt::Polygon | LitAt::PolygonMean);
+            let is_by_polygon = matches!(
+                entry.needs.shading_rate,
+                ShadingRate::Polygon | ShadingRate::PolygonMean
+            );
             assert_eq!(is_packed, is_by_polygon, "{variant}");
             assert!(plain.pixels() == packed.pixels(), "{variant} on {level:?}");
             let shown = plain.pixels().iter().filter(|[.., alpha]| *alpha == 255);
@@ -376,18 +383,18 @@ fn packed_colours_are_those_of_unpacked_ones() {
     }
 }
 
-/// A method that is lit at vertices draws all materials with the uniforms of one. Levels of no `i32` must be clamped all the
-/// same, whichever material has them.
+/// A method that is lit at vertices draws all materials with the uniforms of one. Levels beyond any
+/// `i32` must still be clamped, whichever material they belong to.
 #[test]
 fn colours_beyond_integers_are_white_beside_any_material() {
     let mut builder = FrameBuilder::new(32, 16);
-    for (number, ambient) in [0.5, 1e10].into_iter().enumerate() {
+    for (index, ambient) in [0.5, 1e10].into_iter().enumerate() {
         let colour = Material {
             ambient: [ambient; 3],
             ..Material::default()
         };
         let material = builder.lighting(Lighting::new(&colour, [1.0; 3], &[], DVec3::Z));
-        let left = 16 * number as i32;
+        let left = 16 * index as i32;
         let corners = [[left, 0], [left + 16, 0], [left, 16]].map(|place| {
             let [x, y] = place.map(SubPixel::from_num);
             builder.vertex(Vertex {
@@ -399,7 +406,7 @@ fn colours_beyond_integers_are_white_beside_any_material() {
                 material,
             })
         });
-        builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
+        builder.polygon(&corners, [0.0, 0.0, 1.0], index as u32);
     }
     let frame = builder.finish().expect("corners inside the guard band");
     for level in levels() {
@@ -412,7 +419,7 @@ fn colours_beyond_integers_are_white_beside_any_material() {
     }
 }
 
-/// Stretches of random rows are those that are found pixel by pixel.
+/// Compares the stretches of random rows with stretches that are found pixel by pixel.
 #[test]
 fn stretches_have_the_uniforms_of_their_pixels() {
     let frame = coplanar(1);
@@ -436,9 +443,9 @@ fn stretches_have_the_uniforms_of_their_pixels() {
                 }
                 let depth = if last.is_some() { 0.5 } else { f32::INFINITY };
                 tile.set(x, CellLayout::DEPTH, depth);
-                // What is left of pixels that were drawn before.
-                let number = last.unwrap_or(random.below(9) as u32);
-                tile.set(x, engine.cell.uniforms(), number as f32);
+                // An empty pixel still holds the index of a pixel that was drawn before.
+                let index = last.unwrap_or(random.below(9) as u32);
+                tile.set(x, engine.cell.uniforms(), index as f32);
                 if let Some(expected) = expected.get_mut(x) {
                     *expected = last;
                 }
@@ -450,7 +457,7 @@ fn stretches_have_the_uniforms_of_their_pixels() {
                 assert_eq!(pixels.start, next, "one after the other");
                 next = pixels.end;
                 let mut all = expected[pixels.clone()].iter().flatten();
-                assert!(all.all(|number| *number == uniforms.0), "{found:?}");
+                assert!(all.all(|index| *index == uniforms.0), "{found:?}");
             }
             assert_eq!(next, width, "all pixels");
             let mut shown: Vec<u32> = expected.iter().flatten().copied().collect();
@@ -462,8 +469,9 @@ fn stretches_have_the_uniforms_of_their_pixels() {
     }
 }
 
-/// Quadrangles of all sizes and shapes, in and out of the picture, half of them on a grid of half-pixels: most of them
-/// parallelograms that are bent a little, others of four corners anywhere. Some have a corner twice.
+/// Builds quadrangles of all sizes and shapes, in and out of the picture, half of them on a grid of
+/// half-pixels. Most are parallelograms that are bent a little; others have four corners anywhere.
+/// Some have a corner twice.
 fn quadrangles(random: &mut Random, [width, height]: [usize; 2], lights: usize) -> Frame {
     let mut builder = FrameBuilder::new(width as u32, height as u32);
     let lights = vec![Light::directional(DVec3::new(0.3, 0.5, 0.8), [0.7; 3]); lights];
@@ -476,7 +484,7 @@ fn quadrangles(random: &mut Random, [width, height]: [usize; 2], lights: usize) 
         builder.lighting(Lighting::new(&colour, [1.0; 3], &lights, DVec3::Z))
     });
     let reaches = [3, 8, 20, 60, 127, 140, 20_000];
-    for number in 0..200 {
+    for index in 0..200 {
         let grid = [1, 128][random.below(2) as usize];
         let reach = reaches[random.below(reaches.len() as u64) as usize] * 256 / grid;
         let mut within = |reach: i32| (random.below(reach as u64 + 1) as i32 - reach / 2) * grid;
@@ -498,8 +506,8 @@ fn quadrangles(random: &mut Random, [width, height]: [usize; 2], lights: usize) 
         let material = materials[random.below(2) as usize];
         let corners = corners.map(|place| {
             let [x, y] = [0, 1].map(|axis| SubPixel::from_bits(middle[axis] + place[axis]));
-            let mut number = || random.below(1 << 20) as f64 / (1 << 20) as f64;
-            let (depth, normal) = (number() as f32, [number(), number(), number() + 0.1]);
+            let mut value = || random.below(1 << 20) as f64 / (1 << 20) as f64;
+            let (depth, normal) = (value() as f32, [value(), value(), value() + 0.1]);
             let normal = DVec3::from_array(normal).normalize().as_vec3().to_array();
             builder.vertex(Vertex {
                 x,
@@ -510,23 +518,24 @@ fn quadrangles(random: &mut Random, [width, height]: [usize; 2], lights: usize) 
                 material,
             })
         });
-        builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+        builder.polygon(&corners, [0.0, 0.0, 1.0], index);
     }
     builder.finish().expect("corners inside the guard band")
 }
 
-/// Draws `frame` band by band, once as the engine does it and once run by run, and compares all numbers of the tiles.
+/// Draws `frame` band by band, once as the engine does and once run by run, and compares all values
+/// of the tiles.
 fn assert_runs(variant: &Variant, engine: &RowEngine<'_>, bins: &Bins) {
     let (frame, mut eight, mut runs) = (engine.setup.frame, Buffers::default(), Buffers::default());
-    for (number, first) in (0..frame.height()).step_by(HEIGHT).enumerate() {
+    for (index, first) in (0..frame.height()).step_by(HEIGHT).enumerate() {
         let band = first..(first + HEIGHT).min(frame.height());
-        engine.fill_tile(bins, (number, &band), &mut eight);
+        engine.fill_tile(bins, (index, &band), &mut eight);
         runs.tile.prepare(HEIGHT, frame.width(), engine.cell);
         runs.queue.prepare(engine.setup.varyings.count);
         let active = &mut ActiveEdges::new(frame, &engine.setup.varyings);
-        for listed in bins.band(number).flatten() {
+        for listed in bins.band(index).flatten() {
             let queue = &mut runs.queue;
-            queue.add_polygon(&engine.setup, active, listed.number, &band);
+            queue.add_polygon(&engine.setup, active, listed.index, &band);
             with_level!(engine.level, S => engine.draw_runs(S::get(), &mut runs));
         }
         let (seen, all) = (eight.tile.drawn(), runs.tile.drawn());
@@ -535,8 +544,8 @@ fn assert_runs(variant: &Variant, engine: &RowEngine<'_>, bins: &Bins) {
         for row in 0..band.len() {
             let bits = |buffers: &Buffers| -> Vec<u32> {
                 let blocks = 0..frame.width().div_ceil(BLOCK);
-                let numbers = buffers.tile.row(row, blocks).iter();
-                numbers.map(|number| number.to_bits()).collect()
+                let values = buffers.tile.row(row, blocks).iter();
+                values.map(|value| value.to_bits()).collect()
             };
             let row = first + row;
             assert!(
@@ -552,7 +561,8 @@ fn assert_runs(variant: &Variant, engine: &RowEngine<'_>, bins: &Bins) {
     }
 }
 
-/// Quadrangles that are drawn eight at a time leave the bits in a tile that they leave run by run.
+/// Quadrangles drawn eight at a time must leave the same bits in a tile as quadrangles drawn run by
+/// run.
 #[test]
 fn quadrangles_are_those_of_runs() {
     let mut random = Random::new(37);
@@ -577,9 +587,9 @@ fn quadrangles_are_those_of_runs() {
                 assert_runs(&variant, &engine, &bins);
             }
         }
-        for number in 0..frame.height().div_ceil(HEIGHT) {
-            let rows = number * HEIGHT..frame.height().min((number + 1) * HEIGHT);
-            let polygons: Vec<Listed> = bins.band(number).flatten().copied().collect();
+        for index in 0..frame.height().div_ceil(HEIGHT) {
+            let rows = index * HEIGHT..frame.height().min((index + 1) * HEIGHT);
+            let polygons: Vec<Listed> = bins.band(index).flatten().copied().collect();
             for eight in polygons.chunks(BLOCK) {
                 let mut quads = QuadBatch::default();
                 assert_eq!(quads.gather(&frame, eight), eight.len());

@@ -1,5 +1,5 @@
-//! The G-buffer: a tile of scanlines with the depth, the varyings and the material of each pixel; and the depth test of the row
-//! engine (`Writer::put` for a block, `Writer::put_one` for a pixel).
+//! The G-buffer, a tile of scanlines that holds depth, varyings and material of each pixel; and the
+//! row engine's depth test (`Writer::put` for a block, `Writer::put_one` for a pixel).
 
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
@@ -9,39 +9,43 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
 
-/// The most floats per pixel that are interpolated over triangles: depth, L·N of eight lights, V·N, a normal, and the material.
+/// The largest count of floats per pixel that are interpolated over triangles: depth, L·N of eight
+/// lights, V·N, a normal, and the material.
 pub(super) const MOST: usize = 14;
 
-/// The floats per pixel in the G-buffer: `N`, or for `N` = 0 the field.
+/// How many floats a pixel has in the G-buffer. `N` is the count, known to the compiler; if `N` is
+/// 0 the field is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NumberCount<const N: usize>(pub usize);
+pub(super) struct ValueCount<const N: usize>(pub usize);
 
-impl<const N: usize> NumberCount<N> {
+impl<const N: usize> ValueCount<N> {
     #[inline(always)]
     pub fn get(self) -> usize {
         if N == 0 { self.0 } else { N }
     }
 }
 
-/// A tile of pixels in blocks of 8. Each block is contiguous, number after number as [`CellLayout`] has them.
+/// A tile of pixels in blocks of 8. Each block is contiguous: 8 depths, then 8 of the next value,
+/// in the order of [`CellLayout`].
 ///
-/// Loads have the address and width of the last triangle's stores, so that store-to-load forwarding works.
+/// A load reads the address and the width of an earlier store, of the last triangle that touched
+/// the block. So store-to-load forwarding works.
 #[derive(Debug, Default)]
 pub(crate) struct Tile {
     rows: usize,
-    /// Blocks per row, an even number.
+    /// How many blocks a row has: an even number.
     blocks: usize,
     pub cell: CellLayout,
     values: Vec<f32>,
-    /// The blocks of a row between which anything may have been drawn: see [`Tile::drawn`].
+    /// The blocks of any row between which something may have been drawn: see [`Tile::drawn`].
     drawn: Range<usize>,
 }
 
 impl Tile {
-    /// Makes room for `rows` rows of `width` pixels, all of them empty.
+    /// Makes room for `rows` empty rows of `width` pixels.
     pub fn prepare(&mut self, rows: usize, width: usize, cell: CellLayout) {
         let blocks = width.div_ceil(2 * BLOCK) * 2;
-        // Shading leaves the tile cleared, so only a change of layout clears it here.
+        // Shading leaves the tile empty. Only a change of layout clears it here.
         if (self.rows, self.blocks, self.cell) != (rows, blocks, cell) {
             (self.rows, self.blocks, self.cell) = (rows, blocks, cell);
             self.values.clear();
@@ -57,13 +61,14 @@ impl Tile {
         self.drawn = self.drawn.start.min(blocks.start)..self.drawn.end.max(blocks.end);
     }
 
-    /// Returns the blocks of each row between which anything may have been drawn: an even number from an even one on.
+    /// Returns the blocks of each row between which something may have been drawn. Start and end
+    /// are even, because kernels may shade two blocks at once.
     pub fn drawn(&self) -> Range<usize> {
-        // Nothing drawn: from the end to the beginning.
+        // If nothing was drawn the range is blocks..0, which becomes 0..0.
         self.drawn.start.min(self.drawn.end) & !1..self.drawn.end.next_multiple_of(2)
     }
 
-    /// Returns the distance from one block to the next, in values.
+    /// Returns the distance from one block to the next, in floats.
     pub fn stride(&self) -> usize {
         self.cell.stride()
     }
@@ -74,7 +79,8 @@ impl Tile {
         &self.values[first..first + blocks.len() * self.stride()]
     }
 
-    /// Empties those pixels of a row that do not pass the test against the caller's depth, and stores the depths of the others there.
+    /// Empties the pixels of a row that fail the test against the caller's depth. Stores the depths
+    /// of the other pixels in the caller's buffer.
     pub fn hide_behind(&mut self, row: usize, depth: CallersDepth<'_>) {
         match depth.test.test {
             DepthTest::Less => self.hide::<false, false>(row, depth),
@@ -101,32 +107,34 @@ impl Tile {
         }
     }
 
-    /// Stores number `number` of pixel `x` of the first row.
+    /// Stores the value at `index` of pixel `x` of the first row.
     #[cfg(test)]
-    pub fn set(&mut self, x: usize, number: usize, value: f32) {
+    pub fn set(&mut self, x: usize, index: usize, value: f32) {
         let block = x / BLOCK * self.stride();
-        self.values[block + number * BLOCK + x % BLOCK] = value;
+        self.values[block + index * BLOCK + x % BLOCK] = value;
     }
 
-    /// Empties what was drawn of a row.
+    /// Empties the drawn blocks of a row.
     pub fn clear_row(&mut self, row: usize) {
         let (drawn, stride) = (self.drawn(), self.stride());
         let first = (row * self.blocks + drawn.start) * stride;
         for block in self.values[first..][..drawn.len() * stride].chunks_exact_mut(stride) {
+            // An infinite depth empties a pixel. Its other values may stay.
             block[BLOCK * CellLayout::DEPTH..][..BLOCK].fill(f32::INFINITY);
         }
     }
 
-    /// Returns the places of the first numbers of pixels, from rows and columns.
+    /// Returns where the first value of each pixel is stored, for pixels by row and column.
     #[inline(always)]
     pub fn places<S: Simd>(&self, m: Lanes<S>, row: i32x8<S>, column: i32x8<S>) -> i32x8<S> {
         let in_block = column & m.int(BLOCK as i32 - 1);
-        // 32 bits hold the numbers of a tile, which has at most 16 rows.
+        // 32 bits hold an index into a tile, which has at most 16 rows.
         let pixels = row * m.int((self.blocks * BLOCK) as i32) + (column - in_block);
         pixels * m.int(self.cell.count() as i32) + in_block
     }
 
-    /// Returns write access to all blocks. Report the blocks written with [`Tile::extend`], or they are not shaded.
+    /// Returns write access to all blocks. Report the blocks that you write with [`Tile::extend`],
+    /// or they are not shaded.
     #[inline(always)]
     pub fn writer<S: Simd, const N: usize>(
         &mut self,
@@ -139,7 +147,7 @@ impl Tile {
             test,
             least: lanes.splat(if test.hides { -never } else { never }),
             blocks: self.blocks,
-            count: NumberCount(self.cell.count()),
+            count: ValueCount(self.cell.count()),
             values: &mut self.values,
         }
     }
@@ -149,29 +157,31 @@ impl Tile {
 pub(super) struct Writer<'a, S: Simd, const N: usize> {
     lanes: Lanes<S>,
     test: SampleDepth,
-    /// The least depth that stored ones count as: +∞ disables the test, and every new pixel passes.
+    /// A lower bound for stored depths. −∞ leaves them unchanged; +∞ disables the test, as every
+    /// new pixel then passes.
     least: f32x8<S>,
-    /// Blocks per row.
+    /// How many blocks a row has.
     pub blocks: usize,
-    pub count: NumberCount<N>,
+    pub count: ValueCount<N>,
     values: &'a mut [f32],
 }
 
 impl<S: Simd, const N: usize> Writer<'_, S, N> {
-    /// Returns the distance from one block to the next, in values.
+    /// Returns the distance from one block to the next, in floats.
     #[inline(always)]
     pub fn stride(&self) -> usize {
         self.count.get() * BLOCK
     }
 
-    /// Writes the block whose values begin at `place` where `outside` is not below 0 and its depth passes the test. `number` returns
-    /// each number, depth first.
+    /// Writes the block whose values begin at `place`, in the lanes where `outside` is not below 0
+    /// and the depth passes the test. `value(i)` returns value i; value 0 is depth.
     ///
-    /// It writes in any case: the processor cannot predict which blocks are seen where triangles are small.
+    /// It stores the whole block in any case, and selects the old values in the other lanes. A
+    /// branch around the stores would be mispredicted where triangles are small.
     #[inline(always)]
-    pub fn put(&mut self, place: usize, outside: i32x8<S>, number: impl Fn(usize) -> f32x8<S>) {
+    pub fn put(&mut self, place: usize, outside: i32x8<S>, value: impl Fn(usize) -> f32x8<S>) {
         let (m, stride) = (self.lanes, self.stride());
-        let mut depth = number(0);
+        let mut depth = value(0);
         if let Some(most) = self.test.most {
             depth = level_of(m, depth, most as f32);
         }
@@ -180,26 +190,29 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
             return;
         };
         let mask = m.depth_mask(outside, depth, m.load(values).max(self.least));
-        // By number: with `chunks_exact_mut` it depends on the rest of the crate whether the loop is unrolled.
+        // Indexed on purpose. With `chunks_exact_mut` the rest of the crate decides if the compiler
+        // unrolls this loop.
         for i in 0..self.count.get() {
             let place = &mut values[i * BLOCK..(i + 1) * BLOCK];
-            let new = if i == 0 { depth } else { number(i) };
+            let new = if i == 0 { depth } else { value(i) };
             m.store(m.select(mask, m.load(place), new), place);
         }
     }
 
-    /// Writes one pixel, its depth and then its numbers, at a place that [`Tile::places`] gave.
+    /// Writes one pixel, its depth and then its other values, at a place that [`Tile::places`]
+    /// returned.
     #[inline(always)]
-    pub fn put_one(&mut self, place: i32, numbers: &[f32]) {
-        // Places are 0 or more: so the end of what is stored is in bounds if it is at all.
+    pub fn put_one(&mut self, place: i32, pixel: &[f32]) {
+        // Places are 0 or more. The cast to u32 tells the compiler, and one slice then bounds all
+        // values.
         let (place, count) = (place as u32 as usize, self.count.get());
-        let depth = self.test.kept(numbers[0]);
+        let depth = self.test.kept(pixel[0]);
         let values = &mut self.values[place..place + (count - 1) * BLOCK + 1];
-        let numbers = &numbers[..count];
+        let pixel = &pixel[..count];
         if !self.test.hides || depth < values[0] {
             values[0] = depth;
             for i in 1..count {
-                values[i * BLOCK] = numbers[i];
+                values[i * BLOCK] = pixel[i];
             }
         }
     }

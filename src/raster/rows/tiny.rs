@@ -1,5 +1,6 @@
-//! Tiny triangles: eight of them at a time, pixel by pixel of their boxes. Where a triangle has a pixel or two, setting up its
-//! rows is most of its cost; here nothing is set up for one triangle alone.
+//! Tiny triangles: eight at a time, in the lanes of a block, pixel by pixel of their boxes. If a
+//! triangle covers a pixel or two, most of its cost is setting up its rows. Here nothing is set up
+//! for a single triangle.
 
 use super::small::grown;
 use super::tile::{Tile, Writer};
@@ -9,27 +10,29 @@ use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use fearless_simd::{Simd, SimdFloat};
 
-/// Pixels of a box.
+/// How many pixels a box has.
 const SLOTS: usize = (TINY_WIDTH * TINY_HEIGHT) as usize;
-/// Pixels of a box that there is room for: one per bit.
+/// How many pixels of a box there is room for: one per bit.
 const ROOM: usize = 32;
-/// Pixels of the boxes of a batch.
+/// How many pixels the boxes of a batch have room for.
 const ALL: usize = BATCH * ROOM;
 
-/// The pixels that the tiny triangles of a batch cover, laid out as [group of eight triangles][pixel of the box][triangle].
+/// The pixels that the tiny triangles of a batch cover. Arrays are laid out as [group of eight
+/// triangles][pixel of the box][triangle].
 #[derive(Debug, Default)]
 pub(crate) struct Fragments {
-    /// The place of each pixel in the tile.
+    /// Where each pixel is stored in the tile.
     places: [[i32; ROOM]; BATCH],
-    /// The barycentric coordinates of the second and the third corner there.
+    /// The barycentric coordinates of the second and the third corner at each pixel.
     weights: [[[f32; ROOM]; BATCH]; 2],
-    /// Bit [`TINY_HEIGHT`] · column + row: 1 if that pixel of the box is covered, for each triangle.
+    /// A mask for each triangle: bit [`TINY_HEIGHT`] · column + row is 1 if that pixel of the box
+    /// is covered.
     covered: Ints,
 }
 
 impl Fragments {
-    /// Finds the pixels that the tiny triangles of a batch cover in a tile that begins with row `top`. Returns a bit for each
-    /// triangle that covers any.
+    /// Finds the pixels that a batch's tiny triangles cover in a tile whose first row is `top`.
+    /// Returns a bit for each triangle that covers any.
     #[inline(always)]
     pub fn find<S: Simd>(&mut self, m: Lanes<S>, batch: &Batch, top: usize, tile: &Tile) -> u32 {
         let (mut drawn, mut first) = (0, 0);
@@ -40,7 +43,12 @@ impl Fragments {
         drawn
     }
 
-    /// Finds the pixels of the eight triangles from number `first` on.
+    /// Finds the pixels of eight triangles, from index `first` on.
+    ///
+    /// All eight boxes are scanned together, column by column and down each column, from the upper
+    /// left corner of each box. A lane whose box is narrower or lower goes on outside of it, with
+    /// its bits masked. Coordinates and places are stored for every pixel, covered or not: `draw`
+    /// reads them by the bits of `covered`.
     #[inline(always)]
     fn find_eight<S: Simd>(
         &mut self,
@@ -58,7 +66,8 @@ impl Fragments {
         let load = |from: &Ints| m.load_int(&from[first..]);
         let columns = [load(&batch.columns[0]), load(&batch.columns[1])];
         let rows = [load(&batch.rows[0]), load(&batch.rows[1])];
-        // From the first pixel of the block to that of the box.
+        // Edge functions start at the first pixel of a block. This is how far the box's first pixel
+        // is from there.
         let skipped = columns[0] & m.int(BLOCK as i32 - 1);
         let [a, b, c] = &batch.edges;
         let right = [load(&a.right), load(&b.right), load(&c.right)];
@@ -70,8 +79,9 @@ impl Fragments {
         ];
         let over_area = m.load(&batch.over_area[first..]);
         let back = [m.load(&b.off[first..]), m.load(&c.off[first..])];
-        // Columns and rows that are left, less 1: below 0 outside the box. The loops end with the widest and the highest of the
-        // triangles: a branch on covered pixels would often be mispredicted.
+        // Columns and rows that are left in the box, less 1: below 0 outside of it. The loops end
+        // with the widest and the highest of the eight boxes. A branch on covered pixels would
+        // often be mispredicted.
         let mut beside = (columns[1] - columns[0] - one) | others;
         let all_below = (rows[1] - rows[0] - one) | others;
         let (mut across_at, next_row) = (columns[0], tile.places(m, one, m.int(0)));
@@ -85,7 +95,7 @@ impl Fragments {
             let mut row = 0;
             while row < TINY_HEIGHT && m.any_not_negative(below) {
                 let outside = here[0] | here[1] | here[2] | below | beside;
-                // One comparison for five signs: an or is below 0 where any of its terms is.
+                // Five signs in one comparison: an or is below 0 where any of its terms is.
                 covered |= m.int(-1).less(outside) & bit;
                 m.store_int(place, &mut self.places.as_flattened_mut()[at..]);
                 let [to_b, to_c] = &mut self.weights;
@@ -102,7 +112,8 @@ impl Fragments {
             slot += TINY_HEIGHT as usize;
         }
         m.store_int(covered, &mut self.covered[first..]);
-        // Not `bits_not_negative(covered)`: it would have the lanes without a pixel.
+        // `bits_not_negative(covered)` would also report the lanes without a pixel, where `covered`
+        // is 0.
         m.bits_not_negative(m.int(0).less(covered) ^ m.int(-1))
     }
 
@@ -117,10 +128,11 @@ impl Fragments {
     ) {
         let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
         for pixel in bits(self.covered[k] as u32) {
+            // The remainder changes nothing. It shows the compiler that the index is in bounds.
             let at = (first + pixel * BLOCK) % ALL;
             let weights = self.weights.each_ref().map(|to| to.as_flattened()[at]);
-            let numbers = batch.planes.at(m, k, writer.count.get(), weights);
-            writer.put_one(self.places.as_flattened()[at], &numbers);
+            let values = batch.planes.at(m, k, writer.count.get(), weights);
+            writer.put_one(self.places.as_flattened()[at], &values);
         }
     }
 }

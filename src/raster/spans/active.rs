@@ -1,4 +1,5 @@
-//! The active edges: those that cross the current scanline, with the varyings that are interpolated along them.
+//! The active edges: the edges that cross the current scanline, with the varyings that are
+//! interpolated along them.
 
 use super::edge::{EdgeCrossing, first_centre};
 use super::edge_table::TableEdge;
@@ -12,25 +13,26 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::ops::Range;
 
-/// An edge on its way down the picture: its crossing, and depth and varyings, each stepped from scanline to scanline.
+/// An edge on its way down the picture. Its crossing, depth and varyings step from scanline to
+/// scanline.
 #[derive(Clone, Copy, Debug)]
 struct ActiveEdge {
     polygon: u32,
     corner: u32,
     /// The first scanline that it does not cross.
     end: i32,
-    /// The crossing with this scanline.
+    /// The crossing with the current scanline.
     crossing: EdgeCrossing,
-    /// Depth here, and its growth.
+    /// Depth here, and its growth per scanline.
     depth: [f32; 2],
-    /// The first varyings; those behind the normal where that follows a great circle.
+    /// The first varyings. On a great circle they are the extras, which follow the normal.
     varyings: Group,
-    /// The place of the others in [`EdgeVaryings`].
+    /// The index in [`EdgeVaryings`] of the other varyings, or of the great circle.
     slot: u32,
 }
 
 impl ActiveEdge {
-    /// Steps to the next scanline, but for varyings in a slot.
+    /// Steps to the next scanline. Varyings in a slot are stepped separately.
     #[inline(always)]
     fn advance(&mut self) {
         self.crossing.advance();
@@ -39,25 +41,27 @@ impl ActiveEdge {
     }
 }
 
-/// An active edge as it is read between two scanlines.
+/// An active edge as a trace reads it, between two scanlines.
 #[cfg(feature = "io")]
 pub(crate) struct EdgeState {
     pub polygon: u32,
     pub corner: u32,
     pub crossing: EdgeCrossing,
-    /// Depth here, and its growth.
+    /// Depth here, and its growth per scanline.
     pub depth: [f32; 2],
-    /// The varyings here, or the normal of a great circle.
+    /// The varyings here. On a great circle they begin with the normal.
     pub at: Vec<f32>,
-    /// Their growth; that of a great circle's normal is left out.
+    /// The growth of the varyings per scanline. A great circle's normal has none, so only its
+    /// extras are listed.
     pub by: Vec<f32>,
     pub circle: Option<GreatCircle<f32>>,
 }
 
-/// The length of a [`Group`]. One is kept with the edge: a normal or a colour, and a weight.
+/// How many values a [`Group`] holds. One group is stored in the edge itself, large enough for a
+/// normal or a colour, and a weight.
 const GROUP: usize = 4;
 
-/// Varyings here, and their growth.
+/// Varyings here, and their growth per scanline.
 #[derive(Clone, Copy, Debug, Default)]
 struct Group {
     at: [f32; GROUP],
@@ -65,7 +69,7 @@ struct Group {
 }
 
 impl Group {
-    /// Starts between two ends at the parameter `t0`, with steps of `dt`.
+    /// Returns varyings between two ends at the parameter `t0`, which grow by steps of `dt`.
     #[inline(always)]
     fn new([a, b]: [[f32; GROUP]; 2], [t0, dt]: [f32; 2]) -> Group {
         let mut group = Group::default();
@@ -83,10 +87,10 @@ impl Group {
     }
 }
 
-/// Returns the first of some numbers, and zeros for those that are missing.
+/// Returns the first values, and zeros for values that are missing.
 #[inline(always)]
-fn first_of(numbers: &[f32]) -> [f32; GROUP] {
-    match *numbers {
+fn first_of(values: &[f32]) -> [f32; GROUP] {
+    match *values {
         [x, y, z] => [x, y, z, 0.0],
         [x, y, z, w, ..] => [x, y, z, w],
         [x] => [x, 0.0, 0.0, 0.0],
@@ -95,40 +99,41 @@ fn first_of(numbers: &[f32]) -> [f32; GROUP] {
     }
 }
 
-/// A span: the pixels of one polygon between two of its edges on one scanline, clipped to the picture.
+/// A span: the pixels of one polygon between two of its edges on one scanline, clipped to the
+/// picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PolygonSpan {
     /// The polygon.
     pub polygon: u32,
-    /// The left edge, an index into the active edges; the right one follows it.
+    /// The left edge, an index into the active edges. The right edge follows it.
     pub left: u32,
     /// The first pixel.
     pub start: u32,
     /// The pixel after the last one.
     pub end: u32,
-    /// The parameter between the edges at the centre of the first pixel.
+    /// The parameter from the left to the right edge, at the centre of the first pixel.
     pub t0: f32,
     /// The step of the parameter from pixel to pixel: `Δt = 1 / (x_2 − x_1)` (L21 3).
     pub dt: f32,
-    /// The number that depth is computed from ([`SampleDepth`]), at the centre of the first pixel.
+    /// The value that depth is computed from ([`SampleDepth`]), at the centre of the first pixel.
     pub depth: f32,
-    /// The step of that number from pixel to pixel.
+    /// The step of this value from pixel to pixel.
     pub depth_step: f32,
 }
 
-/// The varyings of edges on their way down beyond the first group, or their great circles.
+/// The varyings beyond the first group of edges on their way down, or their great circles.
 #[derive(Debug)]
 struct EdgeVaryings {
-    /// The groups of an edge.
+    /// How many groups an edge has here.
     groups: usize,
-    /// A slot per edge.
+    /// The groups of all slots, slot after slot.
     values: Vec<Group>,
     circles: Vec<GreatCircle<f32>>,
     free: Vec<u32>,
 }
 
 impl EdgeVaryings {
-    /// Starts an edge between two varyings. Returns its slot.
+    /// Starts an edge between two varyings, and returns its slot.
     #[inline(always)]
     fn enter(&mut self, [a, b]: [&[f32]; 2], parameter: [f32; 2]) -> u32 {
         let slot = self.free.pop().unwrap_or_else(|| {
@@ -143,7 +148,7 @@ impl EdgeVaryings {
         slot
     }
 
-    /// Starts an edge on a great circle between two normals. Returns its slot.
+    /// Starts an edge on a great circle between two normals, and returns its slot.
     #[inline(never)]
     fn enter_circle(&mut self, face: Vec3<f32>, ends: [&[f32]; 2], [t0, dt]: [f32; 2]) -> u32 {
         let circle = GreatCircle::new(face, ends.map(unit), t0, dt);
@@ -155,7 +160,7 @@ impl EdgeVaryings {
         slot
     }
 
-    /// Steps an edge to the next scanline.
+    /// Steps the varyings in a slot to the next scanline.
     #[inline(always)]
     fn advance(&mut self, slot: u32) {
         if let Some(circle) = self.circles.get_mut(slot as usize) {
@@ -166,14 +171,15 @@ impl EdgeVaryings {
         groups.iter_mut().for_each(Group::advance);
     }
 
-    /// Returns the groups of a slot.
+    /// Returns the groups of varyings in a slot.
     #[inline(always)]
     fn groups(&self, slot: u32) -> &[Group] {
         &self.values[slot as usize * self.groups..][..self.groups]
     }
 }
 
-/// The edges that cross the current scanline, ordered by polygon and within a polygon from left to right.
+/// The edges that cross the current scanline, ordered by polygon and within a polygon from left to
+/// right.
 #[derive(Debug)]
 pub(crate) struct ActiveEdges<'a> {
     frame: &'a Frame,
@@ -182,9 +188,9 @@ pub(crate) struct ActiveEdges<'a> {
     edges: Vec<ActiveEdge>,
     merged: Vec<ActiveEdge>,
     more: EdgeVaryings,
-    /// True if edges carry anything.
+    /// True if edges carry varyings.
     is_walked: bool,
-    /// True if edges carry it in slots.
+    /// True if edges carry some of them in slots.
     has_slots: bool,
 }
 
@@ -214,18 +220,21 @@ impl<'a> ActiveEdges<'a> {
         self.edges.is_empty()
     }
 
-    /// Goes to scanline `row`: steps the edges that cross it, drops those that end before its centre, and takes in the `new` ones
-    /// that begin there, in the order of their polygons.
+    /// Moves on to scanline `row`: steps the edges that cross it, drops the edges that end before
+    /// its centre, and inserts the `new` edges that begin there. `new` must be in the order of
+    /// polygons.
     ///
-    /// From one list to the other: an edge that was just stepped is not read again before it is used.
-    // Without `always` it depends on the rest of the crate whether this is inlined: 7 % of the teapot's frame.
+    /// It merges one list into another in a single pass, so each stepped edge is written once and
+    /// not read again before it is used.
+    // Without `always` the rest of the crate decides if this is inlined. Inlining is worth 7 % of
+    // the teapot's frame.
     #[inline(always)]
     pub fn next<'e>(&mut self, new: impl Iterator<Item = &'e TableEdge>, row: i32) {
         let mut new = new.peekable();
         self.merged.clear();
         self.merged.reserve(self.edges.len());
         for i in 0..self.edges.len() {
-            // An edge that ends here is not copied.
+            // An edge that ends here is not copied, as edges are large.
             let edge = &self.edges[i];
             let (polygon, end, slot) = (edge.polygon, edge.end, edge.slot);
             while let Some(begins) = new.next_if(|begins| begins.polygon < polygon) {
@@ -250,7 +259,8 @@ impl<'a> ActiveEdges<'a> {
         core::mem::swap(&mut self.edges, &mut self.merged);
     }
 
-    /// Appends an edge at scanline `row`, with the sub-pixel start: the parameter there is that of the scanline's centre.
+    /// Appends an edge that begins at scanline `row`, with the sub-pixel start: its parameter is
+    /// taken at the scanline's centre.
     #[inline(always)]
     fn start_edge(&mut self, edge: &TableEdge, row: i32) {
         let vertices = self.frame.vertices();
@@ -274,7 +284,7 @@ impl<'a> ActiveEdges<'a> {
         });
     }
 
-    /// Starts the varyings of an edge. Returns the first ones and the slot of the others.
+    /// Starts the varyings of an edge. Returns the first group, and the slot of the rest.
     #[inline(always)]
     fn start_varyings(&mut self, edge: &TableEdge, parameter: [f32; 2]) -> (Group, u32) {
         let ([a, b], mut slot) = (self.ends(edge), 0);
@@ -282,7 +292,7 @@ impl<'a> ActiveEdges<'a> {
             let polygon = &self.frame.polygons()[edge.polygon as usize];
             let face = vec3(self.frame.polygon_normal(polygon));
             slot = self.more.enter_circle(face, [a, b], parameter);
-            // Behind the normal there is a vertex colour at most.
+            // At most a vertex colour follows the normal, which fits in one group.
             let ends = [first_of(&a[3..]), first_of(&b[3..])];
             return (Group::new(ends, parameter), slot);
         }
@@ -315,7 +325,8 @@ impl<'a> ActiveEdges<'a> {
         ]
     }
 
-    /// Steps the edges to scanline `row` where they are, if none of them ends before its centre. Returns false if one does.
+    /// Steps all edges to scanline `row` in place, if none of them ends before its centre. Returns
+    /// false, and steps none, if one does.
     #[cfg(feature = "simd")]
     #[inline(always)]
     pub fn step(&mut self, row: i32) -> bool {
@@ -331,7 +342,7 @@ impl<'a> ActiveEdges<'a> {
         true
     }
 
-    /// Forgets all edges.
+    /// Removes all edges and frees their slots.
     #[cfg(feature = "simd")]
     pub fn clear(&mut self) {
         let slots = self.edges.drain(..).map(|edge| edge.slot);
@@ -340,7 +351,7 @@ impl<'a> ActiveEdges<'a> {
         }
     }
 
-    /// Returns the edges as they are on this scanline, in order, to be read.
+    /// Returns the edges as they are on this scanline, in order, for a trace to read.
     #[cfg(feature = "io")]
     pub fn states(&self) -> impl Iterator<Item = EdgeState> {
         self.edges.iter().map(|edge| {
@@ -379,7 +390,8 @@ impl<'a> ActiveEdges<'a> {
         })
     }
 
-    /// Puts the edges of each polygon in order and calls `visit` with their spans, polygon by polygon.
+    /// Sorts the edges of each polygon from left to right and calls `visit` with their spans,
+    /// polygon by polygon.
     #[inline(always)]
     pub fn spans(&mut self, width: u32, mut visit: impl FnMut(&Self, PolygonSpan)) {
         let mut first = 0;
@@ -394,6 +406,8 @@ impl<'a> ActiveEdges<'a> {
                 (end - first).is_multiple_of(2),
                 "a closed polygon crosses a scanline an even number of times"
             );
+            // Parity: a pixel is inside between the first and the second edge, the third and the
+            // fourth, and so on.
             for left in (first..end - 1).step_by(2) {
                 let pair = [&self.edges[left], &self.edges[left + 1]];
                 if let Some(span) = span(pair, left as u32, width) {
@@ -404,7 +418,7 @@ impl<'a> ActiveEdges<'a> {
         }
     }
 
-    /// Adds the run of `pixels` of a span on scanline `row`.
+    /// Adds the run of `pixels` of a span on scanline `row` to a list.
     #[inline(always)]
     pub fn add_run(
         &self,
@@ -414,7 +428,8 @@ impl<'a> ActiveEdges<'a> {
         to: &mut RunList,
     ) {
         let x = pixels.start as u32;
-        // A run that begins inside its span starts at its own first pixel's parameter.
+        // A run may begin inside its span, where a nearer polygon hid the start. Its parameter is
+        // the one of its own first pixel.
         let (y, t0, dt) = (
             row as u32,
             span.t0 + (x - span.start) as f32 * span.dt,
@@ -438,13 +453,14 @@ impl<'a> ActiveEdges<'a> {
         self.start(span, [t0, dt], &mut to.starts);
     }
 
-    /// Adds the varyings of a span at the parameter `t0` and their growth in a step of `dt`, or those at its ends.
+    /// Adds a span's varyings at the parameter `t0` and their growth per step of `dt`, or, if the
+    /// method asks for them, the varyings at both ends.
     #[inline(always)]
     fn start(&self, span: &PolygonSpan, [t0, dt]: [f32; 2], to: &mut Starts) {
         let left = &self.edges[span.left as usize];
         let right = &self.edges[span.left as usize + 1];
         if self.varyings.count == 3 && self.is_walked && !self.has_slots {
-            // The fast path: three numbers, without a loop.
+            // The fast path: three values, without a loop.
             let Group { at, step } = self.between([left.varyings, right.varyings], [t0, dt]);
             to.push([at[0], at[1], at[2]], [step[0], step[1], step[2]]);
             return;
@@ -478,7 +494,8 @@ impl<'a> ActiveEdges<'a> {
             .chain(more[0].iter().zip(more[1]).map(|(a, b)| [*a, *b]));
         let places = first.chunks_mut(GROUP).zip(second.chunks_mut(GROUP));
         for ((first, second), ends) in places.zip(groups) {
-            // The last group may have more numbers than there are. Copied one by one: a call would take longer.
+            // The last group may hold more values than there are. They are copied one by one,
+            // because a call to `memcpy` would take longer.
             let group = self.between(ends, [t0, dt]);
             for (i, (first, second)) in first.iter_mut().zip(second).enumerate() {
                 (*first, *second) = (group.at[i], group.step[i]);
@@ -486,7 +503,8 @@ impl<'a> ActiveEdges<'a> {
         }
     }
 
-    /// Returns the varyings between two edges at the parameter `t0`, with steps of `dt`; or both ends.
+    /// Returns the varyings between two edges at the parameter `t0`, with their growth per step of
+    /// `dt`; or both ends.
     #[inline(always)]
     fn between(&self, [left, right]: [Group; 2], parameter: [f32; 2]) -> Group {
         match self.varyings.keeps_ends {
@@ -499,7 +517,8 @@ impl<'a> ActiveEdges<'a> {
     }
 }
 
-/// Returns the parameter of an edge at the centre of scanline `row`, 0 at its upper end and 1 at its lower one, and its growth.
+/// Returns an edge's parameter at the centre of scanline `row`, 0 at its upper end and 1 at its
+/// lower one, and its growth per scanline.
 #[inline(always)]
 pub(crate) fn parameter([top, bottom]: [&ScreenVertex; 2], row: i32) -> [f32; 2] {
     // Exact: both differences have at most 24 bits.
@@ -513,8 +532,9 @@ pub(crate) fn parameter([top, bottom]: [&ScreenVertex; 2], row: i32) -> [f32; 2]
     [t0, (1 << SubPixel::FRAC_NBITS) as f32 / height] // Δt = 1 / (y_2 − y_1)
 }
 
-/// Puts the edges of a polygon in order, by insertion: crossings change places only where edges cross each other. Ties keep the
-/// order of their ends, so that the result depends neither on the past nor on the corner that the polygon begins with.
+/// Sorts the edges of a polygon from left to right. Insertion sort suits them: two edges change
+/// places only where they cross each other. Ties are decided by the ends of the edges, so the
+/// result depends neither on earlier scanlines nor on the corner that the polygon begins with.
 fn order(frame: &Frame, edges: &mut [ActiveEdge]) {
     for i in 1..edges.len() {
         let mut at = i;
@@ -531,7 +551,8 @@ fn is_before(frame: &Frame, a: &ActiveEdge, b: &ActiveEdge) -> bool {
     order.then_with(|| compare_ends(frame, a, b)) == Ordering::Less
 }
 
-/// Compares two edges of a polygon by their upper and their lower ends; equal ones by the corners that they start from.
+/// Compares two edges of a polygon by their upper and then their lower ends, and equal edges by the
+/// corners that they start from.
 #[cold]
 fn compare_ends(frame: &Frame, a: &ActiveEdge, b: &ActiveEdge) -> Ordering {
     let corners = frame.corners(&frame.polygons()[a.polygon as usize]);
@@ -548,23 +569,27 @@ fn compare_ends(frame: &Frame, a: &ActiveEdge, b: &ActiveEdge) -> Ordering {
         .then(a.corner.cmp(&b.corner))
 }
 
-/// Returns the span between two edges, of which the left one has number `number`, if it covers a pixel.
+/// Returns the span between two edges, if it covers a pixel. `left_index` is the index of the left
+/// edge.
 #[inline(always)]
-fn span([left, right]: [&ActiveEdge; 2], number: u32, width: u32) -> Option<PolygonSpan> {
+fn span([left, right]: [&ActiveEdge; 2], left_index: u32, width: u32) -> Option<PolygonSpan> {
     let (from, to) = (left.crossing.pixel(), right.crossing.pixel());
+    // Half-open, by the fill rule: a pixel whose centre lies on the left crossing is inside, on the
+    // right crossing it is outside.
     let (start, end) = (from.max(0), to.min(width as i32));
     if start >= end {
         return None;
     }
     let offset = left.crossing.offset();
-    // x_2 − x_1 between the crossings themselves, over 0 because a pixel centre lies between them.
+    // x_2 − x_1 between the exact crossings, in f64. It is over 0, because a pixel centre lies
+    // between them.
     let dt = 1.0 / (f64::from(to - from) + (offset - right.crossing.offset())); // Δt = 1 / (x_2 − x_1)
     let t0 = ((f64::from(start - from) + offset) * dt) as f32;
     let dt = dt as f32;
     let [depth, depth_step] = ramp(left.depth[0], right.depth[0], t0, dt);
     Some(PolygonSpan {
         polygon: left.polygon,
-        left: number,
+        left: left_index,
         start: start as u32,
         end: end as u32,
         t0,

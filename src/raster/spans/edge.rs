@@ -1,32 +1,36 @@
-//! The fill rule: where an edge crosses the scanlines, and which pixel centres are right of it, in exact integers.
+//! The fill rule: where an edge crosses each scanline, and which pixel centres lie right of it, in
+//! exact integers.
 
 use crate::frame::{Frame, SubPixel};
 use core::cmp::Ordering;
 
-/// Sub-pixels a pixel: what `SubPixel` counts in.
+/// Sub-pixels per pixel: the unit of `SubPixel`.
 const UNIT: i64 = 1 << SubPixel::FRAC_NBITS;
 
-/// Returns the first row (or column) whose centre is not before `at`.
+/// Returns the first row (or column) whose centre does not lie before `at`.
 #[inline(always)]
-pub fn first_centre(at: SubPixel) -> i32 {
+pub(crate) fn first_centre(at: SubPixel) -> i32 {
     // ceil(at − ½) on the bits
     ((i64::from(at.to_bits()) + UNIT / 2 - 1) >> SubPixel::FRAC_NBITS) as i32
 }
 
-/// The crossing of an edge with the centre line of a scanline: exact, and stepped from scanline to scanline.
+/// The crossing of an edge with the centre line of a scanline. It is exact, and steps from scanline
+/// to scanline.
 ///
-/// With the edge from (X0, Y0) down to (X1, Y1) in sub-pixels, and Yc the centre of the scanline, the crossing lies at
+/// For an edge from (X0, Y0) down to (X1, Y1) in sub-pixels, and a scanline whose centre is at Yc,
+/// the crossing lies at
 ///
 /// ```text
 /// X = X0 + (Yc − Y0) · dX / dY,      dX = X1 − X0,  dY = Y1 − Y0 > 0        (L21 3.4: Δx = Δt (x_2 − x_1))
 /// X_next = X_current + dX / dY                                               (L21 3.2, 3.3)
 /// ```
 ///
-/// It is kept as `pixel − rest / denominator`, where `pixel` is the first one whose centre is not left of it and
-/// 0 ≤ rest < denominator = 256 dY, all in 64 bits: coordinates within ±2²³ sub-pixels give products under 2⁵⁰.
-/// It may start at any scanline, so that clipped edges are as exact as whole ones.
+/// It is stored as `pixel − rest / denominator`, where `pixel` is the first pixel whose centre is
+/// not left of the crossing, and 0 ≤ rest < denominator = 256 dY. All are in 64 bits: coordinates
+/// within ±2²³ sub-pixels give products under 2⁵⁰. A crossing may start at any scanline, so clipped
+/// edges are as exact as whole ones.
 #[derive(Clone, Copy, Debug)]
-pub struct EdgeCrossing {
+pub(crate) struct EdgeCrossing {
     pixel: i32,
     step_pixels: i32,
     rest: i64,
@@ -35,7 +39,8 @@ pub struct EdgeCrossing {
 }
 
 impl EdgeCrossing {
-    /// Returns the crossing of the edge from `top` down to `bottom` (each x, y) with scanline `row`.
+    /// Returns the crossing of the edge from `top` down to `bottom` (each x, y) with scanline
+    /// `row`.
     #[inline(always)]
     pub fn new(top: [SubPixel; 2], bottom: [SubPixel; 2], row: i32) -> Self {
         let bits = |c: SubPixel| i64::from(c.to_bits());
@@ -51,8 +56,9 @@ impl EdgeCrossing {
         );
         let denominator = UNIT * dy;
         let centre = i64::from(row) * UNIT + UNIT / 2;
-        // The crossing relative to the centre of pixel 0, times the denominator.
+        // The crossing's distance from the centre of pixel 0, times the denominator.
         let numerator = (x0 - UNIT / 2) * dy + (centre - y0) * dx;
+        // Rounds up: `div_euclid` rounds down, so the quotient is negated before and after.
         let pixel = -(-numerator).div_euclid(denominator);
         EdgeCrossing {
             pixel: pixel as i32,
@@ -69,20 +75,25 @@ impl EdgeCrossing {
         self.pixel
     }
 
-    /// Returns the distance from the crossing to the centre of [`EdgeCrossing::pixel`], in pixels, 0..1.
+    /// Returns the distance from the crossing to the centre of [`EdgeCrossing::pixel`], in pixels,
+    /// 0..1.
     ///
-    /// In 53 bits: two crossings may be so near each other that little is left of their difference.
+    /// It has 53 bits: two crossings may be so close that few bits are left of their difference.
     #[inline(always)]
     pub fn offset(&self) -> f64 {
         self.rest as f64 / self.denominator as f64
     }
 
-    /// Returns numerator and denominator of [`EdgeCrossing::offset`]: the crossing lies at `pixel + ½ − numerator/denominator`.
+    /// Returns numerator and denominator of [`EdgeCrossing::offset`]. The crossing lies at x =
+    /// `pixel` + ½ − numerator/denominator.
+    #[cfg(feature = "io")]
     pub fn rest(&self) -> [i64; 2] {
         [self.rest, self.denominator]
     }
 
-    /// Returns what a step adds to the crossing: whole pixels, and a numerator over the denominator of [`EdgeCrossing::rest`].
+    /// Returns how far the crossing moves per scanline: whole pixels, and a numerator over the
+    /// denominator of [`EdgeCrossing::rest`].
+    #[cfg(feature = "io")]
     pub fn step(&self) -> [i64; 2] {
         [i64::from(self.step_pixels), self.step_rest]
     }
@@ -92,14 +103,14 @@ impl EdgeCrossing {
     pub fn advance(&mut self) {
         self.pixel += self.step_pixels; // 3.3
         self.rest -= self.step_rest;
-        // Once is enough: the rest of a step is less than a pixel.
+        // One correction is enough, because `step_rest` is less than a pixel.
         if self.rest < 0 {
             self.rest += self.denominator;
             self.pixel += 1;
         }
     }
 
-    /// Compares two crossings with the same scanline, exactly: the one farther left is less.
+    /// Compares two crossings of the same scanline, exactly. The one farther left is less.
     #[inline(always)]
     pub fn compare(&self, other: &EdgeCrossing) -> Ordering {
         debug_assert!(
@@ -109,7 +120,8 @@ impl EdgeCrossing {
             "a rest is less than a pixel"
         );
         self.pixel.cmp(&other.pixel).then_with(|| {
-            // The larger rest lies farther left. Rests are under 2³², denominators at most 2³²: the products fit.
+            // The larger rest lies farther left, so the sides are swapped. Rests are under 2³² and
+            // denominators at most 2³²: the products fit.
             let left = other.rest as u64 * self.denominator as u64;
             let right = self.rest as u64 * other.denominator as u64;
             left.cmp(&right)
@@ -139,15 +151,16 @@ mod tests {
         assert_eq!(first_centre(at(-127)), 0);
     }
 
-    /// Stepped crossings against the definition, in exact rational numbers, over the whole range of coordinates.
+    /// Compares stepped crossings with the definition, in exact rational numbers, over the whole
+    /// range of coordinates.
     #[test]
     fn stepping_is_exact() {
         let mut random = Random::new(1);
         for round in 0..2000 {
             let reach = [1 << 9, 1 << 14, 1 << 23][round % 3];
-            let mut number = || random.below(2 * reach) as i64 - reach as i64;
-            let (x0, y0, x1) = (number(), number(), number());
-            let y1 = y0 + 1 + number().abs();
+            let mut bits = || random.below(2 * reach) as i64 - reach as i64;
+            let (x0, y0, x1) = (bits(), bits(), bits());
+            let y1 = y0 + 1 + bits().abs();
             if y1 > 1 << 23 {
                 continue;
             }
@@ -159,7 +172,8 @@ mod tests {
                 if centre >= i128::from(y1) {
                     break;
                 }
-                // centre of pixel p is not left of the crossing: (256p + 128 − x0) dY ≥ (Yc − y0) dX
+                // The centre of pixel p is not left of the crossing: (256p + 128 − x0) dY ≥ (Yc −
+                // y0) dX
                 let not_left = |p: i32| {
                     (256 * i128::from(p) + 128 - i128::from(x0)) * i128::from(y1 - y0)
                         >= (centre - i128::from(y0)) * i128::from(x1 - x0)
@@ -178,7 +192,8 @@ mod tests {
 
     #[test]
     fn an_offset_is_the_way_from_the_crossing_to_the_next_centre() {
-        // A quarter of a pixel to the right per scanline; the first centre line is crossed at x = 1/8.
+        // The edge goes a quarter of a pixel to the right per scanline, and crosses the first
+        // centre line at x = 1/8.
         let mut crossing = EdgeCrossing::new([at(0), at(0)], [at(256), at(1024)], 0);
         for (pixel, offset) in [(0, 0.375), (0, 0.125), (1, 0.875), (1, 0.625)] {
             assert_eq!((crossing.pixel(), crossing.offset()), (pixel, offset));
@@ -188,7 +203,7 @@ mod tests {
 
     #[test]
     fn order_is_exact() {
-        // Two edges whose crossings differ by less than an f64 can tell at this distance.
+        // At this distance the two crossings differ by less than an f64 can resolve.
         let steep = EdgeCrossing::new([at(1 << 22), at(0)], [at((1 << 22) + 1), at(1 << 23)], 0);
         let upright = EdgeCrossing::new([at(1 << 22), at(0)], [at(1 << 22), at(1 << 23)], 0);
         assert_eq!(steep.compare(&upright), Ordering::Greater);

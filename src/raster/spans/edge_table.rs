@@ -1,4 +1,4 @@
-//! The edge table: all edges of a frame, by the scanline on which they begin.
+//! The edge table: all edges of a frame, sorted by the scanline on which they begin.
 
 use super::edge::first_centre;
 use crate::frame::Frame;
@@ -11,7 +11,7 @@ use core::ops::Range;
 pub(crate) struct TableEdge {
     /// The polygon, an index into [`Frame::polygons`].
     pub polygon: u32,
-    /// The corner that it starts from when one goes around the polygon: its number there.
+    /// The corner of the polygon at which the edge starts, counted around the polygon from 0.
     pub corner: u32,
     /// The vertex of its upper end.
     pub top: u32,
@@ -19,10 +19,11 @@ pub(crate) struct TableEdge {
     pub bottom: u32,
 }
 
-/// All edges that cross the centre of a scanline of the picture, bucketed by the first one that they cross.
+/// All edges that cross the centre of a scanline of the picture, in buckets by the first scanline
+/// that they cross.
 ///
-/// Within a bucket edges come in the order of their polygons. Edges that begin above the picture stand in the first bucket;
-/// those that cross no scanline, horizontal ones among them, are left out.
+/// Within a bucket edges are in the order of their polygons. Edges that begin above the picture are
+/// in the first bucket. Edges that cross no scanline, like horizontal ones, are left out.
 #[derive(Debug)]
 pub(crate) struct EdgeTable {
     starts: Vec<u32>,
@@ -30,14 +31,15 @@ pub(crate) struct EdgeTable {
 }
 
 impl EdgeTable {
-    /// Makes the table of a frame: a counting sort, linear in edges and scanlines.
+    /// Makes the table of a frame by counting sort, in time linear in edges and scanlines.
     pub fn new(frame: &Frame) -> Self {
         let rows = frame.height();
         let mut starts = vec![0u32; rows + 1];
-        // Edges are looked for once: which ones cross a scanline is hard to predict.
+        // Edges are found once and stored. A second search would mispredict the same branches
+        // again: it is hard to predict which edges cross a scanline.
         let mut found = Vec::with_capacity(2 * frame.polygons().len());
-        for number in 0..frame.polygons().len() as u32 {
-            for_each_edge(frame, 0..rows as i32, number, |row, edge| {
+        for index in 0..frame.polygons().len() as u32 {
+            for_each_edge(frame, 0..rows as i32, index, |row, edge| {
                 starts[row as usize + 1] += 1;
                 found.push((row, edge));
             });
@@ -55,29 +57,30 @@ impl EdgeTable {
         EdgeTable { starts, edges }
     }
 
-    /// Returns the edges that begin on scanline `row`, in the order of their polygons; in the first bucket also those that began
-    /// above.
+    /// Returns the edges that begin on scanline `row`, in the order of their polygons. The first
+    /// bucket also has the edges that begin above the picture.
     pub fn bucket(&self, row: usize) -> &[TableEdge] {
         &self.edges[self.starts[row] as usize..self.starts[row + 1] as usize]
     }
 }
 
-/// Calls `visit` with the edges of polygon `number` that cross centres of the scanlines `rows`, each with the first one of these.
+/// Calls `visit` with each edge of `polygon` that crosses the centre of one of the scanlines
+/// `rows`, and with the first of `rows` that it crosses.
 #[inline(always)]
 pub(crate) fn for_each_edge(
     frame: &Frame,
     rows: Range<i32>,
-    number: u32,
+    polygon: u32,
     mut visit: impl FnMut(i32, TableEdge),
 ) {
     let vertices = frame.vertices();
-    let corners = frame.corners(&frame.polygons()[number as usize]);
+    let corners = frame.corners(&frame.polygons()[polygon as usize]);
     let mut from = corners[corners.len() - 1];
     for (i, &to) in corners.iter().enumerate() {
         let corner = if i == 0 { corners.len() - 1 } else { i - 1 } as u32;
         let ends = [from, to].map(|v| (vertices[v as usize].y, v));
         from = to;
-        // Selected, not jumped over: which end is the upper one is hard to predict.
+        // Compiles to selections, not to a jump: it is hard to predict which end is the upper one.
         let [(y, top), (end, bottom)] = match ends[0].0 <= ends[1].0 {
             true => ends,
             false => [ends[1], ends[0]],
@@ -85,7 +88,7 @@ pub(crate) fn for_each_edge(
         let first = first_centre(y).max(rows.start);
         if first < first_centre(end).min(rows.end) {
             let edge = TableEdge {
-                polygon: number,
+                polygon,
                 corner,
                 top,
                 bottom,
@@ -103,12 +106,13 @@ mod tests {
     use crate::scene::Lighting;
     use glam::DVec3;
 
-    /// Builds a frame of 8 × 4 pixels from the corners of polygons, in pixels; no two polygons share a vertex.
+    /// Builds a frame of 8 × 4 pixels from the corners of polygons, in pixels. No two polygons
+    /// share a vertex.
     fn frame(polygons: &[&[[f64; 2]]]) -> Frame {
         let mut builder = FrameBuilder::new(8, 4);
         let material =
             builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
-        for (number, corners) in (0..).zip(polygons) {
+        for (index, corners) in (0..).zip(polygons) {
             let corners = corners.iter().map(|at| {
                 let [x, y] = at.map(SubPixel::from_num);
                 builder.vertex(Vertex {
@@ -121,12 +125,12 @@ mod tests {
                 })
             });
             let corners: Vec<u32> = corners.collect();
-            builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+            builder.polygon(&corners, [0.0, 0.0, 1.0], index);
         }
         builder.finish().expect("corners inside the guard band")
     }
 
-    /// Returns polygon, corner, top and bottom of the edges in each bucket.
+    /// Returns the polygon, corner, top and bottom of the edges in each bucket.
     fn buckets(frame: &Frame) -> Vec<Vec<[u32; 4]>> {
         let table = EdgeTable::new(frame);
         let fields = |e: &TableEdge| [e.polygon, e.corner, e.top, e.bottom];

@@ -1,4 +1,5 @@
-//! The visible line: the span seen at each pixel of a scanline, by a depth buffer of one line and the span engine's depth test.
+//! The visible line: which span is seen at each pixel of a scanline, by a depth buffer of one line
+//! and the span engine's depth test.
 
 use super::active::PolygonSpan;
 use crate::raster::depth::{CallersDepth, DepthTest, SampleDepth};
@@ -7,24 +8,24 @@ use alloc::vec::Vec;
 use core::mem::take;
 use core::ops::Range;
 
-/// The number of the span, or polygon, at a pixel where there is none.
-pub const NOTHING: u32 = u32::MAX;
+/// The index of the span, or of the polygon, at a pixel that shows none.
+pub const NO_POLYGON: u32 = u32::MAX;
 
-/// A pixel at which there is no span: infinitely far.
-const EMPTY: (f32, u32) = (f32::INFINITY, NOTHING);
+/// A pixel that shows no span: infinitely far away.
+const EMPTY: (f32, u32) = (f32::INFINITY, NO_POLYGON);
 
-/// Steps depth along a span. Where `sees` returns a depth to store, span `number` is seen.
+/// Steps depth along a span. Span `index` is seen wherever `sees` returns a depth to store.
 #[inline(always)]
 fn walk(
     span: &PolygonSpan,
     pixels: &mut [(f32, u32)],
-    number: u32,
+    index: u32,
     sees: impl Fn(f32, f32) -> Option<f32>,
 ) {
     let mut q = span.depth;
     for (depth, seen) in pixels {
         if let Some(kept) = sees(q, *depth) {
-            (*depth, *seen) = (kept, number);
+            (*depth, *seen) = (kept, index);
         }
         q += span.depth_step;
     }
@@ -34,7 +35,7 @@ fn walk(
 #[derive(Debug)]
 pub(crate) struct VisibleLine {
     spans: Vec<PolygonSpan>,
-    /// Depth and number of the span at each pixel.
+    /// The depth at each pixel, and the index of the span seen there.
     pixels: Vec<(f32, u32)>,
     drawn: Range<usize>,
     rule: SampleDepth,
@@ -56,9 +57,9 @@ impl VisibleLine {
         self.pixels[take(&mut self.drawn)].fill(EMPTY);
     }
 
-    /// Draws a span: it is seen where its depth is strictly less than what was drawn before.
+    /// Draws a span. It is seen where its depth is strictly less than the depths drawn before.
     pub fn draw(&mut self, span: PolygonSpan) {
-        let number = self.spans.len() as u32;
+        let index = self.spans.len() as u32;
         let pixels = span.start as usize..span.end as usize;
         self.drawn = if self.drawn.is_empty() {
             pixels.clone()
@@ -67,16 +68,17 @@ impl VisibleLine {
         };
         let pixels = &mut self.pixels[pixels];
         let rule = self.rule;
-        // The fast path has a loop of its own, without decisions.
+        // The fast path has its own loop, without any other test.
         if rule.is_plain() {
-            walk(&span, pixels, number, |q, depth| (q < depth).then_some(q));
+            walk(&span, pixels, index, |q, depth| (q < depth).then_some(q));
         } else {
-            walk(&span, pixels, number, |q, depth| rule.seen(q, depth));
+            walk(&span, pixels, index, |q, depth| rule.seen(q, depth));
         }
         self.spans.push(span);
     }
 
-    /// Empties those pixels that do not pass the test against the caller's depth, and stores the depths of the others there.
+    /// Empties the pixels that fail the test against the caller's depth. Stores the depths of the
+    /// other pixels in the caller's buffer.
     pub fn hide_behind(&mut self, depth: CallersDepth<'_>) {
         match depth.test.test {
             DepthTest::Less => self.hide::<false, false>(depth),
@@ -101,7 +103,7 @@ impl VisibleLine {
         }
     }
 
-    /// Returns the depth at each pixel, as finely as it is stored; infinite where nothing was drawn.
+    /// Returns the depth at each pixel, rounded as it is stored; infinite where nothing was drawn.
     pub fn depth(&self) -> impl Iterator<Item = f32> {
         self.pixels.iter().map(|(kept, _)| self.rule.shown(*kept))
     }
@@ -111,17 +113,17 @@ impl VisibleLine {
         self.pixels[x].0
     }
 
-    /// Returns the span seen at pixel `x`, an index into [`VisibleLine::spans`], or [`NOTHING`].
+    /// Returns the span seen at pixel `x`, an index into [`VisibleLine::spans`], or [`NO_POLYGON`].
     #[cfg(feature = "io")]
     pub fn span_at(&self, x: usize) -> u32 {
         self.pixels[x].1
     }
 
-    /// Returns the polygon seen at pixel `x`, or [`NOTHING`].
+    /// Returns the polygon seen at pixel `x`, or [`NO_POLYGON`].
     pub fn polygon(&self, x: usize) -> u32 {
         self.spans
             .get(self.pixels[x].1 as usize)
-            .map_or(NOTHING, |span| span.polygon)
+            .map_or(NO_POLYGON, |span| span.polygon)
     }
 
     /// Returns the spans that were drawn on this line, hidden ones too.
@@ -129,20 +131,21 @@ impl VisibleLine {
         &self.spans
     }
 
-    /// Calls `visit` with each visible run, from left to right: a span and the pixels at which it is seen.
+    /// Calls `visit` with each visible run, from left to right: a span and the pixels at which it
+    /// is seen.
     #[inline(always)]
     pub fn runs(&self, mut visit: impl FnMut(&PolygonSpan, Range<usize>)) {
         let mut x = self.drawn.start;
         while x < self.drawn.end {
-            // Runs of pixels that show nothing are found like any other, and not visited.
-            let number = self.pixels[x].1;
+            // A stretch of empty pixels is found like any run, but is not visited.
+            let index = self.pixels[x].1;
             let start = x;
             x += 1;
-            while x < self.drawn.end && self.pixels[x].1 == number {
+            while x < self.drawn.end && self.pixels[x].1 == index {
                 x += 1;
             }
-            if number != NOTHING {
-                visit(&self.spans[number as usize], start..x);
+            if index != NO_POLYGON {
+                visit(&self.spans[index as usize], start..x);
             }
         }
     }

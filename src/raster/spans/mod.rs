@@ -6,9 +6,10 @@
 //!  scanline)     once per scanline       seen at a pixel    once per pixel
 //! ```
 //!
-//! For each scanline the active edges give spans; a depth buffer of one line tells which span is seen at each pixel; each visible
-//! run is then walked and shaded once, so that hidden pixels are never shaded. The runs of a scanline are shaded by one call. It
-//! draws everything: polygons of any shape, every method, every depth buffer.
+//! On each scanline the active edges form spans, and a depth buffer of one line decides which span
+//! is seen at each pixel. Then each visible run is walked and shaded once, so hidden pixels are
+//! never shaded. One call shades all runs of a scanline. This engine draws everything: polygons of
+//! any shape, every method, every kind of depth buffer.
 
 pub(super) mod active;
 pub(super) mod edge;
@@ -16,8 +17,7 @@ pub(super) mod edge_table;
 pub(super) mod line;
 
 use active::ActiveEdges;
-pub use edge::EdgeCrossing;
-pub use line::NOTHING;
+pub use line::NO_POLYGON;
 use line::VisibleLine;
 
 use super::depth::SampleDepth;
@@ -28,8 +28,8 @@ use crate::shading::RunList;
 use alloc::vec;
 use edge_table::EdgeTable;
 
-/// Goes down the scanlines of a frame. Calls `visit` with each one on which anything is drawn: its number, its visible spans, and
-/// the edges that these refer to.
+/// Walks down the scanlines of a frame. Calls `visit` for each scanline on which anything is drawn,
+/// with its index, its visible line, and the active edges that the line's spans refer to.
 pub(super) fn scan(
     frame: &Frame,
     varyings: &Varyings<'_>,
@@ -49,7 +49,7 @@ pub(super) fn scan(
     }
 }
 
-/// Draws a method on its frame into `target`.
+/// Draws a method's frame into `target`.
 pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
     let mut colours = vec![[0.0f32; 3]; setup.frame.width()];
     let mut list = RunList::new(setup.varyings.count);
@@ -64,7 +64,7 @@ pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
         });
         (setup.kernels.pixels)(&setup.pixels(&list), &mut colours);
         let mut rest = &colours[..];
-        // Runs that touch are stored together.
+        // Adjacent runs are stored by one call.
         for touching in list.runs.chunk_by(|a, b| a.x + a.pixels == b.x) {
             let [first, last] = [&touching[0], &touching[touching.len() - 1]];
             let (here, others) = rest.split_at((last.x + last.pixels - first.x) as usize);

@@ -1,4 +1,4 @@
-//! The document of a trace, `fastphong.trace/1`: `docs/trace.md` describes it as JSON.
+//! The document of a trace, `fastphong.trace/1`. `docs/trace.md` describes its JSON.
 
 use crate::scene::Place;
 use alloc::collections::BTreeMap;
@@ -6,18 +6,20 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use serde::Serialize;
 
-/// What the span engine does with a frame by one method, line by line.
+/// What the span engine does as it draws a frame by one method, line by line.
 ///
-/// Indices count from 0 within the document. Floats are those of the engine, to the bit.
+/// A line is a scanline of samples. Indices count from 0 within the document. Floats are the
+/// engine's, bit for bit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Trace {
     /// `fastphong.trace/1`.
     pub schema: &'static str,
-    /// Columns and lines of samples.
+    /// How many columns and lines of samples there are.
     pub size: [usize; 2],
-    /// Samples of a pixel along each side.
+    /// How many samples a pixel has along each side.
     pub samples: usize,
-    /// Sub-pixels of a sample: what coordinates count in.
+    /// How many sub-pixels a sample has: the unit of coordinates.
     pub unit: i32,
     /// The method, with its parameters.
     pub method: String,
@@ -33,12 +35,13 @@ pub struct Trace {
     pub edges: Vec<TraceEdge>,
     /// The edges that begin on each line: the edge table.
     pub buckets: Vec<Vec<usize>>,
-    /// The lines, or the one that was asked for.
+    /// All lines, or only the one that was asked for.
     pub lines: Vec<TraceLine>,
 }
 
-/// A material: the factors of equation 2.1.
+/// A material and the light on it: the factors of equation 2.1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceMaterial {
     /// I_a k_a of each channel.
     pub ambient: [f32; 3],
@@ -52,6 +55,7 @@ pub struct TraceMaterial {
 
 /// A light on a material.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceLight {
     /// L, or its position.
     #[serde(flatten)]
@@ -65,13 +69,13 @@ pub struct TraceLight {
     pub l_v: Option<f32>,
 }
 
-/// A place at infinity or not.
+/// The place of a light or of the eye, at infinity or at a position.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum TracePlace {
-    /// The unit vector toward it.
+    /// At infinity: the unit vector toward it.
     #[serde(rename = "toward")]
     Toward([f32; 3]),
-    /// Its position.
+    /// At a position.
     #[serde(rename = "at")]
     At([f32; 3]),
 }
@@ -85,18 +89,20 @@ impl From<Place<[f32; 3]>> for TracePlace {
     }
 }
 
-/// The names of values, in the order of the lists that hold them.
+/// The names of the values in lists, in the order of the values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceNames {
-    /// Of varyings, which edges carry: `J_1` and so on where there are several lights.
+    /// The names of the varyings that edges carry: `J_1` and so on if there are several lights.
     pub varyings: Vec<String>,
-    /// Of [`TraceRun::values`]; empty for methods in integers, which have no walks, and for methods of several kinds, whose runs have
-    /// names of their own.
+    /// The names of [`TraceRun::values`]. Empty for methods in integers, which have no walks, and
+    /// for methods of several kinds, whose runs carry their own names.
     pub pixel: Vec<String>,
 }
 
 /// A vertex.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceVertex {
     /// Column and line, in sub-pixels.
     pub at: [i32; 2],
@@ -104,16 +110,18 @@ pub struct TraceVertex {
     pub depth: f64,
     /// The unit normal.
     pub normal: [f32; 3],
-    /// Its varyings; empty where they belong to the corners of polygons or to whole polygons: an edge that enters has them.
+    /// Its varyings. Empty if varyings belong to the corners of polygons or to whole polygons; then
+    /// [`TraceEntry`] has them.
     pub varyings: Vec<f32>,
 }
 
 /// A polygon.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TracePolygon {
     /// The vertices of its corners.
     pub corners: Vec<usize>,
-    /// Its number in the scene; pieces of a clipped polygon share it.
+    /// The index of its polygon in the scene. The pieces of a clipped polygon share it.
     pub source: u32,
     /// The index of its material.
     pub material: u32,
@@ -124,10 +132,11 @@ pub struct TracePolygon {
 
 /// An edge of a polygon, from its upper to its lower end.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceEdge {
     /// The polygon.
     pub polygon: usize,
-    /// The corner of the polygon that it starts from; it goes on to the next one.
+    /// The corner of the polygon at which it starts. It ends at the next corner.
     pub corner: usize,
     /// The vertex of its upper end.
     pub top: usize,
@@ -137,46 +146,49 @@ pub struct TraceEdge {
     pub first: i32,
     /// The first line whose centre is not above its lower end: ⌈y_bottom − ½⌉.
     pub end: i32,
-    /// True if it crosses the centre of a line of the picture: then it stands in the edge table.
+    /// True if it crosses the centre of a line of the picture, and so is in the edge table.
     pub crosses: bool,
 }
 
-/// A line: what changes, what is active, what is drawn.
+/// A line: which edges change, which are active, and what is drawn.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceLine {
     /// The line.
     pub y: usize,
-    /// The edges that end before its centre, and leave.
+    /// The edges that end before its centre and are removed.
     pub left: Vec<usize>,
-    /// The edges that step to it from the line before.
+    /// The edges that are stepped to it from the line before.
     pub stepped: Vec<usize>,
-    /// The edges of its bucket.
+    /// The edges of its bucket, which become active.
     pub entered: Vec<TraceEntry>,
-    /// The active edges, by polygon and within a polygon from left to right.
+    /// The active edges, by polygon, and within a polygon from left to right.
     pub active: Vec<TraceActive>,
     /// The spans, in drawing order.
     pub spans: Vec<TraceSpan>,
-    /// The runs of pixels that are seen, from left to right.
+    /// The visible runs of pixels, from left to right.
     pub runs: Vec<TraceRun>,
 }
 
 /// An edge that becomes active.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceEntry {
     /// The edge.
     pub edge: usize,
-    /// The parameter at the centre of the line: 0 at the upper end, 1 at the lower one.
+    /// The parameter at the centre of the line: 0 at the edge's upper end, 1 at its lower one.
     pub t0: f32,
-    /// Its growth a line: Δt = 1 / (y_2 − y_1).
+    /// The parameter's growth per line: Δt = 1 / (y_2 − y_1).
     pub dt: f32,
-    /// The varyings of the upper end.
+    /// The varyings at the upper end.
     pub from: Vec<f32>,
-    /// The varyings of the lower end.
+    /// The varyings at the lower end.
     pub to: Vec<f32>,
 }
 
 /// An active edge on a line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceActive {
     /// The edge.
     pub edge: usize,
@@ -184,21 +196,22 @@ pub struct TraceActive {
     pub pixel: i32,
     /// The crossing lies at x = `pixel` + ½ − `rest[0]`/`rest[1]`, exactly.
     pub rest: [i64; 2],
-    /// A line farther x is greater by `step[0]` + `step[1]`/`rest[1]`, exactly.
+    /// One line farther down, x is greater by `step[0]` + `step[1]`/`rest[1]`, exactly.
     pub step: [i64; 2],
-    /// What depth is computed from, here, and its growth a line.
+    /// The value that depth is computed from, here, and its growth per line.
     pub depth: [f32; 2],
-    /// The varyings here; of a great circle the unit normal.
+    /// The varyings here. On a great circle they begin with the unit normal.
     pub at: Vec<f32>,
-    /// Their growth a line; empty for a great circle.
+    /// The growth of the varyings per line. A great circle's normal has none.
     pub by: Vec<f32>,
-    /// The great circle.
+    /// The great circle, for methods whose edges follow one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub circle: Option<TraceCircle>,
 }
 
 /// A great circle: N = `rest[0]` `from` + `t[0]` `to` (L21 4.8).
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceCircle {
     /// N_1 / sin φ.
     pub from: [f32; 3],
@@ -214,12 +227,13 @@ pub struct TraceCircle {
 
 /// A span: the pixels of a polygon between two of its active edges.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceSpan {
     /// The polygon.
     pub polygon: usize,
-    /// The edge at its left.
+    /// The active edge at its left.
     pub left: usize,
-    /// The edge at its right.
+    /// The active edge at its right.
     pub right: usize,
     /// The first pixel.
     pub start: u32,
@@ -227,51 +241,57 @@ pub struct TraceSpan {
     pub end: u32,
     /// The parameter at the centre of the first pixel: 0 at the left crossing, 1 at the right one.
     pub t0: f32,
-    /// Its growth a pixel: Δt = 1 / (x_2 − x_1).
+    /// The parameter's growth per pixel: Δt = 1 / (x_2 − x_1).
     pub dt: f32,
-    /// What depth is computed from, at the first pixel, and its growth a pixel.
+    /// The value that depth is computed from, at the first pixel, and its growth per pixel.
     pub depth: [f32; 2],
     /// The depth of each pixel, as it is compared and stored.
     pub depths: Vec<f32>,
-    /// Where it was nearer than all spans before it: the first pixel and the one after the last, of each stretch.
+    /// The stretches of pixels where it was nearer than all spans before it: the first pixel of
+    /// each, and the one after the last.
     pub seen: Vec<[usize; 2]>,
 }
 
-/// A run: pixels of a span that are seen.
+/// A run: adjacent pixels at which a span is seen.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceRun {
     /// The span, an index into [`TraceLine::spans`].
     pub span: usize,
     /// The first pixel.
     pub x: u32,
-    /// How many pixels.
+    /// How many pixels it has.
     pub pixels: usize,
     /// The parameter of the span at the centre of the first pixel.
     pub t0: f32,
-    /// Its growth a pixel.
+    /// The parameter's growth per pixel.
     pub dt: f32,
-    /// The varyings at the first pixel; at the left end of the span for methods that start from both ends.
+    /// The varyings at the first pixel, or at the left end of the span for methods that start from
+    /// both ends.
     pub at: Vec<f32>,
-    /// Their growth a pixel; the varyings at the right end for methods that start from both ends.
+    /// The growth of the varyings per pixel, or the varyings at the right end for methods that
+    /// start from both ends.
     pub by: Vec<f32>,
-    /// True if `at` and `by` are the ends of the span.
+    /// True if `at` and `by` are the two ends of the span.
     #[serde(skip_serializing_if = "is_false")]
     pub is_ends: bool,
-    /// The kind of the polygon, for methods that tell kinds apart, and the names of its values.
+    /// The kind of its polygon, for methods of several kinds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kind: Option<TraceKind>,
-    /// The values of each pixel, by [`TraceNames::pixel`] or the names of its kind.
+    /// The values of each pixel, named by [`TraceNames::pixel`] or by its kind.
     pub values: Vec<Vec<f32>>,
-    /// What each pixel was found by, by name: `guess`, Newton's guesses, the last of which is the result; `t`, `rest` and `step`, sines
-    /// and cosines; `from` and `to`, the ends of a great circle over sin φ; `first`, `second` and `third`, differences. For methods
-    /// whose values are N, `D` and `d`: N·N and its root.
+    /// Intermediate results at each pixel, by name. `guess` are Newton's guesses, of which the last
+    /// is the result. `t`, `rest` and `step` are sines and cosines. `from` and `to` are the ends of
+    /// a great circle over sin φ. `first`, `second` and `third` are differences. `D` and `d` are
+    /// N·N and its root, for methods whose values are N.
     pub inside: BTreeMap<&'static str, Vec<Vec<f32>>>,
-    /// The colour of each pixel: linear, clamped to 0..=1, as it is stored.
+    /// The colour of each pixel, linear and clamped to 0..=1, as it is stored.
     pub colours: Vec<[f32; 3]>,
 }
 
-/// The kind of a polygon.
+/// A kind of polygon.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TraceKind {
     /// Its name.
     pub name: &'static str,

@@ -1,28 +1,37 @@
-//! Traces: what the span engine does with a frame, line by line, as one document.
+//! Traces: what the span engine does with a frame, scanline by scanline, as one document.
 //!
-//! The engine is read between its steps: its loops know nothing of it.
+//! [`Variant::trace`] records a [`Trace`], which serialises to JSON (`docs/trace.md`). The recorder
+//! reads the engine's edges, spans and runs between its steps; the engine's loops know nothing of
+//! it.
 
 mod document;
 mod record;
 
-pub use document::{
-    Trace, TraceActive, TraceCircle, TraceEdge, TraceEntry, TraceKind, TraceLight, TraceLine,
-    TraceMaterial, TraceNames, TracePlace, TracePolygon, TraceRun, TraceSpan, TraceVertex,
-};
+pub use document::Trace;
+
+/// The parts of a [`Trace`]: the types of its fields.
+#[doc(hidden)]
+pub mod parts {
+    pub use super::document::{
+        TraceActive, TraceCircle, TraceEdge, TraceEntry, TraceKind, TraceLight, TraceLine,
+        TraceMaterial, TraceNames, TracePlace, TracePolygon, TraceRun, TraceSpan, TraceVertex,
+    };
+}
 
 use super::draw::DrawError;
 use super::engine::{Plan, Renderer};
 use super::setup::SetUp;
 use crate::frame::Frame;
-use crate::number::Level;
+use crate::number::SimdLevel;
 use crate::shading::Variant;
 use alloc::vec::Vec;
 
 impl Variant {
-    /// Traces the span engine as it draws `frame`: every line, or `line` alone with the polygons that it meets.
+    /// Traces the span engine as it draws `frame`. Records every scanline; with `Some(line)` only
+    /// this one, with the polygons that it meets.
     ///
     /// # Errors
-    /// [`DrawError::Refused`] when the method is not for such frames.
+    /// [`DrawError::Refused`] if the method refuses the frame.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
@@ -45,7 +54,7 @@ impl Variant {
         }
         let row = self.row().on(frame);
         let kernels = row.walked_kernels(frame.is_local());
-        let setup = SetUp::by(kernels, self, frame, Level::Scalar, 1.0, Vec::new());
+        let setup = SetUp::by(kernels, self, frame, SimdLevel::Scalar, 1.0, Vec::new());
         let walked = &row.walked[usize::from(frame.is_local())];
         Ok(record::record(self, &setup, walked, line))
     }

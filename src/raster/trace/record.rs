@@ -1,4 +1,5 @@
-//! Records a trace: goes down the lines as the span engine does, and reads edges, spans and runs between its steps.
+//! The recorder of traces. It goes down the lines as the span engine does, and reads edges, spans
+//! and runs between the engine's steps.
 
 use super::document::{
     Trace, TraceActive, TraceCircle, TraceEdge, TraceEntry, TraceKind, TraceLight, TraceLine,
@@ -21,7 +22,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Traces a method on its frame: all lines, or `only` one with the polygons that it meets.
+/// Traces a method on its frame. Records all lines, or `only` one with the polygons that it meets.
 pub(super) fn record(
     variant: &Variant,
     setup: &SetUp<'_>,
@@ -74,30 +75,32 @@ pub(super) fn record(
     }
 }
 
-/// The part of a frame that a document holds, with indices of its own.
+/// The part of a frame that a document holds. It has its own indices.
 struct Part {
-    /// The polygons, as the frame numbers them: the index here, and that of the first edge.
+    /// The polygons by their index in the frame: the index in the document, and the index of the
+    /// first edge.
     polygons: BTreeMap<u32, [usize; 2]>,
-    /// The vertices, as the frame numbers them.
+    /// The vertices, by their index in the frame.
     vertices: Vec<u32>,
 }
 
 impl Part {
-    /// Takes all of a frame, or the polygons with an edge that crosses or leaves `only` one line.
+    /// Selects all of a frame, or the polygons with an edge that crosses `only` one line or ends
+    /// before its centre.
     fn new(frame: &Frame, only: Option<usize>) -> Part {
         let mut part = Part {
             polygons: BTreeMap::new(),
             vertices: Vec::new(),
         };
         let (mut edges, mut vertices) = (0, BTreeSet::new());
-        for (number, polygon) in (0..).zip(frame.polygons()) {
+        for (index, polygon) in (0..).zip(frame.polygons()) {
             let corners = frame.corners(polygon);
             let rows = corners
                 .iter()
                 .map(|v| first_centre(frame.vertices()[*v as usize].y));
             let (first, end) = rows.fold((i32::MAX, i32::MIN), |(a, b), y| (a.min(y), b.max(y)));
             if only.is_none_or(|row| (first..=end).contains(&(row as i32))) {
-                part.polygons.insert(number, [part.polygons.len(), edges]);
+                part.polygons.insert(index, [part.polygons.len(), edges]);
                 edges += corners.len();
                 vertices.extend(corners);
             }
@@ -106,19 +109,19 @@ impl Part {
         part
     }
 
-    /// Returns the index of an edge, if its polygon is a part.
+    /// Returns the index of an edge, if its polygon is in this part.
     fn edge(&self, polygon: u32, corner: u32) -> Option<usize> {
         let [_, first] = self.polygons.get(&polygon)?;
         Some(first + corner as usize)
     }
 
-    fn vertex(&self, number: u32) -> usize {
-        self.vertices.partition_point(|v| *v < number)
+    fn vertex(&self, index: u32) -> usize {
+        self.vertices.partition_point(|v| *v < index)
     }
 
     fn polygons(&self, setup: &SetUp<'_>) -> Vec<TracePolygon> {
-        let polygon = |number: &u32| {
-            let polygon = &setup.frame.polygons()[*number as usize];
+        let polygon = |index: &u32| {
+            let polygon = &setup.frame.polygons()[*index as usize];
             let corners = setup.frame.corners(polygon).iter();
             TracePolygon {
                 corners: corners.map(|v| self.vertex(*v)).collect(),
@@ -126,7 +129,7 @@ impl Part {
                 material: polygon.material,
                 varyings: setup
                     .varyings
-                    .of_polygon(*number)
+                    .of_polygon(*index)
                     .map_or_else(Vec::new, <[f32]>::to_vec),
             }
         };
@@ -135,8 +138,8 @@ impl Part {
 
     fn edges(&self, frame: &Frame) -> Vec<TraceEdge> {
         let rows = 0..frame.height() as i32;
-        let edges = self.polygons.keys().enumerate().flat_map(|(i, number)| {
-            let corners = frame.corners(&frame.polygons()[*number as usize]);
+        let edges = self.polygons.keys().enumerate().flat_map(|(i, index)| {
+            let corners = frame.corners(&frame.polygons()[*index as usize]);
             (0..corners.len()).map(move |corner| (i, corners, corner))
         });
         let edge = |(polygon, corners, corner): (usize, &[u32], usize)| {
@@ -160,14 +163,14 @@ impl Part {
     }
 }
 
-fn vertex(setup: &SetUp<'_>, number: u32) -> TraceVertex {
-    let vertex = &setup.frame.vertices()[number as usize];
+fn vertex(setup: &SetUp<'_>, index: u32) -> TraceVertex {
+    let vertex = &setup.frame.vertices()[index as usize];
     TraceVertex {
         at: [vertex.x, vertex.y].map(SubPixel::to_bits),
         depth: vertex.depth,
-        normal: setup.frame.normal(number),
+        normal: setup.frame.normal(index),
         varyings: match setup.varyings.per {
-            Per::Vertex => setup.varyings.of_corner(0, 0, number).to_vec(),
+            Per::Vertex => setup.varyings.of_corner(0, 0, index).to_vec(),
             Per::Corner(_) | Per::Polygon => Vec::new(),
         },
     }
@@ -194,7 +197,7 @@ fn material_of(setup: &SetUp<'_>, material: usize) -> TraceMaterial {
     }
 }
 
-/// The engine's parts on their way down the lines.
+/// The parts of the engine on their way down the lines.
 struct Recorder<'a> {
     setup: &'a SetUp<'a>,
     walked: &'a Walked,
@@ -203,12 +206,13 @@ struct Recorder<'a> {
     list: RunList,
     line: VisibleLine,
     active: ActiveEdges<'a>,
-    /// The edges that were active on the line before: polygon and corner.
+    /// The edges that were active on the line before, by polygon and corner.
     before: BTreeSet<(u32, u32)>,
 }
 
 impl Recorder<'_> {
-    /// Goes to a line as `scan` in `spans/mod.rs` does. Returns what happened if it is recorded.
+    /// Goes to the next line, as `scan` in `spans/mod.rs` does. Returns its record if
+    /// `is_recorded`.
     fn next_line(
         &mut self,
         row: usize,
@@ -246,7 +250,7 @@ impl Recorder<'_> {
         Some(line)
     }
 
-    /// Returns the index of an edge of the line that is recorded.
+    /// Returns the index of an edge of the recorded line.
     fn edge(&self, polygon: u32, corner: u32) -> usize {
         let edge = self.part.edge(polygon, corner);
         edge.expect("the polygons that a line meets are a part")
@@ -289,15 +293,15 @@ impl Recorder<'_> {
         }
     }
 
-    /// Draws a span into the line, as the engine does, and says where it was seen.
+    /// Draws a span into the line, as the engine does, and records where it was seen.
     fn draw(&mut self, span: &PolygonSpan, states: &[EdgeState]) -> TraceSpan {
-        let number = self.line.spans().len() as u32;
+        let index = self.line.spans().len() as u32;
         self.line.draw(*span);
         let pixels = span.start as usize..span.end as usize;
         let mut seen: Vec<[usize; 2]> = Vec::new();
         for x in pixels.clone() {
             match seen.last_mut() {
-                _ if self.line.span_at(x) != number => {}
+                _ if self.line.span_at(x) != index => {}
                 Some(last) if last[1] == x => last[1] += 1,
                 _ => seen.push([x, x + 1]),
             }
@@ -326,7 +330,7 @@ impl Recorder<'_> {
         }
     }
 
-    /// Returns the runs that are seen on a line.
+    /// Returns the visible runs of a line.
     fn runs(&mut self, row: usize) -> Vec<TraceRun> {
         let mut found = Vec::new();
         self.line.runs(|span, pixels| found.push((*span, pixels)));
@@ -335,7 +339,7 @@ impl Recorder<'_> {
             .collect()
     }
 
-    /// Shades a run alone, and walks along it once more.
+    /// Shades one run by itself, and walks along it once more to record its values.
     fn run(&mut self, span: &PolygonSpan, pixels: Range<usize>, row: usize) -> TraceRun {
         let setup = self.setup;
         self.list.clear();
@@ -373,7 +377,8 @@ impl Recorder<'_> {
         }
     }
 
-    /// Returns what pixels were found by; where their values are N, N·N and its root as methods with a true root have them.
+    /// Returns the intermediate results of pixels. Where their values are N, adds N·N and its root,
+    /// as methods with a true root compute them.
     fn inside(&self, walked: &WalkedRun) -> BTreeMap<&'static str, Vec<Vec<f32>>> {
         let mut inside: BTreeMap<_, _> = walked.inside.iter().cloned().collect();
         if walked.names == ["Nx", "Ny", "Nz"] {
@@ -390,7 +395,7 @@ impl Recorder<'_> {
         inside
     }
 
-    /// Writes names for the frame's lights, and those of the extras.
+    /// Writes out names for the frame's lights, and appends the names of the extras.
     fn named(&self, names: &[&str]) -> Vec<String> {
         let lights = self.setup.frame.light_count();
         let mut all = Vec::new();
