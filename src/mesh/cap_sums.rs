@@ -1,24 +1,26 @@
-//! Weighted sums of those unit normals that are within an angle of a given one, among many.
+//! Weighted sums over many unit normals, restricted to those within an angle of one direction.
 
 use super::vertex_normals::weight::{Sum, Term};
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// The most normals of a leaf: so few are compared one by one.
+/// The most normals in a leaf. A query compares them one by one.
 const LEAF: usize = 16;
 
-/// The rounding of a dot product of a unit vector with a corner of a box around unit vectors: three products and two
-/// additions of numbers up to 1, each off by at most 2⁻⁵³, stay below this.
+/// A bound on the rounding error of a dot product between a unit vector and a corner of a box
+/// around unit vectors. The three products and two additions work on values up to 1, and each is
+/// off by at most 2⁻⁵³.
 const SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// Unit normals in a tree of boxes, halved along their longest sides.
+/// A tree of boxes over unit normals, each box split in half along its longest side.
 ///
-/// A query adds up the boxes that lie within the angle, leaves out those beyond it, and opens those that it cuts. On the
-/// sphere the border of a cap cuts some √n of n boxes, and a handful where the normals lie along a curve, as around the tip
-/// of a cone.
+/// A query asks for all normals in a cap of the unit sphere: those within an angle of one
+/// direction. It adds the stored sum of each box inside the cap, skips each box outside of it, and
+/// opens only the boxes that the border of the cap cuts. On the whole sphere the border cuts about
+/// √n of n boxes. If the normals lie along a curve, as around the tip of a cone, it cuts a handful.
 pub(super) struct CapSums {
     terms: Vec<Term>,
-    /// The sum of nothing.
+    /// An empty sum, which carries the kind of weight.
     none: Sum,
     nodes: Vec<Node>,
 }
@@ -28,15 +30,17 @@ struct Node {
     low: DVec3,
     high: DVec3,
     sum: Sum,
-    /// The range of terms.
+    /// The range of its terms.
     first: usize,
     end: usize,
-    /// The second half; the first one is the next node. `None` for a leaf.
+    /// The node of the second half; `None` for a leaf. The first half is the node right after this
+    /// one.
     second: Option<usize>,
 }
 
 impl CapSums {
-    /// Sorts `terms` by the normals of their polygons into a tree. `none` is the sum of nothing.
+    /// Builds the tree over `terms`, by the normals of their polygons. `none` is the empty sum that
+    /// every sum starts from.
     pub fn new(terms: Vec<Term>, none: Sum) -> Self {
         let mut sums = CapSums {
             nodes: Vec::with_capacity(2 * terms.len() / LEAF + 1),
@@ -47,6 +51,7 @@ impl CapSums {
         sums
     }
 
+    /// Adds the node for a range of terms and those below it. Returns its index.
     fn node(&mut self, first: usize, end: usize) -> usize {
         let part = &mut self.terms[first..end];
         let (low, high) = part
@@ -56,6 +61,7 @@ impl CapSums {
                 (low.min(n), high.max(n))
             });
         let sides = high - low;
+        // Equal normals cannot be split, however many there are.
         let is_leaf = part.len() <= LEAF || sides == DVec3::ZERO;
         if !is_leaf {
             let axis = sides.max_position();
@@ -64,7 +70,7 @@ impl CapSums {
         }
         let mut sum = self.none;
         part.iter().for_each(|term| sum.add_term(term));
-        let number = self.nodes.len();
+        let index = self.nodes.len();
         self.nodes.push(Node {
             low,
             high,
@@ -76,20 +82,25 @@ impl CapSums {
         if !is_leaf {
             let middle = first + (end - first) / 2;
             self.node(first, middle);
-            self.nodes[number].second = Some(self.node(middle, end));
+            self.nodes[index].second = Some(self.node(middle, end));
         }
-        number
+        index
     }
 
-    /// Returns the sum over all polygons whose normals' dot product with `own` is at least `least_cosine`.
+    /// Returns the sum over all polygons whose normal has a dot product of at least `least_cosine`
+    /// with `own`.
     pub fn within(&self, own: DVec3, least_cosine: f64) -> Sum {
         let mut sum = self.none;
         let mut open: Vec<usize> = Vec::from([0]);
-        while let Some(number) = open.pop() {
-            let node = &self.nodes[number];
+        while let Some(index) = open.pop() {
+            let node = &self.nodes[index];
+            // Interval arithmetic: per axis one face of the box gives the smallest product and the
+            // other one the largest.
             let (a, b) = (own * node.low, own * node.high);
             let least = a.min(b).element_sum();
             let most = a.max(b).element_sum();
+            // SLACK keeps both tests on the safe side: a box is skipped or added whole only if
+            // every single comparison would agree.
             if most < least_cosine - SLACK {
                 continue;
             }
@@ -98,7 +109,7 @@ impl CapSums {
                 continue;
             }
             if let Some(second) = node.second {
-                open.extend([second, number + 1]);
+                open.extend([second, index + 1]);
                 continue;
             }
             for term in &self.terms[node.first..node.end] {
@@ -129,7 +140,7 @@ mod tests {
         for (count, repeats) in [(0, 1), (1, 1), (16, 1), (17, 3), (500, 1), (3, 200)] {
             let once = directions(count);
             let normals = once.repeat(repeats);
-            // Weights that are not in the order of the normals, 1 on average.
+            // Weights in an order unrelated to the normals, 1 on average.
             let weights: Vec<f64> = (0..normals.len())
                 .map(|i| 0.5 + (7 * i % 11) as f64 / 10.0)
                 .collect();
@@ -154,7 +165,8 @@ mod tests {
                     let total: f64 = near.clone().map(|(_, w)| w).sum();
                     let sum = sums.within(own, least);
                     assert_eq!(sum.count as usize, near.count(), "{count} {degrees}");
-                    // Two orders of up to 600 additions of vectors whose lengths add up to at most 900.
+                    // Two orders of up to 600 additions of vectors whose lengths add up to at
+                    // most 900.
                     let bound = 600.0 * 900.0 * f64::EPSILON;
                     assert!((sum.vector - expected).length() < bound);
                     assert!((sum.weight - total).abs() < bound);

@@ -1,32 +1,36 @@
-//! The edges of a mesh, each with the polygons along it.
+//! The edges of a mesh and the polygons along each.
 
 use super::PolygonMesh;
+#[cfg(any(feature = "cli", test))]
 use super::newell::{polygon_normals, unit_normal};
+#[cfg(any(feature = "cli", test))]
 use super::weld::weld;
 use alloc::vec;
 use alloc::vec::Vec;
+#[cfg(any(feature = "cli", test))]
 use glam::DVec3;
 
-/// A polygon along an edge.
+/// One polygon's use of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct EdgeUse {
-    /// The two vertices of the edge, the lower number first.
+    /// The two vertices of the edge, the lower index first.
     pub ends: [u32; 2],
-    /// True if the polygon runs from the lower number to the higher one.
+    /// True if the polygon runs from the lower index to the higher one.
     pub ascends: bool,
     /// The polygon.
     pub polygon: u32,
 }
 
-/// All edges of a mesh, between the vertices that [`weld`] finds.
+/// All edges of a mesh, between the vertices that [`weld`](super::weld::weld) finds.
 pub struct Edges {
-    /// The uses of each edge side by side.
+    /// Sorted, so that the uses of each edge stand side by side.
     uses: Vec<EdgeUse>,
 }
 
 impl Edges {
-    /// Collects the edges of `mesh`, `vertex` having the number of each position among `count` vertices, in the time of a pass over
-    /// its corners and of sorting the edges at each vertex.
+    /// Collects the edges of `mesh`. `vertex` holds the index of each position's vertex, of which
+    /// there are `count`. This takes two passes over the corners, and sorts the few edges at each
+    /// vertex.
     pub fn new(mesh: &PolygonMesh, vertex: &[u32], count: usize) -> Edges {
         let of_polygon = |polygon: usize, corners: &[u32], each: &mut dyn FnMut(EdgeUse)| {
             for (i, &from) in corners.iter().enumerate() {
@@ -46,7 +50,8 @@ impl Edges {
                 of_polygon(polygon, corners, each);
             }
         };
-        // By the lower end through counting, then each of those few by the other one.
+        // A counting sort by the lower end, then a comparison sort within each vertex. `starts`
+        // first counts, then becomes prefix sums.
         let mut starts = vec![0u32; count + 1];
         all(&mut |edge| starts[edge.ends[0] as usize + 1] += 1);
         for i in 0..count {
@@ -70,26 +75,29 @@ impl Edges {
         Edges { uses }
     }
 
-    /// Returns the edges, each as its uses.
+    /// Returns the edges one by one. Each item holds all uses of one edge.
     pub fn iter(&self) -> impl Iterator<Item = &[EdgeUse]> {
         self.uses.chunk_by(|a, b| a.ends == b.ends)
     }
 }
 
-/// Counts of edges at which a mesh may look otherwise than was meant.
+/// Counts of edges where a mesh may not look as its author meant.
+#[cfg(any(feature = "cli", test))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EdgeCounts {
-    /// Edges of one part whose two polygons turn by more than the angle that was asked for.
+    /// Edges within one part whose two polygons meet at more than the requested angle.
     pub sharp: usize,
-    /// Edges between polygons of two parts that turn by no more than that, unless smoothing groups part them as well.
+    /// Edges between two parts whose polygons meet at no more than that angle. Edges that smoothing
+    /// groups separate as well do not count.
     pub seams: usize,
-    /// Edges of one polygon each that would be edges of two if near positions were one.
+    /// Edges of only one polygon that would have two if nearby positions were one.
     pub closing: usize,
 }
 
+#[cfg(any(feature = "cli", test))]
 impl EdgeCounts {
-    /// Counts edges of `mesh` that turn by more than an angle in degrees, and those that close where positions within `part` of its
-    /// size count as one.
+    /// Counts the edges of `mesh`. `degrees` is the angle that tells sharp edges, and positions
+    /// closer than `part` of the mesh's size count as one for closing edges.
     pub fn of(mesh: &PolygonMesh, degrees: f64, part: f64) -> EdgeCounts {
         let (vertex, count) = weld(mesh.positions());
         let edges = Edges::new(mesh, &vertex, count);
@@ -123,18 +131,20 @@ impl EdgeCounts {
     }
 }
 
-/// Counts those of the `open` edges that close where positions within `part` of the size of the mesh count as one.
+/// Counts the `open` edges that close if positions closer than `part` of the mesh's size count as
+/// one.
+#[cfg(any(feature = "cli", test))]
 fn closing(mesh: &PolygonMesh, vertex: &[u32], open: &[EdgeUse], part: f64) -> usize {
     if open.len() < 2 {
         return 0;
     }
-    // A position of each vertex that has an open edge, and the number of it among them.
+    // The vertices with an open edge, in ascending order, and a position of each.
     let mut ends: Vec<u32> = open.iter().flat_map(|edge| edge.ends).collect();
     ends.sort_unstable();
     ends.dedup();
     let mut positions = vec![DVec3::ZERO; ends.len()];
-    for (position, number) in mesh.positions().iter().zip(vertex) {
-        if let Ok(place) = ends.binary_search(number) {
+    for (position, vertex) in mesh.positions().iter().zip(vertex) {
+        if let Ok(place) = ends.binary_search(vertex) {
             positions[place] = position.as_dvec3();
         }
     }
@@ -160,7 +170,8 @@ mod tests {
     use crate::mesh::builtin::builtin;
     use glam::Vec3;
 
-    /// The faces of a cube with corners of their own, some of which are moved by `by` along x.
+    /// Returns the faces of a cube, each with its own corners. Every second face is moved by `by`
+    /// along x.
     fn loose_cube(by: f32) -> PolygonMesh {
         let cube = builtin("cube").expect("a shape");
         let mut positions = Vec::new();
@@ -207,7 +218,8 @@ mod tests {
                 closing: 0
             }
         );
-        // The sides of the cube are 2: 5e-7 is a fourth of what counts as one.
+        // The sides of the cube are 2 long, so positions up to 2e-6 apart count as one; 5e-7 is a
+        // fourth of that.
         let apart = counts(5e-7);
         assert!(apart.closing > 0 && apart.sharp < 12, "{apart:?}");
         assert_eq!(apart.closing + 2 * apart.sharp, 24, "{apart:?}");

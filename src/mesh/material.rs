@@ -2,7 +2,7 @@
 
 use crate::picture::Rgb;
 
-/// The reflection of light by a surface: the coefficients of L21 2.1, each per channel.
+/// The coefficients of L21 2.1 that say how a surface reflects light, one per colour channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Ambient reflection `k_a`.
@@ -16,7 +16,8 @@ pub struct Material {
 }
 
 impl Material {
-    /// A grey surface, for vertex colours that are lit: those of at most 1 stay below 1 under a light of 1.
+    /// A grey surface for lit vertex colours. The coefficients sum to 1, so that colours up to 1 do
+    /// not go over 1 under one light of strength 1.
     pub(crate) const NEUTRAL: Material = Material {
         ambient: [0.1; 3],
         diffuse: [0.7; 3],
@@ -26,7 +27,7 @@ impl Material {
 }
 
 impl Default for Material {
-    /// Returns a warm, slightly glossy surface: the one that a mesh without materials and colours gets.
+    /// Returns a warm, slightly glossy surface. A mesh without materials and colours gets it.
     fn default() -> Self {
         Material {
             ambient: [0.08, 0.07, 0.06],

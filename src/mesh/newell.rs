@@ -1,20 +1,21 @@
-//! Polygon normals by Newell's formula (L21 1.1), and when a polygon has none.
+//! Polygon normals by Newell's formula (L21 1.1), and how to tell that a polygon has none.
 
 use super::PolygonMesh;
 use crate::number::parallel::collect;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// Returns the normal of a polygon by Newell's formula, taken about its first corner, in `f64`.
+/// Returns the normal of a polygon by Newell's formula in `f64`, with the first corner as origin.
 ///
 /// ```text
 /// N = Σ (P_k − P_0) × (P_{k+1} − P_0)      (L21 1.1),   |N| = 2 · area
 /// ```
 ///
-/// The sum does not depend on the origin in exact arithmetic; about a corner it does not cancel for polygons far from
-/// the origin. Collinear corners add nothing. The result is zero when the polygon has no normal: fewer than three
-/// corners, all of them collinear, or lobes whose areas cancel. Rounded corners may leave a remainder instead:
-/// [`polygon_normal`] knows how large it can be.
+/// In exact arithmetic the sum does not depend on the origin. With a corner as origin it does not
+/// cancel for polygons far from 0. Collinear corners add nothing. The result is zero if the polygon
+/// has no normal: it has fewer than three corners, all corners are collinear, or the areas of its
+/// lobes cancel. Rounded corners may leave a small remainder instead of zero; [`polygon_normal`]
+/// bounds it.
 #[inline]
 pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let mut corners = corners.into_iter();
@@ -31,22 +32,25 @@ pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     normal
 }
 
-/// Returns the normal of polygon `p` by Newell's formula: twice its area long, zero when the polygon has no normal.
+/// Returns the normal of polygon `p` by Newell's formula. Its length is twice the area; it is zero
+/// if the polygon has no normal.
 ///
-/// A polygon has a normal if rounding its corners to `f32` cannot have made it. Moving each corner by at most `δ` (half
-/// an `f32` step of the largest coordinate, for each axis) changes (L21 1.1) by `Σ δ_k × (P_{k+1} − P_{k−1})` to first
-/// order, so along x by at most
+/// A polygon has a normal only if the sum is too large to be the result of rounding the corners to
+/// `f32`. Moving each corner by at most `δ` along each axis (half an `f32` step of the largest
+/// coordinate) changes (L21 1.1) by `Σ δ_k × (P_{k+1} − P_{k−1})` to first order. Along x that is
+/// at most
 ///
 /// ```text
 /// δ_y Σ |z_{k+1} − z_{k−1}| + δ_z Σ |y_{k+1} − y_{k−1}|
 /// ```
 ///
-/// and alike along y and z. A sum no longer than that bound is what collinear points may leave, and counts as zero. The
-/// rounding of the sum itself in `f64` is smaller, 2⁻⁵³ against 2⁻²⁵, for any polygon below 2²⁶ corners.
+/// and y and z have bounds of the same form. Collinear points may leave a sum up to that bound, so
+/// it counts as zero. The rounding of the sum itself in `f64` is smaller, 2⁻⁵³ against 2⁻²⁵, for
+/// any polygon below 2²⁶ corners.
 pub fn polygon_normal(mesh: &PolygonMesh, p: usize) -> DVec3 {
     let corners = mesh.polygon(p);
     match <&[u32; 3]>::try_from(corners) {
-        // With a known number of corners the compiler unrolls the loop.
+        // With a constant corner count the compiler unrolls the loop.
         Ok(triangle) => normal_of(mesh.positions(), triangle),
         Err(_) => normal_of(mesh.positions(), corners),
     }
@@ -56,7 +60,7 @@ pub fn polygon_normal(mesh: &PolygonMesh, p: usize) -> DVec3 {
 fn normal_of(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let normal = newell(corners.iter().map(|&c| positions[c as usize].as_dvec3()));
     let bound = input_rounding(positions, corners);
-    // Written so that a bound or a sum that is not a number counts as no normal.
+    // The comparison is false for a NaN, so that a NaN in the sum or the bound means no normal.
     if normal.length_squared() > bound.length_squared() {
         normal
     } else {
@@ -64,13 +68,17 @@ fn normal_of(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     }
 }
 
-/// True if polygon `p`, which has no normal, crosses itself and has lobes whose areas cancel; false if it has no area at all.
+/// True if polygon `p`, which has no normal, crosses itself and has lobes whose areas cancel; false
+/// if it has no area at all.
 ///
-/// A path that goes back along itself encloses nothing: such corners are taken away first. What is left has an area unless all
-/// of it lies on one line, which is told by the triangles between its first corner, the one farthest from that, and each other
-/// one. Rounding moves each of two differences by at most 2δ along each axis, δ as in [`polygon_normal`], so the product of
-/// differences up to D long by at most 2 · 2 √3 δ D, which is below 8 δ D.
+/// A path that goes back along itself encloses nothing, so those corners are removed first. The
+/// rest has an area unless all of it lies on one line. To find out, the function measures the
+/// triangles between the first corner, the corner farthest from it, and each other corner. Rounding
+/// moves each of the two differences by at most 2δ along each axis, with δ as in
+/// [`polygon_normal`]. The cross product of two differences up to D long is then off by at most 2 ·
+/// 2 √3 δ D, which is below 8 δ D.
 pub fn areas_cancel(mesh: &PolygonMesh, p: usize) -> bool {
+    // A stack: a corner that equals the one before last undoes the last step.
     let mut path: Vec<DVec3> = Vec::new();
     for &corner in mesh.polygon(p) {
         let here = mesh.positions()[corner as usize].as_dvec3();
@@ -80,7 +88,8 @@ pub fn areas_cancel(mesh: &PolygonMesh, p: usize) -> bool {
             _ => path.push(here),
         }
     }
-    // The same around the joint of the end with the beginning.
+    // The path is closed, so its end may also go back along its beginning. Those steps are undone
+    // here.
     let mut path = &path[..];
     while let [first, inner @ .., last] = path
         && (first == last || inner.last() == Some(first) || inner.first() == Some(last))
@@ -109,21 +118,22 @@ pub fn areas_cancel(mesh: &PolygonMesh, p: usize) -> bool {
     area.fold(0.0, f64::max) > bound * bound
 }
 
-/// Returns the normals of all polygons of a mesh, as [`polygon_normal`] gives them.
+/// Returns the normals of all polygons of a mesh: see [`polygon_normal`].
 pub fn polygon_normals(mesh: &PolygonMesh) -> Vec<DVec3> {
     collect(mesh.polygon_count(), 4096, |p| polygon_normal(mesh, p))
 }
 
-/// Returns the unit vector along `normal`, or `None` for zero (or a vector that is not finite).
+/// Returns the unit vector along `normal`; `None` if it is zero or not finite.
 ///
-/// Cross products of `f32` vectors, and of their differences, are between 1e-90 and 1e77 long, so that the square
-/// neither underflows nor overflows.
+/// Cross products of `f32` vectors, and of their differences, are between 1e-90 and 1e77 long.
+/// Their squares neither underflow nor overflow.
 pub fn unit_normal(normal: DVec3) -> Option<DVec3> {
     let square = normal.length_squared();
     (square > 0.0 && square < f64::INFINITY).then(|| normal / libm::sqrt(square))
 }
 
-/// Bounds the error along each axis of Newell's sum that comes from rounding every corner to `f32`.
+/// Returns a bound, along each axis, on the error of Newell's sum that comes from rounding every
+/// corner to `f32`.
 #[inline(always)]
 fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let corner = |k: usize| positions[corners[k] as usize];
@@ -151,11 +161,13 @@ fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     )
 }
 
-/// Returns half the distance between neighbouring `f32` numbers around `x`: the most that rounding to nearest moves it.
+/// Returns half the distance between neighbouring `f32` values around `x`: rounding to nearest
+/// moves it by no more.
 fn half_step(x: f32) -> f64 {
     const EXPONENT: u32 = 0x7f80_0000;
     const HALF_STEP_OF_ONE: f64 = 1.0 / (1u32 << 24) as f64;
-    // With the fraction cleared, the power of two below |x|; zero for zero and subnormals, whose step is far below all.
+    // Clearing the sign and the fraction leaves the power of two at or below |x|. Zero and
+    // subnormals become zero; their step is far below everything else.
     f32::from_bits(x.to_bits() & EXPONENT) as f64 * HALF_STEP_OF_ONE
 }
 
@@ -214,7 +226,8 @@ mod tests {
             [2.0, 1.0, 0.0],
         ];
         assert_eq!(normal_of(&l), DVec3::new(0.0, 0.0, 6.0));
-        // Two adjacent edges, as the lecture warns: at the notch their product points to the other side.
+        // The lecture warns of taking two adjacent edges: at the notch their cross product points
+        // to the other side.
         let notch: Vec<DVec3> = [5, 0, 1]
             .iter()
             .map(|&k: &usize| Vec3::from(l[k]).as_dvec3())
@@ -224,7 +237,8 @@ mod tests {
 
     #[test]
     fn collinear_neighbours_do_not_matter() {
-        // The first two edges are parallel: their product is zero where Newell's formula still sees the square.
+        // The first two edges are parallel. Their cross product is zero, while Newell's formula
+        // still sees the square.
         let mut points = SQUARE.to_vec();
         points.insert(1, [0.5, 0.0, 0.0]);
         assert_eq!(normal_of(&points), DVec3::new(0.0, 0.0, 2.0));
@@ -265,7 +279,8 @@ mod tests {
 
     #[test]
     fn collinear_points_with_rounded_coordinates_have_no_normal() {
-        // In exact arithmetic all of these lie on one line; their f32 coordinates do not, and Newell's sum is not zero.
+        // In exact arithmetic these points lie on one line. Their f32 coordinates do not, so
+        // Newell's sum is not zero.
         let mut with_remainder = 0;
         for step in 1..200 {
             let along = DVec3::new(1.0 / 3.0, 2.0 / 7.0, -1.0 / 11.0) * step as f64;
@@ -289,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn lobes_that_cancel_are_told_from_polygons_without_area() {
+    fn cancelling_lobes_differ_from_polygons_without_area() {
         let cancels = |points: &[[f32; 3]]| {
             let points: Vec<Vec3> = points.iter().map(|&p| Vec3::from(p)).collect();
             let mesh = mesh_of(&points);
@@ -303,7 +318,7 @@ mod tests {
             bow_tie.rotate_left(first);
             assert!(cancels(&bow_tie));
             assert!(cancels(&bow_tie.map(|[x, y, z]| [x + 1e3, y - 1e3, z])));
-            // Out and back along itself, from every corner on.
+            // Out and back along itself, starting from every corner.
             for path in [[a, b, c, b], [a, b, a, c], [a, b, a, b]] {
                 let mut path = path;
                 path.rotate_left(first);
@@ -311,7 +326,7 @@ mod tests {
             }
         }
         assert!(!cancels(&[a, b, c, d, c, b]));
-        // A tree whose every branch is met from the middle of the path on.
+        // A tree of branches; the path starts in the middle of each.
         let e = [2.0, 2.0, 0.0];
         for first in 0..8 {
             let mut tree = [a, b, c, b, a, d, e, d];

@@ -1,4 +1,4 @@
-//! Surfaces of a mesh that are closed and wound inside out.
+//! Closed surfaces of a mesh that are wound inside out.
 
 use super::PolygonMesh;
 use super::edges::{EdgeUse, Edges};
@@ -9,25 +9,29 @@ use alloc::vec::Vec;
 use core::f64::consts::PI;
 use glam::DVec3;
 
-/// The part of the summed sizes of its terms by which a volume must be below 0: far above the rounding of the sum in `f64`,
-/// and far below any solid.
+/// A volume counts as zero if it is no larger than this part of the summed sizes of its terms. The
+/// limit is far above the rounding of the sum in `f64` and far below any solid.
 const NO_VOLUME: f64 = 1e-9;
 
-/// The surfaces of a mesh that are closed and wound inside out.
+/// How many closed surfaces of a mesh are wound inside out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct InsideOut {
-    /// Their number.
+    /// The count of surfaces.
     pub surfaces: usize,
-    /// The polygons of all of them.
+    /// The count of polygons of all of them.
     pub polygons: usize,
 }
 
-/// Finds the surfaces of `mesh` that are closed and wound inside out. A surface is what polygons of one part make that are
-/// linked by edges. It is closed if every edge is run once in either direction, and inside out if the volume inside is
-/// negative, as polygons are clockwise seen from outside. The surface of a cavity in another surface of the part is not.
+/// Finds the closed surfaces of `mesh` that are wound inside out.
+///
+/// A surface consists of polygons of one part that are linked by edges. It is closed if polygons
+/// run along every edge once in each direction. It is inside out if its volume is negative, because
+/// its polygons are then clockwise seen from outside. The surface of a cavity inside another
+/// surface of its part is meant to be so, and does not count.
 pub fn inside_out(mesh: &PolygonMesh) -> InsideOut {
-    // A volume that is negative has a piece whose is, and pieces by numbers of positions take no sort: nearly all meshes end
-    // here.
+    // A quick test that settles nearly all meshes. Polygons that share positions by index make
+    // pieces, and finding these takes no sorting. A surface with a negative volume has a piece with
+    // a negative volume, if it shares no position with another surface.
     let mut pieces = Groups::new(mesh.positions().len());
     for polygon in mesh.polygons() {
         for &corner in polygon {
@@ -53,8 +57,8 @@ pub fn inside_out(mesh: &PolygonMesh) -> InsideOut {
     found
 }
 
-/// True if `point`, from the origin of `mesh`, lies inside one of its closed surfaces.
-#[doc(hidden)]
+/// True if `point`, relative to the origin of `mesh`, lies inside one of its closed surfaces.
+#[cfg(any(feature = "cli", test))]
 pub fn is_inside_closed_surface(mesh: &PolygonMesh, point: DVec3) -> bool {
     let is_within = |[low, high]: [DVec3; 2]| low.cmplt(point).all() && point.cmplt(high).all();
     let of_mesh = mesh.bounds();
@@ -66,7 +70,7 @@ pub fn is_inside_closed_surface(mesh: &PolygonMesh, point: DVec3) -> bool {
     around.any(|surface| surface.holds(mesh, point))
 }
 
-/// Returns six times the volume of the cone from 0 over a polygon, whatever its shape.
+/// Returns six times the signed volume of the cone from 0 to a polygon of any shape.
 fn volume(mesh: &PolygonMesh, polygon: &[u32]) -> f64 {
     let mut corners = polygon.iter().map(|&c| position(mesh, c));
     let first = position(mesh, polygon[0]);
@@ -81,9 +85,9 @@ fn position(mesh: &PolygonMesh, corner: u32) -> DVec3 {
 struct Surface {
     part: u32,
     polygons: Vec<u32>,
-    /// Six times the volume inside, negative if wound inside out.
+    /// Six times the volume inside; negative if the surface is wound inside out.
     volume: f64,
-    /// The least and the largest coordinates.
+    /// The smallest and the largest coordinates.
     bounds: [DVec3; 2],
 }
 
@@ -98,7 +102,7 @@ fn closed_surfaces(mesh: &PolygonMesh) -> Vec<Surface> {
         uses.clear();
         uses.extend_from_slice(edge);
         uses.sort_by_key(part);
-        // Each part has an edge of its own there.
+        // Where several parts meet, each part has its own edge.
         for uses in uses.chunk_by(|a, b| part(a) == part(b)) {
             let is_closed = matches!(uses, [a, b] if a.ascends != b.ascends);
             for of in uses {
@@ -143,7 +147,8 @@ impl Surface {
         })
     }
 
-    /// True if the bounds of `other`, a surface of the same part, lie within those of this one.
+    /// True if `other` is a surface of the same part and its bounds lie within the bounds of this
+    /// one.
     fn may_hold(&self, other: &Surface) -> bool {
         let [low, high] = self.bounds;
         self.part == other.part
@@ -151,7 +156,9 @@ impl Surface {
             && high.cmpge(other.bounds[1]).all()
     }
 
-    /// True if a point lies inside: the surface fills the sphere of directions from there.
+    /// True if a point lies inside. Seen from there, the surface fills the whole sphere of
+    /// directions: a solid angle of ±4π, while from outside it is 0. The test compares with the
+    /// middle, 2π.
     fn holds(&self, mesh: &PolygonMesh, point: DVec3) -> bool {
         let mut angle = 0.0;
         for &p in &self.polygons {
@@ -165,25 +172,26 @@ impl Surface {
     }
 }
 
-/// Returns the signed solid angle of a triangle seen from 0 (Van Oosterom and Strackee, 1983).
+/// Returns the signed solid angle of a triangle as seen from 0 (Van Oosterom and Strackee, 1983).
 fn solid_angle(a: DVec3, b: DVec3, c: DVec3) -> f64 {
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     2.0 * libm::atan2(a.dot(b.cross(c)), denominator)
 }
 
-/// Returns for each surface if it is the surface of a cavity: inside out, and within more surfaces of its part that are wound rightly
-/// than within others.
+/// Returns for each surface if it bounds a cavity: it is inside out, and of the surfaces of its
+/// part that contain it more are wound outward than inward.
 fn cavities(mesh: &PolygonMesh, surfaces: &[Surface]) -> Vec<bool> {
     let mut is_cavity = vec![false; surfaces.len()];
     let mut order: Vec<usize> = (0..surfaces.len()).collect();
     let ends = |i: usize| surfaces[i].bounds.map(|corner| corner.x);
-    // Of equal beginnings the longer one first: it may hold the other.
+    // A sweep along x. Of surfaces that begin together the longer one comes first, because it may
+    // contain the other.
     order.sort_by(|&a, &b| {
         let ([low_a, high_a], [low_b, high_b]) = (ends(a), ends(b));
         low_a.total_cmp(&low_b).then(high_b.total_cmp(&high_a))
     });
-    // Surfaces that reach, along x, to where the sweep is.
+    // The surfaces that the sweep has entered and not yet left.
     let mut reached: Vec<usize> = Vec::new();
     for i in order {
         let surface = &surfaces[i];
@@ -201,7 +209,7 @@ fn cavities(mesh: &PolygonMesh, surfaces: &[Surface]) -> Vec<bool> {
     is_cavity
 }
 
-/// Numbers in groups, each of which is named by its first one found.
+/// A union-find over indices. The smallest index of a group stands for it.
 struct Groups {
     leader: Vec<u32>,
 }
@@ -213,10 +221,10 @@ impl Groups {
         }
     }
 
-    /// Returns the number that stands for the group of `i`.
+    /// Returns the index that stands for the group of `i`.
     fn first(&mut self, mut i: u32) -> u32 {
         while self.leader[i as usize] != i {
-            // Halving the way makes the next one short.
+            // Path halving keeps later walks short.
             let above = self.leader[self.leader[i as usize] as usize];
             self.leader[i as usize] = above;
             i = above;
@@ -237,7 +245,8 @@ mod tests {
     use crate::mesh::builtin::builtin;
     use glam::Vec3;
 
-    /// A built-in shape moved by `by`, its polygons reversed if asked for; without the first `without` ones.
+    /// Returns a built-in shape, moved by `by` and without its first `without` polygons. `reversed`
+    /// reverses all others.
     fn shape(spec: &str, by: Vec3, reversed: bool, without: usize) -> (Vec<Vec3>, Vec<Vec<u32>>) {
         let mesh = builtin(spec).expect("a shape");
         let polygons = mesh.polygons().skip(without).map(|polygon| {
@@ -257,11 +266,11 @@ mod tests {
         let positions = shapes.iter().flat_map(|shape| shape.0.iter().copied());
         let mut builder = MeshBuilder::new(positions.collect());
         let (mut first, mut parts) = (0, Vec::new());
-        for (number, (positions, polygons)) in shapes.iter().enumerate() {
+        for (part, (positions, polygons)) in shapes.iter().enumerate() {
             for polygon in polygons {
                 let moved: Vec<u32> = polygon.iter().map(|c| c + first).collect();
                 builder.polygon(&moved);
-                parts.push(number as u32);
+                parts.push(part as u32);
             }
             first += positions.len() as u32;
         }
@@ -283,7 +292,7 @@ mod tests {
             for by in [Vec3::ZERO, Vec3::new(5.0, -7.0, 2.0)] {
                 assert_eq!(count(&[shape(spec, by, false, 0)], false), 0, "{spec}");
                 assert_eq!(count(&[shape(spec, by, true, 0)], false), 1, "{spec}");
-                // With a hole, inside and outside are not two things.
+                // With a hole in the surface there is no inside.
                 assert_eq!(count(&[shape(spec, by, true, 1)], false), 0, "{spec}");
             }
         }
@@ -291,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn each_surface_is_judged_by_itself_and_a_cavity_is_none() {
+    fn each_surface_is_judged_by_itself_and_a_cavity_does_not_count() {
         let by = Vec3::new(9.0, 0.0, 0.0);
         let [right, wrong] = [false, true].map(|reversed| shape("cube", by, reversed, 0));
         let mut around = shape("cube", Vec3::ZERO, false, 0);
@@ -302,7 +311,8 @@ mod tests {
         }
         assert_eq!(count(&[wrong.clone(), wrong.clone()], true), 2);
         assert_eq!(count(&[around.clone(), wrong.clone()], false), 0);
-        // A solid in the cavity, and a cavity in that; the other way around all are wrong, but for what is a cavity then.
+        // A cavity in a solid, a solid in that cavity, and a cavity in that solid. Wound the other
+        // way around, the solids are wrong, and the cavities are cavities still.
         let sized = |factor: f32, reversed| {
             let mut cube = shape("cube", Vec3::ZERO, reversed, 0);
             cube.0.iter_mut().for_each(|p| *p = by + factor * *p);
@@ -319,7 +329,7 @@ mod tests {
         small.0.iter_mut().for_each(|p| *p *= 0.05);
         let ring = shape("torus", Vec3::ZERO, false, 0);
         assert_eq!(count(&[ring.clone(), small.clone()], false), 1);
-        // Wherever the first stands among the others.
+        // The order of the shapes does not matter.
         assert_eq!(count(&[small, ring, around, wrong], false), 1);
     }
 
@@ -333,13 +343,13 @@ mod tests {
         let touching = [here, there];
         assert!(touching[1].0.iter().any(|p| touching[0].0.contains(p)));
         assert_eq!(count(&touching, false), 1);
-        // Each polygon with corners of its own, as exporters of triangles write them.
+        // Each polygon has its own corners, as exporters of triangles write them.
         let soup = |(positions, polygons): &(Vec<Vec3>, Vec<Vec<u32>>)| {
             let all = polygons.iter().flatten();
             let own: Vec<Vec3> = all.map(|&c| positions[c as usize]).collect();
-            let mut numbers = 0..own.len() as u32;
+            let mut indices = 0..own.len() as u32;
             let lists = polygons.iter();
-            let lists = lists.map(|list| numbers.by_ref().take(list.len()).collect());
+            let lists = lists.map(|list| indices.by_ref().take(list.len()).collect());
             let lists = lists.collect();
             (own, lists)
         };
@@ -347,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn points_are_inside_closed_surfaces_and_not_in_their_bounds_alone() {
+    fn points_must_be_inside_the_surface_not_only_inside_its_bounds() {
         let torus = builtin("torus").expect("a shape");
         let on_ring = torus.positions()[torus.polygon(0)[0] as usize].as_dvec3();
         assert!(is_inside_closed_surface(

@@ -1,18 +1,20 @@
-//! The origin of a mesh far from 0: taken off before positions are rounded to `f32`.
+//! The origin of a mesh that lies far from 0. It is subtracted before positions are rounded to
+//! `f32`.
 
 use glam::DVec3;
 
-/// The distance of a mesh from 0, in extents of it, from which on it gets an origin of its own. Nearer ones lose at most
-/// log₂ 16 + 1 of the 24 bits of an `f32`.
+/// A mesh farther from 0 than this many times its extent gets its own origin. A nearer mesh loses
+/// at most log₂ 16 + 1 of the 24 bits of an `f32`.
 const FAR: f64 = 16.0;
 
-/// Returns the point that positions are best counted from: 0, unless the centre of their bounds is farther than [`FAR`]
-/// extents from it.
+/// Returns the origin for these positions: 0, unless the centre of their bounds is farther than
+/// [`FAR`] extents from 0.
 ///
-/// Each coordinate is a multiple of a power of two, the least over the extent. So the origin is within half of that from the
-/// centre, and what is left is at most 1½ extents. Along an axis where the mesh is far from 0, a
-/// position and the origin are within a factor of two of one another, and their difference is exact (Sterbenz 1974); along
-/// others it is off by at most 2⁻⁵³ extents.
+/// The origin is the centre, with each coordinate rounded to a multiple of the smallest power of
+/// two above the extent. So it is within half of that power from the centre, and positions relative
+/// to it are at most 1½ extents long in each coordinate. Along an axis where the mesh is far from
+/// 0, a position and the origin are within a factor of two of each other, so their difference is
+/// exact (Sterbenz 1974). Along the other axes the difference is off by at most 2⁻⁵³ extents.
 pub(super) fn origin(positions: &[DVec3]) -> DVec3 {
     let Some(&first) = positions.first() else {
         return DVec3::ZERO;
@@ -22,11 +24,13 @@ pub(super) fn origin(positions: &[DVec3]) -> DVec3 {
         .fold((first, first), |(low, high), &p| (low.min(p), high.max(p)));
     let centre = 0.5 * low + 0.5 * high;
     let extent = (high - low).max_element();
-    // Written so that without an extent, or with one that is not finite, nothing is taken off.
+    // The test is negated as a whole, so that it also holds if the extent is 0 or any value is a
+    // NaN.
     if !(extent > 0.0 && centre.abs().max_element() > FAR * extent && extent.is_normal()) {
         return DVec3::ZERO;
     }
-    // With the fraction cleared, the power of two that is no larger than the extent.
+    // The bits of infinity mask the exponent. With the fraction cleared, the extent becomes the
+    // power of two at or below it.
     let step = 2.0 * f64::from_bits(extent.to_bits() & f64::INFINITY.to_bits());
     (centre / step).round() * step
 }

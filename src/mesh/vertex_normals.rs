@@ -1,4 +1,21 @@
-//! Vertex normals: averaged (L21 3.1), given, or averaged up to a crease.
+//! Vertex normals.
+//!
+//! [`vertex_normals`] computes a unit normal for every corner of a mesh. A [`NormalSource`] says
+//! where normals come from: averages over the polygons around a vertex (L21 3.1), the normals that
+//! came with the mesh, or averages that stop at creases. A [`NormalWeight`] says how much each
+//! polygon counts in an average.
+//!
+//! ```
+//! use fastphong::mesh::builtin::builtin;
+//! use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
+//!
+//! let cube = builtin("cube")?;
+//! // One normal per vertex, along its diagonal.
+//! assert_eq!(vertex_normals(&cube, NormalSource::Averaged).values.len(), 8);
+//! // One per corner: the edges turn by 90 degrees, more than a crease of 40.
+//! assert_eq!(vertex_normals(&cube, NormalSource::Crease(40.0)).values.len(), 24);
+//! # Ok::<(), fastphong::mesh::builtin::BuiltinError>(())
+//! ```
 
 mod arc;
 pub(super) mod weight;
@@ -19,32 +36,34 @@ use weight::{Sum, Term, Weights};
 
 /// The source of vertex normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum NormalSource {
-    /// The normalised sum of the unit normals of all polygons around a position (L21 3.1) that are on one surface and in one
-    /// smoothing group, where the mesh has some.
+    /// The normalised sum of the unit normals of all polygons around a position (L21 3.1) that are
+    /// on one surface and, if the mesh has smoothing groups, in one group.
     #[default]
     Averaged,
-    /// What the mesh itself states: a corner's own normal where it has one, else as [`NormalSource::Averaged`].
+    /// The mesh's own normal for each corner that has one; averages as [`NormalSource::Averaged`]
+    /// makes them for the others.
     Auto,
-    /// The normals that came with the mesh (by formula or from its file); averaged ones, regardless of smoothing groups, where
-    /// it has none.
+    /// The mesh's own normal for each corner that has one; averages that ignore smoothing groups
+    /// for the others.
     Given,
-    /// As averaged, but regardless of smoothing groups, and only over polygons whose normals differ from this one's by at
-    /// most so many degrees.
+    /// Averages that ignore smoothing groups and count only polygons whose normals differ from the
+    /// corner's own polygon by at most this angle in degrees.
     Crease(f64),
 }
 
-/// The source of vertex normals, and the weight of polygons where they are averaged.
+/// A source of vertex normals, and the weight of polygons where normals are averaged.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalRule {
     /// The source.
     pub source: NormalSource,
-    /// The weight, where `source` averages.
+    /// The weight of each polygon where `source` averages.
     pub weight: NormalWeight,
 }
 
 impl From<NormalSource> for NormalRule {
-    /// Takes the source with uniform weights, as the lecture does.
+    /// Returns the source with uniform weights, as in the lecture.
     fn from(source: NormalSource) -> Self {
         let weight = NormalWeight::Uniform;
         NormalRule { source, weight }
@@ -56,41 +75,47 @@ impl From<NormalSource> for NormalRule {
 pub struct VertexNormals {
     /// Unit vectors.
     pub values: Vec<Vec3>,
-    /// The entry of `values` that each corner uses, in the order of [`PolygonMesh::corners`].
+    /// The index into `values` for each corner, in the order of [`PolygonMesh::corners`].
     pub corners: Vec<u32>,
 }
 
-/// The normal of a corner that no polygon gives one: toward the viewer of a mesh that was not turned.
+/// The normal of a corner if no polygon around it has one. It points toward the viewer of a mesh
+/// that was not turned.
 const NO_NORMAL: DVec3 = DVec3::Z;
 
-/// Returns the unit normals at all corners of `mesh`, in `f64` and rounded once.
+/// Returns the unit normals at all corners of `mesh`, computed in `f64` and rounded once.
 ///
-/// Positions that coincide exactly are one vertex, whatever their indices. Corners there share an average if they are on one
-/// surface: of one part of the mesh, and linked by a chain of polygons around the vertex, each of which shares with the next
-/// an edge that they run in opposite directions. Along an edge of more than two polygons the flattest pairs are linked first,
-/// each polygon to one other. Polygons that fold back onto one another, the two sides of a sheet at its rim, are not linked.
-/// So two sheets back to back, shapes that touch at a corner, and neighbours that are wound differently (somewhere on a
-/// Möbius strip) do not smooth one another.
+/// Positions that coincide exactly are one vertex, whatever their indices. Corners at a vertex
+/// share an average if they are on one surface. That means that they belong to one part of the
+/// mesh, and that a chain of polygons around the vertex links them, each sharing an edge with the
+/// next one and running along it in the opposite direction. If more than two polygons meet at an
+/// edge, the flattest pairs are linked first, and each polygon is linked to one other. Polygons
+/// that fold back onto each other, as the two sides of a sheet do at its rim, are not linked. So
+/// two sheets back to back, shapes that touch at a corner, and neighbours that are wound
+/// differently (as somewhere on a Möbius strip) do not smooth each other.
 ///
-/// A polygon counts once at a vertex, even if it passes it twice, or with each of its corners there where weights are those of
-/// corners ([`NormalWeight::Angle`], [`NormalWeight::Max`]). One without a normal does not count, though it links. Normals do not
-/// depend on the scale of the mesh. Where all weights vanish, all count alike. Where the sum vanishes, each corner has the normal of its own polygon, and (0, 0, 1) if that polygon has none.
+/// A polygon counts once at a vertex, even if it passes the vertex twice. Under weights of corners
+/// ([`NormalWeight::Angle`], [`NormalWeight::Max`]) it counts with each of its corners there. A
+/// polygon without a normal does not count, but it still links its neighbours. Normals do not
+/// depend on the scale of the mesh. If all weights vanish, all corners count equally. If the sum
+/// vanishes, each corner has the normal of its own polygon, or (0, 0, 1) if that polygon has none.
 ///
-/// Takes time in proportion to the mesh; under [`NormalSource::Crease`], a vertex with n polygons takes up to n √n.
+/// The time is proportional to the size of the mesh. Under [`NormalSource::Crease`] a vertex with n
+/// polygons takes up to n √n.
 pub fn vertex_normals(mesh: &PolygonMesh, rule: impl Into<NormalRule>) -> VertexNormals {
     corner_normals(mesh, rule.into(), None).by_corner(mesh)
 }
 
-/// Returns the unit normals at all corners of a mesh, said as shortly as they can be.
+/// The unit normals at all corners of a mesh, in the shorter of two forms.
 pub(crate) enum CornerNormals {
-    /// All corners at a position have the same one.
+    /// All corners at a position have one normal.
     ByPosition {
         /// Unit vectors.
         values: Vec<Vec3>,
-        /// The entry of `values` that each position has.
+        /// The index into `values` for each position.
         positions: Vec<u32>,
     },
-    /// Corners at a position differ.
+    /// Some corners at one position differ.
     ByCorner(VertexNormals),
 }
 
@@ -107,7 +132,7 @@ impl CornerNormals {
     }
 }
 
-/// Returns the entry of `positions` that each corner of `mesh` uses.
+/// Returns, for each corner of `mesh`, the entry of `positions` for its position.
 fn corners_of(mesh: &PolygonMesh, positions: &[u32]) -> Vec<u32> {
     mesh.corners()
         .iter()
@@ -115,7 +140,8 @@ fn corners_of(mesh: &PolygonMesh, positions: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-/// Computes [`vertex_normals`], from the normals of all polygons where these are known already.
+/// Computes [`vertex_normals`]. `polygons` are Newell's normals of all polygons, if the caller has
+/// them already.
 pub(crate) fn corner_normals(
     mesh: &PolygonMesh,
     rule: NormalRule,
@@ -138,23 +164,27 @@ pub(crate) fn corner_normals(
     }
 }
 
-/// The data of a mesh that a [`NormalSource`] takes, and those that it leaves unused.
+/// The normals and smoothing groups of a mesh that a [`NormalSource`] uses, and those that it
+/// leaves unused.
+#[cfg(any(feature = "io", test))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NormalUse {
-    /// Corners that have their own normal, which came with the mesh.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))] // Some fields are reported by the program only.
+pub(crate) struct NormalUse {
+    /// How many corners use a normal that came with the mesh.
     pub given: usize,
-    /// The other corners.
+    /// How many corners use an average.
     pub averaged: usize,
     /// True if averages obey smoothing groups.
     pub obeys_groups: bool,
-    /// True if the mesh has normals that are not used.
+    /// True if the mesh has normals that `source` ignores.
     pub leaves_normals: bool,
-    /// True if the mesh has smoothing groups that averages do not obey.
+    /// True if the mesh has smoothing groups that `source` ignores.
     pub leaves_groups: bool,
 }
 
+#[cfg(any(feature = "io", test))]
 impl NormalUse {
-    /// Finds out what `source` takes of `mesh`.
+    /// Finds out what `source` uses of `mesh`.
     pub fn of(mesh: &PolygonMesh, source: NormalSource) -> NormalUse {
         let has_normal = |given: &GivenNormals, n: u32| given.values[n as usize] != Vec3::ZERO;
         let own = mesh.given_normals().map_or(0, |given| {
@@ -163,7 +193,8 @@ impl NormalUse {
         });
         let takes_normals = matches!(source, NormalSource::Auto | NormalSource::Given);
         let given = if takes_normals { own } else { 0 };
-        // A corner's own normal wins over its smoothing group: where all have one, no group is left out.
+        // A corner's own normal wins over its smoothing group. If all corners have one, no group
+        // could have mattered.
         let matters = mesh.has_smoothing_groups() && own < mesh.corners().len();
         let obeys = matches!(source, NormalSource::Auto | NormalSource::Averaged);
         NormalUse {
@@ -176,18 +207,18 @@ impl NormalUse {
     }
 }
 
-/// Returns the unit normals of all polygons, zero for one that has none.
+/// Returns the unit normals of all polygons; zero for a polygon without a normal.
 fn unit_normals(polygons: &[DVec3]) -> Vec<DVec3> {
     let unit = |p: usize| unit_normal(polygons[p]).unwrap_or(DVec3::ZERO);
     collect(polygons.len(), 4096, unit)
 }
 
-/// What averages over the polygons of a mesh are made of.
+/// The data that averages over the polygons of a mesh need.
 struct Around<'a> {
     mesh: &'a PolygonMesh,
     /// The vertex at each position.
     vertex: Vec<u32>,
-    /// The number of vertices.
+    /// How many vertices there are.
     count: usize,
     fans: Fans,
     polygons: Cow<'a, [DVec3]>,
@@ -197,7 +228,8 @@ struct Around<'a> {
 }
 
 impl<'a> Around<'a> {
-    /// Collects the corners around each vertex, and at the same time the normals of polygons, where these are not known already.
+    /// Collects the corners around each vertex, and in parallel computes the normals of polygons if
+    /// they are not known already.
     fn new(mesh: &'a PolygonMesh, polygons: Option<&'a [DVec3]>, weight: NormalWeight) -> Self {
         let corners = || {
             let (vertex, count) = weld(mesh.positions());
@@ -237,15 +269,16 @@ impl<'a> Around<'a> {
     }
 }
 
-/// The averages at some vertices that follow one another.
+/// The averages at a run of consecutive vertices.
 #[derive(Clone, Default)]
 struct AveragedRun {
     values: Vec<Vec3>,
-    /// The value of each corner at these vertices, in the order of [`Fans`]; empty if each vertex has one.
-    numbers: Vec<u32>,
+    /// The index into `values` for each corner at these vertices, in the order of [`Fans`]. It is
+    /// empty if each vertex has one value.
+    indices: Vec<u32>,
 }
 
-/// The vertices of a run, which one thread looks at.
+/// How many vertices make a run. One thread works on a run.
 const RUN: usize = 1024;
 
 fn averaged(
@@ -261,14 +294,17 @@ fn averaged(
         let mut finder = SurfaceFinder::new(mesh, &around.vertex, &around.normals);
         let simple = vertices.clone().map(|v| {
             let fan = fans.of(v);
-            // The pole of a sphere has too many corners to be seen quickly.
+            // The quick test refuses fans of many corners, as at the pole of a sphere; the slow one
+            // then finds one group.
             let has_one_value =
                 finder.is_simple(v, fan, smoothing) || finder.find_groups(v, fan, smoothing) == 1;
             has_one_value.then(|| weights.sum(fan).average()).flatten()
         });
+        // Collecting options stops at the first `None`: a vertex of several values, or of a sum
+        // that vanishes. The whole run then starts again, with an index per corner.
         if let Some(values) = simple.collect() {
-            let numbers = Vec::new();
-            return AveragedRun { values, numbers };
+            let indices = Vec::new();
+            return AveragedRun { values, indices };
         }
         let mut of_run = AveragedRun::default();
         for v in vertices {
@@ -278,7 +314,7 @@ fn averaged(
         }
         of_run
     });
-    match runs.iter().all(|run| run.numbers.is_empty()) {
+    match runs.iter().all(|run| run.indices.is_empty()) {
         true => CornerNormals::ByPosition {
             values: runs.into_iter().flat_map(|run| run.values).collect(),
             positions: around.vertex,
@@ -287,7 +323,7 @@ fn averaged(
     }
 }
 
-/// Returns the values of all runs, and the one of each corner around the `count` vertices.
+/// Joins the values of all runs, and finds the index of each corner around the `count` vertices.
 fn join_runs(
     mesh: &PolygonMesh,
     fans: &Fans,
@@ -300,12 +336,13 @@ fn join_runs(
         let first = values.len() as u32;
         values.extend(of_run.values);
         let vertices = run * RUN..count.min(run * RUN + RUN);
-        let mut numbers = of_run.numbers.iter();
+        let mut indices = of_run.indices.iter();
         for v in vertices.clone() {
             for item in fans.of(v) {
-                let number = numbers.next().copied();
-                let number = number.unwrap_or((v - vertices.start) as u32);
-                corners[item.corner as usize] = first + number;
+                // Without indices, each vertex of the run has one value, in the order of vertices.
+                let index = indices.next().copied();
+                let index = index.unwrap_or((v - vertices.start) as u32);
+                corners[item.corner as usize] = first + index;
             }
         }
     }
@@ -313,7 +350,8 @@ fn join_runs(
 }
 
 impl AveragedRun {
-    /// Adds the averages of `count` groups of the corners in `fan`; where one vanishes, the normals of its polygons.
+    /// Adds the averages of `count` groups of the corners in `fan`. If an average vanishes, it adds
+    /// the normals of the group's polygons.
     fn add_vertex(&mut self, fan: &[FanCorner], groups: &[u32], count: usize, weights: &Weights) {
         let mut add = |value: Vec3| {
             self.values.push(value);
@@ -325,7 +363,7 @@ impl AveragedRun {
             .collect();
         let mut own = (u32::MAX, 0);
         for (item, &group) in fan.iter().zip(groups) {
-            let number = averages[group as usize].unwrap_or_else(|| {
+            let index = averages[group as usize].unwrap_or_else(|| {
                 // The corners of one polygon stand next to each other.
                 if own.0 != item.polygon {
                     let normal = weights.normals[item.polygon as usize];
@@ -338,13 +376,13 @@ impl AveragedRun {
                 }
                 own.1
             });
-            self.numbers.push(number);
+            self.indices.push(index);
         }
     }
 }
 
-/// Returns the sum of each of `count` groups of the corners in `fan`. Where no corner of a group weighs anything, all of them
-/// count alike.
+/// Returns the sum of each of `count` groups of the corners in `fan`. If all corners of a group
+/// have weight 0, they count equally.
 fn group_sums(fan: &[FanCorner], groups: &[u32], count: usize, weights: &Weights) -> Vec<Sum> {
     let mut sums = vec![Sum::new(weights.weight); count];
     let each = || fan.iter().zip(groups);
@@ -362,7 +400,7 @@ fn group_sums(fan: &[FanCorner], groups: &[u32], count: usize, weights: &Weights
     sums
 }
 
-/// Returns the given normals; where there is none, that of `averaged`.
+/// Returns the given normals. Corners without one get their normal from `averaged`.
 fn from_given(
     mesh: &PolygonMesh,
     given: &GivenNormals,
@@ -402,8 +440,8 @@ fn creased(
     polygons: Option<&[DVec3]>,
     weight: NormalWeight,
 ) -> VertexNormals {
-    // A dot product of unit normals that are off by 4ε each is off by less than 16ε: a crease of exactly the angle of an
-    // edge does not break it.
+    // A dot product of two unit normals, each off by 4ε, is off by less than 16ε. With that slack,
+    // a crease of exactly an edge's angle keeps the edge smooth.
     let least_cosine = libm::cos(degrees.clamp(0.0, 180.0).to_radians()) - 16.0 * f64::EPSILON;
     let around = Around::new(mesh, polygons, weight);
     let (count, fans, weights) = (around.count, &around.fans, around.weights());
@@ -421,7 +459,7 @@ fn creased(
 }
 
 impl AveragedRun {
-    /// Adds the normals of the corners in `fan`, each of which is on one of `count` surfaces.
+    /// Adds the normals of the corners in `fan`, which lie on `count` surfaces.
     fn add_creased(
         &mut self,
         fan: &[FanCorner],
@@ -437,23 +475,25 @@ impl AveragedRun {
         for surface in fan.chunk_by(|a, b| surfaces[a.0] == surfaces[b.0]) {
             creased_surface(surface, weights, least_cosine, &mut found);
         }
-        let (numbers, _) = weld(&found);
-        let (first, first_number) = (self.values.len(), self.numbers.len());
-        self.numbers.resize(first_number + fan.len(), 0);
-        for ((&(item, _), &value), &number) in fan.iter().zip(&found).zip(&numbers) {
-            self.numbers[first_number + item] = first as u32 + number;
-            if self.values.len() == first + number as usize {
+        // Store equal normals once. Indices follow first occurrence, so a new index is always the
+        // next one.
+        let (indices, _) = weld(&found);
+        let (first, first_index) = (self.values.len(), self.indices.len());
+        self.indices.resize(first_index + fan.len(), 0);
+        for ((&(item, _), &value), &index) in fan.iter().zip(&found).zip(&indices) {
+            self.indices[first_index + item] = first as u32 + index;
+            if self.values.len() == first + index as usize {
                 self.values.push(value);
             }
         }
     }
 }
 
-/// The number of polygons around a vertex from which on their sums are looked up in a tree.
+/// If more polygons than this lie around a vertex, a tree finds their sums.
 const MANY: usize = 128;
 
-/// Adds the normals of the corners of one surface at a vertex to `found`: each the sum over the polygons that are at most a
-/// crease away.
+/// Adds the normals of the corners of one surface at a vertex to `found`. Each is the sum over the
+/// polygons within the crease angle.
 fn creased_surface(
     surface: &[(usize, FanCorner)],
     weights: &Weights,
@@ -461,7 +501,7 @@ fn creased_surface(
     found: &mut Vec<Vec3>,
 ) {
     let around = terms(surface, weights);
-    // Where no corner weighs anything, all count alike.
+    // If all corners have weight 0, they count equally.
     let weighs = around.iter().any(|term| term.weight > 0.0);
     let (around, weights) = match weighs || around.is_empty() {
         true => (around, *weights),
@@ -491,7 +531,8 @@ fn creased_surface(
     }
 }
 
-/// Returns what the corners of a surface add. Where a polygon counts once, its first corner does.
+/// Returns the terms of a surface's corners. If a polygon counts once, only its first corner has a
+/// term.
 fn terms(surface: &[(usize, FanCorner)], weights: &Weights) -> Vec<Term> {
     let mut latest = u32::MAX;
     let mut terms = Vec::with_capacity(surface.len());
@@ -515,7 +556,7 @@ mod tests {
     use crate::mesh::MeshBuilder;
     use crate::mesh::newell::polygon_normal;
 
-    /// The cube from −1 to 1, six quads, outward.
+    /// Returns the cube from −1 to 1: six quads, wound outward.
     fn cube() -> PolygonMesh {
         let positions = (0..8)
             .map(|i| Vec3::new(sign(i & 1), sign(i >> 1 & 1), sign(i >> 2 & 1)))
@@ -606,7 +647,8 @@ mod tests {
 
     #[test]
     fn a_seam_is_welded() {
-        // Two walls of a right angle that repeat the positions of their common edge, one of them with −0.
+        // Two walls at a right angle. They repeat the positions of their common edge, and one
+        // writes −0 there.
         let p = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
         let positions = vec![
             p(0.0, 0.0, 0.0),
@@ -653,7 +695,7 @@ mod tests {
         ] {
             let normals = vertex_normals(&mesh, source);
             for k in 0..9 {
-                // Around the last four corners no polygon has one.
+                // No polygon around the last four corners has a normal.
                 let expected = if k < 5 { Vec3::X } else { Vec3::Z };
                 assert_eq!(at(&normals, k), expected, "{source:?} {k}");
             }
@@ -662,7 +704,8 @@ mod tests {
 
     #[test]
     fn a_polygon_that_passes_a_position_twice_counts_once() {
-        // A triangle upward, and a bow tie of two equal lobes to the side, whose waist and next corner are the triangle's.
+        // A triangle upward, and a bow tie of two equal lobes to the side, whose waist and next
+        // corner are the triangle's.
         let positions = vec![
             Vec3::ZERO,
             Vec3::X,
@@ -685,7 +728,8 @@ mod tests {
         }
     }
 
-    /// A piece of a cylinder around y, its outside outward, as quads of rows and columns; wound the other way if `reversed`.
+    /// Returns a piece of a cylinder around y as rows and columns of quads. They face outward, or
+    /// inward if `reversed`.
     fn arch(reversed: bool) -> (Vec<Vec3>, Vec<[u32; 4]>) {
         let angle = |column: u32| f64::from(column) * 0.2;
         let position = |k: u32| {
@@ -722,7 +766,8 @@ mod tests {
         let back = arch(true).1;
         let alone = |quads: &[[u32; 4]]| mesh_of(positions.clone(), quads, Vec::new());
         let (front_alone, back_alone) = (alone(&front), alone(&back));
-        // Both on the same positions, or on repeated ones; one after the other, or in turns.
+        // Both sheets on common positions, or each on its own copies; one sheet after the other, or
+        // quads in turns.
         let repeated: Vec<[u32; 4]> = back.iter().map(|quad| quad.map(|k| k + 30)).collect();
         let twice = [&positions[..], &positions[..]].concat();
         let in_turns: Vec<[u32; 4]> = (0..40).map(|k| [&back, &front][k % 2][k / 2]).collect();
@@ -764,7 +809,7 @@ mod tests {
         let (positions, quads) = arch(false);
         let once = mesh_of(positions.clone(), &quads, Vec::new());
         let mut copies = quads.clone();
-        // Past the number of pairs that are compared at an edge, too.
+        // Forty copies are past the limit of pairs that are compared at an edge.
         for count in [2, 3, 40] {
             copies = quads.repeat(count);
             let mesh = mesh_of(positions.clone(), &copies, Vec::new());
@@ -809,7 +854,7 @@ mod tests {
     }
 
     #[test]
-    fn what_touches_at_a_corner_or_is_wound_otherwise_is_not_smoothed() {
+    fn polygons_that_touch_at_a_corner_or_are_wound_differently_are_not_smoothed() {
         let p = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
         // Two squares that share one corner, and two that share an edge and are wound differently.
         let corner = [
@@ -912,14 +957,14 @@ mod tests {
         let mesh = mesh_of(positions, &quads, Vec::new());
         for source in AVERAGES {
             let normals = vertex_normals(&mesh, source);
-            // One normal at each vertex, two at the two of the joint.
+            // One normal at each vertex, and two at each of the two vertices of the joint.
             assert_eq!(normals.values.len(), 2 * count as usize + 2, "{source:?}");
             assert_eq!(at(&normals, 0), face_normal(&mesh, 0));
         }
     }
 
     #[test]
-    fn smoothing_groups_part_what_is_averaged() {
+    fn averages_stop_at_the_borders_of_smoothing_groups() {
         let (positions, quads) = arch(false);
         let with = |groups: Vec<u32>| {
             let mut builder = MeshBuilder::new(positions.clone());
@@ -939,7 +984,8 @@ mod tests {
             let mesh = with(Vec::new());
             for (k, &position) in mesh.corners().iter().enumerate() {
                 assert_eq!(at(&faceted, k), face_normal(&mesh, k / 4));
-                // Along the border of the groups each has its own, which is that of the columns there.
+                // Along the border each group has its own normal: the normal of its column of
+                // quads.
                 match position % 6 == 2 {
                     true => {
                         let off = (at(&two, k) - face_normal(&mesh, k / 4)).length();
@@ -956,7 +1002,7 @@ mod tests {
     }
 
     #[test]
-    fn a_normal_of_its_own_wins_over_the_smoothing_group() {
+    fn a_corners_own_normal_wins_over_the_smoothing_group() {
         let (positions, quads) = arch(false);
         let mut builder = MeshBuilder::new(positions);
         quads.iter().for_each(|quad| {
@@ -993,7 +1039,7 @@ mod tests {
         assert!(crease.leaves_normals && crease.leaves_groups);
     }
 
-    /// A cone of `count` triangles around its tip.
+    /// Returns a cone of `count` triangles around its tip.
     fn cone(count: u32) -> PolygonMesh {
         let rim = |k: u32| {
             let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::TAU / f64::from(count));
@@ -1018,20 +1064,21 @@ mod tests {
         for p in 0..count as usize {
             let near = own.iter().filter(|n| n.dot(own[p]) >= least);
             let expected = near.sum::<DVec3>().normalize().as_vec3();
-            // Sums in two orders, each rounded to f32.
+            // The two sums add in different orders, and each is rounded to f32.
             assert!((at(&normals, 3 * p + 2) - expected).length() <= 2.0 * f32::EPSILON);
         }
     }
 
     /// Comparing every pair of polygons would take minutes here.
     #[test]
-    fn a_fan_of_60000_triangles_takes_time_in_proportion() {
+    fn a_fan_of_60000_triangles_does_not_take_quadratic_time() {
         let mesh = cone(60_000);
         for source in [NormalSource::Crease(30.0), NormalSource::Averaged] {
             let normals = vertex_normals(&mesh, source);
             assert!(normals.values.len() >= 60_001);
         }
-        // As many triangles that share nothing but one corner, and as many pages at one edge.
+        // Triangles that share nothing but one corner, and triangles at one edge like the pages of
+        // a book.
         let positions = cone(60_000).positions().to_vec();
         let mut apart = MeshBuilder::new(positions.clone());
         let mut book = MeshBuilder::new(positions);

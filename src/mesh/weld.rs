@@ -1,29 +1,38 @@
-//! Finds positions that coincide, exactly or nearly: the seams of meshes whose files repeat them.
+//! Finds positions that coincide, exactly or nearly, as along the seams of meshes whose files
+//! repeat positions.
 
+#[cfg(any(feature = "io", test))]
 use super::PolygonMesh;
+#[cfg(any(feature = "io", test))]
 use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
-use glam::{DVec3, Vec3};
+#[cfg(any(feature = "io", test))]
+use glam::DVec3;
+use glam::Vec3;
 
-/// Returns for each position the number of its first equal among the different ones, and the number of different ones.
+/// Returns for each position the index of its value among the distinct positions, and how many
+/// distinct positions there are.
 ///
-/// Positions are equal when their coordinates are, so that −0 is 0. Numbers go by first occurrence. Takes a hash table's
-/// time, and `n log n` comparisons where positions were chosen to collide in it.
+/// Two positions are equal if their coordinates are; −0 equals 0. Indices follow first occurrence.
+/// A hash table does the work. If positions were chosen to collide in it, the fallback sorts them,
+/// in `n log n` comparisons.
 pub fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
     number_distinct(positions.len(), |i| key(&positions[i]))
 }
 
 /// Returns the longest side of the box around the polygons of `mesh`; 0 without polygons.
+#[cfg(any(feature = "io", test))]
 pub(super) fn size(mesh: &PolygonMesh) -> f64 {
     mesh.bounds()
         .map_or(0.0, |(low, high)| (high - low).max_element())
 }
 
+#[cfg(feature = "io")]
 impl PolygonMesh {
-    /// Moves each position to the first one that is nearer than `part` of the size of the mesh, so that both are one vertex.
-    #[doc(hidden)]
-    pub fn weld(&mut self, part: f64) {
+    /// Moves each position onto the first one that is nearer than `part` of the mesh's size, so
+    /// that both become one vertex.
+    pub(crate) fn weld(&mut self, part: f64) {
         let distance = part * size(self);
         let wide: Vec<DVec3> = self.positions.iter().map(|p| p.as_dvec3()).collect();
         let first = weld_near(&wide, distance);
@@ -31,13 +40,15 @@ impl PolygonMesh {
     }
 }
 
-/// Returns for each position the index of the first one that is at most `distance` away and is not moved itself: itself, if there
-/// is none before it.
+/// Returns for each position the index of the first earlier one that is at most `distance` away and
+/// has not moved itself; the position's own index if there is none.
+#[cfg(any(feature = "io", test))]
 pub(super) fn weld_near(positions: &[DVec3], distance: f64) -> Vec<u32> {
     if distance <= 0.0 || positions.is_empty() {
         return (0..positions.len() as u32).collect();
     }
-    // Positions that stay lie farther apart than the distance, so that a cell of this side holds few of them.
+    // Only positions that stay are stored. They are farther than `distance` apart, so a cell of
+    // this side holds few of them, and a search looks at no more than two cells per axis.
     let side = 2.0 * distance;
     let low = positions.iter().fold(positions[0], |low, &p| low.min(p));
     let cell = |at: f64, axis: usize| libm::floor((at - low[axis]) / side) as i64;
@@ -66,31 +77,34 @@ pub(super) fn weld_near(positions: &[DVec3], distance: f64) -> Vec<u32> {
     first
 }
 
-/// Returns bits that are equal exactly when the positions are: adding 0.0 turns −0.0 into 0.0.
+/// Returns bits that are equal exactly if the positions are. Adding 0.0 turns −0.0 into 0.0 and
+/// changes nothing else.
 fn key(p: &Vec3) -> [u32; 3] {
     [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
 }
 
-/// Returns for each of `len` keys its number among the different ones, by first occurrence, and the number of different
-/// ones; in the time that [`weld`] takes.
+/// Returns for each of `len` keys its index among the distinct keys, by first occurrence, and how
+/// many distinct keys there are. It is as fast as [`weld`].
 pub(crate) fn number_distinct(len: usize, key: impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
     by_hash(len, &key).unwrap_or_else(|| by_sorting(len, &key))
 }
 
-/// Looks each key up in a table of those before it; `None` where that takes more than a few steps a key.
+/// Looks up each key in a hash table of the keys before it, with linear probing. Returns `None` if
+/// that takes more than a few steps per key: the keys may have been chosen to collide.
 fn by_hash(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> Option<(Vec<u32>, usize)> {
     const NONE: u32 = u32::MAX;
-    // At most half full.
+    // The table is at most half full, so a probe always finds an empty slot.
     let bits = (2 * len).next_power_of_two().trailing_zeros().max(1);
     let mask = (1usize << bits) - 1;
-    // The first key of each kind.
+    // A slot holds where its key occurs first.
     let mut table = vec![NONE; mask + 1];
-    let mut number = vec![0; len];
+    let mut indices = vec![0; len];
     let (mut count, mut steps) = (0, 16 * len + 64);
     for i in 0..len {
         let own = key(i);
+        // The high bits of the hash are the best mixed ones.
         let mut slot = (hash(own) >> (64 - bits)) as usize;
-        number[i] = loop {
+        indices[i] = loop {
             steps = steps.checked_sub(1)?;
             let first = table[slot];
             if first == NONE {
@@ -99,77 +113,80 @@ fn by_hash(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> Option<(Vec<u32>, us
                 break count as u32 - 1;
             }
             if key(first as usize) == own {
-                break number[first as usize];
+                break indices[first as usize];
             }
             slot = (slot + 1) & mask;
         };
     }
-    Some((number, count))
+    Some((indices, count))
 }
 
-/// Returns what [`weld`] does, sooner where most positions are repeated: its table holds the different ones alone, and grows with them.
+/// Returns what [`weld`] returns, but faster if most positions are repeated. Its table holds only
+/// the distinct positions and grows with them.
 #[cfg(feature = "io")]
 pub(super) fn weld_repeated(positions: &[Vec3]) -> (Vec<u32>, usize) {
     repeated(positions).unwrap_or_else(|| weld(positions))
 }
 
-/// Numbers positions by a table that grows; `None` where that takes more than a few steps a position.
+/// Indexes positions by a table that grows. Returns `None` if that takes more than a few steps per
+/// position.
 #[cfg(feature = "io")]
 fn repeated(positions: &[Vec3]) -> Option<(Vec<u32>, usize)> {
     const NONE: u32 = u32::MAX;
     let mut steps = 16 * positions.len() + 64;
-    // A vertex of a closed surface is in six triangles on average.
+    // In a closed triangle mesh six triangles meet at a vertex on average, so there are about a
+    // sixth as many distinct positions.
     let mut bits = (positions.len() / 4)
         .next_power_of_two()
         .trailing_zeros()
         .max(10);
     let mut table = vec![NONE; 1 << bits];
     let mut keys: Vec<[u32; 3]> = Vec::new();
-    let mut numbers = Vec::with_capacity(positions.len());
+    let mut indices = Vec::with_capacity(positions.len());
     for position in positions {
         let own = key(position);
         let mut slot = (hash(own) >> (64 - bits)) as usize;
         loop {
             steps = steps.checked_sub(1)?;
-            let number = table[slot];
-            if number == NONE {
+            let index = table[slot];
+            if index == NONE {
                 table[slot] = keys.len() as u32;
-                numbers.push(keys.len() as u32);
+                indices.push(keys.len() as u32);
                 keys.push(own);
                 break;
             }
-            if keys[number as usize] == own {
-                numbers.push(number);
+            if keys[index as usize] == own {
+                indices.push(index);
                 break;
             }
             slot = (slot + 1) & (table.len() - 1);
         }
-        // At most half full.
+        // Past half full the table doubles, and all keys find their slots again.
         if 2 * keys.len() > table.len() {
             bits += 1;
             table = vec![NONE; 1 << bits];
-            for (number, key) in keys.iter().enumerate() {
+            for (index, key) in keys.iter().enumerate() {
                 let mut slot = (hash(*key) >> (64 - bits)) as usize;
                 while table[slot] != NONE {
                     steps = steps.checked_sub(1)?;
                     slot = (slot + 1) & (table.len() - 1);
                 }
-                table[slot] = number as u32;
+                table[slot] = index as u32;
             }
         }
     }
     let count = keys.len();
-    Some((numbers, count))
+    Some((indices, count))
 }
 
-/// Hashes three words: the highest bits depend on all bits of all of them.
+/// Hashes three words. The highest bits of the result depend on every bit of all three.
 fn hash([x, y, z]: [u32; 3]) -> u64 {
     const ODD: [u64; 2] = [0x9E37_79B9_7F4A_7C15, 0xD6E8_FEB8_6659_FD93];
     let first = ((u64::from(x) << 32) | u64::from(y)).wrapping_mul(ODD[0]);
     ((first ^ (first >> 32)).wrapping_add(u64::from(z))).wrapping_mul(ODD[1])
 }
 
-/// Numbers by sorting, 16 bytes a key.
+/// Indexes keys by sorting them, at 16 bytes per key.
 fn by_sorting(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
     let mut sorted: Vec<[u32; 4]> = Vec::with_capacity(len);
     sorted.extend((0..len).map(|i| {
@@ -177,26 +194,28 @@ fn by_sorting(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize)
         [x, y, z, i as u32]
     }));
     sorted.sort_unstable();
-    // First the lowest index among equals, then the numbers in order of those.
-    let mut number = vec![0; len];
+    // Two passes: the first gives each key the place of its first equal. The second replaces places
+    // by indices in ascending order; a key whose place is its own is a new one, and the index of
+    // any other was set before.
+    let mut indices = vec![0; len];
     let mut first = 0;
     for (k, key) in sorted.iter().enumerate() {
         if key[..3] != sorted[first][..3] {
             first = k;
         }
-        number[key[3] as usize] = sorted[first][3];
+        indices[key[3] as usize] = sorted[first][3];
     }
     drop(sorted);
     let mut count = 0;
-    for i in 0..number.len() {
-        number[i] = if number[i] as usize == i {
+    for i in 0..indices.len() {
+        indices[i] = if indices[i] as usize == i {
             count += 1;
             count as u32 - 1
         } else {
-            number[number[i] as usize]
+            indices[indices[i] as usize]
         };
     }
-    (number, count)
+    (indices, count)
 }
 
 #[cfg(test)]
@@ -204,7 +223,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_positions_share_a_number_in_order_of_first_occurrence() {
+    fn equal_positions_share_an_index_in_order_of_first_occurrence() {
         let p = [
             Vec3::Z,
             Vec3::new(0.0, 1.0, -0.0),
@@ -224,7 +243,8 @@ mod tests {
         assert_eq!(weld_near(&chain, 1.0), [0, 0, 2, 2, 4, 4, 0]);
         assert_eq!(weld_near(&chain, 0.0), [0, 1, 2, 3, 4, 5, 6]);
         assert!(weld_near(&[], 1.0).is_empty());
-        // As comparing each with all before it finds, wherever cells begin.
+        // Comparing each position with all earlier ones must find the same result, wherever cells
+        // begin.
         let mut random = crate::number::test_random::Random::new(9);
         let mut coordinate = || f64::from(random.signed()) * 4.0;
         let all: Vec<DVec3> = (0..2000)
@@ -243,7 +263,7 @@ mod tests {
     fn table_and_sorting_agree() {
         let mut random = crate::number::test_random::Random::new(5);
         for count in [1, 2, 10, 1000, 5000] {
-            // Few different coordinates, of either sign, zero among them.
+            // Few distinct coordinates of either sign, zero among them.
             let mut coordinate =
                 || (random.signed() * 6.0) as i32 as f32 * random.signed().signum();
             let all: Vec<Vec3> = (0..count)
@@ -254,14 +274,14 @@ mod tests {
             assert!(count < 1000 || by_hash.1 < count, "nothing to weld");
             assert_eq!(by_hash, by_sorting(count, &key));
             let mut distinct = Vec::new();
-            let mut number = |i: usize| {
+            let mut index_of = |i: usize| {
                 let known = distinct.iter().position(|&known| known == key(i));
                 known.unwrap_or_else(|| {
                     distinct.push(key(i));
                     distinct.len() - 1
                 }) as u32
             };
-            let by_comparing: Vec<u32> = (0..count).map(&mut number).collect();
+            let by_comparing: Vec<u32> = (0..count).map(&mut index_of).collect();
             assert_eq!(by_hash, (by_comparing, distinct.len()));
             #[cfg(feature = "io")]
             assert_eq!(repeated(&all), Some(by_hash));
@@ -274,7 +294,7 @@ mod tests {
         let mut all = Vec::new();
         while all.len() < 200 {
             let position = Vec3::new(random.signed(), random.signed(), random.signed());
-            // The first slot of the 512 that two hundred positions get.
+            // Only keys of the first slot, of the 512 that two hundred positions get.
             if hash(key(&position)) >> (64 - 9) == 0 {
                 all.push(position);
             }

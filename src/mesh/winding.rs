@@ -1,4 +1,5 @@
-//! Reasons to doubt the winding of a mesh: it then does not tell which side of a polygon is the outside.
+//! Reasons to doubt the winding of a mesh. A doubtful winding does not tell which side of a polygon
+//! is the outside.
 
 use super::edges::Edges;
 use super::newell::{polygon_normal, unit_normal};
@@ -9,27 +10,29 @@ use crate::number::split_mix::SplitMix;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// The mean cosine between a polygon's normal and those given for its corners, below which they contradict each other. Files
-/// have four decimals of a normal or more, so that one across the polygon is off by 10⁻⁴ at most.
+/// If the mean cosine between a polygon's normal and the normals of its corners is below this, they
+/// contradict each other. Files write normals with four decimals or more, so a normal that is
+/// perpendicular to the polygon's is off by at most 10⁻⁴.
 const AGAINST: f64 = -1e-3;
 
-/// Counts of what makes the winding of a mesh doubtful; all are 0 where it is sound.
+/// Counts of the faults that make the winding of a mesh doubtful. All are 0 if it is sound.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct WindingDoubts {
-    /// Edges of one polygon, or of copies of it alone.
+    /// Edges of only one polygon, or only of copies of it.
     pub open_edges: usize,
-    /// Edges of more polygons, not as many of which pass them in one direction as in the other.
+    /// Edges of several polygons that more of them pass in one direction than in the other.
     pub uneven_edges: usize,
     /// Polygons whose winding contradicts the normals that came with the mesh.
     pub against_normals: usize,
-    /// Surfaces that are closed and wound inside out, if others are not.
+    /// Closed surfaces that are wound inside out, if other surfaces are not.
     pub inside_out: usize,
-    /// The polygons of these.
+    /// The polygons of these surfaces.
     pub inside_out_polygons: usize,
 }
 
 impl WindingDoubts {
-    /// Looks for doubts about `mesh`. Positions that coincide exactly are one, and all parts of the mesh together may close it.
+    /// Looks for doubts about `mesh`. Positions that coincide exactly count as one, and all parts
+    /// of the mesh together may close it.
     pub fn of(mesh: &PolygonMesh) -> WindingDoubts {
         let mut doubts = WindingDoubts::default();
         doubts.count_edges(mesh);
@@ -37,7 +40,7 @@ impl WindingDoubts {
             let is_against = |p: &usize| is_against(mesh, given, *p, polygon_normal(mesh, *p));
             doubts.against_normals = (0..mesh.polygon_count()).filter(is_against).count();
         }
-        // A mesh that is inside out as a whole is at one with itself.
+        // If the whole mesh is inside out, its winding is at least consistent.
         let inside_out = inside_out(mesh);
         if inside_out.polygons < mesh.polygon_count() {
             doubts.inside_out = inside_out.surfaces;
@@ -53,14 +56,16 @@ impl WindingDoubts {
 
     fn count_edges(&mut self, mesh: &PolygonMesh) {
         let (vertex, count) = weld(mesh.positions());
-        // Of all polygons at once, and only for a mesh that needs them: a polygon may have as many edges as there are.
+        // Computed for all polygons at once, the first time that an edge needs them. One per edge
+        // would take quadratic time, as one polygon may have all the edges.
         let mut prints = None;
         for uses in Edges::new(mesh, &vertex, count).iter() {
             let ascending = uses.iter().filter(|of| of.ascends).count();
             if 2 * ascending == uses.len() {
                 continue;
             }
-            // Copies run along it in one direction, as neighbours that are wound differently do.
+            // Copies of a polygon run along the edge in one direction, but so do neighbours that
+            // are wound differently. The fingerprints tell them apart.
             let is_one_way = ascending == 0 || ascending == uses.len();
             let is_of_one = uses.len() == 1
                 || is_one_way && {
@@ -77,15 +82,17 @@ impl WindingDoubts {
     }
 }
 
-/// Returns a value for each polygon that those of the same corners share, in any order, and others by a chance of 2⁻⁶⁴; `vertex` has
-/// the index of each position.
+/// Returns a fingerprint for each polygon. Polygons with equal corners, in any order, have equal
+/// fingerprints; others agree with a probability of 2⁻⁶⁴. `vertex` holds the vertex of each
+/// position.
 fn fingerprints(mesh: &PolygonMesh, vertex: &[u32]) -> Vec<u64> {
     let print = |corner: &u32| SplitMix(vertex[*corner as usize].into()).next();
     let sum = |corners: &[u32]| corners.iter().map(print).fold(0, u64::wrapping_add);
     mesh.polygons().map(sum).collect()
 }
 
-/// True if the normals `given` for the corners of polygon `p` point away from `normal`, the polygon's own.
+/// True if the normals `given` for the corners of polygon `p` point away from `normal`, the
+/// polygon's own.
 pub(crate) fn is_against(
     mesh: &PolygonMesh,
     given: &GivenNormals,
@@ -97,7 +104,7 @@ pub(crate) fn is_against(
     };
     let corners = given.corners.as_deref().unwrap_or(mesh.corners());
     let own = corners[mesh.corner_range(p)].iter();
-    // Corners without a normal add nothing.
+    // A corner without a normal has a zero vector and adds nothing.
     let cosines = own.map(|&n| normal.dot(given.values[n as usize].as_dvec3()));
     cosines.sum::<f64>() < AGAINST * mesh.polygon(p).len() as f64
 }
@@ -110,7 +117,8 @@ mod tests {
     use alloc::vec;
     use glam::Vec3;
 
-    /// A cube whose polygons are reversed where `reversed` says so, without the first `without` ones.
+    /// Returns a cube without its first `without` polygons. Polygon `p` is reversed if
+    /// `reversed(p)`.
     fn cube(reversed: impl Fn(usize) -> bool, without: usize) -> MeshBuilder {
         let mesh = builtin("cube").expect("a shape");
         let mut builder = MeshBuilder::new(mesh.positions().to_vec());
@@ -129,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn closed_surfaces_wound_alike_are_not_doubted_inside_out_or_not() {
+    fn consistent_closed_surfaces_are_not_doubted_even_inside_out() {
         for spec in ["cube", "torus", "gear", "sphere?rings=6&segments=8"] {
             let mesh = builtin(spec).expect("a shape");
             assert!(!WindingDoubts::of(&mesh).any(), "{spec}");
@@ -148,7 +156,7 @@ mod tests {
 
     /// Comparing the polygons again at each of their edges would take minutes here.
     #[test]
-    fn copies_of_a_polygon_of_many_corners_take_time_in_proportion() {
+    fn copies_of_a_polygon_of_many_corners_do_not_take_quadratic_time() {
         let count = 100_000;
         let corner = |k: u32| {
             let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::TAU / f64::from(count));
@@ -173,7 +181,7 @@ mod tests {
             let of = doubts(builder);
             assert_eq!((of.open_edges, of.uneven_edges), (3, 0), "{copies}");
         }
-        // One that is wound differently runs along the same edge in the same direction.
+        // A neighbour that is wound differently runs along the common edge in the same direction.
         let mut builder = MeshBuilder::new(corners);
         builder.polygon(&[0, 1, 2]);
         builder.polygon(&[0, 1, 3]);

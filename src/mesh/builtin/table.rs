@@ -1,9 +1,9 @@
-//! The table of built-in shapes: everything about them is read from here.
+//! The table of built-in shapes. Everything that the program knows about them stands here.
 
 use super::{Builtin, ParameterKind, Resolution, ShapeParameter, Values};
 use crate::mesh::shapes::{self, ParameterGrid, Terrain, Topology};
 
-/// The most cells along one direction; the polygon limit of a mesh is reached before in all but thin shapes.
+/// The most cells along one direction. All but thin shapes reach the polygon limit of a mesh first.
 const MOST: f64 = (1 << 20) as f64;
 
 const fn real(
@@ -58,7 +58,8 @@ const INNER: ShapeParameter = real(
     "radius of the corners between the points",
 );
 
-/// Returns the number of polygons of a grid with these parameters for its columns and rows.
+/// Returns the polygon count of a grid. `columns` and `rows` name the parameters that hold its
+/// resolution.
 fn grid(values: &Values, topology: Topology, columns: &str, rows: &str) -> u64 {
     ParameterGrid::new(
         topology,

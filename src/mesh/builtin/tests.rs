@@ -1,5 +1,4 @@
-//! Every built-in shape at several resolutions, wrong parameters, and requested numbers of
-//! polygons.
+//! Every built-in shape at several resolutions, wrong parameters, and requested polygon counts.
 
 use super::*;
 use crate::mesh::newell::{polygon_normal, unit_normal};
@@ -7,7 +6,7 @@ use crate::mesh::vertex_normals::{NormalSource, vertex_normals};
 use crate::mesh::weld::weld;
 use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec;
 use glam::{DVec3, Vec3};
 
@@ -40,7 +39,7 @@ fn make(spec: &str) -> PolygonMesh {
     builtin(spec).unwrap_or_else(|error| panic!("{spec}: {error}"))
 }
 
-/// Returns each shape by default, coarse, fine, and triangulated if it has the choice.
+/// Returns specs for each shape: by default, coarse, fine, and triangulated if it can be.
 fn specs() -> Vec<(&'static Builtin, String)> {
     let mut specs = Vec::new();
     for shape in BUILTINS {
@@ -237,8 +236,9 @@ fn averaged_normals_of_a_sphere_are_close_to_its_own() {
     assert_eq!(averaged.values.len(), mesh.positions().len());
 }
 
-/// Every vertex of every shape has one surface around it, so that the average goes over all polygons there.
-/// Only where the teapot's handle ends at its belly do both have a vertex, and no edge, in common.
+/// Every vertex of every shape has one surface around it, so that its average includes all polygons
+/// there. The only exception is the point where the teapot's handle touches its belly: both share a
+/// vertex there, but no edge.
 #[test]
 fn averages_go_over_all_polygons_around_a_vertex() {
     for shape in BUILTINS {
@@ -470,6 +470,25 @@ fn the_number_of_polygons_asked_for_is_nearly_made() {
 }
 
 #[test]
+fn the_documentation_lists_every_shape_with_its_parameters() {
+    let page = include_str!("../builtin.rs");
+    for shape in BUILTINS {
+        let start = format!("//! | `{}`", shape.name);
+        let line = page.lines().find(|line| line.starts_with(&start));
+        let line = line.unwrap_or_else(|| panic!("{} is missing", shape.name));
+        for parameter in shape.parameters {
+            let is_listed = line.contains(&format!("`{}`", parameter.name));
+            assert!(
+                is_listed || parameter.name == "triangles",
+                "{}: {}",
+                shape.name,
+                parameter.name
+            );
+        }
+    }
+}
+
+#[test]
 fn the_table_is_sound() {
     for (i, shape) in BUILTINS.iter().enumerate() {
         assert!(!BUILTINS[..i].iter().any(|other| other.name == shape.name));
@@ -536,11 +555,11 @@ fn errors_say_what_is_wrong() {
         ),
         (
             "sphere?polygons=9&rings=3",
-            "`polygons` chooses `rings` itself; give one or the other",
+            "`polygons` chooses `rings` itself: set one or the other",
         ),
         (
             "knot?p=4&q=6",
-            "`p` and `q` of a knot have no common factor, but these have 2",
+            "`p` and `q` of the knot have the common factor 2: expected two numbers without one",
         ),
         (
             "sphere?rings=1048576&segments=1048576",

@@ -1,8 +1,8 @@
-//! What a file that should hold text holds instead, told by its bytes.
+//! Recognises files of other formats by their bytes, so that an error can say what a file is.
 
-/// The first bytes of files that are met under the names of meshes and of material libraries.
+/// The first bytes of files that occur under the names of meshes and material libraries.
 const SIGNATURES: [(&[u8], &str); 29] = [
-    // Before UTF-16, whose mark is the beginning of this one.
+    // UTF-32 comes before UTF-16, because its mark begins with the mark of UTF-16.
     (b"\xff\xfe\0\0", UTF_32),
     (b"\0\0\xfe\xff", UTF_32),
     (b"\xff\xfe", UTF_16),
@@ -39,12 +39,12 @@ const SIGNATURES: [(&[u8], &str); 29] = [
 
 const UTF_16: &str = "UTF-16 text (not UTF-8)";
 const UTF_32: &str = "UTF-32 text (not UTF-8)";
-/// Compilers on Windows write it, under the ending of mesh files.
+/// Compilers on Windows write these files, with the ending `.obj`.
 const COFF: &str = "a compiled object file (COFF)";
 const TEXT_STL: &str = "a text STL file";
 const BINARY_STL: &str = "a binary STL file";
 
-/// Returns what `bytes` are, if they are plainly no text that OBJ, MTL and scene files could hold.
+/// Returns a description of `bytes` if they are plainly not the text of an OBJ, MTL or scene file.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     let known = SIGNATURES
         .iter()
@@ -52,7 +52,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     match bytes {
         _ if bytes.starts_with(b"PK\x03\x04") => Some(archive(bytes)),
         _ if known.is_some() => known.map(|(_, what)| *what),
-        // The ASCII characters of UTF-32 and UTF-16 without a byte-order mark.
+        // Two ASCII characters in UTF-32 or UTF-16 without a byte-order mark.
         [1..=127, 0, 0, 0, 1..=127, 0, 0, 0, ..] | [0, 0, 0, 1..=127, 0, 0, 0, 1..=127, ..] => {
             Some(UTF_32)
         }
@@ -66,25 +66,28 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// Returns the little-endian number of four bytes from `at` on.
-fn number(bytes: &[u8], at: usize) -> Option<u64> {
+/// Returns the little-endian 32-bit number at byte `at`.
+fn u32_at(bytes: &[u8], at: usize) -> Option<u64> {
     let four = bytes.get(at..at + 4)?.first_chunk()?;
     Some(u32::from_le_bytes(*four).into())
 }
 
-/// True if the size of the file is what the number of triangles behind its header says: 50 bytes each.
+/// True if the file is as long as its triangle count says: a header of 80 bytes, four for the
+/// count, and 50 for each triangle.
 pub(super) fn is_binary_stl(bytes: &[u8]) -> bool {
-    let triangles = number(bytes, 80).filter(|triangles| *triangles > 0);
+    let triangles = u32_at(bytes, 80).filter(|triangles| *triangles > 0);
     triangles.is_some_and(|triangles| bytes.len() as u64 == 84 + 50 * triangles)
 }
 
-/// True if the first chunk is a whole 3DS file.
+/// True if the first chunk of a 3DS file is as long as the file.
 fn is_3ds(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"MM") && number(bytes, 2) == Some(bytes.len() as u64)
+    bytes.starts_with(b"MM") && u32_at(bytes, 2) == Some(bytes.len() as u64)
 }
 
-/// Returns what a ZIP archive is, by the names of the files in it, which stand in it as they are.
+/// Returns a description of a ZIP archive. The names of the files in it, which are not compressed,
+/// tell formats that are ZIP archives.
 fn archive(bytes: &[u8]) -> &'static str {
+    // Names stand before each file, at the start of the archive, and in the directory at its end.
     let ends = [
         bytes.len().min(1 << 12),
         bytes.len().saturating_sub(1 << 14),
@@ -101,15 +104,17 @@ fn archive(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// True if the first line is one of the start section of an IGES file: 72 columns, `S` and its number.
+/// True if the first line belongs to the start section of an IGES file: 72 columns, then `S` and
+/// the line number.
 fn is_iges(bytes: &[u8]) -> bool {
     let is_line = bytes.get(72..80) == Some(b"S      1") || bytes.get(72..80) == Some(b"S0000001");
     is_line && bytes[..72].is_ascii()
 }
 
-/// Returns what to do with a file that is `what`, behind the words that say what was expected: empty for what is no shape.
+/// Returns how to make a mesh file from a file that is `what`. Messages append it to what was
+/// expected; it is empty for a file without a shape.
 pub(super) fn advice(what: &str) -> &'static str {
-    /// Words of the names above, and what makes a mesh file of such a file.
+    /// A word of the descriptions above, and the advice for it.
     const ADVICE: [(&str, &str); 14] = [
         (
             "glTF",
@@ -141,8 +146,9 @@ pub(super) fn advice(what: &str) -> &'static str {
     found.map_or("", |(_, advice)| *advice)
 }
 
-/// True if the header is that of a COFF object for x86, ARM or their 64-bit successors: some sections, symbols within the file, and
-/// no header of a program.
+/// True if the file has the header of a COFF object for x86, ARM or their 64-bit successors. The
+/// test is strict, because text may begin with these bytes too: there must be sections, the symbols
+/// must lie within the file, and there must be no header of a program.
 fn is_coff(bytes: &[u8]) -> bool {
     let is_machine = matches!(
         bytes,
@@ -150,11 +156,12 @@ fn is_coff(bytes: &[u8]) -> bool {
     );
     is_machine
         && bytes.get(2..4).is_some_and(|sections| sections != [0, 0])
-        && number(bytes, 8).is_some_and(|symbols| symbols <= bytes.len() as u64)
+        && u32_at(bytes, 8).is_some_and(|symbols| symbols <= bytes.len() as u64)
         && bytes.get(16..18) == Some(&[0, 0])
 }
 
-/// Returns what the text in `bytes` is, by its first word that is in no comment.
+/// Returns a description of the text in `bytes`, by its first word outside of comments; `None` if
+/// that does not tell.
 fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
     let text = bytes.trim_ascii_start();
     if text.starts_with(b"<") {
@@ -179,7 +186,8 @@ fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
         let is_binary = text.iter().take(84).any(|byte| *byte == 0);
         return Some(if is_binary { BINARY_STL } else { TEXT_STL });
     }
-    // With texture coordinates, colours, normals, and a fourth coordinate.
+    // Letters before `OFF` stand for texture coordinates, colours, normals, a fourth coordinate and
+    // a dimension.
     let off = word.strip_suffix(b"OFF");
     match word {
         b"ply" if words.next().is_none() => Some("a PLY file"),
@@ -191,7 +199,7 @@ fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// Returns what a text that begins with `<` is.
+/// Returns a description of a text that begins with `<`.
 fn foreign_markup(text: &[u8]) -> Option<&'static str> {
     let begins = |start: &[u8]| {
         let begin = text.get(..start.len());
@@ -219,7 +227,7 @@ mod tests {
     use std::vec::Vec;
 
     #[test]
-    fn formats_are_told_by_their_bytes() {
+    fn formats_are_recognised_by_their_bytes() {
         let mut stl = vec![b' '; 80];
         stl.extend(2u32.to_le_bytes());
         stl.extend([0; 100]);
@@ -262,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_that_may_be_meshes_are_none() {
+    fn texts_that_may_be_meshes_are_not_foreign() {
         for text in [
             "",
             "# solid\nv 0 0 0\n",
@@ -276,7 +284,7 @@ mod tests {
         ] {
             assert_eq!(foreign(text.as_bytes()), None, "{text:?}");
         }
-        // As long as the size that its own letters would say is not.
+        // 84 letters are no STL file: the count that the letters spell does not fit the length.
         assert_eq!(foreign(&[b'v'; 84]), None);
     }
 }

@@ -1,43 +1,47 @@
-//! The error of reading a mesh file, and words of a file as messages quote them.
+//! The error of reading a mesh file, and how messages quote words of a file.
 
 use std::path::PathBuf;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-/// A mesh file that could not be read: which file, where in it, what is wrong and what was expected.
+/// The error for a mesh file that cannot be read: which file, where in it, what is wrong and what
+/// was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}{}: {problem}", path.display(), place.map(|place| place.to_string()).unwrap_or_default())]
+#[non_exhaustive]
 pub struct ReadError {
-    /// The file, as it was named when it was asked for.
+    /// The path that the caller passed.
     pub path: PathBuf,
-    /// The place; `None` when the whole file is meant.
+    /// The place in the file; `None` if the problem is with the file as a whole.
     pub place: Option<Place>,
-    /// What is wrong, and what was expected.
+    /// What is wrong and what was expected, in one line.
     pub problem: String,
-    /// What was odd before it, as in [`LoadedMesh::warnings`](super::LoadedMesh::warnings): often its cause.
+    /// Warnings from before the error, as in [`LoadedMesh::warnings`](super::LoadedMesh::warnings).
+    /// They often explain its cause.
     pub warnings: Vec<String>,
-    /// True if the file is not there, or the operating system did not read it.
+    /// True if the file does not exist or the operating system could not read it.
     pub(crate) is_unreadable: bool,
 }
 
 /// A place in a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Place {
-    /// A line of a text, counted from 1.
+    /// A line of a text file, counted from 1.
     #[error(":{0}")]
     Line(usize),
-    /// A byte of a binary file after it was unpacked, counted from 0.
+    /// A byte of a binary file, counted from 0 after unpacking.
     #[error(": byte {0}")]
     Byte(usize),
 }
 
-/// What a reader says of a file that it refuses.
+/// A reader's reason for refusing a file. It becomes a [`ReadError`].
 #[derive(Debug)]
 pub(super) struct Refusal {
     /// The place; `None` for the file as a whole.
     pub place: Option<Place>,
     pub problem: String,
-    /// What was odd before.
+    /// Warnings from before the problem.
     pub notes: Vec<String>,
 }
 
@@ -51,7 +55,7 @@ impl Refusal {
         }
     }
 
-    /// Refuses the file for what stands at `place`.
+    /// Refuses the file because of a problem at `place`.
     pub(super) fn at(place: Place, problem: impl Into<String>) -> Refusal {
         Refusal {
             place: Some(place),
@@ -60,10 +64,11 @@ impl Refusal {
     }
 }
 
-/// At most this many characters of a file are quoted in an error: more would not be read.
+/// The most characters of a file that a message quotes. Nobody would read more.
 const QUOTED: usize = 32;
 
-/// Returns `text` as it can stand in a one-line message: control characters escaped, long text cut.
+/// Returns `text` in a form that fits a one-line message: control characters are escaped and long
+/// text is cut.
 pub(super) fn quote(text: &str) -> String {
     if text.is_empty() {
         return "nothing".to_string();
@@ -73,9 +78,9 @@ pub(super) fn quote(text: &str) -> String {
     let mut quoted = String::new();
     for character in start {
         match character {
-            // Names hold these as they are.
+            // Paths and names contain these, and `escape_debug` would put a backslash before them.
             '\\' | '"' | '\'' => quoted.push(character),
-            // Not `\0`, which may be a part of a name.
+            // `escape_debug` would write `\0`, which could also be the end of a Windows path.
             '\0' => quoted.push_str("\\u{0}"),
             _ => quoted.extend(character.escape_debug()),
         }
@@ -86,7 +91,7 @@ pub(super) fn quote(text: &str) -> String {
     quoted
 }
 
-/// Returns a hint for numbers whose decimals follow a comma, and for those past the range of an `f32`.
+/// Returns a hint for a number with a decimal comma, and for one past the range of an `f32`.
 pub(super) fn hint(found: &str) -> &'static str {
     let is_number = |text: &str| text.parse().is_ok_and(f64::is_finite);
     match is_number(found) {

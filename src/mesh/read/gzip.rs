@@ -1,4 +1,4 @@
-//! Files packed by gzip, which are told by their first bytes and unpacked in memory.
+//! Files packed by gzip. Their first bytes tell them, and they are unpacked in memory.
 
 use flate2::bufread::GzDecoder;
 use std::borrow::Cow;
@@ -9,13 +9,15 @@ use std::{format, vec};
 /// The first bytes of a packed file.
 pub(crate) const MAGIC: [u8; 2] = [0x1f, 0x8b];
 
-/// The most bytes that are unpacked: a small file may hold a thousand times its size, and memory ends.
+/// The most bytes that are unpacked. A small file may unpack to a thousand times its size and
+/// exhaust the memory.
 const MOST: usize = 1 << 30;
 
-/// Returns `bytes`, unpacked if gzip packed them. Like gzip, it joins several packed files, and passes over what follows the last.
+/// Returns `bytes`, unpacked if gzip packed them. Like gzip itself, this joins several packed files
+/// and ignores bytes after the last one.
 ///
 /// # Errors
-/// When they are damaged or cut off, and over [`MOST`] bytes.
+/// If they are damaged or cut off, or unpack to more than [`MOST`] bytes.
 pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>> {
     let out = unpack(bytes, MOST)?;
     match out {
@@ -28,7 +30,8 @@ pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>> {
     }
 }
 
-/// Returns `bytes`, or about the first `most` bytes that gzip packed in them, as far as they are sound.
+/// Returns about the first `most` bytes that gzip packed in `bytes`; returns `bytes` itself if they
+/// are not packed or damaged.
 pub(crate) fn start(bytes: &[u8], most: usize) -> Cow<'_, [u8]> {
     match unpack(bytes, most) {
         Ok(Some(out)) => Cow::Owned(out),
@@ -36,7 +39,7 @@ pub(crate) fn start(bytes: &[u8], most: usize) -> Cow<'_, [u8]> {
     }
 }
 
-/// Unpacks until there are more than `most` bytes; `None` if nothing is packed.
+/// Unpacks until there are more than `most` bytes. Returns `None` if nothing is packed.
 fn unpack(bytes: &[u8], most: usize) -> Result<Option<Vec<u8>>> {
     if !bytes.starts_with(&MAGIC) {
         return Ok(None);
@@ -77,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn packed_files_are_unpacked_and_others_are_as_they_are() {
+    fn packed_files_are_unpacked_and_others_stay_unchanged() {
         for bytes in [&b""[..], b"v 0 0 0\n", &[7; 200_000]] {
             assert_eq!(*unpacked(bytes).expect("nothing to do"), *bytes);
             assert_eq!(*unpacked(&packed(bytes)).expect("sound"), *bytes);

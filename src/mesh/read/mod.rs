@@ -1,4 +1,6 @@
-//! Mesh files: OBJ, STL, PLY, OFF and glTF, packed by gzip or not.
+//! Mesh files: OBJ, STL, PLY, OFF and glTF.
+//!
+//! [`load_mesh`] reads a file, and [`parse_mesh`] reads bytes that are in memory already:
 //!
 //! ```
 //! use fastphong::mesh::read::parse_mesh;
@@ -9,10 +11,14 @@
 //! # Ok::<(), fastphong::mesh::read::ReadError>(())
 //! ```
 //!
-//! The bytes of a file decide what it is, and where they do not, the ending of its name; without one of those it counts as OBJ. Each
-//! format has a reader in a file of its own. It makes polygons of any number of sides, never triangulated, of 64-bit positions: a mesh
-//! far from 0 is rounded relative to [`PolygonMesh::origin`]. What cannot be read is a [`ReadError`] with its line or byte; what can be
-//! read only in part is a warning.
+//! Files may be packed by gzip. The bytes of a file decide its format. If they do not, the ending
+//! of its name does, and without a known ending the file counts as OBJ (glTF needs the feature
+//! `gltf`).
+//!
+//! Polygons keep all their sides and are never triangulated. Positions are read with 64 bits, and a
+//! mesh far from 0 is rounded relative to [`PolygonMesh::origin`]. A file that cannot be read is a
+//! [`ReadError`] with its line or byte. If only parts of a file cannot be used, the mesh comes with
+//! warnings.
 
 pub(crate) mod content;
 mod error;
@@ -39,55 +45,59 @@ use glam::DVec3;
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::string::String;
+use std::string::{String, ToString};
 use std::vec::Vec;
 use std::{format, fs, io};
 
-/// A mesh from a file, and what the file held that the mesh does not.
+/// A mesh from a file, and warnings about everything in the file that the mesh does not show.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct LoadedMesh {
-    /// The mesh. Its materials are those that its polygons use; a polygon without one has the default material.
+    /// The mesh. It has the materials that its polygons use; a polygon without a material gets the
+    /// default one.
     pub mesh: PolygonMesh,
-    /// One line for each kind of thing that was passed over, most with the number of the first line concerned.
+    /// One line for each kind of thing that was skipped or changed, most with the line number of
+    /// the first case.
     pub warnings: Vec<String>,
-    /// Those of the warnings that say nothing where other materials replace those of the file.
-    #[doc(hidden)]
-    pub material_warnings: Range<usize>,
+    /// The range of warnings about materials. They do not matter if other materials replace the
+    /// file's.
+    pub(crate) material_warnings: Range<usize>,
 }
 
-/// What a reader makes of a file.
+/// The result of a format's reader.
 struct Parts {
     builder: MeshBuilder,
-    /// The positions of the builder as the file has them.
+    /// The positions of the builder before rounding.
     positions: Vec<DVec3>,
-    /// What becomes [`LoadedMesh::warnings`], and those of them about materials.
+    /// These become [`LoadedMesh::warnings`].
     notes: Vec<String>,
+    /// The range of `notes` about materials.
     material_notes: Range<usize>,
 }
 
-/// Reads a file that a mesh file names.
+/// A function that reads a file that the mesh file names.
 type Beside<'a> = &'a mut dyn FnMut(&str) -> io::Result<Vec<u8>>;
 
 /// A format of mesh files.
 trait MeshFormat: Sync {
-    /// Returns what a file of the format is called, with its article.
+    /// Returns the name of a file of this format, with its article: `an OBJ file`.
     fn name(&self) -> &'static str;
 
-    /// Returns the endings of names of such files, in lower case.
+    /// Returns the endings of this format's file names, in lower case.
     fn endings(&self) -> &'static [&'static str];
 
     /// True if `bytes` are plainly of this format.
     fn recognises(&self, bytes: &[u8]) -> bool;
 
-    /// Reads the polygons in `bytes`, and by `beside` the files that these name. Takes memory for what there is, never for what a
-    /// number in the file says that there will be.
+    /// Reads the polygons in `bytes`, and calls `beside` for the files that these name. Memory is
+    /// allocated for the bytes that are there, never for a count that the file only claims.
     ///
     /// # Errors
-    /// When there are none, or something in the file is not as it must be.
+    /// If there are no polygons, or something in the file is wrong.
     fn read(&self, bytes: &[u8], beside: Beside) -> Result<Parts, Refusal>;
 }
 
-/// The formats that are read.
+/// All formats.
 static FORMATS: &[&dyn MeshFormat] = &[
     &obj::Obj,
     &stl::Stl,
@@ -97,10 +107,10 @@ static FORMATS: &[&dyn MeshFormat] = &[
     &gltf::Gltf,
 ];
 
-/// The formats that are read, as messages name them.
+/// The formats, in the words of messages.
 pub(crate) const EXPECTED: &str = "a mesh file (OBJ, STL, PLY, OFF or glTF)";
 
-/// Returns the endings of mesh files, in lower case and without a point.
+/// Returns the endings of mesh files, in lower case and without the dot.
 #[doc(hidden)]
 pub fn mesh_endings() -> impl Iterator<Item = &'static str> {
     FORMATS
@@ -108,34 +118,36 @@ pub fn mesh_endings() -> impl Iterator<Item = &'static str> {
         .flat_map(|format| format.endings().iter().copied())
 }
 
-/// True if `path` ends in a point and `ending`, in any case.
+/// True if `path` ends in a dot and `ending`, in upper or lower case.
 fn has_ending(path: &Path, ending: &str) -> bool {
     let found = path.extension();
     found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
-/// True if `bytes` are plainly a mesh file, or a file of another kind, and no scene.
+/// True if `bytes` are plainly not a scene file, but a mesh file or a file of another kind.
 pub(crate) fn is_no_scene(bytes: &[u8]) -> bool {
     content::foreign(bytes).is_some() || FORMATS.iter().any(|format| format.recognises(bytes))
 }
 
-/// Reads the mesh file at `path`, and from the same directory the files that it names: material libraries of OBJ, buffers of glTF.
+/// Reads the mesh file at `path`.
 ///
-/// A missing material library is a warning.
+/// Files that it names are read from its directory: material libraries of OBJ, buffers of glTF. A
+/// missing material library is only a warning.
 ///
 /// # Errors
-/// [`ReadError`] with the line or byte where there is one: the file cannot be read, is no mesh file, has no polygons, has a polygon
-/// with a position that is not three finite numbers or does not exist, or is larger than a [`PolygonMesh`] may be.
+/// [`ReadError`], with the line or byte if there is one: the file cannot be read, is no mesh file,
+/// has no polygons, has a polygon with a position that does not exist or is not three finite
+/// numbers, or is larger than a [`PolygonMesh`] may be.
 pub fn load_mesh(path: &Path) -> Result<LoadedMesh, ReadError> {
     load_mesh_by(path, &mut |path| fs::read(path))
 }
 
-/// Reads the mesh file at `path` and those that it names as [`load_mesh`] does, all by `read`: which may note what a mesh is made of.
-/// It is asked for files that are not there, too.
+/// Reads a mesh file as [`load_mesh`] does, but opens every file through `read`, so that the caller
+/// can record the files of a mesh. `read` is also called for files that do not exist.
 ///
 /// # Errors
 /// As [`load_mesh`].
-pub fn load_mesh_by(
+pub(crate) fn load_mesh_by(
     path: &Path,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<LoadedMesh, ReadError> {
@@ -166,7 +178,8 @@ pub fn load_mesh_by(
     })
 }
 
-/// Returns why `path` could not be read: `error`, unless it is a link to what is not there.
+/// Returns the reason why `path` could not be read. That is `error`, unless `path` is a link to a
+/// file that does not exist.
 pub(crate) fn cause(path: &Path, error: io::Error) -> io::Error {
     match fs::read_link(path) {
         Ok(target) if error.kind() == io::ErrorKind::NotFound => io::Error::other(format!(
@@ -177,20 +190,21 @@ pub(crate) fn cause(path: &Path, error: io::Error) -> io::Error {
     }
 }
 
-/// Reads the file `name` that a mesh file names, by `read`: looked for from `directory`, and last by its bare file name there, in any case if
-/// only one file has it: `warnings` tell then.
+/// Reads the file `name` that a mesh file names, through `read`. It is looked for as a path from
+/// `directory`, then by its bare file name there, and last in upper or lower case if only one file
+/// matches; that adds a warning.
 fn read_beside(
     directory: &Path,
     name: &str,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
     warnings: &mut Vec<String>,
 ) -> io::Result<Vec<u8>> {
-    // A device or a pipe might never end.
+    // Reading a device or a pipe might never end.
     let mut read = |file: &Path| match fs::metadata(file) {
         Ok(found) if !found.is_file() => Err(io::Error::other("not a file")),
         _ => read(file),
     };
-    // Exporters write paths of the machine they ran on, often with the other separator.
+    // Exporters write paths of the machine that they ran on, often with backslashes.
     let path = directory.join(name.replace('\\', "/"));
     read(&path).or_else(|error| {
         let Some(bare) = path.file_name() else {
@@ -199,7 +213,7 @@ fn read_beside(
         read(&directory.join(bare)).or_else(|_| {
             let folders = [path.parent().unwrap_or(directory), directory];
             let found = folders.iter().find_map(|folder| in_any_case(folder, bare));
-            // A link that leads nowhere is in its folder, too.
+            // A folder also lists links that lead nowhere; those do not count as found.
             let Some(found) = found.filter(|found| found.exists()) else {
                 return Err(cause(&path, error));
             };
@@ -210,13 +224,16 @@ fn read_beside(
             };
             let name = error::quote(name);
             let found = found.display();
-            warnings.push(format!("{what} `{name}` is not there: {found} is read"));
+            warnings.push(format!(
+                "{what} `{name}` is not there: {found} is read instead"
+            ));
             Ok(bytes)
         })
     })
 }
 
-/// Returns the only file in `folder` whose name is `name` but for the case of ASCII letters.
+/// Returns the only file in `folder` whose name equals `name` if the case of ASCII letters is
+/// ignored.
 fn in_any_case(folder: &Path, name: &OsStr) -> Option<PathBuf> {
     let folder = match folder.as_os_str().is_empty() {
         true => Path::new("."),
@@ -228,10 +245,13 @@ fn in_any_case(folder: &Path, name: &OsStr) -> Option<PathBuf> {
     found.next().is_none().then(|| first.path())
 }
 
-/// Reads the mesh file `bytes`; `path` stands in errors, and its ending counts where the bytes do not tell the format.
+/// Reads a mesh file from `bytes`. Errors name it by `path`, and the ending of `path` decides the
+/// format if the bytes do not.
 ///
-/// `beside` is asked for the bytes of each file that this one names, by the name that it gives: material libraries of OBJ, buffers of
-/// glTF. When it has none under the whole rest of an `mtllib` line, it is asked for the names that the line may be made of.
+/// `beside` is called with the name of each file that this one names, and returns its bytes:
+/// material libraries of OBJ, buffers of glTF. An `mtllib` line may hold one name with spaces or
+/// several names, so `beside` is called with the whole line first, and with its parts if that
+/// fails.
 ///
 /// # Errors
 /// As [`load_mesh`].
@@ -259,10 +279,10 @@ pub fn parse_mesh(
     loaded.map_err(failed)
 }
 
-/// Returns the format of `bytes`, and a note if the ending of `path` is another one's.
+/// Returns the format of `bytes`, and a note if the ending of `path` belongs to another format.
 ///
 /// # Errors
-/// When the bytes are something else.
+/// If the bytes are no mesh file.
 fn format_of(
     path: &Path,
     bytes: &[u8],
@@ -292,7 +312,7 @@ fn format_of(
     }
 }
 
-/// Makes the mesh of what a reader found.
+/// Makes the mesh from the result of a reader.
 fn finish(parts: Parts, odd: Option<String>) -> Result<LoadedMesh, Refusal> {
     let mut warnings = parts.notes;
     let mesh = match parts.builder.finish() {
@@ -300,7 +320,7 @@ fn finish(parts: Parts, odd: Option<String>) -> Result<LoadedMesh, Refusal> {
         Err(error) => {
             return Err(Refusal {
                 place: None,
-                problem: format!("{error}: expected a mesh within its limits"),
+                problem: error.to_string(),
                 notes: warnings,
             });
         }
@@ -312,7 +332,7 @@ fn finish(parts: Parts, odd: Option<String>) -> Result<LoadedMesh, Refusal> {
             notes: warnings,
         });
     }
-    warnings.extend(rounding::told(&mesh, &parts.positions));
+    warnings.extend(rounding::warnings(&mesh, &parts.positions));
     warnings.extend(odd);
     Ok(LoadedMesh {
         mesh,

@@ -1,4 +1,5 @@
-//! OFF, the object file format of Geomview: text, with colours and normals of vertices, and colours of faces.
+//! OFF files, the object file format of Geomview: text, with colours and normals of vertices and
+//! colours of faces.
 
 use super::error::{Place, Refusal, quote};
 use super::polygons::{Polygons, is_position};
@@ -50,18 +51,21 @@ fn words(bytes: &[u8]) -> Words<'_> {
     Words::new(bytes, start, 1).with_comments()
 }
 
-/// What vertices have beside their positions, in this order, as the letters before `OFF` say.
+/// The properties of vertices besides their positions. The letters before `OFF` list them.
 #[derive(Clone, Copy)]
 struct Kind {
+    /// `N`: a normal.
     has_normals: bool,
+    /// `C`: a colour.
     has_colours: bool,
-    /// True for a fourth coordinate.
+    /// `4`: a fourth coordinate.
     has_weight: bool,
-    /// True for `n`: the number of coordinates comes first.
+    /// `n`: the file says how many coordinates a vertex has.
     has_dimension: bool,
 }
 
-/// Returns the letters before `OFF` in the first word, and what follows: files of a known collection have the first count there.
+/// Splits the first word into the letters before `OFF` and the digits after it. A well-known
+/// collection of files writes the first count right there.
 fn split_keyword(word: &[u8]) -> Option<(&[u8], &[u8])> {
     let at = word.windows(3).position(|three| three == b"OFF")?;
     let (letters, rest) = (&word[..at], &word[at + 3..]);
@@ -70,7 +74,7 @@ fn split_keyword(word: &[u8]) -> Option<(&[u8], &[u8])> {
     (is_known && is_count).then_some((letters, rest))
 }
 
-/// Reads the keyword and the numbers of vertices and faces.
+/// Reads the keyword and the counts of vertices and faces.
 fn read_head(words: &mut Words) -> Result<(Kind, [usize; 2]), Refusal> {
     let expected = "expected OFF, COFF, NOFF or CNOFF";
     let Some(word) = words.next() else {
@@ -89,24 +93,25 @@ fn read_head(words: &mut Words) -> Result<(Kind, [usize; 2]), Refusal> {
     };
     let mut before = words.clone();
     if before.next_in_line().is_some_and(|word| word == b"BINARY") {
-        let problem = "is a binary OFF file: expected OFF text (meshconv and geomview write that)";
+        let problem = "is a binary OFF file: expected OFF text (meshconv and geomview write it)";
         return Err(Refusal::whole(problem));
     }
     if kind.has_dimension {
         let dimension = words.finite("the number of coordinates")?;
         if dimension != 3.0 {
-            let problem = format!("{dimension} coordinates a vertex: expected 3");
+            let problem = format!("{dimension} coordinates per vertex: expected 3");
             return Err(Refusal::at(words.place(), problem));
         }
     }
     let vertices = read_count(words, glued, "the number of vertices")?;
     let faces = read_count(words, b"", "the number of faces")?;
-    // The number of edges follows in the line, or nothing.
+    // The edge count may follow in this line. Nobody needs it.
     words.end_line();
     Ok((kind, [vertices, faces]))
 }
 
-/// Reads how many there are of `what`: the next word, or what is glued to the keyword.
+/// Reads a count from `glued`, the digits behind the keyword, or from the next word if there are
+/// none. `what` names it in errors.
 fn read_count(words: &mut Words, glued: &[u8], what: &str) -> Result<usize, Refusal> {
     let word = match glued {
         b"" => words.next().ok_or_else(|| words.ends_before(what))?,
@@ -123,25 +128,26 @@ fn read_count(words: &mut Words, glued: &[u8], what: &str) -> Result<usize, Refu
     Err(Refusal::at(words.place(), problem))
 }
 
-/// Reads the numbers of a line that is not blank, of which there must be `least`, into `numbers`. Returns the line.
+/// Reads the next line that is not blank into `values`, and returns its place. It must hold at
+/// least `least` numbers.
 fn read_line(
     words: &mut Words,
     least: usize,
     what: &str,
-    numbers: &mut Vec<f64>,
+    values: &mut Vec<f64>,
 ) -> Result<Place, Refusal> {
-    numbers.clear();
+    values.clear();
     let mut word = words.next();
     while let Some(found) = word {
-        match number(found).filter(|number| number.is_finite()) {
-            Some(number) => numbers.push(number),
-            // What follows may be anything.
-            None if numbers.len() >= least => break,
+        match number(found).filter(|value| value.is_finite()) {
+            Some(value) => values.push(value),
+            // After the values that matter, the line may hold anything.
+            None if values.len() >= least => break,
             None => return Err(words.no_number(found)),
         }
         word = words.next_in_line();
     }
-    match numbers.len() {
+    match values.len() {
         0 => Err(words.ends_before(what)),
         found if found < least => {
             let problem = format!("{found} numbers: expected {least}");
@@ -164,18 +170,18 @@ fn read_vertices(
     let normal = 3 + usize::from(kind.has_weight);
     let colour = normal + 3 * usize::from(kind.has_normals);
     let least = colour + 3 * usize::from(kind.has_colours);
-    let mut numbers = Vec::new();
+    let mut values = Vec::new();
     let (mut colours, mut is_in_bytes) = (Vec::new(), false);
     for _ in 0..count {
-        let place = read_line(words, least, "its last vertex", &mut numbers)?;
-        let mut position = DVec3::from_slice(&numbers);
+        let place = read_line(words, least, "its last vertex", &mut values)?;
+        let mut position = DVec3::from_slice(&values);
         if kind.has_weight {
-            if numbers[3] == 0.0 {
+            if values[3] == 0.0 {
                 let problem =
-                    "a vertex with w = 0: expected another number, by which x, y and z are divided";
+                    "a vertex with w = 0: expected another number, as x, y and z are divided by it";
                 return Err(Refusal::at(place, problem));
             }
-            position /= numbers[3];
+            position /= values[3];
         }
         if !is_position(position) {
             let [x, y, z] = position.to_array();
@@ -184,23 +190,25 @@ fn read_vertices(
         }
         polygons.positions.push(position);
         if kind.has_normals {
-            let own = DVec3::from_slice(&numbers[normal..]);
+            let own = DVec3::from_slice(&values[normal..]);
             polygons.normals.push(own);
         }
         if kind.has_colours {
-            let own = DVec3::from_slice(&numbers[colour..]);
+            let own = DVec3::from_slice(&values[colour..]);
             is_in_bytes |= own.max_element() > 1.0;
             colours.push(own);
         }
     }
-    // 0 to 255 or 0 to 1: only the whole file tells.
+    // Colours are 0 to 255 or 0 to 1, and only the whole file tells which: a single vertex may be
+    // black.
     let full = if is_in_bytes { 255.0 } else { 1.0 };
     let colours = colours.iter().map(|own: &DVec3| (*own / full).as_vec3());
     polygons.colours = colours.collect();
     Ok(())
 }
 
-/// Reads faces: the number of corners and each of them, which may stand in several lines, and the colour behind them in the last.
+/// Reads faces. A face has its corner count, then its corners, which may continue on further lines,
+/// and a colour behind the last corner on its line.
 fn read_faces(
     words: &mut Words,
     vertices: usize,
@@ -226,8 +234,8 @@ fn read_faces(
             polygons.corners.push(corner as u32);
         }
         colour.clear();
-        while let Some(number) = words.next_in_line().and_then(number) {
-            colour.push(number);
+        while let Some(value) = words.next_in_line().and_then(number) {
+            colour.push(value);
         }
         let is_kept = polygons.end_polygon(words.place())?;
         words.end_line();
@@ -238,10 +246,11 @@ fn read_faces(
     Ok(())
 }
 
-/// Returns the colour that the numbers behind a face's corners say: three or four of them, all of 0 to 1 or of 0 to 255. One number is
-/// an entry of a table that the file does not have.
-fn face_colour(numbers: &[f64]) -> Option<DVec3> {
-    let (&[r, g, b] | &[r, g, b, _]) = numbers else {
+/// Returns the colour behind a face's corners. It has three or four values, either 0 to 1 or 0
+/// to 255. A single value would be an index into a table that the file does not have, and means no
+/// colour.
+fn face_colour(values: &[f64]) -> Option<DVec3> {
+    let (&[r, g, b] | &[r, g, b, _]) = values else {
         return None;
     };
     let full = match [r, g, b].iter().any(|channel| *channel > 1.0) {

@@ -1,4 +1,4 @@
-//! What readers fill: polygons with what their corners have, made into a mesh by one set of rules.
+//! The polygons that readers collect, and the common rules that make a mesh from them.
 
 use super::Parts;
 use super::error::{Place, Refusal};
@@ -13,54 +13,61 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
-/// Polygons of a file, as far as it was read.
+/// The polygons of a file, as far as it was read.
 #[derive(Default)]
 pub(super) struct Polygons {
     pub positions: Vec<DVec3>,
-    /// One normal a position, of any length; empty if the file has none.
+    /// One normal of any length per position; empty if the file has none.
     pub normals: Vec<DVec3>,
-    /// One colour a position, linear; empty if the file has none.
+    /// One linear colour per position; empty if the file has none.
     pub colours: Vec<Vec3>,
-    /// Corners, polygon after polygon, and behind them those of the polygon that is being read.
+    /// The corners of all whole polygons, then the corners so far of the polygon that is being
+    /// read.
     pub corners: Vec<u32>,
     ends: Vec<u32>,
     materials: Vec<Material>,
     material_names: Vec<String>,
-    /// The material of each polygon up to the last one that has one; `u32::MAX` for none.
+    /// The material of each polygon, up to the last polygon that has one; `u32::MAX` for none.
     of_polygons: Vec<u32>,
-    numbers: HashMap<[u32; 3], u32>,
-    /// The smoothing group of each polygon; empty if the file says nothing of what is smooth.
+    /// The material of each colour, by the bits of the colour.
+    of_colours: HashMap<[u32; 3], u32>,
+    /// The smoothing group of each polygon; empty if the file does not say which polygons are
+    /// smooth.
     groups: Vec<u32>,
-    /// The number of polygons of fewer than three different corners, which are left out, and of those with a corner twice in a row.
+    /// How many polygons are left out because they have fewer than three different corners.
     small: usize,
+    /// How many polygons have a corner twice in a row.
     repeated: usize,
-    /// The number of polygons whose colour is not three finite numbers, and of those whose colour is out of range.
+    /// How many polygons have a colour that is not three finite numbers.
     without_colour: usize,
+    /// How many polygons have a colour that is out of range.
     clamped: usize,
 }
 
-/// The index of no material.
+/// Stands for no material, and for no index.
 const NONE: u32 = u32::MAX;
 
 impl Polygons {
-    /// Returns the number of polygons.
+    /// Returns how many polygons there are.
     pub(super) fn count(&self) -> usize {
         self.ends.len()
     }
 
-    /// Returns the number of corners of whole polygons.
+    /// Returns how many corners whole polygons have.
     fn whole(&self) -> usize {
         self.ends.last().map_or(0, |&end| end as usize)
     }
 
-    /// Ends the polygon whose corners were pushed. Like one of an OBJ file, it is left out if it has fewer than three different corners,
-    /// and so is a corner that repeats the one before it. Returns false if the polygon is left out.
+    /// Ends the polygon whose corners were pushed. A corner that repeats the one before it is left
+    /// out, and so is a polygon with fewer than three different corners. Returns false if the
+    /// polygon is left out.
     ///
     /// # Errors
-    /// When the mesh is larger than one may be.
+    /// If the mesh becomes larger than a mesh may be.
     pub(super) fn end_polygon(&mut self, place: Place) -> Result<bool, Refusal> {
         let start = self.whole();
         let own = &self.corners[start..];
+        // Nearly all polygons pass this test and are not copied.
         let is_sound = match *own {
             [a, b, c] => a != b && b != c && c != a,
             [first, .., last] if own.len() > 3 => {
@@ -96,25 +103,26 @@ impl Polygons {
         Ok(true)
     }
 
-    /// Returns the index of `material`, which is added. Empty names are none.
+    /// Adds a material and returns its index. An empty name means no name.
     pub(super) fn add_material(&mut self, material: Material, name: String) -> u32 {
         self.materials.push(material);
         self.material_names.push(name);
         self.materials.len() as u32 - 1
     }
 
-    /// Returns the index of the material of a colour of polygons, linear.
+    /// Returns the index of the material for a linear colour, which is added if it is new.
     pub(super) fn material_of_colour(&mut self, colour: Rgb) -> u32 {
+        // Adding 0.0 turns −0.0 into 0.0, so that equal colours have equal bits.
         let key = colour.map(|channel| (channel + 0.0).to_bits());
-        if let Some(number) = self.numbers.get(&key) {
-            return *number;
+        if let Some(index) = self.of_colours.get(&key) {
+            return *index;
         }
-        let number = self.add_material(coloured(colour), String::new());
-        self.numbers.insert(key, number);
-        number
+        let index = self.add_material(coloured(colour), String::new());
+        self.of_colours.insert(key, index);
+        index
     }
 
-    /// Gives a material to the last polygon.
+    /// Sets the material of the last polygon.
     pub(super) fn set_material(&mut self, material: u32) {
         self.of_polygons.resize(self.ends.len(), NONE);
         if let Some(last) = self.of_polygons.last_mut() {
@@ -122,7 +130,8 @@ impl Polygons {
         }
     }
 
-    /// Gives the last polygon the material of a colour, linear. One that is not finite is none; what is out of range is clamped.
+    /// Sets the last polygon's material to one of a linear colour. A colour that is not finite is
+    /// ignored; one that is out of range is clamped.
     pub(super) fn set_colour(&mut self, colour: DVec3) {
         if !colour.is_finite() {
             self.without_colour += 1;
@@ -134,7 +143,7 @@ impl Polygons {
         self.set_material(material);
     }
 
-    /// Says whether the last polygon is flat.
+    /// Marks the last polygon as flat or smooth.
     #[cfg(feature = "gltf")]
     pub(super) fn set_flat(&mut self, is_flat: bool) {
         const SMOOTH: u32 = PolygonMesh::FACETED + 1;
@@ -144,25 +153,27 @@ impl Polygons {
         }
     }
 
-    /// Makes the mesh of these polygons; `notes` tell what was odd before.
+    /// Makes the mesh of these polygons. `notes` are warnings from before.
     pub(super) fn finish(mut self, mut notes: Vec<String>) -> Parts {
         self.drop_unused();
         let mut builder = MeshBuilder::from_f64(&self.positions);
         builder.read_from_file();
         builder.set_polygons(take(&mut self.corners), take(&mut self.ends));
-        self.tell_counts(&mut notes);
+        self.note_counts(&mut notes);
         if !self.normals.is_empty() {
             let unit = |normal: &DVec3| unit_normal(*normal).map_or(Vec3::ZERO, |n| n.as_vec3());
             let values: Vec<Vec3> = self.normals.iter().map(unit).collect();
+            // A glTF file with flat polygons has zeros for their vertices, which are no fault of
+            // the file.
             let is_flat = !self.groups.is_empty();
             let zeros = values.iter().filter(|normal| **normal == Vec3::ZERO);
             let zeros = if is_flat { 0 } else { zeros.count() };
             if zeros == values.len() {
-                notes.push("the normals of the file have no direction: none is used".into());
+                notes.push("the normals of the file have length zero: they are not used".into());
             } else {
                 if zeros > 0 {
                     notes.push(format!(
-                        "{zeros} of {} normals of the file have no direction and count as none",
+                        "{zeros} of {} normals of the file have length zero: their corners count as without a normal",
                         values.len()
                     ));
                 }
@@ -191,8 +202,8 @@ impl Polygons {
         }
     }
 
-    /// Tells how many polygons were odd, for each way of being so.
-    fn tell_counts(&self, notes: &mut Vec<String>) {
+    /// Adds a note for each kind of odd polygon, with their count.
+    fn note_counts(&self, notes: &mut Vec<String>) {
         let counts = [
             (
                 self.small,
@@ -220,7 +231,7 @@ impl Polygons {
         }
     }
 
-    /// Gives the builder the colours of positions, if all are numbers.
+    /// Passes the colours of positions to the builder if all are finite.
     fn add_colours(&mut self, builder: &mut MeshBuilder, notes: &mut Vec<String>) {
         if self.colours.is_empty() {
             return;
@@ -238,12 +249,12 @@ impl Polygons {
                 notes.push(LIKE_BYTES.into());
             }
         }
-        // A surface does not reflect less than nothing.
+        // A surface cannot reflect less than nothing.
         let colours = take(&mut self.colours).into_iter();
         builder.colours(colours.map(|colour| colour.max(Vec3::ZERO)).collect());
     }
 
-    /// Drops positions that no polygon uses: they count neither for the view nor for rounding.
+    /// Drops positions that no polygon uses. They must not count for the view or for rounding.
     fn drop_unused(&mut self) {
         self.corners.truncate(self.whole());
         let Some(new) = indices_of_used(&self.corners, self.positions.len()) else {
@@ -257,9 +268,10 @@ impl Polygons {
     }
 }
 
-/// Returns the index that each of `count` entries has once those that no corner uses are dropped, and [`NONE`] for these; `None` where
-/// all are used.
+/// Returns the new index of each of `count` entries after those that no corner uses are dropped,
+/// and [`NONE`] for the dropped ones. Returns `None` if all are used.
 pub(super) fn indices_of_used(corners: &[u32], count: usize) -> Option<Vec<u32>> {
+    // First 0 marks the used entries, then they get ascending indices.
     let mut new = vec![NONE; count];
     corners.iter().for_each(|&corner| new[corner as usize] = 0);
     if !new.contains(&NONE) {
@@ -270,17 +282,18 @@ pub(super) fn indices_of_used(corners: &[u32], count: usize) -> Option<Vec<u32>>
     Some(new)
 }
 
-/// Keeps the entries that have a new index: see [`indices_of_used`].
+/// Drops the entries without a new index: see [`indices_of_used`].
 pub(super) fn keep<T>(entries: &mut Vec<T>, new: &[u32]) {
-    let mut numbers = new.iter();
-    entries.retain(|_| numbers.next().is_some_and(|number| *number != NONE));
+    let mut indices = new.iter();
+    entries.retain(|_| indices.next().is_some_and(|index| *index != NONE));
 }
 
-/// What is said of colours that [`look_like_bytes`].
+/// The warning about colours that [`look_like_bytes`].
 pub(super) const LIKE_BYTES: &str = "the colours look like 0 to 255: divide them by 255";
 
-/// True if linear colours look like bytes: most channels that are not 0 are over 1, and none is over 255. One has to be over 8, as
-/// colours that are a little too bright are none.
+/// True if linear colours look like bytes: most channels above 0 are also over 1, and all are at
+/// most 255. One channel must be over 8, because colours that are only a little too bright are no
+/// bytes.
 pub(super) fn look_like_bytes(colours: impl Iterator<Item = Vec3>) -> bool {
     let (mut most, mut over, mut lit) = (0f32, 0usize, 0usize);
     for channel in colours.flat_map(|colour| colour.to_array()) {
@@ -291,14 +304,14 @@ pub(super) fn look_like_bytes(colours: impl Iterator<Item = Vec3>) -> bool {
     most > 8.0 && most <= 255.0 && 2 * over > lit
 }
 
-/// True for three finite numbers that a mesh can have.
+/// True if a mesh can have this position: its coordinates are finite and in the range of an `f32`.
 pub(super) fn is_position(position: DVec3) -> bool {
-    // The largest element of a vector with a NaN may be another one.
+    // `is_finite` is needed besides the maximum, which may ignore a NaN.
     position.is_finite() && position.abs().max_element() <= f64::from(f32::MAX)
 }
 
-/// Returns a surface of a colour that a file gives, with a faint highlight. White reflects no more than falls on it, so that nothing is
-/// clamped under one light of strength 1.
+/// Returns a material with a colour of the file and a faint highlight. The coefficients sum to 1
+/// for white, so that nothing is clamped under one light of strength 1.
 pub(super) fn coloured(colour: Rgb) -> Material {
     const AMBIENT: f32 = 0.1;
     const DIFFUSE: f32 = 0.8;
@@ -316,7 +329,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_of_bytes_are_known() {
+    fn colours_in_bytes_are_recognised() {
         let look = |colours: &[[f32; 3]]| look_like_bytes(colours.iter().copied().map(Vec3::from));
         assert!(look(&[
             [255.0, 0.0, 0.0],

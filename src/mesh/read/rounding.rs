@@ -1,4 +1,4 @@
-//! Polygons that lose their shape as their positions are rounded, and why.
+//! Warnings about polygons that lose their shape when their positions are rounded.
 
 use crate::mesh::PolygonMesh;
 use glam::DVec3;
@@ -6,23 +6,26 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// The part of a polygon's extent by which a corner may move: a sixteenth may turn its normal by over 2/16, seven degrees.
+/// Rounding may move a corner by this part of its polygon's extent. A sixteenth at both ends can
+/// turn the normal by over 2/16, seven degrees.
 const MOVED: f64 = 1.0 / 16.0;
 
-/// A mesh that is narrower than this many steps of 64-bit numbers may have lost its shape in the text already.
+/// A mesh narrower than this many steps of 64-bit numbers may have lost its shape already when the
+/// file was written.
 const STEPS: f64 = 1024.0;
 
 /// The reason why rounding bends a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Cause {
-    /// Its coordinates are below those of 32 bits.
+    /// Its coordinates are below the range of 32-bit numbers.
     Small,
-    /// It is far from the point of the mesh that positions count from.
+    /// It is far from the origin of the mesh.
     FarFromMiddle,
 }
 
-/// Returns a line for each reason why rounding `positions`, as the file has them, to those of `mesh` bends polygons.
-pub(super) fn told(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
+/// Returns one line for each reason why rounding bends polygons. `positions` are the file's, before
+/// `mesh` rounded them.
+pub(super) fn warnings(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
     let mut lines = Vec::new();
     let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
     let high = positions
@@ -34,10 +37,10 @@ pub(super) fn told(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
     if extent < STEPS * step {
         lines.push(format!(
             "the mesh is {extent:.1e} wide and {distance:.1e} from 0, where 64-bit numbers are up to {step:.1e} apart: expected \
-             a mesh nearer to 0 when it is written"
+             a file that was written with the mesh nearer to 0"
         ));
     }
-    // Most files have 32-bit numbers, and nothing was rounded.
+    // Most files hold 32-bit numbers, so that nothing was rounded.
     let origin = mesh.origin();
     let own = mesh.positions().iter().map(|p| origin + p.as_dvec3());
     if own.eq(positions.iter().copied()) {
@@ -65,7 +68,7 @@ pub(super) fn told(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
             counted(
                 Cause::FarFromMiddle,
                 ", so far from the middle of the mesh, that 32-bit coordinates bend their shape: \
-             expected objects that lie far apart in files of their own",
+             expected a separate file for each object if objects lie far apart",
             ),
         ]
         .into_iter()
@@ -74,7 +77,7 @@ pub(super) fn told(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
     lines
 }
 
-/// Returns why rounding bends a polygon, if it does.
+/// Returns the reason why rounding bends a polygon; `None` if it does not.
 fn cause(mesh: &PolygonMesh, positions: &[DVec3], polygon: &[u32]) -> Option<Cause> {
     let corners = || polygon.iter().map(|&c| c as usize);
     let low = corners().fold(DVec3::INFINITY, |low, c| low.min(positions[c]));

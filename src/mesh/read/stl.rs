@@ -1,8 +1,9 @@
-//! STL: triangles one by one, binary or as text.
+//! STL files: separate triangles, binary or as text.
 //!
-//! A file repeats the position of a vertex in each triangle around it, so positions that are equal exactly are made one. It says
-//! nothing of what is smooth: a mesh on its own has creases, and angles as weights. The normals of facets are passed over, as most
-//! programs do: they say no more than the vertices, and many files have zeros there.
+//! A file repeats a vertex's position in each triangle around it, so the reader merges positions
+//! that are exactly equal. The format cannot say which edges are smooth. A mesh drawn on its own
+//! therefore gets creases, with weights by angle. The reader ignores the normals of facets, as most
+//! programs do: the vertices imply them, and many files have zeros there.
 
 use super::content::is_binary_stl;
 use super::error::{Place, Refusal, quote};
@@ -18,11 +19,13 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// The angle in degrees between polygons from which on their edge is sharp.
+/// An edge is sharp if its polygons meet at more than this angle in degrees.
 const CREASE: f64 = 40.0;
-/// The bytes of the header of a binary file, of all before its triangles, and of a triangle.
+/// The bytes of a binary file's header.
 const HEADER: usize = 80;
+/// The byte where triangles start, after the header and the triangle count.
 const START: usize = HEADER + 4;
+/// The bytes of a triangle: its normal, three vertices, and two bytes of attributes.
 const TRIANGLE: usize = 50;
 
 /// The format.
@@ -62,16 +65,18 @@ impl MeshFormat for Stl {
     }
 }
 
-/// Facets whose corners have positions of their own.
+/// Facets that share no positions.
 #[derive(Default)]
 struct Soup {
+    /// One position per corner.
     positions: Vec<DVec3>,
-    /// The number of corners up to the end of each facet.
+    /// The end of each facet in `positions`.
     ends: Vec<u32>,
 }
 
 impl Soup {
-    /// Returns the polygons, with equal positions as one: equal once they are rounded as those of a mesh are.
+    /// Merges equal positions and returns the polygons. Positions are equal if they are so after
+    /// the mesh has rounded them.
     fn welded(self) -> Result<Polygons, Refusal> {
         let origin = origin(&self.positions);
         let rounded = self.positions.iter().map(|&p| (p - origin).as_vec3());
@@ -83,7 +88,7 @@ impl Soup {
         for &end in &self.ends {
             let facet = start..end as usize;
             for (&corner, &position) in corners[facet.clone()].iter().zip(&self.positions[facet]) {
-                // Indices go by first occurrence.
+                // Indices follow first occurrence, so a new index is always the next one.
                 if corner as usize == polygons.positions.len() {
                     polygons.positions.push(position);
                 }
@@ -99,14 +104,15 @@ impl Soup {
 /// True if the first word is `solid`.
 fn begins_with_solid(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    // Some writers put comments first, though the format has none.
+    // Some programs write comments first, though the format has none.
     let first = Words::new(&bytes[..bytes.len().min(1 << 12)], 0, 1)
         .with_comments()
         .next();
     first.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
-/// True if a file is text: `solid`, and no byte 0 near it, which headers of binary files that begin with `solid` have.
+/// True if a file is text: it begins with `solid` and has no zero byte near its start. Some binary
+/// files begin with `solid` too, but their headers are filled with zeros.
 fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(1024)];
     begins_with_solid(bytes) && !head.contains(&0)
@@ -117,22 +123,27 @@ fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
     let Some(stated) = bytes.get(HEADER..START).and_then(|four| four.first_chunk()) else {
         let length = bytes.len();
         return Err(Refusal::whole(format!(
-            "is {length} bytes long: expected text that begins with `solid`, or a header of {START} bytes"
+            "is {length} bytes long: expected text that begins with `solid`, or a binary file of at least {START} bytes"
         )));
     };
     let stated = u32::from_le_bytes(*stated);
     let body = &bytes[START..];
     let held = body.len() / TRIANGLE;
     let count = match stated {
-        // Programs that write to a pipe do not know yet how many will come.
+        // A program that writes to a pipe cannot go back to fill in the count.
         0 | u32::MAX if held > 0 => {
-            notes.push(format!("says {stated} triangles: all {held} are read"));
+            notes.push(format!(
+                "the header says {stated} triangles: all {held} in the file are read"
+            ));
             held
         }
         _ => stated as usize,
     };
     if count > held {
-        let problem = format!("the file ends in triangle {} of {count}", held + 1);
+        let problem = format!(
+            "the file ends in triangle {} of {count}: expected all of them",
+            held + 1
+        );
         return Err(Refusal::at(Place::Byte(bytes.len()), problem));
     }
     if count > PolygonMesh::MAX_POLYGONS {
@@ -144,7 +155,7 @@ fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
     let mut positions = Vec::with_capacity(3 * count);
     let mut has_attributes = false;
     for (i, triangle) in body.chunks_exact(TRIANGLE).take(count).enumerate() {
-        // The normal first, which is passed over.
+        // The first 12 bytes are the normal, which is ignored.
         for corner in triangle[12..48].chunks_exact(12) {
             let mut vertex = [0.0; 3];
             for (value, four) in vertex.iter_mut().zip(corner.chunks_exact(4)) {
@@ -156,7 +167,7 @@ fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
         if !last.iter().all(|p| p.is_finite()) {
             let place = Place::Byte(START + TRIANGLE * i);
             let problem = format!(
-                "triangle {} has a coordinate that is no finite number",
+                "triangle {} has a coordinate that is not finite: expected finite numbers",
                 i + 1
             );
             return Err(Refusal::at(place, problem));
@@ -165,7 +176,7 @@ fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
     }
     if has_attributes {
         notes.push(
-            "the two bytes after each triangle, which some programs give colours, are not read"
+            "the two bytes after each triangle, where some programs store colours, are not read"
                 .into(),
         );
     }
@@ -173,7 +184,8 @@ fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
     Ok(Soup { positions, ends })
 }
 
-/// Reads the facets of a text, word by word: lines mean nothing but in names, and keywords have any case.
+/// Reads the facets of a text word by word. Line ends matter only after names, and keywords may be
+/// in any case.
 fn read_text(bytes: &[u8]) -> Result<Soup, Refusal> {
     let start = if bytes.starts_with(b"\xef\xbb\xbf") {
         3
@@ -218,7 +230,7 @@ fn read_text(bytes: &[u8]) -> Result<Soup, Refusal> {
     }
 }
 
-/// Ends a facet.
+/// Ends a facet and checks its size.
 fn end_facet(soup: &mut Soup, words: &Words) -> Result<(), Refusal> {
     let start = soup.ends.last().map_or(0, |&end| end as usize);
     let found = soup.positions.len() - start;
@@ -240,9 +252,10 @@ fn end_facet(soup: &mut Soup, words: &Words) -> Result<(), Refusal> {
     Ok(())
 }
 
+/// A keyword of a text file.
 #[derive(Clone, Copy, PartialEq)]
 enum Keyword {
-    /// `solid` or `endsolid`, after which a name may stand.
+    /// `solid` or `endsolid`, which a name may follow.
     Solid,
     Facet,
     Vertex,
@@ -251,7 +264,7 @@ enum Keyword {
     EndFacet,
 }
 
-/// Returns the keyword that `word` is.
+/// Returns the keyword `word`, if it is one.
 fn keyword(word: &[u8]) -> Option<Keyword> {
     const KEYWORDS: [(&[u8], Keyword); 8] = [
         (b"vertex", Keyword::Vertex),
@@ -268,8 +281,9 @@ fn keyword(word: &[u8]) -> Option<Keyword> {
     found.map(|(_, keyword)| *keyword)
 }
 
-/// Passes over the name of a solid: the rest of the line, or up to what must be the next statement where the file is one line. A
-/// solid may be called `facet normal things`.
+/// Skips the name of a solid. It ends with the line, or before the next statement if the whole file
+/// is one line. A word counts as a statement only if what follows fits, because a solid may be
+/// called `facet normal things`.
 fn pass_over_name(words: &mut Words) {
     loop {
         let before = words.clone();
@@ -292,7 +306,7 @@ fn pass_over_name(words: &mut Words) {
     }
 }
 
-/// Passes over `normal` and what follows it, up to the next keyword.
+/// Skips `normal` and its numbers, up to the next keyword.
 fn pass_over_normal(words: &mut Words) {
     for _ in 0..4 {
         let before = words.clone();

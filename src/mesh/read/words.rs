@@ -1,22 +1,22 @@
-//! Words and numbers of mesh files that are text, with their lines.
+//! Words and numbers of text files, with their line numbers.
 
 use super::error::{Place, Refusal, hint, quote};
 use std::format;
 use std::string::String;
 
-/// The words of a text one by one. CR, LF and CR LF each end a line.
+/// A cursor over the words of a text. CR, LF and CR LF each end a line.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// The line of the word that was read last, counted from 1.
+    /// The line of the last word, counted from 1.
     line: usize,
-    /// True if `#` begins a comment, which ends with its line.
+    /// True if `#` begins a comment that lasts to the end of its line.
     has_comments: bool,
 }
 
 impl<'a> Words<'a> {
-    /// Starts at the byte `at`, in `line`.
+    /// Starts at byte `at`, which is in line `line`.
     pub(super) fn new(bytes: &'a [u8], at: usize, line: usize) -> Self {
         Words {
             bytes,
@@ -26,7 +26,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Passes over comments, which `#` begins.
+    /// Treats `#` as the beginning of a comment.
     pub(super) fn with_comments(self) -> Self {
         Words {
             has_comments: true,
@@ -34,23 +34,23 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Returns the line of the word that was read last.
+    /// Returns the line of the last word.
     pub(super) fn place(&self) -> Place {
         Place::Line(self.line)
     }
 
-    /// True if a word of this line was read.
+    /// True if a word of this line was read already.
     pub(super) fn has_begun(&self) -> bool {
         let before = self.bytes[..self.at].last();
         before.is_some_and(|byte| !matches!(byte, b'\n' | b'\r'))
     }
 
-    /// Returns the number of bytes that are left.
+    /// Returns how many bytes are left.
     pub(super) fn left(&self) -> usize {
         self.bytes.len() - self.at
     }
 
-    /// Returns the next word, in whatever line.
+    /// Returns the next word, in this line or a later one.
     pub(super) fn next(&mut self) -> Option<&'a [u8]> {
         loop {
             if let Some(word) = self.next_in_line() {
@@ -62,7 +62,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Returns the next word of this line.
+    /// Returns the next word of this line; `None` at its end.
     pub(super) fn next_in_line(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.at..];
         let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c);
@@ -76,7 +76,8 @@ impl<'a> Words<'a> {
             return None;
         }
         self.at += length;
-        // A comment may begin within a word.
+        // A comment may begin inside a word. The cursor then goes back to the `#`, where the next
+        // call stops.
         match word.iter().position(|byte| *byte == b'#') {
             Some(mark) if self.has_comments => {
                 self.at -= length - mark;
@@ -86,7 +87,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Passes over the rest of the line and its end. Returns false at the end of the text.
+    /// Skips the rest of the line and its end. Returns false at the end of the text.
     pub(super) fn end_line(&mut self) -> bool {
         let rest = &self.bytes[self.at..];
         let Some(end) = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')) else {
@@ -101,10 +102,10 @@ impl<'a> Words<'a> {
         true
     }
 
-    /// Reads a finite number, of whatever line.
+    /// Reads the next word as a finite number.
     ///
     /// # Errors
-    /// When the text ends, before `what`, or the word is no finite number.
+    /// If the text ends here, before `what`, or the word is no finite number.
     pub(super) fn finite(&mut self, what: &str) -> Result<f64, Refusal> {
         let word = self.next().ok_or_else(|| self.ends_before(what))?;
         number(word)
@@ -112,12 +113,12 @@ impl<'a> Words<'a> {
             .ok_or_else(|| self.no_number(word))
     }
 
-    /// Makes the error for a text that ends before `what`.
+    /// Makes the error for a text that ends too early. `what` is missing.
     pub(super) fn ends_before(&self, what: &str) -> Refusal {
         Refusal::at(self.place(), format!("the file ends here, before {what}"))
     }
 
-    /// Makes the error for a word in place of a number.
+    /// Makes the error for a word where a number should be.
     pub(super) fn no_number(&self, word: &[u8]) -> Refusal {
         let word = text(word);
         let hint = hint(&word);
@@ -126,14 +127,15 @@ impl<'a> Words<'a> {
     }
 }
 
-/// Returns `bytes` without what ends a text: blanks, the NUL of a C string, and the byte by which DOS did.
+/// Returns `bytes` without the bytes that may end a text: blanks, the NUL of a C string, and the
+/// end-of-file byte of DOS.
 pub(super) fn text_end(bytes: &[u8]) -> &[u8] {
     let is_text = |byte: &u8| !byte.is_ascii_whitespace() && !matches!(byte, 0 | 0x1a);
     let end = bytes.iter().rposition(is_text).map_or(0, |last| last + 1);
     &bytes[..end]
 }
 
-/// Returns a word as text: UTF-8, else Latin-1.
+/// Decodes a word as UTF-8, or as Latin-1 if it is not valid UTF-8.
 pub(super) fn text(word: &[u8]) -> String {
     match std::str::from_utf8(word) {
         Ok(text) => text.into(),
@@ -141,19 +143,21 @@ pub(super) fn text(word: &[u8]) -> String {
     }
 }
 
-/// Reads a number. One that is not finite is NaN or infinite.
+/// Reads a number, which may be NaN or infinite.
 pub(super) fn number(word: &[u8]) -> Option<f64> {
     plain_number(word).or_else(|| std::str::from_utf8(word).ok()?.parse().ok())
 }
 
-/// Powers of ten that an `f64` has exactly.
+/// The powers of ten that an `f64` holds exactly.
 const TENS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Reads a number of at most 15 significant digits and a small exponent, as most are: two numbers that an `f64` has exactly, and one
-/// product or quotient of them, which is therefore rounded once (Clinger, *How to read floating point numbers accurately*, 1990).
+/// Reads a number of at most 15 significant digits with a small exponent; returns `None` for all
+/// others. Most numbers of a file are like this, and this is faster than the standard library. An
+/// `f64` holds both the digits and the power of ten exactly, so their product or quotient is
+/// rounded only once (Clinger, *How to read floating point numbers accurately*, 1990).
 fn plain_number(word: &[u8]) -> Option<f64> {
     let (is_negative, mut rest) = match word {
         [b'-', rest @ ..] => (true, rest),
@@ -161,6 +165,8 @@ fn plain_number(word: &[u8]) -> Option<f64> {
         _ => (false, word),
     };
     let (mut digits, mut significant, mut count, mut exponent) = (0u64, 0, 0, 0i32);
+    // `digits` collects all digits as one integer; each digit behind the point lowers the exponent
+    // by one.
     let mut is_behind_point = false;
     while let [byte, others @ ..] = rest {
         match byte {
@@ -169,7 +175,7 @@ fn plain_number(word: &[u8]) -> Option<f64> {
                 significant += usize::from(digits > 0);
                 count += 1;
                 exponent -= i32::from(is_behind_point);
-                // The next digit could leave 64 bits.
+                // Every integer of 15 digits is exact in an f64; one of 16 may not be.
                 if significant > 15 {
                     return None;
                 }
@@ -213,7 +219,7 @@ mod tests {
     use std::vec::Vec;
 
     #[test]
-    fn a_number_is_the_one_that_the_standard_library_reads() {
+    fn numbers_equal_those_that_the_standard_library_reads() {
         let mut random = Random::new(11);
         let mut plain = 0;
         for _ in 0..300_000 {
@@ -252,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn words_know_their_lines() {
+    fn words_have_their_line_numbers() {
         let mut words = Words::new(b"a\tb\r\nc\rd\n\n e# f\n#g\nh", 0, 1).with_comments();
         let mut found = Vec::new();
         while let Some(word) = words.next() {

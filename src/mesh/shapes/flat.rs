@@ -1,4 +1,5 @@
-//! Flat meshes facing +z: single polygons of many sides, concave ones too, and the square of Figure 5.
+//! Flat meshes that face +z: single polygons of many sides, convex and concave, and the square of
+//! Figure 5.
 
 use super::turn;
 use crate::mesh::{GivenNormals, MeshBuilder, MeshError, PolygonMesh};
@@ -6,13 +7,15 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Returns the point at `k / n` of a turn, counter-clockwise from the top, on the circle of radius `radius`.
+/// Returns the point at `k / n` of a turn on the circle of radius `radius`, counter-clockwise from
+/// the top.
 fn around(radius: f64, k: usize, n: usize) -> DVec2 {
     let (sin, cos) = turn(k, n);
     radius * DVec2::new(-sin, cos)
 }
 
-/// Returns the corners of a star with `points` points on the unit circle, and as many corners between them at radius `inner`.
+/// Returns the corners of a star: `points` points on the unit circle, and between them inner
+/// corners at radius `inner`.
 pub(super) fn star_outline(points: usize, inner: f64) -> Vec<DVec2> {
     let n = 2 * points.max(2);
     (0..n)
@@ -20,7 +23,7 @@ pub(super) fn star_outline(points: usize, inner: f64) -> Vec<DVec2> {
         .collect()
 }
 
-/// Makes one polygon for each outline; outlines share no corners.
+/// Makes one polygon for each outline. Outlines share no corners.
 fn flat(outlines: &[Vec<DVec2>]) -> Result<PolygonMesh, MeshError> {
     let corners: usize = outlines.iter().map(Vec::len).sum();
     if corners > PolygonMesh::MAX_CORNERS {
@@ -43,15 +46,15 @@ fn flat(outlines: &[Vec<DVec2>]) -> Result<PolygonMesh, MeshError> {
     builder.finish()
 }
 
-/// Makes one equilateral triangle in the unit circle, a corner at the top.
+/// Makes one equilateral triangle in the unit circle, with a corner at the top.
 ///
 /// # Errors
-/// None in practice: three corners are always a mesh.
+/// None in practice: three corners always make a mesh.
 pub fn triangle() -> Result<PolygonMesh, MeshError> {
     polygon(3)
 }
 
-/// Makes one regular polygon of `sides` sides in the unit circle, a corner at the top.
+/// Makes one regular polygon of `sides` sides in the unit circle, with a corner at the top.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -60,7 +63,8 @@ pub fn polygon(sides: usize) -> Result<PolygonMesh, MeshError> {
     flat(&[(0..n).map(|k| around(1.0, k, n)).collect()])
 }
 
-/// Makes one star-shaped polygon: `points` points on the unit circle, the corners between them at radius `inner`.
+/// Makes one star-shaped polygon: `points` points on the unit circle, and between them inner
+/// corners at radius `inner`.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if `inner` is not finite.
@@ -68,14 +72,15 @@ pub fn star(points: usize, inner: f64) -> Result<PolygonMesh, MeshError> {
     flat(&[star_outline(points, inner)])
 }
 
-/// Makes one comb-shaped polygon of 4 `teeth` sides, 2 wide and 1 high: a scan line crosses it up to 2 `teeth` times.
+/// Makes one comb-shaped polygon of 4 `teeth` sides, 2 wide and 1 high. A scan line crosses it up
+/// to 2 `teeth` times.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
 pub fn comb(teeth: usize) -> Result<PolygonMesh, MeshError> {
     let teeth = teeth.max(1);
     let width = (2 * teeth - 1) as f64;
-    // In units of a tooth's width across and a quarter of the height upward.
+    // `x` counts widths of a tooth, `y` quarters of the height.
     let at = |x: usize, y: f64| DVec2::new((2.0 * x as f64 - width) / width, (y - 2.0) / 4.0);
     let mut outline = vec![at(0, 0.0), at(2 * teeth - 1, 0.0)];
     for tooth in (0..teeth).rev() {
@@ -87,7 +92,8 @@ pub fn comb(teeth: usize) -> Result<PolygonMesh, MeshError> {
     flat(&[outline])
 }
 
-/// Block letters without holes, counter-clockwise, in squares of a grid; each is 5 high.
+/// The outlines of block letters without holes, counter-clockwise, on the lines of a grid. Each
+/// letter is 5 squares high.
 const SHINE: [&[[i8; 2]]; 5] = [
     &[
         [0, 0],
@@ -159,15 +165,16 @@ const SHINE: [&[[i8; 2]]; 5] = [
     ],
 ];
 
-/// Makes the word SHINE in block letters: five concave polygons of 10 or 12 sides, 2 wide and 0.5 high.
+/// Makes the word SHINE in block letters: five concave polygons of 10 or 12 sides, 2 wide and 0.5
+/// high.
 ///
 /// # Errors
-/// None in practice: the letters are always a mesh.
+/// None in practice: the letters always make a mesh.
 pub fn letters() -> Result<PolygonMesh, MeshError> {
     let mut left = 0.0;
     let mut outlines = Vec::new();
     for letter in SHINE {
-        // The whole word is 20 squares wide, with one between letters.
+        // The whole word is 20 squares wide, with one square between letters.
         let place = |&[x, y]: &[i8; 2]| {
             DVec2::new((left + x as f64 - 10.0) / 10.0, (y as f64 - 2.5) / 10.0)
         };
@@ -177,19 +184,21 @@ pub fn letters() -> Result<PolygonMesh, MeshError> {
     flat(&outlines)
 }
 
-/// Makes the square of Figure 5 (L21 3), turned counter-clockwise by `angle` degrees: a quad with its normals given, whose
-/// shading by scan lines depends on how it is turned.
+/// Makes the square of Figure 5 (L21 3), turned counter-clockwise by `angle` degrees. It is a quad
+/// with its own normals, and its shading by scan lines depends on the angle.
 ///
-/// The square stands on a corner, and has corners at distance 1. Three corners have the normal (0, 0, 1), and the lowest
-/// one, at angle 0, the normal that points down along the diagonal. Under one light from +z three corners are white and
-/// one is black. At 0° every scan line of the upper half runs between white edges: half the square is white. At 90° the
-/// same scan lines run from a white corner to the black one, and the same half of the square is gray up to the diagonal.
-/// Split into two triangles along that diagonal, it does not depend on the angle.
+/// The square stands on a corner, and its corners are at distance 1 from the centre. Three corners
+/// have the normal (0, 0, 1). The fourth, which is the lowest at angle 0, has a normal that points
+/// down along the diagonal. Under one light from +z three corners are white and one is black. At 0°
+/// every scan line of the upper half runs between white edges, so that half of the square is white.
+/// At 90° the black corner is at the side: these scan lines run from a white edge to an edge that
+/// darkens toward that corner, so this half is grey up to the diagonal. If the square is split into
+/// two triangles along that diagonal, its shading does not depend on the angle.
 ///
 /// # Errors
 /// [`MeshError::NotFinite`] if the angle is not finite.
 pub fn figure5(angle: f64) -> Result<PolygonMesh, MeshError> {
-    // Whole degrees are exact at quarter turns.
+    // For whole degrees `turn` is exact at quarter turns.
     let (sin, cos) = if angle == libm::trunc(angle) {
         turn((angle % 360.0 + 360.0) as usize, 360)
     } else {

@@ -1,35 +1,39 @@
-//! The mesh of a surface with two parameters: a sheet, a ball with poles, or a closed tube.
+//! The mesh of a surface over two parameters: a sheet, a ball with poles, or a closed tube.
 
 use crate::mesh::{GivenNormals, MeshBuilder, MeshError, PolygonMesh};
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// The joining of the edges of a parameter grid.
+/// The way in which the edges of a parameter grid are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Topology {
-    /// Not at all: four open edges.
+    /// Nothing is joined: the sheet has four open edges.
     Sheet,
-    /// The last column to the first; the first and the last row are one point each, and their cells triangles.
+    /// The last column joins the first. The first and the last row are one point each, and cells
+    /// there are triangles.
     Ball,
-    /// The last column to the first and the last row to the first.
+    /// The last column joins the first, and the last row joins the first.
     Tube,
 }
 
 /// A grid of cells over a surface: quads, or two triangles each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ParameterGrid {
-    /// The joining of its edges.
+    /// The way in which its edges are joined.
     pub topology: Topology,
-    /// Cells along the first parameter; 3 at least where columns are joined, else 1.
+    /// How many cells there are along the first parameter: at least 3 if columns are joined, else
+    /// at least 1.
     pub columns: usize,
-    /// Cells along the second parameter; 2 at least on a ball, 3 on a tube, else 1.
+    /// How many cells there are along the second parameter: at least 2 on a ball, 3 on a tube, 1 on
+    /// a sheet.
     pub rows: usize,
     /// True if quads are split into two triangles.
     pub triangles: bool,
 }
 
 impl ParameterGrid {
-    /// Makes the grid, with resolutions that are too low raised to the least that the topology allows.
+    /// Makes the grid. A resolution that is too low is raised to the lowest that the topology
+    /// allows.
     pub fn new(topology: Topology, columns: usize, rows: usize, triangles: bool) -> Self {
         let (least_columns, least_rows) = match topology {
             Topology::Sheet => (1, 1),
@@ -44,7 +48,7 @@ impl ParameterGrid {
         }
     }
 
-    /// Returns the number of polygons of the mesh; `u64::MAX` where that overflows.
+    /// Returns how many polygons the mesh has; `u64::MAX` if that overflows.
     pub fn polygon_count(&self) -> u64 {
         let (columns, rows) = (self.columns as u64, self.rows as u64);
         match (self.topology, self.triangles) {
@@ -54,13 +58,15 @@ impl ParameterGrid {
         }
     }
 
-    /// Makes the mesh of the surface whose point and unit normal at `(column, row)` is `surface(column, row)`.
+    /// Makes the mesh of a surface. `surface(column, row)` returns the point and the unit normal
+    /// there.
     ///
-    /// Polygons are counter-clockwise seen from the side of ∂column × ∂row. `surface` is asked for each position once,
-    /// row after row, at a pole for column 0.
+    /// Polygons are counter-clockwise seen from the side that ∂column × ∂row points to. `surface`
+    /// is called once for each position, row after row; at a pole it is called only for column 0.
     ///
     /// # Errors
-    /// [`MeshError::TooLarge`] before anything is allocated; [`MeshError::NotFinite`] if the surface is not finite.
+    /// [`MeshError::TooLarge`] before anything is allocated; [`MeshError::NotFinite`] if the
+    /// surface is not finite.
     pub fn mesh(
         &self,
         mut surface: impl FnMut(usize, usize) -> (DVec3, DVec3),
@@ -86,7 +92,7 @@ impl ParameterGrid {
         self.joined(positions, normals)
     }
 
-    /// Joins the points of a surface to polygons.
+    /// Joins the points of a surface into polygons.
     fn joined(&self, positions: Vec<Vec3>, normals: Vec<Vec3>) -> Result<PolygonMesh, MeshError> {
         let polygons = self.polygon_count() as usize;
         let mut builder = MeshBuilder::new(positions);
@@ -107,7 +113,8 @@ impl ParameterGrid {
         self.topology == Topology::Ball && (row == 0 || row == self.rows)
     }
 
-    /// Returns the index of the position at `(column, row)`, with both wrapped where the grid is joined.
+    /// Returns the index of the position at `(column, row)`. Both wrap around where the grid is
+    /// joined.
     fn index(&self, column: usize, row: usize) -> u32 {
         let wrapped = if column == self.columns { 0 } else { column };
         let index = match self.topology {
@@ -121,6 +128,7 @@ impl ParameterGrid {
         index as u32
     }
 
+    /// Adds the polygons of one cell.
     fn cell(&self, builder: &mut MeshBuilder, column: usize, row: usize) {
         let [a, b, c, d] =
             [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| self.index(column + i, row + j));

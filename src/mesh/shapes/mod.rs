@@ -1,9 +1,11 @@
-//! Meshes by formula: any resolution, shared positions, outward counter-clockwise polygons, unit normals.
+//! Meshes by formula, at any resolution, with polygons that are counter-clockwise seen from outside
+//! and with unit normals.
 //!
-//! Computed in `f64` and rounded once, with `libm`, so that every platform makes the same mesh bit for bit. Closed shapes
-//! share their positions across seams and at poles. Resolutions below the least that makes sense are raised to it.
-//! Every function fails only with [`MeshError::TooLarge`](super::MeshError::TooLarge), before memory is taken, or
-//! with [`MeshError::NotFinite`](super::MeshError::NotFinite) when a size is no finite number in `f32`.
+//! Coordinates are computed in `f64` with `libm` and rounded once, so that every platform makes the
+//! same mesh bit for bit. Closed shapes share their positions across seams and at poles. A
+//! resolution that is too low is raised to the lowest that makes sense. The only errors are
+//! [`MeshError::TooLarge`](super::MeshError::TooLarge), before any memory is allocated, and
+//! [`MeshError::NotFinite`](super::MeshError::NotFinite) if a size is not finite in `f32`.
 
 mod flat;
 mod grid;
@@ -28,14 +30,16 @@ pub use torus::{knot, torus};
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-/// Returns sine and cosine of `k / n` of a full turn, exact at quarter turns and symmetric between them.
+/// Returns the sine and cosine of `k / n` of a full turn. They are exact at quarter turns and
+/// symmetric between them.
 fn turn(k: usize, n: usize) -> (f64, f64) {
-    // 4k/n quarter turns: the whole ones, and the rest in n-ths of a quarter.
+    // 4k/n quarter turns are `quarter` whole ones and `rest` n-ths of another one.
     let quarters = 4 * (k % n) as u64;
     let n = n as u64;
     let (quarter, rest) = (quarters / n, quarters % n);
     let angle = |rest: u64| rest as f64 / n as f64 * FRAC_PI_2;
-    // Above the eighth turn by the complement, so that both sides of it have the same bits.
+    // Above an eighth of a turn the complementary angle is used, so that both sides of the eighth
+    // have equal bits.
     let (sin, cos) = if 2 * rest == n {
         (FRAC_1_SQRT_2, FRAC_1_SQRT_2)
     } else if 2 * rest < n {
@@ -51,7 +55,7 @@ fn turn(k: usize, n: usize) -> (f64, f64) {
     }
 }
 
-/// Returns all `n` of [`turn`].
+/// Returns [`turn`] for all `k` below `n`.
 fn turns(n: usize) -> Vec<(f64, f64)> {
     (0..n).map(|k| turn(k, n)).collect()
 }
@@ -66,7 +70,8 @@ mod tests {
         for n in 1..60 {
             for (k, (sin, cos)) in turns(n).into_iter().enumerate() {
                 let angle = k as f64 / n as f64 * 4.0 * FRAC_PI_2;
-                // The angle is rounded at most 3 times at up to 2π, sine and cosine once more: 2π · 4 · ε/2.
+                // The angle, up to 2π, is rounded at most 3 times, and sine and cosine once more:
+                // 2π · 4 · ε/2.
                 assert!(
                     (sin - libm::sin(angle)).abs() < 13.0 * f64::EPSILON,
                     "sin {k}/{n}"

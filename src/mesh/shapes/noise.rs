@@ -1,11 +1,13 @@
-//! Gradient noise with its derivatives: the same numbers on every platform.
+//! Gradient noise with its derivatives. Its values are equal on every platform.
 
 use crate::number::split_mix::SplitMix;
 use glam::DVec2;
 
-/// Perlin's gradient noise at `p`: its value, inside −1..1, and its gradient, which is continuous and has derivatives.
+/// Returns the value of Perlin's gradient noise at `p`, between −1 and 1, and its gradient, which
+/// is continuous and differentiable.
 ///
-/// K. Perlin, *Improving noise*, SIGGRAPH 2002 (the fifth-degree fade), with gradients from [`SplitMix`] instead of a table.
+/// It follows K. Perlin, *Improving noise*, SIGGRAPH 2002 (the fifth-degree fade). Gradients come
+/// from [`SplitMix`] instead of a table.
 pub(super) fn gradient_noise(p: DVec2, seed: u64) -> (f64, DVec2) {
     let cell = DVec2::new(libm::floor(p.x), libm::floor(p.y));
     let f = p - cell;
@@ -19,6 +21,8 @@ pub(super) fn gradient_noise(p: DVec2, seed: u64) -> (f64, DVec2) {
         corner(0.0, 1.0),
         corner(1.0, 1.0),
     ];
+    // 6t⁵ − 15t⁴ + 10t³ and its derivative. The first two derivatives vanish at 0 and 1, so that
+    // cells join smoothly.
     let fade = |t: f64| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let slope = |t: f64| 30.0 * t * t * (t - 1.0) * (t - 1.0);
     let (u, v) = (fade(f.x), fade(f.y));
@@ -35,7 +39,8 @@ pub(super) fn gradient_noise(p: DVec2, seed: u64) -> (f64, DVec2) {
     (value, gradient)
 }
 
-/// Returns the sum of `octaves` of [`gradient_noise`], each of twice the frequency and half the height of the one before.
+/// Returns the sum of `octaves` octaves of [`gradient_noise`]. Each has twice the frequency and
+/// half the height of the previous one.
 pub(super) fn fractal_noise(p: DVec2, octaves: usize, seed: u64) -> (f64, DVec2) {
     let (mut value, mut gradient) = (0.0, DVec2::ZERO);
     let (mut frequency, mut height) = (1.0, 1.0);
@@ -49,7 +54,7 @@ pub(super) fn fractal_noise(p: DVec2, octaves: usize, seed: u64) -> (f64, DVec2)
     (value, gradient)
 }
 
-/// Returns a vector with components in −1..1 for each point of the lattice.
+/// Returns the gradient at a lattice point, with components in −1..1.
 fn lattice_gradient(i: f64, j: f64, seed: u64) -> DVec2 {
     let hash = |seed| SplitMix(seed).next();
     let bits = hash(hash(hash(seed) ^ i as i64 as u64) ^ j as i64 as u64);
@@ -63,8 +68,9 @@ mod tests {
 
     #[test]
     fn the_gradient_is_the_derivative() {
-        // Central difference at h: off by h²/6 times the third derivative (below 2e3 at the highest octave's 8 per unit,
-        // where the fade's is 60 · 8³ · 2⁻³) plus rounding ε/h: at h = 1e-5 below 1e-6.
+        // A central difference at h is off by h²/6 times the third derivative, plus rounding ε/h.
+        // The third derivative is below 2e3 at the highest octave's 8 per unit, where the fade's is
+        // 60 · 8³ · 2⁻³. At h = 1e-5 both together stay below 1e-6.
         let h = 1e-5;
         for k in 0..200 {
             let p = DVec2::new(0.37 * k as f64 - 31.0, 0.23 * k as f64 - 11.0);
@@ -92,7 +98,7 @@ mod tests {
                     < 1.0
             );
         }
-        // Zero on the lattice itself.
+        // Gradient noise is zero at the lattice points.
         assert_eq!(gradient_noise(DVec2::new(-3.0, 5.0), 9).0, 0.0);
     }
 }

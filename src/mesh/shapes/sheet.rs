@@ -6,14 +6,15 @@ use crate::mesh::{MeshError, PolygonMesh};
 use core::f64::consts::PI;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Coordinates of grid line `k` of `n` over −1..=1.
+/// Returns the coordinate of grid line `k` of `n` over −1..=1.
 fn across(k: usize, n: usize) -> f64 {
     (2.0 * k as f64 - n as f64) / n as f64
 }
 
-/// Makes a sheet over the square −1..=1, facing +z: `z = amplitude · sin(π waves x)`, so that `waves` whole waves run across.
+/// Makes a wavy sheet over the square −1..=1, facing +z, with `z = amplitude · sin(π waves x)`.
+/// `waves` whole waves run across it.
 ///
-/// Its inflections are what linear interpolation of normals hides: between equal normals it shades flat.
+/// Linear interpolation of normals hides its inflections: between equal normals it shades flat.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
@@ -36,20 +37,22 @@ pub fn corrugated(
     })
 }
 
-/// A terrain of noise.
+/// The parameters of a terrain of noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terrain {
-    /// Height of the largest hills.
+    /// The height of the largest hills.
     pub amplitude: f64,
-    /// The number of the largest hills along a side.
+    /// How many of the largest hills stand along a side.
     pub frequency: f64,
-    /// The sizes of hills, each half as wide and half as high as the one before.
+    /// How many sizes of hills there are. Each is half as wide and half as high as the previous
+    /// one.
     pub octaves: usize,
-    /// The number that picks one of many such terrains.
+    /// The seed of the noise. Each seed makes another terrain.
     pub seed: u64,
 }
 
-/// Makes hills over the square −1..=1 of x and z, y upward: the same for the same numbers, on every platform.
+/// Makes hills over the square −1..=1 of x and z, with y upward. Equal parameters make equal hills
+/// on every platform.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
@@ -61,7 +64,8 @@ pub fn terrain(
 ) -> Result<PolygonMesh, MeshError> {
     let grid = ParameterGrid::new(Topology::Sheet, columns, rows, triangles);
     grid.mesh(|column, row| {
-        // Rows run away from the viewer, so that east × north is up.
+        // z decreases from row to row, away from the viewer, so that column direction × row
+        // direction points up.
         let (x, z) = (across(column, grid.columns), -across(row, grid.rows));
         let scale = terrain.frequency / 2.0;
         let (height, gradient) =
@@ -75,7 +79,7 @@ pub fn terrain(
 }
 
 impl PolygonMesh {
-    /// Gives each position the colour of its height among all: from grass over rock to snow.
+    /// Colours each position by its height: from grass at the bottom over rock to snow at the top.
     pub(in crate::mesh) fn colour_by_height(&mut self) {
         const GRASS: Vec3 = Vec3::new(0.2, 0.5, 0.1);
         const ROCK: Vec3 = Vec3::new(0.5, 0.4, 0.3);
@@ -83,6 +87,7 @@ impl PolygonMesh {
         let heights = self.positions.iter().map(|p| p.y);
         let low = heights.clone().fold(f32::INFINITY, f32::min);
         let high = heights.clone().fold(f32::NEG_INFINITY, f32::max);
+        // Scales heights to 0..=2: grass to rock below 1, rock to snow above.
         let over = if high > low { 2.0 / (high - low) } else { 0.0 };
         let colour = |y: f32| match (y - low) * over {
             t if t < 1.0 => GRASS.lerp(ROCK, t),

@@ -8,7 +8,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Makes the cube from −1 to 1, `res` × `res` quads a face (or twice as many triangles), with its faces' normals given.
+/// Makes the cube from −1 to 1, with `res` × `res` quads (or twice as many triangles) per face. Its
+/// normals are perpendicular to the faces.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -20,6 +21,7 @@ pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
     if polygons > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }
+    // All faces use this one function, so that positions on common edges have equal bits and weld.
     let coordinate = |k: usize| ((2.0 * k as f64 - n as f64) / n as f64) as f32;
     let axes = [Vec3::X, Vec3::Y, Vec3::Z];
     let mut values = Vec::with_capacity(6);
@@ -35,9 +37,9 @@ pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
             }));
         }
     }
-    let (number, count) = weld(&repeated);
+    let (index, count) = weld(&repeated);
     let mut positions = vec![Vec3::ZERO; count];
-    number
+    index
         .iter()
         .zip(&repeated)
         .for_each(|(&i, &p)| positions[i as usize] = p);
@@ -45,7 +47,7 @@ pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
     let mut builder = MeshBuilder::new(positions);
     let corners = polygons as usize * if triangles { 3 } else { 4 };
     builder.reserve(polygons as usize, corners);
-    for face in number.chunks_exact((n + 1) * (n + 1)) {
+    for face in index.chunks_exact((n + 1) * (n + 1)) {
         for (row, column) in (0..n).flat_map(|row| (0..n).map(move |column| (row, column))) {
             let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)]
                 .map(|(i, j)| face[(row + i) * (n + 1) + column + j]);
@@ -64,7 +66,8 @@ pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
     builder.finish()
 }
 
-/// Makes a prism over a star: two concave caps of 2 `points` sides, at z = ±`depth` / 2, and a quad on each side.
+/// Makes a prism over a star, with two concave caps of 2 `points` sides at z = ±`depth` / 2 and a
+/// quad on each side.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a size is not finite.
@@ -72,9 +75,10 @@ pub fn prism(points: usize, inner: f64, depth: f64) -> Result<PolygonMesh, MeshE
     extrude(&star_outline(points, inner), depth)
 }
 
-/// Makes a gear in the unit circle: two concave caps of 4 `teeth` sides, at z = ±`depth` / 2, and a quad on each side.
+/// Makes a gear in the unit circle, with two concave caps of 4 `teeth` sides at z = ±`depth` / 2
+/// and a quad on each side.
 ///
-/// Teeth and gaps are as wide as their flanks; gaps lie at radius `inner`.
+/// Teeth, gaps and flanks are equally wide. The gaps lie at radius `inner`.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a size is not finite.
@@ -88,7 +92,8 @@ pub fn gear(teeth: usize, inner: f64, depth: f64) -> Result<PolygonMesh, MeshErr
     extrude(&(0..n).map(corner).collect::<Vec<_>>(), depth)
 }
 
-/// Makes the solid between two copies of a counter-clockwise outline at z = ±`depth` / 2, with its faces' normals given.
+/// Makes the solid between two copies of a counter-clockwise outline at z = ±`depth` / 2. Its
+/// normals are perpendicular to the faces.
 fn extrude(outline: &[DVec2], depth: f64) -> Result<PolygonMesh, MeshError> {
     let n = outline.len();
     let (polygons, corners) = (n + 2, 6 * n);
@@ -108,7 +113,7 @@ fn extrude(outline: &[DVec2], depth: f64) -> Result<PolygonMesh, MeshError> {
         let next = (k + 1) % n;
         builder.polygon(&[(n + k) as u32, (n + next) as u32, next as u32, k as u32]);
         let along = outline[next] - outline[k];
-        // To the right of a counter-clockwise edge is outside.
+        // Outside is to the right of an edge of a counter-clockwise outline.
         values.push(
             DVec3::new(along.y, -along.x, 0.0)
                 .normalize_or_zero()

@@ -1,13 +1,14 @@
-//! The unit sphere, smooth and bumpy, by longitude and latitude.
+//! The unit sphere, smooth or bumpy, by longitude and latitude.
 
 use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use glam::DVec3;
 
-/// Makes the unit sphere: `segments` meridians, `rings` bands of latitude, poles on the y axis.
+/// Makes the unit sphere with `segments` meridians and `rings` bands of latitude. Its poles lie on
+/// the y axis.
 ///
-/// The bands at the poles are triangles, all other polygons quads (or two triangles each).
+/// The bands at the poles consist of triangles; all other cells are quads, or two triangles each.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -17,10 +18,11 @@ pub fn sphere(segments: usize, rings: usize, triangles: bool) -> Result<PolygonM
     })
 }
 
-/// Makes the unit sphere with bumps: radius `1 + amplitude · sin(f x) sin(f y) sin(f z)` in direction (x, y, z), `f` being
-/// the `frequency`.
+/// Makes the unit sphere with bumps. In direction (x, y, z) its radius is
+/// `1 + amplitude · sin(f x) sin(f y) sin(f z)`, where `f` is the `frequency`.
 ///
-/// The radius is a smooth function of the direction, at the poles too. Star-convex for any amplitude below 1.
+/// The radius is a smooth function of the direction, also at the poles. The shape is star-convex
+/// for any amplitude below 1.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
@@ -50,7 +52,8 @@ pub fn bumpy(
                 sin.x * cos.y * sin.z,
                 sin.x * sin.y * cos.z,
             );
-        // Of the surface r(d) d, with ∇ the gradient along the unit sphere, the normal is r d − ∇r.
+        // The surface r(d) d has the normal r d − ∇r, where ∇ is the gradient along the unit
+        // sphere.
         let along_sphere = gradient - gradient.dot(d) * d;
         (radius * d, (radius * d - along_sphere).normalize())
     })
@@ -69,7 +72,8 @@ fn over_directions(
     let longitudes = turns(grid.columns);
     let mut latitude = turn(0, 1);
     grid.mesh(|column, row| {
-        // From the south pole to the north: half a turn from there.
+        // Rows cover half a turn, from the south pole to the north pole. The grid asks row after
+        // row, so column 0 begins a new one.
         if column == 0 {
             latitude = turn(row, 2 * grid.rows);
         }

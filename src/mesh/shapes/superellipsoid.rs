@@ -1,11 +1,12 @@
-//! Superellipsoids: from a rounded box over the sphere to a rounded double pyramid.
+//! Superellipsoids: from a rounded box through the sphere to a rounded double pyramid.
 
 use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use glam::DVec3;
 
-/// A point of the superellipse |x|^(2/e) + |y|^(2/e) = 1, and the gradient of that sum there, without its factor 2/e.
+/// A point of the superellipse |x|^(2/e) + |y|^(2/e) = 1, and the gradient of the left side there,
+/// without its factor 2/e.
 #[derive(Clone, Copy)]
 struct EllipsePoint {
     x: f64,
@@ -15,8 +16,8 @@ struct EllipsePoint {
 }
 
 impl EllipsePoint {
-    /// Returns the point in direction (x, y): directions a constant angle apart sample flat sides and round edges alike, unlike
-    /// Barr's cosⁿ, which crowds the edges.
+    /// Returns the point in direction (x, y). Directions at equal angles sample flat sides and
+    /// round edges evenly, while Barr's cosⁿ crowds its points at the edges.
     fn new(exponent: f64, (x, y): (f64, f64)) -> Self {
         let power = 2.0 / exponent;
         let gauge = libm::pow(
@@ -34,10 +35,12 @@ impl EllipsePoint {
     }
 }
 
-/// Makes the superellipsoid (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1: half width 1 along each axis.
+/// Makes the superellipsoid (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1. It reaches from −1
+/// to 1 along each axis.
 ///
-/// `e1` shapes it along y, `e2` around y; 1 is round, toward 0 it becomes a box, toward 2 it becomes pointed. Both are
-/// kept within 0.05 and 1.95. Barr, *Superquadrics and angle-preserving transformations*, IEEE CG&A 1 (1981).
+/// `e1` shapes it along y and `e2` around y. At 1 it is round, toward 0 it becomes a box, and
+/// toward 2 it becomes pointed. Both are clamped to 0.05..=1.95. Source: Barr, *Superquadrics and
+/// angle-preserving transformations*, IEEE CG&A 1 (1981).
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -57,6 +60,7 @@ pub fn superellipsoid(
         .into_iter()
         .map(|d| EllipsePoint::new(e2, d))
         .collect();
+    // The product of a profile along y and a ring around it. The profile changes once per row.
     let mut along = EllipsePoint::new(e1, (0.0, -1.0));
     grid.mesh(|column, row| {
         if column == 0 {

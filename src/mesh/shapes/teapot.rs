@@ -1,4 +1,4 @@
-//! The Utah teapot: M. Newell's Bézier patches, cut into cells.
+//! The Utah teapot, made by cutting M. Newell's Bézier patches into cells.
 
 use super::teapot_data::{BOTTOM_PATCHES, PATCHES, POINTS};
 use crate::mesh::weld::weld;
@@ -7,7 +7,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// Returns the number of polygons that [`teapot`] makes for these parameters; `u64::MAX` where that overflows.
+/// Returns how many polygons [`teapot`] makes for these parameters; `u64::MAX` if that overflows.
 pub fn teapot_polygons(res: usize, bottom: bool, triangles: bool) -> u64 {
     let (res, patches) = (res.max(1) as u64, patches(bottom).len() as u64);
     let cells = res.saturating_mul(res).saturating_mul(patches);
@@ -21,14 +21,17 @@ pub fn teapot_polygons(res: usize, bottom: bool, triangles: bool) -> u64 {
     }
 }
 
-/// Makes the Utah teapot: y upward, the spout toward +x, the body 2 wide around the y axis, its height centred on the origin.
+/// Makes the Utah teapot. y points up and the spout toward +x; the body is 2 wide around the y
+/// axis, and its height is centred on the origin.
 ///
-/// Each of the 32 patches (28 without the `bottom`, which the original of 1975 did not have) becomes `res` × `res`
-/// quads, or twice as many triangles; the cells at the knob's top and the bottom's middle are triangles. Patches share
-/// positions along their common edges. Normals are those of the patches themselves.
+/// Each of the 32 patches becomes `res` × `res` quads, or twice as many triangles. Without the
+/// `bottom`, which the original of 1975 did not have, there are 28 patches. The cells at the knob's
+/// top and in the bottom's middle are triangles. Patches share positions along their common edges.
+/// Normals come from the patches themselves.
 ///
-/// The shape is Newell's, as it has been drawn since: Blinn's lower version, with an open gap around the lid, an open
-/// spout, and handle and spout ending inside the body. It is not closed, and both sides of some patches can be seen.
+/// The shape is Newell's teapot in Blinn's lower version, which is the one usually drawn. It has an
+/// open gap around the lid and an open spout, and the handle and the spout end inside the body. So
+/// it is not closed, and both sides of some patches are visible.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -48,14 +51,14 @@ pub fn teapot(res: usize, bottom: bool, triangles: bool) -> Result<PolygonMesh, 
             directions.push(normal);
         }
     }
-    let (number, count) = weld(&repeated);
+    let (index, count) = weld(&repeated);
     let mut positions = vec![Vec3::ZERO; count];
-    number
+    index
         .iter()
         .zip(&repeated)
         .for_each(|(&i, &p)| positions[i as usize] = p);
     drop(repeated);
-    let (values, normal_of) = share_normals(&number, count, &directions);
+    let (values, normal_of) = share_normals(&index, count, &directions);
     drop(directions);
 
     let mut builder = MeshBuilder::new(positions);
@@ -69,7 +72,7 @@ pub fn teapot(res: usize, bottom: bool, triangles: bool) -> Result<PolygonMesh, 
         indices
             .iter_mut()
             .zip(corners)
-            .for_each(|(index, &c)| *index = number[c]);
+            .for_each(|(corner, &c)| *corner = index[c]);
         builder.polygon(&indices[..corners.len()]);
         of_corners.extend(corners.iter().map(|&c| normal_of[c]));
     };
@@ -102,7 +105,8 @@ fn patches(bottom: bool) -> &'static [[u16; 16]] {
     }
 }
 
-/// True if the first row of a patch is one point: at the knob's top and the bottom's middle.
+/// True if the first row of a patch is a single point, as at the knob's top and in the bottom's
+/// middle.
 fn has_pole(patch: &[u16; 16]) -> bool {
     patch[..4].iter().all(|&p| p == patch[0])
 }
@@ -111,32 +115,32 @@ fn patches_with_pole(bottom: bool) -> usize {
     patches(bottom).iter().filter(|p| has_pole(p)).count()
 }
 
-/// Gives one value to all equal normals at a position: patches that meet smoothly share it, at a crease each has its own.
+/// Merges equal normals at a position. Patches that meet smoothly then share a normal, and at a
+/// crease each patch has its own.
 ///
-/// Returns the values, and for each entry of `number` its value.
-fn share_normals(number: &[u32], count: usize, directions: &[DVec3]) -> (Vec<Vec3>, Vec<u32>) {
-    // Equal up to 1e-6: far above the rounding of the patches' derivatives, far below any crease in the data.
+/// `index` holds the position of each entry of `directions`. Returns the distinct normals, and for
+/// each entry an index into them.
+fn share_normals(index: &[u32], count: usize, directions: &[DVec3]) -> (Vec<Vec3>, Vec<u32>) {
+    // Directions up to 1e-6 apart count as equal: far above the rounding of the patches'
+    // derivatives, far below any crease in the data. The cosine of an angle a is 1 − a²/2.
     const SAME: f64 = 1.0 - 0.5e-12;
     const NONE: u32 = u32::MAX;
     let mut first = vec![NONE; count];
-    // Each value's direction, and the next value at the same position.
+    // A linked list per position: each value's direction, and the next value there.
     let mut chain: Vec<(DVec3, u32)> = Vec::with_capacity(count);
-    let value_of = number
-        .iter()
-        .zip(directions)
-        .map(|(&position, &direction)| {
-            let head = &mut first[position as usize];
-            let mut value = *head;
-            while value != NONE && chain[value as usize].0.dot(direction) < SAME {
-                value = chain[value as usize].1;
-            }
-            if value == NONE {
-                value = chain.len() as u32;
-                chain.push((direction, *head));
-                *head = value;
-            }
-            value
-        });
+    let value_of = index.iter().zip(directions).map(|(&position, &direction)| {
+        let head = &mut first[position as usize];
+        let mut value = *head;
+        while value != NONE && chain[value as usize].0.dot(direction) < SAME {
+            value = chain[value as usize].1;
+        }
+        if value == NONE {
+            value = chain.len() as u32;
+            chain.push((direction, *head));
+            *head = value;
+        }
+        value
+    });
     let value_of = value_of.collect();
     (
         chain
@@ -155,8 +159,8 @@ struct Patch {
 
 impl Patch {
     fn new(indices: &[u16; 16]) -> Self {
-        // z up in the data becomes y up by a quarter turn around x; half its size makes the body 2 wide; 3.15 is its
-        // height, knob included.
+        // A quarter turn around x makes the data's z-up y-up. Half the size makes the body 2 wide.
+        // 3.15 is the height with the knob.
         let place = |i: u16| {
             let [x, y, z] = POINTS[i as usize];
             DVec3::new(x, z - 3.15 / 2.0, -y) / 2.0
@@ -174,13 +178,14 @@ impl Patch {
         let points = self.points.map(|row| v.point(row));
         let slopes = self.points.map(|row| v.slope(row));
         if self.pole && i == 0 {
-            // ∂P/∂v vanishes in a row that is one point; next to it, it is u ∂²P/∂u∂v: the limit of the normal.
+            // ∂P/∂v vanishes in a row that is a single point. Near that row it is u ∂²P/∂u∂v, so
+            // the mixed derivative has its direction and gives the limit of the normal.
             return (
                 self.points[0][0],
                 u.slope(slopes).cross(u.slope(points)).normalize(),
             );
         }
-        // In this data the outward side is that of ∂P/∂v × ∂P/∂u.
+        // In this data ∂P/∂v × ∂P/∂u points outward.
         (
             u.point(points),
             u.point(slopes).cross(u.slope(points)).normalize(),
@@ -188,15 +193,16 @@ impl Patch {
     }
 }
 
-/// The cubic Bernstein polynomials at a parameter, and the quadratic ones that make the derivative.
+/// The values of the cubic Bernstein polynomials at a parameter, and of the quadratic ones for the
+/// derivative.
 struct Bernstein {
     cubic: [f64; 4],
     quadratic: [f64; 3],
 }
 
 impl Bernstein {
-    /// Returns the weights at `k / n`. Run through from the other end, `n − k`, the same weights come in reverse, bit for bit: an edge that
-    /// two patches share in opposite directions has the same points in both.
+    /// Returns the weights at `k / n`. Those at `n − k` are the reverse, bit for bit, so that an
+    /// edge that two patches share in opposite directions has equal points in both.
     fn at(k: usize, n: usize) -> Self {
         let (t, s) = (k as f64 / n as f64, (n - k) as f64 / n as f64);
         Bernstein {
@@ -210,13 +216,14 @@ impl Bernstein {
         }
     }
 
-    /// Returns the curve's point; both ends and both middles are added first, so that the order of points does not matter.
+    /// Returns the curve's point. It adds the two ends, and the two middles, before the rest, so
+    /// that reversing the points does not change a bit.
     fn point(&self, p: [DVec3; 4]) -> DVec3 {
         let [a, b, c, d] = self.cubic;
         weigh(p[0], a, p[3], d) + weigh(p[1], b, p[2], c)
     }
 
-    /// Returns the curve's derivative, without its factor 3: only directions are asked for.
+    /// Returns the curve's derivative without its factor 3, as only its direction matters.
     fn slope(&self, p: [DVec3; 4]) -> DVec3 {
         let [a, b, c] = self.quadratic;
         weigh(p[1] - p[0], a, p[3] - p[2], c) + (p[2] - p[1]) * b

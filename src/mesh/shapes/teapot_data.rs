@@ -1,16 +1,17 @@
 //! Control points of the Utah teapot.
 //!
-//! Measured and drawn by Martin Newell, University of Utah, 1975; reprinted in F. C. Crow, *The Origins of the Teapot*,
-//! IEEE CG&A 7 (1987), with the bottom that Crow added, and given to the public since. These numbers were taken from the
-//! npm package `three` 0.160.0, `examples/jsm/geometries/TeapotGeometry.js` (MIT licence, © 2010–2023 three.js authors),
-//! converted there by E. Haines from his Standard Procedural Databases. The list of 306 points that is commonly printed
-//! has 16 entries more: 12 of them repeat points of the body's foot for the bottom, and 4, around the top of the knob,
-//! belong to no patch.
+//! Martin Newell measured and drew the teapot at the University of Utah in 1975. F. C. Crow, *The
+//! Origins of the Teapot*, IEEE CG&A 7 (1987), reprinted the points with a bottom that Crow added,
+//! and they have been public since. These values come from the npm package `three` 0.160.0,
+//! `examples/jsm/geometries/TeapotGeometry.js` (MIT licence, © 2010–2023 three.js authors); E.
+//! Haines converted them for it from his Standard Procedural Databases. The list of 306 points that
+//! is commonly printed has 16 more entries: 12 of them repeat points of the body's foot for the
+//! bottom, and 4, around the top of the knob, belong to no patch.
 
-/// The number of patches, the last ones, that are the bottom.
+/// How many patches make the bottom. They are the last ones.
 pub(in crate::mesh) const BOTTOM_PATCHES: usize = 4;
 
-/// Control points: x toward the spout, z upward.
+/// The control points, with x toward the spout and z upward.
 #[rustfmt::skip]
 pub(in crate::mesh) const POINTS: [[f64; 3]; 290] = [
     [1.4, 0.0, 2.4], [1.4, -0.784, 2.4], [0.784, -1.4, 2.4], [0.0, -1.4, 2.4], [1.3375, 0.0, 2.53125],
@@ -72,7 +73,8 @@ pub(in crate::mesh) const POINTS: [[f64; 3]; 290] = [
     [1.425, -0.798, 0.0], [0.84, -1.5, 0.075], [1.5, -0.84, 0.075],
 ];
 
-/// The 4 × 4 points of each patch, row after row: rim, body, handle, spout, lid, bottom.
+/// The indices of each patch's 4 × 4 points, row after row. The order is rim, body, handle, spout,
+/// lid, bottom.
 #[rustfmt::skip]
 pub(in crate::mesh) const PATCHES: [[u16; 16]; 32] = [
     [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],

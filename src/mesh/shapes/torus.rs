@@ -6,9 +6,9 @@ use crate::mesh::{MeshError, PolygonMesh};
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// Makes the torus around the z axis: a circle of radius `major`, with a tube of radius `minor` around it.
+/// Makes the torus around the z axis: a tube of radius `minor` around a circle of radius `major`.
 ///
-/// `segments` cells along the circle, `sides` around the tube.
+/// It has `segments` cells along the circle and `sides` around the tube.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a radius is not finite.
@@ -34,16 +34,17 @@ pub fn torus(
     })
 }
 
-/// Radii of the torus that knots lie on, around the z axis: as [`torus`] has them by default.
+/// The radii of the torus around the z axis that knots lie on. They are the defaults of
+/// `builtin("torus")`.
 const KNOT_MAJOR: f64 = 1.0;
 const KNOT_MINOR: f64 = 0.4;
 
-/// Makes a tube of radius `radius` along the torus knot that goes `p` times around the axis while it goes `q` times around
-/// the tube of a torus of radii 1 and 0.4.
+/// Makes a tube of radius `radius` along the torus knot that goes `p` times around the axis while
+/// it goes `q` times around the tube of a torus of radii 1 and 0.4.
 ///
-/// The tube's cross section is turned by the normal of that torus, which comes back to itself after one round: the seam
-/// has no jump. `p` and `q` without a common factor give one knot; with one, the curve is run through several times.
-/// The tube meets itself when `radius` is large for the knot.
+/// The normal of that torus orients the tube's cross section. It returns to itself after one round,
+/// so the seam has no jump. `p` and `q` must not have a common factor, or the curve runs over
+/// itself several times. The tube meets itself if `radius` is too large for the knot.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if the radius is not finite.
@@ -71,8 +72,10 @@ pub fn knot(
     })
 }
 
-/// Returns the knot's point at `k / n` of its length in parameter, the normal of its torus there, and that normal × tangent.
+/// Returns the knot's point at parameter `k / n`, the normal of its torus there, and the cross
+/// product of normal and tangent.
 fn knot_frame(p: usize, q: usize, k: usize, n: usize) -> [DVec3; 3] {
+    // The product is taken in u64, as it may overflow a 32-bit usize.
     let at = |times: usize| turn((k as u64 * times as u64 % n as u64) as usize, n);
     let ((sin_p, cos_p), (sin_q, cos_q)) = (at(p), at(q));
     let (p, q) = (p as f64, q as f64);

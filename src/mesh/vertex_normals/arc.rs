@@ -1,9 +1,10 @@
-//! The angle between two directions, from its sine and cosine up to a factor: with few branches, as millions of corners take one each.
+//! The angle between two directions, computed from values proportional to its sine and cosine.
+//! Millions of corners need one each, so the code has few branches.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// The coefficients of `atan(x) / x` in powers of x² up to (√2 − 1)²: the polynomial through its values at 12 Chebyshev nodes, which
-/// is off by 4 · 10⁻¹⁸ at most.
+/// The coefficients of a polynomial for `atan(x) / x` in powers of x², for x² up to (√2 − 1)². It
+/// passes through the values at 12 Chebyshev nodes and is off by at most 4 · 10⁻¹⁸.
 const ATAN: [f64; 12] = [
     1.0,
     -0.3333333333333312,
@@ -19,18 +20,22 @@ const ATAN: [f64; 12] = [
     -0.017805397190410625,
 ];
 
-/// Returns the angle whose sine and cosine are proportional to `sine`, which is not negative, and `cosine`: 0 to π; 0 where both are 0.
+/// Returns the angle from 0 to π whose sine and cosine are proportional to `sine` and `cosine`; 0
+/// if both are 0. `sine` must not be negative.
 ///
-/// With `q` the smaller over the larger of both, `atan q` is taken from 0 to tan 22.5°, and above through
-/// `atan q = π/4 + atan((q − 1) / (q + 1))`. Off by at most 2ε of the angle: one of the quotient and of its square, and one of
-/// the polynomial, of which all terms but the first are small, and of the additions.
+/// Let `q` be the smaller of the two over the larger. The polynomial evaluates `atan q` for `q` up
+/// to tan 22.5°, and larger ones go through `atan q = π/4 + atan((q − 1) / (q + 1))`. The result is
+/// off by at most 2ε of the angle: one ε from the quotient and its square, and one from the
+/// polynomial, all of whose terms but the first are small, and from the additions.
 #[inline(always)]
 pub(super) fn angle(sine: f64, cosine: f64) -> f64 {
     const TAN_OF_AN_EIGHTH: f64 = core::f64::consts::SQRT_2 - 1.0;
     let across = cosine.abs();
     let (small, large) = (sine.min(across), sine.max(across));
-    // Ones and zeros in place of branches, which processors would guess wrongly half of the time.
+    // Factors of one and zero replace branches, which a processor would mispredict half of the
+    // time.
     let one_if = |holds: bool| f64::from(u8::from(holds));
+    // 1 if the quotient is reduced by an eighth of a turn.
     let turn = one_if(small > TAN_OF_AN_EIGHTH * large);
     let below = large + turn * small;
     if below == 0.0 {
@@ -39,11 +44,14 @@ pub(super) fn angle(sine: f64, cosine: f64) -> f64 {
     let x = (small - turn * large) / below;
     let part = turn * FRAC_PI_4 + x * series(x * x);
     let (is_steep, is_obtuse) = (one_if(sine > across), one_if(cosine < 0.0));
+    // Reflections: π/2 − part if the sine is the larger one, then π − acute if the cosine is
+    // negative.
     let acute = is_steep * FRAC_PI_2 + (1.0 - 2.0 * is_steep) * part;
     is_obtuse * PI + (1.0 - 2.0 * is_obtuse) * acute
 }
 
-/// Evaluates the polynomial of `z` in pairs, so that processors do several steps at once.
+/// Evaluates the polynomial at `z` in pairs (Estrin's scheme), so that a processor can do several
+/// steps at once.
 #[inline(always)]
 fn series(z: f64) -> f64 {
     let pair = |k: usize| ATAN[k] + ATAN[k + 1] * z;
@@ -58,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angles_are_those_of_the_arc_tangent() {
+    fn angles_agree_with_the_arc_tangent() {
         let mut most: f64 = 0.0;
         for k in 0..=200_000 {
             let (sine, cosine) = libm::sincos(PI * f64::from(k) / 200_000.0);
@@ -67,7 +75,7 @@ mod tests {
             let expected = libm::atan2(sine, cosine);
             most = most.max((angle(sine, cosine) - expected).abs() / expected.max(1e-300));
         }
-        // The arc tangent that it is compared with is off by one as well.
+        // `atan2` is off by one ε itself.
         assert!(most <= 3.0 * f64::EPSILON, "{most:e}");
     }
 

@@ -9,22 +9,25 @@ use alloc::vec::Vec;
 use core::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
-/// The weight that a polygon's normal has in the average at a vertex.
+/// The weight of a polygon's normal in the average at a vertex.
 ///
-/// `θ` is the angle of the polygon at the vertex, inside of it (over 180° at a reflex corner), `e₁` and `e₂` are the edges there.
-/// Under weights other than uniform a corner of a polygon that is not flat counts with its own normal, that of the plane of `e₁`
-/// and `e₂`.
+/// `θ` is the interior angle of the polygon at the vertex (over 180° at a reflex corner), and `e₁`
+/// and `e₂` are its edges there. If a polygon is not flat, each of its corners counts with its own
+/// normal, perpendicular to `e₁` and `e₂`; only the uniform weight uses the polygon's normal at all
+/// corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NormalWeight {
-    /// 1: every polygon counts alike, with Newell's normal (L21 3.1).
+    /// 1: every polygon counts equally, with Newell's normal (L21 3.1).
     #[default]
     Uniform,
     /// The area of the polygon.
     Area,
-    /// `θ` (Thürmer and Wüthrich, *Computing vertex normals from polygonal facets*, 1998): however a flat polygon is cut into
-    /// others, the average is the same.
+    /// `θ` (Thürmer and Wüthrich, *Computing vertex normals from polygonal facets*, 1998). Cutting
+    /// a flat polygon into others does not change the average.
     Angle,
-    /// `sin θ / (|e₁| |e₂|)` (Max, *Weights for computing vertex normals from facet normals*, 1999): exact on a sphere.
+    /// `sin θ / (|e₁| |e₂|)` (Max, *Weights for computing vertex normals from facet normals*,
+    /// 1999). It is exact on a sphere.
     Max,
 }
 
@@ -32,40 +35,40 @@ pub enum NormalWeight {
 #[derive(Clone, Copy)]
 pub(in crate::mesh) struct Weights<'a> {
     pub mesh: &'a PolygonMesh,
-    /// Newell's normals, twice the area long.
+    /// Newell's normals; their length is twice the area.
     pub polygons: &'a [DVec3],
-    /// Their unit vectors, zero for a polygon that has none.
+    /// Their unit vectors; zero for a polygon without a normal.
     pub normals: &'a [DVec3],
-    /// As [`of_triangles`] gives them.
+    /// The result of [`of_triangles`].
     pub triangles: &'a [[f64; 3]],
     pub weight: NormalWeight,
 }
 
-/// A corner in a sum: where its polygon looks, and what it adds.
+/// A corner's term in a sum.
 #[derive(Clone, Copy)]
 pub(in crate::mesh) struct Term {
-    /// The unit normal of the polygon.
+    /// The unit normal of the polygon, which creases compare.
     pub polygon: DVec3,
-    /// The unit normal of the corner times the weight.
+    /// The unit normal of the corner times the weight, which the sum adds.
     pub vector: DVec3,
     pub weight: f64,
 }
 
 impl<'a> Weights<'a> {
-    /// Returns the same corners, all of which count alike.
+    /// Returns these corners with uniform weights.
     pub fn uniform(self) -> Self {
         let weight = NormalWeight::Uniform;
         Weights { weight, ..self }
     }
 
-    /// True if a polygon counts once at a vertex, however often it passes.
+    /// True if a polygon counts once at a vertex, however often it passes the vertex.
     #[inline(always)]
     pub fn is_by_polygon(&self) -> bool {
         matches!(self.weight, NormalWeight::Uniform | NormalWeight::Area)
     }
 
-    /// Returns what a corner adds; `None` if its polygon has no normal, or if it stands where the corner before it does and is a part
-    /// of that.
+    /// Returns the term of a corner. `None` if its polygon has no normal, or if the corner repeats
+    /// the position of the previous one, whose term then stands for both.
     #[inline(always)]
     pub fn term(&self, corner: &FanCorner) -> Option<Term> {
         let p = corner.polygon as usize;
@@ -84,7 +87,8 @@ impl<'a> Weights<'a> {
         })
     }
 
-    /// Weighs a corner; the normal of a triangle is that of its corners. `None` if the corner stands where the one before it does.
+    /// Returns the weighted normal and the weight of a corner. All corners of a triangle have the
+    /// triangle's normal. `None` if the corner repeats the position of the previous one.
     #[inline(always)]
     fn of_corner(&self, corner: &FanCorner, normal: DVec3) -> Option<(DVec3, f64)> {
         let p = corner.polygon as usize;
@@ -96,14 +100,15 @@ impl<'a> Weights<'a> {
         Some((normal * weight, weight))
     }
 
-    /// Weighs a corner of a polygon of any shape; `None` if it stands where the one before it does.
+    /// Returns the weighted normal and the weight of a corner as `of_corner` does, for a polygon of
+    /// any shape.
     #[inline(never)]
     fn of_polygon(&self, corner: &FanCorner, normal: DVec3) -> Option<(DVec3, f64)> {
         let p = corner.polygon as usize;
         let [next, last] = self.edges(corner)?;
         let lengths = libm::sqrt(next.length_squared() * last.length_squared());
         let cross = next.cross(last) / lengths;
-        // A reflex corner turns against its polygon.
+        // At a reflex corner the edges turn against the polygon's own winding.
         let is_reflex = cross.dot(normal) < 0.0;
         let (sine, cosine) = (libm::sqrt(cross.length_squared()), next.dot(last) / lengths);
         let weight = match self.weight {
@@ -116,7 +121,8 @@ impl<'a> Weights<'a> {
         Some((corner_normal(cross, sine, normal) * weight, weight))
     }
 
-    /// Returns the edges from a corner to the next one and to the one before; `None` if that is at the same place.
+    /// Returns the edges from a corner to the next one and to the previous one. Next corners at
+    /// this corner's own position are skipped. `None` if the previous corner is at this position.
     fn edges(&self, corner: &FanCorner) -> Option<[DVec3; 2]> {
         let range = self.mesh.corner_range(corner.polygon as usize);
         let (count, here) = (range.len(), corner.corner as usize - range.start);
@@ -134,9 +140,10 @@ impl<'a> Weights<'a> {
         self.mesh.positions()[self.mesh.corners()[corner] as usize].as_dvec3()
     }
 
-    /// Adds up the corners of `fan`. Where none of them weighs anything, all count alike.
+    /// Returns the sum over the corners of `fan`. If all of them have weight 0, they count equally.
     pub fn sum(&self, fan: &[FanCorner]) -> Sum {
-        // A loop for each weight, in which it is known.
+        // The weight is a constant in each of these inlined calls, so that each gets its own loop
+        // without a choice inside.
         let sum = match self.weight {
             NormalWeight::Uniform => self.sum_by(NormalWeight::Uniform, fan),
             NormalWeight::Area => self.sum_by(NormalWeight::Area, fan),
@@ -157,7 +164,8 @@ impl<'a> Weights<'a> {
     }
 }
 
-/// Returns the weights of the corners of each triangle, and zeros for another polygon; nothing where all count alike.
+/// Returns the weights of each triangle's corners, and zeros for other polygons. The list is empty
+/// under uniform weights.
 pub(super) fn of_triangles(
     mesh: &PolygonMesh,
     polygons: &[DVec3],
@@ -176,7 +184,7 @@ pub(super) fn of_triangles(
     }
 }
 
-/// Weighs the corners of a triangle, all of which have the same `e₁ × e₂`: the normal.
+/// Returns the weights of a triangle's corners. `e₁ × e₂` is equal at all of them: Newell's normal.
 #[inline(always)]
 fn of_triangle([a, b, c]: [DVec3; 3], normal: DVec3, weight: NormalWeight) -> [f64; 3] {
     let edges = [b - a, c - b, a - c];
@@ -189,11 +197,13 @@ fn of_triangle([a, b, c]: [DVec3; 3], normal: DVec3, weight: NormalWeight) -> [f
     })
 }
 
-/// Returns the unit normal of a corner, from that of its polygon and the product of unit vectors along its edges.
+/// Returns the unit normal of a corner. `cross` is the cross product of the unit vectors along its
+/// edges, with length `sine`, and `polygon` is the unit normal of its polygon.
 ///
-/// That is the product's direction from 30° to 150°. The sharper or flatter the corner, the more of its direction is due to
-/// rounding, and the more it is the polygon's: on a straight line it is that one. Both are at most 90° apart, so that their
-/// mixture is at least 0.7 long.
+/// From 30° to 150° the result is the direction of `cross`. The sharper or flatter the corner, the
+/// more of that direction is due to rounding, so the polygon's normal is mixed in; on a straight
+/// line the result is the polygon's normal. The two are at most 90° apart, so their mixture is at
+/// least 0.7 long.
 fn corner_normal(cross: DVec3, sine: f64, polygon: DVec3) -> DVec3 {
     let part = 2.0 * sine;
     let mixed = match part < 1.0 {
@@ -203,7 +213,7 @@ fn corner_normal(cross: DVec3, sine: f64, polygon: DVec3) -> DVec3 {
     mixed / libm::sqrt(mixed.length_squared())
 }
 
-/// A weighted sum of normals over some of the corners at a vertex (L21 3.1, for weights of 1).
+/// A weighted sum of normals over some corners at a vertex (L21 3.1, if the weights are 1).
 #[derive(Clone, Copy, Default)]
 pub(in crate::mesh) struct Sum {
     kind: NormalWeight,
@@ -211,7 +221,8 @@ pub(in crate::mesh) struct Sum {
     /// The sum of the weights.
     pub weight: f64,
     pub count: u32,
-    /// The polygon that was added last, counted from 1: one that passes twice counts once.
+    /// The polygon that was added last, counted from 1, so that a polygon that passes twice counts
+    /// once. The corners of one polygon stand next to each other.
     latest: u32,
 }
 
@@ -247,12 +258,13 @@ impl Sum {
         self.count += other.count;
     }
 
-    /// True if corners were added, and none of them weighs anything.
+    /// True if corners were added and all of them have weight 0.
     pub fn is_without_weight(&self) -> bool {
         self.count > 0 && self.weight == 0.0
     }
 
-    /// Returns the direction of the sum, [`NO_NORMAL`] for that of nothing; `None` where the sum vanishes.
+    /// Returns the direction of the sum, or [`NO_NORMAL`] if nothing was added. `None` if the sum
+    /// vanishes.
     pub fn average(&self) -> Option<Vec3> {
         let average = match self.count {
             0 => Some(NO_NORMAL),
@@ -261,19 +273,29 @@ impl Sum {
         average.map(|normal| normal.as_vec3())
     }
 
-    /// Returns the direction of the sum; `None` where it vanishes.
+    /// Returns the direction of the sum; `None` if the sum vanishes.
     ///
-    /// A unit normal is off by at most 4ε (two roundings of its components, the root and the division). A weight is off by less
-    /// than 8ε of itself: an area by 2 + 4 (a cross product times the unit normal), an angle by 5 (`|e₁ × e₂|` and `e₁ · e₂` are off
-    /// by 2ε and 1.5ε of `|e₁| |e₂|`, which turns it by 2.5ε; from half a radian on that is at most 5ε of it, and below, the sine
-    /// decides: 2, and 2 for the arc tangent), Max's by 6 (two squares of lengths 1.5 each, and half of that through their root; the
-    /// sine 2, divisions 1). The mixture of [`corner_normal`] is off by 3 of its at least 0.7, so by less than 5, and its own root and division
-    /// add 1. Of a triangle the length of `e₁ × e₂` is that of its normal at all corners, off by another 1.25 for squares and root.
-    /// Their product adds 1/2. So a term is off by less than 4ε of its weight `w = 1` if it is uniform, and 16ε of any other.
+    /// A sum vanishes if it is no longer than its rounding error can be. The bound has these parts:
     ///
-    /// Each addition is off by at most ε times the partial sum, which is no longer than the sum `W` of all weights. So a sum of n terms
-    /// that vanishes exactly stays below `W · (4 + n) · ε`, or `W · (16 + n) · ε`. (Of slivers, whose edges are nearly parallel, the product
-    /// cancels, and they may be off by more.)
+    /// - A unit normal is off by at most 4ε: two roundings of its components, the root and the
+    ///   division.
+    /// - A weight is off by less than 8ε of itself. An area is off by 2 + 4 (a cross product times
+    ///   the unit normal). An angle is off by 5: `|e₁ × e₂|` and `e₁ · e₂` are off by 2ε and 1.5ε
+    ///   of `|e₁| |e₂|`, which turns the angle by 2.5ε. From half a radian on that is at most 5ε of
+    ///   the angle; below, the sine decides, with 2, and the arc tangent adds 2. Max's weight is
+    ///   off by 6: two squares of lengths, 1.5 each, and half of that through their root; the sine
+    ///   2, divisions 1.
+    /// - The mixture of [`corner_normal`] is off by 3 and at least 0.7 long, so by less than 5, and
+    ///   its own root and division add 1.
+    /// - In a triangle the length of the normal replaces the length of `e₁ × e₂` at all corners;
+    ///   its squares and root add 1.25.
+    /// - The product of weight and normal adds 1/2.
+    ///
+    /// So a term is off by less than 4ε of its weight `w = 1` if weights are uniform, and by less
+    /// than 16ε of any other weight. Each addition is off by at most ε times the partial sum, which
+    /// is no longer than the sum `W` of all weights. A sum of n terms that is zero in exact
+    /// arithmetic therefore stays below `W · (4 + n) · ε`, or `W · (16 + n) · ε`. Slivers may be
+    /// off by more: their edges are nearly parallel, so the cross product cancels.
     pub fn direction(&self) -> Option<DVec3> {
         let of_term = match self.kind {
             NormalWeight::Uniform => 4.0,

@@ -25,7 +25,8 @@ fn mesh_of(positions: &[DVec3], polygons: &[Vec<u32>]) -> PolygonMesh {
     builder.finish().expect("a mesh")
 }
 
-/// Cuts the quads among `polygons` along the diagonals that `is_first` says.
+/// Cuts each quad `k` of `polygons` along its first diagonal if `is_first(k)`, else along the other
+/// one.
 fn cut(polygons: &[Vec<u32>], mut is_first: impl FnMut(usize) -> bool) -> Vec<Vec<u32>> {
     let mut triangles = Vec::new();
     for (k, polygon) in polygons.iter().enumerate() {
@@ -47,8 +48,8 @@ fn degrees_between(a: DVec3, b: DVec3) -> f64 {
     2.0 * libm::asin(half.min(1.0)).to_degrees()
 }
 
-/// Returns the root of the mean square and the largest of the angles in degrees between the normals of `mesh` at its positions
-/// and those of `truth`, over positions that `counts` says.
+/// Returns the root mean square and the largest of the angles, in degrees, between the normals of
+/// `mesh` and `truth`, over the positions `p` with `counts(p)`.
 fn errors(
     mesh: &PolygonMesh,
     rule: NormalRule,
@@ -86,7 +87,8 @@ fn cube() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     (positions.collect(), faces.map(Vec::from).to_vec())
 }
 
-/// A unit normal in `f32` has components that are off by half an ε at most.
+/// A bound on the rounding of a unit normal in `f32`, whose components are off by at most half an
+/// ε.
 const ROUNDED: f64 = f32::EPSILON as f64;
 
 #[test]
@@ -101,7 +103,8 @@ fn the_diagonals_of_a_cube_do_not_move_normals_by_angle_or_by_max() {
             *worst = worst.max(most);
         }
     }
-    // Of one face two triangles meet at a corner, of the others one: (2, 1, 1) in place of (1, 1, 1).
+    // At a corner, one face may have two triangles and the others one each: the sum is (2, 1, 1)
+    // instead of (1, 1, 1).
     let expected = libm::acos(4.0 / libm::sqrt(18.0)).to_degrees();
     let bound = ROUNDED.to_degrees();
     assert!((worst[0] - expected).abs() < bound, "{worst:?}");
@@ -109,7 +112,7 @@ fn the_diagonals_of_a_cube_do_not_move_normals_by_angle_or_by_max() {
     assert!(worst[2] < bound && worst[3] < bound, "{worst:?}");
 }
 
-/// All points of whole coordinates on a sphere around 0, which are exact in `f32`.
+/// Returns all points with integer coordinates on a sphere around 0. They are exact in `f32`.
 fn whole_points(square: i32) -> Vec<DVec3> {
     let most = libm::sqrt(f64::from(square)) as i32;
     let range = -most..=most;
@@ -133,7 +136,7 @@ fn max_is_exact_on_a_sphere_however_it_is_triangulated() {
     let mut random = Random::new(45);
     let mut squares = [0.0; 4];
     for (i, &center) in points.iter().enumerate() {
-        // Some of the points around one of them, in their order around it.
+        // One point in the middle and some others, in order around it.
         let near = |p: &DVec3| p.dot(center) > 1454.0 * 0.9 && *p != center;
         let mut around: Vec<DVec3> = points.iter().copied().filter(near).collect();
         around.retain(|_| random.signed() > -0.5);
@@ -144,7 +147,8 @@ fn max_is_exact_on_a_sphere_however_it_is_triangulated() {
         if !up_is_left {
             around.reverse();
         }
-        // Of points in one direction the first one stays, and the fan must go around in steps below half a turn.
+        // Only the first point in each direction stays, and the fan must go around in steps below
+        // half a turn.
         around.dedup_by(|a, b| (turn(a) - turn(b)).abs() < 1e-6);
         let count = around.len() as u32;
         let steps = (0..around.len()).map(|k| {
@@ -169,14 +173,14 @@ fn max_is_exact_on_a_sphere_however_it_is_triangulated() {
         }
     }
     let [uniform, area, angle, _] = squares;
-    // Of fans that are cut at random, angles are nearest after Max.
+    // For random fans, weights by angle come second after Max.
     assert!(
         1.0 < angle && 2.0 * angle < uniform.min(area),
         "{squares:?}"
     );
 }
 
-/// A grid of quads over a surface that closes in both directions.
+/// Returns a grid of quads over a surface that closes in both directions.
 fn closed_grid(columns: u32, rows: u32) -> Vec<Vec<u32>> {
     let index = |u: u32, v: u32| u % columns * rows + v % rows;
     let quad = |u: u32, v: u32| {
@@ -192,7 +196,7 @@ fn closed_grid(columns: u32, rows: u32) -> Vec<Vec<u32>> {
         .collect()
 }
 
-/// The positions and the normals of a torus of radii 1 and 0.4.
+/// Returns the positions and the normals of a torus of radii 1 and 0.4.
 fn torus(columns: u32, rows: u32) -> (Vec<DVec3>, Vec<DVec3>) {
     let at = |u: u32, v: u32| {
         let (sin_u, cos_u) = libm::sincos(TAU * f64::from(u) / f64::from(columns));
@@ -206,11 +210,11 @@ fn torus(columns: u32, rows: u32) -> (Vec<DVec3>, Vec<DVec3>) {
 }
 
 #[test]
-fn max_is_exact_on_the_grid_of_a_torus_and_others_are_as_the_diagonals_are() {
+fn max_is_exact_on_the_grid_of_a_torus_and_others_depend_on_the_diagonals() {
     let (positions, truth) = torus(24, 24);
     let quads = closed_grid(24, 24);
-    // A position is rounded by δ = √3 · 2⁻²⁵ · 1.4; an edge is at least 0.6 · 15° · 0.99 = 0.15 long, or 0.4 · 15° = 0.10: the plane of
-    // two edges turns by at most 4δ / 0.1.
+    // A position is rounded by δ = √3 · 2⁻²⁵ · 1.4. An edge is at least 0.6 · 15° · 0.99 = 0.15
+    // long, or 0.4 · 15° = 0.10. So the plane of two edges turns by at most 4δ / 0.1.
     let delta = libm::sqrt(3.0) / f64::from(1u32 << 25) * 1.4;
     let bound = (4.0 * delta / 0.1 + ROUNDED).to_degrees();
     let mut random = Random::new(3);
@@ -225,15 +229,16 @@ fn max_is_exact_on_the_grid_of_a_torus_and_others_are_as_the_diagonals_are() {
         assert!(most < bound, "{most}");
         WEIGHTS.map(|weight| rms(&mesh, weight, &truth))
     });
-    // Quads are flat: by angle it does not matter how they are cut.
+    // The quads are flat, so weights by angle do not depend on how they are cut.
     assert!((kept[2] - any[2]).abs() < bound && (kept[2] - one[2]).abs() < bound);
-    // Uniform averages are right by symmetry where quads are kept, and the farther off the less the diagonals agree.
+    // Uniform averages are right by symmetry for whole quads. For triangles they are the worse, the
+    // less the diagonals agree.
     assert!(
         kept[0] < 0.1 && kept[0] < one[0] && one[0] < any[0],
         "{any:?}"
     );
     assert!(any[2] < 0.5 * any[0], "{any:?}");
-    // Positions that are off by 1 % of an edge do not change that.
+    // Moving positions by 1 % of an edge does not change that.
     let noisy = |p: &DVec3| {
         let mut side = || f64::from(random.signed()) * 0.001;
         *p + DVec3::new(side(), side(), side())
@@ -260,7 +265,7 @@ fn on_a_squeezed_torus_cut_anyhow_angles_are_nearer_than_uniform_averages() {
 
 #[test]
 fn a_corner_of_a_polygon_that_is_not_flat_counts_with_its_own_normal() {
-    // z = sin x sin y over two periods, 15° between normals; the rim is left out.
+    // z = sin x sin y over two periods, with 15° between normals. The rim does not count.
     const SIDE: u32 = 25;
     let of = |k: u32| TAU * f64::from(k) / f64::from(SIDE - 1);
     let point = |i: u32| {
@@ -287,7 +292,7 @@ fn a_corner_of_a_polygon_that_is_not_flat_counts_with_its_own_normal() {
     let (rim, _) = errors(&mesh, averaged_by(NormalWeight::Angle), &truth, |i| {
         !is_inside(i)
     });
-    // The same with Newell's normals, which are those of the whole quads.
+    // For comparison, averages of the whole quads' Newell normals.
     let mut sums = vec![DVec3::ZERO; truth.len()];
     for (p, quad) in quads.iter().enumerate() {
         let normal = unit_normal(crate::mesh::newell::polygon_normal(&mesh, p)).expect("a quad");
@@ -312,8 +317,8 @@ fn a_corner_of_a_polygon_that_is_not_flat_counts_with_its_own_normal() {
     assert!(rim < 0.3 * of_newell(&|i| !is_inside(i)), "{rim}");
 }
 
-/// A cube whose edges are cut off: a vertex has a face, two strips along edges and the triangle of the corner around it. Its
-/// width is `bevel`, of a face 2 wide.
+/// Returns a cube with bevelled edges. Around each vertex lie a face, two strips along edges and
+/// the triangle of the corner. The strips are `bevel` wide, and the faces 2.
 fn bevelled(bevel: f64) -> (PolygonMesh, DVec3) {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
     let inner = 1.0 - bevel;
@@ -352,7 +357,7 @@ fn bevelled(bevel: f64) -> (PolygonMesh, DVec3) {
 fn bevels_pull_normals_as_their_weights_say() {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
     let (bevel, width) = (0.25, 1.5);
-    // Of a face, a strip along an edge, and the triangle: their normals, areas, angles and edges.
+    // The normals, areas, angles and edges of a face, a strip along an edge, and the triangle.
     let step = bevel * libm::sqrt(2.0);
     let face = (x, width * width, FRAC_PI_2, [width, width]);
     let strips = [y, z].map(|side| {
@@ -392,7 +397,7 @@ fn bevels_pull_normals_as_their_weights_say() {
     }
 }
 
-/// A prism over an L, whose inner corner is at 0, with the L whole or cut into quads.
+/// Returns a prism over an L with the inner corner at 0. The L is whole or cut into quads.
 fn prism(is_cut: bool) -> PolygonMesh {
     let outline = [[0, 0], [0, 2], [-2, 2], [-2, -2], [2, -2], [2, 0]];
     let ring = |z: f64| outline.map(|[x, y]| DVec3::new(x.into(), y.into(), z));
@@ -417,7 +422,8 @@ fn a_reflex_corner_counts_with_its_inner_angle_and_looks_outward() {
     let whole = prism(false);
     let corner = whole.corner_range(6).start;
     let found = |mesh: &PolygonMesh, weight| vertex_normals(mesh, averaged_by(weight));
-    // Of the L 270°, of both walls of the inner corner 90° each; all edges are 2, 2 and 1 long.
+    // The L has 270° at the inner corner, and both walls have 90° each. The edges there are 2, 2
+    // and 1 long.
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
     for (weight, expected) in [
         (NormalWeight::Uniform, x + y + z),
@@ -428,7 +434,7 @@ fn a_reflex_corner_counts_with_its_inner_angle_and_looks_outward() {
         let off = degrees_between(at(&found(&whole, weight), corner), expected.normalize());
         assert!(off < ROUNDED.to_degrees(), "{weight:?} {off}");
     }
-    // The angles of the parts add up to that of the whole.
+    // The angles of the parts add up to the angle of the whole.
     let (whole_normals, cut_normals) = (
         found(&whole, NormalWeight::Angle),
         found(&prism(true), NormalWeight::Angle),
@@ -437,7 +443,8 @@ fn a_reflex_corner_counts_with_its_inner_angle_and_looks_outward() {
     assert!(off < ROUNDED.to_degrees(), "{off}");
 }
 
-/// A bent strip of positions whose coordinates are multiples of 2⁻²⁰, with triangles, quads that are not flat, and a pentagon.
+/// Returns a bent strip of triangles, quads that are not flat, and a pentagon. Its coordinates are
+/// multiples of 2⁻²⁰.
 fn odd_mesh(scale: f32) -> PolygonMesh {
     let mut random = Random::new(9);
     let mut side = |_| {
@@ -472,7 +479,8 @@ fn normals_do_not_depend_on_the_scale() {
 
 #[test]
 fn a_tiny_fine_sphere_keeps_its_normals() {
-    // A micron in kilometres, of 100 rings: areas of 1e-21, and products of squared edges of 1e-42.
+    // A sphere of a micron, measured in kilometres, with 100 rings. Its areas are 1e-21, and
+    // products of squared edges are 1e-42.
     let (rings, columns) = (100, 200u32);
     let point = |i: u32| {
         let (sin, cos) = libm::sincos(PI * f64::from(i / columns + 1) / f64::from(rings));
@@ -508,7 +516,7 @@ fn corners_without_an_angle_or_an_edge_do_no_harm() {
     let (positions, mut faces) = cube();
     let expected =
         WEIGHTS.map(|weight| vertex_normals(&mesh_of(&positions, &faces), averaged_by(weight)));
-    // Corners that are there twice or thrice, at the beginning, within and around the end.
+    // Corners that are repeated once or twice: at the beginning, in the middle, and around the end.
     faces[0] = vec![0, 0, 4, 6, 6, 6, 2, 2];
     faces[3] = vec![3, 2, 6, 7, 3];
     let mesh = mesh_of(&positions, &faces);
@@ -523,8 +531,8 @@ fn corners_without_an_angle_or_an_edge_do_no_harm() {
             assert!(off < ROUNDED.to_degrees(), "{weight:?} {k} {off}");
         }
     }
-    // A position on the common edge of two faces: straight in both, so that Max's weights vanish; a spike; a path there and
-    // back; a sliver that has no area.
+    // A position on the common edge of two faces, where both are straight and Max's weights vanish;
+    // a spike; a path that goes out and back; and a sliver without area.
     let mut positions = positions;
     positions.extend([DVec3::new(1.0, 0.0, 1.0), DVec3::new(3.0, 1.0, 1.0)]);
     let (_, mut faces) = cube();
@@ -555,7 +563,7 @@ fn corners_without_an_angle_or_an_edge_do_no_harm() {
 }
 
 #[test]
-fn a_crease_weighs_what_is_within_it() {
+fn a_crease_weighs_only_polygons_within_its_angle() {
     let (positions, faces) = cube();
     let truth: Vec<DVec3> = positions.iter().map(|p| p.normalize()).collect();
     for diagonals in [0, 21, 63] {
@@ -581,7 +589,7 @@ fn a_sum_that_vanishes_but_for_rounding_has_no_direction() {
         for _ in 0..count / 2 {
             let polygon = DVec3::new(side(), side(), side()).normalize();
             let weight = side().abs() * 1e-30;
-            // Both are off by some ε.
+            // Both terms are off by some ε.
             for off in [1.0, -1.0 - 8.0 * f64::EPSILON] {
                 terms.push(Term {
                     polygon,
@@ -597,7 +605,7 @@ fn a_sum_that_vanishes_but_for_rounding_has_no_direction() {
             sum.direction()
         };
         assert_eq!(sum(NormalWeight::Angle, &terms), None, "{count}");
-        // What is left is not taken for rounding.
+        // A remainder above the bound does not count as rounding.
         let rest = terms.iter().map(|term| term.weight).sum::<f64>() * 1e-12;
         let (vector, polygon) = (DVec3::Y * rest, DVec3::Y);
         terms.push(Term {

@@ -1,4 +1,5 @@
-//! The numbers of a glTF file: accessors, through views, in buffers that are beside the file or within it.
+//! The binary data of a glTF file. An accessor describes values, a view is a range of bytes, and a
+//! buffer is a file or a part of this one.
 
 use super::super::Beside;
 use super::super::error::{Refusal, quote};
@@ -15,21 +16,22 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
-/// The most bytes of all buffers together: many may be one file.
+/// The most bytes that all buffers may have together. Many buffers may name one file.
 const MOST: usize = 1 << 30;
 
 /// The buffers of a file.
 pub(super) struct Buffers {
     bytes: HashMap<usize, Vec<u8>>,
-    /// The bytes of all of them: no accessor without bytes of its own has more elements.
+    /// The bytes of all buffers. It also limits accessors that have no bytes and would be all
+    /// zeros.
     total: usize,
 }
 
 impl Buffers {
-    /// Reads the buffers of `document`; `bin` is the one within a GLB file.
+    /// Reads the buffers of `document`. `bin` is the one inside a GLB file.
     ///
     /// # Errors
-    /// When one cannot be read.
+    /// If one cannot be read, or all together are over the limit.
     pub(super) fn read(
         document: &Document,
         bin: Option<Vec<u8>>,
@@ -52,7 +54,7 @@ impl Buffers {
             buffers.total = buffers.total.saturating_add(bytes.len());
             if buffers.total > MOST {
                 let most = MOST >> 20;
-                let problem = format!("its buffers have over {most} MiB: expected at most that");
+                let problem = format!("its buffers are over {most} MiB: expected at most that");
                 return Err(Refusal::whole(problem));
             }
             buffers.bytes.insert(index, bytes);
@@ -60,7 +62,7 @@ impl Buffers {
         Ok(buffers)
     }
 
-    /// Returns the bytes of a view from `offset` on, as far as they are there.
+    /// Returns the bytes of a view from `offset` on, as far as they exist.
     fn view(&self, view: &View, offset: usize) -> &[u8] {
         let all = self.bytes.get(&view.buffer().index());
         let all = all.map_or(&[][..], |bytes| &bytes[..]);
@@ -69,24 +71,24 @@ impl Buffers {
         own.get(offset..).unwrap_or_default()
     }
 
-    /// Checks that a view is within its buffer.
+    /// Checks that a view lies within its buffer.
     fn check_view(&self, view: &View) -> Result<(), Refusal> {
         let held = self.bytes.get(&view.buffer().index()).map_or(0, Vec::len);
         match view.offset().checked_add(view.length()) {
             Some(end) if end <= held => Ok(()),
             _ => {
                 let index = view.index();
-                let expected = format!("expected all of it in {held} bytes");
+                let expected = format!("expected it to end within {held} bytes");
                 let problem = format!("buffer view {index} reaches beyond its buffer: {expected}");
                 Err(Refusal::whole(problem))
             }
         }
     }
 
-    /// Reads the elements of an accessor as `N` numbers each: normalised ones as fractions, others as they are.
+    /// Reads the elements of an accessor as `N` values each. Normalised integers become fractions.
     ///
     /// # Errors
-    /// When they have fewer numbers, or reach beyond their view.
+    /// If an element has fewer values, or elements reach beyond their view.
     pub(super) fn read_vectors<const N: usize>(
         &self,
         accessor: &Accessor,
@@ -94,7 +96,7 @@ impl Buffers {
         let found = accessor.dimensions().multiplicity();
         if found < N {
             let index = accessor.index();
-            let problem = format!("accessor {index} has {found} numbers an element: expected {N}");
+            let problem = format!("accessor {index} has {found} values per element: expected {N}");
             return Err(Refusal::whole(problem));
         }
         let kind = accessor.data_type();
@@ -107,17 +109,17 @@ impl Buffers {
         };
         let size = kind.size();
         let decode = |element: &[u8]| {
-            let mut numbers = [0.0; N];
-            for (number, bytes) in numbers.iter_mut().zip(element.chunks_exact(size)) {
+            let mut values = [0.0; N];
+            for (decoded, bytes) in values.iter_mut().zip(element.chunks_exact(size)) {
                 let value = (value(kind, bytes) / divisor) as f32;
-                // The least of a signed number is -1, too.
-                *number = if divisor > 1.0 {
+                // The smallest signed integer is one below −divisor and also means −1.
+                *decoded = if divisor > 1.0 {
                     value.max(-1.0)
                 } else {
                     value
                 };
             }
-            numbers
+            values
         };
         let mut elements: Vec<[f32; N]> = match accessor.view() {
             Some(view) => {
@@ -130,7 +132,9 @@ impl Buffers {
             }
             None if accessor.count() > self.total => {
                 let (index, count) = (accessor.index(), accessor.count());
-                let problem = format!("accessor {index} says {count} elements and has no bytes");
+                let problem = format!(
+                    "accessor {index} says {count} elements and has no bytes: expected a buffer view"
+                );
                 return Err(Refusal::whole(problem));
             }
             None => vec![[0.0; N]; accessor.count()],
@@ -139,7 +143,7 @@ impl Buffers {
         Ok(elements)
     }
 
-    /// Replaces the elements that an accessor lists one by one.
+    /// Replaces the elements that a sparse accessor lists one by one.
     fn replace_sparse<const N: usize>(
         &self,
         accessor: &Accessor,
@@ -156,19 +160,21 @@ impl Buffers {
             IndexType::U32 => (DataType::U32, 4),
         };
         let stride = indices.view().stride().unwrap_or(width);
-        let numbers = self.view(&indices.view(), indices.offset());
+        let places = self.view(&indices.view(), indices.offset());
         let own = self.view(&values.view(), values.offset());
         let own_stride = values.view().stride().unwrap_or(accessor.size());
-        let numbers = numbers.chunks(stride.max(1)).filter(|n| n.len() >= width);
+        let places = places.chunks(stride.max(1)).filter(|n| n.len() >= width);
         let own = own.chunks(own_stride.max(1));
         let own = own.filter(|element| element.len() >= accessor.size());
         let mut replaced = 0;
-        for (number, element) in numbers.zip(own).take(sparse.count()) {
-            let number = value(kind, &number[..width]) as usize;
-            let Some(place) = elements.get_mut(number) else {
+        for (place, element) in places.zip(own).take(sparse.count()) {
+            let replaced_index = value(kind, &place[..width]) as usize;
+            let count = elements.len();
+            let Some(place) = elements.get_mut(replaced_index) else {
                 let index = accessor.index();
-                let problem =
-                    format!("accessor {index} replaces element {number}, which it does not have");
+                let problem = format!(
+                    "accessor {index} replaces element {replaced_index}: expected an element below {count}"
+                );
                 return Err(Refusal::whole(problem));
             };
             *place = decode(element);
@@ -183,7 +189,7 @@ impl Buffers {
     /// Reads the elements of an accessor as indices.
     ///
     /// # Errors
-    /// When they are no whole numbers, or reach beyond their view.
+    /// If they are not unsigned integers, or reach beyond their view.
     pub(super) fn read_indices(&self, accessor: &Accessor) -> Result<Vec<u32>, Refusal> {
         let kind = accessor.data_type();
         let view = accessor.view();
@@ -205,7 +211,7 @@ impl Buffers {
     }
 }
 
-/// Returns `bytes` if they hold the elements of an accessor.
+/// Returns `bytes` if they hold all elements of an accessor.
 fn checked<'a>(bytes: &'a [u8], accessor: &Accessor, stride: usize) -> Result<&'a [u8], Refusal> {
     let size = accessor.size();
     let before = accessor.count().saturating_sub(1).checked_mul(stride);
@@ -217,7 +223,7 @@ fn checked<'a>(bytes: &'a [u8], accessor: &Accessor, stride: usize) -> Result<&'
     }
 }
 
-/// Makes the error for an accessor whose bytes are not there.
+/// Makes the error for an accessor whose view is too short.
 fn beyond(accessor: &Accessor) -> Refusal {
     let (index, count) = (accessor.index(), accessor.count());
     Refusal::whole(format!(
@@ -225,7 +231,7 @@ fn beyond(accessor: &Accessor) -> Refusal {
     ))
 }
 
-/// Returns a number of a kind, little-endian.
+/// Decodes a little-endian value.
 fn value(kind: DataType, bytes: &[u8]) -> f64 {
     match (kind, bytes) {
         (DataType::I8, &[a, ..]) => f64::from(a as i8),
@@ -238,10 +244,10 @@ fn value(kind: DataType, bytes: &[u8]) -> f64 {
     }
 }
 
-/// Reads a buffer by its address: of data in the address itself, or of a file beside this one.
+/// Reads a buffer by its address, which contains the data itself or names a file beside this one.
 fn read_uri(index: usize, uri: &str, beside: Beside) -> Result<Vec<u8>, Refusal> {
     if let Some(data) = uri.strip_prefix("data:") {
-        /// Some writers leave the signs at the end out.
+        /// Some writers leave out the `=` signs at the end.
         const ANY: GeneralPurpose = GeneralPurpose::new(
             &base64::alphabet::STANDARD,
             GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
@@ -249,7 +255,7 @@ fn read_uri(index: usize, uri: &str, beside: Beside) -> Result<Vec<u8>, Refusal>
         let text = data.split_once(";base64,").map(|(_, text)| text);
         let bytes = text.and_then(|text| ANY.decode(text.trim_ascii()).ok());
         return bytes.ok_or_else(|| {
-            let problem = format!("buffer {index} has a data address that is not base64");
+            let problem = format!("buffer {index} has a `data:` address: expected base64 in it");
             Refusal::whole(problem)
         });
     }
@@ -261,7 +267,8 @@ fn read_uri(index: usize, uri: &str, beside: Beside) -> Result<Vec<u8>, Refusal>
         )));
     }
     if let Some(bare) = bare_of_outside(&name) {
-        // Exporters write paths of the machine they ran on. No other folder is read.
+        // Exporters write paths of the machine that they ran on. A file must not make this program
+        // read other folders, so only the bare name is looked for.
         return beside(bare).map_err(|error| {
             let (name, bare) = (quote(&name), quote(bare));
             Refusal::whole(format!(
@@ -277,7 +284,7 @@ fn read_uri(index: usize, uri: &str, beside: Beside) -> Result<Vec<u8>, Refusal>
     })
 }
 
-/// Returns the bare file name of a path that leaves the folder it starts from; `None` if the path stays within.
+/// Returns the bare file name of a path that leaves its folder; `None` if the path stays inside.
 fn bare_of_outside(path: &str) -> Option<&str> {
     let parts = || path.split(['/', '\\']);
     let mut depth = 0i64;
@@ -286,14 +293,14 @@ fn bare_of_outside(path: &str) -> Option<&str> {
             ".." => depth -= 1,
             "." => {}
             "" => {
-                // A path that begins with a separator is of the whole machine.
+                // A path that begins with a separator is absolute.
                 if i == 0 {
                     depth = -1;
                 }
             }
             _ => depth += 1,
         }
-        // As is one that begins with a drive.
+        // So is a path that begins with a drive.
         depth < 0 || (i == 0 && part.ends_with(':'))
     });
     let bare = parts()
@@ -302,7 +309,7 @@ fn bare_of_outside(path: &str) -> Option<&str> {
     is_outside.then(|| bare.unwrap_or("nothing"))
 }
 
-/// Returns a relative address with `%20` and the like as the characters that they stand for.
+/// Decodes the `%20` notation in a relative address.
 fn unescaped(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -328,7 +335,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_that_leave_the_folder_are_known() {
+    fn paths_that_leave_the_folder_are_recognised() {
         for path in [
             "../../etc/a",
             "/etc/a",

@@ -1,7 +1,8 @@
-//! glTF 2.0, as JSON with buffers or as one GLB file.
+//! glTF 2.0 files: JSON with buffers, or one GLB file.
 //!
-//! The crate `gltf` reads and checks the JSON. All nodes of the scene become one mesh, in the coordinates of the scene: transforms are
-//! multiplied in `f64`. Its format has no other polygons than triangles. What has no normals is flat, as the specification says.
+//! The crate `gltf` reads and checks the JSON. All nodes of the scene become one mesh in the
+//! coordinates of the scene; transforms are multiplied in `f64`. The format has no polygons other
+//! than triangles. Triangles without normals are flat, as the specification says.
 
 mod accessors;
 mod primitives;
@@ -33,8 +34,9 @@ pub(super) struct Gltf;
 /// The first bytes of a GLB file.
 const GLB: &[u8] = b"glTF";
 
-/// Extensions that a file may require though they are not read: of textures and materials, which are drawn by their colours, and of
-/// numbers in fewer bits, which are read as any others.
+/// Extensions that a file may require although the reader ignores them. Those of textures and
+/// materials do not matter, because materials are drawn by their colours. Quantized numbers are
+/// read like all others.
 const HARMLESS: [&str; 5] = [
     "KHR_mesh_quantization",
     "KHR_texture_",
@@ -114,7 +116,8 @@ fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Refusal> {
         let problem = format!("requires the extension {name}, which is not read{advice}");
         return Err(Refusal::whole(problem));
     }
-    // The crate takes these for granted where it checks what they lead to.
+    // The crate assumes that these indices exist when it checks the accessors behind them, and
+    // would panic.
     let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let mut positions = primitives.filter_map(|primitive| {
         let positions = Checked::Valid(Semantic::Positions);
@@ -122,30 +125,36 @@ fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Refusal> {
     });
     if let Some(index) = positions.find(|index| index.value() >= json.accessors.len()) {
         let (index, count) = (index.value(), json.accessors.len());
-        let problem = format!("accessor {index} is named, and there are {count}");
+        let problem = match count {
+            0 => {
+                format!("uses accessor {index}: expected accessors in the file, but there are none")
+            }
+            _ => format!("uses accessor {index}: expected 0 to {}", count - 1),
+        };
         return Err(Refusal::whole(problem));
     }
     let document = Document::from_json(json).map_err(|error| refusal(error, bytes))?;
     Ok((document, bin))
 }
 
-/// Checks that a GLB file has as many bytes as it says that it and its chunks have.
+/// Checks that a GLB file and its chunks are as long as their headers say.
 ///
 /// # Errors
-/// For the first length that the file does not have, and for one that is less than its headers take.
+/// For the first length that is past the end of the file, and for a length too short for the
+/// headers.
 fn check_lengths(bytes: &[u8]) -> Result<(), Refusal> {
     const HEADER: usize = 12;
     const OF_CHUNK: usize = 8;
-    // The first version has another header.
+    // Version 1 has another header.
     if !bytes.starts_with(GLB) || is_version_1(bytes) {
         return Ok(());
     }
     let have = bytes.len();
-    let number = |at: usize| {
+    let u32_at = |at: usize| {
         let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
         four.map(|four| u32::from_le_bytes(*four) as usize)
     };
-    let Some(length) = number(8) else {
+    let Some(length) = u32_at(8) else {
         let problem =
             format!("the file ends after {have} bytes: expected {HEADER} of a GLB header");
         return Err(Refusal::at(Place::Byte(have), problem));
@@ -161,7 +170,7 @@ fn check_lengths(bytes: &[u8]) -> Result<(), Refusal> {
     }
     let mut at = HEADER;
     for name in ["JSON", "binary"] {
-        let Some(length) = number(at).filter(|_| have - at >= OF_CHUNK) else {
+        let Some(length) = u32_at(at).filter(|_| have - at >= OF_CHUNK) else {
             break;
         };
         let left = have - at - OF_CHUNK;
@@ -176,7 +185,7 @@ fn check_lengths(bytes: &[u8]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// True if a file says that it is of the first version, whose JSON is another.
+/// True if a file says that it is glTF 1, whose JSON is different.
 fn is_version_1(bytes: &[u8]) -> bool {
     if bytes.starts_with(GLB) {
         return bytes.get(4..8) == Some(&[1, 0, 0, 0]);
@@ -184,7 +193,8 @@ fn is_version_1(bytes: &[u8]) -> bool {
     let json = gltf::json::deserialize::from_slice::<gltf::json::Value>(bytes);
     json.is_ok_and(|json| {
         let asset = &json["asset"];
-        // Its first drafts state the version beside the profile, and all of it have names where 2.0 has numbers.
+        // The first drafts state the version with the profile. All of version 1 refers to objects
+        // by name where 2.0 has lists and indices.
         let mut versions = [&asset["version"], &asset["profile"]["version"]].into_iter();
         json["meshes"].is_object()
             || versions.any(|version| {
@@ -194,16 +204,16 @@ fn is_version_1(bytes: &[u8]) -> bool {
     })
 }
 
-/// Makes the error for what the crate refuses.
+/// Makes the error for a file that the crate refuses.
 fn refusal(error: gltf::Error, bytes: &[u8]) -> Refusal {
     match error {
         gltf::Error::Deserialize(error) => {
             let text = error.to_string();
             let what = text.split(" at line ").next().unwrap_or_default();
-            // Only a scene must have this key.
+            // Only a scene requires this key.
             let problem = match what {
                 "missing field `nodes`" => {
-                    "its scene has no `nodes`: nothing is drawn; expected a list of them".into()
+                    "its scene has no `nodes`, so nothing is drawn: expected a list of nodes".into()
                 }
                 _ => format!("{}: expected the JSON of glTF 2.0", long_quote(what)),
             };
@@ -229,7 +239,7 @@ fn refusal(error: gltf::Error, bytes: &[u8]) -> Refusal {
     }
 }
 
-/// Returns a message of the crate in one line, which may quote a name of the file.
+/// Returns a message of the crate in one line. The message may quote names of the file.
 fn long_quote(text: &str) -> String {
     let text: String = text.chars().take(160).collect();
     text.chars()
@@ -237,10 +247,10 @@ fn long_quote(text: &str) -> String {
         .collect()
 }
 
-/// Returns the nodes of the scene, with their transforms into it.
+/// Returns the nodes of the scene with their transforms into the scene.
 ///
 /// # Errors
-/// When a node is reached twice: nodes must form a tree.
+/// If a node is reached twice: nodes must form a tree.
 fn placed(document: &Document) -> Result<Vec<(Node<'_>, DAffine3)>, Refusal> {
     let scene = document
         .default_scene()
@@ -259,6 +269,8 @@ fn placed(document: &Document) -> Result<Vec<(Node<'_>, DAffine3)>, Refusal> {
             roots.map(|node| (node, DAffine3::IDENTITY)).collect()
         }
     };
+    // A depth-first walk with a stack. Each list goes onto it in reverse, so that nodes come in the
+    // order of the file.
     open.reverse();
     let mut seen = vec![false; document.nodes().len()];
     let mut found = Vec::new();
@@ -305,15 +317,16 @@ fn local(node: &Node) -> DAffine3 {
     }
 }
 
-/// How a node places the vertices of its mesh.
+/// The transforms of a node's mesh into the scene.
 struct Pose {
-    /// All of them, if there is no skin.
+    /// The transform of all vertices, if there is no skin.
     transform: DAffine3,
-    /// By the joints of its skin.
+    /// The transform of each joint of the skin.
     joints: Vec<DAffine3>,
 }
 
-/// Returns how a node whose transform into the scene is `transform` places its mesh; `worlds` are those of all nodes.
+/// Returns the pose of a node. `transform` is its own transform into the scene, and `worlds` holds
+/// the transforms of all nodes.
 fn pose(
     node: &Node,
     transform: DAffine3,
@@ -336,7 +349,8 @@ fn pose(
 }
 
 impl Pose {
-    /// Returns the transform of vertex `v`: with a skin, the weighted mean of those of its joints.
+    /// Returns the transform of vertex `v`. With a skin, it is the weighted mean of its joints'
+    /// transforms.
     fn of_vertex(&self, own: &Triangles, v: usize) -> DAffine3 {
         let (Some(joints), Some(weights)) = (own.joints.get(v), own.weights.get(v)) else {
             return self.transform;
@@ -357,7 +371,7 @@ impl Pose {
     }
 }
 
-/// A thing that a file asks for and that is not drawn, or drawn otherwise: one note.
+/// A feature of a file that is not drawn, or drawn differently. Each makes one note.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 enum Oddity {
     #[error("points and lines are not drawn")]
@@ -372,18 +386,21 @@ enum Oddity {
     Emission,
 }
 
-/// Polygons as far as nodes were read.
+/// The polygons of the nodes that were read so far.
 #[derive(Default)]
 struct Reader {
     polygons: Polygons,
-    /// The triangles of primitives that were drawn once already: mesh and primitive.
+    /// The triangles of primitives that were read before, by the indices of mesh and primitive.
+    /// Many nodes may share a mesh.
     known: HashMap<(usize, usize), Option<Triangles>>,
+    /// The material of the mesh for each material of the file.
     materials: HashMap<usize, u32>,
     oddities: BTreeSet<Oddity>,
     has_normals: bool,
     has_colours: bool,
-    /// The number of primitives, and of those without normals.
+    /// How many primitives were placed.
     primitives: usize,
+    /// How many of them have no normals.
     flat: usize,
 }
 
@@ -406,6 +423,7 @@ impl Reader {
                 let known = self.materials.get(&index).copied();
                 known.unwrap_or_else(|| self.material(index, &material))
             });
+            // Taken out while `place` borrows the reader, and put back.
             match self.known.remove(&key).flatten() {
                 Some(triangles) => {
                     self.place(&triangles, pose, material)?;
@@ -447,9 +465,9 @@ impl Reader {
         };
         let own: Material = coloured([r, g, b].map(channel));
         let name = material.name().map(quote).unwrap_or_default();
-        let number = self.polygons.add_material(own, name);
-        self.materials.insert(index, number);
-        number
+        let added = self.polygons.add_material(own, name);
+        self.materials.insert(index, added);
+        added
     }
 
     /// Adds triangles where a node places them.
@@ -469,6 +487,7 @@ impl Reader {
         let is_flat = own.normals.is_empty();
         self.primitives += 1;
         self.flat += usize::from(is_flat);
+        // A mirroring transform turns the winding around, so its triangles are turned back.
         let is_mirrored = pose.of_vertex(own, 0).matrix3.determinant() < 0.0;
         let polygons = &mut self.polygons;
         for triangle in &own.triangles {
@@ -495,17 +514,17 @@ impl Reader {
         for (v, position) in own.positions.iter().enumerate() {
             let position = pose.of_vertex(own, v).transform_point3(three(position));
             if !is_position(position) {
-                let problem =
-                    "a position is not three finite numbers, or its node moves it too far";
+                let problem = "a position is not finite, or its node moves it past 3.4e38: expected finite numbers";
                 return Err(Refusal::whole(problem));
             }
             polygons.positions.push(position);
         }
         self.has_normals |= !own.normals.is_empty();
         if self.has_normals {
-            // Of the vertices before, which have none.
+            // Earlier vertices without normals get zeros.
             polygons.normals.resize(before, DVec3::ZERO);
-            // The inverse transpose but for a factor, which may be negative.
+            // The cofactor matrix: the inverse transpose times the determinant, whose sign is taken
+            // off. It needs no inverse, so a flattening transform does no harm.
             let turned = |(v, n): (usize, &[f32; 3])| {
                 let matrix = pose.of_vertex(own, v).matrix3;
                 let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
@@ -520,7 +539,7 @@ impl Reader {
         }
         self.has_colours |= !own.colours.is_empty();
         if self.has_colours {
-            // A vertex without a colour is as one whose colour changes nothing.
+            // Vertices without a colour get white, which changes nothing.
             polygons.colours.resize(before, Vec3::ONE);
             let colours = own.colours.iter().map(|c| Vec3::from_array(*c));
             polygons.colours.extend(colours);

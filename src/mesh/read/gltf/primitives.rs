@@ -8,16 +8,17 @@ use gltf::{Primitive, Semantic};
 use std::format;
 use std::vec::Vec;
 
-/// Triangles with what their corners have; every vertex is used.
+/// Triangles and the attributes of their vertices. Every vertex is used.
 #[derive(Default)]
 pub(super) struct Triangles {
     pub positions: Vec<[f32; 3]>,
-    /// One a vertex; empty if the primitive has none.
+    /// One per vertex; empty if the primitive has none.
     pub normals: Vec<[f32; 3]>,
-    /// One a vertex, linear; empty if the primitive has none.
+    /// One linear colour per vertex; empty if the primitive has none.
     pub colours: Vec<[f32; 3]>,
-    /// Up to four joints of a skin a vertex, and how much each counts; empty if the primitive has none.
+    /// Up to four joints of a skin per vertex; empty if the primitive has none.
     pub joints: Vec<[f32; 4]>,
+    /// The weight of each of these joints.
     pub weights: Vec<[f32; 4]>,
     pub triangles: Vec<[u32; 3]>,
 }
@@ -25,7 +26,7 @@ pub(super) struct Triangles {
 /// Returns the triangles of a primitive; `None` for points and lines.
 ///
 /// # Errors
-/// When its accessors do not fit, or an index names no vertex.
+/// If its accessors do not fit together, or an index names no vertex.
 pub(super) fn read(primitive: &Primitive, buffers: &Buffers) -> Result<Option<Triangles>, Refusal> {
     let mode = primitive.mode();
     if !matches!(
@@ -92,11 +93,12 @@ pub(super) fn read(primitive: &Primitive, buffers: &Buffers) -> Result<Option<Tr
     Ok(Some(all.without_unused()))
 }
 
-/// Returns the triangles of corners in an order that `mode` names.
+/// Returns the triangles of `corners`, whose order `mode` says.
 fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
     match mode {
         Mode::TriangleStrip => {
             let three = corners.windows(3).enumerate();
+            // Every second triangle of a strip is turned around, so that all face one way.
             let turned = |(i, three): (usize, &[u32])| match i % 2 {
                 0 => [three[0], three[1], three[2]],
                 _ => [three[1], three[0], three[2]],
@@ -115,7 +117,8 @@ fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
 }
 
 impl Triangles {
-    /// Drops vertices that no triangle uses. A mesh may be drawn many times, by many nodes.
+    /// Drops vertices that no triangle uses. This is worth it because many nodes may place one
+    /// mesh.
     fn without_unused(mut self) -> Self {
         let count = self.positions.len();
         let Some(new) = indices_of_used(self.triangles.as_flattened(), count) else {

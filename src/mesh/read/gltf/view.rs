@@ -1,4 +1,4 @@
-//! The camera and the lights of a glTF file, for a scene of it alone.
+//! The camera and the lights of a glTF file. A scene made from only this file uses them.
 
 use super::{parse, placed};
 use crate::picture::Rgb;
@@ -11,14 +11,14 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// What a mesh file says of how it is seen.
+/// The camera and the lights of a mesh file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct FileView {
     /// The first perspective camera.
     pub camera: Option<FileCamera>,
     /// The lights that shine.
     pub lights: Vec<FileLight>,
-    /// What cannot be taken, and why: one sentence each.
+    /// One sentence for each camera or light that cannot be used, with the reason.
     pub left_out: Vec<String>,
 }
 
@@ -32,16 +32,18 @@ pub(crate) struct FileCamera {
     pub fovy: f64,
 }
 
-/// A light at a position, or toward which a direction leads.
+/// A light at a position or in a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FileLight {
-    /// The unit vector toward a light at infinity; `None` for one at `place`, whose strength falls off with the square of the distance.
+    /// The unit vector toward a light at infinity. `None` for a light at `place`, whose strength
+    /// falls off with the square of the distance.
     pub toward: Option<DVec3>,
     pub place: DVec3,
     pub colour: Rgb,
 }
 
-/// Returns what the glTF file `bytes` says of how it is seen; `None` if it is none, or says nothing.
+/// Returns the camera and the lights of the glTF file `bytes`; `None` if it has neither or is no
+/// glTF file.
 pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
     let (document, _) = parse(bytes).ok()?;
     let nodes = placed(&document).ok()?;
@@ -55,11 +57,11 @@ pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
     let cameras = nodes
         .iter()
         .filter_map(|(node, placed)| camera(node, placed, middle));
-    let mut taken = None;
+    let mut used = None;
     for camera in cameras {
         match camera {
             Ok(camera) => {
-                taken = Some(camera);
+                used = Some(camera);
                 break;
             }
             Err(why) => leave_out(why),
@@ -77,14 +79,15 @@ pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
     }
     scale(&mut lights, middle);
     let view = FileView {
-        camera: taken,
+        camera: used,
         lights,
         left_out,
     };
     (view != FileView::default()).then_some(view)
 }
 
-/// Returns the middle of the box around all meshes, as their accessors state it.
+/// Returns the middle of the box around all meshes. The accessors of their positions state the
+/// boxes.
 fn middle(nodes: &[(Node, DAffine3)]) -> DVec3 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for (node, placed) in nodes {
@@ -92,12 +95,13 @@ fn middle(nodes: &[(Node, DAffine3)]) -> DVec3 {
             let Some(accessor) = primitive.get(&Semantic::Positions) else {
                 continue;
             };
-            let numbers = |value: Option<gltf::json::Value>| -> Option<DVec3> {
+            let vector = |value: Option<gltf::json::Value>| -> Option<DVec3> {
                 let value = value?;
                 let of = |axis: usize| value.get(axis)?.as_f64();
                 Some(DVec3::new(of(0)?, of(1)?, of(2)?))
             };
-            if let (Some(least), Some(most)) = (numbers(accessor.min()), numbers(accessor.max())) {
+            if let (Some(least), Some(most)) = (vector(accessor.min()), vector(accessor.max())) {
+                // Bit `axis` of `corner` picks the upper end along that axis.
                 for corner in 0..8 {
                     let pick = |axis: usize| match corner >> axis & 1 {
                         0 => least[axis],
@@ -116,8 +120,8 @@ fn middle(nodes: &[(Node, DAffine3)]) -> DVec3 {
     }
 }
 
-/// Returns the perspective camera of a node, which looks along −z, or why it cannot be taken. It looks at the point there that is as far
-/// away as the middle.
+/// Returns the perspective camera of a node, or the reason why it cannot be used. It looks along
+/// −z, and its target is as far away as the middle of the scene.
 fn camera(node: &Node, placed: &DAffine3, middle: DVec3) -> Option<Result<FileCamera, String>> {
     let camera = node.camera()?;
     let Projection::Perspective(lens) = camera.projection() else {
@@ -152,9 +156,12 @@ fn camera(node: &Node, placed: &DAffine3, middle: DVec3) -> Option<Result<FileCa
     })
 }
 
-/// Returns the light of a node, which shines along −z if it has a direction. A surface that reflects all of it diffusely is seen as
-/// 1/π of what falls on it, while here a light of strength 1 shows it as 1. A light that does not shine, or less than that, is none:
-/// then the reason is returned.
+/// Returns the light of a node, or the reason why it is left out. A light with a direction shines
+/// along −z.
+///
+/// In glTF a white diffuse surface shows 1/π of the light that falls on it; in this crate a light
+/// of strength 1 shows it as 1. So intensities are divided by π. Lights that are black or negative
+/// are left out.
 fn light(node: &Node, placed: &DAffine3) -> Option<Result<FileLight, String>> {
     let light = node.light()?;
     let left_out = |why: String| {
@@ -174,13 +181,13 @@ fn light(node: &Node, placed: &DAffine3) -> Option<Result<FileLight, String>> {
         .map(|channel| (f64::from(channel) * strength) as f32);
     let place = placed.translation;
     let (intensity, [r, g, b]) = (light.intensity(), light.color());
-    let given = format!("its intensity is {intensity}, its colour {r},{g},{b}");
+    let facts = format!("its intensity is {intensity}, its colour {r},{g},{b}");
     let is_sound = |value: f32| value.is_finite() && value >= 0.0;
     if ![intensity, r, g, b].into_iter().chain(colour).all(is_sound) || !place.is_finite() {
-        return left_out(format!("{given}: expected no number below 0"));
+        return left_out(format!("{facts}: expected finite numbers from 0 on"));
     }
     if colour == [0.0; 3] {
-        return left_out(format!("{given}, so that it does not shine"));
+        return left_out(format!("{facts}, so it does not shine"));
     }
     Some(Ok(FileLight {
         toward,
@@ -189,8 +196,8 @@ fn light(node: &Node, placed: &DAffine3) -> Option<Result<FileLight, String>> {
     }))
 }
 
-/// Makes lights weaker, all alike, if they are over 1 together in the middle: a file states candela and lux, for a camera whose exposure
-/// it does not state.
+/// Scales all lights down by one factor if they sum to more than 1 at the middle of the scene. A
+/// file states candela and lux, but not the exposure of the camera that they are meant for.
 fn scale(lights: &mut [FileLight], middle: DVec3) {
     let at_middle = |light: &FileLight| {
         let most = f64::from(light.colour.iter().fold(0.0, |most: f32, c| most.max(*c)));

@@ -1,4 +1,5 @@
-//! Corners of faces: `v`, `v/vt`, `v//vn` and `v/vt/vn`, and the positions that their indices name.
+//! Corners of faces (`v`, `v/vt`, `v//vn` and `v/vt/vn`), and the positions that their indices
+//! refer to.
 
 use super::error::{ObjProblem, quote};
 use std::vec::Vec;
@@ -9,7 +10,7 @@ pub(super) struct ObjCorner {
     pub normal: Option<usize>,
 }
 
-/// A corner as it stands in the file: indices counted from 1, or backwards from -1.
+/// A corner as written in the file, with indices counted from 1, or backwards from -1.
 pub(super) struct WrittenCorner {
     pub position: i64,
     pub texture: Option<i64>,
@@ -20,10 +21,12 @@ impl WrittenCorner {
     /// Reads a word of an `f` statement.
     pub(super) fn read(word: &str) -> Result<Self, ObjProblem> {
         let bad = || ObjProblem::BadCorner(quote(word));
+        // `None` after the part behind the last slash. Anything left after three parts is an error.
         let mut rest = Some(word);
         let mut index = || {
             let part = rest.unwrap_or_default();
-            // Words are short: looking at every byte is faster than a search made for long texts.
+            // Words are short, so a plain loop over the bytes is faster than a search routine made
+            // for long texts.
             let slash = part.bytes().position(|byte| byte == b'/');
             rest = slash.map(|at| &part[at + 1..]);
             match &part[..slash.unwrap_or(part.len())] {
@@ -40,22 +43,25 @@ impl WrittenCorner {
     }
 }
 
-/// The positions of a file, as far as it was read.
+/// The positions of a file that were read so far.
 #[derive(Default)]
 pub(super) struct Entries {
-    /// The number of entries so far.
+    /// How many there are so far.
     pub count: usize,
-    /// Lines that name an entry not read yet, each farther ahead than those before it.
+    /// Lines that refer to an entry before it was read, with that entry. Only entries farther ahead
+    /// than all previous ones are stored, so the list stays short and still has the first line for
+    /// every missing entry.
     ahead: Vec<(usize, usize)>,
 }
 
 impl Entries {
-    /// Returns the entry, counted from 0, that `index` names.
+    /// Returns the entry, counted from 0, for a written `index`.
     ///
-    /// A positive index may be ahead of its entry: [`Entries::missing`] tells at the end of the file.
+    /// A positive index may come before its entry. At the end of the file [`Entries::missing`]
+    /// tells if the entry came.
     pub(super) fn resolve(&mut self, line: usize, index: i64) -> Result<usize, ObjProblem> {
         let entry = match usize::try_from(index.unsigned_abs()) {
-            Ok(number @ 1..) if index > 0 => Some(number - 1),
+            Ok(forward @ 1..) if index > 0 => Some(forward - 1),
             Ok(back @ 1..) => self.count.checked_sub(back),
             _ => None,
         };
@@ -66,14 +72,14 @@ impl Entries {
         Ok(entry)
     }
 
-    /// Returns the first line that names an entry past the last one, with the error about it.
+    /// Returns the first line that refers to an entry past the last one, with the error about it.
     pub(super) fn missing(&self) -> Option<(usize, ObjProblem)> {
         let mut ahead = self.ahead.iter();
         let &(line, entry) = ahead.find(|&&(_, entry)| entry >= self.count)?;
         Some((line, self.out_of_range(entry as i64 + 1)))
     }
 
-    /// Makes the error for `index`, which names no entry.
+    /// Makes the error for an `index` without an entry.
     fn out_of_range(&self, index: i64) -> ObjProblem {
         let (what, count) = ("position", self.count);
         ObjProblem::IndexOutOfRange { what, index, count }

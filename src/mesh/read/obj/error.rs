@@ -1,4 +1,4 @@
-//! What can be wrong with an OBJ file.
+//! The problems of OBJ files, with their messages.
 
 use super::super::error::hint;
 pub(super) use super::super::error::quote;
@@ -9,19 +9,19 @@ use std::string::String;
 /// A problem with an OBJ file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(super) enum ObjProblem {
-    /// The file has no bytes, or white space only.
+    /// The file has no bytes, or only white space.
     #[error("is empty: expected OBJ text with `v` and `f` lines")]
     Empty,
-    /// The file holds bytes that no text has.
+    /// The file contains bytes that no text has.
     #[error("holds binary data: expected OBJ text with `v` and `f` lines")]
     NotText,
-    /// The file is of another format; a few words for it.
+    /// The file is of another format, which the field describes in a few words.
     #[error("is {0}: expected OBJ text with `v` and `f` lines")]
     OtherFile(&'static str),
-    /// The file is text, but has no face of three corners or more.
+    /// The file is text but has no face of three corners or more.
     #[error("has no polygon: expected OBJ text with an `f` line of at least three corners")]
     NoPolygons,
-    /// The file has points or lines, and no face of three corners or more.
+    /// The file has points or lines but no face of three corners or more.
     #[error("has points or lines but no polygon: expected an `f` line of at least three corners")]
     OnlyPointsOrLines,
     /// A position that a face uses is not three finite numbers.
@@ -33,7 +33,7 @@ pub(super) enum ObjProblem {
         face: usize,
     },
     /// A corner is none of `v`, `v/vt`, `v//vn`, `v/vt/vn`.
-    #[error("`{0}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers{slash}",
+    #[error("`{0}` is not a corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers{slash}",
         slash = slash_hint(.0))]
     BadCorner(String),
     /// A corner names a position that the file does not have.
@@ -43,7 +43,7 @@ pub(super) enum ObjProblem {
         what: &'static str,
         /// The index as written: counted from 1, or backwards from -1.
         index: i64,
-        /// The entries there are: in the whole file, or so far when the index counts backwards.
+        /// How many entries there are: in the whole file, or so far if the index counts backwards.
         count: usize,
     },
     /// More polygons than [`PolygonMesh::MAX_POLYGONS`].
@@ -52,7 +52,7 @@ pub(super) enum ObjProblem {
     /// More corners than [`PolygonMesh::MAX_CORNERS`].
     #[error("too many corners: expected at most {}", PolygonMesh::MAX_CORNERS)]
     TooManyCorners,
-    /// The parser refused text that had passed every check here.
+    /// The parser refused text that had passed every check of the pre-scan.
     #[error("the OBJ parser gave up ({0}): expected plain polygons")]
     Parser(String),
 }
@@ -63,10 +63,10 @@ pub(super) enum VectorProblem {
     /// There are fewer than three.
     #[error("`v` has too few numbers: expected three, found {found}")]
     TooFewNumbers {
-        /// The number of numbers.
+        /// How many there are.
         found: usize,
     },
-    /// Something stands where a finite number should.
+    /// A word is not a finite number.
     #[error("`{found}` in `v`: expected a finite number{}", hint(found))]
     BadNumber {
         /// The word in place of the number.
@@ -74,7 +74,7 @@ pub(super) enum VectorProblem {
     },
 }
 
-/// Returns a hint for a corner whose numbers have backslashes between them.
+/// Returns a hint for a corner that has backslashes between its numbers.
 fn slash_hint(corner: &str) -> &'static str {
     let is_of_numbers = corner
         .chars()
@@ -85,7 +85,7 @@ fn slash_hint(corner: &str) -> &'static str {
     }
 }
 
-/// Writes [`ObjProblem::IndexOutOfRange`], with the range that there is.
+/// Writes [`ObjProblem::IndexOutOfRange`] with the valid range.
 fn index_out_of_range(
     what: &str,
     index: &i64,
@@ -98,7 +98,8 @@ fn index_out_of_range(
     }
     write!(f, "{what} index {index} is out of range: expected ")?;
     match (*index, *count) {
-        (_, 0) => write!(f, "a {what} to be given first, there is none"),
+        (..0, 0) => write!(f, "a {what} before this line, but there is none"),
+        (_, 0) => write!(f, "a {what} in the file, but there is none"),
         (..0, count) => write!(f, "-{count} to -1 at this line"),
         (_, count) => write!(f, "1 to {count}"),
     }

@@ -1,12 +1,14 @@
-//! The text of OBJ and MTL files: decoding, lines, comments, continued lines, words that are plainly numbers.
+//! The text of OBJ and MTL files: decoding, lines, comments, continued lines, and numbers.
 
 use std::borrow::Cow;
 use std::string::String;
 
-/// Returns the text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails. Bytes that end a text are left
-/// out: NUL, as of a C string that was written whole, and the one by which DOS did.
+/// Decodes a file as UTF-8 without its byte-order mark, or as Latin-1 if it is not valid UTF-8.
+/// Bytes at the end that only end a text are left out: the NUL of a C string that was written
+/// whole, and the end-of-file byte of DOS.
 ///
-/// Latin-1 and not replacement characters: two names that differ stay different, and are found in the other file.
+/// Any bytes are valid Latin-1. Unlike replacement characters, it keeps different names different,
+/// so that a name in the OBJ file finds its equal in the MTL file.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let is_text = |byte: &u8| !matches!(byte, b'\0' | b'\x1a' | b'\n' | b'\r' | b' ');
@@ -18,21 +20,23 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Returns the number of the line that holds the byte `at` of `text`, counted from 1.
+/// Returns the line number, from 1, of the byte `at` in `text`.
 pub(super) fn line_number(text: &str, at: usize) -> usize {
     let before = &text[..at];
+    // CR LF was counted twice.
     let ends = before.matches(['\n', '\r']).count() - before.matches("\r\n").count();
     ends + 1
 }
 
-/// Returns the arguments of a statement of numbers up to its comment, if it has one.
+/// Returns the arguments of a statement of numbers, without its comment.
 pub(super) fn without_comment(arguments: &str) -> &str {
     let mut marks = arguments.match_indices('#').map(|(at, _)| at);
     let comment = marks.find(|&at| !is_inside_a_number(arguments, at));
     comment.map_or(arguments, |at| &arguments[..at])
 }
 
-/// True if the `#` at `at` belongs to `1.#QNAN`, `-1.#IND` or `1.#INF`: so the C library of Windows wrote what is no number.
+/// True if the `#` at `at` belongs to `1.#QNAN`, `-1.#IND` or `1.#INF`. The C library of Windows
+/// used to write NaN and infinity like this.
 fn is_inside_a_number(arguments: &str, at: usize) -> bool {
     let word = arguments[..at].rsplit(|c: char| c.is_ascii_whitespace());
     let before = word.into_iter().next().unwrap_or_default();
@@ -41,12 +45,13 @@ fn is_inside_a_number(arguments: &str, at: usize) -> bool {
         && after.is_some_and(|byte| byte.is_ascii_alphabetic())
 }
 
-/// The mark of UTF-8, and the same three bytes read as Latin-1.
+/// The byte-order mark of UTF-8.
 const MARK: char = '\u{feff}';
+/// The three bytes of [`MARK`], decoded as Latin-1.
 const LATIN_MARK: &str = "\u{ef}\u{bb}\u{bf}";
 
-/// Returns a line without what stands for nothing around it: blanks, the NUL that ends a C string, the end of a DOS text, and the
-/// mark of UTF-8 at the start of a file that was appended to another.
+/// Returns a line without meaningless characters around it: blanks, the NUL of a C string, the
+/// end-of-file byte of DOS, and the byte-order mark of a file that was appended to another.
 fn bare(line: &str) -> &str {
     let is_nothing = |c: char| c.is_ascii_whitespace() || matches!(c, '\0' | '\x1a' | MARK);
     let line = line.trim_matches(is_nothing);
@@ -56,7 +61,8 @@ fn bare(line: &str) -> &str {
     }
 }
 
-/// The statements of free-form curves and surfaces, of which none is read. Their arguments are numbers and some words.
+/// The statements of free-form curves and surfaces. The reader ignores them all. Their arguments
+/// are numbers and some words.
 pub(super) const FREE_FORM: [&str; 23] = [
     "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
     "sp", "end", "con", "bsp", "bzp", "cdc", "cdp", "res", "fm", "ctech", "stech",
@@ -85,7 +91,7 @@ const NUMERIC: [&str; 19] = [
     "sharpness",
 ];
 
-/// The statements of names and of words.
+/// The statements whose arguments are names or other words.
 const WORDS: [&str; 16] = [
     "o",
     "g",
@@ -105,19 +111,24 @@ const WORDS: [&str; 16] = [
     "csh",
 ];
 
-/// Statements one by one: the number of the line where each begins, and its text with continued lines joined.
+/// An iterator over statements. Each item is the line number where the statement begins, and its
+/// text with continued lines joined.
 ///
-/// CR LF, LF and CR each end a line. A backslash at its end continues a statement of numbers, over blank lines and comments, unless
-/// another statement follows. Other statements hold names: those of Windows folders end in a backslash, and so do double-byte
-/// characters whose last byte is 5C.
+/// CR LF, LF and CR each end a line. A backslash at the end of a line continues a statement of
+/// numbers, past blank lines and comments, unless another statement follows. Other statements hold
+/// names, and a backslash there continues nothing: names of Windows folders end in one, and so do
+/// double-byte characters whose last byte is 5C.
 ///
-/// Comments are left in, as `#` may also stand in a name: [`without_comment`] is for the statements of numbers.
+/// Comments stay in the text because a name may contain `#`. Use [`without_comment`] for statements
+/// of numbers.
 pub(super) struct Statements<'a> {
     rest: Option<&'a str>,
     line: usize,
-    /// True if any line may be continued: nearly no file has one.
+    /// True if the text has a backslash, so that lines may be continued. In nearly all files this
+    /// is false and saves a test per line.
     backslashes: bool,
-    /// True if there may be more than blanks around a line that stands for nothing: nearly no file has that.
+    /// True if the text has characters that [`bare`] must remove. This, too, is false in nearly all
+    /// files.
     has_odd_ends: bool,
 }
 
@@ -127,7 +138,7 @@ impl<'a> Statements<'a> {
             rest: Some(text),
             line: 0,
             backslashes: text.contains('\\'),
-            // The last character of the mark in Latin-1 stands for it.
+            // '\u{bf}' is the last character of the mark in Latin-1.
             has_odd_ends: ['\0', '\x1a', MARK, '\u{bf}']
                 .iter()
                 .any(|c| text.contains(*c)),
@@ -137,7 +148,8 @@ impl<'a> Statements<'a> {
     fn physical_line(&mut self) -> Option<&'a str> {
         let rest = self.rest?;
         self.line += 1;
-        // Lines are short: looking at every byte is as fast as a search made for long texts.
+        // Lines are short, so a plain loop over the bytes is as fast as a search routine made for
+        // long texts.
         let end = rest.bytes().position(|byte| matches!(byte, b'\n' | b'\r'));
         let (line, end) = rest.split_at(end.unwrap_or(rest.len()));
         let next = end.strip_prefix("\r\n").or(end.get(1..));
@@ -145,8 +157,9 @@ impl<'a> Statements<'a> {
         Some(if self.has_odd_ends { bare(line) } else { line })
     }
 
-    /// Returns the line that continues a statement: the next one that is neither blank nor a comment. Before a line that begins
-    /// another statement there is none; only directly after the backslash may arguments that are `words` look like one.
+    /// Returns the line that continues a statement: the next one that is neither blank nor a
+    /// comment. `None` if that line begins another statement. With `words`, arguments may be words
+    /// that look like a statement, which counts only directly after the backslash.
     fn continuation(&mut self, words: bool) -> Option<&'a str> {
         let mut is_next = true;
         loop {
@@ -165,7 +178,7 @@ impl<'a> Statements<'a> {
     }
 }
 
-/// Returns the part before a `\` at the end of a line, if the line goes on in the next one.
+/// Returns the part of a line before a `\` at its end; `None` if it has none there.
 fn continued(line: &str) -> Option<&str> {
     without_comment(line).trim_ascii_end().strip_suffix('\\')
 }
@@ -190,10 +203,10 @@ impl<'a> Iterator for Statements<'a> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let line = self.physical_line()?;
-        let number = self.line;
+        let first_line = self.line;
         let start = self.backslashes.then(|| continued(line)).flatten();
         let Some(start) = start.filter(|_| is_numeric(line)) else {
-            return Some((number, Cow::Borrowed(line)));
+            return Some((first_line, Cow::Borrowed(line)));
         };
         let words = is_among(keyword(line).0, &FREE_FORM);
         let mut joined = String::from(start);
@@ -207,13 +220,14 @@ impl<'a> Iterator for Statements<'a> {
                 }
             }
         }
-        Some((number, Cow::Owned(joined)))
+        Some((first_line, Cow::Owned(joined)))
     }
 }
 
 /// Returns the first word of a statement and the rest, both without blanks around them.
 ///
-/// Blanks are those of ASCII: in Latin-1, the bytes of other white space are parts of double-byte characters, too.
+/// Only ASCII blanks count. In text decoded as Latin-1, other white space may be a part of a
+/// double-byte character.
 pub(super) fn keyword(statement: &str) -> (&str, &str) {
     let statement = statement.trim_ascii();
     let end = statement
@@ -223,9 +237,11 @@ pub(super) fn keyword(statement: &str) -> (&str, &str) {
     (word, rest.trim_ascii_start())
 }
 
-/// Returns the names that the rest of a statement may be: the whole of it first, then the part up to a comment.
+/// Returns the possible names in the rest of a statement: first the whole rest, then the part
+/// before a comment.
 ///
-/// `usemtl red # the lid` and the name `Material #25` are both met in real files; what exists decides.
+/// Real files contain both `usemtl red # the lid` and the name `Material #25`. The caller uses the
+/// first name that exists.
 pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
     let names = rest.match_indices('#').map(|(at, _)| &rest[..at]);
     let is_comment = |before: &&str| before.ends_with(|c: char| c.is_ascii_whitespace());
@@ -233,7 +249,7 @@ pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
     core::iter::once(rest).chain(names.next().map(str::trim_ascii_end))
 }
 
-/// Reads a number. One that is not finite is NaN or infinite, however it is written: `nan`, `inf`, `1e999`, `1.#QNAN`,
+/// Reads a number, which may be NaN or infinite in any spelling: `nan`, `inf`, `1e999`, `1.#QNAN`,
 /// `-1.#IND`, `-nan(ind)`.
 pub(super) fn read_number(word: &str) -> Option<f32> {
     let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
@@ -244,7 +260,8 @@ pub(super) fn read_number(word: &str) -> Option<f32> {
     word.parse().ok().or_else(|| is_nan().then_some(f32::NAN))
 }
 
-/// True if `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.
+/// True if `word` plainly is a finite `f32`: an optional sign, then digits with at most one point
+/// among them. This is much cheaper than parsing it.
 pub(super) fn is_plain_number(word: &str) -> bool {
     let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word).as_bytes();
     let (mut digits, mut points) = (0, 0);
@@ -252,7 +269,7 @@ pub(super) fn is_plain_number(word: &str) -> bool {
         digits += usize::from(byte.is_ascii_digit());
         points += usize::from(byte == b'.');
     }
-    // f32 reaches past 10^38.
+    // 38 digits stay below 10^38, and an f32 reaches past that.
     digits + points == unsigned.len() && points <= 1 && (1..=38).contains(&digits)
 }
 
@@ -263,7 +280,7 @@ mod tests {
     use std::string::String;
 
     #[test]
-    fn what_looks_like_a_number_is_one() {
+    fn words_that_look_like_numbers_are_numbers() {
         let mut random = Random::new(9);
         let mut plain = 0;
         for _ in 0..200_000 {

@@ -1,12 +1,14 @@
-//! Wavefront OBJ files, with their MTL materials.
+//! Wavefront OBJ files with their MTL materials.
 //!
-//! Read are positions, their colours (`v x y z r g b`), normals, faces of any number of sides (concave ones too, never
-//! triangulated), `mtllib` and
-//! `usemtl`, objects (`o`) and smoothing groups (`s`). All objects become one mesh that shares positions by their index in
-//! the file; positions that no face uses are dropped, the others keep the order in which faces first name them.
-//! Numbers are read as `f64`: a mesh far from 0 is rounded relative to [`PolygonMesh::origin`].
+//! The reader uses positions, their colours (`v x y z r g b`), normals, faces of any number of
+//! sides (also concave ones, and never triangulated), `mtllib` and `usemtl`, objects (`o`) and
+//! smoothing groups (`s`). All objects become one mesh that shares positions by their index in the
+//! file. Positions that no face uses are dropped; the others come in the order in which faces first
+//! name them. Numbers are read as `f64`, and a mesh far from 0 is rounded relative to
+//! [`PolygonMesh::origin`].
 //!
-//! `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of [`MeshBuilder`].
+//! `tobj` does the parsing. Before it, the pre-scan checks the text and knows its lines; after it,
+//! [`MeshBuilder`] checks the mesh.
 
 mod corner;
 mod error;
@@ -44,7 +46,8 @@ impl MeshFormat for Obj {
         &["obj"]
     }
 
-    /// Returns false: any text may be OBJ, which is what a file of no other format counts as.
+    /// Returns false. Any text may be OBJ, and a file that no other format recognises counts as OBJ
+    /// anyway.
     fn recognises(&self, _: &[u8]) -> bool {
         false
     }
@@ -90,10 +93,10 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
     }
     if scan.has_normals() {
         let values: Vec<Vec3> = vectors(&parsed.normals).map(unit_or_zero).collect();
-        // One is of the pre-scan's making, if any corner has no normal.
+        // If a corner has no normal, one zero comes from the pre-scan and not from the file.
         let is_any_missing = scan.corners_with_normal < scan.corners;
         let zeros = vectors(&parsed.normals).zip(&values);
-        // A NaN is a normal that was told when it was read.
+        // A NaN stands for a normal that the pre-scan reported already.
         let zeros = zeros.filter(|(written, unit)| written.is_finite() && **unit == Vec3::ZERO);
         let zeros = zeros.count();
         let (zeros, have) = match zeros - usize::from(is_any_missing) {
@@ -120,12 +123,13 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
     let off = HashMap::from([(&0, PolygonMesh::FACETED)]);
     builder.smoothing_groups(groups(&scan.smoothing_runs, off, scan.polygons));
     builder.stating_smoothing(!scan.smoothing_runs.is_empty());
-    // Libraries are read even if no face uses a material: who writes files must know all that belong to the mesh.
-    let mut told = Vec::new();
-    let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut told);
+    // Libraries are read even if no face uses a material, because a caller that copies the mesh's
+    // files must learn of all of them. Their warnings matter only if a material is used.
+    let mut library_warnings = Vec::new();
+    let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut library_warnings);
     let first = warnings.len();
     if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
-        warnings.append(&mut told);
+        warnings.append(&mut library_warnings);
         let (named, of_polygons) = assign_materials(&scan, &mut library, &mut warnings);
         warnings.extend(library.warnings());
         let (materials, names) = named.into_iter().unzip();
@@ -141,20 +145,22 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
     })
 }
 
-/// Returns the vectors whose coordinates stand one after the other in `flat`.
+/// Returns the vectors in a flat list of coordinates.
 fn vectors(flat: &[f64]) -> impl Iterator<Item = DVec3> {
     flat.chunks_exact(3).map(DVec3::from_slice)
 }
 
-/// Returns `normal` with length one, or zero when it has no direction.
+/// Returns the unit vector along `normal`, or zero if it has no direction.
 fn unit_or_zero(normal: DVec3) -> Vec3 {
     unit_normal(normal).map_or(Vec3::ZERO, |unit| unit.as_vec3())
 }
 
-/// Returns the number of the group of each polygon, from the statements that begin a group: those with equal keys have
-/// equal numbers, `known` ones or new ones, and the polygons before the first statement have one of their own.
+/// Returns the group of each polygon. `runs` are the statements that begin a group, each with its
+/// first polygon and a key. Equal keys make one group, whose index is in `known` or new. The
+/// polygons before the first statement have their own group.
 ///
-/// Empty if all polygons are in one group, unless that is [`PolygonMesh::FACETED`].
+/// The list is empty if all polygons are in one group, unless that group is
+/// [`PolygonMesh::FACETED`].
 fn groups<'a, K: Eq + Hash>(
     runs: &'a [(usize, K)],
     known: HashMap<&'a K, u32>,
@@ -164,12 +170,13 @@ fn groups<'a, K: Eq + Hash>(
     if runs.is_empty() {
         return Vec::new();
     }
-    let mut numbers = known;
+    let mut indices = known;
     let mut of_polygons = vec![BEFORE; polygons];
     let starts = runs.iter().map(|(start, _)| *start);
+    // Each run ends where the next one starts.
     for ((start, key), end) in runs.iter().zip(starts.skip(1).chain([polygons])) {
-        let new = BEFORE + 1 + numbers.len() as u32;
-        of_polygons[*start..end].fill(*numbers.entry(key).or_insert(new));
+        let new = BEFORE + 1 + indices.len() as u32;
+        of_polygons[*start..end].fill(*indices.entry(key).or_insert(new));
     }
     let is_one = of_polygons.iter().all(|&group| group == of_polygons[0]);
     match is_one && of_polygons[0] != PolygonMesh::FACETED {
@@ -178,7 +185,8 @@ fn groups<'a, K: Eq + Hash>(
     }
 }
 
-/// Returns the materials that polygons use with their names, and for each polygon the index of its own, `u32::MAX` for none.
+/// Returns the materials that polygons use, with their names, and for each polygon the index of its
+/// material, `u32::MAX` for none.
 fn assign_materials(
     scan: &Prescan,
     library: &mut Library,
@@ -187,7 +195,7 @@ fn assign_materials(
     const NONE: u32 = u32::MAX;
     let mut materials = Vec::new();
     let mut unknown = Vec::new();
-    let mut numbers = HashMap::new();
+    let mut indices = HashMap::new();
     let mut of_polygons = vec![NONE; scan.polygons];
     let starts = scan.material_runs.iter().map(|(start, _)| *start);
     let ends = starts.skip(1).chain([scan.polygons]);
@@ -195,7 +203,7 @@ fn assign_materials(
         let Some(name) = name.as_ref().filter(|_| *start < end) else {
             continue;
         };
-        let number = *numbers
+        let index = *indices
             .entry(name)
             .or_insert_with(|| match library.use_material(name) {
                 Some(material) => {
@@ -207,9 +215,9 @@ fn assign_materials(
                     NONE
                 }
             });
-        of_polygons[*start..end].fill(number);
+        of_polygons[*start..end].fill(index);
     }
-    // One missing library explains all names that are missing.
+    // If a library is missing, that was reported and explains the unknown names.
     if library.is_complete && !unknown.is_empty() {
         warnings.push(format!(
             "no material library defines {}: the default material is used",
@@ -219,7 +227,7 @@ fn assign_materials(
     (materials, of_polygons)
 }
 
-/// Returns `a`, `b` and 7 more: at most five names.
+/// Returns names as text, at most five of them: `a, b and 7 more`.
 fn list(names: &[String]) -> String {
     let (shown, others) = names.split_at(names.len().min(5));
     let more = match others.len() {

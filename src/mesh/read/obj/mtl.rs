@@ -1,4 +1,4 @@
-//! Materials: MTL files read into [`Material`], and what they ask for that is not drawn.
+//! MTL files. They become [`Material`]s and warnings about features that are not drawn.
 
 use super::super::content::foreign;
 use super::super::gzip::unpacked;
@@ -11,22 +11,24 @@ use std::string::{String, ToString};
 use std::vec::Vec;
 use std::{format, io, mem};
 
-/// So many lines of one file that cannot be read are shown one by one.
+/// The most ignored lines of one file that are shown one by one.
 const WARNINGS_SHOWN: usize = 8;
 
 // The MTL format's defaults: Ka and Kd as in J. Burkardt's description of the format
 // (people.sc.fsu.edu/~jburkardt/data/mtl/mtl.html).
 const AMBIENT: Rgb = [0.2; 3];
 const DIFFUSE: Rgb = [0.8; 3];
-// Not its Ks = 1 and Ns = 0, which light half the surface white: no highlight unless the file asks for one.
+// The format's own Ks = 1 and Ns = 0 would light half of the surface white. Without `Ks` there is
+// no highlight instead.
 const SPECULAR: Rgb = [0.0; 3];
 
-/// A thing that a material asks for and that is not drawn, or drawn otherwise: one warning, however many materials ask for it.
+/// A feature of a material that is not drawn, or drawn differently. Each makes one warning, however
+/// many materials have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 enum Oddity {
     #[error("textures are not drawn")]
     Texture,
-    #[error("over a black or missing `Kd`: the default grey is drawn")]
+    #[error("a texture over a black or missing `Kd`: the default grey is drawn instead")]
     DefaultGrey,
     #[error("transparency is not drawn, all surfaces are opaque")]
     Transparency,
@@ -40,28 +42,28 @@ enum Oddity {
     ColourOutOfRange,
     #[error("a name that is defined already: the first definition is used")]
     SecondDefinition,
-    #[error("no MTL statement, passed over")]
+    #[error("not an MTL statement, ignored")]
     Unknown,
 }
 
 /// A statement in one of the libraries.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Place {
-    /// The number of the library, in the order in which they were read.
+    /// The index of the library, in the order in which libraries were read.
     file: usize,
     line: usize,
     /// The statement without its comment.
     statement: String,
 }
 
-/// A statement that is ignored, and why.
+/// A statement that is ignored, and the reason.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Ignored {
     place: Place,
     why: &'static str,
 }
 
-/// A number, and where it stands.
+/// A value and the statement that sets it.
 #[derive(Clone, Debug)]
 struct Stated {
     value: f32,
@@ -92,24 +94,26 @@ struct Definition {
 #[derive(Default)]
 pub(super) struct Library {
     definitions: Vec<Definition>,
-    /// Indices of definitions, by their names.
+    /// The index of each definition, by its name.
     names: HashMap<String, usize>,
-    /// The same by their names up to a comment, for `newmtl red # the lid`.
+    /// The index of each definition, by its name up to a comment, as in `newmtl red # the lid`.
     uncommented: HashMap<String, usize>,
-    /// The first definition of a name, another one of it in the file that is read, and the place of that.
+    /// Repeated definitions in the current file: the first definition of the name, the repeated
+    /// one, and its place.
     second: Vec<(usize, usize, Place)>,
     /// The names of the files that were read.
     files: Vec<String>,
     /// Statements outside of any definition.
     ignored: Vec<Ignored>,
-    /// The files asked for: added, or not to be had, with the error until it is told.
+    /// The result for each file that was tried. An error is taken out when it is reported.
     tried: HashMap<String, Result<(), Option<io::Error>>>,
-    /// True if every file could be had, and defines materials.
+    /// True if every file could be read and defines materials.
     pub is_complete: bool,
 }
 
 impl Library {
-    /// Reads the files that each of `lines`, the number and the rest of an `mtllib` line, names.
+    /// Reads the files of all `mtllib` lines. Each line comes with its line number and without its
+    /// keyword.
     pub(super) fn load(
         lines: &[(usize, String)],
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
@@ -122,7 +126,8 @@ impl Library {
         for (line, rest) in lines {
             let uncommented = name_candidates(rest).last().unwrap_or_default();
             let names = file_names(uncommented);
-            // Of several paths only the last name would be looked for beside the mesh.
+            // Several paths must not be tried as one name: only the bare name of the last path
+            // would then be looked for.
             let may_be_one = names.len() < 2 || !uncommented.contains(['/', '\\']);
             let mut one_file = name_candidates(rest).filter(|_| may_be_one);
             if one_file.any(|name| library.try_file(name, *line, load_mtl, warnings)) {
@@ -130,14 +135,15 @@ impl Library {
             }
             for name in names {
                 if !library.try_file(&name, *line, load_mtl, warnings) {
-                    library.tell_missing(&name, *line, warnings);
+                    library.warn_missing(&name, *line, warnings);
                 }
             }
         }
         library
     }
 
-    /// Adds the materials of the file `name`, which `line` names, unless it was asked for before. True if it could be read.
+    /// Adds the materials of the file `name`, which line `line` names, unless it was tried before.
+    /// Returns true if it could be read.
     fn try_file(
         &mut self,
         name: &str,
@@ -165,11 +171,11 @@ impl Library {
         is_there
     }
 
-    /// Tells once that the file `name`, which `line` names, could not be read.
-    fn tell_missing(&mut self, name: &str, line: usize, warnings: &mut Vec<String>) {
+    /// Reports, once per file, that the file `name`, which line `line` names, could not be read.
+    fn warn_missing(&mut self, name: &str, line: usize, warnings: &mut Vec<String>) {
         self.is_complete = false;
-        if let Some(Err(untold)) = self.tried.get_mut(&file_of(name))
-            && let Some(error) = untold.take()
+        if let Some(Err(unreported)) = self.tried.get_mut(&file_of(name))
+            && let Some(error) = unreported.take()
         {
             let name = quote(name);
             warnings.push(format!(
@@ -181,7 +187,7 @@ impl Library {
     /// Adds the materials of the MTL file `bytes`.
     ///
     /// # Errors
-    /// The reason why there are none.
+    /// The reason, in words, if it has no materials.
     fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
         let bytes = unpacked(bytes).map_err(|error| format!("cannot be read ({error})"))?;
         let bytes = &*bytes;
@@ -196,7 +202,8 @@ impl Library {
         let (file, before) = (self.files.len(), self.definitions.len());
         let mut ignored = Vec::new();
         self.files.push(name.to_string());
-        // The definition that statements belong to, if there is one. Those after a `newmtl` without a name go with it.
+        // `open` is true inside a definition. After a `newmtl` without a name all statements are
+        // ignored with it, which is reported once.
         let (mut open, mut is_nameless) = (false, false);
         for (line, statement) in Statements::new(&text) {
             let (word, rest) = keyword(&statement);
@@ -219,7 +226,7 @@ impl Library {
                             continue;
                         }
                         false => {
-                            "is ignored: expected a name, and so are all statements up to the next one"
+                            "is ignored with all statements up to the next `newmtl`: expected a name"
                         }
                     }
                 }
@@ -244,7 +251,7 @@ impl Library {
             .iter_mut()
             .for_each(Definition::finish);
         for (first, second, place) in self.second.drain(..) {
-            let [one, other] = [first, second].map(|number| self.definitions[number].material());
+            let [one, other] = [first, second].map(|index| self.definitions[index].material());
             if one != other {
                 let oddities = &mut self.definitions[first].oddities;
                 oddities.push((Oddity::SecondDefinition, place));
@@ -254,30 +261,32 @@ impl Library {
         Ok(())
     }
 
-    /// Begins a definition. Of two with one name the first one counts, as the format has it.
+    /// Begins a definition. If a name is defined twice, the first definition counts, as the format
+    /// says.
     fn define(&mut self, name: &str, place: Place) {
-        let number = self.definitions.len();
+        let index = self.definitions.len();
         self.definitions.push(Definition::default());
         if let Some(&first) = self.names.get(name) {
-            self.second.push((first, number, place));
+            self.second.push((first, index, place));
             return;
         }
-        self.names.insert(name.to_string(), number);
+        self.names.insert(name.to_string(), index);
         if let Some(short) = name_candidates(name).nth(1) {
-            self.uncommented.entry(short.to_string()).or_insert(number);
+            self.uncommented.entry(short.to_string()).or_insert(index);
         }
     }
 
-    /// Returns the material that `usemtl` names with `rest`; what it asks for is told by [`Library::warnings`].
+    /// Returns the material for a `usemtl` statement with the arguments `rest`, and marks it as
+    /// used for [`Library::warnings`].
     pub(super) fn use_material(&mut self, rest: &str) -> Option<Material> {
         let find = |name| self.names.get(name).or(self.uncommented.get(name));
-        let number = *name_candidates(rest).find_map(find)?;
-        self.definitions[number].is_used = true;
-        Some(self.definitions[number].material())
+        let index = *name_candidates(rest).find_map(find)?;
+        self.definitions[index].is_used = true;
+        Some(self.definitions[index].material())
     }
 
-    /// Returns a line for each kind of thing that used materials ask for and that is not drawn, and for each statement that
-    /// cannot be read.
+    /// Returns one line for each kind of feature of used materials that is not drawn, and one for
+    /// each statement that is ignored.
     pub(super) fn warnings(&mut self) -> Vec<String> {
         let used = self.definitions.iter_mut().filter(|found| found.is_used);
         let mut ignored = mem::take(&mut self.ignored);
@@ -316,14 +325,14 @@ impl Library {
     }
 }
 
-/// Returns what tells the file that `name` names from others: its path without detours, as `./lib.mtl` and `lib.mtl` are one file.
+/// Returns the path `name` without detours, so that `./lib.mtl` and `lib.mtl` count as one file.
 fn file_of(name: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
-    for (number, part) in name.split(['/', '\\']).enumerate() {
+    for (i, part) in name.split(['/', '\\']).enumerate() {
         match part {
             "." => {}
-            // At the start it is the root.
-            "" if number > 0 => {}
+            // An empty part at the start is the root and stays.
+            "" if i > 0 => {}
             ".." if parts.last().is_some_and(|last| !matches!(*last, "" | "..")) => {
                 parts.pop();
             }
@@ -333,7 +342,8 @@ fn file_of(name: &str) -> String {
     parts.join("/")
 }
 
-/// Returns the file names in an `mtllib` line that is not one file name: each ends with `.mtl`, as names may hold spaces.
+/// Splits an `mtllib` line into several file names. Each ends with `.mtl`, because names may
+/// contain spaces.
 fn file_names(rest: &str) -> Vec<String> {
     let words: Vec<&str> = rest.split_ascii_whitespace().collect();
     let is_last = |word: &&str| {
@@ -345,7 +355,8 @@ fn file_names(rest: &str) -> Vec<String> {
 }
 
 impl Definition {
-    /// Reads a statement: its keyword in lower case, and what follows it without a comment.
+    /// Reads a statement. `word` is its keyword in lower case, and `values` are its arguments
+    /// without a comment.
     fn read(&mut self, word: &str, values: &str, place: Place) {
         const NUMBER: &str = "is ignored: expected one finite number, 0 or more";
         let read = match word {
@@ -374,7 +385,8 @@ impl Definition {
                 self.note(Oddity::PhysicallyBased, &place);
                 Ok(())
             }
-            // Index of refraction, sharpness of reflections, anti-aliasing of textures: nothing by themselves.
+            // The index of refraction, the sharpness of reflections and the anti-aliasing of
+            // textures show nothing by themselves.
             "ni" | "sharpness" | "map_aat" => Ok(()),
             _ if is_texture(word) => {
                 self.read_texture(word, values, &place);
@@ -404,7 +416,7 @@ impl Definition {
     }
 
     fn read_illumination(&mut self, values: &str, place: &Place) -> Result<(), &'static str> {
-        let expected = "is ignored: expected the number of an illumination model, 0 to 10";
+        let expected = "is ignored: expected an illumination model, a whole number from 0 to 10";
         let model: u8 = values.parse().map_err(|_| expected)?;
         if model > 2 {
             self.note(Oddity::Reflection, place);
@@ -413,7 +425,7 @@ impl Definition {
         Ok(())
     }
 
-    /// Reads a texture; exporters also write the keyword without a file.
+    /// Reads a texture. Some exporters write the keyword without a file, which means none.
     fn read_texture(&mut self, word: &str, values: &str, place: &Place) {
         if !values.is_empty() {
             self.note(Oddity::Texture, place);
@@ -427,7 +439,7 @@ impl Definition {
         self.oddities.push((oddity, place.clone()));
     }
 
-    /// Looks at statements that depend on others, once all are read.
+    /// Evaluates the statements that depend on others, after all were read.
     fn finish(&mut self) {
         let is_black = self
             .diffuse
@@ -439,9 +451,10 @@ impl Definition {
         let dissolve = self.dissolve.take();
         let transparency = self.transparency.take();
         let filter = self.filter.take();
-        let told = match (dissolve, transparency, filter) {
+        let reported = match (dissolve, transparency, filter) {
             (Some(dissolve), _, _) if dissolve.value != 1.0 => Some(dissolve),
-            // Some programs write `Tr` with the meaning of `d`: beside `d 1`, both 0 and 1 are opaque.
+            // Some programs write `Tr` with the meaning of `d`, so both 0 and 1 are opaque if `d`
+            // is 1.
             (Some(_), transparency, _) => {
                 transparency.filter(|stated| stated.value != 0.0 && stated.value != 1.0)
             }
@@ -450,12 +463,12 @@ impl Definition {
             }
             (None, None, filter) => filter.filter(|stated| stated.value != 1.0),
         };
-        if let Some(Stated { place, .. }) = told {
+        if let Some(Stated { place, .. }) = reported {
             self.note(Oddity::Transparency, &place);
         }
     }
 
-    /// Returns the material; channels and exponents that are not stated have their defaults.
+    /// Returns the material. Channels and exponents that the file does not set have their defaults.
     fn material(&self) -> Material {
         // Illumination models 0 (constant) and 1 (diffuse) have no highlight.
         let matte = matches!(self.illumination, Some(0 | 1));
@@ -469,7 +482,7 @@ impl Definition {
     }
 }
 
-/// True if the keyword, in lower case, is that of a texture.
+/// True if `word`, in lower case, is a keyword for a texture.
 fn is_texture(word: &str) -> bool {
     word.starts_with("map_") || matches!(word, "bump" | "disp" | "decal" | "refl" | "norm")
 }
@@ -479,14 +492,14 @@ fn stated(value: f32, place: &Place) -> Stated {
     Stated { value, place }
 }
 
-/// Returns three channels, read from three numbers or from one for all of them.
+/// Reads a colour from three numbers, or from one number for all channels.
 fn colour(values: &str) -> Result<Rgb, &'static str> {
     let first = values.split_ascii_whitespace().next().unwrap_or_default();
     if first.eq_ignore_ascii_case("spectral") || first.eq_ignore_ascii_case("xyz") {
-        return Err("is ignored: expected red, green and blue, other colour models are not read");
+        return Err("is ignored: expected red, green and blue (other colour models are not read)");
     }
-    let numbers: Option<Vec<f32>> = values.split_ascii_whitespace().map(number).collect();
-    match numbers.as_deref() {
+    let channels: Option<Vec<f32>> = values.split_ascii_whitespace().map(number).collect();
+    match channels.as_deref() {
         Some([grey]) => Ok([*grey; 3]),
         Some([red, green, blue]) => Ok([*red, *green, *blue]),
         _ if values.contains(',') => {
@@ -496,13 +509,13 @@ fn colour(values: &str) -> Result<Rgb, &'static str> {
     }
 }
 
-/// Reads the last of `values`: `-halo` may stand before it.
+/// Reads the last of `values`. The word `-halo` may come before it.
 fn last_number(values: &str) -> Option<f32> {
     number(values.split_ascii_whitespace().next_back()?)
 }
 
 /// Reads a finite number that is 0 or more.
 fn number(word: &str) -> Option<f32> {
-    let number = word.parse().ok();
-    number.filter(|n: &f32| n.is_finite() && *n >= 0.0)
+    let value = word.parse().ok();
+    value.filter(|n: &f32| n.is_finite() && *n >= 0.0)
 }

@@ -1,11 +1,12 @@
-//! The call of the parser, `tobj`: what it is given, and what its answer is checked for.
+//! The call of the parser, `tobj`, and the checks of its result.
 
 use super::prescan::Prescan;
 use std::format;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::string::{String, ToString};
 
-/// Runs the parser. A panic inside it becomes an error: the text it gets is checked first, so this is a last resort.
+/// Runs the parser and turns a panic inside it into an error. The pre-scan checks the text first,
+/// so this is a last resort.
 fn guarded<T>(parse: impl FnOnce() -> Result<T, tobj::LoadError>) -> Result<T, String> {
     match catch_unwind(AssertUnwindSafe(parse)) {
         Ok(Ok(parsed)) => Ok(parsed),
@@ -14,7 +15,8 @@ fn guarded<T>(parse: impl FnOnce() -> Result<T, tobj::LoadError>) -> Result<T, S
     }
 }
 
-/// Parses the one model in the text of `scan`: polygons with all their sides, positions and normals with indices of their own.
+/// Parses the text of `scan`, which holds one model. Polygons keep all their sides, and positions
+/// and normals have separate indices.
 pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
     let options = tobj::LoadOptions {
         single_index: false,
@@ -22,14 +24,14 @@ pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
         ignore_points: true,
         ignore_lines: true,
     };
-    // No `mtllib` reaches the parser, so that this is never asked.
+    // The text for the parser has no `mtllib`, so this is never called.
     let no_library = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = guarded(|| tobj::load_obj_buf(&mut &scan.text[..], &options, no_library))?;
     let [model] = <[tobj::Model; 1]>::try_from(models)
         .map_err(|models| format!("{} models", models.len()))?;
     let mut mesh = model.mesh;
     if mesh.face_arities.is_empty() {
-        // The parser leaves the list of corner counts out when all polygons are triangles.
+        // The parser leaves the corner counts empty if all polygons are triangles.
         mesh.face_arities.resize(scan.polygons, 3);
     }
     let corners: usize = mesh.face_arities.iter().map(|&n| n as usize).sum();
@@ -40,7 +42,7 @@ pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
         && mesh.positions.len() == 3 * scan.used_positions.len();
     if !fits {
         return Err(format!(
-            "{} polygons with {corners} corners where {} with {} were given",
+            "{} polygons with {corners} corners instead of {} with {}",
             found.0, scan.polygons, scan.corners
         ));
     }

@@ -1,9 +1,11 @@
-//! The pass over an OBJ file before its parser: every check that needs a line number, and text the parser can take.
+//! The pass over an OBJ file before the parser. It makes every check that needs a line number, and
+//! writes text that the parser accepts.
 //!
-//! The parser (`tobj`) gives no line numbers and goes wrong on legal files: it refuses comments after a face and continued
-//! lines, reads `l 1 2 3` as a triangle, divides by the weight of `v x y z w`, panics on a relative normal index
-//! that is out of range, and starts again with other vertices at each `g`. So it is given positions, normals and faces only,
-//! with absolute indices, as one group; groups, materials and smoothing are followed here.
+//! The parser (`tobj`) reports no line numbers and fails on legal files. It refuses comments after
+//! a face and continued lines, reads `l 1 2 3` as a triangle, divides by the weight of `v x y z w`,
+//! panics on a relative normal index that is out of range, and starts again with other vertices at
+//! each `g`. So it gets only positions, normals and faces, with absolute indices and in one group.
+//! The pre-scan itself follows groups, materials and smoothing.
 
 use super::super::polygons::look_like_bytes;
 use super::corner::{Entries, ObjCorner, WrittenCorner};
@@ -19,14 +21,16 @@ use std::str::SplitAsciiWhitespace;
 use std::string::String;
 use std::vec::Vec;
 
-/// The largest mesh that is read: [`PolygonMesh`](crate::mesh::PolygonMesh)'s limits except in tests.
+/// The largest mesh that is accepted: the limits of [`PolygonMesh`](crate::mesh::PolygonMesh),
+/// except in tests.
 #[derive(Clone, Copy, Default)]
 pub(super) struct MeshLimits {
     pub polygons: usize,
     pub corners: usize,
 }
 
-/// A thing that is passed over, or read in another way than it may be meant: one warning, however often it occurs.
+/// Something that is ignored, or read in another way than its author may have meant. Each kind
+/// makes one warning, however often it occurs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 enum Oddity {
     #[error("points and lines are not drawn")]
@@ -35,7 +39,7 @@ enum Oddity {
     FreeForm,
     #[error("`call` and `csh` are not followed: the geometry that they would add is missing")]
     Call,
-    #[error("is no OBJ statement and is passed over")]
+    #[error("is not an OBJ statement and is ignored")]
     Unknown,
     #[error("a face of fewer than three different corners is left out")]
     SmallFace,
@@ -49,7 +53,7 @@ enum Oddity {
     BadPosition,
     #[error("a normal is not three finite numbers: corners that name it count as without a normal")]
     BadNormal,
-    #[error("a normal that no face uses is passed over")]
+    #[error("a normal that no face uses is ignored")]
     UnusedNormal,
     #[error("a corner names a normal that does not exist and counts as without a normal")]
     NoNormal,
@@ -61,59 +65,59 @@ enum Oddity {
     ColourOutOfRange,
     #[error("a texture coordinate that does not exist is ignored, as all of them are")]
     NoTextureCoordinate,
-    #[error(
-        "a face names normals or texture coordinates, of which the file has none: they are passed over"
-    )]
+    #[error("a face names normals or texture coordinates, but the file has none: they are ignored")]
     UndeclaredNormal,
     #[error(
-        "is no smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off`"
+        "is not a smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off`"
     )]
     NoSmoothingGroup,
 }
 
-/// The text for the parser, and all that the parser does not see.
+/// The text for the parser, and everything that the parser does not see.
 #[derive(Default)]
 pub(super) struct Prescan {
     /// The text for the parser.
     pub text: Vec<u8>,
-    /// The number of polygons in it.
+    /// How many polygons the text has.
     pub polygons: usize,
-    /// The number of corners of all of them.
+    /// How many corners they have together.
     pub corners: usize,
-    /// Each `o`: the first polygon that it holds for, and the name.
+    /// Each `o`: the first polygon that it applies to, and the name.
     pub object_runs: Vec<(usize, String)>,
-    /// Each `s`: the first polygon that it holds for, and the group; 0 for `off`.
+    /// Each `s`: the first polygon that it applies to, and the group; 0 for `off`.
     pub smoothing_runs: Vec<(usize, u64)>,
-    /// Each `usemtl`: the first polygon that it holds for, and the name; `None` for none.
+    /// Each `usemtl`: the first polygon that it applies to, and the name; `None` if it has none.
     pub material_runs: Vec<(usize, Option<String>)>,
-    /// The rest of each `mtllib`, with its line.
+    /// The line of each `mtllib`, and the rest of the statement.
     pub libraries: Vec<(usize, String)>,
     limits: MeshLimits,
     positions: Entries,
-    /// The number of normals so far.
+    /// How many normals were read so far.
     normals: usize,
-    /// The number of normals in the file, once that is known: a corner may name one before its line.
+    /// How many normals the whole file has, if a first pass counted them. A corner may name a
+    /// normal before its line.
     all_normals: Option<usize>,
-    /// One more than the largest number of a normal that a corner names.
+    /// One more than the largest index of a normal that a corner names.
     named_normals: usize,
-    /// The line of each normal; 0 for those that a face names.
+    /// The line of each normal; 0 for a normal that a face names.
     unused_normals: Vec<u32>,
     texture_coordinates: usize,
-    /// The number of corners with a normal of their own.
+    /// How many corners have their own normal.
     pub corners_with_normal: usize,
-    /// Positions that are not three finite numbers.
+    /// The positions that are not three finite numbers.
     bad_positions: Vec<BadPosition>,
     /// The line of the first face that uses each position; 0 if none does.
     first_uses: Vec<u32>,
-    /// The positions in the order in which faces first use them: that of the parser's mesh.
+    /// The positions in the order in which faces first use them. The parser's mesh has this order.
     pub used_positions: Vec<u32>,
-    /// The colour of each position up to the last one that has a colour; [`NO_COLOUR`] for the others.
+    /// The colour of each position, up to the last position that has one; [`NO_COLOUR`] for the
+    /// others.
     colours: Vec<Vec3>,
-    /// The first word that is no statement.
+    /// The first word that is not a statement.
     unknown_word: String,
-    /// The first word that is no smoothing group.
+    /// The first word that is not a smoothing group.
     unknown_group: String,
-    /// The number of times that each occurs, and the first line.
+    /// How often each kind occurs, and in which line first.
     oddities: BTreeMap<Oddity, (usize, usize)>,
 }
 
@@ -125,6 +129,7 @@ struct BadPosition {
     problem: VectorProblem,
 }
 
+/// Stands for a missing colour.
 const NO_COLOUR: Vec3 = Vec3::NAN;
 
 /// The reason why a file is refused.
@@ -132,25 +137,27 @@ pub(super) struct Refusal {
     /// The first line that is wrong; `None` for the file as a whole.
     pub line: Option<usize>,
     pub problem: ObjProblem,
-    /// What was odd before.
+    /// Warnings from before the problem.
     pub warnings: Vec<String>,
 }
 
-/// Reads all of `text`.
+/// Scans all of `text`.
 ///
 /// # Errors
-/// For the first line that is wrong, or the file as a whole.
+/// For the first line that is wrong, or for the file as a whole.
 pub(super) fn prescan(text: &str, limits: MeshLimits) -> Result<Prescan, Refusal> {
     let scan = scan(text, limits, None)?;
     let normals = scan.normals;
-    // Nearly no file names normals that it does not have; one without any may, as for other loaders.
+    // A file that names normals past its last one is scanned again with their count known. Nearly
+    // no file does. A file without any normals may name some, as other loaders allow, and needs no
+    // second pass.
     match scan.named_normals > normals && normals > 0 {
         true => self::scan(text, limits, Some(normals)),
         false => Ok(scan),
     }
 }
 
-/// Reads all of `text`, which has `all_normals` if they were counted already.
+/// Scans all of `text`. `all_normals` is the count of normals if an earlier scan found it.
 fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Prescan, Refusal> {
     let mut scan = Prescan {
         text: Vec::with_capacity(text.len()),
@@ -168,14 +175,15 @@ fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Pr
         return Err(scan.refusal(Some(line), problem));
     }
     scan.check_colours();
-    for number in 0..scan.unused_normals.len().min(scan.normals) {
-        match scan.unused_normals[number] {
+    for normal in 0..scan.unused_normals.len().min(scan.normals) {
+        match scan.unused_normals[normal] {
             0 => {}
             line => scan.note(line as usize, Oddity::UnusedNormal),
         }
     }
     match scan.polygons {
-        // A text may have a NUL that does no harm. With words that are no statements it is no text.
+        // A stray NUL in a text does no harm. Together with unknown words it shows that the file is
+        // not text.
         0 if scan.has(Oddity::Unknown) && text.contains('\0') => {
             let at = text.find('\0').unwrap_or_default();
             Err(Refusal {
@@ -185,7 +193,7 @@ fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Pr
             })
         }
         0 if scan.unknown_word.eq_ignore_ascii_case("newmtl") => {
-            let what = "a material library, and not the mesh that names it";
+            let what = "a material library, not the mesh that names it";
             Err(scan.refusal(None, ObjProblem::OtherFile(what)))
         }
         0 if scan.has(Oddity::PointOrLine) => {
@@ -202,7 +210,7 @@ impl Prescan {
         self.normals > 0 && self.corners_with_normal > 0
     }
 
-    /// True if the colours that faces use look like those from 0 to 255.
+    /// True if the colours that faces use look like values from 0 to 255.
     pub(super) fn has_colours_like_bytes(&self) -> bool {
         let colours = self.used_positions.iter().map(|&at| self.colour(at));
         self.has(Oddity::ColourOutOfRange)
@@ -210,9 +218,10 @@ impl Prescan {
             && look_like_bytes(colours)
     }
 
-    /// Returns the colours of the positions that faces use, in the order of the parser's mesh; `None` if they are not all there.
+    /// Returns the colours of the positions that faces use, in the order of the parser's mesh;
+    /// `None` if any has no colour.
     pub(super) fn used_colours(&self) -> Option<Vec<Vec3>> {
-        // A surface does not reflect less than nothing.
+        // A surface cannot reflect less than nothing.
         let colour = |&at: &u32| self.colour(at).max(Vec3::ZERO);
         let colours = self.used_positions.iter().map(colour);
         let is_whole = !self.colours.is_empty() && !self.has(Oddity::NoColour);
@@ -224,8 +233,9 @@ impl Prescan {
         colour.copied().unwrap_or(NO_COLOUR)
     }
 
-    /// Makes the error for `problem`, with what was odd before.
+    /// Makes the refusal for `problem`, with all warnings so far.
     fn refusal(&mut self, line: Option<usize>, problem: ObjProblem) -> Refusal {
+        // The error itself reports the position, so a warning about it would repeat it.
         if let ObjProblem::BadPosition { .. } = problem {
             self.oddities.remove(&Oddity::BadPosition);
         }
@@ -236,8 +246,8 @@ impl Prescan {
         }
     }
 
-    /// Returns the first line that names what the whole file does not have, or that is named and cannot be read, and the
-    /// problem.
+    /// Returns the first line that refers to a position that the file does not have, or that holds
+    /// a bad position which a face uses, and the problem.
     fn wrong_index(&self) -> Option<(usize, ObjProblem)> {
         let face = |bad: &BadPosition| {
             let face = self.first_uses.get(bad.index).copied();
@@ -251,15 +261,16 @@ impl Prescan {
         wrong.into_iter().flatten().min_by_key(|(line, _)| *line)
     }
 
-    /// Looks at the colours of the positions that faces use. If none of them has one, the file counts as without colours.
+    /// Checks the colours of the positions that faces use. If none has a colour, the file counts as
+    /// a file without colours.
     fn check_colours(&mut self) {
         let mut used = self.used_positions.iter();
         if used.all(|&position| self.colour(position).is_nan()) {
             self.colours.clear();
             return;
         }
-        for number in 0..self.used_positions.len() {
-            let position = self.used_positions[number];
+        for i in 0..self.used_positions.len() {
+            let position = self.used_positions[i];
             let face = self.first_uses[position as usize] as usize;
             let colour = self.colour(position);
             if colour.is_nan() {
@@ -270,15 +281,16 @@ impl Prescan {
         }
     }
 
-    /// Returns a line for each kind of thing that was passed over or read in another way than it may be meant.
+    /// Returns one line for each kind of oddity.
     pub(super) fn warnings(&self) -> Vec<String> {
+        // Some oddities follow from others and need no separate line.
         let matters = |oddity: &Oddity| match oddity {
             Oddity::ColourOutOfRange => !self.has(Oddity::NoColour),
             Oddity::UndeclaredNormal => self.normals == 0,
             Oddity::NoNormal => self.normals > 0,
             Oddity::NoTextureCoordinate => {
-                let is_told = self.normals == 0 && self.has(Oddity::UndeclaredNormal);
-                self.texture_coordinates > 0 || !is_told
+                let is_reported = self.normals == 0 && self.has(Oddity::UndeclaredNormal);
+                self.texture_coordinates > 0 || !is_reported
             }
             _ => true,
         };
@@ -320,6 +332,7 @@ impl Prescan {
         match &*word {
             "v" => self.position(line, rest),
             "vn" => {
+                // The parser's first normal is a zero that stands for none: see `write_face`.
                 if self.normals == 0 {
                     self.text.extend_from_slice(b"vn 0 0 0\n");
                 }
@@ -332,7 +345,7 @@ impl Prescan {
                 self.note_normal(self.normals - 1, line);
             }
             "vt" => self.texture_coordinates += 1,
-            // Version 2 of the format called a face `fo`.
+            // Version 2 of the format wrote faces as `fo`.
             "f" | "fo" => self.face(line, rest, corners)?,
             "usemtl" => {
                 let name = (!rest.is_empty()).then(|| rest.into());
@@ -345,7 +358,8 @@ impl Prescan {
                 self.smoothing_runs.push((self.polygons, group));
             }
             "p" | "l" => self.note(line, Oddity::PointOrLine),
-            // Names, groups, textures, levels of detail, display: nothing that shows in a picture of polygons.
+            // Group names, textures, levels of detail and display settings do not change a picture
+            // of polygons.
             "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
             | "shadow_obj" | "trace_obj" => {}
             "call" | "csh" => self.note(line, Oddity::Call),
@@ -362,10 +376,11 @@ impl Prescan {
         Ok(())
     }
 
-    /// Writes the first three of `words` for the parser: finite numbers, or a NaN in place of all if they are not.
+    /// Writes the first three of `words` for the parser. If they are not finite numbers, it writes
+    /// three NaNs instead.
     ///
     /// # Errors
-    /// When they are not. The word that is wrong is the last one taken from `words`.
+    /// If they are not finite numbers. The wrong word is the last one consumed from `words`.
     fn vector(
         &mut self,
         keyword: &str,
@@ -379,7 +394,8 @@ impl Prescan {
                 problem = Some(VectorProblem::TooFewNumbers { found });
                 break;
             };
-            // The parser finds its value; most are plainly numbers, and need not be read twice.
+            // The parser computes the value. Most words plainly are numbers, and need not be parsed
+            // here as well.
             if !is_plain_number(word) && !word.parse().is_ok_and(f32::is_finite) {
                 let found = quote(word);
                 problem = Some(VectorProblem::BadNumber { found });
@@ -397,8 +413,8 @@ impl Prescan {
         Err(problem)
     }
 
-    /// Reads a position: three numbers, with a colour (three more) or a weight (one more), which is dropped. What follows a
-    /// colour is not looked at.
+    /// Reads a position: three numbers, then a colour (three more) or a weight (one more), which is
+    /// ignored. Words after a colour are not checked.
     fn position(&mut self, line: usize, rest: &str) {
         let mut words = without_comment(rest).split_ascii_whitespace();
         let read = self.vector("v", &mut words);
@@ -417,21 +433,21 @@ impl Prescan {
     /// Reads the words after the three numbers of a position.
     ///
     /// # Errors
-    /// When one of them is no number: two lines that ran together are no position.
+    /// If one of them is not a number. Two lines that ran together must not count as a position.
     fn colour_or_weight(
         &mut self,
         line: usize,
         words: &mut SplitAsciiWhitespace,
     ) -> Result<(), VectorProblem> {
-        let mut numbers = [f32::NAN; 3];
+        let mut values = [f32::NAN; 3];
         let mut found = 0;
-        for (number, word) in numbers.iter_mut().zip(words) {
+        for (value, word) in values.iter_mut().zip(words) {
             let problem = || VectorProblem::BadNumber { found: quote(word) };
-            *number = read_number(word).ok_or_else(problem)?;
+            *value = read_number(word).ok_or_else(problem)?;
             found += 1;
         }
-        let colour = Vec3::from_array(numbers);
-        if found == 1 && numbers[0] != 1.0 {
+        let colour = Vec3::from_array(values);
+        if found == 1 && values[0] != 1.0 {
             self.note(line, Oddity::Weight);
         }
         if found == 3 && colour.is_finite() {
@@ -448,9 +464,10 @@ impl Prescan {
         corners: &mut Vec<ObjCorner>,
     ) -> Result<(), ObjProblem> {
         let words = without_comment(rest).split_ascii_whitespace();
-        // What is left out in any case may name what is not there: the file may be cut off here.
+        // A face of fewer than three words is left out whatever it names. Its indices are not
+        // checked, as the file may be cut off here.
         if words.clone().nth(2).is_none() {
-            // But `f 1\2\3` is cut off nowhere.
+            // A word with backslashes, as in `f 1\2\3`, is not cut off but wrong.
             if let Some(word) = words.clone().find(|word| word.contains('\\')) {
                 self.corner(line, word)?;
             }
@@ -486,12 +503,13 @@ impl Prescan {
         Ok(())
     }
 
-    /// Notes which positions a face in `line` is the first to use.
+    /// Records the positions that a face in `line` is the first to use.
     fn note_uses(&mut self, line: usize, corners: &[ObjCorner]) {
         let line = u32::try_from(line).unwrap_or(u32::MAX);
         for position in corners.iter().map(|corner| corner.position) {
             if position >= self.first_uses.len() {
-                // A position takes two bytes or more: one so far ahead does not come.
+                // The file is too short for that many positions, so this one will turn out to be
+                // missing. Memory must not grow for it.
                 if position >= self.text.capacity().max(self.positions.count) {
                     continue;
                 }
@@ -504,10 +522,11 @@ impl Prescan {
         }
     }
 
-    /// Notes the line of a normal, or 0 for one that a face names, before or after its line.
+    /// Records the line of a normal; line 0 records that a face names it, which may happen before
+    /// or after its line.
     fn note_normal(&mut self, normal: usize, line: usize) {
         if normal >= self.unused_normals.len() {
-            // A normal takes two bytes or more: one so far ahead does not come.
+            // The file is too short for that many normals: see `note_uses`.
             if normal >= self.text.capacity().max(self.normals) {
                 return;
             }
@@ -518,10 +537,12 @@ impl Prescan {
         self.unused_normals[normal] = u32::try_from(line).unwrap_or(u32::MAX);
     }
 
-    /// Writes a face for the parser, whose first normal is zero and means none.
+    /// Writes a face for the parser. The parser's first normal is zero and means none, so the
+    /// file's normals are shifted by one.
     ///
-    /// Corners without a normal are given that one, unless none before them has another: the parser then takes its first
-    /// normal by itself, and files without normals stay short.
+    /// A corner without a normal gets that first normal. As long as no corner had a normal, nothing
+    /// is written: the parser then uses its first normal by itself, and the text stays short for
+    /// files without normals.
     fn write_face(&mut self, corners: &[ObjCorner]) {
         self.text.push(b'f');
         for corner in corners {
@@ -537,7 +558,8 @@ impl Prescan {
         self.text.push(b'\n');
     }
 
-    /// Returns the smoothing group that `rest` of an `s` names: 0 for `off`, 1 for `on`.
+    /// Returns the smoothing group of an `s` statement with the arguments `rest`: 0 for `off`, 1
+    /// for `on`.
     fn smoothing_group(&mut self, line: usize, rest: &str) -> u64 {
         let word = rest.split_ascii_whitespace().next().unwrap_or_default();
         match (word.parse(), &*word.to_ascii_lowercase()) {
@@ -566,15 +588,16 @@ impl Prescan {
         Ok(ObjCorner { position, normal })
     }
 
-    /// Returns the normal, counted from 0, that `index` names; `None` if there is none, which is told.
+    /// Returns the normal, counted from 0, for a written `index`. If there is none, it notes that
+    /// and returns `None`.
     fn normal(&mut self, line: usize, index: i64) -> Option<usize> {
         if self.normals == 0 {
             self.note(line, Oddity::UndeclaredNormal);
         }
-        let number = usize::try_from(index.unsigned_abs()).ok();
-        let named = number.and_then(|number| match index {
-            ..0 => self.normals.checked_sub(number),
-            _ => number.checked_sub(1),
+        let size = usize::try_from(index.unsigned_abs()).ok();
+        let named = size.and_then(|size| match index {
+            ..0 => self.normals.checked_sub(size),
+            _ => size.checked_sub(1),
         });
         let named = named.filter(|named| self.all_normals.is_none_or(|all| *named < all));
         match named {
@@ -585,15 +608,16 @@ impl Prescan {
     }
 }
 
-/// Appends a separator and `number` in decimal. Faster than `write!`, and there are as many numbers as corners.
-fn push_decimal(text: &mut Vec<u8>, separator: &[u8], mut number: usize) {
-    // 20 digits hold every 64-bit number.
+/// Appends a separator and `index`, which must not be 0, in decimal. It is faster than `write!`,
+/// and each corner needs it once or twice.
+fn push_decimal(text: &mut Vec<u8>, separator: &[u8], mut index: usize) {
+    // 20 digits hold every 64-bit number. They are filled from the last one on.
     let mut digits = [0; 20];
     let mut start = digits.len();
-    while number > 0 {
+    while index > 0 {
         start -= 1;
-        digits[start] = b'0' + (number % 10) as u8;
-        number /= 10;
+        digits[start] = b'0' + (index % 10) as u8;
+        index /= 10;
     }
     text.extend_from_slice(separator);
     text.extend_from_slice(&digits[start..]);

@@ -1,15 +1,15 @@
-//! The numbers of a PLY file one by one: words of a text, or bytes.
+//! A cursor over the values of a PLY file, which are words of a text or bytes.
 
 use super::super::error::{Place, Refusal, quote};
 use super::super::words::{Words, number, text};
 use super::header::{Coding, Element, Header, Property, Type};
 use std::format;
 
-/// The numbers of a file, from the first that is not read yet.
+/// The values of a file that are not read yet.
 pub(super) enum Body<'a> {
     Text {
         words: Words<'a>,
-        /// True if each element begins a line.
+        /// True if each element begins a new line.
         by_lines: bool,
     },
     Binary {
@@ -35,7 +35,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Returns the place of the next number, in a text that of the last one.
+    /// Returns the place of the next value; in a text, the line of the last one.
     pub(super) fn place(&self) -> Place {
         match self {
             Body::Text { words, .. } => words.place(),
@@ -43,7 +43,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Passes over what is left of the line of the element before.
+    /// Skips the rest of the previous element's line, if each element begins a new line.
     #[inline]
     pub(super) fn end_element(&mut self) {
         if let Body::Text {
@@ -56,12 +56,12 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// True if each element begins a line.
+    /// True if each element begins a new line.
     pub(super) fn is_by_lines(&self) -> bool {
         matches!(self, Body::Text { by_lines: true, .. })
     }
 
-    /// True if no number is left.
+    /// True if no value is left.
     pub(super) fn is_at_its_end(&self) -> bool {
         match self {
             Body::Text { words, .. } => words.clone().next().is_none(),
@@ -69,11 +69,12 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Returns how many of `element` there may be at most: a number of the header takes no memory.
+    /// Returns how many of `element` the rest of the file can hold at most. Memory is reserved for
+    /// that many, whatever the header claims.
     pub(super) fn room(&self, element: &Element) -> usize {
         let least = |property: &Property| property.count.unwrap_or(property.kind).size();
         let (left, each) = match self {
-            // A digit and a blank.
+            // A value takes at least a digit and a blank.
             Body::Text { words, .. } => (words.left(), 2 * element.properties.len()),
             Body::Binary { bytes, at, .. } => {
                 let sizes = element.properties.iter().map(least);
@@ -83,7 +84,7 @@ impl<'a> Body<'a> {
         element.count.min(left / each.max(1) + 1)
     }
 
-    /// Reads a number, which may be NaN or infinite.
+    /// Reads a value, which may be NaN or infinite.
     ///
     /// # Errors
     /// At the end of the file, and for a word that is no number.
@@ -105,15 +106,16 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Reads the number of entries of a list.
+    /// Reads the count of a list.
     ///
     /// # Errors
-    /// As [`Body::value`], and when it is none.
+    /// As [`Body::value`], and for a value that is no count.
     #[inline]
     pub(super) fn count(&mut self, kind: Type) -> Result<usize, Refusal> {
         let place = self.place();
         let count = self.value(kind)?;
-        // Text tells its line when the word is read.
+        // In a binary file the place was taken before the count was read. A text knows the line
+        // only after.
         let place = match self {
             Body::Text { words, .. } => words.place(),
             Body::Binary { .. } => place,
@@ -129,7 +131,7 @@ impl<'a> Body<'a> {
         Ok(count as usize)
     }
 
-    /// Passes over a property.
+    /// Skips a property.
     ///
     /// # Errors
     /// As [`Body::value`].
@@ -140,7 +142,7 @@ impl<'a> Body<'a> {
         };
         match self {
             Body::Text { words, .. } => {
-                // Whatever it is, as nobody reads it.
+                // Skipped words need not be numbers.
                 for _ in 0..count {
                     words.next().ok_or_else(|| words.ends_before(LAST))?;
                 }
@@ -156,7 +158,8 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// Returns the bytes of an element of `size` bytes, and whether they are big-endian; `None` in a text.
+    /// Returns the next element of `size` bytes, and true with it if it is big-endian; `None` in a
+    /// text.
     ///
     /// # Errors
     /// At the end of the file.
@@ -171,11 +174,11 @@ impl<'a> Body<'a> {
         Ok(Some((row, *is_big)))
     }
 
-    /// Makes the error for a number that is no index.
+    /// Makes the error for a value that is no index of one of `vertices`.
     pub(super) fn no_index(&self, index: f64, vertices: usize) -> Refusal {
         let found = quote(&text(format!("{index}").as_bytes()));
         let expected = match vertices {
-            0 => "vertices in the file, there are none".into(),
+            0 => "vertices in the file, but there are none".into(),
             n => format!("0 to {}", n - 1),
         };
         let problem = format!("vertex index {found} is out of range: expected {expected}");
@@ -191,7 +194,7 @@ fn ends_early(bytes: &[u8]) -> Refusal {
     Refusal::at(Place::Byte(bytes.len()), problem)
 }
 
-/// Returns the number in `bytes`, which are as many as it takes.
+/// Decodes a value. `bytes` must be as long as its type; a NaN stands for any other length.
 #[inline]
 pub(super) fn decode(bytes: &[u8], kind: Type, is_big: bool) -> f64 {
     let four = |four: [u8; 4]| match is_big {

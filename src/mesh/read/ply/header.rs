@@ -1,4 +1,4 @@
-//! The header of a PLY file: what its elements have, and how they are written.
+//! The header of a PLY file: its elements, their properties, and how values are written.
 
 use super::super::error::{Place, Refusal, quote};
 use super::super::words::text;
@@ -6,7 +6,7 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// The type of a number.
+/// The type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Type {
     I8,
@@ -34,7 +34,7 @@ impl Type {
         })
     }
 
-    /// Returns the bytes of a number.
+    /// Returns the size in bytes.
     pub(super) fn size(self) -> usize {
         match self {
             Type::I8 | Type::U8 => 1,
@@ -44,7 +44,7 @@ impl Type {
         }
     }
 
-    /// Returns the value of a channel that is full.
+    /// Returns the value of a full colour channel of this type.
     pub(super) fn full(self) -> f64 {
         match self {
             Type::F32 | Type::F64 => 1.0,
@@ -54,15 +54,17 @@ impl Type {
     }
 }
 
-/// A property of an element: a number, or a list of them with the type of its count.
+/// A property of an element: a value or a list of values.
 #[derive(Clone, Debug)]
 pub(super) struct Property {
     pub name: String,
+    /// The type of the value, or of each entry of the list.
     pub kind: Type,
+    /// The type of the list's count; `None` for a single value.
     pub count: Option<Type>,
 }
 
-/// An element, and how often it comes.
+/// An element and how many of it the file has.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     pub name: String,
@@ -70,7 +72,7 @@ pub(super) struct Element {
     pub properties: Vec<Property>,
 }
 
-/// How numbers are written.
+/// The way in which values are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Coding {
     Text,
@@ -78,25 +80,26 @@ pub(super) enum Coding {
     BigEndian,
 }
 
-/// The header of a file, and where its numbers begin.
+/// The header of a file.
 pub(super) struct Header {
     pub coding: Coding,
     pub elements: Vec<Element>,
     /// True if a comment names a texture.
     pub has_texture: bool,
-    /// The byte and the line behind the header.
+    /// The first byte after the header and its line.
     pub end: (usize, usize),
 }
 
-/// Returns the bytes of the first line without its end, and how many there are with it. The whole header ends its lines as the first
-/// one does, as the first number behind it may begin with the byte of an LF.
+/// Returns the first line without its end, and its length with the end. All lines of the header end
+/// in the byte `end`, which its first line decides: if every line could choose, the first binary
+/// value behind the header might look like the LF of a CR LF.
 fn split_line(bytes: &[u8], end: u8) -> (&[u8], usize) {
     let length = bytes.iter().position(|byte| *byte == end);
     let length = length.unwrap_or(bytes.len());
     (&bytes[..length], bytes.len().min(length + 1))
 }
 
-/// A header as far as it was read.
+/// The part of a header that was read so far.
 #[derive(Default)]
 struct Reading {
     coding: Option<Coding>,
@@ -105,10 +108,10 @@ struct Reading {
 }
 
 impl Reading {
-    /// Reads the words of a line. Returns true for the last one of the header.
+    /// Reads the words of a line. Returns true for the last line of the header.
     ///
     /// # Errors
-    /// What was expected.
+    /// The text that was expected instead.
     fn line(&mut self, words: &[&str]) -> Result<bool, &'static str> {
         match *words {
             ["comment" | "obj_info", ref rest @ ..] => {
@@ -126,8 +129,8 @@ impl Reading {
             ["element", name, count] => {
                 let is_whole = count.bytes().all(|byte| byte.is_ascii_digit());
                 let expected = match is_whole {
-                    true => "`element`, a name and a number below 2^64",
-                    false => "`element`, a name and a whole number",
+                    true => "`element`, a name and a count below 2^64",
+                    false => "`element`, a name and a count, a whole number",
                 };
                 let count = count.parse();
                 self.elements.push(Element {
@@ -153,7 +156,7 @@ impl Reading {
 /// Reads a header.
 ///
 /// # Errors
-/// For the first line that is wrong.
+/// For the first line that is wrong, and for a file that ends before `end_header`.
 pub(super) fn read(bytes: &[u8]) -> Result<Header, Refusal> {
     let first = bytes.iter().position(|b| matches!(b, b'\n' | b'\r'));
     let is_lone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
@@ -167,7 +170,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, Refusal> {
         let (statement, length) = split_line(&bytes[at..], end);
         at += length;
         line += 1;
-        // What lets the file be recognised.
+        // The first line is `ply`, which was checked before.
         if line == 1 {
             continue;
         }

@@ -1,7 +1,8 @@
-//! PLY, the polygon file format of Stanford: text, or binary in either order of bytes.
+//! PLY files, the polygon file format of Stanford: text, or binary in either byte order.
 //!
-//! Read are positions, normals and colours of vertices, faces of any number of sides with their colours, and strips of triangles.
-//! Whatever else the header lists is passed over.
+//! The reader uses positions, normals and colours of vertices, faces of any number of sides with
+//! their colours, and strips of triangles. It skips all other elements and properties of the
+//! header.
 
 mod body;
 mod header;
@@ -51,14 +52,15 @@ impl MeshFormat for Ply {
             notes.push(String::from("textures are not drawn"));
         }
         let mut polygons = read_body(bytes, &header, false);
-        // Words that are left over, or that do not fit: more of them in each line than the header says.
+        // Some programs write more words in each line than their header says. Read as one stream of
+        // words, their file fails or has words left over. It is then read again line by line.
         let is_whole = matches!(&polygons, Ok((_, true)));
         if header.coding == Coding::Text
             && !is_whole
             && let Ok((by_lines, true)) = read_body(bytes, &header, true)
             && by_lines.count() > 0
         {
-            notes.push("lines have more words than the header says: they are passed over".into());
+            notes.push("lines have more words than the header says: they are ignored".into());
             polygons = Ok((by_lines, true));
         }
         let (polygons, _) = polygons?;
@@ -74,19 +76,20 @@ fn no_polygon(polygons: &Polygons) -> Refusal {
     Refusal::whole(match polygons.positions.len() {
         0 => "has no polygon: expected elements `vertex` and `face`".into(),
         points => format!(
-            "has {points} points and no polygon: expected faces (MeshLab and Open3D make a surface of points)"
+            "has {points} points and no polygon: expected faces (MeshLab and Open3D make a surface from points)"
         ),
     })
 }
 
-/// Reads all elements, and returns whether they are all that there is. With `by_lines`, those of a text begin a line each, and what is
-/// left of the line before is passed over.
+/// Reads all elements, and returns true with them if they end where the file does. With `by_lines`,
+/// each element of a text begins a new line, and the rest of the previous line is skipped.
 fn read_body(bytes: &[u8], header: &Header, by_lines: bool) -> Result<(Polygons, bool), Refusal> {
     let vertices = header.elements.iter().filter(|e| e.name == "vertex");
     let vertices = vertices.map(|element| element.count).sum();
     let mut body = Body::new(bytes, header, by_lines);
     let mut polygons = Polygons::default();
-    // An element without properties has no bytes, however often it comes.
+    // An element without properties has no bytes. Skipping it avoids a loop over whatever count the
+    // header claims.
     let elements = header.elements.iter();
     for element in elements.filter(|element| !element.properties.is_empty()) {
         match element.name.as_str() {
@@ -112,7 +115,8 @@ fn skip_all(body: &mut Body, properties: &[Property]) -> Result<(), Refusal> {
         .try_for_each(|property| body.skip(property))
 }
 
-/// The properties of vertices that are read: position, normal, colour.
+/// The properties of vertices that the reader uses, with their possible names: position, normal,
+/// colour. An index into this list is a *slot*.
 const VERTEX: [&[&str]; 9] = [
     &["x"],
     &["y"],
@@ -125,12 +129,13 @@ const VERTEX: [&[&str]; 9] = [
     &["blue", "b", "diffuse_blue"],
 ];
 
-/// The names of the list of a face's or a strip's corners.
+/// True if a property is the list of a face's or a strip's corners.
 fn is_corners(property: &Property) -> bool {
     property.count.is_some() && matches!(&*property.name, "vertex_indices" | "vertex_index")
 }
 
-/// Returns the place of each property in [`VERTEX`], from the place `first` on.
+/// Returns the slot of each property in [`VERTEX`], and `None` for others. Slots below `first` do
+/// not count.
 fn slots(element: &Element, first: usize) -> Vec<Option<usize>> {
     let slot = |property: &Property| {
         let names = VERTEX.iter().skip(first);
@@ -143,7 +148,7 @@ fn slots(element: &Element, first: usize) -> Vec<Option<usize>> {
     element.properties.iter().map(slot).collect()
 }
 
-/// Returns what channels of colours are multiplied by, so that full ones are 1.
+/// Returns the factors that scale a full colour channel to 1.
 fn scales(element: &Element, slots: &[Option<usize>]) -> [f64; 3] {
     [6, 7, 8].map(|channel| {
         let property = slots.iter().position(|slot| *slot == Some(channel));
@@ -151,7 +156,7 @@ fn scales(element: &Element, slots: &[Option<usize>]) -> [f64; 3] {
     })
 }
 
-/// Returns the bytes of an element without lists.
+/// Returns the size of an element in bytes; `None` if it has lists, whose size varies.
 fn row_size(element: &Element) -> Option<usize> {
     let sizes = element
         .properties
@@ -163,11 +168,12 @@ fn row_size(element: &Element) -> Option<usize> {
     sizes.sum()
 }
 
-/// Makes the error for a vertex that begins at `place` in a binary file.
-fn no_position(body: &Body, place: Place, number: usize, position: DVec3) -> Refusal {
+/// Makes the error for a vertex whose position a mesh cannot have. `place` is the vertex's first
+/// byte in a binary file.
+fn no_position(body: &Body, place: Place, index: usize, position: DVec3) -> Refusal {
     let [x, y, z] = position.to_array();
     let problem =
-        format!("vertex {number} is {x}, {y}, {z}: expected finite numbers, at most 3.4e38");
+        format!("vertex {index} is {x}, {y}, {z}: expected finite numbers, at most 3.4e38");
     let place = match body {
         Body::Text { words, .. } => words.place(),
         Body::Binary { .. } => place,
@@ -175,7 +181,8 @@ fn no_position(body: &Body, place: Place, number: usize, position: DVec3) -> Ref
     Refusal::at(place, problem)
 }
 
-/// Returns what is read of a vertex whose bytes are `row`.
+/// Returns the value of each slot of a vertex whose bytes are `row`; 0 for a slot that the file
+/// does not have.
 #[inline]
 fn values_of_row(row: &[u8], is_big: bool, element: &Element, slots: &[Option<usize>]) -> [f64; 9] {
     let (mut values, mut rest) = ([0.0; 9], row);
@@ -189,7 +196,7 @@ fn values_of_row(row: &[u8], is_big: bool, element: &Element, slots: &[Option<us
     values
 }
 
-/// Reads what is read of a vertex in a text, or with lists.
+/// Reads the value of each slot of a vertex in a text, or of an element with lists.
 #[inline]
 fn values_one_by_one(
     body: &mut Body,
@@ -249,7 +256,8 @@ fn read_vertices(
     Ok(())
 }
 
-/// Reads an index of one of `vertices`; `None` for a negative one, which ends a strip.
+/// Reads the index of a vertex, of which there are `vertices`. Returns `None` for −1, which ends a
+/// strip.
 #[inline]
 fn read_index(
     body: &mut Body,
@@ -281,7 +289,8 @@ fn read_faces(
         };
     }
     let slots = slots(element, 6);
-    // Where lines have other words than the header says, those behind the corners may be anything.
+    // If lines have more words than the header says, the words behind the corners may mean
+    // anything.
     let has_colours =
         !body.is_by_lines() && [6, 7, 8].iter().all(|slot| slots.contains(&Some(*slot)));
     let scales = scales(element, &slots);
@@ -309,8 +318,9 @@ fn read_faces(
     Ok(())
 }
 
-/// Reads strips of triangles: each corner from the third on makes one with the two before it, every other one the other way round. A
-/// negative index begins a new strip.
+/// Reads strips of triangles. Each corner from the third on makes a triangle with the two before
+/// it, and every second triangle is turned around so that all face one way. An index of −1 begins a
+/// new strip.
 fn read_strips(
     body: &mut Body,
     element: &Element,

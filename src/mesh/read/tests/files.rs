@@ -1,4 +1,4 @@
-//! What all formats share: the bytes that tell one, gzip, names.
+//! Behaviour that all formats share: recognition by bytes, gzip, names.
 
 use super::*;
 use crate::mesh::read::{load_mesh, mesh_endings};
@@ -11,7 +11,7 @@ use std::string::ToString;
 const OFF: &[u8] = b"OFF 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 #[test]
-fn bytes_decide_before_endings_and_it_is_said() {
+fn bytes_decide_before_endings_with_a_warning() {
     let none = |_: &str| Err(ErrorKind::NotFound.into());
     for name in ["a", "a.off", "a.xyz"] {
         let loaded = parse_mesh(name, OFF, none).expect("a mesh");
@@ -40,7 +40,7 @@ fn packed_files_of_every_format_are_read() {
 }
 
 #[test]
-fn other_formats_are_told_with_what_converts_them() {
+fn other_formats_are_named_with_a_converter() {
     let expected = "expected a mesh file (OBJ, STL, PLY, OFF or glTF)";
     for (bytes, what) in [
         (&b"; FBX 7.3.0 project file\n"[..], "a text FBX file"),

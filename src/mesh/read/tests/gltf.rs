@@ -1,4 +1,4 @@
-//! glTF and GLB.
+//! glTF and GLB files.
 
 use super::*;
 use crate::mesh::{PolygonMesh, vertex_normals};
@@ -9,7 +9,8 @@ use std::format;
 use std::string::{String, ToString};
 use vertex_normals::NormalSource;
 
-/// The bytes of three positions, three indices, three normals and three colours of bytes.
+/// Returns the bytes of three positions, three indices, three normals, and three colours of one
+/// byte per channel.
 fn buffer() -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut vectors = |vectors: [[f32; 3]; 3]| {
@@ -22,7 +23,8 @@ fn buffer() -> Vec<u8> {
     bytes
 }
 
-/// The JSON of a triangle: what its buffer, its primitive and the node of its mesh have, and whatever else.
+/// Returns the JSON of a triangle. The arguments are added to its buffer, its primitive, the node
+/// of its mesh, and the file.
 fn json(buffer: &str, primitive: &str, node: &str, more: &str) -> String {
     format!(
         r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
@@ -40,7 +42,7 @@ fn json(buffer: &str, primitive: &str, node: &str, more: &str) -> String {
     )
 }
 
-/// The address of the buffer as data.
+/// Returns the buffer as a `data:` address.
 fn data() -> String {
     let text = STANDARD.encode(buffer());
     format!(r#", "uri": "data:application/octet-stream;base64,{text}""#)
@@ -64,7 +66,7 @@ fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
 
 const ALL: &str = r#", "NORMAL": 1, "COLOR_0": 3}, "indices": 2, "material": 0"#;
 
-/// A file of each kind, with all that is read.
+/// Returns a glTF and a GLB file that use every feature of the reader.
 pub(super) fn files() -> (String, Vec<u8>) {
     let node = r#", "scale": [-2, 2, 2]"#;
     let whole = json(&data(), ALL, node, "");
@@ -76,7 +78,7 @@ fn nodes_place_triangles_with_normals_colours_and_materials() {
     let (text, binary) = files();
     let mesh = parse(&text).expect("a mesh").mesh;
     let corner = |c: usize| mesh.positions()[mesh.polygon(0)[c] as usize];
-    // Turned inside out by the negative scale, and back by the order of its corners.
+    // The negative scale turns the triangle inside out, and the reader turns its corners back.
     assert_eq!(corner(0), Vec3::new(0.0, 0.0, 5.0));
     assert_eq!(corner(1), Vec3::new(0.0, 2.0, 5.0));
     assert_eq!(corner(2), Vec3::new(-2.0, 0.0, 5.0));
@@ -88,7 +90,7 @@ fn nodes_place_triangles_with_normals_colours_and_materials() {
     assert_eq!(mesh.material_name(material), Some("red"));
     assert_eq!(mesh.up_by_custom(), Some('y'));
     assert_eq!(parse(binary).expect("a mesh").mesh, mesh);
-    // Beside it, under a name with a blank.
+    // The buffer in a file beside this one, with a blank in its name.
     let beside = json(
         r#", "uri": "a%20b.bin""#,
         ALL,
@@ -108,7 +110,7 @@ fn nodes_place_triangles_with_normals_colours_and_materials() {
 }
 
 #[test]
-fn what_has_no_normals_is_flat_and_it_is_said() {
+fn triangles_without_normals_are_flat_with_a_warning() {
     let bare = json(&data(), r#"}, "indices": 2"#, "", "");
     let loaded = parse(&bare).expect("a mesh");
     let said = "the file has no normals: drawn flat, as glTF says; --normals averaged or crease=40 smooths";
@@ -135,7 +137,7 @@ fn strips_and_fans_are_triangles() {
     let of = |mode: u32| {
         let primitive = format!(r#"}}, "mode": {mode}"#);
         let text = json(&data(), &primitive, "", "");
-        // Six positions: those of the normals are the last three.
+        // Six positions: the last three are the normals' bytes.
         let text = text.replacen(r#""byteLength": 36}"#, r#""byteLength": 72}"#, 1);
         polygons(text.replacen(r#""count": 3"#, r#""count": 5"#, 1))
     };
@@ -149,7 +151,7 @@ fn strips_and_fans_are_triangles() {
 
 #[test]
 fn sparse_accessors_replace_elements() {
-    // The first position becomes that of the first normal, (0, 0, 1).
+    // The first position becomes the first normal, (0, 0, 1).
     let sparse = r#""sparse": {"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 1}}, "#;
     let text = json(&data(), r#"}, "indices": 2"#, "", "");
     let with = text.replacen(
@@ -179,7 +181,7 @@ fn files_are_refused_with_what_is_wrong() {
     );
     assert_refused(
         no_bytes.replacen(r#""count": 3"#, r#""count": 4000000000"#, 1),
-        "t: accessor 0 says 4000000000 elements and has no bytes",
+        "t: accessor 0 says 4000000000 elements and has no bytes: expected a buffer view",
     );
     assert_refused(
         text.replacen(r#""byteLength": 36}"#, r#""byteLength": 24}"#, 1)
@@ -191,7 +193,7 @@ fn files_are_refused_with_what_is_wrong() {
     );
     assert_refused(
         text.replace(r#""POSITION": 0"#, r#""POSITION": 9"#),
-        "t: accessor 9 is named, and there are 4",
+        "t: uses accessor 9: expected 0 to 3",
     );
     assert_refused(
         r#"{"asset": {"version": "1.0"}, "meshes": {}}"#,
@@ -253,10 +255,10 @@ fn cameras_and_lights_are_where_their_nodes_are() {
     let [sun, lamp] = view.lights[..] else {
         panic!("{:?}", view.lights)
     };
-    // −z of the node turned by −90 degrees about x, and back: its z leads up.
+    // The node is turned by −90 degrees about x, so that its z points up.
     let toward = sun.toward.expect("a direction");
     assert!((toward - glam::DVec3::Y).length() < 1e-6, "{toward}");
-    // 3/π and 4/4π together are 1.27: more than 1, so that both are divided by it.
+    // 3/π and 4/4π sum to 1.27, which is over 1, so both are divided by it.
     let sum = 3.0 / core::f64::consts::PI + 1.0 / core::f64::consts::PI;
     let expected = 3.0 / core::f64::consts::PI / sum;
     assert!(
@@ -271,7 +273,7 @@ fn cameras_and_lights_are_where_their_nodes_are() {
 
 #[test]
 fn a_skin_moves_vertices_by_their_joints() {
-    // The colours of bytes are weights of 1 for joint 0, 1 and 2; the joints are normalised bytes of nothing: 0 for all.
+    // The bytes of the colours serve as weights of 1 for joint 0, 1 and 2. The joints are zeros.
     let text = json(
         &data(),
         r#", "JOINTS_0": 4, "WEIGHTS_0": 3}, "indices": 2"#,
@@ -289,7 +291,8 @@ fn a_skin_moves_vertices_by_their_joints() {
         .replace(r#""WEIGHTS_0": 3"#, r#""WEIGHTS_0": 4"#)
         .replace(r#""indices": 2"#, r#""indices": 3"#);
     let mesh = parse(&text).expect("a mesh").mesh;
-    // Joint 0 is the root, at z = 5, whatever the node of the mesh does; its scale is not there.
+    // Joint 0 is the root, at z = 5. The transform of the mesh's own node, with its scale, does not
+    // count.
     assert_eq!(
         mesh.positions(),
         [
@@ -343,7 +346,7 @@ fn glb_files_with_wrong_lengths_are_refused_with_both_lengths() {
 }
 
 #[test]
-fn what_is_no_scene_of_the_second_version_is_told_as_such() {
+fn other_versions_and_files_without_nodes_are_named() {
     for first in [
         r#"{"asset": {"profile": {"version": "1.0.3"}}, "meshes": []}"#,
         r#"{"asset": {}, "meshes": {"a": {}}}"#,
@@ -356,7 +359,7 @@ fn what_is_no_scene_of_the_second_version_is_told_as_such() {
     let text = json(&data(), ALL, "", "").replace(r#"[{"nodes": [0]}]"#, "[{}]");
     let problem = parse(text).expect_err("nothing").problem;
     assert!(
-        problem.starts_with("its scene has no `nodes`: nothing is drawn"),
+        problem.starts_with("its scene has no `nodes`, so nothing is drawn"),
         "{problem}"
     );
     for name in ["t.glb", "t.gltf"] {
@@ -366,7 +369,7 @@ fn what_is_no_scene_of_the_second_version_is_told_as_such() {
     }
 }
 
-/// A path that leaves the folder of the file is asked for by its bare name alone.
+/// For a path that leaves the folder of the file, only the bare name is looked for.
 #[test]
 fn no_buffer_outside_the_folder_is_read() {
     let text = json(r#", "uri": "../../etc/secret""#, ALL, "", "");

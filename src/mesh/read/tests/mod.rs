@@ -1,4 +1,4 @@
-//! Files of all formats but OBJ, whose tests stand beside its reader.
+//! Tests of all formats but OBJ, whose tests stand beside its reader.
 
 mod files;
 #[cfg(feature = "gltf")]
@@ -12,19 +12,19 @@ use super::{LoadedMesh, ReadError, parse_mesh};
 use std::io::ErrorKind;
 use std::vec::Vec;
 
-/// Reads a file of no name that tells its format, and nothing beside it.
+/// Reads a file whose name does not tell its format, with no files beside it.
 fn parse(bytes: impl AsRef<[u8]>) -> Result<LoadedMesh, ReadError> {
     parse_mesh("t", bytes.as_ref(), |_| Err(ErrorKind::NotFound.into()))
 }
 
-/// Returns the polygons of a file that can be read.
+/// Returns the polygons of a valid file.
 #[track_caller]
 fn polygons(bytes: impl AsRef<[u8]>) -> Vec<Vec<u32>> {
     let loaded = parse(bytes).expect("a mesh");
     loaded.mesh.polygons().map(<[u32]>::to_vec).collect()
 }
 
-/// Checks the message of a file that is refused.
+/// Checks the error message of a file that is refused.
 #[track_caller]
 fn assert_refused(bytes: impl AsRef<[u8]>, message: &str) {
     let error = parse(bytes).expect_err("no mesh");

@@ -1,4 +1,5 @@
-//! Broken files: a fixed series of random changes to good ones. All must give a mesh or an error of one line, the same one each time.
+//! Broken files: a fixed series of random changes to good ones. Each must give a mesh or an error
+//! of one line, and reading it again must give an equal result.
 
 use super::*;
 use crate::number::test_random::Random;
@@ -6,7 +7,7 @@ use std::format;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::string::ToString;
 
-/// Words that confuse readers, beside single bytes.
+/// Words that confuse readers. They are inserted besides single bytes.
 const TOKENS: [&str; 16] = [
     "\n",
     "\r",
@@ -44,7 +45,7 @@ fn change(random: &mut Random, bytes: &mut Vec<u8>) {
     }
 }
 
-/// Reads 3000 changed copies of `files`, which are called by `ending`.
+/// Reads 3000 changed copies of `files`, under names that end in `ending`.
 pub(super) fn try_mutants(ending: &str, files: &[Vec<u8>]) {
     let mut random = Random::new(45);
     let (mut meshes, mut errors) = (0, 0);

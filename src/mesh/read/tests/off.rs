@@ -1,4 +1,4 @@
-//! OFF.
+//! OFF files.
 
 use super::*;
 use crate::mesh::read::polygons::coloured;
@@ -39,9 +39,9 @@ fn vertices_have_colours_and_normals_and_faces_have_colours() {
     assert_eq!([material(0), material(1)], colours);
 }
 
-/// A face's colour that cannot be drawn as it stands is told, as one of a vertex is.
+/// A face's colour that cannot be drawn unchanged makes a warning, as a vertex's colour does.
 #[test]
-fn odd_colours_of_faces_are_told() {
+fn odd_colours_of_faces_are_reported() {
     let none = "a colour of a face is not three finite numbers: the face has none";
     let clamped = "a colour of a face is out of range and is clamped to it";
     for (colour, told, material) in [
@@ -108,12 +108,12 @@ fn files_are_refused_with_their_line() {
     );
     assert_refused(
         "4OFF\n3 1\n0 0 0 1\n2 0 0 0\n0 3 0 3\n3 0 1 2\n",
-        "t:4: a vertex with w = 0: expected another number, by which x, y and z are divided",
+        "t:4: a vertex with w = 0: expected another number, as x, y and z are divided by it",
     );
     change(
         "OFF\n",
         "OFF BINARY\n",
-        "t: is a binary OFF file: expected OFF text (meshconv and geomview write that)",
+        "t: is a binary OFF file: expected OFF text (meshconv and geomview write it)",
     );
     assert_refused(
         "OFF 3 0\n0 0 0\n1 0 0\n0 1 0\n",

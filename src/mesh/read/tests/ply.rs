@@ -1,4 +1,4 @@
-//! PLY, text and binary.
+//! PLY files, text and binary.
 
 use super::*;
 use crate::mesh::PolygonMesh;
@@ -7,7 +7,7 @@ use glam::Vec3;
 use std::format;
 use std::string::String;
 
-/// The header of four vertices, with more properties of them, and of one face.
+/// Returns a header for four vertices, with more properties, and one face.
 pub(super) fn header(coding: &str, more: &str) -> String {
     format!(
         "ply\nformat {coding} 1.0\ncomment by hand\nelement vertex 4\nproperty float x\nproperty double y\nproperty short z\n\
@@ -16,7 +16,7 @@ pub(super) fn header(coding: &str, more: &str) -> String {
     )
 }
 
-/// The same file in each coding: a square with normals and colours.
+/// Returns a square with normals and colours as a file in each coding.
 pub(super) fn square(coding: &str) -> Vec<u8> {
     let more = "property float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nproperty uchar green\n\
                 property uchar blue\n";
@@ -30,9 +30,9 @@ pub(super) fn square(coding: &str) -> Vec<u8> {
         return bytes;
     }
     let is_big = coding == "binary_big_endian";
-    let mut add = |number: &[u8]| match is_big {
-        true => bytes.extend(number.iter().rev()),
-        false => bytes.extend(number),
+    let mut add = |value: &[u8]| match is_big {
+        true => bytes.extend(value.iter().rev()),
+        false => bytes.extend(value),
     };
     for (x, y) in corners {
         add(&(x as f32).to_le_bytes());
@@ -52,7 +52,7 @@ pub(super) fn square(coding: &str) -> Vec<u8> {
 }
 
 #[test]
-fn all_codings_hold_the_same_mesh() {
+fn all_codings_make_equal_meshes() {
     let read = |coding: &str| parse(square(coding)).expect("a mesh");
     let text = read("ascii");
     let mesh = &text.mesh;
@@ -115,7 +115,7 @@ fn files_are_refused_with_their_line_or_byte() {
     change(
         "vertex 4",
         "vertex x",
-        "t:4: `element vertex x`: expected `element`, a name and a whole number",
+        "t:4: `element vertex x`: expected `element`, a name and a count, a whole number",
     );
     change(
         "float x",
@@ -146,7 +146,7 @@ fn files_are_refused_with_their_line_or_byte() {
     change(
         "element face 1",
         "element face 0",
-        "t: has 4 points and no polygon: expected faces (MeshLab and Open3D make a surface of points)",
+        "t: has 4 points and no polygon: expected faces (MeshLab and Open3D make a surface from points)",
     );
     let binary = square("binary_little_endian");
     let end = binary.len();
@@ -164,7 +164,7 @@ fn files_are_refused_with_their_line_or_byte() {
 }
 
 #[test]
-fn numbers_past_a_limit_are_told_with_it() {
+fn counts_past_a_limit_are_reported_with_the_limit() {
     let file = |vertices: &str, sides: &str| {
         format!(
             "ply\nformat ascii 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
@@ -182,7 +182,7 @@ fn numbers_past_a_limit_are_told_with_it() {
     let error = parse(file("99999999999999999999999", "3")).expect_err("no mesh");
     let problem = error.problem;
     assert!(
-        problem.ends_with("expected `element`, a name and a number below 2^64"),
+        problem.ends_with("expected `element`, a name and a count below 2^64"),
         "{problem}"
     );
 }

@@ -1,4 +1,4 @@
-//! STL, binary and text.
+//! STL files, binary and text.
 
 use super::*;
 use crate::mesh::vertex_normals::{NormalSource, NormalWeight};
@@ -11,7 +11,7 @@ const SQUARE: [[f32; 9]; 2] = [
     [1.0, 1.0, 0.0, -0.0, 1.0, 0.0, -0.0, 0.0, 0.0],
 ];
 
-/// A binary file that says that it has `count` triangles.
+/// Returns a binary file whose header says `count` triangles.
 pub(super) fn binary(header: &[u8], count: u32, triangles: &[[f32; 9]]) -> Vec<u8> {
     let mut bytes = header.to_vec();
     bytes.resize(80, 0);
@@ -24,7 +24,7 @@ pub(super) fn binary(header: &[u8], count: u32, triangles: &[[f32; 9]]) -> Vec<u
     bytes
 }
 
-/// The text of a facet.
+/// Returns the text of a facet.
 fn facet(corners: &str) -> String {
     let vertices = corners
         .split(',')
@@ -47,18 +47,18 @@ fn equal_positions_are_one_and_edges_are_creased() {
     assert_eq!(mesh.normal_rule().source, NormalSource::Crease(40.0));
     assert_eq!(mesh.normal_rule().weight, NormalWeight::Angle);
     assert!(loaded.warnings.is_empty() && mesh.given_normals().is_none());
-    // As a text far from 0, where 32 bits are too coarse to tell its corners apart.
+    // A text file far from 0, where 32 bits are too coarse to tell its corners apart.
     let far = "4000000 0 0.001,4000000.001 0 0.001,4000000 0.001 0.001";
     let loaded = parse(format!("solid far\n{}", facet(far))).expect("a mesh");
     assert_eq!(loaded.mesh.positions().len(), 3);
 }
 
 #[test]
-fn the_number_of_triangles_may_be_wrong() {
+fn the_triangle_count_may_be_wrong() {
     for count in [0, u32::MAX] {
         let loaded = read_stl(&binary(b"x", count, &SQUARE)).expect("a mesh");
         assert_eq!(loaded.mesh.polygon_count(), 2);
-        let said = format!("says {count} triangles: all 2 are read");
+        let said = format!("the header says {count} triangles: all 2 in the file are read");
         assert_eq!(loaded.warnings, [said]);
     }
     let trailing = [binary(b"x", 2, &SQUARE), b"abc".to_vec()].concat();
@@ -69,16 +69,16 @@ fn the_number_of_triangles_may_be_wrong() {
     let cut = binary(b"x", 3, &SQUARE);
     assert_eq!(
         error(&cut),
-        "t.stl: byte 184: the file ends in triangle 3 of 3"
+        "t.stl: byte 184: the file ends in triangle 3 of 3: expected all of them"
     );
-    let short =
-        "t.stl: is 3 bytes long: expected text that begins with `solid`, or a header of 84 bytes";
+    let short = "t.stl: is 3 bytes long: expected text that begins with `solid`, or a binary file of at least 84 bytes";
     assert_eq!(error(b"abc"), short);
     let none = "t.stl: has no triangle: expected triangles, binary or as `facet` statements";
     assert_eq!(error(&binary(b"x", 0, &[])), none);
     let mut nan = SQUARE;
     nan[1][4] = f32::NAN;
-    let said = "t.stl: byte 134: triangle 2 has a coordinate that is no finite number";
+    let said =
+        "t.stl: byte 134: triangle 2 has a coordinate that is not finite: expected finite numbers";
     assert_eq!(error(&binary(b"x", 2, &nan)), said);
 }
 

@@ -67,7 +67,7 @@ fn files_without_polygons() {
     );
     let no_polygon = "has no polygon: expected OBJ text with an `f` line of at least three corners";
     assert_error(POINTS, 0, no_polygon);
-    let library = "is a material library, and not the mesh that names it: expected OBJ text with `v` and `f` lines";
+    let library = "is a material library, not the mesh that names it: expected OBJ text with `v` and `f` lines";
     assert_error("# red\nnewmtl red\nKd 1 0 0\n", 0, library);
     assert_error("# nothing\n", 0, no_polygon);
     assert_error("hello cube\nfacet normal 0 0 1\n", 0, no_polygon);
@@ -87,7 +87,8 @@ fn binary_data() {
     assert!(parse([0x89, b'P', b'N', b'G', 13, 10, 26, 10, 200]).is_err());
 }
 
-/// Checks the error of a triangle whose second position is the statement `v`, and none without the triangle's face.
+/// Checks the error of a triangle whose second position is the statement `v`. Without the face
+/// there must be no error.
 #[track_caller]
 fn assert_bad_position(v: &str, message: &str) {
     let text = format!("v 0 0 0\n{v}\nv 0 1 0\n\nf 1 2 3\n");
@@ -135,12 +136,12 @@ fn a_position_that_is_no_number_refuses_the_file_only_if_a_face_uses_it() {
 
 #[test]
 fn the_first_face_that_uses_a_position_is_named() {
-    // The face comes before the position, and another one, which is left out, before both.
+    // The face comes before the position. An earlier face is left out and does not count.
     let text = "f 1 2\nf 2 3 4\nf 1 2 3\nv 0 0 0\nv nan 0 0\nv 1 0 0\nv 0 1 0\n";
     let message =
         "`nan` in `v`: expected a finite number, and the face in line 2 uses this position";
     assert_error(text, 5, message);
-    // The error says it all.
+    // The error replaces the warning.
     let told = ["a face of fewer than three different corners is left out (line 1)"];
     assert_eq!(parse(text).unwrap_err().warnings, told);
     // A face that is left out uses nothing.
@@ -181,17 +182,17 @@ fn a_face_that_is_left_out_refuses_nothing() {
 }
 
 #[test]
-fn what_was_odd_before_an_error_is_shown_with_it() {
+fn warnings_from_before_an_error_come_with_it() {
     let error = parse(format!("{POINTS}hello\nl 1 2\nf 1 2 9\n")).unwrap_err();
     assert_eq!(
         error.warnings,
         [
             "points and lines are not drawn (line 7)",
-            "`hello` is no OBJ statement and is passed over (line 6)"
+            "`hello` is not an OBJ statement and is ignored (line 6)"
         ]
     );
     let error = parse("Not Found\n").unwrap_err();
-    let told = "`Not` is no OBJ statement and is passed over (line 1)";
+    let told = "`Not` is not an OBJ statement and is ignored (line 1)";
     assert_eq!(
         error.problem,
         "has no polygon: expected OBJ text with an `f` line of at least three corners"
@@ -201,7 +202,7 @@ fn what_was_odd_before_an_error_is_shown_with_it() {
 }
 
 #[test]
-fn files_of_other_formats_are_told_as_such() {
+fn files_of_other_formats_are_named() {
     let utf16 = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let files: [(Vec<u8>, &str); 7] = [
         (utf16("\u{feff}v 0 0 0\n"), "UTF-16 text (not UTF-8)"),
@@ -235,7 +236,7 @@ fn corners() {
         "--1",
     ] {
         let message = format!(
-            "`{corner}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers"
+            "`{corner}` is not a corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers"
         );
         assert_error_after_points(&format!("f 1 2 {corner}\n"), 6, &message);
     }
@@ -258,7 +259,7 @@ fn indices() {
     assert_error(
         "f -1 -2 -3\n",
         1,
-        "position index -1 is out of range: expected a position to be given first, there is none",
+        "position index -1 is out of range: expected a position before this line, but there is none",
     );
     // Negative indices are checked at their line, positive ones at the end. The first line that
     // stays wrong is reported.
@@ -315,21 +316,21 @@ fn a_normal_that_does_not_exist_is_none() {
 }
 
 #[test]
-fn a_continued_statement_is_told_by_its_first_line() {
+fn a_continued_statement_is_reported_with_its_first_line() {
     assert_error_after_points(
         "f 1 2 \\\n3 \\\nx\n",
         6,
-        "`x` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
+        "`x` is not a corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
     );
     assert_error_after_points(
         "f 1 \\\n2 3\nf 1 2 x\n",
         8,
-        "`x` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
+        "`x` is not a corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
     );
 }
 
 #[test]
-fn quotes_are_one_short_line() {
+fn quotes_fit_one_short_line() {
     let error = parse(format!("f 1 2 \u{1b}[31m{}\n", "x".repeat(1000)))
         .unwrap_err()
         .to_string();
@@ -340,7 +341,7 @@ fn quotes_are_one_short_line() {
 }
 
 #[test]
-fn names_are_quoted_as_they_are() {
+fn names_are_quoted_unchanged() {
     let loaded = after_points("usemtl C:\\a\"b'\\\nf 1 2 3\n");
     let told = "no material library defines `C:\\a\"b'\\`: the default material is used";
     assert_eq!(warning(&loaded), told);
@@ -377,7 +378,7 @@ fn limits() {
 fn backslashes_between_numbers_are_named_in_one_word_as_in_three() {
     let expected = |word| {
         format!(
-            "`{word}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers with `/` between them, not `\\`"
+            "`{word}` is not a corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers with `/` between them, not `\\`"
         )
     };
     for (face, word) in [("1\\2\\3", "1\\2\\3"), ("1\\1 2\\1 3\\1", "1\\1")] {

@@ -26,7 +26,7 @@ fn polygons_keep_all_their_sides() {
 
 #[test]
 fn a_file_of_triangles_only_has_its_polygons() {
-    // The parser then leaves out the list of corner counts.
+    // The parser leaves out the corner counts of a file that has only triangles.
     assert_eq!(
         polygons(&after_points("f 1 2 3\nf 1 3 4\n")),
         [[0, 1, 2], [0, 2, 3]]
@@ -85,13 +85,13 @@ fn carriage_returns_and_line_feeds_end_lines_in_any_mixture() {
         "# square\nv 0 0 0\rv 1 0 0\r\nv 1 1 0\nv 0 1 0\rf 1 2 4 # a\rf 1 4 3\n\rf 2 3 4\r\r\nf 1";
     let loaded = parse(text).unwrap();
     assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 2, 3], [1, 3, 2]]);
-    // The blank lines between count.
+    // Blank lines count as lines.
     assert!(
         warning(&loaded).ends_with("is left out (line 11)"),
         "{:?}",
         loaded.warnings
     );
-    // A line that ends in CR alone may be continued, too.
+    // A line that ends in a single CR may be continued, too.
     let loaded = parse("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 \\\r2 \\\r\n3\rf 3 2 1\r").unwrap();
     assert_eq!(polygons(&loaded), [[0, 1, 2], [2, 1, 0]]);
 }
@@ -112,7 +112,7 @@ fn a_backslash_continues_no_name_and_no_comment() {
         let loaded = after_points(&format!("{line}\nf 1 2 3\n"));
         assert_eq!(polygons(&loaded), [[0, 1, 2]], "{line}");
     }
-    // Numbers go on: of faces, positions and curves.
+    // Numbers of faces, positions and curves continue on the next line.
     let text = "v 0 \\\n0 0\nvn \\\n0 0 1\nV 1 0\\ \n 0\ncurv2 1 \\\n2 \\\n3\nv 0 1 0\nf 1//1 2//1 \\\n3//1\n";
     let loaded = parse(text).unwrap();
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
@@ -271,26 +271,26 @@ fn corners_with_and_without_normals_may_be_mixed() {
     assert!(unused.mesh.given_normals().is_none());
 }
 
-/// Faces may name normals and texture coordinates that the file does not have at all, as in other
-/// loaders.
+/// Faces may name normals and texture coordinates although the file has none at all. Other loaders
+/// allow that, too.
 #[test]
 fn normals_of_a_file_without_any_are_averaged() {
     for (faces, told) in [
         (
             "f 1//1 2//2 3//9\nf 1 3 4\n",
-            "a face names normals or texture coordinates, of which",
+            "a face names normals or texture coordinates, but the file has none",
         ),
         (
             "f 1//-1 2//-2 3//-1\n",
-            "a face names normals or texture coordinates, of which",
+            "a face names normals or texture coordinates, but the file has none",
         ),
         (
             "f 1/1/1 2/2/2 3/3/3\n",
-            "a face names normals or texture coordinates, of which",
+            "a face names normals or texture coordinates, but the file has none",
         ),
         (
             "f 1/1/-1 2/2/1 3/3/3\n",
-            "a face names normals or texture coordinates, of which",
+            "a face names normals or texture coordinates, but the file has none",
         ),
     ] {
         let loaded = after_points(faces);
@@ -299,7 +299,7 @@ fn normals_of_a_file_without_any_are_averaged() {
         let warning = warning(&loaded);
         assert!(warning.starts_with(told), "{warning}");
         assert!(
-            warning.ends_with("the file has none: they are passed over (3 times, first in line 6)"),
+            warning.ends_with("the file has none: they are ignored (3 times, first in line 6)"),
             "{warning}"
         );
     }
@@ -316,7 +316,7 @@ fn smoothing(text: &str) -> Vec<Option<u32>> {
 #[test]
 fn smoothing_groups_belong_to_the_polygons_after_them() {
     const OFF: Option<u32> = Some(PolygonMesh::FACETED);
-    // 1 is for polygons before any group, and `off` takes the next number.
+    // 1 is for polygons before any group, and `off` gets the next index.
     let [before, b, c] = [Some(1), Some(3), Some(4)];
     for (text, expected) in [
         ("f 1 2 3\nf 1 3 4\n", [None, None]),
@@ -335,7 +335,7 @@ fn smoothing_groups_belong_to_the_polygons_after_them() {
     assert_eq!(odd.mesh.smoothing_group(0), OFF);
     assert_eq!(
         warning(&odd),
-        "`s smooth` is no smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off` (line 6)"
+        "`s smooth` is not a smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off` (line 6)"
     );
 }
 
@@ -403,11 +403,11 @@ fn texture_coordinates_do_not_matter() {
 }
 
 #[test]
-fn unknown_and_free_form_statements_are_told_once() {
+fn unknown_and_free_form_statements_are_reported_once() {
     let loaded = after_points("hello 1\nmoin 2\nf 1 2 3\n");
     assert_eq!(
         warning(&loaded),
-        "`hello` is no OBJ statement and is passed over (2 times, first in line 6)"
+        "`hello` is not an OBJ statement and is ignored (2 times, first in line 6)"
     );
     let loaded = after_points("cstype bezier\ncurv 0 1 1 2 3\nf 1 2 3\n");
     assert!(
@@ -535,7 +535,8 @@ fn colours_are_used_if_all_positions_of_faces_have_one() {
         loaded.warnings[1..],
         ["the colours look like 0 to 255: divide them by 255"]
     );
-    // Numbers after a colour, such as alpha, are ignored; four numbers are a position with a weight, five are no colour.
+    // Numbers after a colour, such as alpha, are ignored; four numbers are a position with a
+    // weight, five are no colour.
     let loaded =
         parse("v 0 0 0 1 0 0 1\nv 1 0 0 0 1 0 .5 x\nv 0 1 0 0 0 1 nan\nf 1 2 3\n").unwrap();
     assert_eq!(
@@ -551,21 +552,21 @@ fn colours_are_used_if_all_positions_of_faces_have_one() {
 
 #[test]
 fn an_index_far_ahead_takes_no_memory() {
-    // Four bytes for each position up to there are more than processors can address.
+    // Four bytes for each position up to that index would be more than processors can address.
     let error = parse(format!("f 1 2 {}\n{POINTS}", 1u64 << 50)).unwrap_err();
     assert!(error.to_string().contains("out of range: expected 1 to 5"));
 }
 
 #[test]
-fn normals_that_no_face_names_are_told_once() {
+fn normals_that_no_face_names_are_reported_once() {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let told = |text: String| parse(&text).unwrap().warnings;
-    let unused = "a normal that no face uses is passed over";
+    let unused = "a normal that no face uses is ignored";
     let all = told(format!("{triangle}vn 0 0 1\nvn 0 1 0\nf 1 2 3\n"));
     assert_eq!(all, [format!("{unused} (2 times, first in line 4)")]);
     let one = told(format!("{triangle}vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\n"));
     assert_eq!(one, [format!("{unused} (line 5)")]);
-    // Named before it is given, or backwards.
+    // A face may name a normal before its line, or backwards.
     for corners in [
         "f 1//1 2//1 3//2\nvn 0 0 1\nvn 0 1 0\n",
         "vn 0 0 1\nf 1//-1 2//-1 3//-1\n",
@@ -596,7 +597,7 @@ fn a_nul_that_ends_a_line_or_stands_in_a_comment_or_a_name_refuses_nothing() {
 }
 
 #[test]
-fn a_byte_order_mark_at_the_start_of_any_line_is_passed_over() {
+fn a_byte_order_mark_at_the_start_of_any_line_is_skipped() {
     for mark in ["\u{feff}", "\u{feff}\u{feff} "] {
         let loaded = parse(format!(
             "{mark}{POINTS}{mark}f 1 2 3\n{mark}\n{mark}f 1 3 4\n{mark}"
@@ -605,7 +606,7 @@ fn a_byte_order_mark_at_the_start_of_any_line_is_passed_over() {
         assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 2, 3]]);
         assert_eq!(loaded.warnings, Vec::<String>::new());
     }
-    // In Latin-1, which the name is in.
+    // The mark in a file that is decoded as Latin-1 because of its name.
     let mut bytes = POINTS.as_bytes().to_vec();
     bytes.extend(b"\xef\xbb\xbfg caf\xe9\n\xef\xbb\xbff 1 2 3\n");
     let loaded = parse(bytes).unwrap();

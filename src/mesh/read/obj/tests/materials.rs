@@ -84,7 +84,7 @@ fn one_number_is_grey() {
 }
 
 #[test]
-fn lines_that_cannot_be_read_are_told_and_ignored() {
+fn lines_that_cannot_be_read_are_reported_and_ignored() {
     for (line, told) in [
         (
             "Kd spectral a.rfl 1",
@@ -116,7 +116,7 @@ fn lines_that_cannot_be_read_are_told_and_ignored() {
         ("Ns -3", "`Ns -3` is ignored: expected one finite"),
         (
             "illum 2.0",
-            "`illum 2.0` is ignored: expected the number of an illumination model",
+            "`illum 2.0` is ignored: expected an illumination model, a whole number from 0 to 10",
         ),
     ] {
         let (found, warnings) = material(&format!("newmtl m\n\n{line}\n"));
@@ -135,7 +135,9 @@ fn lines_that_cannot_be_read_are_told_and_ignored() {
         "{warnings:?}"
     );
     assert!(
-        warnings[1].starts_with("a.mtl:3: `newmtl` is ignored: expected a name"),
+        warnings[1].starts_with(
+            "a.mtl:3: `newmtl` is ignored with all statements up to the next `newmtl`: expected"
+        ),
         "{warnings:?}"
     );
     // A file with other content must not fill the screen.
@@ -172,7 +174,7 @@ fn lines_end_by_cr_and_names_go_on_to_their_end() {
 }
 
 #[test]
-fn what_is_not_drawn_is_told_once_a_kind() {
+fn features_that_are_not_drawn_are_reported_once_per_kind() {
     for (lines, told) in [
         (
             "map_Bump -bm 1.0 a.png\nnorm b.png\nrefl c\nmap_Kd\nKd 1",
@@ -217,7 +219,7 @@ fn what_is_not_drawn_is_told_once_a_kind() {
         ),
         (
             "colour red\nshine",
-            "3: `colour red`: no MTL statement, passed over (2 times)",
+            "3: `colour red`: not an MTL statement, ignored (2 times)",
         ),
         (
             "newmtl m\nKd 0\nnewmtl m",
@@ -237,7 +239,7 @@ fn what_is_not_drawn_is_told_once_a_kind() {
 }
 
 #[test]
-fn materials_that_no_face_uses_are_not_told() {
+fn materials_that_no_face_uses_are_not_reported() {
     let (_, warnings) = material("newmtl m\nnewmtl n\nmap_Kd a.png\nd 0\nKd x\nnewmtl n\n");
     assert_eq!(warnings, Vec::<String>::new());
 }
@@ -252,7 +254,7 @@ fn a_texture_over_black_or_no_colour_is_drawn_grey() {
         let (found, warnings) = material(&format!("newmtl m\n{lines}\n"));
         assert_eq!(found, Some(PLAIN), "{lines}");
         let told = format!(
-            "a.mtl:{line}: `map_Kd wood.png`: over a black or missing `Kd`: the default grey is drawn"
+            "a.mtl:{line}: `map_Kd wood.png`: a texture over a black or missing `Kd`: the default grey is drawn instead"
         );
         assert_eq!((warnings.len(), &warnings[1]), (2, &told), "{lines}");
     }
@@ -267,7 +269,7 @@ fn a_texture_over_black_or_no_colour_is_drawn_grey() {
 }
 
 #[test]
-fn a_library_that_is_no_mtl_text_is_told_as_such() {
+fn a_library_that_is_not_mtl_text_is_named() {
     let utf16: Vec<u8> = "\u{feff}newmtl m\n"
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
@@ -373,7 +375,7 @@ fn several_libraries() {
 }
 
 #[test]
-fn missing_libraries_are_told_once() {
+fn missing_libraries_are_reported_once() {
     let asked = RefCell::new(Vec::new());
     let text = format!("{POINTS}mtllib no.mtl\nmtllib no.mtl\nusemtl m\nf 1 2 3\n");
     let loaded = parse_mesh("t.obj", text.as_bytes(), |name| {
@@ -498,7 +500,7 @@ fn one_library_by_two_names_is_read_once_and_several_paths_are_several_files() {
 }
 
 #[test]
-fn an_equal_material_twice_is_silence() {
+fn repeating_an_equal_material_makes_no_warning() {
     for (mtl, told) in [
         ("newmtl m\nKd 1 0 0\nnewmtl m\nKd 1 0 0\n", 0),
         (
