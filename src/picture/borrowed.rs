@@ -1,14 +1,16 @@
-//! A picture in memory that the caller owns, borrowed to be drawn into.
+//! A picture that the caller owns, borrowed for drawing.
 
 use super::{LinearPicture, Picture8};
 
-/// A picture that the caller owns, as [`Variant::draw`](crate::shading::Variant::draw) takes it: rows of pixels from the top, in one
-/// of four formats. Any [`Picture8`] and [`LinearPicture`] is one: `(&mut picture).into()`.
+/// A mutable view of a picture that the caller owns, for
+/// [`Variant::draw`](crate::shading::Variant::draw): rows of pixels from the top, in one of four
+/// formats. Any [`Picture8`] or [`LinearPicture`] becomes one by `(&mut picture).into()`.
 ///
-/// Alpha is straight, 0 where nothing was drawn. Sizes are compared where it is drawn into, not here.
+/// Alpha is straight, and 0 where nothing was drawn. `draw` checks the sizes; the constructors here
+/// do not.
 ///
-/// Rows need not touch ([`PictureMut::stride`]), and a *viewport* is a part of a picture ([`PictureMut::part`]): nothing
-/// outside of it is written.
+/// Rows need not be adjacent in memory ([`PictureMut::stride`]). A *viewport* is a part of a
+/// picture ([`PictureMut::part`]), and nothing outside it is written.
 #[derive(Debug)]
 pub struct PictureMut<'a> {
     pub(crate) pixels: PixelsMut<'a>,
@@ -17,7 +19,7 @@ pub struct PictureMut<'a> {
     pub(crate) stride: usize,
 }
 
-/// Pixels in one of the formats.
+/// The pixels, in one of the formats.
 #[derive(Debug)]
 pub(crate) enum PixelsMut<'a> {
     Rgba8(&'a mut [[u8; 4]]),
@@ -36,35 +38,40 @@ impl<'a> PictureMut<'a> {
         }
     }
 
-    /// Borrows bytes: red, green, blue, alpha. `bytes.as_chunks_mut().0` makes pixels of a slice of bytes.
+    /// Borrows four bytes per pixel: red, green, blue, alpha. `bytes.as_chunks_mut().0` turns a
+    /// slice of bytes into pixels.
     pub fn rgba8(pixels: &'a mut [[u8; 4]], width: usize, height: usize) -> Self {
         PictureMut::new(PixelsMut::Rgba8(pixels), width, height)
     }
 
-    /// Borrows bytes: blue, green, red, alpha.
+    /// Borrows four bytes per pixel: blue, green, red, alpha.
     pub fn bgra8(pixels: &'a mut [[u8; 4]], width: usize, height: usize) -> Self {
         PictureMut::new(PixelsMut::Bgra8(pixels), width, height)
     }
 
-    /// Borrows numbers: `0xAARRGGBB`, in the byte order of the machine, as windows (`softbuffer`, `minifb`) take them.
+    /// Borrows one `u32` per pixel: `0xAARRGGBB` in the machine's byte order, as window libraries
+    /// (`softbuffer`, `minifb`) expect it.
     pub fn argb(pixels: &'a mut [u32], width: usize, height: usize) -> Self {
         PictureMut::new(PixelsMut::Argb(pixels), width, height)
     }
 
-    /// Borrows floats: linear red, green, blue and alpha, stored in 0..=1 and not rounded.
+    /// Borrows four floats per pixel: linear red, green, blue and alpha, clamped to 0..=1 and not
+    /// rounded.
     pub fn linear(pixels: &'a mut [[f32; 4]], width: usize, height: usize) -> Self {
         PictureMut::new(PixelsMut::Linear(pixels), width, height)
     }
 
-    /// Sets the distance from one row to the next, in pixels; without it rows touch. What lies between two rows is never written.
+    /// Sets the distance from one row to the next, in pixels. By default it is the width. Pixels
+    /// between two rows are never written.
     #[must_use]
     pub fn stride(self, stride: usize) -> Self {
         PictureMut { stride, ..self }
     }
 
-    /// Returns a part of the picture, the viewport of a frame: `width` × `height` pixels from column `x` and row `y` on. What reaches
-    /// beyond the picture is cut off, so that the part is smaller and no frame of the size that was meant is drawn
-    /// ([`DrawError::Size`](crate::raster::DrawError::Size)).
+    /// Returns a part of the picture, as the viewport of a frame: `width` × `height` pixels from
+    /// column `x` and row `y` on. A part that reaches beyond the picture is cut off at its edge. A
+    /// frame of the intended size then no longer fits, and drawing fails with
+    /// [`DrawError::Size`](crate::raster::DrawError::Size).
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
@@ -105,7 +112,7 @@ impl<'a> PictureMut<'a> {
         }
     }
 
-    /// Returns the number of pixels that it was given.
+    /// Returns how many pixels the slice holds.
     pub(crate) fn len(&self) -> usize {
         match &self.pixels {
             PixelsMut::Rgba8(pixels) | PixelsMut::Bgra8(pixels) => pixels.len(),
@@ -115,7 +122,7 @@ impl<'a> PictureMut<'a> {
     }
 }
 
-/// Returns the pixels from one on; none where the picture has fewer.
+/// Returns the pixels from index `first` on, or none if the slice is shorter.
 fn from<P>(pixels: &mut [P], first: usize) -> &mut [P] {
     pixels.get_mut(first..).unwrap_or_default()
 }

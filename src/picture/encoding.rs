@@ -1,16 +1,19 @@
-//! From computed intensities to stored grey levels.
+//! Transfer functions: from computed intensities to stored grey levels, and back.
 
-use super::{LevelRows, Levels, LinearPicture, Picture8};
+#[cfg(feature = "cli")]
+use super::{LevelRows, Levels};
+use super::{LinearPicture, Picture8};
 
-/// A way to store linear values in eight bits.
+/// How linear intensities are stored in eight bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
 #[cfg_attr(feature = "io", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
 pub enum Encoding {
-    /// round(255 c): no transfer function.
+    /// No transfer function: round(255 c).
     #[default]
     Linear,
-    /// The sRGB transfer function (IEC 61966-2-1), then rounded.
+    /// The sRGB transfer function (IEC 61966-2-1), then rounding.
     Srgb,
 }
 
@@ -18,7 +21,7 @@ impl Encoding {
     /// Every encoding.
     pub const ALL: [Encoding; 2] = [Encoding::Linear, Encoding::Srgb];
 
-    /// Returns its name on the command line and in data.
+    /// Returns the name on the command line and in data.
     pub fn name(self) -> &'static str {
         match self {
             Encoding::Linear => "linear",
@@ -34,7 +37,8 @@ impl Encoding {
         }
     }
 
-    /// Returns the linear intensity of a stored value, both in 0..=1: the inverse of [`Encoding::encode`].
+    /// Returns the linear intensity of a stored value, both in 0..=1: the inverse of
+    /// [`Encoding::encode`].
     pub fn decode(self, stored: f64) -> f64 {
         match self {
             Encoding::Linear => stored,
@@ -45,23 +49,24 @@ impl Encoding {
 
 /// Returns the stored grey level of intensity `c`: 255 c, rounded to the nearest integer.
 ///
-/// `c` is clamped to 0..=1 first; NaN becomes 0. The only `f32` for which 255 c is a half is ½ itself; it gives 128. In
-/// `f32` the product is rounded too, so that values within 2⁻¹⁷ of a half may fall on either side of it: far less than
-/// shading in `f32` is off by.
+/// `c` is first clamped to 0..=1; NaN becomes 0. The only `f32` for which 255 c is exactly a half
+/// is ½, and it returns 128. The product is rounded in `f32`, so values within 2⁻¹⁷ of a half may
+/// fall on either side of it. That is far less than the error of shading in `f32`.
 ///
-/// Tried and dropped: exact in `f64`, and a conversion by `as`, whose saturation keeps the loop from being vectorised:
-/// both took 4 ns per pixel, a quarter of a flat-shaded frame.
+/// The conversion avoids `as`, because its saturation keeps the compiler from vectorising the loop.
 #[inline(always)]
 pub fn quantise(c: f32) -> u8 {
     quantise_level(255.0 * c)
 }
 
-/// Returns the integer nearest to `level`, which is clamped to 0..=255 first; NaN becomes 0, a half the even one of its neighbours.
+/// Returns the integer nearest to `level`, clamped to 0..=255. NaN becomes 0, and a half is rounded
+/// to the even neighbour.
 #[inline(always)]
 pub(crate) fn quantise_level(level: f32) -> u8 {
-    /// 2²³: from here on floats are integers, so that adding it rounds, and its lowest bits are the result.
+    /// 2²³: floats from here on are integers. Adding it therefore rounds, and leaves the result in
+    /// the lowest bits.
     const INTEGERS: f32 = 8_388_608.0;
-    // The comparisons in this order make NaN 0.
+    // NaN fails the first comparison and becomes 0. Swapping the two lines would make it 255.
     let level = if level > 0.0 { level } else { 0.0 };
     let level = if level < 255.0 { level } else { 255.0 };
     (level + INTEGERS).to_bits() as u8
@@ -74,55 +79,66 @@ pub(crate) fn quantise_level(level: f32) -> u8 {
 /// 1.055 c^(1/2.4) − 0.055  otherwise
 /// ```
 ///
-/// Values below 0 stay on the straight line, values above 1 on the curve; NaN stays NaN.
+/// Values below 0 stay on the straight line, and values above 1 on the curve. NaN stays NaN.
 pub fn srgb_encode(c: f32) -> f32 {
     if c <= 0.003_130_8 {
         return 12.92 * c;
     }
-    // In f64, so that 1 becomes 1 and not the float below it.
+    // Computed in f64, so that 1 becomes 1 and not the float just below it.
     (1.055 * libm::pow(f64::from(c), 1.0 / 2.4) - 0.055) as f32
 }
 
-/// Returns the sRGB value of linear intensity `c` as [`srgb_encode`] does, without rounding to `f32`.
-pub fn srgb_encode_f64(c: f64) -> f64 {
+/// Returns the sRGB value of linear intensity `c`, as [`srgb_encode`] does, without rounding to
+/// `f32`.
+pub(crate) fn srgb_encode_f64(c: f64) -> f64 {
     match c <= 0.003_130_8 {
         true => 12.92 * c,
         false => 1.055 * libm::pow(c, 1.0 / 2.4) - 0.055,
     }
 }
 
-/// Returns the linear intensity of sRGB value `encoded`, both in 0..=1: the inverse of [`srgb_encode`].
-pub fn srgb_decode(encoded: f64) -> f64 {
+/// Returns the linear intensity of the sRGB value `encoded`, both in 0..=1. This inverts
+/// [`srgb_encode`].
+pub(crate) fn srgb_decode(encoded: f64) -> f64 {
     if encoded <= 0.04045 {
         return encoded / 12.92;
     }
     libm::pow((encoded + 0.055) / 1.055, 2.4)
 }
 
-/// Stores linear pixels with a transfer function, as fast as two table look-ups and as exactly as the function itself.
+/// A fast and exact encoder of linear pixels: two table look-ups return the very level that the
+/// transfer function does.
+///
+/// The upper bits of an intensity, as a float, select an entry of a table of guesses. A guess is
+/// either right or one level too low, and a comparison with the least intensity of the next level
+/// decides.
 #[derive(Debug)]
 pub struct Encoder {
-    /// The least intensity that is stored as each level; at the end, one that no intensity reaches.
+    /// The least intensity that is stored as each level. One more entry at the end, which no
+    /// intensity reaches, stops the comparison at level 255.
     least: [f32; 257],
-    /// The level of the lowest intensity in each part: parts are the floats of the same upper bits.
+    /// The level of the lowest intensity in each part. A part holds the floats that share their
+    /// upper bits.
     guess: [u8; Encoder::PARTS + 1],
 }
 
 impl Encoder {
-    /// Bits of a float below those that tell its part: 7 bits of its mantissa are left, 128 parts an octave. The function is steepest for
-    /// its octave below 1, where a part of 2⁻⁸ holds 0.7 levels: so no part holds the beginnings of two.
+    /// How many low bits of a float do not select the part. 7 bits of the mantissa do, so that an
+    /// octave has 128 parts. The function is steepest, for its octave, just below 1. A part there
+    /// is 2⁻⁸ wide and spans 0.7 levels, so no part holds the starts of two levels.
     const BITS: u32 = 16;
-    /// Intensities below this, 2⁻¹³, are stored as 0: level 1 begins at 0.5 / 255 / 12.92, above 2⁻¹³.
+    /// Intensities below 2⁻¹³ are stored as 0, because level 1 begins at 0.5 / 255 / 12.92, which
+    /// is above 2⁻¹³.
     const DARK: f32 = 1.0 / 8192.0;
     const PARTS: usize = 13 << (23 - Encoder::BITS);
 
-    /// Returns the encoder of the sRGB transfer function, which is part of the program.
+    /// Returns the encoder of the sRGB transfer function. Its table is compiled into the program.
     pub fn srgb() -> &'static Self {
         static SRGB: Encoder = Encoder::of(&LEAST);
         &SRGB
     }
 
-    /// Makes an encoder from the bits of the least intensities of levels 1 to 255.
+    /// Makes an encoder from the bits of the least intensity of each level from 1 to 255.
     const fn of(bits: &[u32; 255]) -> Self {
         let mut least = [f32::INFINITY; 257];
         least[0] = f32::NEG_INFINITY;
@@ -148,26 +164,28 @@ impl Encoder {
         f32::from_bits(Self::DARK.to_bits() + ((part as u32) << Self::BITS))
     }
 
-    /// Returns the stored level of intensity `c`: that of [`srgb_encode`] and [`quantise`].
+    /// Returns the stored level of intensity `c`, equal to `quantise(srgb_encode(c))`.
     #[inline(always)]
     pub fn level(&self, c: f32) -> u8 {
-        // In this order NaN is stored as 0.
+        // NaN fails the first comparison and is stored as 0.
         let c = if c > Self::DARK { c } else { Self::DARK };
         let c = if c < 1.0 { c } else { 1.0 };
+        // `c` is positive, and the bits of positive floats are ordered as the floats are.
         let part = (c.to_bits() - Self::DARK.to_bits()) >> Self::BITS;
         let level = self.guess[part as usize];
         level + u8::from(c >= self.least[usize::from(level) + 1])
     }
 
-    /// Returns a linear pixel as it is stored; alpha has no transfer function.
+    /// Returns a linear pixel as it is stored. Alpha has no transfer function.
     #[inline(always)]
     pub fn store(&self, [r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
         [self.level(r), self.level(g), self.level(b), quantise(alpha)]
     }
 }
 
-/// The bits of the least intensity that the sRGB transfer function stores as each of levels 1 to 255: searched for and compared by the
-/// test `the_least_intensities_are_those_of_the_function`. Computed when a program starts they would take 2,000 powers.
+/// The bits of the least intensity that the sRGB transfer function stores as each level above 0.
+/// The test `the_least_intensities_are_those_of_the_function` searches for them and compares.
+/// Computing them at start-up would take 2,000 powers.
 #[rustfmt::skip]
 const LEAST: [u32; 255] = [
     0x391f_22b5, 0x39ee_b40e, 0x3a46_eb62, 0x3a8b_3e5d, 0x3ab3_070c, 0x3ada_cfb7, 0x3b01_4c33, 0x3b15_3089,
@@ -204,8 +222,9 @@ const LEAST: [u32; 255] = [
     0x3f71_67d2, 0x3f73_9e4b, 0x3f75_d7cc, 0x3f78_144f, 0x3f7a_53dd, 0x3f7c_966f, 0x3f7e_dc10,
 ];
 
-/// Stores a line of linear colours, as [`SpanShader`](crate::shading::SpanShader) shades it, with alpha 255: clamped, and with the transfer
-/// function of an encoder, or linear without one.
+/// Stores a line of linear colours, as [`SpanShader`](crate::shading::SpanShader) returns them,
+/// with alpha 255. Colours are clamped, then stored through `encoder`, or linearly if there is
+/// none.
 pub fn store_line(colours: &[[f32; 3]], encoder: Option<&Encoder>, to: &mut [[u8; 4]]) {
     for (pixel, &[r, g, b]) in to.iter_mut().zip(colours) {
         *pixel = match encoder {
@@ -215,7 +234,7 @@ pub fn store_line(colours: &[[f32; 3]], encoder: Option<&Encoder>, to: &mut [[u8
     }
 }
 
-/// Returns a linear picture as it is stored.
+/// Returns a linear picture as it is stored in this encoding.
 pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
     match encoding {
         Encoding::Linear => picture.map(|pixel| pixel.map(quantise)),
@@ -226,15 +245,17 @@ pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
     }
 }
 
-/// A stored picture as a screen shows it: in levels of sRGB, not rounded anew; alpha plays no part.
+/// A stored picture as a screen shows it: in sRGB levels, without rounding again. Alpha is ignored.
+#[cfg(feature = "cli")]
 #[derive(Clone, Copy, Debug)]
-pub struct Displayed<'a> {
+pub(crate) struct Displayed<'a> {
     /// The picture.
     pub picture: &'a Picture8,
     /// Its encoding.
     pub encoding: Encoding,
 }
 
+#[cfg(feature = "cli")]
 impl LevelRows for Displayed<'_> {
     fn size(&self) -> [usize; 2] {
         [self.picture.width(), self.picture.height()]
@@ -282,8 +303,9 @@ mod tests {
     fn srgb_encode_meets_known_values() {
         assert_eq!(srgb_encode(0.0), 0.0);
         assert_eq!(srgb_encode(1.0), 1.0);
-        // Each value is in 0.03..1, where a float is spaced by at most 2^-24 = 6e-8; the input's own rounding, at most
-        // half of that, is stretched by the slope, at most 12.92 (at the join): 4e-7 in all.
+        // Each value is in 0.03..1, where floats are at most 2^-24 = 6e-8 apart. The input's own
+        // rounding, at most half of that, is stretched by the slope, at most 12.92 (at the join).
+        // Together: 4e-7.
         let known = [
             (0.003_130_8, 0.040_449_936),
             (0.01, 0.099_852_82),
@@ -310,7 +332,8 @@ mod tests {
         assert!(srgb_encode(f32::NAN).is_nan());
     }
 
-    /// Searched from the inverse of the function at the lower end of each level, to the very float.
+    /// Searches for each least intensity, to the very float, starting at the inverse of the
+    /// function.
     #[test]
     fn the_least_intensities_are_those_of_the_function() {
         let level = |c: f32| usize::from(quantise(srgb_encode(c)));
@@ -326,7 +349,7 @@ mod tests {
         }
     }
 
-    /// No part holds the beginnings of two levels.
+    /// No part holds the starts of two levels.
     #[test]
     fn a_guess_is_off_by_one_level_at_most() {
         let encoder = Encoder::srgb();

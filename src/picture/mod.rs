@@ -1,4 +1,18 @@
-//! Pictures: in memory, as grey levels, in files. A picture is a rectangle of pixels, row 0 at the top.
+//! Pictures in memory, as grey levels, and in files. A picture is a rectangle of pixels with row 0
+//! at the top.
+//!
+//! A method draws a [`Picture8`] or a [`LinearPicture`], or draws into any memory through a
+//! [`PictureMut`]. [`encoding`] converts linear intensities to stored grey levels. With the feature
+//! `io`, `image_file` reads and writes files.
+//!
+//! ```
+//! use fastphong::picture::encoding::store;
+//! use fastphong::picture::{Encoding, LinearPicture};
+//!
+//! let grey = LinearPicture::new(2, 1, [0.5, 0.5, 0.5, 1.0]);
+//! assert_eq!(store(&grey, Encoding::Linear).get(0, 0), [128, 128, 128, 255]);
+//! assert_eq!(store(&grey, Encoding::Srgb).get(0, 0), [188, 188, 188, 255]);
+//! ```
 
 mod alpha;
 mod borrowed;
@@ -16,7 +30,7 @@ pub use pixel::{LevelRows, Levels, Pixel};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A colour or a per-channel coefficient: red, green, blue, linear, usually in 0..=1.
+/// A colour, or a coefficient per channel: red, green, blue; linear, usually in 0..=1.
 pub type Rgb = [f32; 3];
 
 /// A rectangle of pixels, stored row by row from the top.
@@ -27,29 +41,32 @@ pub struct Picture<T> {
     pixels: Vec<T>,
 }
 
-/// A stored picture: red, green, blue, alpha in 0..=255. Alpha is 255 where something was drawn, 0 elsewhere, and the covered
-/// share between them; it is straight unless the frame asked for another: see [`Alpha`].
+/// A picture in eight bits: red, green, blue, alpha in 0..=255. Alpha is 255 in fully covered
+/// pixels, 0 where nothing was drawn, and the covered share in between. It is straight unless the
+/// frame asks for the other kind of [`Alpha`].
 pub type Picture8 = Picture<[u8; 4]>;
 
-/// A picture before rounding: linear red, green, blue in 0..=1. Alpha is 1 where something was drawn, 0 elsewhere, and the covered
-/// share between them; it is straight unless the frame asked for another: see [`Alpha`].
+/// A picture before rounding: linear red, green, blue in 0..=1. Alpha is 1 in fully covered pixels,
+/// 0 where nothing was drawn, and the covered share in between. It is straight unless the frame
+/// asks for the other kind of [`Alpha`].
 pub type LinearPicture = Picture<[f32; 4]>;
 
 impl<T: Copy> Picture<T> {
-    /// Makes a picture of `width` × `height` pixels, all `fill`.
+    /// Makes a picture of `width` × `height` pixels, each set to `fill`.
     ///
     /// # Panics
-    /// When there are more of them than memory can hold.
+    /// If the pixels do not fit into memory.
     pub fn new(width: usize, height: usize, fill: T) -> Self {
         Picture {
             width,
             height,
-            // Too many to be counted are more than `vec!` allows.
+            // A product that overflows saturates, and `vec!` then panics.
             pixels: vec![fill; width.saturating_mul(height)],
         }
     }
 
-    /// Makes a picture from `pixels`, row by row from the top; `None` unless there are `width` × `height` of them.
+    /// Makes a picture from `pixels`, row by row from the top. Returns `None` unless there are
+    /// `width` × `height` of them.
     pub fn from_pixels(width: usize, height: usize, pixels: Vec<T>) -> Option<Self> {
         (width.checked_mul(height) == Some(pixels.len())).then_some(Picture {
             width,
@@ -58,12 +75,12 @@ impl<T: Copy> Picture<T> {
         })
     }
 
-    /// Returns the number of pixels a row.
+    /// Returns how many pixels a row has.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Returns the number of rows.
+    /// Returns how many rows there are.
     pub fn height(&self) -> usize {
         self.height
     }
@@ -73,9 +90,19 @@ impl<T: Copy> Picture<T> {
         &self.pixels
     }
 
-    /// Returns all pixels, to be changed.
+    /// Returns all pixels for writing.
     pub fn pixels_mut(&mut self) -> &mut [T] {
         &mut self.pixels
+    }
+
+    /// Returns all pixels as a vector, without a copy.
+    pub fn into_pixels(self) -> Vec<T> {
+        self.pixels
+    }
+
+    /// Returns all rows, from the top.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[T]> {
+        (0..self.height).map(|y| self.row(y))
     }
 
     /// Returns one row of pixels.
@@ -83,7 +110,7 @@ impl<T: Copy> Picture<T> {
         &self.pixels[y * self.width..][..self.width]
     }
 
-    /// Returns one row of pixels, to be changed.
+    /// Returns one row of pixels for writing.
     pub fn row_mut(&mut self, y: usize) -> &mut [T] {
         &mut self.pixels[y * self.width..][..self.width]
     }
@@ -110,7 +137,7 @@ mod tests {
     #[test]
     fn sides_whose_product_overflows_are_no_picture() {
         let side = 1usize << (usize::BITS / 2);
-        // The product is 0 but for what overflows.
+        // The product is 0, apart from the bits that overflow.
         assert_eq!(Picture::<u8>::from_pixels(side, side, Vec::new()), None);
         assert_eq!(Picture::from_pixels(2, 2, vec![0u8; 3]), None);
         assert!(Picture::from_pixels(2, 2, vec![0u8; 4]).is_some());

@@ -1,14 +1,15 @@
-//! Pixels of every kind, seen as grey levels.
+//! Pixels of any kind, read as grey levels.
 
 use super::Picture;
 
 /// Weights of red, green and blue in luminance (ITU-R BT.709-6, item 3.2).
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Red, green, blue, alpha in grey levels: 0 is black, 255 is full, as in a stored picture but with fractions.
+/// Red, green, blue, alpha in grey levels: 0 is black, 255 is full. These are the units of a stored
+/// picture, with fractions.
 ///
-/// A pixel of 8 bits and the difference of two of them are exact in this unit, so that thresholds of whole levels
-/// bite where they say; `1.0 / 255.0` has no such luck.
+/// An 8-bit pixel and the difference of two of them are exact in this unit, so that a threshold of
+/// a whole level is exact. Multiples of `1.0 / 255.0` are not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Levels(pub [f64; 4]);
 
@@ -23,7 +24,8 @@ impl Levels {
         self.0[3]
     }
 
-    /// Returns the luminance in grey levels, Rec. 709 weights on the values as they are stored; a channel that is not finite counts as 0.
+    /// Returns the luminance in grey levels: the Rec. 709 weights, applied to the stored values. A
+    /// channel that is not finite counts as 0.
     pub fn luminance(self) -> f64 {
         LUMINANCE
             .iter()
@@ -33,9 +35,9 @@ impl Levels {
     }
 }
 
-/// A pixel that can be compared: one that can be stated in grey levels.
+/// A pixel that can be compared, because it can be converted to grey levels.
 pub trait Pixel: Copy {
-    /// This pixel in grey levels.
+    /// Returns this pixel in grey levels.
     fn levels(self) -> Levels;
 }
 
@@ -57,12 +59,13 @@ impl Pixel for Levels {
     }
 }
 
-/// A picture whose rows can be had in grey levels, one at a time: comparisons of large pictures need no others in memory.
+/// A picture that is read in grey levels, one row at a time, so that comparing large pictures needs
+/// little memory.
 pub trait LevelRows {
     /// Returns width and height in pixels.
     fn size(&self) -> [usize; 2];
 
-    /// Writes row `y` into `levels`, which holds a pixel for each column.
+    /// Writes row `y` into `levels`, which has one entry per column.
     fn level_row(&self, y: usize, levels: &mut [Levels]);
 }
 

@@ -1,4 +1,4 @@
-//! Colours and normals: at the vertices, and between them.
+//! Colours and normals at the vertices, and their interpolation.
 
 use super::coverage::{Crossing, Scanline, SpanPlace, VertexWeights};
 use super::illumination::{Point, sum, wide};
@@ -8,13 +8,14 @@ use crate::scene::{Interpolation, Power};
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// Below this angle a chord is as good as its arc (it sags by φ²/8, 1.3e-7), and sin φ = 0 is never a divisor.
+/// Below this angle a chord replaces the arc. They differ by at most φ²/8 = 1.3e-7, and sin φ is
+/// then never a divisor of 0.
 const STRAIGHT: f64 = 1e-3;
 
-/// Above this angle the two normals name no great circle: 179°.
+/// Above this angle, 179°, two normals do not determine a great circle.
 const OPPOSITE: f64 = 179.0 / 180.0 * core::f64::consts::PI;
 
-/// Interpolates from `a` to `b` in a straight line.
+/// Interpolates linearly from `a` to `b`.
 fn lerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     (1.0 - t) * a + t * b
 }
@@ -23,8 +24,9 @@ fn lerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
 /// ```text
 /// slerp(N₁, N₂, t) = sin((1−t)φ)/sin(φ) N₁ + sin(tφ)/sin(φ) N₂      (L21 4.7)
 /// ```
-/// The angle φ is 2 atan2(|N₁−N₂|, |N₁+N₂|), as the inverse cosine of L21 loses half of the digits of a small one. Close
-/// vectors are interpolated linearly; between opposite ones stands `face`.
+/// The angle φ is computed as 2 atan2(|N₁−N₂|, |N₁+N₂|), because the inverse cosine of L21 loses
+/// half of the digits of a small angle. Close vectors are interpolated linearly. Between opposite
+/// vectors the result is `face`.
 fn slerp(a: DVec3, b: DVec3, t: f64, face: DVec3) -> DVec3 {
     let phi = 2.0 * libm::atan2((a - b).length(), (a + b).length()); // φ
     if phi < STRAIGHT {
@@ -36,7 +38,7 @@ fn slerp(a: DVec3, b: DVec3, t: f64, face: DVec3) -> DVec3 {
     }
 }
 
-/// Returns the direction of `n`, or zero if it has none.
+/// Returns the unit vector along `n`, or zero if `n` is zero.
 fn unit(n: DVec3) -> DVec3 {
     let length = n.length();
     if length > 0.0 {
@@ -51,36 +53,37 @@ pub(crate) struct VertexAttributes<'a> {
     frame: &'a Frame,
     model: Model,
     power: Power,
-    /// Colours (Gouraud) or normals (Phong, slerp); none for flat shading.
+    /// Colours (Gouraud) or normals (Phong, slerp). Empty for flat shading.
     values: Vec<DVec3>,
     /// True if a light or the eye is at a position.
     is_local: bool,
-    /// Positions, where each pixel sees light and eye from its own.
+    /// Positions, if each pixel sees light and eye from its own position. Otherwise empty.
     positions: Vec<DVec3>,
-    /// Vertex colours, where pixels are lit and a material is multiplied by them.
+    /// Vertex colours, if pixels are lit and a material is multiplied by them. Otherwise empty.
     colours: Vec<DVec3>,
 }
 
 impl<'a> VertexAttributes<'a> {
-    /// Computes colours or normals at the vertices of `frame`, as `model` asks for.
+    /// Computes colours or normals at the vertices of `frame`, as `model` requires.
     ///
-    /// A vertex that clipping made lies between two others, which may be such vertices too: its value is interpolated as the
-    /// model does, and it is not lit by a normal of its own.
+    /// A vertex that clipping made lies between two others, which clipping may have made, too. Its
+    /// value is interpolated from theirs as the model interpolates. It is not lit by a normal of
+    /// its own.
     pub fn new(frame: &'a Frame, ClosedForm { model, power }: ClosedForm) -> Self {
-        let position = |number: u32| wide(frame.position(number));
-        let normal = |number: u32| wide(frame.normal(number));
-        let unclamped = |number: u32| {
+        let position = |vertex: u32| wide(frame.position(vertex));
+        let normal = |vertex: u32| wide(frame.normal(vertex));
+        let unclamped = |vertex: u32| {
             sum(
-                &frame.lightings()[frame.material(number) as usize],
+                &frame.lightings()[frame.material(vertex) as usize],
                 power,
                 Point {
-                    normal: normal(number),
-                    position: position(number),
-                    colour: wide(frame.colour(number)),
+                    normal: normal(vertex),
+                    position: position(vertex),
+                    colour: wide(frame.colour(vertex)),
                 },
             )
         };
-        let colour = |number: u32| unclamped(number).clamp(DVec3::ZERO, DVec3::ONE);
+        let colour = |vertex: u32| unclamped(vertex).clamp(DVec3::ZERO, DVec3::ONE);
         let all = |of: &dyn Fn(u32) -> DVec3| -> Vec<DVec3> {
             (0..frame.vertices().len() as u32).map(of).collect()
         };
@@ -101,7 +104,7 @@ impl<'a> VertexAttributes<'a> {
         let is_coloured =
             is_lit_at_pixels && (frame.lightings().iter()).any(|lighting| lighting.vertex_colours);
         let mut colours = if is_coloured {
-            all(&|number| wide(frame.colour(number)))
+            all(&|vertex| wide(frame.colour(vertex)))
         } else {
             Vec::new()
         };
@@ -140,12 +143,12 @@ impl<'a> VertexAttributes<'a> {
         }
     }
 
-    /// Returns the light at the pixel `x` on a scanline of `polygon`, before it is clamped to 0..=1 there; `None` where the
-    /// polygon does not cover it.
+    /// Returns the light at pixel `x` on a scanline of `polygon`, not clamped to 0..=1 yet. Returns
+    /// `None` if the polygon does not cover the pixel.
     pub fn light(&self, polygon: &Polygon, scanline: &Scanline, x: usize) -> Option<DVec3> {
         let lighting = &self.frame.lightings()[polygon.material as usize];
         let mean = || self.frame.mean(polygon);
-        // Where all is at infinity every point is as good as the mean.
+        // With all lights and the eye at infinity the position does not matter.
         let place = || {
             if self.is_local {
                 wide(mean().position)
@@ -199,7 +202,7 @@ impl<'a> VertexAttributes<'a> {
             Model::Slerp => {
                 let place = scanline.place(x)?;
                 let normal = self.slerped(&place, wide(self.frame.polygon_normal(polygon)));
-                // It does not know of depth: colours are linear on the screen, as all else is.
+                // Slerp ignores depth, so colours are linear on the screen, too.
                 let colour = match self.colours.is_empty() {
                     true => DVec3::ONE,
                     false => scanline.weights(x)?.sum(|v| self.colours[v]),
@@ -209,7 +212,7 @@ impl<'a> VertexAttributes<'a> {
         })
     }
 
-    /// Returns the vertex colour between the corners; white where no material reads it.
+    /// Returns the vertex colour between the corners, or white if no material reads it.
     fn colour(&self, weights: &VertexWeights) -> DVec3 {
         match self.colours.is_empty() {
             true => DVec3::ONE,
@@ -217,8 +220,8 @@ impl<'a> VertexAttributes<'a> {
         }
     }
 
-    /// Blends the corners' values: linear on the screen, or in space, where value/w and 1/w are linear on the
-    /// screen (perspective interpolation).
+    /// Blends the corners' values linearly on the screen, or linearly in space. In perspective
+    /// interpolation, value/w and 1/w are linear on the screen.
     fn interpolated(&self, values: &[DVec3], weights: &VertexWeights) -> DVec3 {
         match self.frame.interpolation() {
             Interpolation::Screen => weights.sum(|v| values[v]),
@@ -252,7 +255,8 @@ mod tests {
         for k in 0..=18 {
             let angle = f64::from(k) * 5.0f64.to_radians();
             let n = slerp(DVec3::X, DVec3::Y, f64::from(k) / 18.0, DVec3::Z);
-            // φ = π/2 and each sine round a few times, all values are at most 1: 4 ε is ample and 1° is 8e13 times more.
+            // φ = π/2 and each sine are rounded a few times, and all values are at most 1. So 4 ε
+            // is ample, and 1° is 8e13 times more.
             assert!(
                 (n - DVec3::new(libm::cos(angle), libm::sin(angle), 0.0)).length()
                     < 4.0 * f64::EPSILON,

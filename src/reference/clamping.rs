@@ -1,6 +1,7 @@
-//! Clamping: the part of a picture whose light is over 1, and is cut off there.
+//! Clamping: which part of a picture has light above 1, which is cut off.
 //!
-//! Where light is cut off, methods draw the same colour whatever they compute, and differences between them vanish.
+//! Where light is cut off, all methods draw the same colour, whatever they compute, and differences
+//! between them vanish.
 
 use super::visibility::visibility_on_grid;
 use super::{ClosedForm, Model, for_each_light};
@@ -10,37 +11,41 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// The most that light may be over 1 without being counted: half a grey level. Less is lost in eight bits anyway, and rounding of
-/// unit vectors to `f32` stays far below it, so that a white plane that faces its light is not counted.
+/// How far light may be above 1 without being counted: half a grey level. Eight bits lose no more
+/// than that anyway. The rounding of unit vectors to `f32` stays far below it, so that a white
+/// plane that faces its light is not counted.
 const HALF_LEVEL: f64 = 0.5 / 255.0;
 
-/// Samples along the longer side of the grid that [`clamping`] looks at first.
+/// Samples along the longer side of the grid with which [`clamping`] starts.
 const GRID: usize = 128;
-/// Covered samples from which on a share is known to some tenths of a percent.
+/// With this many covered samples the share is known to some tenths of a percent.
 const ENOUGH: usize = 2000;
-/// Samples along the longer side of the finest grid: 20 bytes each are held.
+/// Samples along the longer side of the finest grid. Each sample takes 20 bytes.
 const FINEST: usize = 2048;
 
-/// Counts of covered samples whose light is over 1 in a channel, by more than half a grey level, before it is clamped.
+/// Counts of covered samples whose light exceeds 1 in a channel by more than half a grey level,
+/// before it is clamped.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
 pub struct Clamping {
-    /// Samples that a polygon covers: pixels, unless each has several samples.
+    /// How many samples polygons cover. A pixel is one sample, unless the frame has several per
+    /// pixel.
     pub covered: usize,
-    /// Those of them over 1 in any channel.
+    /// How many of these exceed 1 in any channel.
     pub clamped: usize,
-    /// Those over 1 in red, in green, in blue.
+    /// How many exceed 1 in red, in green, and in blue.
     pub channels: [usize; 3],
-    /// Covered and clamped ones by the index of their material in [`Frame::lightings`].
+    /// The covered and the clamped samples per material, by its index in [`Frame::lightings`].
     #[cfg_attr(feature = "io", serde(skip))]
     pub of_materials: Vec<[usize; 2]>,
 }
 
 impl Clamping {
-    /// The share of the covered samples from which on clamping is worth a word: 2 %. Highlights are often smaller, and meant to be.
+    /// The share of covered samples above which clamping is reported: 2 %. Highlights are often
+    /// smaller, and intended.
     pub const NOTABLE: f64 = 0.02;
 
-    /// Starts to count samples of `frame`.
+    /// Starts counting samples of `frame`.
     pub(super) fn new(frame: &Frame) -> Clamping {
         Clamping {
             of_materials: vec![[0; 2]; frame.lightings().len()],
@@ -62,19 +67,20 @@ impl Clamping {
         *clamped += any;
     }
 
-    /// Returns the clamped share of the covered samples, 0 if there are none.
+    /// Returns the clamped share of the covered samples, or 0 if there are none.
     pub fn share(&self) -> f64 {
         self.clamped as f64 / self.covered.max(1) as f64
     }
 
-    /// True if over [`Clamping::NOTABLE`] of the covered samples are clamped.
+    /// True if the clamped share exceeds [`Clamping::NOTABLE`].
     pub fn is_notable(&self) -> bool {
         self.share() > Clamping::NOTABLE
     }
 }
 
-/// Counts clamped samples of `frame` under Phong's model on a grid over the picture, as sparse as leaves `ENOUGH` of them
-/// covered: all of a small picture. Nothing is counted where no light is bright enough.
+/// Counts clamped samples of `frame` under Phong's model. It looks at a grid over the picture, as
+/// sparse as leaves `ENOUGH` covered samples. Small pictures are counted completely. If no light is
+/// bright enough, nothing is counted.
 pub fn clamping(frame: &Frame) -> Clamping {
     if frame
         .lightings()
@@ -95,7 +101,7 @@ pub fn clamping(frame: &Frame) -> Clamping {
     }
 }
 
-/// Counts the samples of a grid.
+/// Counts the samples of a grid with this step.
 fn on_grid(frame: &Frame, step: usize) -> Clamping {
     let seen = visibility_on_grid(frame, step).polygons;
     let mut clamping = Clamping::new(frame);
@@ -106,7 +112,7 @@ fn on_grid(frame: &Frame, step: usize) -> Clamping {
     clamping
 }
 
-/// Returns the most light that any channel of a material may have, whatever its normals.
+/// Returns the most light that any channel of a material can have, whatever its normals are.
 fn most(lighting: &Lighting) -> f64 {
     let channel = |i: usize| {
         let of_lights = lighting.lights.iter().map(|light| {
@@ -154,7 +160,8 @@ mod tests {
 
     #[test]
     fn all_that_a_flat_highlight_lights_is_clamped_and_blue_only_where_it_is_over_one() {
-        // A highlight of exponent 0 is 1 wherever the light falls: all of the sphere that is seen.
+        // A highlight with exponent 0 is 1 wherever the light falls, which is all of the sphere
+        // that is seen.
         let found = counted(&sphere(grey(0.0, 0.5, 1.0, 0.0), [64, 48], 1));
         let [red, green, blue] = found.channels;
         assert!(found.share() > 0.95 && found.is_notable(), "{found:?}");
@@ -178,7 +185,8 @@ mod tests {
             let frame = sphere(grey(0.0, 1.3, 0.0, 1.0), size, samples);
             let [all, some] = [counted(&frame), clamping(&frame)];
             assert!(some.covered < all.covered / 4, "{some:?}");
-            // A grid of n × n on a disc misses some cells along two circles: below 4π/n, with n of 50 and more.
+            // A grid of n × n on a disc misses some cells along two circles: below 4π/n, with n of
+            // 50 and more.
             let off = (all.share() - some.share()).abs();
             assert!(
                 off < 0.02 && (0.38..0.44).contains(&all.share()),

@@ -1,29 +1,29 @@
-//! Coverage in exact integers: the pixels of a polygon, and their coordinates in it.
+//! Coverage in exact integers: which pixels a polygon covers, and their coordinates in it.
 //!
-//! All coordinates here are whole numbers of 1/256 pixel. They are at most 2²³ from 0 ([`Frame::GUARD`] pixels), so a
-//! product of two differences stays below 2⁴⁹: `i64` holds it, and `f64` too, exactly. Only the comparison of two
-//! fractions needs `i128`.
+//! All coordinates here are whole multiples of 1/256 pixel. They are at most 2²³ from 0
+//! ([`Frame::GUARD`] pixels), so that a product of two differences stays below 2⁴⁹, which `i64` and
+//! `f64` hold exactly. Only the comparison of two fractions needs `i128`.
 
 use crate::frame::{Frame, SubPixel};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Range};
 
-/// A pixel in sub-pixels.
+/// The size of a pixel in sub-pixels.
 const PIXEL: i64 = 1 << SubPixel::FRAC_NBITS;
 
-/// Returns the centre of the pixel number `i` of a row or column.
+/// Returns the centre of the pixel with index `i` in its row or column, in sub-pixels.
 pub(crate) fn centre(i: usize) -> i64 {
     i as i64 * PIXEL + PIXEL / 2
 }
 
-/// Returns column and row of a vertex.
+/// Returns the column and row of a vertex, in sub-pixels.
 fn position(frame: &Frame, vertex: u32) -> (i64, i64) {
     let v = &frame.vertices()[vertex as usize];
     (i64::from(v.x.to_bits()), i64::from(v.y.to_bits()))
 }
 
-/// Returns the pixels of the picture in the smallest box around `corners`: columns, rows.
+/// Returns the columns and rows of the picture in the smallest box around `corners`.
 pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Range<usize>) {
     let pixels = |coordinates: &dyn Fn(u32) -> i64, side: usize| {
         let lowest = corners.iter().map(|&v| coordinates(v)).min().unwrap_or(0);
@@ -37,8 +37,9 @@ pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Ran
     )
 }
 
-/// True if any polygon of `frame` covers the centre of a pixel; of a sample, where pixels have several.
-pub fn is_anything_covered(frame: &Frame) -> bool {
+/// True if any polygon of `frame` covers the centre of a sample.
+#[cfg(any(feature = "cli", test))]
+pub(crate) fn is_anything_covered(frame: &Frame) -> bool {
     let mut line = Scanline::new(frame);
     frame.polygons().iter().any(|polygon| {
         let corners = frame.corners(polygon);
@@ -50,7 +51,7 @@ pub fn is_anything_covered(frame: &Frame) -> bool {
     })
 }
 
-/// The crossing of a scanline and an edge of a polygon: at `x_height / height`, exactly.
+/// The crossing of a scanline and an edge of a polygon, at the exact column `x_height / height`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossing {
     /// The vertex at the upper end of the edge.
@@ -59,15 +60,16 @@ pub(crate) struct Crossing {
     pub bottom: u32,
     /// The distance from the upper end down to the scanline.
     fall: i64,
-    /// The distance from the upper end down to the lower one; more than 0.
+    /// The distance from the upper end down to the lower one, above 0.
     height: i64,
-    /// The column of the crossing times `height`.
+    /// The column of the crossing, multiplied by `height`.
     x_height: i64,
 }
 
 impl Crossing {
-    /// Intersects the edge between two vertices (in any order) with the scanline `yc`: an edge holds its upper end
-    /// and not its lower one, so that a corner between two edges is crossed once, and a horizontal edge never.
+    /// Intersects the edge between two vertices, in any order, with the scanline `yc`. An edge
+    /// contains its upper end and not its lower one. So a corner between two edges is crossed once,
+    /// and a horizontal edge never.
     fn of_edge(frame: &Frame, from: u32, to: u32, yc: i64) -> Option<Crossing> {
         let (top, bottom) = if position(frame, from).1 <= position(frame, to).1 {
             (from, to)
@@ -94,8 +96,10 @@ impl Crossing {
         self.x_height <= xc * self.height
     }
 
-    /// Orders crossings from left to right; those that meet by the upper ends of their edges, then by the lower ones.
+    /// Orders crossings from left to right. Crossings at one point are ordered by the upper ends of
+    /// their edges, then by the lower ones.
     fn compare(&self, other: &Crossing, frame: &Frame) -> Ordering {
+        // The fractions are compared by cross multiplication: exact, where a division would round.
         let cross = |a: i64, b: i64| i128::from(a) * i128::from(b);
         let ends = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|v| &frame.vertices()[v as usize]);
@@ -125,9 +129,10 @@ pub(crate) struct SpanPlace {
 }
 
 impl SpanPlace {
-    /// Places the column `xc` between two crossings, which must differ.
+    /// Places the column `xc` between two crossings. They must differ.
     fn new(left: Crossing, right: Crossing, xc: i64) -> SpanPlace {
-        // (xc − l) / (r − l) for the fractions l and r, multiplied by both heights: one rounding at the end.
+        // (xc − l) / (r − l) for the fractions l and r, multiplied by both heights. Only the
+        // quotient at the end rounds.
         let (l, lh) = (i128::from(left.x_height), i128::from(left.height));
         let (r, rh) = (i128::from(right.x_height), i128::from(right.height));
         let u = ((i128::from(xc) * lh - l) * rh) as f64 / (r * lh - l * rh) as f64;
@@ -135,7 +140,7 @@ impl SpanPlace {
     }
 }
 
-/// The weights of vertices in a pixel's attributes; they sum to 1.
+/// The weights of vertices in a pixel's attributes. Their sum is 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VertexWeights([(u32, f64); 4]);
 
@@ -144,7 +149,9 @@ impl VertexWeights {
     /// ```text
     /// P = β₁ P₁ + β₂ P₂ + β₃ P₃      (L21 3)
     /// ```
-    /// The triangle must have an area. Its corners stand in the order of [`ScreenVertex::compare`](crate::frame::ScreenVertex).
+    /// The area of the triangle must not be 0. The corners are sorted by
+    /// [`ScreenVertex::compare`](crate::frame::ScreenVertex), so that the result does not depend on
+    /// their order.
     fn of_triangle(frame: &Frame, mut corners: [u32; 3], xc: i64, yc: i64) -> VertexWeights {
         let vertex = |v: u32| &frame.vertices()[v as usize];
         corners.sort_by(|a, b| vertex(*a).compare(vertex(*b)));
@@ -175,7 +182,8 @@ impl VertexWeights {
         ])
     }
 
-    /// Returns the vertices and their weights; a triangle's last corner is there twice.
+    /// Returns the vertices and their weights. The last corner of a triangle appears twice, the
+    /// second time with weight 0.
     #[cfg(feature = "cli")]
     pub fn all(&self) -> [(u32, f64); 4] {
         self.0
@@ -198,12 +206,12 @@ pub(crate) struct Scanline<'a> {
     frame: &'a Frame,
     corners: &'a [u32],
     yc: i64,
-    /// From left to right; where several meet, in the order of their ends.
+    /// From left to right. Crossings at one point are ordered by the ends of their edges.
     crossings: Vec<Crossing>,
 }
 
 impl<'a> Scanline<'a> {
-    /// Makes a scanline that crosses nothing yet.
+    /// Makes a scanline without crossings.
     pub fn new(frame: &'a Frame) -> Self {
         Scanline {
             frame,
@@ -213,7 +221,8 @@ impl<'a> Scanline<'a> {
         }
     }
 
-    /// Moves to the scanline through the pixel centres of row `y` of the polygon with these corners.
+    /// Moves to the scanline through the pixel centres of row `y`, and crosses it with the polygon
+    /// of these corners.
     pub fn cut(&mut self, corners: &'a [u32], y: usize) {
         self.corners = corners;
         self.yc = centre(y);
@@ -226,9 +235,10 @@ impl<'a> Scanline<'a> {
         self.crossings.sort_by(|a, b| a.compare(b, frame));
     }
 
-    /// Returns the two edges between which the centre of the pixel `x` lies; `None` where the polygon does not cover it.
+    /// Returns the two edges between which the centre of the pixel `x` lies, or `None` if the
+    /// polygon does not cover it.
     ///
-    /// It is inside if the number of crossings at it or left of it is odd.
+    /// The centre is inside if the count of crossings at it or left of it is odd.
     pub fn edges(&self, x: usize) -> Option<(Crossing, Crossing)> {
         let passed = self
             .crossings
@@ -238,9 +248,10 @@ impl<'a> Scanline<'a> {
         (passed % 2 == 1).then(|| (self.crossings[passed - 1], self.crossings[passed]))
     }
 
-    /// True if the polygon covers any of the pixels `columns`.
+    /// True if the polygon covers any pixel of `columns`.
+    #[cfg(any(feature = "cli", test))]
     fn covers_any(&self, columns: &Range<usize>) -> bool {
-        // The first pixel right of each left edge, or at it.
+        // The first pixel centre at or right of each left edge.
         let mut firsts = self.crossings.iter().step_by(2).map(|crossing| {
             let numerator = crossing.x_height - PIXEL / 2 * crossing.height;
             let first = -(-numerator).div_euclid(PIXEL * crossing.height);
@@ -249,13 +260,14 @@ impl<'a> Scanline<'a> {
         firsts.any(|x| columns.contains(&x) && self.edges(x).is_some())
     }
 
-    /// Returns the place of the pixel `x` between two edges; `None` where the polygon does not cover it.
+    /// Returns the position of the pixel `x` between two edges, or `None` if the polygon does not
+    /// cover it.
     pub fn place(&self, x: usize) -> Option<SpanPlace> {
         self.edges(x)
             .map(|(left, right)| SpanPlace::new(left, right, centre(x)))
     }
 
-    /// Returns the weights at the pixel `x`; `None` if the polygon does not cover it.
+    /// Returns the weights at the pixel `x`, or `None` if the polygon does not cover it.
     pub fn weights(&self, x: usize) -> Option<VertexWeights> {
         if let &[a, b, c] = self.corners {
             self.edges(x)
@@ -276,17 +288,19 @@ mod tests {
 
     #[test]
     fn a_pixel_centre_on_an_edge_belongs_to_the_side_right_of_and_below_it() {
-        // Every edge of this square runs through pixel centres: left and top ones are held, right and bottom ones not.
+        // Every edge of this square runs through pixel centres. Left and top edges contain them,
+        // right and bottom edges do not.
         let square = [(0.5, 0.5), (2.5, 0.5), (2.5, 2.5), (0.5, 2.5)];
         assert_eq!(drawing(4, 4, &[&square]), ["11..", "11..", "....", "...."]);
-        // The same with its corners on the outer corners of pixels.
+        // The square with its corners on the outer corners of pixels.
         let square = [(1.0, 1.0), (1.0, 3.0), (3.0, 3.0), (3.0, 1.0)];
         assert_eq!(drawing(4, 4, &[&square]), ["....", ".11.", ".11.", "...."]);
     }
 
     #[test]
     fn a_pixel_centre_on_a_corner_is_held_by_one_polygon_around_it() {
-        // Four triangles meet at the centre of the middle pixel; the corners are pixel centres as well.
+        // Four triangles meet at the centre of the middle pixel. The corners are pixel centres as
+        // well.
         let (a, b, c, d, m) = ((0.5, 0.5), (4.5, 0.5), (4.5, 4.5), (0.5, 4.5), (2.5, 2.5));
         let [up, right, down, left] = [[a, b, m], [b, c, m], [c, d, m], [d, a, m]];
         assert_eq!(
@@ -367,8 +381,9 @@ mod tests {
         assert_eq!(drawing(5, 3, &[&comb]), ["1..1.", "1..1.", "1111."]);
     }
 
-    /// The top-left rule as half-space tests, the other usual text of it: on the inner side of each edge, or on an edge
-    /// that is a left one (it runs upward when the corners run clockwise) or a top one (level and to the right).
+    /// The top-left rule as half-space tests, its other usual form: a point is inside if it lies on
+    /// the inner side of each edge, or on an edge that is a left one (it runs upward when the
+    /// corners run clockwise) or a top one (level and to the right).
     fn half_space_rule(corners: [(i64, i64); 3], p: (i64, i64)) -> bool {
         let area = |a: (i64, i64), b: (i64, i64), c: (i64, i64)| {
             (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
@@ -389,7 +404,8 @@ mod tests {
         let mut random = Random::new(1);
         let (mut inside, mut outside) = (0, 0);
         for _ in 0..2000 {
-            // A grid of half pixels: half of all corners, and many edges, lie on pixel centres.
+            // A grid of half pixels, so that half of all corners, and many edges, lie on pixel
+            // centres.
             let mut place = || random.below(16) as i64 * 128;
             let corners = [(); 3].map(|()| (place(), place()));
             let frame = shape(
@@ -410,7 +426,8 @@ mod tests {
     #[test]
     fn the_guard_band_is_within_the_integers() {
         let g = f64::from(Frame::GUARD);
-        // Overflow checks are on in tests. The diagonal runs through the pixels' centres and belongs to the right side.
+        // Overflow checks are on in tests. The diagonal runs through pixel centres and belongs to
+        // the right side.
         assert_eq!(
             drawing(3, 3, &[&[(-g, -g), (g, -g), (g, g)]]),
             ["111", ".11", "..1"]
@@ -442,8 +459,9 @@ mod tests {
         assert!(scanline.weights(6).is_none());
     }
 
-    /// The largest difference, over the covered pixels, between the barycentric blend of the first three corners and
-    /// the blend along edges and span, of corner values that no affine function of four points fits.
+    /// Returns the largest difference, over the covered pixels, between the barycentric blend of
+    /// the first three corners and the blend along edges and span. No affine function fits the
+    /// values of four corners.
     fn forms_differ(corners: &[(f64, f64)]) -> (f64, usize) {
         let frame = shape(32, 32, &[corners]);
         let corners = frame.corners(&frame.polygons()[0]);
@@ -477,9 +495,10 @@ mod tests {
                     random.below(8192) as f64 / 256.0,
                 )
             });
-            // Barycentric: areas are exact, one rounding a quotient, then 3 products and sums of values up to 1: at
-            // most 7 half-ulps of 1. Span: s and t round once, u three times, 1−u and 1−t once each, the product once,
-            // then 4 products and sums: at most 20. Together below 27 · 2⁻⁵³ < 14 ε.
+            // Barycentric: areas are exact, each quotient rounds once, then 3 products and sums of
+            // values up to 1 round, at most 7 half-ulps of 1. Span: s and t round once, u three
+            // times, 1−u and 1−t once each, the product once, then 4 products and sums, at most 20.
+            // Together this is below 27 · 2⁻⁵³ < 14 ε.
             let (worst, n) = forms_differ(&corners);
             assert!(worst <= 14.0 * f64::EPSILON, "{worst} for {corners:?}");
             pixels += n;
@@ -491,7 +510,7 @@ mod tests {
 
     #[test]
     fn crossings_that_meet_keep_the_order_of_the_edges() {
-        // Two edges cross on the scanline of row 1, at column 2 exactly.
+        // Two edges cross exactly on the scanline of row 1, at column 2.
         let frame = shape(4, 3, &[&[(0.0, 1.0), (4.0, 2.0), (0.0, 2.0), (4.0, 1.0)]]);
         let mut scanline = Scanline::new(&frame);
         scanline.cut(frame.corners(&frame.polygons()[0]), 1);

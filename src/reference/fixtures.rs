@@ -9,7 +9,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// A light along z that shows the z of a unit normal as a grey: no ambient, no specular light.
+/// A light along z, which shows the z of a unit normal as a grey: no ambient and no specular light.
 pub(crate) fn z_light() -> Lighting {
     let material = Material {
         ambient: [0.0; 3],
@@ -25,7 +25,7 @@ pub(crate) fn z_light() -> Lighting {
     )
 }
 
-/// A vertex at a place of the picture, of the first material.
+/// A vertex at a position in pixels, with the first material.
 pub(crate) fn vertex((x, y): (f64, f64), normal: [f32; 3]) -> Vertex {
     Vertex {
         x: SubPixel::from_num(x),
@@ -37,7 +37,7 @@ pub(crate) fn vertex((x, y): (f64, f64), normal: [f32; 3]) -> Vertex {
     }
 }
 
-/// Polygons of these corners (pixels) and nothing more to them.
+/// A frame of polygons with these corners, in pixels.
 pub(crate) fn shape(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Frame {
     let mut builder = FrameBuilder::new(width, height);
     builder.lighting(z_light());
@@ -51,7 +51,7 @@ pub(crate) fn shape(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Fram
     builder.finish().unwrap()
 }
 
-/// One polygon over these vertices under [`z_light`], its face along y.
+/// A frame of one polygon with these vertices under [`z_light`]. Its face normal points along y.
 pub(crate) fn polygon_of(
     side: u32,
     vertices: &[Vertex],
@@ -65,7 +65,8 @@ pub(crate) fn polygon_of(
     builder.finish().unwrap()
 }
 
-/// The vertex `vertex` halfway or so between `a` and `b`, cut from a face along x.
+/// The clip corner `vertex` at `t` between `a` and `b`, cut from a face whose normal points along
+/// x.
 pub(crate) fn between(vertex: u32, a: u32, b: u32, t: f32) -> ClipCorner {
     ClipCorner {
         vertex,
@@ -92,7 +93,7 @@ pub(crate) fn covered(frame: &Frame) -> Picture<u32> {
     counts
 }
 
-/// [`covered`] by [`shape`], one text a row: a dot where it is 0.
+/// Draws what [`covered`] counts in a [`shape`], one text per row, with dots for 0.
 pub(crate) fn drawing(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Vec<String> {
     let counts = covered(&shape(width, height, polygons));
     let sign = |&n: &u32| {

@@ -1,15 +1,16 @@
-//! The illumination model (L21 2.1), as it is printed, with the clamps that it leaves out.
+//! The illumination model (L21 2.1) as it is printed, with the clamps that the text leaves out.
 
 use super::power::powered;
 use crate::scene::{Falloff, LightTerm, Lighting, Place, Power, SpecularGate, SpecularModel};
 use glam::DVec3;
 
-/// A direction or colour of the frame in double precision.
+/// Converts a direction or colour of the frame to double precision.
 pub(crate) fn wide(v: [f32; 3]) -> DVec3 {
     DVec3::from_array(v.map(f64::from))
 }
 
-/// The unit vector from `from` to `place`, and the distance; zero where they are one point.
+/// Returns the unit vector from `from` toward `place`, and the distance. The vector is zero if they
+/// are equal.
 fn toward(place: Place<[f32; 3]>, from: DVec3) -> (DVec3, f64) {
     match place {
         Place::Infinite(direction) => (wide(direction), f64::INFINITY),
@@ -24,7 +25,7 @@ fn toward(place: Place<[f32; 3]>, from: DVec3) -> (DVec3, f64) {
 /// ```text
 /// 1 / (1 + k r²)      (CS171 2, Attenuation)        1 / r²,  1 / r      (L5, Light Falloff)
 /// ```
-/// Distances below 1e-15 count as that.
+/// Distances below 1e-15 count as 1e-15.
 fn strength(falloff: Falloff, r: f64) -> f64 {
     let r = r.max(1e-15);
     match falloff {
@@ -35,7 +36,7 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
     }
 }
 
-/// Returns the strongest channel of a highlight, of any light at its nearest.
+/// Returns the strongest channel of any light's highlight, with each light at its nearest.
 fn strongest_highlight(lighting: &Lighting) -> f64 {
     let of_light = |light: &LightTerm| {
         let strength = match light.place {
@@ -47,7 +48,8 @@ fn strongest_highlight(lighting: &Lighting) -> f64 {
     lighting.lights.iter().map(of_light).fold(0.0, f64::max)
 }
 
-/// The unit vector halfway between two others; zero where they are opposite to within [`SpecularModel::LEAST_SUM`].
+/// Returns the unit vector halfway between two others, or zero if they are opposite to within
+/// [`SpecularModel::LEAST_SUM`].
 fn halfway(l: DVec3, v: DVec3) -> DVec3 {
     let sum = l + v;
     let is_sum = sum.length_squared() > f64::from(SpecularModel::LEAST_SUM);
@@ -58,23 +60,24 @@ fn halfway(l: DVec3, v: DVec3) -> DVec3 {
     }
 }
 
-/// A point of a surface, as light falls on it.
+/// A point of a surface, with what the illumination model needs.
 #[derive(Clone, Copy)]
 pub(crate) struct Point {
     /// The unit normal N.
     pub normal: DVec3,
     pub position: DVec3,
-    /// The vertex colour c, which only some materials read ([`Lighting::vertex_colours`]).
+    /// The vertex colour c. Only some materials read it ([`Lighting::vertex_colours`]).
     pub colour: DVec3,
 }
 
-/// The colour of a point of a surface under all lights, not clamped:
+/// Returns the colour of a point of a surface under all lights, not clamped:
 /// ```text
 /// I = I_a k_a c + Σ (I_p k_d c (L·N) + I_p k_s (R·V)ⁿ)      (L21 2.1; c = 1 where materials have one colour)
 /// R = 2 (L·N) N − L                                     or N·H, H = (L + V) / |L + V|      (CS171 2)
 /// ```
-/// A light behind the surface (L·N ≤ 0) adds nothing, no highlight either unless the scene asks for it; R·V and N·H count
-/// from 0 up. 0⁰ is 1. The zero vector has no direction: ambient light only. Another function than a power may stand for it.
+/// A light behind the surface (L·N ≤ 0) adds nothing, and no highlight either unless the scene asks
+/// for it. R·V and N·H are clamped at 0 from below. 0⁰ is 1. For the zero vector, which has no
+/// direction, only ambient light is left. `power` may replace the power by another function.
 pub(crate) fn sum(lighting: &Lighting, power: Power, point: Point) -> DVec3 {
     let (n, p) = (point.normal, point.position);
     let c = match lighting.vertex_colours {
@@ -173,25 +176,27 @@ mod tests {
         let plain = lit(&lighting, DVec3::Z, DVec3::ZERO);
         assert_eq!(plain, DVec3::new(0.625, 0.5, 1.0));
         lighting.vertex_colours = true;
-        // (0.125 + 0.5) / 2, 2 · 0.25 + 0.25, nothing but the highlight.
+        // (0.125 + 0.5) / 2, 2 · 0.25 + 0.25, and only the highlight.
         let coloured = lit(&lighting, DVec3::Z, DVec3::ZERO);
         assert_eq!(coloured, DVec3::new(0.3125, 0.75, 0.5));
     }
 
     #[test]
     fn the_highlight_is_a_power_of_the_reflected_ray() {
-        // L = (0.6, 0, 0.8) about N = z gives R = (−0.6, 0, 0.8): R·V = 0.8 for V = z, cubed 0.512. L·N = 0.8.
+        // L = (0.6, 0, 0.8) about N = z gives R = (−0.6, 0, 0.8): R·V = 0.8 for V = z, cubed 0.512.
+        // L·N = 0.8.
         let i = lit(
             &lighting(vec![white([0.6, 0.0, 0.8], 0.25, 0.5)], Z, 3.0),
             DVec3::Z,
             DVec3::ZERO,
         )
         .y;
-        // 0.8 and 0.6 are rounded to f32, 2⁻²⁵ each: (0.25 + 3 · 0.64 · 0.5) · 2⁻²⁵ < 2⁻²⁴.
+        // 0.8 and 0.6 are rounded to f32, by 2⁻²⁵ each: (0.25 + 3 · 0.64 · 0.5) · 2⁻²⁵ < 2⁻²⁴.
         assert!((i - (0.2 + 0.256)).abs() < 6e-8, "{i}");
         // Seen along L, R·V = 0.64 − 0.36 = 0.28.
         let along = lighting(vec![white([0.6, 0.0, 0.8], 0.0, 1.0)], [0.6, 0.0, 0.8], 1.0);
-        // R·V moves by 2 · (0.6 + 0.8) · 2⁻²⁵ and l_n, which is in it twice, by as much again: below 2⁻²².
+        // R·V moves by 2 · (0.6 + 0.8) · 2⁻²⁵, and l_n, which appears in it twice, by as much
+        // again: below 2⁻²².
         assert!((lit(&along, DVec3::Z, DVec3::ZERO).y - 0.28).abs() < 2.4e-7);
     }
 
@@ -206,14 +211,14 @@ mod tests {
             ),
             ambient
         );
-        // R·V = 1 here: a specular term without gate would light the back.
+        // R·V = 1 here: without the gate a specular term would light the back.
         let back = lighting(
             vec![white([0.0, 0.0, -1.0], 0.0, 1.0)],
             [0.0, 0.0, -1.0],
             2.0,
         );
         assert_eq!(lit(&back, DVec3::Z, DVec3::ZERO), ambient);
-        // A grazing light, L·N = 0, is behind: n = 0 would add k_s.
+        // A grazing light, L·N = 0, counts as behind. With n = 0 it would add k_s.
         let grazing = lighting(vec![white([1.0, 0.0, 0.0], 1.0, 1.0)], Z, 0.0);
         assert_eq!(lit(&grazing, DVec3::Z, DVec3::ZERO), ambient);
     }

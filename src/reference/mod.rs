@@ -1,21 +1,31 @@
-//! The reference picture: slow, in `f64`, and easy to see right.
+//! The reference picture: slow, in `f64`, and easy to verify.
 //!
-//! It takes the same [`Frame`] as the shading methods and shares no arithmetic with them: coverage is decided in exact
-//! integers, places on edges and spans come from exact fractions, and every pixel is computed from closed forms with no
-//! memory of its neighbours.
+//! [`render`] draws a [`Frame`] under a [`Model`], and shares no arithmetic with the shading
+//! methods. Exact integers decide coverage, positions on edges and spans are exact fractions, and
+//! every pixel is computed from a closed form without memory of its neighbours.
 //!
-//! * `coverage`: the pixels of a polygon, and their coordinates in it
-//! * `visibility`: the polygon seen at each pixel
-//! * `attributes`: colours and normals at vertices, and between them
-//! * `illumination`: L21 2.1
-//! * `clamping`: the part of the picture whose light is over 1
+//! ```
+//! use fastphong::mesh::builtin::builtin;
+//! use fastphong::reference::{self, Model};
+//! use fastphong::scene::Scene;
 //!
-//! Unit vectors of the frame (normals, directions of light and view) are taken as they are given, in `f32`, and not
-//! normalised again.
+//! let mut scene = Scene::of_mesh(builtin("sphere?rings=6")?);
+//! (scene.width, scene.height) = (40, 30);
+//! let picture = reference::render(&scene.frame()?, Model::Phong).to_picture8();
+//! assert_eq!(picture.get(20, 15)[3], 255, "the sphere covers the middle");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Unit vectors of the frame (normals, directions of light and view) are used as they are, in
+//! `f32`, and not normalised again.
+//!
+//! `fastphong::reference::cs171` has the renderer of the second lecture, CS171, as it is printed.
+//! It is hidden from this documentation, because only tests and the lectures' figures use it.
 
 pub(crate) mod attributes;
 mod clamping;
 pub(crate) mod coverage;
+#[doc(hidden)]
 pub mod cs171;
 pub(crate) mod illumination;
 mod power;
@@ -28,7 +38,8 @@ mod tests;
 
 #[doc(hidden)]
 pub use clamping::{Clamping, clamping};
-pub use coverage::is_anything_covered;
+#[cfg(feature = "cli")]
+pub(crate) use coverage::is_anything_covered;
 pub use visibility::{Visibility, visibility};
 
 use crate::frame::{Frame, Polygon};
@@ -38,32 +49,39 @@ use attributes::VertexAttributes;
 use coverage::Scanline;
 use glam::DVec3;
 
-/// A closed form of shading: the attributes that vary over a polygon, and their interpolation.
+/// A closed form of shading: which attributes vary over a polygon, and how they are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Model {
-    /// One colour per polygon, lit by its own normal (L21 2). Light and eye at positions are seen from the mean of its corners.
+    /// One colour per polygon, lit by the polygon's normal (L21 2). Light and eye at positions are
+    /// seen from the mean of its corners.
     Flat,
-    /// One colour per polygon, lit by the normalised mean of its vertex normals (CS171 3, Algorithm 6).
+    /// One colour per polygon, lit by the normalised mean of the vertex normals (CS171 3, Algorithm
+    /// 6).
     FlatAverage,
-    /// Colours: each vertex is lit by its own normal and clamped to 0..=1; then colours are interpolated linearly
-    /// (L21 3).
+    /// Colours are interpolated linearly. Each vertex is first lit by its own normal and clamped to
+    /// 0..=1 (L21 3).
     Gouraud,
-    /// Colours, not clamped at the vertices, but at each pixel: the closed form of diffuse and specular light that
-    /// are interpolated apart and summed.
+    /// Colours are interpolated linearly and clamped at each pixel, not at the vertices. This is
+    /// the closed form of diffuse and specular light that are interpolated separately and then
+    /// added.
     GouraudSeparate,
-    /// Normals, linearly and not normalised on the edges; normalised and lit at each pixel (L21 4.1). Where the
-    /// interpolated normal vanishes it has no direction, and only ambient light is left.
+    /// Normals are interpolated linearly, without normalising on the edges, then normalised and lit
+    /// at each pixel (L21 4.1). Where the interpolated normal vanishes, it has no direction, and
+    /// only ambient light is left.
     Phong,
-    /// As [`Model::Phong`], with the vectors toward light and eye constant over each polygon, as the lecture assumes
-    /// (L21 1): those of the mean of its corners. With light and eye at infinity it is the same.
+    /// As [`Model::Phong`], with vectors toward light and eye that are constant over each polygon,
+    /// as the lecture assumes (L21 1). They are those of the mean of its corners. With light and
+    /// eye at infinity both models are equal.
     PhongConstant,
-    /// Normals, along great circles: first along the two edges, then along the span between them (L21 4.4), triangles
-    /// too; lit at each pixel, not normalised again; light and eye as in
-    /// [`Model::PhongConstant`]. It does not know of depth:
+    /// Normals are interpolated along great circles: first along the two edges, then along the span
+    /// between them (L21 4.4), also in triangles. They are lit at each pixel and not normalised
+    /// again. Light and eye are as in [`Model::PhongConstant`]. The model ignores depth:
     /// [`Interpolation::Perspective`](crate::scene::Interpolation::Perspective) changes nothing.
     ///
-    /// Less than 1e-3 apart, normals are interpolated linearly; more than 179° apart they name no great circle, and the
-    /// normal of the polygon stands in all along that edge or span.
+    /// Normals less than 1e-3 apart are interpolated linearly. Normals more than 179° apart do not
+    /// determine a great circle, and the normal of the polygon replaces them along the whole edge
+    /// or span.
     Slerp,
 }
 
@@ -79,7 +97,7 @@ impl Model {
         Model::Slerp,
     ];
 
-    /// Returns its name on the command line and in data.
+    /// Returns the name on the command line and in data.
     pub fn name(self) -> &'static str {
         match self {
             Model::Flat => "flat",
@@ -98,7 +116,7 @@ impl Model {
 pub struct ClosedForm {
     /// The model.
     pub model: Model,
-    /// The power function: [`Power::Squaring`] is tⁿ.
+    /// The power function. [`Power::Squaring`] is tⁿ.
     pub power: Power,
 }
 
@@ -113,16 +131,17 @@ impl From<Model> for ClosedForm {
 
 /// A picture of the reference, with polygon and depth of each sample.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ReferencePicture {
-    /// Linear red, green, blue in 0..=1; alpha is 1 where a polygon is seen. Elsewhere the background, with alpha 0. Of a
-    /// frame with several samples per pixel each is seen and shaded on its own, and this is their mean, as [`Frame::alpha`]
-    /// says.
+    /// Linear red, green, blue in 0..=1. Alpha is 1 where a polygon is seen; elsewhere the pixel
+    /// has the background's colour and alpha 0. If a frame has several samples per pixel, each is
+    /// seen and shaded separately, and the pixel is their mean, as [`Frame::alpha`] says.
     pub picture: Picture<[f64; 4]>,
-    /// See [`Visibility::polygons`]; of each sample.
+    /// [`Visibility::polygons`] of each sample.
     pub polygons: Picture<u32>,
-    /// See [`Visibility::depth`]; of each sample.
+    /// [`Visibility::depth`] of each sample.
     pub depth: Picture<f64>,
-    /// See [`Visibility::depth_gap`]; of each sample.
+    /// [`Visibility::depth_gap`] of each sample.
     pub depth_gap: Picture<f64>,
 }
 
@@ -132,15 +151,16 @@ impl ReferencePicture {
         self.picture.map(|pixel| pixel.map(|c| c as f32))
     }
 
-    /// Returns the picture in eight bits: round(255 c), with no transfer function.
+    /// Returns the picture in eight bits: round(255 c), without a transfer function.
     pub fn to_picture8(&self) -> Picture8 {
         self.picture
             .map(|pixel| pixel.map(|c| libm::round(255.0 * c) as u8))
     }
 }
 
-/// Returns the mean of each `side` × `side` samples: of the covered ones if alpha is straight, else of all. A pixel that
-/// nothing covers has the background's colour; alpha is the mean over all samples.
+/// Returns the mean of each `side` × `side` samples: of the covered ones if alpha is straight,
+/// otherwise of all. An uncovered pixel has the background's colour. Alpha is the mean over all
+/// samples.
 fn filtered(samples: &Picture<[f64; 4]>, side: usize, alpha: Alpha) -> Picture<[f64; 4]> {
     let mut picture = Picture::new(samples.width() / side, samples.height() / side, [0.0; 4]);
     for y in 0..picture.height() {
@@ -150,7 +170,8 @@ fn filtered(samples: &Picture<[f64; 4]>, side: usize, alpha: Alpha) -> Picture<[
             let mut covered = [0.0; 4];
             for sample in rows.flatten() {
                 *pixel = core::array::from_fn(|c| pixel[c] + sample[c]);
-                // Alpha of a sample is 0 or 1.
+                // The alpha of a sample is 0 or 1, so that this adds only covered samples, and
+                // counts them in the last channel.
                 covered = core::array::from_fn(|c| covered[c] + sample[3] * sample[c]);
             }
             *pixel = pixel.map(|sum| sum / (side * side) as f64);
@@ -168,9 +189,10 @@ pub fn render(frame: &Frame, form: impl Into<ClosedForm>) -> ReferencePicture {
     shade(frame, &visibility(frame), form)
 }
 
-/// Shades `frame` under a model, given its `visibility`, which several models share.
+/// Shades `frame` under a model. Several models can share its `visibility`.
 ///
-/// `visibility` must be that of `frame`; where it names what `frame` does not have, the background is left.
+/// `visibility` must be [`visibility()`] of `frame`. Where it names a polygon that `frame` does not
+/// have, the background is left.
 pub fn shade(
     frame: &Frame,
     visibility: &Visibility,
@@ -213,8 +235,9 @@ pub(crate) fn shade_and_count(
     (shaded, clamping)
 }
 
-/// Calls `with` for each place of a grid over the samples of `frame`, every `step`-th of every `step`-th row, where `polygons` has
-/// the number of one: with the place on the grid, the polygon, and its light before that is clamped.
+/// Calls `with` for each sample of a grid, every `step`-th of every `step`-th row of `frame`, at
+/// which `polygons` has the index of a polygon. The arguments are the position on the grid, the
+/// polygon, and its light before clamping.
 fn for_each_light(
     frame: &Frame,
     polygons: &Picture<u32>,
@@ -225,15 +248,15 @@ fn for_each_light(
     let attributes = VertexAttributes::new(frame, form);
     let mut scanline = Scanline::new(frame);
     for y in 0..polygons.height() {
-        // Pixels of one polygon side by side share its scanline.
+        // Neighbouring pixels of one polygon share its scanline.
         let mut cut = Visibility::NONE;
-        for (x, &number) in polygons.row(y).iter().enumerate() {
-            let Some(polygon) = frame.polygons().get(number as usize) else {
+        for (x, &index) in polygons.row(y).iter().enumerate() {
+            let Some(polygon) = frame.polygons().get(index as usize) else {
                 continue;
             };
-            if number != cut {
+            if index != cut {
                 scanline.cut(frame.corners(polygon), y * step);
-                cut = number;
+                cut = index;
             }
             if let Some(light) = attributes.light(polygon, &scanline, x * step) {
                 with([x, y], polygon, light);

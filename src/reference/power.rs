@@ -1,16 +1,17 @@
-//! The power functions of highlights, as their formulas stand.
+//! The power functions of highlights, as their formulas are written.
 
 use crate::scene::Power;
 
-/// Highlights of at most this are none: half a unit in the last place of a colour of ½ in single precision.
+/// Highlights up to this strength count as none: half a unit in the last place of a colour of ½ in
+/// single precision.
 const FAINT: f64 = 1.0 / (1u64 << 24) as f64;
 
 /// Returns the function of the cosine `t`, 0..=1, for the exponent n:
 /// ```text
 /// tⁿ,   e^(−n (1 − t)),   max(0, 1 − (1 − t) n/m)^m with m = 2ᵏ,   t / (n − n t + t)
 /// ```
-/// or a line between two entries of a table of tⁿ, which begins where the strongest highlight is a faint one. All of them are tⁿ where n
-/// is below 1.
+/// or interpolates between two entries of a table of tⁿ, which begins where the strongest highlight
+/// becomes faint. For n below 1 all of them are tⁿ.
 pub(crate) fn powered(power: Power, n: f64, t: f64, strongest: impl FnOnce() -> f64) -> f64 {
     match power {
         _ if n < 1.0 => libm::pow(t, n),
@@ -35,7 +36,7 @@ pub(crate) fn powered(power: Power, n: f64, t: f64, strongest: impl FnOnce() -> 
     }
 }
 
-/// Returns the cosine with whose nth power the strongest highlight is a faint one: (2⁻²⁴ / k_s)^(1/n).
+/// Returns the cosine whose nth power makes the strongest highlight faint: (2⁻²⁴ / k_s)^(1/n).
 fn faintest(strongest: f64, n: f64) -> f64 {
     let share = FAINT / strongest.max(FAINT);
     libm::pow(share.max(2.0 * f64::from(f32::MIN_POSITIVE)), 1.0 / n)

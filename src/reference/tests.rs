@@ -1,11 +1,11 @@
-//! Reference pictures with pixels worked out by hand.
+//! Reference pictures with pixels that were worked out by hand.
 
 use super::fixtures::{between, polygon_of, vertex, z_light};
 use super::{Model, ReferencePicture, Visibility, render, shade, visibility};
 use crate::frame::{Frame, FrameBuilder, Vertex};
 use crate::scene::{HiddenSurfaces, Interpolation};
 
-/// Rounding of a normal's z to f32 (values up to 1: 2⁻²⁵), with room for the few roundings in f64
+/// The rounding of a normal's z to f32 (values up to 1: 2⁻²⁵), with room for a few roundings in f64
 /// after it.
 const F32: f64 = 3.1e-8;
 
@@ -180,7 +180,7 @@ fn gouraud_clamps_vertices_before_it_interpolates() {
     );
 }
 
-/// Returns [`square`] from dark at w = 1 on the left to bright at w = 3 on the right.
+/// Returns [`square`], from dark at w = 1 on the left to bright at w = 3 on the right.
 fn receding(interpolation: Interpolation, side: f64) -> Frame {
     let (dark, bright) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let mut corners = square(side, [dark, bright, bright, dark]);

@@ -1,4 +1,4 @@
-//! Visibility: the polygon that is seen at each pixel.
+//! Visibility: which polygon is seen at each pixel.
 
 use super::coverage::{Scanline, VertexWeights, bounding_box};
 use crate::frame::{DepthRange, Frame};
@@ -6,29 +6,32 @@ use crate::picture::Picture;
 use crate::scene::{Clipping, DepthBuffer, DepthSource, HiddenSurfaces};
 use core::ops::Range;
 
-/// The polygon seen at each sample of a frame, whatever its shading: at each pixel, unless it has several samples.
+/// Which polygon is seen at each sample of a frame, whatever its shading. A pixel is one sample,
+/// unless the frame has several per pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
-    /// The index of the polygon seen in [`Frame::polygons`], [`Visibility::NONE`] where there is none.
+    /// The index of the seen polygon in [`Frame::polygons`], or [`Visibility::NONE`].
     pub polygons: Picture<u32>,
-    /// The depth z of that polygon, 0 at the near plane, 1 at the far plane, as the depth buffer stores it; infinite where there
-    /// is none.
+    /// The depth z of that polygon as the depth buffer stores it, 0 at the near plane and 1 at the
+    /// far plane. Infinite where no polygon is seen.
     pub depth: Picture<f64>,
-    /// From there to the z of the next polygon behind it, exact to `f64`: where it is within the rounding of depths, other arithmetic may see
-    /// the other polygon. Infinite where no other covers the pixel, and where there is no depth test to decide.
+    /// The distance in z to the next polygon behind it, exact to `f64`. If it is within the
+    /// rounding of depths, other arithmetic may see the other polygon. Infinite if no other polygon
+    /// covers the pixel, or if there is no depth test.
     pub depth_gap: Picture<f64>,
 }
 
 impl Visibility {
-    /// The number of no polygon.
+    /// The index that stands for no polygon.
     pub const NONE: u32 = u32::MAX;
 
-    /// Adds a polygon, `depth` away, that covers the pixel (`x`, `y`).
+    /// Adds a polygon at `depth` that covers the pixel (`x`, `y`).
     fn add(&mut self, (x, y): (usize, usize), polygon: u32, depth: f64, depth_test: bool) {
         let seen = &mut self.depth.row_mut(y)[x];
         let is_visible = !depth_test || depth < *seen;
         if depth_test {
-            // All others are behind the one seen so far: a new nearest has that one next behind it.
+            // The stored polygon is the nearest so far. If the new one is nearer, the stored one is
+            // next behind it.
             let gap = &mut self.depth_gap.row_mut(y)[x];
             *gap = if is_visible {
                 *seen - depth
@@ -43,7 +46,7 @@ impl Visibility {
     }
 }
 
-/// Returns the depth buffer of a frame; the default one if it has none.
+/// Returns the depth buffer of a frame, or the default one if it has none.
 fn buffer(frame: &Frame) -> DepthBuffer {
     match frame.hidden_surfaces() {
         HiddenSurfaces::ZBuffer(buffer) => buffer,
@@ -51,15 +54,17 @@ fn buffer(frame: &Frame) -> DepthBuffer {
     }
 }
 
-/// Returns z at the distance `w` under perspective, 0 at the near plane and 1 at the far one.
+/// Returns z at the distance `w` under perspective: 0 at the near plane `n`, 1 at the far plane
+/// `f`.
 fn perspective_z(n: f64, f: f64, w: f64) -> f64 {
     // The eye looks along −z.
     let ndc = (f + n) / (f - n) + (1.0 / -w) * (2.0 * f * n) / (f - n); // L5
     (ndc + 1.0) / 2.0
 }
 
-/// Returns what is compared at a sample that is made of a polygon's corners in these shares: less is nearer. Levels are of z;
-/// without them it is −1/w under perspective, which is linear on the screen as z is, and tells far distances apart.
+/// Returns the value that a sample's depth test compares, less being nearer. Integer depths are
+/// levels of z. Otherwise it is −1/w under perspective, which is linear on the screen as z is, and
+/// still tells far distances apart.
 fn depth(frame: &Frame, weights: &VertexWeights) -> f64 {
     let vertex = |v: usize| &frame.vertices()[v];
     let DepthBuffer { source, bits } = buffer(frame);
@@ -83,7 +88,7 @@ fn depth(frame: &Frame, weights: &VertexWeights) -> f64 {
     }
 }
 
-/// Returns the ends of what [`depth`] returns inside the view, at the near and the far plane.
+/// Returns the values of [`depth`] at the near and at the far plane.
 fn ends(frame: &Frame) -> [f64; 2] {
     match (buffer(frame).bits.most(), frame.depth_range()) {
         (None, DepthRange::Perspective { near, far }) => [-1.0 / near, -1.0 / far],
@@ -91,7 +96,7 @@ fn ends(frame: &Frame) -> [f64; 2] {
     }
 }
 
-/// Rounds `depth` as the depth buffer stores it: not at all, or to the nearest of 2ᵇ levels.
+/// Rounds `depth` as the depth buffer stores it: to the nearest of 2ᵇ levels, or not at all.
 fn kept(frame: &Frame, depth: f64) -> f64 {
     match buffer(frame).bits.most() {
         None => depth,
@@ -99,13 +104,14 @@ fn kept(frame: &Frame, depth: f64) -> f64 {
     }
 }
 
-/// Finds the polygon seen at each pixel centre of `frame`: the nearest one that covers it, the first of equally near ones; or
-/// without depth test the last one.
+/// Finds the polygon that is seen at each pixel centre of `frame`. It is the nearest polygon that
+/// covers the centre, the first of equally near ones; without a depth test it is the last one.
 pub fn visibility(frame: &Frame) -> Visibility {
     visibility_on_grid(frame, 1)
 }
 
-/// Finds the polygon seen at each `step`-th pixel centre of each `step`-th row, from the first on, as [`visibility`] does.
+/// Finds the polygon that is seen at each `step`-th pixel centre of each `step`-th row, starting
+/// with the first, as [`visibility`] does.
 pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
     let [width, height] = [frame.width(), frame.height()].map(|side| side.div_ceil(step));
     let on_grid = |pixels: Range<usize>| pixels.start.div_ceil(step)..pixels.end.div_ceil(step);
@@ -116,7 +122,7 @@ pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
     };
     let [nearest, farthest] = ends(frame);
     let mut scanline = Scanline::new(frame);
-    for (number, polygon) in (0..).zip(frame.polygons()) {
+    for (index, polygon) in (0..).zip(frame.polygons()) {
         let corners = frame.corners(polygon);
         let (columns, rows) = bounding_box(frame, corners);
         let (columns, rows) = (on_grid(columns), on_grid(rows));
@@ -131,12 +137,12 @@ pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
                     if frame.clipping() == Clipping::NdcCube && !(nearest..=farthest).contains(&z) {
                         continue;
                     }
-                    visibility.add((x, y), number, kept(frame, z), frame.depth_test());
+                    visibility.add((x, y), index, kept(frame, z), frame.depth_test());
                 }
             }
         }
     }
-    // From what was compared to z, whatever the distance of the planes: between them it is linear.
+    // Between the planes, z is linear in the compared value, whatever the planes' distances are.
     let range = farthest - nearest;
     let z = |depth: f64| match depth.is_finite() {
         true => (depth - nearest) / range,

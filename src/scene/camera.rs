@@ -1,54 +1,84 @@
-//! The camera: from world space to clip space, and the one view vector of the scene.
+//! The camera: the transform from world space to clip space, and the scene's one view vector.
 
-use super::direction::as_unit;
+use super::direction::{as_unit, length};
 use glam::{DMat4, DVec3, DVec4};
 
-/// A way to fold depth onto the picture.
+/// How the camera projects points onto the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// Parallel rays; `half_height` is half of the height that is seen, in world units.
+    /// Parallel rays.
     Orthographic {
-        /// Half of the height seen.
+        /// Half of the visible height, in world units.
         half_height: f64,
     },
-    /// Rays through the eye; `fovy` is the vertical field of view in degrees, inside (0, 180).
+    /// Rays through the eye.
     Perspective {
-        /// Vertical field of view in degrees.
+        /// The vertical field of view in degrees, above 0 and below 180.
         fovy: f64,
     },
 }
 
-/// The place from which the scene is seen, and the direction.
+/// Where the eye is, where it looks, and what it sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Camera {
     /// Position of the eye in world space.
     pub eye: DVec3,
-    /// The point in the middle of the picture.
+    /// The point that is seen in the middle of the picture.
     pub target: DVec3,
-    /// The direction that is upward in the picture, of any length; not parallel to the line of sight.
+    /// The direction that is upward in the picture, of any length, but not parallel to the line of
+    /// sight.
     pub up: DVec3,
     /// Orthographic or perspective.
     pub projection: Projection,
-    /// Distance of the near plane along the line of sight; over 0 under perspective.
+    /// The distance of the near plane along the line of sight. Above 0 under perspective.
     pub near: f64,
-    /// Distance of the far plane, over `near`.
+    /// The distance of the far plane along the line of sight, greater than `near`.
     pub far: f64,
 }
 
 impl Camera {
-    /// Returns the unit vector `V` toward the eye: one for the whole scene, under perspective too (L21 1).
+    /// Makes a camera at `eye` that looks at `target`, with y upward in the picture. The near and
+    /// the far plane stand at a hundredth and at a hundred times the distance of the target. All
+    /// fields can be changed afterwards.
+    ///
+    /// ```
+    /// use fastphong::glam::DVec3;
+    /// use fastphong::scene::{Camera, Projection};
+    ///
+    /// let eye = DVec3::new(0.0, 1.0, 5.0);
+    /// let mut camera = Camera::looking_at(eye, DVec3::ZERO, Projection::Perspective { fovy: 40.0 });
+    /// camera.near = 1.0;
+    /// ```
+    pub fn looking_at(eye: DVec3, target: DVec3, projection: Projection) -> Camera {
+        let distance = length(target - eye);
+        Camera {
+            eye,
+            target,
+            up: DVec3::Y,
+            projection,
+            near: distance / 100.0,
+            far: distance * 100.0,
+        }
+    }
+
+    /// Returns the unit vector `V` toward the eye. It is the same for the whole scene, also under
+    /// perspective (L21 1).
     pub fn view(&self) -> DVec3 {
         in_range(self.eye - self.target).normalize()
     }
 
-    /// Returns right, up and forward unit vectors: a right-handed camera looking along `forward`.
+    /// Returns unit vectors to the right, upward and forward. The camera is right-handed and looks
+    /// along `forward`.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = -self.view();
         let right = forward.cross(as_unit(self.up)).normalize();
         [right, right.cross(forward), forward]
     }
 
-    /// Returns the matrix from world space to clip space: x and y in −w..=w from left to right and bottom to top, z in 0..=w from near to far.
+    /// Returns the matrix from world space to clip space. x and y lie in −w..=w from left to right
+    /// and from bottom to top, and z in 0..=w from near to far. `aspect` is the picture's width
+    /// over its height.
     pub fn clip_matrix(&self, aspect: f64) -> DMat4 {
         let depth = self.far - self.near;
         self.matrix(
@@ -60,9 +90,10 @@ impl Camera {
         )
     }
 
-    /// Returns the matrix to the clip space in which polygons are clipped. Under perspective its z is
-    /// (f − w)/(f − n), from 1 at the near plane to 0 at the far one: that of [`Camera::clip_matrix`]
-    /// is w but for rounding where the near plane is very near, and then tells nothing of the far one.
+    /// Returns the matrix to the clip space in which polygons are clipped. Under perspective its z
+    /// is (f − w)/(f − n), which falls from 1 at the near plane to 0 at the far one. With a very
+    /// near near plane, the z of [`Camera::clip_matrix`] is w but for rounding, and clipping could
+    /// not find the far plane by it.
     pub(crate) fn precise_clip_matrix(&self, aspect: f64) -> DMat4 {
         let depth = self.far - self.near;
         match self.projection {
@@ -71,7 +102,8 @@ impl Camera {
         }
     }
 
-    /// Returns the matrix whose z is `z[0]` times the distance along the line of sight, plus `z[1]`.
+    /// Returns the matrix whose z is `z[0]` times the distance along the line of sight, plus
+    /// `z[1]`.
     fn matrix(&self, aspect: f64, z: [f64; 2]) -> DMat4 {
         let [right, up, forward] = self.axes();
         let row = |axis: DVec3, scale: f64, offset: f64| {
@@ -102,7 +134,8 @@ impl Camera {
     }
 }
 
-/// Returns a vector of the same direction whose square neither overflows nor vanishes: the vector itself, if it has such a square.
+/// Returns a vector in the same direction whose square neither overflows nor underflows. A vector
+/// that is in range is returned unchanged.
 fn in_range(vector: DVec3) -> DVec3 {
     let size = vector.abs().max_element();
     match (1e-100..=1e100).contains(&size) {

@@ -1,40 +1,59 @@
-//! Placing a camera so that given points fill the picture.
+//! Places a camera so that given points fill the picture.
 
-use super::{Camera, Projection};
+use super::{Camera, Projection, Scene};
 use glam::DVec3;
 
-/// Settings for fitting a camera around points.
+/// How to place a camera around points, for [`Camera::fit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Fit {
-    /// From the points toward the eye; any length but 0.
+    /// The direction from the points toward the eye, of any length but 0.
     pub direction: DVec3,
-    /// The direction that is upward in the picture; not parallel to `direction`.
+    /// The direction that is upward in the picture, not parallel to `direction`.
     pub up: DVec3,
-    /// The part of the frame that the points fill, over 0; at 1 they touch its edge.
+    /// The fraction of the picture that the points fill, above 0. At 1 they touch its edge.
     pub fraction: f64,
-    /// `None`: orthographic. `Some`: perspective, with this vertical field of view in degrees, inside (0, 180).
+    /// The vertical field of view in degrees, above 0 and below 180, of a perspective camera;
+    /// `None` for an orthographic one.
     pub fovy: Option<f64>,
-    /// Width of the picture divided by its height.
+    /// The picture's width over its height.
     pub aspect: f64,
 }
 
-/// The part of the depth of the points that is left free before the nearest and behind the farthest one.
-pub const DEPTH_SLACK: f64 = 0.05;
+impl Fit {
+    /// Makes a fit for an orthographic camera in this `direction`, with y upward. The points fill
+    /// 0.8 of a picture whose width over height is `aspect`.
+    pub fn new(direction: DVec3, aspect: f64) -> Fit {
+        Fit {
+            direction,
+            up: DVec3::Y,
+            fraction: Scene::DEFAULT_FIT,
+            fovy: None,
+            aspect,
+        }
+    }
+}
 
-/// The least near distance of a perspective camera, as a part of the far distance: keeps the depth of 24 bits usable.
+/// The free space in front of the nearest and behind the farthest point, as a fraction of the depth
+/// of the points.
+const DEPTH_SLACK: f64 = 0.05;
+
+/// The smallest near distance of a perspective camera, as a fraction of the far distance. It keeps
+/// a depth buffer of 24 bits usable.
 const LEAST_NEAR: f64 = 1e-3;
 
-/// The least distance of the nearest point before a fitted perspective eye, as a part of the radius: matters only for
-/// points on the line of sight and for fields of view near 180 degrees.
+/// The smallest distance from a fitted perspective eye to the nearest point, as a fraction of the
+/// radius. It matters only for points on the line of sight and for fields of view near 180 degrees.
 const LEAST_CLEARANCE: f64 = 1e-2;
 
 impl Camera {
-    /// Makes a camera that looks at the middle of the bounding box of `points`; they fill a part of the frame. `None` without
-    /// points.
+    /// Makes a camera that looks at the middle of the bounding box of `points`, which fill a
+    /// fraction of the picture. Returns `None` if there are no points.
     ///
-    /// Orthographic: the eye is four times the radius of the box away, and the half height is the least one that leaves
-    /// every point inside the part. Perspective: the eye is as near as it can be under the same rule. Near and far
-    /// planes stand [`DEPTH_SLACK`] before and behind the points. Points without extent count as having radius 1.
+    /// An orthographic eye stands four radii of the box away, and the half height is the smallest
+    /// that keeps every point inside the fraction. A perspective eye stands as near as the same
+    /// rule allows. The near plane is 5 % of the points' depth in front of them, and the far plane
+    /// 5 % behind. If all points are equal, the radius counts as 1.
     pub fn fit(points: impl Iterator<Item = DVec3> + Clone, fit: &Fit) -> Option<Camera> {
         let (low, high) = bounds(points.clone())?;
         let target = (low + high) / 2.0;
@@ -69,8 +88,8 @@ impl Camera {
         Some(camera)
     }
 
-    /// Returns the half height with which `points` fill the asked fraction of an orthographic picture around the target; 1 where they
-    /// have no extent across the line of sight.
+    /// Returns the half height with which `points` fill the fraction of an orthographic picture
+    /// around the target. It is 1 if the points have no extent across the line of sight.
     pub fn half_height_around(&self, points: impl Iterator<Item = DVec3>, fit: &Fit) -> f64 {
         let [right, up, _] = self.axes();
         let half_height = points.fold(0.0, |most: f64, point| {
@@ -81,8 +100,8 @@ impl Camera {
         if half_height > 0.0 { half_height } else { 1.0 }
     }
 
-    /// Returns the distance between eye and target from which no point lies outside the asked fraction of a perspective picture or
-    /// less than `clearance` before the eye.
+    /// Returns the smallest distance from eye to target at which every point lies inside the
+    /// fraction of a perspective picture and at least `clearance` in front of the eye.
     fn distance_around(
         &self,
         points: impl Iterator<Item = DVec3>,
@@ -91,7 +110,8 @@ impl Camera {
         clearance: f64,
     ) -> f64 {
         let [right, up, forward] = self.axes();
-        // A point q from the target is seen at height (u·q) / (t (distance + f·q)), which must be at most the fraction.
+        // A point q, relative to the target, is seen at the height (u·q) / (tan(fovy/2) (distance +
+        // f·q)). It must be at most the fraction. Solve for the distance.
         let t = fit.fraction * libm::tan(fovy.to_radians() / 2.0);
         points.fold(clearance, |most: f64, point| {
             let q = point - self.target;
@@ -102,11 +122,13 @@ impl Camera {
         })
     }
 
-    /// Returns distances of a near and a far plane that hold all of `points` between them with [`DEPTH_SLACK`]; `None` without
-    /// points, or when a perspective camera has none of them before it.
+    /// Returns the distances of a near and a far plane with all `points` and 5 % of their depth
+    /// between them. Returns `None` if there are no points, or if a perspective camera has none of
+    /// them in front of it.
     pub fn depth_range(&self, points: impl Iterator<Item = DVec3>) -> Option<(f64, f64)> {
         let [_, _, forward] = self.axes();
-        // From the target, not from the eye: a far eye costs no digits in the slack.
+        // Measured from the target and not from the eye, so that the slack loses no digits when the
+        // eye is far away.
         let distance = (self.target - self.eye).dot(forward);
         let depths = points.map(|point| forward.dot(point - self.target));
         let (least, most) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| {
@@ -116,7 +138,8 @@ impl Camera {
             return None;
         }
         let slack = match DEPTH_SLACK * (most - least) {
-            // A flat thing seen from the front: any slack will do that still shows in the last digits of the sum.
+            // A flat object seen from the front has no depth. Any slack will do that survives the
+            // rounding of the sum.
             slack if slack <= 1e-9 * (distance.abs() + most.abs()) => {
                 1e-3 * (distance.abs() + most.abs()).max(1e-3)
             }
@@ -131,7 +154,7 @@ impl Camera {
     }
 }
 
-/// Returns the smallest box with sides along the axes around `points`; `None` without points.
+/// Returns the smallest axis-aligned box around `points`, or `None` if there are none.
 fn bounds(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
     let first = points.next()?;
     Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
@@ -142,7 +165,7 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// The corners of a box that is not centred on the origin.
+    /// Returns the corners of a box that is not centred on the origin.
     fn box_corners() -> Vec<DVec3> {
         let mut corners = Vec::new();
         for x in [1.0, 4.0] {
@@ -165,7 +188,7 @@ mod tests {
         }
     }
 
-    /// The largest |x|/w and |y|/w, and the range of z/w, over the picture of `points`.
+    /// Returns the largest |x|/w and |y|/w, and the range of z/w, over the picture of `points`.
     fn extent(camera: &Camera, points: &[DVec3], aspect: f64) -> (f64, f64, f64) {
         let matrix = camera.clip_matrix(aspect);
         points.iter().fold(
@@ -194,7 +217,7 @@ mod tests {
                 ] {
                     let mut points = box_corners();
                     if !every_corner {
-                        // Without the box's symmetry, in which a wrong sign of the depth would not show.
+                        // Without the box's symmetry, which could hide a wrong sign of the depth.
                         points = [0, 3, 5, 6].map(|i| points[i]).to_vec();
                     }
                     let fit = Fit {
@@ -205,7 +228,8 @@ mod tests {
                     let camera =
                         Camera::fit(points.iter().copied(), &fit).expect("there are points");
                     let (most, low, high) = extent(&camera, &points, aspect);
-                    // Some 30 roundings of 2^-53, magnified by distance over depth (below 100 here): under 1e-12.
+                    // Some 30 roundings of 2^-53, magnified by distance over depth (below 100
+                    // here), are under 1e-12.
                     assert!(
                         (most - fraction).abs() < 1e-12,
                         "{fovy:?} {fraction} {aspect}: {most}"
@@ -227,7 +251,8 @@ mod tests {
         let points = box_corners();
         let camera = Camera::fit(points.iter().copied(), &fit(None)).expect("there are points");
         let radius = DVec3::new(3.0, 1.0, 2.0).length() / 2.0;
-        // Sums of three products of size 10 at most: ten roundings of 10 · 2^-53 stay below 1e-13.
+        // These are sums of three products of at most 10: ten roundings of 10 · 2^-53 stay below
+        // 1e-13.
         assert!(((camera.eye - camera.target).length() - 4.0 * radius).abs() < 1e-13);
         let [_, _, forward] = camera.axes();
         let half = 0.5 * DVec3::new(3.0, 1.0, 2.0).dot(forward.abs());
@@ -235,7 +260,8 @@ mod tests {
         assert!((camera.far - (4.0 * radius + half + 0.05 * 2.0 * half)).abs() < 1e-13);
     }
 
-    /// Without extent across or along the line of sight there is still a camera with a valid frustum.
+    /// Points without extent across or along the line of sight still get a camera with a valid
+    /// frustum.
     #[test]
     fn points_without_extent() {
         let flat = [
@@ -274,13 +300,13 @@ mod tests {
     fn nothing_before_a_perspective_eye_has_no_depth_range() {
         let mut camera =
             Camera::fit(box_corners().into_iter(), &fit(Some(60.0))).expect("there are points");
-        // The eye inside the box: the near plane stays before it.
+        // The eye is inside the box: the near plane stays in front of it.
         camera.eye = camera.target + camera.view();
         let (near, far) = camera
             .depth_range(box_corners().into_iter())
             .expect("points before the eye");
         assert_eq!(near, LEAST_NEAR * far);
-        // Looking away from the box.
+        // The camera looks away from the box.
         camera.eye = camera.target - 100.0 * camera.view();
         camera.target = camera.eye - (camera.target - camera.eye);
         assert_eq!(camera.depth_range(box_corners().into_iter()), None);

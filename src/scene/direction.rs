@@ -2,14 +2,16 @@
 
 use glam::DVec3;
 
-/// By how much the square of a unit vector's length may differ from 1.
+/// How far the square of a unit vector's length may be from 1.
 ///
-/// A vector that was divided by its length in `f32` stays as it is, to the bit. Its square came of a product and two sums, 3 roundings
-/// of 2⁻²⁴, of which the root leaves half; root, reciprocal and product are 3 more. So the length is off by 4.5 of these, and its
-/// square by 9, which are less than 16.
+/// A vector that was divided by its length in `f32` is left unchanged, to the bit. Its square came
+/// from a product and two sums, 3 roundings of 2⁻²⁴, of which the root leaves half. Root,
+/// reciprocal and product add 3 more. So the length is off by at most 4.5 such roundings, and its
+/// square by 9, which is less than 16.
 const ROUNDING: f64 = 1.0 / (1 << 20) as f64;
 
-/// Returns the length of a vector, whose squares neither overflow nor vanish.
+/// Returns the length of a vector. Scaling it first keeps the squares from overflowing or
+/// underflowing.
 pub(crate) fn length(vector: DVec3) -> f64 {
     match vector.abs().max_element() {
         size if size > 0.0 && size.is_finite() => size * (vector / size).length(),
@@ -17,17 +19,19 @@ pub(crate) fn length(vector: DVec3) -> f64 {
     }
 }
 
-/// Returns the unit vector along `vector`, which is scaled first: squares neither overflow nor vanish.
+/// Returns the unit vector along `vector`. Scaling it first keeps the squares from overflowing or
+/// underflowing.
 pub(crate) fn unit(vector: DVec3) -> DVec3 {
     (vector / vector.abs().max_element()).normalize()
 }
 
-/// True if a vector is a unit vector but for rounding.
+/// True if a vector is a unit vector, apart from rounding.
 pub(crate) fn is_unit(vector: DVec3) -> bool {
     (vector.length_squared() - 1.0).abs() <= ROUNDING
 }
 
-/// Returns the unit vector along `vector`: itself where it is one but for rounding, or has no direction.
+/// Returns the unit vector along `vector`. A vector that is one already, apart from rounding, or
+/// that has no direction is returned unchanged.
 pub(crate) fn as_unit(vector: DVec3) -> DVec3 {
     let has_direction = vector.is_finite() && vector != DVec3::ZERO;
     match is_unit(vector) || !has_direction {

@@ -1,28 +1,28 @@
-//! Inputs that a user names: a scene file, a mesh file, a built-in mesh, or a scene that is shipped.
+//! Inputs that a user names: a scene file, a mesh file, a built-in mesh, or a shipped scene.
 //!
-//! | input | is |
+//! | input | meaning |
 //! |---|---|
 //! | `path/to/scene.toml` | a scene file |
-//! | `path/to/mesh.obj`, `.stl`, `.ply`, `.off`, `.gltf`, `.glb` | a mesh file, seen as [`SceneFile::for_mesh`] says |
-//! | any other file, device or pipe | one or the other, as its bytes say |
-//! | `builtin:NAME?key=value&key=value` | a built-in mesh, seen likewise |
-//! | `teapot` | the shipped scene of that name: one of [`SCENES`] |
+//! | `path/to/mesh.obj`, `.stl`, `.ply`, `.off`, `.gltf`, `.glb` | a mesh file, in the scene of [`SceneFile::for_mesh`] |
+//! | any other file, device or pipe | a scene file or a mesh file, depending on its bytes |
+//! | `builtin:NAME?key=value&key=value` | a built-in mesh, in the scene of [`SceneFile::for_mesh`] |
+//! | `teapot` | a shipped scene: the name of one of [`SCENES`] |
 //! | `-` | a scene file or a mesh file on standard input |
 //!
-//! Files may be packed by gzip, whatever they are called.
+//! Files may be compressed by gzip, whatever their names are.
 //!
-//! Shipped scenes and the mesh files that they use are part of the program. A mesh among them is named `shipped:vase.obj`
-//! in scene files that do not stand beside it.
+//! Shipped scenes and their mesh files are compiled into the program. Scene files elsewhere can
+//! name a shipped mesh `shipped:vase.obj`.
 //!
 //! ```
 //! let file = fastphong::scene::input::load("football")?;
 //! let resolved = fastphong::scene::input::resolve(&file)?;
 //! assert_eq!(resolved.scene.objects.len(), 2);
-//! # Ok::<(), fastphong::scene::file::diagnostics::SceneError>(())
+//! # Ok::<(), fastphong::scene::file::SceneError>(())
 //! ```
 
 use super::file::diagnostics::{Origin, SceneError};
-use super::file::resolve::{LoadedMesh, Resolved};
+use super::file::resolve::{MeshResult, Resolved, UnusableMesh};
 use super::file::value::{Data, Value};
 use super::file::{BUILTIN, STANDARD_INPUT, SceneFile, shown};
 use crate::mesh::builtin::{BUILTINS, builtin};
@@ -41,10 +41,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::vec::Vec;
 use std::{format, fs, io};
 
-/// A scene that is part of the program.
+/// A scene that is compiled into the program.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct ShippedScene {
-    /// The name: that of its file, without the ending.
+    /// The name: the file name without its ending.
     pub name: &'static str,
     /// The contents of the file.
     pub text: &'static str,
@@ -64,7 +65,7 @@ pub static SCENES: &[ShippedScene] = shipped![
     "local-lights" "blinn" "two-lights"
 ];
 
-/// The files that shipped scenes refer to.
+/// The files that shipped scenes name.
 static SHIPPED_FILES: &[(&str, &[u8])] = &[
     ("vase.obj", include_bytes!("../../scenes/vase.obj")),
     ("vase.mtl", include_bytes!("../../scenes/vase.mtl")),
@@ -74,18 +75,20 @@ static SHIPPED_FILES: &[(&str, &[u8])] = &[
 
 const SHIPPED: &str = "shipped:";
 
-/// The format of a text that no name tells: on standard input, or in a file of another ending.
+/// The format of an input whose name does not tell it: standard input, or a file with another
+/// ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InputFormat {
-    /// A mesh file, of whatever format.
+pub(crate) enum InputFormat {
+    /// A mesh file of any format.
     Mesh,
     /// A scene file.
     Toml,
 }
 
 impl InputFormat {
-    /// Returns the format of `bytes`, packed or not: a scene file begins with a table, or with a key and `=`. All else is left to the
-    /// reader of meshes, which says what it is instead.
+    /// Returns the format of `bytes`, which may be compressed. A scene file begins with a table, or
+    /// with a key and `=`. Everything else is left to the reader of meshes, which says what it
+    /// found.
     fn of(bytes: &[u8]) -> InputFormat {
         let text = &*gzip::start(bytes, ENOUGH);
         if is_no_scene(text) {
@@ -106,18 +109,18 @@ impl InputFormat {
     }
 }
 
-/// The bytes of a text that show its format.
+/// How many bytes are enough to recognise the format.
 const ENOUGH: usize = 1 << 16;
 
-/// The most bytes that are read from a pipe or a device, which may never end.
+/// How many bytes are read at most from a pipe or a device, which may never end.
 const MOST_PIPED: u64 = 1 << 30;
 
-/// Reads a file, or standard input under the name [`STANDARD_INPUT`]. That, a pipe and a device are read once, up to 1 GiB; after
-/// that, what they held is returned again.
+/// Reads a file, or standard input, whose name is [`STANDARD_INPUT`]. Standard input, pipes and
+/// devices are read once, up to 1 GiB. Further calls return the same bytes.
 ///
 /// # Errors
-/// Those of the operating system, and when a pipe holds more.
-pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
+/// Errors of the operating system, and if a pipe holds more.
+pub(crate) fn read_input(path: &Path) -> io::Result<Vec<u8>> {
     static READ: Mutex<BTreeMap<PathBuf, Result<Vec<u8>, String>>> = Mutex::new(BTreeMap::new());
     let is_input = path.as_os_str() == STANDARD_INPUT;
     if !is_input {
@@ -137,7 +140,7 @@ pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
     known.clone().map_err(io::Error::other)
 }
 
-/// Reads all that a pipe holds.
+/// Reads a pipe to its end.
 fn read_to_end(pipe: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     pipe.take(MOST_PIPED + 1).read_to_end(&mut bytes)?;
@@ -156,10 +159,10 @@ impl ShippedScene {
         SCENES.iter().find(|scene| scene.name == name)
     }
 
-    /// Reads the scene; its meshes can be found from anywhere.
+    /// Reads the scene. Its meshes can be found from any folder.
     ///
     /// # Errors
-    /// None, as long as the shipped files are those that were tested.
+    /// None, as long as the shipped files are the tested ones.
     pub fn load(&self) -> Result<SceneFile, SceneError> {
         let mut file = SceneFile::parse(self.text, format!("{SHIPPED}{}.toml", self.name))?;
         rename_meshes(&mut file, |mesh| {
@@ -176,18 +179,19 @@ fn shipped_file(name: &str) -> Option<&'static [u8]> {
         .map(|(_, bytes)| *bytes)
 }
 
-/// Reads the scene that `input` names; its meshes are not loaded yet.
+/// Reads the scene that `input` names. Its meshes are not loaded yet.
 ///
 /// # Errors
-/// [`SceneError`] when there is no such thing, or the scene file is not one.
+/// [`SceneError`] if there is no such input, or it is not a valid scene file.
 pub fn load(input: &str) -> Result<SceneFile, SceneError> {
     load_by(input, &mut read_input)
 }
 
-/// Reads the scene that `input` names as [`load`] does, files by `read`: which may note what a scene is made of.
+/// Reads the scene that `input` names as [`load`] does. `read` returns the contents of files, and
+/// may record which files a scene needs.
 ///
 /// # Errors
-/// As [`load`].
+/// As for [`load`].
 pub fn load_by(
     input: &str,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
@@ -209,7 +213,7 @@ pub fn load_by(
             let problem = format!("{input}: is a directory");
             return Err(SceneError::new(Origin::Program, problem, expected));
         }
-        // A file that is already open has no folder either.
+        // A file that is already open belongs to no folder either.
         Ok(found) => !found.is_file() || ["/dev", "/proc"].iter().any(|top| path.starts_with(top)),
     };
     let format = match () {
@@ -237,7 +241,8 @@ pub fn load_by(
     }
 }
 
-/// Returns the scene of the mesh file `input` at `path` alone, with the camera and the lights of the file if it has some.
+/// Returns the default scene around the mesh file `input` at `path`, with the file's camera and
+/// lights if it has any.
 #[cfg(feature = "gltf")]
 fn mesh_alone(
     input: &str,
@@ -245,7 +250,7 @@ fn mesh_alone(
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> SceneFile {
     let mut file = SceneFile::for_mesh(input.to_owned());
-    // Files of other formats have none, and need not be read twice.
+    // Files of other formats have no camera, and need not be read twice.
     let may_have_some = ["gltf", "glb", "gz"];
     let is_other = mesh_endings().any(|ending| has_ending(path, ending));
     if !is_other || may_have_some.iter().any(|ending| has_ending(path, ending)) {
@@ -265,8 +270,8 @@ fn mesh_alone(input: &str, _: &Path, _: &mut dyn FnMut(&Path) -> io::Result<Vec<
     SceneFile::for_mesh(input.to_owned())
 }
 
-/// Returns what messages call a scene that comes from a pipe or a device. It is in no folder: its meshes are relative to the current one,
-/// as those of standard input are.
+/// Returns the name of a scene that comes from a pipe or a device, for messages. The name has no
+/// folder, so that its meshes are relative to the current one, as with standard input.
 fn pipe_name(path: &Path) -> String {
     match path.to_str() {
         Some("/dev/stdin" | "/dev/fd/0" | "/proc/self/fd/0") => shown(STANDARD_INPUT).to_owned(),
@@ -277,12 +282,12 @@ fn pipe_name(path: &Path) -> String {
     }
 }
 
-/// Reads the scene on standard input, for which `read` is asked under the name [`STANDARD_INPUT`]. Without a `format`, its text
-/// decides.
+/// Reads the scene on standard input. `read` gets the name [`STANDARD_INPUT`]. Without a `format`,
+/// the text decides.
 ///
 /// # Errors
-/// When it cannot be read, and those of [`SceneFile::load`].
-pub fn load_standard_input(
+/// If it cannot be read, and the errors of [`SceneFile::load`].
+pub(crate) fn load_standard_input(
     format: Option<InputFormat>,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<SceneFile, SceneError> {
@@ -299,7 +304,7 @@ pub fn load_standard_input(
     }
 }
 
-/// Makes the error for what is not there, or cannot be looked at for another reason.
+/// Makes the error for an input that does not exist or cannot be read for another reason.
 fn missing(input: &str, path: &Path, error: io::Error) -> SceneError {
     use io::ErrorKind::{InvalidInput, NotADirectory, NotFound};
     let is_link = fs::read_link(path).is_ok();
@@ -308,7 +313,7 @@ fn missing(input: &str, path: &Path, error: io::Error) -> SceneError {
         return SceneError::new(Origin::Program, problem, "");
     }
     let scenes = || SCENES.iter().map(|scene| scene.name);
-    // Who writes `scenes/teapto.toml` means `teapot`, and who writes `sphere` the built-in mesh.
+    // `scenes/teapto.toml` probably means `teapot`, and `sphere` the built-in mesh.
     let stem = path.file_stem().and_then(|stem| stem.to_str());
     let stem = stem.unwrap_or(input);
     let shape = || is_builtin(stem).then(|| format!("{BUILTIN}{stem}"));
@@ -335,35 +340,37 @@ fn is_builtin(name: &str) -> bool {
     BUILTINS.iter().any(|shape| shape.name == name)
 }
 
-/// True if `mesh`, as a scene names it, is a file, and neither part of the program nor standard input.
-pub fn is_mesh_file(mesh: &str) -> bool {
+/// True if the mesh name `mesh` in a scene is a file, and neither compiled into the program nor
+/// standard input.
+#[cfg(any(feature = "cli", test))]
+pub(crate) fn is_mesh_file(mesh: &str) -> bool {
     !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED) && mesh != STANDARD_INPUT
 }
 
-/// True if `path` ends as scene files and mesh files do.
-pub fn has_known_ending(path: &Path) -> bool {
+/// True if `path` has the ending of a scene file or a mesh file.
+pub(crate) fn has_known_ending(path: &Path) -> bool {
     has_ending(path, "toml") || mesh_endings().any(|ending| has_ending(path, ending))
 }
 
-/// True if `path` ends in a point and `ending`, in any case.
-pub fn has_ending(path: &Path, ending: &str) -> bool {
+/// True if `path` ends in a dot and `ending`, in any case.
+pub(crate) fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension()
         .is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
-/// Returns the scene that `file` describes, with its meshes, and what is odd about it.
+/// Returns the scene that `file` describes, with its meshes, warnings and notes.
 ///
 /// # Errors
-/// [`SceneError`] when a value is out of its range or a mesh cannot be used.
+/// [`SceneError`] if a value is out of its range or a mesh cannot be used.
 pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
     resolve_by(file, &mut read_input)
 }
 
-/// Returns the scene that `file` describes as [`resolve`] does, with files read by `read`: it is asked for meshes and material
-/// libraries, also for those that are not there.
+/// Returns the scene that `file` describes, as [`resolve`] does. `read` returns the contents of
+/// meshes and material libraries. It is also called for files that do not exist.
 ///
 /// # Errors
-/// As [`resolve`].
+/// As for [`resolve`].
 pub fn resolve_by(
     file: &SceneFile,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
@@ -371,23 +378,25 @@ pub fn resolve_by(
     file.resolve(|name, folder| load_named(name, folder, read, file.draws_materials_of(name)))
 }
 
-/// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…`, `-` or a mesh file, relative to `folder`.
+/// Loads the mesh called `name`: `builtin:…`, `shipped:…`, `-`, or a mesh file relative to
+/// `folder`. Returns it with the loader's warnings.
 ///
 /// # Errors
-/// What is wrong with which file, in which line, and what was expected: one line, and one for each thing that was odd before.
-pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
+/// [`UnusableMesh`] says what is wrong, in which file and line, and what was expected.
+pub fn load_mesh(name: &str, folder: &Path) -> MeshResult {
     load_named(name, folder, &mut read_input, true)
 }
 
-/// Loads a mesh; without `draws_materials` nothing is said of its materials, which others replace.
+/// Loads a mesh. With `draws_materials` false, warnings about its materials are left out, because
+/// other materials replace them.
 fn load_named(
     name: &str,
     folder: &Path,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
     draws_materials: bool,
-) -> LoadedMesh {
+) -> MeshResult {
     if let Some(spec) = name.strip_prefix(BUILTIN) {
-        let mesh = builtin(spec).map_err(|error| error.to_string())?;
+        let mesh = builtin(spec).map_err(|error| UnusableMesh::new(error.to_string()))?;
         return Ok((Arc::new(mesh), Vec::new()));
     }
     let loaded = if let Some(file) = name.strip_prefix(SHIPPED) {
@@ -395,9 +404,9 @@ fn load_named(
             let files = SHIPPED_FILES.iter().map(|(name, _)| *name);
             let meshes: Vec<&str> = files.filter(|name| name.ends_with(".obj")).collect();
             let meshes = meshes.join(", ");
-            return Err(format!(
+            return Err(UnusableMesh::new(format!(
                 "no mesh `{file}` is shipped: expected one of {meshes}"
-            ));
+            )));
         };
         parse_mesh(name, bytes, |name| {
             let bytes = shipped_file(name).map(<[u8]>::to_vec);
@@ -414,13 +423,14 @@ fn load_named(
         let is_shape = is_builtin(name.split('?').next().unwrap_or_default());
         if is_shape && matches!(&loaded, Err(error) if error.is_unreadable) {
             let hint = format!("did you mean `{BUILTIN}{name}`?");
-            return Err(format!("`{name}` is not a mesh file; {hint}"));
+            let reason = format!("`{name}` is not a mesh file; {hint}");
+            return Err(UnusableMesh::new(reason));
         }
         loaded
     };
-    let loaded = loaded.map_err(|error| {
-        let odd = error.warnings.iter();
-        odd.fold(error.to_string(), |text, odd| format!("{text}\n{odd}"))
+    let loaded = loaded.map_err(|error| UnusableMesh {
+        reason: error.to_string(),
+        warnings: error.warnings,
     })?;
     let name = shown(name);
     let is_told = |i: &usize| draws_materials || !loaded.material_warnings.contains(i);
@@ -429,8 +439,10 @@ fn load_named(
     Ok((Arc::new(loaded.mesh), warnings.collect()))
 }
 
-/// Makes the meshes of `file` findable from the current folder, so that the scene may be written down anywhere in it.
-pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
+/// Rewrites the mesh paths of `file` relative to the current folder, so that the scene can be
+/// written down there.
+#[cfg(any(feature = "cli", test))]
+pub(crate) fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
     let Some(folder) = file.path().and_then(Path::parent).map(Path::to_owned) else {
         return;
     };
@@ -439,7 +451,7 @@ pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
     });
 }
 
-/// Gives each mesh that the scene file itself names the name that `rename` returns, if it returns one.
+/// Renames each mesh that the scene file itself names, wherever `rename` returns a name.
 fn rename_meshes(file: &mut SceneFile, rename: impl Fn(&str) -> Option<String>) {
     for object in file.objects_mut() {
         if let Some(Value {
@@ -457,7 +469,8 @@ fn rename_meshes(file: &mut SceneFile, rename: impl Fn(&str) -> Option<String>) 
 mod tests {
     use super::*;
 
-    /// Every scene file of the folder is in the table, in the order of the README, and says what the file says.
+    /// Every scene file of the folder is in the table, in the README's order, and its text is the
+    /// file's.
     #[test]
     fn the_table_holds_every_shipped_scene() {
         let readme = include_str!("../../scenes/README.md");

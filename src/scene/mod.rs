@@ -1,4 +1,24 @@
-//! A scene: objects, lights, a camera, and how they are to be drawn.
+//! Scenes: objects, lights, a camera, and how to draw them.
+//!
+//! [`Scene::of_mesh`] chooses camera, light and material for one mesh. [`Scene::new`] starts with a
+//! camera only. All fields of a scene are public, and [`Scene::frame`] checks them.
+//!
+//! ```
+//! use fastphong::glam::{DAffine3, DVec3};
+//! use fastphong::mesh::builtin::builtin;
+//! use fastphong::scene::{Camera, Falloff, Light, Object, Projection, Scene};
+//!
+//! let eye = DVec3::new(0.0, 1.0, 6.0);
+//! let mut scene = Scene::new(Camera::looking_at(eye, DVec3::ZERO, Projection::Perspective { fovy: 40.0 }));
+//! scene.lights.push(Light::directional(DVec3::Z, [0.5; 3]));
+//! let lamp = Light::positional(DVec3::new(2.0, 3.0, 1.0), [5.0; 3]);
+//! scene.lights.push(lamp.with_falloff(Falloff::InverseSquare));
+//! let mut torus = Object::new(builtin("torus")?);
+//! torus.transform = DAffine3::from_rotation_x(0.5);
+//! scene.objects.push(torus);
+//! assert_eq!(scene.frame()?.light_count(), 2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod camera;
 mod camera_fit;
@@ -16,7 +36,7 @@ pub(crate) mod ranges;
 mod settings;
 
 pub use camera::{Camera, Projection};
-pub use camera_fit::{DEPTH_SLACK, Fit};
+pub use camera_fit::Fit;
 pub use lighting::{Falloff, Light, LightTerm, Lighting, Place, SpecularGate, SpecularModel};
 pub use power::Power;
 pub use settings::{
@@ -32,22 +52,37 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DAffine3, DMat3, DVec3};
 
-/// A mesh somewhere in the world.
+/// A mesh, placed in the world.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Object {
-    /// The shape; may be shared between objects.
+    /// The shape. Objects may share it.
     pub mesh: Arc<PolygonMesh>,
-    /// Model space, in which the positions of the mesh count from its origin, to world space. Normals follow by the inverse transpose; a mirroring transform keeps the winding
-    /// (outside stays outside).
+    /// The transform from model space to world space. The positions of the mesh are relative to its
+    /// origin. Normals are transformed by the inverse transpose. A mirroring transform keeps the
+    /// winding (outside stays outside).
     pub transform: DAffine3,
-    /// Replaces the materials of the mesh.
+    /// Replaces the materials of the mesh, if present.
     pub material: Option<Material>,
-    /// The source of the vertex normals, and the weight of averages.
+    /// Where the vertex normals come from, and how averages are weighted.
     pub normals: NormalRule,
 }
 
 impl Object {
-    /// Returns the way from [`PolygonMesh::positions`] to world space: the transform, once the origin of the mesh is added.
+    /// Places `mesh` at the origin of the world, in its own materials (the default one for polygons
+    /// without any), with vertex normals by [`PolygonMesh::normal_rule`].
+    pub fn new(mesh: impl Into<Arc<PolygonMesh>>) -> Object {
+        let mesh = mesh.into();
+        Object {
+            normals: mesh.normal_rule(),
+            mesh,
+            transform: DAffine3::IDENTITY,
+            material: None,
+        }
+    }
+
+    /// Returns the transform from [`PolygonMesh::positions`] to world space: `transform` after the
+    /// origin of the mesh is added.
     pub fn positions_to_world(&self) -> DAffine3 {
         match self.mesh.origin() {
             DVec3::ZERO => self.transform,
@@ -55,7 +90,7 @@ impl Object {
         }
     }
 
-    /// Returns the positions in world space that polygons use, each once.
+    /// Returns the world positions that polygons use, each once.
     pub(crate) fn world_points(&self) -> impl Iterator<Item = DVec3> {
         let mesh = &self.mesh;
         let mut used = vec![false; mesh.positions().len()];
@@ -70,71 +105,76 @@ impl Object {
     }
 }
 
-/// Returns the volume of a unit cube after `linear`, as a share of what its edges would have at right angles; NaN where one of
-/// them has no length.
+/// Returns the volume of a unit cube after `linear`, divided by the volume of a box with the same
+/// edges at right angles. Returns NaN if an edge has no length.
 pub(crate) fn volume(linear: DMat3) -> f64 {
     let edges = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
     linear.determinant().abs() / edges
 }
 
-/// True if a light at `light` stands at `point` for all that positions in `f32` can tell, where the direction toward it is
-/// undefined. Positions are rounded relative to the eye, and those of a mesh that lies far from 0 relative to that mesh.
+/// True if a light at `light` cannot be told from `point` by positions in `f32`. The direction
+/// toward it is then undefined. Positions are rounded relative to the eye, and in a mesh far from 0
+/// relative to that mesh.
 pub(crate) fn stands_at(light: DVec3, point: DVec3, eye: DVec3) -> bool {
     let from_zero = point.length().max(light.length());
     let from_eye = (point - eye).length().max((light - eye).length());
     (point - light).length() <= f64::from(f32::EPSILON) * from_zero.min(from_eye)
 }
 
-/// All that a picture shows.
+/// Everything that a picture shows.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Scene {
     /// Pixels per row, 1..=[`Scene::MAX_SIDE`].
     pub width: u32,
     /// Rows, 1..=[`Scene::MAX_SIDE`].
     pub height: u32,
-    /// Colour where nothing is drawn, 0..=1.
+    /// The colour where nothing is drawn, 0..=1.
     pub background: Rgb,
     /// The camera.
     pub camera: Camera,
-    /// Ambient intensity `I_a` of each channel.
+    /// The ambient intensity `I_a` of each channel.
     pub ambient: Rgb,
-    /// Lights; none means ambient light only.
+    /// The lights. Without any, there is only ambient light.
     pub lights: Vec<Light>,
-    /// True if the eye is where the camera is, as each point sees it; without it, it is at infinity along the line of
-    /// sight, as the lecture assumes (L21 1).
+    /// True if highlights are seen from the camera's position. False if the eye is at infinity
+    /// along the line of sight, as the lecture assumes (L21 1).
     pub local_viewer: bool,
-    /// The cosine that is raised to the exponents.
+    /// Which cosine is raised to the exponents.
     pub specular: SpecularModel,
-    /// The model that the materials' exponents are meant for; they are converted where it is not [`Scene::specular`].
+    /// The model for which the materials' exponents were chosen. They are converted if it is not
+    /// [`Scene::specular`].
     pub shininess_for: SpecularModel,
-    /// The treatment of highlights where the light is behind the surface.
+    /// What happens to highlights where the light is behind the surface.
     pub gate: SpecularGate,
-    /// True if `k_a` and `k_d` are multiplied by the vertex colours of meshes that have some, and no
-    /// [attributes](crate::mesh::MeshBuilder::attributes): colours are then lit, and interpolated as normals are.
+    /// True if the vertex colours of meshes multiply `k_a` and `k_d`. They are interpolated as
+    /// normals are. Meshes with [attributes](crate::mesh::MeshBuilder::attributes) are excepted.
     pub colours: bool,
-    /// The variation of attributes over the screen.
+    /// How attributes vary over the screen.
     pub interpolation: Interpolation,
-    /// The sides that are left out.
+    /// Which sides of polygons are left out.
     pub culling: Culling,
-    /// The search for hidden surfaces.
+    /// How hidden polygons are kept out of the picture.
     pub hidden_surfaces: HiddenSurfaces,
-    /// The limits of the view.
+    /// How polygons are limited to the view.
     pub clipping: Clipping,
-    /// True if polygons seen from behind are lit with negated normals: those whose corners run clockwise on the screen, unless
-    /// that contradicts the normals that are given for them. Then these say where the front is.
+    /// True if polygons seen from behind are lit with negated normals. These are the polygons whose
+    /// corners run clockwise on the screen, unless normals that the mesh states contradict that:
+    /// these normals then say where the front is.
     pub two_sided: bool,
-    /// Samples per pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
-    /// their mean in linear light is the pixel. `samples` times a side is at most [`Scene::MAX_SIDE`].
+    /// Samples per pixel along each side: 1, 2, 4 or 8. Each of the `samples`² samples is hidden,
+    /// lit and shaded separately, and the pixel is their mean in linear light. `samples` times a
+    /// side is at most [`Scene::MAX_SIDE`].
     pub samples: u32,
-    /// The storage of values in eight bits.
+    /// How intensities are stored in eight bits.
     pub encoding: Encoding,
-    /// The objects, in the order of drawing.
+    /// The objects, in drawing order.
     pub objects: Vec<Object>,
 }
 
 impl Scene {
-    /// Makes a scene of nothing, seen by `camera` on 640 × 480 pixels under white ambient light; everything else as in a scene file that
-    /// says nothing, but without its light. For `Scene { objects, ..Scene::new(camera) }`.
+    /// Makes a scene without objects and lights, seen by `camera` on 640 × 480 pixels under white
+    /// ambient light. Everything else is as in a scene file that states nothing.
     pub fn new(camera: Camera) -> Scene {
         Scene {
             width: 640,
@@ -159,8 +199,9 @@ impl Scene {
         }
     }
 
-    /// The longest side of a picture: 16,384 pixels, as far as a 16-bit pixel coordinate with two guard bits goes.
+    /// The longest side of a picture, 16,384 pixels. A 16-bit pixel coordinate with two guard bits
+    /// reaches this far.
     pub const MAX_SIDE: u32 = 16_384;
-    /// The most lights a scene may have.
+    /// The largest count of lights in a scene.
     pub const MAX_LIGHTS: usize = 64;
 }

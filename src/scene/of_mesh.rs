@@ -1,4 +1,4 @@
-//! The scene that a mesh alone gets.
+//! The default scene around one mesh.
 
 use super::direction::unit;
 use super::{Camera, Culling, Fit, Light, Object, Projection, Scene};
@@ -9,23 +9,27 @@ use alloc::vec;
 use glam::{DAffine3, DVec3};
 
 impl Scene {
-    /// Width and height of a picture when nothing else is said.
+    /// The default width and height of a picture.
     pub const DEFAULT_SIZE: (u32, u32) = (640, 480);
-    /// The part of the frame that objects fill when nothing else is said.
+    /// The default fraction of the picture that objects fill.
     pub const DEFAULT_FIT: f64 = 0.8;
-    /// From the objects toward the eye when nothing else is said: a three-quarter view.
+    /// The default direction from the objects toward the eye: a three-quarter view.
     pub const DEFAULT_DIRECTION: [f64; 3] = [0.5, 0.3, 1.0];
-    /// Toward the one light that is there when no light is given.
+    /// The default direction toward the light, for scenes that state none.
     pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
 
-    /// Makes a scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
-    /// for polygons that have none, averaged vertex normals (L21 3.1). A mesh that was read from a file has its own normals, or
-    /// averages by angle ([`PolygonMesh::normal_rule`]); if it is open, not wound alike everywhere, or wound against its own
-    /// normals, it is drawn and lit on both sides. Any other is drawn with its back culled.
-    /// Vertex colours, where the mesh has some, multiply the material's ambient and diffuse
-    /// coefficients, those of a grey one by default.
+    /// Makes a scene that shows `mesh`: an orthographic three-quarter view fitted around it, one
+    /// white light, and the default material for polygons without one.
     ///
-    /// The fields are there to be changed; a mesh without polygons gives an empty picture.
+    /// Vertex normals are averaged (L21 3.1). A mesh that was read from a file keeps its own
+    /// normals instead, or averages them by angle ([`PolygonMesh::normal_rule`]). Back faces are
+    /// culled. If a mesh from a file is open, wound inconsistently, or wound against its own
+    /// normals, it is drawn and lit on both sides.
+    ///
+    /// If the mesh has vertex colours, they multiply the ambient and diffuse coefficients, and the
+    /// default material is then grey.
+    ///
+    /// All fields can be changed afterwards. A mesh without polygons makes an empty picture.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
@@ -50,7 +54,7 @@ impl Scene {
             .corners()
             .iter()
             .map(|&corner| mesh.origin() + mesh.positions()[corner as usize].as_dvec3());
-        // Without a polygon there is nothing to look at, and any camera will do.
+        // Without a polygon there is nothing to see, and any camera will do.
         let camera = Camera::fit(corners, &fit).unwrap_or(Camera {
             eye: fit.direction,
             target: DVec3::ZERO,
@@ -95,10 +99,13 @@ impl Scene {
 mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
-    use crate::raster::{Plan, Renderer};
-    use crate::shading::{METHODS, MethodRow};
     #[cfg(feature = "io")]
-    use crate::{mesh::builtin::builtin, scene::file::SceneFile};
+    use crate::{
+        mesh::builtin::builtin,
+        raster::{Plan, Renderer},
+        scene::file::SceneFile,
+        shading::{METHODS, MethodRow},
+    };
     use alloc::vec::Vec;
 
     #[cfg(feature = "io")]
@@ -192,13 +199,13 @@ mod tests {
             assert_eq!(resolved.scene.objects[0].normals, rule);
             let (a, b) = (scene.frame().unwrap(), resolved.scene.frame().unwrap());
             assert_eq!(std::format!("{a:?}"), std::format!("{b:?}"), "{faces}");
-            // What is chosen is said where the scene is written down, and means the same there.
+            // The written scene states what was chosen, and means the same.
             file.overlay(resolved.chosen);
             let written = file.to_toml();
             assert!(written.contains("normals = \"auto\"\nnormals_weight = \"angle\"\n"));
             let again = SceneFile::parse(&written, "t.toml").unwrap();
             assert_eq!(load(&again).scene.objects[0].normals, rule);
-            // In a scene file that does not say so, averages are the lecture's.
+            // A scene file that states nothing averages as the lecture does.
             let named = SceneFile::parse("[[object]]\nmesh = 't.obj'", "t.toml").unwrap();
             assert_eq!(load(&named).scene.objects[0].normals, NormalRule::default());
         }

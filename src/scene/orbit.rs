@@ -1,29 +1,33 @@
-//! The camera of a scene that is turned by hand: its own, turned around its target and brought nearer.
+//! The camera of a scene that is turned by hand: the scene's own camera, turned around its target
+//! and moved nearer.
 
 use super::{Camera, Light, Projection, Scene};
 use alloc::vec::Vec;
 use glam::{DMat3, DQuat, DVec3};
 
-/// The highest elevation above the horizon of the scene's up, in radians: at 90 degrees nothing is upward any more.
+/// The highest elevation above the horizon, in radians. At 90 degrees the scene's up would be along
+/// the line of sight.
 const HIGHEST: f64 = 89.0 * core::f64::consts::PI / 180.0;
 
-/// Zooms, from the least to the most.
+/// The smallest and the largest zoom.
 const ZOOMS: [f64; 2] = [1.0 / 16.0, 64.0];
 
-/// The camera from which an orbit starts, and what it must keep in view.
+/// The camera at which an orbit starts, and what it must keep in view.
 #[derive(Clone, Debug)]
 pub struct Start {
     camera: Camera,
-    /// Width over height of the picture that the camera was made for.
+    /// The width over the height of the picture for which the camera was made.
     aspect: f64,
-    /// The corners of the objects' boxes, in world space: all that is drawn lies between them.
+    /// The corners of the objects' bounding boxes, in world space. Everything that is drawn lies
+    /// between them.
     corners: Vec<DVec3>,
-    /// The distances of the near and the far plane that the scene asks for itself, as they then stay.
+    /// The distances of the near and the far plane that the scene states. They never change.
     planes: [Option<f64>; 2],
 }
 
 impl Start {
-    /// Returns the start of `scene`; of the near and the far plane those that are `given` stay where they are.
+    /// Returns the start of `scene`. `given` says whether the scene states the near and the far
+    /// plane, which then stay where they are.
     pub fn new(scene: &Scene, given: [bool; 2]) -> Start {
         let mut corners = Vec::new();
         for object in &scene.objects {
@@ -51,15 +55,17 @@ impl Start {
         }
     }
 
-    /// Returns the direction to the first of `lights`, from the target if it has a position: to the right, upward, and toward the
-    /// eye; `None` if there is no light, or it stands at the target.
+    /// Returns the direction to the first of `lights` in coordinates of the camera: to the right,
+    /// upward, and toward the eye. For a light at a position it is the direction from the target.
+    /// Returns `None` if there is no light, or it stands at the target.
     pub fn toward_light(&self, lights: &[Light]) -> Option<[f64; 3]> {
         let toward = toward_first(lights, self.camera.target)?;
         let [right, up, forward] = self.camera.axes();
         Some([right, up, -forward].map(|axis| axis.dot(toward)))
     }
 
-    /// Returns up, the horizontal direction toward the eye, the one to its right, and the elevation of the eye.
+    /// Returns the upward direction, the horizontal direction toward the eye, the horizontal
+    /// direction to its right, and the elevation of the eye.
     fn horizon(&self) -> ([DVec3; 3], f64) {
         let pole = self.camera.up.normalize();
         let toward = self.camera.view();
@@ -70,7 +76,7 @@ impl Start {
     }
 }
 
-/// How far the camera has come from its start.
+/// How far the camera was turned and zoomed from its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     azimuth: f64,
@@ -89,34 +95,37 @@ impl Default for Orbit {
 }
 
 impl Orbit {
-    /// Turns the eye to its right by `azimuth` and upward by `elevation`, in radians, not beyond the poles.
+    /// Turns the eye to its right by `azimuth` and upward by `elevation`, both in radians. It stops
+    /// before the poles.
     pub fn turn(&mut self, start: &Start, azimuth: f64, elevation: f64) {
         let (_, at_start) = start.horizon();
-        // A scene may look from beyond; the way back is open.
+        // A scene may start beyond the limit. It stays there until it is lowered.
         let highest = HIGHEST.max(at_start.abs());
         let raised = at_start + self.elevation + elevation;
         self.elevation = raised.clamp(-highest, highest) - at_start;
         self.azimuth = libm::remainder(self.azimuth + azimuth, core::f64::consts::TAU);
     }
 
-    /// Returns azimuth and elevation from the start, in radians: not beyond the poles.
+    /// Returns azimuth and elevation relative to the start, in radians.
     pub fn angles(&self) -> [f64; 2] {
         [self.azimuth, self.elevation]
     }
 
-    /// Shows everything `factor` times as large, within limits.
+    /// Magnifies the picture by `factor`, within limits.
     pub fn zoom(&mut self, factor: f64) {
         self.zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
     }
 
-    /// Returns the camera for a picture of this width over height. What fits into the start's picture fits into a narrower one.
+    /// Returns the camera for a picture with this width over height. A narrower picture shows
+    /// everything that the start's picture shows.
     pub fn camera(&self, start: &Start, aspect: f64) -> Camera {
         let mut camera = start.camera;
         let wider = start.aspect / aspect;
         if wider > 1.0 {
             camera.projection = widened(camera.projection, wider);
         }
-        // At the start it is the scene's own to the bit, so that the picture is that of `render`.
+        // At the start the camera is the scene's own, to the bit, so that the picture equals the
+        // one that `render` writes.
         if *self == Orbit::default() {
             return camera;
         }
@@ -142,19 +151,20 @@ impl Orbit {
         camera
     }
 
-    /// Returns `lights` turned as the eye has turned around its target: seen from there they stay where they were.
+    /// Returns `lights` turned together with the eye around its target. Seen from the eye they stay
+    /// where they were.
     pub fn carry(&self, start: &Start, lights: &[Light]) -> Vec<Light> {
         let axes = |camera: &Camera| {
             let [right, up, forward] = camera.axes();
             DMat3::from_cols(right, up, forward)
         };
-        // The inverse of a turn is its transpose.
+        // The inverse of a rotation is its transpose.
         let turned = axes(&self.camera(start, start.aspect)) * axes(&start.camera).transpose();
         turned_about(start.camera.target, turned, lights)
     }
 
-    /// Returns `lights` as [`Orbit::carry`] does, and then all of them turned so that the first one stands `toward`, as
-    /// [`Start::toward_light`] counts.
+    /// Returns `lights` as [`Orbit::carry`] does, and then turns all of them together so that the
+    /// first one stands `toward`, in the coordinates of [`Start::toward_light`].
     pub fn carry_toward(&self, start: &Start, lights: &[Light], toward: [f64; 3]) -> Vec<Light> {
         let carried = self.carry(start, lights);
         let target = start.camera.target;
@@ -185,7 +195,7 @@ fn toward_first(lights: &[Light], target: DVec3) -> Option<DVec3> {
     toward.try_normalize()
 }
 
-/// Turns lights about `target`.
+/// Turns lights around `target`.
 fn turned_about(target: DVec3, turn: DMat3, lights: &[Light]) -> Vec<Light> {
     let turned = |light: &Light| {
         let place = match light.place.is_local() {
@@ -197,7 +207,7 @@ fn turned_about(target: DVec3, turn: DMat3, lights: &[Light]) -> Vec<Light> {
     lights.iter().map(turned).collect()
 }
 
-/// Returns the projection that sees so many times as much in width and height.
+/// Returns the projection that shows `times` as much in width and height.
 fn widened(projection: Projection, times: f64) -> Projection {
     match projection {
         Projection::Orthographic { half_height } => Projection::Orthographic {
@@ -229,7 +239,7 @@ mod tests {
         scene
     }
 
-    /// Some dozens of roundings of numbers below 10, each of at most 10 · 2^-53.
+    /// Some dozens of roundings of values below 10, each at most 10 · 2^-53.
     const ROUNDING: f64 = 1e-13;
 
     #[test]
@@ -252,7 +262,7 @@ mod tests {
             (eye - DVec3::new(4.0, 3.0, 0.0)).length() < ROUNDING,
             "{eye}"
         );
-        // Three more close the circle.
+        // Three more quarter turns close the circle.
         for _ in 0..3 {
             orbit.turn(&start, FRAC_PI_2, 0.0);
         }
@@ -275,7 +285,7 @@ mod tests {
         assert!((lower - libm::sin(HIGHEST - 0.5)).abs() < ROUNDING);
     }
 
-    /// A scene that looks nearly along its up keeps that view, which is beyond the limit.
+    /// A scene that looks nearly along its up keeps that view, although it is beyond the limit.
     #[test]
     fn a_start_beyond_the_limit_stays_until_it_is_lowered() {
         let mut scene = scene(None);

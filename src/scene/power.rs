@@ -1,38 +1,41 @@
-//! The power function of highlights: data that methods and reference compute by, each in its own arithmetic.
+//! The power function of highlights. Methods and the reference each compute it in their own
+//! arithmetic.
 
 use crate::number::NameError;
-use crate::number::suggest::{one_of, unknown};
+use alloc::borrow::ToOwned;
 use alloc::format;
 use core::fmt;
 
-/// The function that raises the cosine of a highlight, t in 0..=1, to the exponent n. It is `power=` of every method, as in
-/// `duff-phong:power=lyon:k=3`.
+/// The function that raises the cosine of a highlight, t in 0..=1, to the exponent n. Every method
+/// has it as the parameter `power=`, as in `duff-phong:power=lyon:k=3`.
 ///
-/// All of them are tⁿ itself where n is below 1: an approximation of a peak is none of a root.
+/// For n below 1, every function is tⁿ itself, because the approximations approximate a peak and
+/// not a root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Power {
-    /// tⁿ by repeated squaring, or by a power function where n is no whole number.
+    /// tⁿ by repeated squaring. If n is not a whole number, a power function computes it.
     #[default]
     Squaring,
-    /// `e^(−n (1 − t))`, the tangent of `n ln t` at t = 1.
+    /// `e^(−n (1 − t))`, which replaces `n ln t` by its tangent at t = 1.
     Exp,
-    /// A table of tⁿ in `size` steps from the least cosine that has a highlight to 1, linear between its entries (Bishop,
-    /// Weimer 1986: "one memory reference").
+    /// A table of tⁿ in `size` steps, from the least cosine with a visible highlight to 1. Values
+    /// between entries are interpolated linearly (Bishop, Weimer 1986: "one memory reference").
     Table {
-        /// The steps.
+        /// How many steps the table has.
         size: u32,
     },
-    /// `max(0, 1 − (1 − t) n/2ᵏ)^(2ᵏ)`: a product and k squarings (Lyon 1993).
+    /// `max(0, 1 − (1 − t) n/2ᵏ)^(2ᵏ)`: one multiplication and k squarings (Lyon 1993).
     Lyon {
-        /// The squarings.
+        /// How many times to square.
         k: u32,
     },
-    /// `t / (n − n t + t)`: one division, and a longer tail (Schlick 1994).
+    /// `t / (n − n t + t)`: one division, with a longer tail (Schlick 1994).
     Schlick,
 }
 
 impl Power {
-    /// All functions, with the default values of their parameters, the default first.
+    /// All functions with the default values of their parameters. The first one is the default.
     pub const ALL: [Power; 5] = [
         Power::Squaring,
         Power::Exp,
@@ -40,9 +43,9 @@ impl Power {
         Power::Lyon { k: 3 },
         Power::Schlick,
     ];
-    /// The steps that a table may have.
+    /// The range of steps of a table.
     pub const SIZES: [u32; 2] = [2, 65_536];
-    /// The squarings that Lyon's function may have.
+    /// The range of squarings in Lyon's function.
     pub const SQUARINGS: [u32; 2] = [1, 7];
 
     /// Returns the name on the command line.
@@ -56,7 +59,7 @@ impl Power {
         }
     }
 
-    /// Returns the formula and the parameter, in one line.
+    /// Returns the formula and the parameter in one line.
     pub fn meaning(self) -> &'static str {
         match self {
             Power::Squaring => "t^n by repeated squaring (the default)",
@@ -67,18 +70,22 @@ impl Power {
         }
     }
 
-    /// Returns a bound of the largest difference from tⁿ, t in 0..=1, for an exponent of 0 or more.
+    /// Returns a bound of the largest difference from tⁿ over t in 0..=1, for an exponent `n` of 0
+    /// or more.
     ///
-    /// All functions but the table depend on s = n (1 − t) and n, are between 0 and e⁻ˢ or 1/(1 + s (1 − 1/n)), and are never steeper
-    /// than 1 in s: so the largest difference at steps of 1/256 up to s = 16, and half a step more, is a bound; beyond, both functions
-    /// are below their values there. A table with steps of h is off by h²/8 of the second derivative, n (n − 1) tⁿ⁻².
+    /// All functions but the table depend on s = n (1 − t) and n. They lie between 0 and e⁻ˢ or
+    /// 1/(1 + s (1 − 1/n)), and their slope in s is at most 1. So the largest difference at steps
+    /// of 1/256 up to s = 16, plus half a step, is a bound. Beyond s = 16 both functions are below
+    /// their values there. A table with steps of h is off by h²/8 times the second derivative, n (n
+    /// − 1) tⁿ⁻².
     pub fn error(self, n: f64) -> f64 {
         const STEPS: u32 = 256;
         if n < 1.0 || self == Power::Squaring {
             return 0.0;
         }
         if let Power::Table { size } = self {
-            // Where n is below 2 the second derivative grows toward 0: a table begins where tⁿ is 2⁻²⁴ or more.
+            // For n below 2 the second derivative grows toward t = 0. The table begins where tⁿ is
+            // 2⁻²⁴ or more, which bounds it.
             let steepest = match n < 2.0 {
                 true => libm::pow(2.0, 24.0 * (2.0 - n) / n),
                 false => 1.0,
@@ -100,24 +107,28 @@ impl Power {
         };
         let end = f64::min(n, 16.0);
         let steps = libm::ceil(end * f64::from(STEPS)) as u32;
-        let places = (0..=steps).map(|i| f64::min(f64::from(i) / f64::from(STEPS), end));
-        let differences = places.map(|s| (value(s) - libm::pow(1.0 - s / n, n)).abs());
+        let samples = (0..=steps).map(|i| f64::min(f64::from(i) / f64::from(STEPS), end));
+        let differences = samples.map(|s| (value(s) - libm::pow(1.0 - s / n, n)).abs());
         let beyond = f64::max(value(end), libm::pow(1.0 - end / n, n));
         let beyond = if end < n { beyond } else { 0.0 };
         differences.fold(beyond, f64::max) + 0.5 / f64::from(STEPS)
     }
 
-    /// Reads a name.
+    /// Returns the function called `name`, with the default value of its parameter.
     ///
     /// # Errors
-    /// [`NameError`] when no function has it.
+    /// [`NameError`] if no function has this name.
     pub fn named(name: &str) -> Result<Power, NameError> {
         let named = Power::ALL.into_iter().find(|power| power.name() == name);
         let names = Power::ALL.into_iter().map(Power::name);
-        named.ok_or_else(|| NameError(unknown("power", name, names)))
+        named.ok_or_else(|| NameError::Unknown {
+            kind: "power",
+            name: name.to_owned(),
+            known: names.collect(),
+        })
     }
 
-    /// Returns the name and the range of its parameter, if it has one.
+    /// Returns the name and the range of the parameter, if there is one.
     pub fn parameter(self) -> Option<(&'static str, [u32; 2])> {
         match self {
             Power::Table { .. } => Some(("size", Power::SIZES)),
@@ -129,16 +140,17 @@ impl Power {
     /// Returns the function with another value of its parameter.
     ///
     /// # Errors
-    /// [`NameError`] when it has no parameter called `key`, or `value` is outside its range.
+    /// [`NameError`] if there is no parameter called `key`, or `value` is outside its range.
     pub fn with(self, key: &str, value: &str) -> Result<Power, NameError> {
         let (name, [least, most]) = match self.parameter() {
             Some(parameter) if parameter.0 == key => parameter,
             parameter => {
-                let name = self.name();
-                let expected = one_of(parameter.into_iter().map(|(name, _)| name));
-                return Err(NameError(format!(
-                    "power `{name}` has no parameter `{key}`: {expected}"
-                )));
+                return Err(NameError::UnknownParameter {
+                    kind: "power",
+                    owner: self.name(),
+                    name: key.to_owned(),
+                    known: parameter.into_iter().map(|(name, _)| name).collect(),
+                });
             }
         };
         match (self, value.parse()) {
@@ -146,15 +158,17 @@ impl Power {
                 Ok(Power::Table { size })
             }
             (Power::Lyon { .. }, Ok(k)) if (least..=most).contains(&k) => Ok(Power::Lyon { k }),
-            _ => Err(NameError(format!(
-                "`{name}={value}`: expected a whole number from {least} to {most}"
-            ))),
+            _ => Err(NameError::Value {
+                parameter: name,
+                value: value.to_owned(),
+                expected: format!("expected a whole number from {least} to {most}"),
+            }),
         }
     }
 }
 
 impl fmt::Display for Power {
-    /// Writes the name, and a parameter that differs from its default.
+    /// Writes the name, and the parameter if it differs from its default.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())?;
         match self {
@@ -195,7 +209,8 @@ mod tests {
         }
     }
 
-    /// The largest errors of the literature, found anew: of e^(−n (1 − t)), Lyon's function with 8 and Schlick's.
+    /// The largest errors in the literature, computed again: of e^(−n (1 − t)), of Lyon's function
+    /// with 8, and of Schlick's.
     #[test]
     fn errors_are_those_of_the_literature() {
         let found = |power: Power, n| power.error(n);
@@ -208,7 +223,7 @@ mod tests {
             (Power::Schlick, 10.0, 0.179),
             (Power::Schlick, 320.0, 0.203),
         ] {
-            // Half a step of 1/256 more, and the last digit of the table.
+            // The bound adds half a step of 1/256, and the literature rounds its last digit.
             let error = found(power, n);
             assert!(
                 (truth - 0.0005..truth + 0.0025).contains(&error),

@@ -1,11 +1,13 @@
-//! Ranges of a scene's numbers: the one list for scene files, for flags and for scenes that a program makes.
+//! The ranges of a scene's values: one list for scene files, for flags, and for scenes that a
+//! program makes.
 //!
-//! `file/` checks what a user wrote and names the key or the flag; `frame/guard.rs` checks what a frame is made of, whoever made
-//! it. Both ask this list, so that no door lets through what the other one refuses.
+//! `file/` checks what a user wrote and names the key or the flag. `frame/guard.rs` checks what a
+//! frame is made of, whoever made it. Both use this list, so that neither accepts what the other
+//! refuses.
 
 use glam::DVec3;
 
-/// A range of numbers with both its ends, and the words for it in messages: "expected `expected`".
+/// A closed range of numbers, with the words for it in messages: "expected `expected`".
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NumberRange {
     least: f64,
@@ -22,7 +24,7 @@ impl NumberRange {
         }
     }
 
-    /// True if `value` is in the range; NaN is in none.
+    /// True if `value` is in the range. NaN never is.
     pub(crate) fn holds(&self, value: f64) -> bool {
         (self.least..=self.most).contains(&value)
     }
@@ -33,17 +35,19 @@ impl NumberRange {
     }
 }
 
-/// Coordinates in world space: squares of distances (at most 12 times their squares) and the products with coefficients stay far
-/// inside the range of an `f32`.
+/// Coordinates in world space. Squares of distances (at most 12 times the square of a coordinate),
+/// and their products with coefficients, stay far inside the range of an `f32`.
 pub(crate) const COORDINATE: NumberRange =
     NumberRange::new(-1e15, 1e15, "numbers between -1e15 and 1e15");
 
-/// Coordinates that count from the eye or from another point: at most those between two corners of the cube of all coordinates,
-/// 2√3 · 10¹⁵. Their squares stay as far inside the range of an `f32`.
+/// Coordinates relative to the eye or to another point. They are at most the diagonal of the cube
+/// of all coordinates, 2√3 · 10¹⁵, so that their squares, too, stay far inside the range of an
+/// `f32`.
 pub(crate) const DISTANCE: NumberRange =
     NumberRange::new(-1e16, 1e16, "numbers between -1e16 and 1e16");
 
-/// Distances of the near and the far plane: farther than all that they can have between them.
+/// Distances of the near and the far plane. The limit is beyond everything that they can have
+/// between them.
 pub(crate) const PLANE: NumberRange =
     NumberRange::new(-1e20, 1e20, "numbers between -1e20 and 1e20");
 
@@ -54,7 +58,8 @@ pub(crate) const NEAR: NumberRange = NumberRange::new(
     "a number over 0 (up to 1e20), as the camera is a perspective one",
 );
 
-/// Half of the height that an orthographic camera sees: its reciprocal times any coordinate is far inside the range of an `f64`.
+/// Half of the height that an orthographic camera sees. Its reciprocal times any coordinate stays
+/// far inside the range of an `f64`.
 pub(crate) const HALF_HEIGHT: NumberRange =
     NumberRange::new(1e-100, 1e100, "a number over 0 (1e-100 to 1e100)");
 
@@ -65,22 +70,24 @@ pub(crate) const FOVY: NumberRange = NumberRange::new(
     "degrees over 0 and under 180 (0.001 to 179.999)",
 );
 
-/// The sine of the angle between up and the line of sight: below it, rounding decides what is up.
+/// The sine of the angle between up and the line of sight. Below the limit, rounding would decide
+/// which way is up.
 pub(crate) const TILT: NumberRange = NumberRange::new(1e-6, 1.5, "at least 1e-6");
 
-/// Sizes that a transform gives to a unit vector of the model. Rounding may leave a little less of the least and a little more
-/// of the greatest.
+/// The lengths to which a transform may scale a unit vector of the model. The range is a little
+/// wider than its message says, because rounding may move a length beyond either end.
 pub(crate) const SIZE: NumberRange = NumberRange::new(0.5e-15, 2e15, "1e-15 to 1e15");
 
-/// The volume that a transform leaves of a unit cube, as a share of that which the same edges have at right angles: below it the
-/// directions of normals are rounding.
+/// The volume of a unit cube after a transform, divided by the volume of a box with the same edges
+/// at right angles. Below the limit, the directions of normals are mere rounding.
 pub(crate) const VOLUME: NumberRange =
     NumberRange::new(1e-12, 1.5, "over 1e-12: a transform that can be inverted");
 
 /// Colours of pixels.
 pub(crate) const PIXEL: NumberRange = NumberRange::new(0.0, 1.0, "0 to 1");
 
-/// Intensities of light, coefficients of reflection, attenuations and exponents: what an `f32` holds of 0 and more.
+/// Intensities of light, coefficients of reflection, attenuations and exponents: any non-negative
+/// value of an `f32`.
 pub(crate) const STRENGTH: NumberRange =
     NumberRange::new(0.0, f32::MAX as f64, "0 or more, up to 3.4e38");
 

@@ -1,39 +1,42 @@
-//! Settings of a picture: interpolation, culling, clipping, and the search for hidden surfaces.
+//! Settings of a picture: interpolation, culling, clipping, and hidden surfaces.
 
-/// The variation of attributes over the screen.
+/// How attributes vary over the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
 #[cfg_attr(feature = "io", serde(rename_all = "lowercase"))]
 pub enum Interpolation {
-    /// Linearly on the screen, as the lecture does.
+    /// Linearly on the screen, as in the lecture.
     #[default]
     Screen,
-    /// Linearly in space: attributes are divided by w at the corners. A method that normalises its vectors anyway needs
-    /// no division per pixel: the common factor cancels.
+    /// Linearly in space: attributes are divided by w at the corners. A method that normalises its
+    /// vectors needs no division per pixel, because the common factor cancels.
     Perspective,
 }
 
-/// The polygons that are left out for the direction in which they are seen.
+/// Which polygons are left out because of the side from which they are seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Culling {
-    /// Leave out polygons whose corners run clockwise on the screen.
+    /// Leaves out polygons whose corners run clockwise on the screen.
     #[default]
     Back,
-    /// Leave out polygons whose corners run counter-clockwise on the screen.
+    /// Leaves out polygons whose corners run counter-clockwise on the screen.
     Front,
-    /// Draw all.
+    /// Leaves out none.
     None,
 }
 
-/// The way in which hidden polygons are kept out of the picture.
+/// How hidden polygons are kept out of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum HiddenSurfaces {
-    /// The nearest polygon at each sample is seen (CS171 4, L5 *Z-Buffer*). The order of drawing decides ties only: of
-    /// equally near polygons the first is seen, as strictly less depth wins. Polygons with the same corners are equally near
-    /// everywhere, whichever corner each begins with and whichever way it runs.
+    /// A depth buffer: the nearest polygon at each sample is seen (CS171 4, L5 *Z-Buffer*). The
+    /// order of drawing decides only ties: the first of equally near polygons is seen, because only
+    /// strictly less depth wins. Polygons with the same corners are equally near everywhere,
+    /// whichever corner they begin with and whichever way they run.
     ZBuffer(DepthBuffer),
-    /// Polygons are sorted from back to front once, in O(n log n), and later ones hide earlier ones (L5 *Painter's
-    /// Algorithm*). No order is right for polygons that overlap in a ring or cut each other.
+    /// The painter's algorithm: polygons are sorted from back to front once, in O(n log n), and
+    /// later ones hide earlier ones (L5 *Painter's Algorithm*). No order is right for polygons that
+    /// overlap in a ring or cut each other.
     Painter(PainterKey),
     /// Later polygons hide earlier ones, whatever their depth.
     DrawOrder,
@@ -45,30 +48,31 @@ impl Default for HiddenSurfaces {
     }
 }
 
-/// The making of depth at a sample, and its precision.
+/// How depth is computed at a sample, and how precisely it is stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DepthBuffer {
-    /// The contents of a place of the buffer.
+    /// The contents of a cell of the buffer.
     pub bits: DepthBits,
-    /// The source of depth.
+    /// Where the depth of a sample comes from.
     pub source: DepthSource,
 }
 
-/// The contents of a place of the depth buffer (L5: 16 to 32 bits).
+/// The contents of a cell of the depth buffer (L5: 16 to 32 bits).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DepthBits {
-    /// The whole number round(z · (2¹⁶ − 1)), halves up.
+    /// The integer round(z · (2¹⁶ − 1)), halves up.
     Sixteen,
-    /// The whole number round(z · (2²⁴ − 1)), halves up.
+    /// The integer round(z · (2²⁴ − 1)), halves up.
     TwentyFour,
-    /// An `f32`, which the reference keeps as an `f64`: z under an orthographic camera, and −1/w under perspective, which has
-    /// z's order and the same relative precision at every distance ([`Vertex::depth`](crate::frame::Vertex::depth)).
+    /// An `f32` (an `f64` in the reference): z under an orthographic camera, and −1/w under
+    /// perspective. −1/w has z's order, and the same relative precision at every distance
+    /// ([`Vertex::depth`](crate::frame::Vertex::depth)).
     #[default]
     ThirtyTwo,
 }
 
 impl DepthBits {
-    /// Returns the largest whole number that is kept, 2ᵇ − 1; `None` for floats.
+    /// Returns the largest integer that is stored, 2ᵇ − 1, or `None` for floats.
     pub fn most(self) -> Option<u32> {
         match self {
             DepthBits::Sixteen => Some((1 << 16) - 1),
@@ -78,18 +82,19 @@ impl DepthBits {
     }
 }
 
-/// The computation of depth at a sample (L5 *Z-value Computation*): both ways give the same numbers but for rounding.
+/// How the depth of a sample is computed (L5 *Z-value Computation*). Both ways yield the same
+/// values, apart from rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DepthSource {
     /// The second way: depth is computed at the corners and interpolated linearly on the screen.
     #[default]
     Interpolated,
-    /// The first way: what is interpolated is 1/w (orthographic: the distance), and depth is computed from it anew at
-    /// each sample.
+    /// The first way: 1/w (under an orthographic camera, the distance) is interpolated, and depth
+    /// is computed from it at each sample.
     PerSample,
 }
 
-/// By what the painter's algorithm sorts.
+/// The sorting key of the painter's algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PainterKey {
     /// The mean depth of the corners.
@@ -99,20 +104,24 @@ pub enum PainterKey {
     Farthest,
 }
 
-/// The limits of the view.
+/// How polygons are limited to the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Clipping {
-    /// They are cut by the near and the far plane before anything is divided by w.
+    /// The near and the far plane cut polygons before anything is divided by w.
     #[default]
     Planes,
-    /// CS171's literal test: nothing is cut, corners are divided by w as they are, and a sample is drawn if its
-    /// interpolated place lies in the cube of normalised device coordinates (CS171 3, Algorithm 5).
+    /// CS171's literal test: nothing is cut. Corners are divided by w as they are, and a sample is
+    /// drawn if its interpolated position lies in the cube of normalised device coordinates (CS171
+    /// 3, Algorithm 5).
     ///
-    /// Polygons that pass only the near or the far plane, in front of the eye, look as if they were cut. A polygon that
-    /// passes the plane of the eye (w = 0) does not: a corner behind the eye is thrown to the other side of the picture,
-    /// and what is drawn is the outside of the polygon's true image, its inside is not: of a ground under the eye
-    /// (`tests/conformance/ndc_cube.rs`, 80 × 60) all 3,200 pixels are missing, and 400 pixels of the sky are drawn.
-    /// Polygons with a corner in that plane, or so near it that its place is beyond the guard band, are left out and
-    /// counted ([`FrameStats::unprojected`](crate::frame::FrameStats::unprojected)).
+    /// A polygon that crosses only the near or the far plane, in front of the eye, looks as if it
+    /// were cut. A polygon that crosses the plane of the eye (w = 0) does not: a corner behind the
+    /// eye is thrown to the other side of the picture. The outside of the polygon's true image is
+    /// then drawn, and its inside is not. Of a ground below the eye
+    /// (`tests/conformance/ndc_cube.rs`, 80 × 60) all 3,200 pixels are missing, and 400 pixels of
+    /// the sky are drawn. A polygon with a corner in that plane, or so near it that its position is
+    /// beyond the guard band, is left out and counted
+    /// ([`FrameStats::unprojected`](crate::frame::FrameStats::unprojected)).
     NdcCube,
 }

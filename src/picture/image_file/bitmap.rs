@@ -1,4 +1,5 @@
-//! BMP and Targa, by the crate `image`: authors of rasterizers write these, as they need no library.
+//! BMP and Targa, read by the crate `image`. Authors of rasterizers write these formats, because
+//! writing them needs no library.
 
 use std::io::Cursor;
 use std::string::ToString;
@@ -10,12 +11,13 @@ use image::{DynamicImage, ImageDecoder, ImageResult, Limits};
 use super::{DecodeError, FilePicture, FilePixels, MAX_PIXELS, checked_size, has_room};
 use crate::picture::Picture8;
 
-/// A format that this file reads.
+/// A format that this module reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bitmap {
-    /// Windows bitmap; its files begin with `BM`.
+    /// Windows bitmap. Its files begin with `BM`.
     Bmp,
-    /// Truevision Targa; its files begin with no mark, so that only the ending of a name tells them.
+    /// Truevision Targa. Its files have no signature, so that only the ending of the name
+    /// identifies them.
     Targa,
 }
 
@@ -30,7 +32,7 @@ impl Bitmap {
         }
     }
 
-    /// Reads the picture in the bytes of a file, in 8 bits a channel, which all of these files have.
+    /// Decodes the bytes of a file. All of these files have 8 bits per channel.
     pub fn decode(self, bytes: &[u8]) -> Result<FilePicture, DecodeError> {
         match self {
             Bitmap::Bmp => self.picture(BmpDecoder::new(Cursor::new(bytes))),
@@ -45,11 +47,12 @@ impl Bitmap {
         let (width, height) = decoder.dimensions();
         let [width, height] = checked_size(self.name(), width.into(), height.into())?;
         let mut limits = Limits::no_limits();
-        // Four channels as the file has them, and again in order.
+        // Four bytes per pixel as the file stores them, and four more when they are sorted.
         limits.max_alloc = Some(8 * MAX_PIXELS);
         decoder.set_limits(limits).map_err(broken)?;
         let has_alpha = decoder.color_type().has_alpha();
-        // As read, in order, and as kept: whether there is room is asked before, as the crate would end the program.
+        // Three copies exist at a time: as stored, sorted, and as returned. Ask for the memory
+        // first, because the crate would abort the program.
         if !has_room::<[[u8; 4]; 3]>(width * height) {
             return Err(DecodeError::NoMemory { width, height });
         }
@@ -57,7 +60,7 @@ impl Bitmap {
         let pixels = image.into_rgba8().as_raw().as_chunks().0.to_vec();
         let picture = Picture8::from_pixels(width, height, pixels);
         let wrong_count = || {
-            let problem = "the number of its pixels is not width × height";
+            let problem = "its pixels are not width × height";
             DecodeError::malformed(self.name(), problem)
         };
         Ok(FilePicture {

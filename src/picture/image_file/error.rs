@@ -1,4 +1,4 @@
-//! Why a picture file could not be read or written.
+//! Errors of reading and writing picture files.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,16 +7,18 @@ use std::string::String;
 use super::{MAX_PIXELS, MAX_READ_SIDE};
 
 /// Why a picture file could not be read or written.
-// The text of a cause is part of the message, so it is not given as a source: a chain would say it twice.
+// The message contains the text of the cause. The cause is no `source`, because an error chain
+// would then print it twice.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ImageFileError {
-    /// The path ends in none of the formats.
+    /// The path has none of the known endings.
     #[error("{}: no picture format has this ending: expected .png, .ppm or .pfm", path.display())]
     UnknownEnding {
         /// The path.
         path: PathBuf,
     },
-    /// The file system refused to give the file.
+    /// The operating system could not read the file.
     #[error("{}: cannot be read: {cause}", path.display())]
     Read {
         /// The file.
@@ -32,7 +34,7 @@ pub enum ImageFileError {
         /// The reason.
         cause: DecodeError,
     },
-    /// The file system refused to take the file; the one that was there before is untouched.
+    /// The operating system could not write the file. A file that was there before is unchanged.
     #[error("{}: cannot be written: {cause}", path.display())]
     Write {
         /// The file.
@@ -42,8 +44,9 @@ pub enum ImageFileError {
     },
 }
 
-/// A problem with the bytes of a picture file.
+/// What is wrong with the bytes of a picture file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DecodeError {
     /// The file has no bytes.
     #[error("the file is empty: expected {EXPECTED}")]
@@ -51,28 +54,28 @@ pub enum DecodeError {
     /// The first bytes are those of another format.
     #[error("it is {found}, which is not read: expected {EXPECTED}")]
     OtherFormat {
-        /// The format, with its article.
+        /// The format, with its article: "a JPEG file".
         found: &'static str,
     },
-    /// The first bytes are those of no format that is known.
+    /// The first bytes match no known format.
     #[error("not a picture that can be read: expected {EXPECTED}")]
     NotAPicture,
-    /// There are more than [`MAX_PIXELS`] pixels, or a side is longer than [`MAX_READ_SIDE`].
+    /// There are more than 2²⁸ pixels, or a side is longer than 2²⁰.
     #[error(
         "{width}×{height} pixels are too many: expected at most {MAX_PIXELS}, and {MAX_READ_SIDE} a side"
     )]
     TooLarge {
-        /// Width that the file states, in pixels.
+        /// The width that the file states, in pixels.
         width: u64,
-        /// Height that the file states, in pixels.
+        /// The height that the file states, in pixels.
         height: u64,
     },
-    /// The system gives no memory for the pixels.
+    /// There is not enough memory for the pixels.
     #[error("there is not enough memory for {width}×{height} pixels")]
     NoMemory {
-        /// Width that the file states, in pixels.
+        /// The width that the file states, in pixels.
         width: usize,
-        /// Height that the file states, in pixels.
+        /// The height that the file states, in pixels.
         height: usize,
     },
     /// The file is broken or cut off.
@@ -80,7 +83,7 @@ pub enum DecodeError {
     Malformed {
         /// The name of the format that the first bytes announce.
         format: &'static str,
-        /// The finding, and what was expected.
+        /// What is wrong, and what was expected.
         problem: String,
     },
 }
@@ -88,7 +91,7 @@ pub enum DecodeError {
 /// The formats that are read.
 const EXPECTED: &str = "PNG, PBM, PGM, PPM (P1 to P6), PAM, PFM, BMP or Targa (.tga)";
 
-/// Other formats by their first bytes.
+/// Other formats, identified by their first bytes.
 const OTHERS: [(&[u8], &str); 13] = [
     (b"\xff\xd8\xff", "a JPEG file"),
     (b"GIF8", "a GIF file"),
@@ -112,7 +115,7 @@ impl DecodeError {
         DecodeError::Malformed { format, problem }
     }
 
-    /// Makes the error for a file that begins like no picture that can be read.
+    /// Makes the error for a file whose first bytes match no format that is read.
     pub(super) fn not_a_picture(beginning: &[u8]) -> DecodeError {
         let other = OTHERS
             .iter()
@@ -125,11 +128,13 @@ impl DecodeError {
     }
 }
 
-/// A picture that does not fit into a file: it has no pixels, or a side longer than the formats can state.
+/// A picture that does not fit into a file, because it has no pixels or a side is longer than the
+/// formats allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "a picture of {width}×{height} pixels does not fit: expected 1 to {MAX_SIDE} pixels a side"
 )]
+#[non_exhaustive]
 pub struct EncodeError {
     /// The width in pixels.
     pub width: usize,
@@ -137,11 +142,12 @@ pub struct EncodeError {
     pub height: usize,
 }
 
-/// Longest side that is written: PNG states no longer ones (ISO/IEC 15948, 7.1), readers of the others are not bound to.
+/// The longest side that is written. PNG allows no longer ones (ISO/IEC 15948, 7.1), and readers of
+/// the other formats need not accept them.
 const MAX_SIDE: usize = (1 << 31) - 1;
 
 impl EncodeError {
-    /// Returns the error about a picture of this size, if there is one.
+    /// Returns an error if no file can hold a picture of this size.
     pub(super) fn check(width: usize, height: usize) -> Result<(), EncodeError> {
         let fits = |side| (1..=MAX_SIDE).contains(&side);
         match fits(width) && fits(height) {

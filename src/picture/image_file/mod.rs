@@ -1,14 +1,16 @@
-//! Pictures in files: PNG, portable pixmaps and PFM.
+//! Picture files: PNG, portable pixmaps and PFM.
 //!
-//! | ending | written | loses |
+//! | ending | written | lost |
 //! |---|---|---|
 //! | `.png` | red, green, blue, straight alpha in 8 bits; the encoding, if the picture states it; the name of this program | fractions of a grey level |
-//! | `.ppm` | red, green, blue in 8 bits (P6) | the same, alpha, and the encoding |
+//! | `.ppm` | red, green, blue in 8 bits (P6) | fractions of a grey level, alpha, and the encoding |
 //! | `.pfm` | red, green, blue as floats (PF) | alpha |
 //!
-//! Read are PNG of all colour types and depths, PBM, PGM and PPM (P1 to P6), PAM (P7) and PFM, as they are stored: 8 bits, 16
-//! bits or floats, and BMP and Targa in 8 bits. Writing goes by the ending of the path, reading by the first bytes of the file;
-//! Targa has none that tell, and is known by the ending `.tga`. [`Pair`] makes two pictures comparable.
+//! [`read_picture`] reads PNG of all colour types and depths, PBM, PGM and PPM (P1 to P6), PAM (P7)
+//! and PFM as they are stored, in 8 bits, 16 bits or floats. It also reads BMP and Targa in 8 bits.
+//! The ending of the path decides which format is written; the first bytes of a file decide which
+//! one is read. Targa has no signature and is recognised by the ending `.tga`. [`Pair`] makes two
+//! pictures comparable.
 //!
 //! ```no_run
 //! use fastphong::compare::metrics::{compare, difference_map};
@@ -40,29 +42,37 @@ mod error;
 mod netpbm;
 mod pair;
 mod png;
+#[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program writes several files at once
 mod replace;
 
 use bitmap::Bitmap;
 pub use error::{DecodeError, EncodeError, ImageFileError};
-pub use netpbm::PpmWriter;
-pub use pair::{AlphaUse, LevelView, Pair, UsedEncoding};
+#[cfg(feature = "cli")]
+pub(crate) use netpbm::PpmWriter;
+pub use pair::Pair;
+#[cfg(feature = "cli")]
+pub(crate) use pair::{AlphaUse, LevelView};
 pub use png::encode_png;
 #[doc(hidden)]
-pub use replace::write_files_by;
-pub use replace::{NoDrafts, place, remove_drafts, write_file, write_file_by};
+pub use replace::write_file;
+pub(crate) use replace::write_file_by;
+#[cfg(feature = "cli")]
+pub(crate) use replace::{place, remove_drafts, write_files_by};
 
-/// Pixels of the largest picture that is read, 16384 × 16384, which is the largest that is drawn: beyond that a file is more
-/// likely broken, or hostile, than meant.
-pub const MAX_PIXELS: u64 = 1 << 28;
+/// How many pixels the largest readable picture has: 16384 × 16384, the largest that is drawn. A
+/// larger file is more likely broken or hostile than intended.
+pub(crate) const MAX_PIXELS: u64 = 1 << 28;
 
-/// The longest side of a picture that is read, in pixels.
-pub const MAX_READ_SIDE: u64 = 1 << 20;
+/// The longest side of a readable picture, in pixels.
+pub(crate) const MAX_READ_SIDE: u64 = 1 << 20;
 
-/// Bytes of the largest file that is read: the largest picture as floats, and as much again for headers, text and bad compression.
+/// The size of the largest readable file: the largest picture as floats, and as much again for
+/// headers, text and bad compression.
 const MAX_BYTES: u64 = 2 * 12 * MAX_PIXELS;
 
-/// A format of picture files.
+/// A format of picture files that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Portable Network Graphics: 8 bits per channel, with alpha.
     Png,
@@ -76,7 +86,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Format; 3] = [Format::Png, Format::Ppm, Format::Pfm];
 
-    /// Returns its ending, in lower case and without the dot.
+    /// Returns the ending, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Format::Png => "png",
@@ -85,10 +95,10 @@ impl Format {
         }
     }
 
-    /// Returns the format that the ending of `path` names, in either case.
+    /// Returns the format that the ending of `path` names. Case is ignored.
     ///
     /// # Errors
-    /// If there is no ending, or one of no format.
+    /// If there is no ending, or it names no format.
     pub fn of_path(path: &Path) -> Result<Format, ImageFileError> {
         let ending = path.extension().unwrap_or_default();
         let is_named = |format: &Format| ending.eq_ignore_ascii_case(format.ending());
@@ -98,12 +108,13 @@ impl Format {
     }
 }
 
-/// The pixels that a file holds.
+/// The pixels of a file.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum FilePixels {
     /// Grey levels.
     Stored(Picture8),
-    /// Samples of more than 8 bits, or of another range than a grey level's.
+    /// Samples with more than 8 bits, or with another range than 0..=255.
     Deep {
         /// Red, green, blue, alpha.
         picture: Picture<[u16; 4]>,
@@ -116,21 +127,23 @@ pub enum FilePixels {
 
 /// The contents of a picture file.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FilePicture {
-    /// The pixels; alpha is full where the file has none.
+    /// The pixels. Alpha is full if the file has none.
     pub pixels: FilePixels,
     /// True if the file says which pixels are covered.
     pub has_alpha: bool,
-    /// The encoding that the file states, if it states one.
+    /// The encoding, if the file states it.
     pub encoding: Option<Encoding>,
-    /// The colour that the picture stands before, in grey levels as they are stored, if the file states it (PNG: `bKGD`).
+    /// The background colour, in stored grey levels, if the file states it (PNG: `bKGD`).
     pub background: Option<[f64; 3]>,
-    /// Facts that a reader has to know, a clause each, such as that the file holds several pictures.
+    /// Remarks that a reader should know, such as that the file holds several pictures. Each is a
+    /// clause.
     pub notes: Vec<String>,
 }
 
 impl FilePicture {
-    /// Makes a picture with alpha of which no more is known.
+    /// Makes a picture with alpha and without any other statement.
     fn of_pixels(pixels: FilePixels) -> FilePicture {
         FilePicture {
             pixels,
@@ -141,12 +154,12 @@ impl FilePicture {
         }
     }
 
-    /// Makes a picture of grey levels with alpha, as it goes into a PNG file. It states no encoding.
+    /// Makes a picture of grey levels with alpha, as for a PNG file. It states no encoding.
     pub fn stored(picture: Picture8) -> FilePicture {
         FilePicture::of_pixels(FilePixels::Stored(picture))
     }
 
-    /// Makes a picture of floats with alpha, as it is before it goes into a file: linear.
+    /// Makes a picture of linear floats with alpha.
     pub fn linear(picture: LinearPicture) -> FilePicture {
         FilePicture {
             encoding: Some(Encoding::Linear),
@@ -154,7 +167,7 @@ impl FilePicture {
         }
     }
 
-    /// Returns the picture, which from now on states this encoding.
+    /// Returns the picture, now stating this encoding.
     pub fn encoded(self, encoding: Encoding) -> FilePicture {
         FilePicture {
             encoding: Some(encoding),
@@ -171,12 +184,14 @@ impl FilePicture {
         }
     }
 
-    /// Returns the picture in 8 bits per channel, in its encoding; floats are rounded by [`quantise`].
+    /// Returns the picture in 8 bits per channel, in its encoding. Floats are rounded by
+    /// [`quantise`].
     pub fn to_stored(&self) -> Picture8 {
         match &self.pixels {
             FilePixels::Stored(picture) => picture.clone(),
             FilePixels::Deep { picture, maximum } => {
                 let maximum = u32::from(*maximum);
+                // Rounds 255 · sample / maximum to the nearest integer, halves up.
                 let level = |sample| ((510 * u32::from(sample) + maximum) / (2 * maximum)) as u8;
                 picture.map(|pixel| pixel.map(level))
             }
@@ -184,7 +199,7 @@ impl FilePicture {
         }
     }
 
-    /// Returns the picture in floats as it is stored, with no transfer function: a grey level is 1/255.
+    /// Returns the stored values as floats, without a transfer function: a grey level is 1/255.
     pub fn to_linear(&self) -> LinearPicture {
         match &self.pixels {
             FilePixels::Stored(picture) => {
@@ -198,20 +213,21 @@ impl FilePicture {
         }
     }
 
-    /// Returns the bytes of a file of this picture.
+    /// Encodes the picture as the bytes of a file.
     ///
     /// # Errors
-    /// If the picture has no pixels, or more than the format can count: [`EncodeError`], inside.
+    /// If the picture has no pixels, or more than the format can count. The error holds an
+    /// [`EncodeError`].
     pub fn encode(&self, format: Format) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         self.write_to(format, &mut bytes)?;
         Ok(bytes)
     }
 
-    /// Writes a file of this picture to `out`, which needs no buffer.
+    /// Writes the picture as a file to `out`. `out` need not be buffered.
     ///
     /// # Errors
-    /// As [`FilePicture::encode`], and those of `out`.
+    /// As for [`FilePicture::encode`], and any error of `out`.
     pub fn write_to(&self, format: Format, out: &mut dyn Write) -> io::Result<()> {
         match (format, &self.pixels) {
             (Format::Png, FilePixels::Stored(picture)) => {
@@ -239,7 +255,7 @@ impl FilePicture {
         }
     }
 
-    /// Writes row `y` as it is stored, in grey levels.
+    /// Writes the stored values of row `y` into `levels`.
     fn stored_levels(&self, y: usize, levels: &mut [Levels]) {
         fn fill<P: Pixel>(row: &[P], levels: &mut [Levels]) {
             for (levels, pixel) in levels.iter_mut().zip(row) {
@@ -250,7 +266,8 @@ impl FilePicture {
             FilePixels::Stored(picture) => fill(picture.row(y), levels),
             FilePixels::Linear(picture) => fill(picture.row(y), levels),
             FilePixels::Deep { picture, maximum } => {
-                // The product is exact: samples that stand for whole levels become these.
+                // The product is exact, so that a sample which stands for a whole level becomes
+                // exactly that level.
                 let level = |sample| 255.0 * f64::from(sample) / f64::from(*maximum);
                 for (levels, pixel) in levels.iter_mut().zip(picture.row(y)) {
                     *levels = Levels(pixel.map(level));
@@ -260,19 +277,22 @@ impl FilePicture {
     }
 }
 
-/// Writes a picture in the format that the ending of `path` names; see [`write_file`] for what happens to a file already there.
+/// Writes a picture in the format that the ending of `path` names. An existing file is replaced
+/// only once the new one is complete.
 ///
 /// # Errors
-/// If the ending names no format, the format cannot hold the picture, or the file cannot be written.
+/// If the ending names no format, the format cannot hold the picture, or the file cannot be
+/// written.
 pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFileError> {
     let format = Format::of_path(path)?;
     write_file_by(path, |file| picture.write_to(format, file))
 }
 
-/// Reads a picture of any of the formats, whatever the path ends in.
+/// Reads a picture in any of the formats. The ending of the path does not matter, except for Targa.
 ///
 /// # Errors
-/// If the file cannot be read, is none of the formats, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
+/// If the file cannot be read, is none of the formats, is broken or cut off, or has more than 2²⁸
+/// pixels.
 pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
     let failed = |cause| ImageFileError::Read {
         path: path.to_owned(),
@@ -281,15 +301,19 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
     read_picture_from(File::open(path).map_err(failed)?, path)
 }
 
-/// Reads a picture of any of the formats from `input`, which needs no buffer. Errors name it `path`.
+/// Reads a picture from `input`, which need not be buffered. Errors call it `path`.
 ///
 /// # Errors
-/// As [`read_picture`].
-pub fn read_picture_from(input: impl Read, path: &Path) -> Result<FilePicture, ImageFileError> {
+/// As for [`read_picture`].
+pub(crate) fn read_picture_from(
+    input: impl Read,
+    path: &Path,
+) -> Result<FilePicture, ImageFileError> {
     let ending = path.extension().unwrap_or_default();
     let is_targa = ending.eq_ignore_ascii_case("tga");
     let path = path.to_owned();
-    // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
+    // One byte more than is allowed reveals a file that is too long. Some files, such as devices,
+    // never end.
     let mut input = BufReader::new(input.take(MAX_BYTES + 1));
     decode(&mut input, is_targa).map_err(|problem| match problem {
         ReadProblem::Io(cause) => ImageFileError::Read { path, cause },
@@ -297,10 +321,11 @@ pub fn read_picture_from(input: impl Read, path: &Path) -> Result<FilePicture, I
     })
 }
 
-/// Reads the picture that the bytes of a file of any of the formats hold, except Targa, which only a name tells.
+/// Decodes the bytes of a picture file in any of the formats except Targa, which only a file name
+/// identifies.
 ///
 /// # Errors
-/// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
+/// If the bytes are none of the formats, are broken or cut off, or hold more than 2²⁸ pixels.
 pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     let mut input = bytes;
     decode(&mut input, false).map_err(|problem| match problem {
@@ -309,7 +334,7 @@ pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     })
 }
 
-/// Why a picture could not be read, before the file has a name.
+/// Why a picture could not be read. The path is added later.
 #[derive(Debug)]
 enum ReadProblem {
     Io(io::Error),
@@ -328,9 +353,10 @@ impl From<DecodeError> for ReadProblem {
     }
 }
 
-/// Reads a picture: by its first bytes, or as Targa where these are of no format and the name says so.
+/// Reads a picture. The first bytes decide the format; if they match none, the name may say that it
+/// is Targa.
 fn decode(input: &mut dyn BufRead, is_targa: bool) -> Result<FilePicture, ReadProblem> {
-    // The beginning of a file tells that it is no picture: the rest need not be read.
+    // The first bytes show whether the file is a picture at all. If not, the rest need not be read.
     let mut beginning = Vec::new();
     let mut first = (&mut *input).take(BEGINNING);
     first.read_to_end(&mut beginning)?;
@@ -350,7 +376,7 @@ fn decode(input: &mut dyn BufRead, is_targa: bool) -> Result<FilePicture, ReadPr
     }
 }
 
-/// Reads a file to its end, unless that is too far.
+/// Reads a file to its end, unless it is too long.
 fn all_bytes(input: &mut dyn Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
@@ -361,10 +387,10 @@ fn all_bytes(input: &mut dyn Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Bytes that tell the format of a file.
+/// How many first bytes identify a format.
 const BEGINNING: u64 = 16;
 
-/// Returns width and height as `usize`, if a picture of that size may be read.
+/// Returns width and height as `usize` if a picture of that size may be read.
 fn checked_size(format: &'static str, width: u64, height: u64) -> Result<[usize; 2], DecodeError> {
     if width == 0 || height == 0 {
         return Err(DecodeError::malformed(
@@ -378,11 +404,11 @@ fn checked_size(format: &'static str, width: u64, height: u64) -> Result<[usize;
     Ok([width as usize, height as usize])
 }
 
-/// Returns an empty list with room for the pixels of a picture: rows are added as they are read, so that a file that is cut off
-/// does not cost what its header promises.
+/// Returns an empty list with room for the pixels of a picture. Rows are added as they are read, so
+/// that a truncated file does not cost the memory that its header promises.
 ///
 /// # Errors
-/// If there is no room.
+/// If there is not enough memory.
 fn reserved<P>(width: usize, height: usize) -> Result<Vec<P>, DecodeError> {
     let mut pixels = Vec::new();
     match pixels.try_reserve_exact(width * height) {
@@ -391,11 +417,11 @@ fn reserved<P>(width: usize, height: usize) -> Result<Vec<P>, DecodeError> {
     }
 }
 
-/// True if the system gives memory for `count` values at once.
+/// True if there is memory for `count` values at once.
 fn has_room<T>(count: usize) -> bool {
     let mut values = Vec::<T>::new();
     let is_there = values.try_reserve_exact(count).is_ok();
-    // The compiler would leave out a list that nobody sees.
+    // Without this the compiler would remove the unused allocation.
     core::hint::black_box(&mut values);
     is_there
 }

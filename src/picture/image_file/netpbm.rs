@@ -1,4 +1,5 @@
-//! Portable pixmaps: a short header in text, then the samples. PPM and PFM are written here, and all of the family is read.
+//! Portable pixmaps: a short header in text, then the samples. This module writes PPM and PFM;
+//! `read` reads the whole family.
 
 use std::format;
 use std::io::{self, Write};
@@ -10,14 +11,15 @@ use crate::picture::{LinearPicture, Picture8};
 mod read;
 pub(super) use read::{Kind, read};
 
-/// Pixels that are converted at a time.
+/// How many pixels are converted at a time.
 const RUN: usize = 1 << 10;
 
-/// Bytes that are written at a time: enough for the cost of a call not to show, few enough to stay in a cache, and whole
-/// pages of the file.
+/// How many bytes are written at a time: enough to hide the cost of a call, few enough to stay in a
+/// cache, and whole pages of the file.
 const PIECE: usize = 1 << 17;
 
-/// Writes a binary PPM file (P6, 255 levels): red, green, blue as they are stored; alpha is dropped.
+/// Writes a binary PPM file (P6, 255 levels): red, green, blue as they are stored. Alpha is
+/// dropped.
 pub(super) fn write_ppm(picture: &Picture8, out: impl Write) -> io::Result<()> {
     let (width, height) = (picture.width(), picture.height());
     let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
@@ -25,16 +27,17 @@ pub(super) fn write_ppm(picture: &Picture8, out: impl Write) -> io::Result<()> {
     file.finish()
 }
 
-/// Writes a binary PPM file from the top, of a picture that need not be in memory as a whole.
+/// A writer of a binary PPM file. It takes the pixels from the top, so that the whole picture need
+/// not be in memory.
 #[derive(Debug)]
-pub struct PpmWriter<W> {
+pub(crate) struct PpmWriter<W> {
     pieces: Pieces<W>,
-    /// Pixels that are still to come.
+    /// How many pixels are still missing.
     missing: usize,
 }
 
 impl<W: Write> PpmWriter<W> {
-    /// Begins a file of `width` × `height` pixels into `out`, which needs no buffer.
+    /// Starts a file of `width` × `height` pixels in `out`. `out` need not be buffered.
     ///
     /// # Errors
     /// If there are no pixels, or a side is longer than 2³¹ − 1.
@@ -45,10 +48,10 @@ impl<W: Write> PpmWriter<W> {
         })
     }
 
-    /// Writes the next pixels, row by row; alpha is dropped.
+    /// Writes the next pixels, row by row. Alpha is dropped.
     ///
     /// # Errors
-    /// If they cannot be written, or are more than the file has pixels.
+    /// If they cannot be written, or are more than the file has left.
     pub fn pixels(&mut self, pixels: &[[u8; 4]]) -> io::Result<()> {
         let Some(missing) = self.missing.checked_sub(pixels.len()) else {
             let (missing, found) = (self.missing, pixels.len());
@@ -65,7 +68,7 @@ impl<W: Write> PpmWriter<W> {
         Ok(())
     }
 
-    /// Writes what is left.
+    /// Writes the rest of the buffer.
     ///
     /// # Errors
     /// If it cannot be written, or pixels are missing.
@@ -80,10 +83,11 @@ impl<W: Write> PpmWriter<W> {
     }
 }
 
-/// Writes a PFM file: red, green, blue as little-endian floats, the bottom row first; alpha is dropped.
+/// Writes a PFM file: red, green, blue as little-endian floats, the bottom row first. Alpha is
+/// dropped.
 pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<()> {
     let (width, height) = (picture.width(), picture.height());
-    // The sign of the scale tells the order of bytes: negative is little-endian.
+    // The sign of the scale states the byte order: negative is little-endian.
     let pieces = Pieces::new(out, "PF", [width, height], "-1.0");
     let mut pieces = pieces.map_err(io::Error::other)?;
     let mut bytes = [[[0; 4]; 3]; RUN];
@@ -99,7 +103,7 @@ pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<
     pieces.finish()
 }
 
-/// The bytes of a file on their way out.
+/// The bytes of a file that were not written yet.
 #[derive(Debug)]
 struct Pieces<W> {
     out: W,
@@ -107,7 +111,7 @@ struct Pieces<W> {
 }
 
 impl<W: Write> Pieces<W> {
-    /// Begins with a header: the format's first word, the size and the range of the samples.
+    /// Starts with the header: the format's first word, the size and the range of the samples.
     fn new(out: W, word: &str, size: [usize; 2], range: &str) -> Result<Self, EncodeError> {
         let [width, height] = size;
         EncodeError::check(width, height)?;
@@ -131,7 +135,7 @@ impl<W: Write> Pieces<W> {
 
 /// Writes the colours of `pixels`, three bytes each, into `bytes`.
 fn without_alpha(pixels: &[[u8; 4]], bytes: &mut [u8]) {
-    // Four pixels fill three words.
+    // Four pixels fill three 32-bit words: shifts and ORs instead of twelve bytes one by one.
     let (fours, last_pixels) = pixels.as_chunks::<4>();
     let (words, last_bytes) = bytes.split_at_mut(12 * fours.len());
     let words = words.as_chunks_mut::<4>().0.as_chunks_mut::<3>().0;

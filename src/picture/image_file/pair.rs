@@ -1,19 +1,20 @@
-//! Two pictures of files, made comparable: their encodings, their alpha, their sizes.
+//! Two picture files made comparable in encoding, alpha and size.
 
 use super::{FilePicture, FilePixels};
 use crate::picture::{Encoding, LevelRows, Levels, over};
 
-/// The encoding that a picture is taken to have.
+/// The encoding in which a picture is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UsedEncoding {
+pub(crate) struct UsedEncoding {
     /// The encoding.
     pub encoding: Encoding,
-    /// True if the file states it; else it was assumed.
+    /// True if the file states it, false if it was assumed.
     pub is_stated: bool,
 }
 
 impl UsedEncoding {
-    /// Returns the encoding that `picture` states; else `assumed`; else linear for floats and sRGB for integers.
+    /// Returns the encoding that `picture` states. Otherwise returns `assumed`, or else linear for
+    /// floats and sRGB for integers.
     fn of(picture: &FilePicture, assumed: Option<Encoding>) -> UsedEncoding {
         let usual = match picture.pixels {
             FilePixels::Linear(_) => Encoding::Linear,
@@ -26,29 +27,31 @@ impl UsedEncoding {
     }
 }
 
-/// The part that alpha plays in a comparison.
+/// What alpha does in a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AlphaUse {
+pub(crate) enum AlphaUse {
     /// Neither file has alpha.
     Absent,
-    /// Both files have alpha: it is a channel like others, and colours under alpha 0 do not count.
+    /// Both files have alpha. It is compared like a channel, and colours under alpha 0 are ignored.
     Compared,
-    /// One file has alpha: its picture is put over the background that it states.
+    /// One file has alpha and states a background. Its picture is put over that background.
     Flattened {
         /// True if that file is the reference.
         of_reference: bool,
     },
-    /// One file has alpha and states no background: the other one counts as opaque, and alpha is compared.
+    /// One file has alpha and states no background. The other file counts as opaque, and alpha is
+    /// compared.
     Opaque {
         /// True if that file is the reference.
         of_reference: bool,
     },
 }
 
-/// Two pictures to compare: a reference, and the picture that is held against it.
+/// A reference picture and an actual picture, to be compared.
 ///
-/// Pictures of one encoding are compared as stored. Of two encodings the linear picture is encoded, without rounding. If the sizes
-/// differ, their common part is compared, from the upper left corner on.
+/// Two pictures in one encoding are compared as stored. If the encodings differ, the linear picture
+/// is encoded as sRGB, without rounding. If the sizes differ, the part that both have is compared,
+/// from the upper left corner on.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
     pictures: [&'a FilePicture; 2],
@@ -57,7 +60,8 @@ pub struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    /// Makes a pair. `assumed` is the encoding of files that state none; without it PFM counts as linear and other files as sRGB.
+    /// Makes a pair. `assumed` is the encoding of files that state none. Without it, PFM counts as
+    /// linear and all other formats as sRGB.
     pub fn new(
         reference: &'a FilePicture,
         actual: &'a FilePicture,
@@ -84,8 +88,9 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Returns the encodings of the reference and of the other picture.
-    pub fn encodings(&self) -> [UsedEncoding; 2] {
+    /// Returns the encodings of the reference and of the actual picture.
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program says how it compares
+    pub(crate) fn encodings(&self) -> [UsedEncoding; 2] {
         self.encodings
     }
 
@@ -97,8 +102,9 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Returns the part that alpha plays.
-    pub fn alpha(&self) -> AlphaUse {
+    /// Returns what alpha does in the comparison.
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program says how it compares
+    pub(crate) fn alpha(&self) -> AlphaUse {
         self.alpha
     }
 
@@ -108,13 +114,18 @@ impl<'a> Pair<'a> {
         [0, 1].map(|i| reference[i].min(actual[i]))
     }
 
-    /// True if the pictures have one size.
+    /// True if both pictures have the same size.
     pub fn is_one_size(&self) -> bool {
         self.pictures[0].size() == self.pictures[1].size()
     }
 
-    /// Returns both pictures as they are compared.
-    pub fn compared(&self) -> [LevelView<'a>; 2] {
+    /// Returns the reference and the actual picture as they are compared.
+    pub fn compared(&self) -> [impl LevelRows + Copy + use<'a>; 2] {
+        self.compared_views()
+    }
+
+    /// Returns both pictures as [`Pair::compared`] does, with the name of their type.
+    pub(crate) fn compared_views(&self) -> [LevelView<'a>; 2] {
         [0, 1].map(|i| LevelView {
             background: match self.alpha {
                 AlphaUse::Flattened { .. } => Some(self.background(i, self.pictures[i])),
@@ -125,9 +136,15 @@ impl<'a> Pair<'a> {
         })
     }
 
-    /// Returns both pictures as a screen shows them: sRGB, over one background (the reference's, else the other's, else black),
-    /// nothing darker than black or brighter than white.
-    pub fn displayed(&self) -> [LevelView<'a>; 2] {
+    /// Returns both pictures as a screen shows them: in sRGB, clamped between black and white, over
+    /// one background. It is the reference's background, or else the actual picture's, or else
+    /// black.
+    pub fn displayed(&self) -> [impl LevelRows + Copy + use<'a>; 2] {
+        self.displayed_views()
+    }
+
+    /// Returns both pictures as [`Pair::displayed`] does, with the name of their type.
+    pub(crate) fn displayed_views(&self) -> [LevelView<'a>; 2] {
         let [reference, actual] = self.pictures;
         let stating = if reference.background.is_some() {
             reference
@@ -146,11 +163,11 @@ impl<'a> Pair<'a> {
         })
     }
 
-    fn view(&self, place: usize, encoding: Encoding) -> LevelView<'a> {
-        let (from, to) = (self.encodings[place].encoding, encoding);
+    fn view(&self, index: usize, encoding: Encoding) -> LevelView<'a> {
+        let (from, to) = (self.encodings[index].encoding, encoding);
         let whole = || core::array::from_fn(|level| converted(level as f64, from, to));
         LevelView {
-            picture: self.pictures[place],
+            picture: self.pictures[index],
             size: self.common_size(),
             from,
             to,
@@ -161,17 +178,18 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Returns the background that `stating` states, in levels of the picture at `place`; black if it states none.
-    fn background(&self, place: usize, stating: &FilePicture) -> [f64; 3] {
+    /// Returns the background that `stating` states, in levels of the picture with this index;
+    /// black if it states none.
+    fn background(&self, index: usize, stating: &FilePicture) -> [f64; 3] {
         let of_reference = core::ptr::eq(stating, self.pictures[0]);
         let from = self.encodings[usize::from(!of_reference)].encoding;
-        let to = self.encodings[place].encoding;
+        let to = self.encodings[index].encoding;
         let background = stating.background.unwrap_or_default();
         background.map(|level| converted(level, from, to))
     }
 }
 
-/// True if every pixel is covered as a whole.
+/// True if every pixel is fully covered.
 fn is_opaque(picture: &FilePicture) -> bool {
     match &picture.pixels {
         FilePixels::Stored(picture) => picture.pixels().iter().all(|pixel| pixel[3] == 255),
@@ -182,7 +200,7 @@ fn is_opaque(picture: &FilePicture) -> bool {
     }
 }
 
-/// Returns a grey level in another encoding, without rounding.
+/// Converts a grey level to another encoding, without rounding.
 fn converted(level: f64, from: Encoding, to: Encoding) -> f64 {
     match from == to {
         true => level,
@@ -190,27 +208,28 @@ fn converted(level: f64, from: Encoding, to: Encoding) -> f64 {
     }
 }
 
-/// A picture of a file, row by row in the grey levels in which it is compared or shown.
+/// A picture of a file, read row by row in the grey levels in which it is compared or shown.
 #[derive(Clone, Copy, Debug)]
-pub struct LevelView<'a> {
+pub(crate) struct LevelView<'a> {
     picture: &'a FilePicture,
     size: [usize; 2],
-    /// The encoding of the picture.
+    /// The encoding of the file.
     from: Encoding,
-    /// The encoding of the levels.
+    /// The encoding of the returned levels.
     to: Encoding,
-    /// The background that the picture is put over, in its encoding.
+    /// The background to put the picture over, in the encoding of the file.
     background: Option<[f64; 3]>,
-    /// True if alpha is left; else it is full.
+    /// True if alpha is returned; otherwise it is full.
     keeps_alpha: bool,
-    /// The levels of 8 bits in the encoding of the levels, if that is another.
+    /// The 256 whole levels, converted, if the encodings differ.
     whole: Option<[f64; 256]>,
-    /// True if levels are limited to 0..=255; a level that is no number becomes 0.
+    /// True if levels are clamped to 0..=255. NaN then becomes 0.
     is_clamped: bool,
 }
 
 impl LevelView<'_> {
-    /// Returns the colour of a pixel over `background`: in linear light, whatever the encoding.
+    /// Puts a pixel over `background` in linear light, and returns its colour in the encoding of
+    /// the file.
     fn flattened(&self, pixel: Levels, background: [f64; 3]) -> [f64; 3] {
         let alpha = pixel.alpha();
         if alpha == 0.0 {
@@ -245,7 +264,7 @@ impl LevelRows for LevelView<'_> {
                 });
             }
             if self.is_clamped {
-                // The comparisons in this order make NaN 0.
+                // NaN fails the first comparison and becomes 0.
                 rgb = rgb.map(|level| if level > 0.0 { level.min(255.0) } else { 0.0 });
             }
             let [r, g, b] = rgb;

@@ -1,4 +1,4 @@
-//! PNG, by the crate `png`.
+//! PNG, read and written by the crate `png`.
 
 use std::borrow::ToOwned;
 use std::format;
@@ -21,29 +21,29 @@ pub(super) const SIGNATURE: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1
 /// The name of the format in messages.
 const NAME: &str = "PNG";
 
-/// The gamma of linear samples, as `gAMA` counts it: in units of 1/100000.
+/// The gamma of linear samples, in the units of `gAMA`: 1/100000.
 const LINEAR_GAMMA: u32 = 100_000;
-/// The gamma that writers of sRGB state beside it, or instead: 1/2.2.
+/// The gamma 1/2.2, which writers of sRGB state beside or instead of `sRGB`.
 const SRGB_GAMMA: u32 = 45_455;
-/// How far a stated gamma may be from those two: writers round 1/2.2 in several ways.
+/// How far a stated gamma may be from these two. Writers round 1/2.2 in several ways.
 const GAMMA_ROUNDING: u32 = 50;
 
-/// The facts about a picture that its file states beside the pixels.
+/// What the file states beside the pixels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stated {
-    /// Linear becomes `gAMA` 1, sRGB `sRGB`; else no chunk is written.
+    /// Linear is written as a `gAMA` of 1, sRGB as `sRGB`. `None` writes no chunk.
     pub encoding: Option<Encoding>,
-    /// The background, in grey levels, for `bKGD`.
+    /// The background in grey levels, written as `bKGD`.
     pub background: Option<[f64; 3]>,
     /// True if the file names this program as its software.
     pub software: bool,
 }
 
-/// Returns the bytes of a PNG file: 8 bits of red, green, blue, straight alpha, as they are stored. It states no encoding, so
-/// that most programs show it as sRGB.
+/// Encodes a picture as the bytes of a PNG file: 8 bits of red, green, blue and straight alpha, as
+/// they are stored. The file states no encoding, and most programs then show it as sRGB.
 ///
 /// # Errors
-/// If the picture has no pixels, or a side longer than 2³¹ − 1.
+/// If the picture has no pixels, or a side is longer than 2³¹ − 1.
 pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     let (width, height) = (picture.width(), picture.height());
     EncodeError::check(width, height)?;
@@ -54,13 +54,14 @@ pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     }
 }
 
-/// Bytes of compressed pixels in a chunk: a file is written as it is compressed, and is never in memory as a whole.
+/// How many bytes of compressed pixels a chunk has. The file is written while it is compressed, and
+/// is never in memory as a whole.
 const PIECE: usize = 1 << 17;
 
-/// Writes a PNG file with the chunks that state more about it.
+/// Writes a PNG file with the chunks that `stated` asks for.
 ///
 /// # Errors
-/// If the picture does not fit ([`EncodeError`], inside), and those of `out`.
+/// If the picture does not fit (the error holds an [`EncodeError`]), and any error of `out`.
 pub(super) fn write(picture: &Picture8, stated: Stated, out: impl Write) -> io::Result<()> {
     let (width, height) = (picture.width(), picture.height());
     EncodeError::check(width, height).map_err(io::Error::other)?;
@@ -82,7 +83,7 @@ pub(super) fn write(picture: &Picture8, stated: Stated, out: impl Write) -> io::
         }
         let mut writer = encoder.write_header()?;
         if let Some(background) = stated.background {
-            // Three samples of two bytes, whatever the depth (11.3.4.1).
+            // Three samples of two bytes each, whatever the depth (11.3.4.1).
             let levels = background.map(|level| [0, (level + 0.5) as u8]);
             writer.write_chunk(chunk::bKGD, levels.as_flattened())?;
         }
@@ -97,9 +98,9 @@ pub(super) fn write(picture: &Picture8, stated: Stated, out: impl Write) -> io::
     })
 }
 
-/// Reads the picture in a PNG file of any colour type and depth; of an animation the still picture that stands for it.
+/// Decodes a PNG file of any colour type and depth. Of an animation, decodes the still picture.
 pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
-    // The decoder is content once it has all pixels; a file without its end has been cut off all the same.
+    // The decoder stops at the last pixel. A file without its end was cut off nevertheless.
     if !has_end(bytes) {
         let problem = "it ends too early: expected an IEND chunk";
         return Err(DecodeError::malformed(NAME, problem));
@@ -108,11 +109,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     decoder.set_ignore_text_chunk(true);
     let header = decoder.read_header_info().map_err(broken)?;
     let [width, height] = checked_size(NAME, header.width.into(), header.height.into())?;
-    // A few rows of four channels of 16 bits, and what profiles and other chunks may take.
+    // Allow a few rows of four 16-bit channels, and room for profiles and other chunks.
     decoder.set_limits(Limits {
         bytes: 64 * width + (1 << 26),
     });
-    // Palettes become colours, few bits 8, and a transparent colour becomes alpha.
+    // Palettes become colours, fewer than 8 bits become 8, and a transparent colour becomes alpha.
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(broken)?;
     let (colour, depth) = reader.output_color_type();
@@ -136,7 +137,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     Ok(picture)
 }
 
-/// Reads all rows; `sample` makes a sample of its bytes.
+/// Reads all rows. `sample` makes a sample from its bytes.
 fn pixels<const BYTES: usize, S: Copy + Default>(
     reader: &mut Reader<Cursor<&[u8]>>,
     [width, height]: [usize; 2],
@@ -159,12 +160,14 @@ fn pixels<const BYTES: usize, S: Copy + Default>(
     };
     match reader.info().interlaced {
         true => {
-            // Rows come in seven passes, so that all are there only at the end.
+            // Interlaced rows come in seven passes, so that all of them are complete only at the
+            // end.
             let size = width * height * channels * BYTES;
             if !has_room::<u8>(size) {
                 return Err(DecodeError::NoMemory { width, height });
             }
-            // Zeroed memory is untouched until rows are written to it: a file that is cut off costs nothing.
+            // Zeroed memory costs nothing until a row is written to it, so a truncated file costs
+            // little.
             let mut rows = vec![0; size];
             reader.next_frame(&mut rows).map_err(broken)?;
             add(&rows);
@@ -178,12 +181,13 @@ fn pixels<const BYTES: usize, S: Copy + Default>(
         }
     }
     let picture = Picture::from_pixels(width, height, pixels);
-    let problem = "the number of its pixels is not width × height";
+    let problem = "its pixels are not width × height";
     picture.ok_or_else(|| DecodeError::malformed(NAME, problem))
 }
 
-/// Sets what the chunks say beside the pixels, and notes what of it is not understood. The order is that of the
-/// specification (PNG, third edition, 4.3): `cICP`, `iCCP`, `sRGB`, `gAMA`.
+/// Stores what the chunks state beside the pixels, and adds notes about statements that are not
+/// understood. The chunks take precedence in this order (PNG, third edition, 4.3): `cICP`, `iCCP`,
+/// `sRGB`, `gAMA`.
 fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>, has_gamma_of_zero: bool) {
     let info = reader.info();
     if info.animation_control.is_some() {
@@ -237,7 +241,8 @@ fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>, has_gamma_of
         .and_then(|samples| background(samples, reader));
 }
 
-/// Walks along the chunks of a file: kind and data, which end where the file does (ISO/IEC 15948, 5.3: length, kind, data, CRC).
+/// Iterates over the chunks of a file, as kind and data. The last one may be cut off (ISO/IEC
+/// 15948, 5.3: length, kind, data, CRC).
 fn chunks(bytes: &[u8]) -> impl Iterator<Item = (&[u8; 4], &[u8])> {
     let mut rest = bytes.get(SIGNATURE.len()..).unwrap_or_default();
     core::iter::from_fn(move || {
@@ -249,15 +254,16 @@ fn chunks(bytes: &[u8]) -> impl Iterator<Item = (&[u8; 4], &[u8])> {
     })
 }
 
-/// True if the first `gAMA` is 0, which means nothing (PNG, third edition, 11.3.2.2). The decoder drops it.
+/// True if the first `gAMA` is 0, which has no meaning (PNG, third edition, 11.3.2.2). The decoder
+/// drops it.
 fn has_gamma_of_zero(bytes: &[u8]) -> bool {
     let mut before = chunks(bytes).take_while(|(kind, _)| *kind != b"IDAT");
     let gamma = before.find(|(kind, _)| *kind == b"gAMA");
     gamma.is_some_and(|(_, data)| data.starts_with(&[0; 4]))
 }
 
-/// Notes an orientation that Exif states (`eXIf`, PNG, third edition, 11.3.4.9): viewers turn the picture by it, and comparisons do
-/// not.
+/// Notes an orientation that Exif states (`eXIf`, PNG, third edition, 11.3.4.9). Viewers turn the
+/// picture by it; comparisons do not.
 fn note_orientation(picture: &mut FilePicture, bytes: &[u8]) {
     let stated = chunks(bytes).filter(|(kind, _)| *kind == b"eXIf");
     let Some(orientation) = stated.filter_map(|(_, data)| exif_orientation(data)).next() else {
@@ -271,7 +277,7 @@ fn note_orientation(picture: &mut FilePicture, bytes: &[u8]) {
         6 => "turned clockwise by 90 degrees",
         7 => "mirrored left to right and turned clockwise by 90 degrees",
         8 => "turned anticlockwise by 90 degrees",
-        // 1 is as stored, and others mean nothing.
+        // 1 means as stored; other values have no meaning.
         _ => return,
     };
     let stated = format!("its Exif orientation {orientation} (to be shown {meaning})");
@@ -279,37 +285,38 @@ fn note_orientation(picture: &mut FilePicture, bytes: &[u8]) {
     picture.notes.push(note);
 }
 
-/// Returns the orientation that Exif data state: a TIFF header and a directory of entries of 12 bytes (TIFF 6.0, 2; Exif 2.32, 4.6.4).
+/// Returns the orientation in Exif data: a TIFF header and a directory of 12-byte entries (TIFF
+/// 6.0, 2; Exif 2.32, 4.6.4).
 fn exif_orientation(data: &[u8]) -> Option<u32> {
-    // Some writers leave the mark of JPEG before it.
+    // Some writers leave JPEG's marker in front.
     let data = data.strip_prefix(b"Exif\0\0").unwrap_or(data);
     let is_little = match data.get(..4)? {
         b"II*\0" => true,
         b"MM\0*" => false,
         _ => return None,
     };
-    let number = |at: usize, size: usize| {
+    let integer = |at: usize, size: usize| {
         let bytes = data.get(at..at.checked_add(size)?)?;
-        let append = |number: u32, byte: &u8| number << 8 | u32::from(*byte);
+        let append = |value: u32, byte: &u8| value << 8 | u32::from(*byte);
         Some(match is_little {
             true => bytes.iter().rev().fold(0, append),
             false => bytes.iter().fold(0, append),
         })
     };
-    let directory = number(4, 4)? as usize;
-    let count = number(directory, 2)? as usize;
+    let directory = integer(4, 4)? as usize;
+    let count = integer(directory, 2)? as usize;
     let entries = (0..count).map(|entry| directory.saturating_add(2 + 12 * entry));
     let mut entries = entries.take_while(|entry| *entry < data.len());
-    let entry = entries.find(|entry| number(*entry, 2) == Some(ORIENTATION))?;
-    // A SHORT, or from some writers a LONG: either begins where a value of 4 bytes does.
-    match number(entry + 2, 2)? {
-        3 => number(entry + 8, 2),
-        4 => number(entry + 8, 4),
+    let entry = entries.find(|entry| integer(*entry, 2) == Some(ORIENTATION))?;
+    // The value is a SHORT, or a LONG from some writers. Either begins where a 4-byte value does.
+    match integer(entry + 2, 2)? {
+        3 => integer(entry + 8, 2),
+        4 => integer(entry + 8, 4),
         _ => None,
     }
 }
 
-/// The tag of the orientation.
+/// The tag of the orientation in Exif.
 const ORIENTATION: u32 = 0x0112;
 
 /// Returns the background that `bKGD` states, in grey levels.
@@ -340,7 +347,7 @@ fn broken(error: png::DecodingError) -> DecodeError {
         }
         error => error.to_string(),
     };
-    // The decoder says this in its own types.
+    // The decoder words this in its own types.
     let problem = match problem.strip_prefix("CRC error: ") {
         Some(found) => {
             let named = found.split_once("type: ").unwrap_or_default().1;

@@ -1,4 +1,4 @@
-//! Files that are replaced as a whole or not at all.
+//! Writes files that are replaced as a whole or not at all.
 
 use std::borrow::ToOwned;
 use std::fs::{self, File, Metadata, OpenOptions};
@@ -11,24 +11,29 @@ use tempfile::{Builder, NamedTempFile, TempPath};
 
 use super::ImageFileError;
 
-/// Links that are followed one after the other, at most: as many as Linux follows.
+/// How many links are followed one after the other: as many as Linux follows.
 const MOST_LINKS: usize = 40;
 
-/// The drafts that are on the disk, for [`remove_drafts`].
+/// The drafts on the disk, for [`remove_drafts`].
 static DRAFTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Writes a file that is either complete or not there: a draft beside its place first, then renamed.
+/// Writes a file that is either complete or not there. A draft is written beside it first, and then
+/// renamed.
 ///
-/// A file already there is replaced, with its permissions kept, and stays as it was if anything fails, the power too: the
-/// new bytes are on the disk before they take its name. Where none was there is nothing to lose, and that is not waited for:
-/// a process that is killed leaves a complete file or none, but a machine that stops within seconds may leave one
-/// that is cut off. Of two processes that write one file the last one stays, whole. Links are followed, those too that lead to
-/// no file yet. What is not a plain file, such as a pipe or a device, is written to directly.
+/// An existing file is replaced and its permissions are kept. It stays unchanged if anything fails,
+/// even the power: the new bytes are on the disk before they take its name. If there was no file,
+/// there is nothing to lose, and the disk is not waited for. A killed process then leaves a
+/// complete file or none, but a machine that stops within seconds may leave a truncated one. If two
+/// processes write one file, the last one's bytes stay, complete. Links are followed, even to files
+/// that do not exist yet. Something other than a plain file, such as a pipe or a device, is written
+/// to directly.
 ///
-/// A process that is ended from outside leaves its draft, named `.tmp` and some letters, unless it calls [`remove_drafts`] then.
+/// A process that is ended from outside leaves its draft, named `.tmp` and some letters, unless it
+/// calls `remove_drafts` first.
 ///
 /// # Errors
-/// If the directory does not exist or cannot be written to, the place is a directory or a read-only file, or the disk is full.
+/// If the directory does not exist or cannot be written to, the path is a directory or a read-only
+/// file, or the disk is full.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
     write_file_by(path, |file| file.write_all(bytes))
 }
@@ -36,8 +41,8 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
 /// Writes a file as [`write_file`] does, with the bytes that `write` writes.
 ///
 /// # Errors
-/// As [`write_file`], and if `write` fails.
-pub fn write_file_by(
+/// As for [`write_file`], and if `write` fails.
+pub(crate) fn write_file_by(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), ImageFileError> {
@@ -47,14 +52,15 @@ pub fn write_file_by(
     })
 }
 
-/// Writes several files, all of them or none: `write` writes the file of each index to a draft, and once all drafts are complete, they
-/// get their names. Folders that are missing are made. If anything fails, every file is as it was before. A signal for which the
-/// program calls [`remove_drafts`] is waited for until all have their names; a process that is killed between two names leaves some
-/// files new and others old, all of them whole.
+/// Writes several files, all or none. `write` writes the file of each index to a draft. Once all
+/// drafts are complete, they are renamed. Missing folders are created. If anything fails, every
+/// file is as it was before. A signal that makes the program call [`remove_drafts`] waits until all
+/// files have their names. A process that is killed between two renames leaves some files new and
+/// others old, each of them complete.
 ///
 /// # Errors
-/// As [`write_file_by`]; names the file.
-pub fn write_files_by(
+/// As for [`write_file_by`], with the path of the file.
+pub(crate) fn write_files_by(
     paths: &[&Path],
     mut write: impl FnMut(usize, &mut dyn Write) -> io::Result<()>,
 ) -> Result<(), ImageFileError> {
@@ -77,14 +83,15 @@ pub fn write_files_by(
     Ok(())
 }
 
-/// Gives all drafts their names, or none; returns the index of the one that could not have it.
+/// Renames all drafts, or none. On failure returns the index of the draft that could not be
+/// renamed.
 fn name_all(files: &[Waiting]) -> Result<(), (usize, io::Error)> {
-    // A signal that would remove drafts and backups waits.
+    // Holding the list makes a signal handler, which would remove drafts and backups, wait.
     let _held = drafts();
     for (i, file) in files.iter().enumerate() {
         if let Err(error) = fs::rename(&file.draft.1, &file.place) {
             for file in &files[..i] {
-                // What fails here has been possible just before.
+                // These renames and removals were possible a moment ago.
                 let _ = match &file.backup {
                     Some((_, backup)) => fs::rename(backup, &file.place),
                     None => fs::remove_file(&file.place),
@@ -96,11 +103,11 @@ fn name_all(files: &[Waiting]) -> Result<(), (usize, io::Error)> {
     Ok(())
 }
 
-/// A complete draft that waits for its name, and the file that has it.
+/// A complete draft that waits to be renamed, with a backup of the file that it replaces.
 struct Waiting {
     place: PathBuf,
     draft: (ListedDraft, TempPath),
-    /// The old file under another name.
+    /// A copy of the old file.
     backup: Option<(ListedDraft, TempPath)>,
 }
 
@@ -132,11 +139,11 @@ impl Waiting {
     }
 }
 
-/// Folders that were made, which are removed again on drop.
+/// Folders that were created. They are removed again on drop.
 struct MadeFolders(Vec<PathBuf>);
 
 impl MadeFolders {
-    /// Makes a folder and those above it that are missing.
+    /// Creates a folder and its missing parents.
     fn make(&mut self, folder: &Path) -> io::Result<()> {
         let missing = folder.ancestors().take_while(|above| {
             let is_named = **above != *"";
@@ -153,26 +160,26 @@ impl MadeFolders {
 impl Drop for MadeFolders {
     fn drop(&mut self) {
         for folder in self.0.iter().rev() {
-            // One that is not empty has files of others now.
+            // A folder that is not empty now has files of other processes.
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// Removes the drafts of all files that are being written, for a program that is about to be ended by a signal. As long as the
-/// result lives, every thread that writes another file waits.
-pub fn remove_drafts() -> NoDrafts {
+/// Removes the drafts of all files that are being written. Call it when a signal is about to end
+/// the program. While the result lives, every thread that wants to write a file waits.
+pub(crate) fn remove_drafts() -> NoDrafts {
     let drafts = drafts();
     for draft in drafts.iter() {
-        // A draft that has just got its name is not there any more.
+        // A draft that has just been renamed is not there any more.
         let _ = fs::remove_file(draft);
     }
     NoDrafts { _held: drafts }
 }
 
-/// The state in which no file is being written: see [`remove_drafts`].
+/// A guard during which no file is written: see [`remove_drafts`].
 #[derive(Debug)]
-pub struct NoDrafts {
+pub(crate) struct NoDrafts {
     _held: MutexGuard<'static, Vec<PathBuf>>,
 }
 
@@ -180,7 +187,7 @@ fn drafts() -> MutexGuard<'static, Vec<PathBuf>> {
     DRAFTS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A place in [`DRAFTS`], as long as it lives.
+/// An entry of [`DRAFTS`], for as long as this lives.
 struct ListedDraft(PathBuf);
 
 impl Drop for ListedDraft {
@@ -189,13 +196,15 @@ impl Drop for ListedDraft {
     }
 }
 
-/// Makes an empty file in `folder`, with the permissions of `old`, and lists it. No draft is on the disk that is not listed.
+/// Creates an empty file in `folder` with the permissions of `old`, and lists it. Every draft on
+/// the disk is listed.
 fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(ListedDraft, NamedTempFile)> {
     #[cfg_attr(not(unix), allow(unused_mut))] // permissions are Unix's
     let mut new = Builder::new();
     #[cfg(unix)]
     {
-        // Other users may read any new file. One that was kept from them is not shown while it is written anew.
+        // Other users may read a new file by default. A file that was hidden from them must stay
+        // hidden while it is rewritten.
         let any = std::os::unix::fs::PermissionsExt::from_mode(0o666);
         new.permissions(old.map_or(any, Metadata::permissions));
     }
@@ -207,8 +216,8 @@ fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(ListedDraft, Name
     Ok((ListedDraft(draft.path().to_owned()), draft))
 }
 
-/// Returns the place of a file, whatever it is called: links are followed, those too that lead to no file yet.
-pub fn place(path: &Path) -> PathBuf {
+/// Returns the real path of a file. Links are followed, even to files that do not exist yet.
+pub(crate) fn place(path: &Path) -> PathBuf {
     if let Ok(place) = fs::canonicalize(path) {
         return place;
     }
@@ -217,7 +226,7 @@ pub fn place(path: &Path) -> PathBuf {
         let Ok(target) = fs::read_link(&end) else {
             break;
         };
-        // Relative to the folder of the link; an absolute one takes its place.
+        // A relative target starts at the folder of the link; an absolute one replaces the path.
         end = end.with_file_name("").join(target);
     }
     match (fs::canonicalize(folder(&end)), end.file_name()) {
@@ -231,7 +240,7 @@ fn folder(path: &Path) -> &Path {
     folder.unwrap_or(Path::new("."))
 }
 
-/// Writes beside the place of `path`, then renames.
+/// Writes a draft beside the real path of `path`, then renames it.
 fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
     let old = replaceable(path)?;
     if old.as_ref().is_some_and(|old| !old.is_file()) {
@@ -246,7 +255,7 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
 /// Returns the file at `path`, if there is one.
 ///
 /// # Errors
-/// If it is a folder or read-only.
+/// If it is a folder, or read-only.
 fn replaceable(path: &Path) -> io::Result<Option<Metadata>> {
     let old = match fs::metadata(path) {
         Ok(old) => old,
@@ -256,7 +265,7 @@ fn replaceable(path: &Path) -> io::Result<Option<Metadata>> {
     if old.is_dir() {
         return Err(io::Error::from(io::ErrorKind::IsADirectory));
     }
-    // A rename would not ask.
+    // A rename would ignore that the file is read-only.
     if old.is_file() && old.permissions().readonly() {
         let problem = "the file there is read-only";
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, problem));
@@ -276,7 +285,8 @@ fn complete_draft(
     write(draft.as_file_mut())?;
     if let Some(old) = old {
         draft.as_file().set_permissions(old.permissions())?;
-        // Else a loss of power could leave neither: the name may reach the disk before the bytes.
+        // Without this a loss of power could destroy both files: the name may reach the disk before
+        // the bytes.
         draft.as_file().sync_all()?;
     }
     Ok((listed, draft))
@@ -318,7 +328,7 @@ mod tests {
         fs::write(&other, "other").unwrap();
         let paths = [&*old, &*new, &*other];
         let state = || (fs::read(&old).unwrap(), names(&directory).len());
-        // The last one fails while it is written.
+        // The last file fails while it is written.
         let failed = write_files_by(&paths, |i, out| match i {
             2 => Err(io::Error::other("full")),
             _ => out.write_all(b"x"),
@@ -329,7 +339,7 @@ mod tests {
             (b"old".to_vec(), 2),
             "folders that were made are gone"
         );
-        // The last one fails while it gets its name, after the others have theirs.
+        // The last file fails while it is renamed, after the others.
         let failed = write_files_by(&paths, |i, out| {
             if i == 2 {
                 fs::remove_file(&other)?;
@@ -397,7 +407,7 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_directory_that_takes_no_files_is_an_error() {
-        // Refused by the kernel whoever asks; permissions would not stop the superuser.
+        // The kernel refuses whoever asks; permissions would not stop the superuser.
         assert!(write_file(Path::new("/proc/self/out.bin"), b"new").is_err());
     }
 
@@ -417,7 +427,8 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"old");
     }
 
-    /// The link stays, and what it leads to is made, through other links and relative to their folders.
+    /// The link stays, and the file that it leads to is created, through other links and relative
+    /// to their folders.
     #[cfg(unix)]
     #[test]
     fn a_dangling_link_is_followed() {
@@ -444,7 +455,7 @@ mod tests {
             fs::read(directory.path().join("other end")).unwrap(),
             b"new"
         );
-        // Where they lead to a folder that is not there, or around, nothing can be written.
+        // Links to a missing folder, or in a circle, cannot be written through.
         let (lost, around) = (
             directory.path().join("lost"),
             directory.path().join("around"),
@@ -459,7 +470,7 @@ mod tests {
         assert_eq!(names.len(), 7, "no draft is left: {names:?}");
     }
 
-    /// A file that was kept from others is so while it is written anew.
+    /// A file that is hidden from other users stays hidden while it is rewritten.
     #[cfg(unix)]
     #[test]
     fn a_draft_has_the_permissions_of_the_file_that_it_replaces() {
@@ -492,7 +503,8 @@ mod tests {
             0o640
         );
 
-        // A socket stands for pipes and devices: it is opened as it is, which fails, and not replaced.
+        // A socket stands for pipes and devices. It is opened directly, which fails, and is not
+        // replaced.
         let socket = directory.path().join("socket");
         let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
         assert!(write_file(&socket, b"new").is_err());

@@ -109,7 +109,7 @@ fn bytes_follow_the_formats() {
     assert_eq!(samples[12..20], [0, 0, 0x80, 0x3f, 0, 0, 0, 0x3f]);
 }
 
-/// Sizes around the ends of the chunks that are converted and written.
+/// Sizes around the ends of the chunks in which pixels are converted and written.
 const SIZES: [[usize; 2]; 8] = [
     [1, 1],
     [3, 1],
@@ -141,7 +141,7 @@ fn large_pictures_are_written_as_small_ones() {
             "{width}x{height}"
         );
 
-        // Parts may end anywhere.
+        // Calls may split the pixels anywhere.
         let mut bytes = Vec::new();
         let mut file = PpmWriter::new(&mut bytes, width, height).unwrap();
         for pixels in picture.pixels().chunks(1 + width * height / 7) {
@@ -279,7 +279,7 @@ fn a_file_without_alpha_is_opaque_beside_one_that_states_no_background() {
     assert_eq!(differing(&png, &FilePicture::stored(opaque(&stored()))), 52);
 }
 
-/// Straight alpha against a file without alpha: over the stated background, in linear light.
+/// Straight alpha against a file without alpha is put over the stated background, in linear light.
 #[test]
 fn a_picture_with_alpha_is_put_over_its_background_before_one_without() {
     let pixels = vec![[200, 100, 255, 102], [9, 9, 9, 255], [7, 8, 9, 0]];
@@ -297,7 +297,8 @@ fn a_picture_with_alpha_is_put_over_its_background_before_one_without() {
     assert_eq!(pair.alpha(), AlphaUse::Flattened { of_reference: true });
     let mut row = [Levels([0.0; 4]); 3];
     pair.compared()[0].level_row(0, &mut row);
-    // By the formulas of IEC 61966-2-1 in Python: 0.4 of the light of 200 and 0.6 of that of 10, and so on.
+    // By the formulas of IEC 61966-2-1 in Python: 0.4 of the light of 200 and 0.6 of that of 10,
+    // and so on.
     let known = [132.555_771, 66.421_994, 171.104_004];
     for (level, known) in row[0].rgb().into_iter().zip(known) {
         assert!((level - known).abs() < 1e-5, "{level} is not {known}");
@@ -329,7 +330,7 @@ fn colours_under_alpha_0_do_not_count() {
     );
 }
 
-/// A picture in both encodings: stored in 8 bits as sRGB, and as linear floats.
+/// One picture in both encodings: stored in 8 bits as sRGB, and as linear floats.
 #[test]
 fn the_linear_one_of_two_encodings_is_encoded_without_rounding() {
     let ramp = LinearPicture::from_pixels(
@@ -356,14 +357,15 @@ fn the_linear_one_of_two_encodings_is_encoded_without_rounding() {
             assert_eq!(used, [expected[of(0)], expected[of(1)]]);
             let [r, a] = pair.compared();
             let most = 255.0 * compare(&r, &a).unwrap().max;
-            // Half a level, and the f32 arithmetic of `srgb_encode` that chose the level: 2⁻²⁴ of 255.
+            // Half a level, and the f32 arithmetic of `srgb_encode` that chose the level: 2⁻²⁴
+            // of 255.
             assert!(
                 0.4 < most && most <= 0.5 + 255.0 / f64::from(1 << 24),
                 "{most}"
             );
         }
     }
-    // Of one encoding they are compared as stored.
+    // Two pictures in one encoding are compared as stored.
     let linear = FilePicture::stored(ramp.map(|pixel| pixel.map(quantise)));
     let [r, a] = Pair::new(&linear, &floats, Some(Encoding::Linear)).compared();
     assert!(255.0 * compare(&r, &a).unwrap().max <= 0.5 + 255.0 / f64::from(1 << 24));
@@ -421,7 +423,7 @@ fn a_changed_byte_never_panics() {
     assert_eq!(message(&bytes), told);
 }
 
-/// Returns a PNG file of samples as they are in the file.
+/// Returns a PNG file with these samples.
 fn png_of(
     [width, height]: [u32; 2],
     colour: ::png::ColorType,
@@ -466,7 +468,7 @@ fn png_files_of_all_colour_types_are_read() {
         (pixels(&colour), colour.has_alpha),
         (vec![[1, 2, 3, 255], [4, 5, 6, 255]], false)
     );
-    // Few bits: 2 of 3 is 170 of 255, 1 of 15 is 17.
+    // Few bits: 2 of 3 is 170 of 255, and 1 of 15 is 17.
     let few = encode(ColorType::Grayscale, BitDepth::Two, &[0b1001_0000]);
     assert_eq!(pixels(&few), [[170, 170, 170, 255], [85, 85, 85, 255]]);
     let few = encode(ColorType::Grayscale, BitDepth::Four, &[0x1f]);
@@ -500,10 +502,10 @@ fn pictures_of_16_bits_are_compared_as_such() {
         let [r, a] = Pair::new(a, b, None).compared();
         255.0 * compare(&r, &a).unwrap().max
     };
-    // Two roundings of numbers near 127, and one of their difference.
+    // Two values near 127 are rounded once each, and their difference once.
     let error = most(&deep(0x8000), &deep(0x8055)) - 255.0 * 85.0 / 65535.0;
     assert!(error.abs() < 3.0 * 128.0 * f64::EPSILON, "{error}");
-    // Levels of 8 bits are exact in 16, and in any other range that holds them.
+    // 8-bit levels are exact in 16 bits and in any other range that holds them.
     let byte = decode_picture(b"P5 1 1 255 \x80").unwrap();
     assert_eq!(most(&byte, &deep(0x8080)), 0.0);
     let odd = decode_picture(b"P5 1 1 510 \x01\x00").unwrap();
@@ -530,7 +532,8 @@ fn a_transparent_colour_becomes_alpha_and_interlaced_rows_are_put_in_order() {
     let keyed = decode_picture(&keyed).unwrap();
     assert!(keyed.has_alpha);
     assert_eq!(keyed.to_stored().pixels(), [[1, 2, 3, 255], [4, 5, 6, 0]]);
-    // A header that says so, and one pass per pixel of 2 × 2: 1 (0, 0), 6 (1, 0), 7 (0, 1) and (1, 1).
+    // A header that says interlaced, and one pass per pixel of 2 × 2: 1 (0, 0), 6 (1, 0), 7 (0, 1)
+    // and (1, 1).
     let rows = [[0, 10].as_slice(), &[0, 20], &[0, 30, 40]].concat();
     let mut data = vec![0x78, 0x01, 0x01, 7, 0, 0xf8, 0xff];
     data.extend(&rows);
@@ -556,7 +559,7 @@ fn a_transparent_colour_becomes_alpha_and_interlaced_rows_are_put_in_order() {
     assert_eq!(grey, [10, 20, 30, 40]);
 }
 
-/// The chunks of a PNG file state its encoding; what is not understood is told.
+/// The chunks of a PNG file state its encoding. A chunk that is not understood is reported.
 #[test]
 fn chunks_that_state_the_encoding_are_read() {
     use ::png::{BitDepth, ColorType};
@@ -606,7 +609,7 @@ fn chunks_that_state_the_encoding_are_read() {
         assert_eq!(picture.encoding, encoding, "{chunks:?}");
         assert_eq!(picture.notes.join(""), note, "{chunks:?}");
     }
-    // What is written is read.
+    // A stated encoding reads back as it was written.
     for encoding in [None, linear, is_srgb] {
         let picture = FilePicture {
             encoding,
@@ -747,7 +750,7 @@ fn portable_pixmaps_of_all_kinds_are_read() {
         (alpha.to_stored().pixels(), alpha.has_alpha),
         (&[[1, 2, 3, 4]][..], true)
     );
-    // Of two ranges and layouts the same picture.
+    // The same picture in two ranges and layouts.
     let plain = read(b"P3 1 1 1000 0 500 1000");
     assert_eq!(plain, read(b"P6 1 1 1000 \x00\x00\x01\xf4\x03\xe8"));
     assert_eq!(differing(&plain, &read(b"P3 1 1 2 0 1 2")), 0);
@@ -782,13 +785,13 @@ fn the_first_of_several_pictures_is_read_and_that_is_said() {
         spaced.notes,
         ["the white space after its last pixel is passed over"]
     );
-    // By the rules LF is red, a is green, b is blue, and the last byte is left over.
+    // The format says that LF is red, a is green, b is blue, and the last byte is left over.
     let shifted = "it goes on after its last pixel: expected one byte of white space before its samples, found CR LF";
     assert_eq!(
         message(b"P6\r\n1 1\r\n255\r\nab\x20"),
         format!("broken PPM file: {shifted}")
     );
-    // Without a byte left over LF is a sample like others.
+    // If no byte is left over, LF is a sample like any other.
     let lf = decode_picture(b"P5 1 1 255\r\n").unwrap();
     assert_eq!(
         (lf.to_stored().pixels(), lf.notes.len()),
@@ -1006,7 +1009,8 @@ fn files_go_by_path_and_errors_name_it() {
     assert!(!path("b.png").exists() && !path("b.gif").exists());
 }
 
-/// An uncompressed BMP of 2 × 2 pixels in 24 bits, as a rasterizer without a library writes it: from the bottom up, blue first.
+/// An uncompressed BMP of 2 × 2 pixels in 24 bits, as a rasterizer without a library writes it:
+/// bottom row first, blue first.
 const BMP: &[u8] = b"BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x02\0\0\0\x02\0\0\0\x01\0\x18\0\0\0\0\0\x10\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
 \x01\x02\x03\x04\x05\x06\0\0\x07\x08\x09\x0a\x0b\x0c\0\0";
 
@@ -1032,7 +1036,7 @@ fn bitmaps_of_rasterizers_without_a_library_are_read() {
             "{name}"
         );
     }
-    // Targa has no mark: only the ending of a name tells it.
+    // Targa has no signature: only the ending of the name identifies it.
     let error = named(TARGA, "a.png").unwrap_err().to_string();
     assert!(error.contains("not a picture that can be read"), "{error}");
     for (bytes, name) in [
@@ -1053,7 +1057,8 @@ fn bitmaps_of_rasterizers_without_a_library_are_read() {
     );
 }
 
-/// Exif data in either order of bytes, with and without the mark that JPEG files have before it, and as a SHORT or a LONG.
+/// Exif data in either byte order, with and without JPEG's marker in front, and as a SHORT or a
+/// LONG.
 #[test]
 fn an_orientation_of_exif_is_told() {
     let plain = FilePicture::stored(stored()).encode(Format::Png).unwrap();
@@ -1088,7 +1093,7 @@ fn an_orientation_of_exif_is_told() {
         orientations.collect::<Vec<_>>(),
         [0, 0, 1, 1, 1, 1, 1, 1, 1, 0]
     );
-    // What is cut off, or is no Exif, states nothing and breaks nothing.
+    // Data that are cut off or are not Exif state nothing and break nothing.
     let whole = big(6);
     for end in 0..19 {
         assert_eq!(with(&whole[..end], 33).notes, [""; 0], "{end} bytes");
@@ -1097,7 +1102,7 @@ fn an_orientation_of_exif_is_told() {
     assert_eq!(with(&far, 33).notes, [""; 0]);
 }
 
-/// A PNG file names the program, by which this knows its own files again.
+/// A PNG file names the program, which can then recognise its own files.
 #[test]
 fn a_png_file_names_its_software() {
     let named = FilePicture::stored(stored()).encode(Format::Png).unwrap();

@@ -1,27 +1,29 @@
 //! Barycentric coordinates of a triangle, by every formula of the lectures.
 //!
-//! All of them are quotients of signed areas, so that they agree; each stands here as it is printed (CS171 1; L5,
-//! Barycentric Coordinates), with what is wrong in print beside what is right. Places are in any unit. On whole numbers
-//! (or whole 1/256 pixels, as those of a frame) up to 2²⁴ every sum here is below 2⁵³ and exact, so that only the
-//! quotient rounds, once, and the signs are right.
+//! All formulas are quotients of signed areas, and agree. Each stands here as it is printed (CS171
+//! 1; L5, Barycentric Coordinates), with the printed mistakes beside the right forms. Points are in
+//! any unit. On integers, or whole multiples of 1/256 pixel as in a frame, up to 2²⁴, every sum
+//! here is below 2⁵³ and exact. Only the quotient rounds, once, and the signs are right.
 //!
-//! Where the triangle has no area there are no coordinates: the quotients are not finite.
+//! A triangle without area has no coordinates: the quotients are not finite.
 
 use glam::DVec2;
 
-/// The three weights α, β, γ of a point: it is α a + β b + γ c.
+/// The three weights α, β, γ of the point α a + β b + γ c.
 pub type Weights = [f64; 3];
 
-/// Returns a number that is zero on the line through i and j, and proportional to the distance from it:
+/// Returns a value that is zero on the line through i and j and proportional to the distance from
+/// it:
 /// ```text
 /// f_ij(x, y) = (y_i − y_j) x + (x_j − x_i) y + x_i y_j − x_j y_i      (CS171 1)
 /// ```
-/// It is twice the signed area of the triangle i, j, p: positive where that runs counter-clockwise with y upward.
+/// It is twice the signed area of the triangle i, j, p, and positive if that runs counter-clockwise
+/// with y upward.
 pub fn f(i: DVec2, j: DVec2, p: DVec2) -> f64 {
     (i.y - j.y) * p.x + (j.x - i.x) * p.y + i.x * j.y - j.x * i.y // f_ij
 }
 
-/// Returns the weights by three calls of [`f`]:
+/// Returns the weights by calls of [`f`]:
 /// ```text
 /// α = f_bc(p) / f_bc(a)      β = f_ac(p) / f_ac(b)      γ = f_ab(p) / f_ab(c)      (CS171 1)
 /// ```
@@ -34,19 +36,21 @@ pub fn weights([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     ]
 }
 
-/// Returns γ as CS171 prints it, `f_ab(p) / f_ac(p)`: the quotient of two distances from p, which is no weight. As f_ac(b) is
-/// −f_ab(c) it is −γ/β, below 0 all over the inside, so that only the edge ab would be filled. At c, where γ is 1, it
-/// divides by zero. Only the figure of barycentric weights draws it.
+/// Returns γ as CS171 prints it, `f_ab(p) / f_ac(p)`. It is the quotient of two distances from p,
+/// and no weight. As f_ac(b) is −f_ab(c), it equals −γ/β, which is negative everywhere inside, so
+/// that only the edge ab would be filled. At c, where γ is 1, it divides by zero. Only the figure
+/// about barycentric weights draws it.
 pub fn printed_gamma([a, b, c]: [DVec2; 3], p: DVec2) -> f64 {
     f(a, b, p) / f(a, c, p)
 }
 
-/// Returns the weights as the solution of the system of two equations that defines them:
+/// Returns the weights as the solution of the system of two equations that defines them, by
+/// Cramer's rule:
 /// ```text
 /// [ x_b − x_a   x_c − x_a ] [ β ]   [ x_p − x_a ]
 /// [ y_b − y_a   y_c − y_a ] [ γ ] = [ y_p − y_a ],      α = 1 − β − γ      (CS171 1)
 /// ```
-/// by Cramer's rule. L5 has the same about C, with α and β for unknowns.
+/// L5 has the system relative to C, with the unknowns α and β.
 pub fn weights_of_system([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     let (column_b, column_c, right) = (b - a, c - a, p - a);
     let determinant = column_b.perp_dot(column_c);
@@ -55,11 +59,12 @@ pub fn weights_of_system([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     [1.0 - beta - gamma, beta, gamma] // α = 1 − β − γ
 }
 
-/// Evaluates the line equation of L5: proportional to the distance from the line through `from` and `to`, with its sign.
+/// Evaluates the line equation of L5, which is proportional to the signed distance from the line
+/// through `from` and `to`:
 /// ```text
 /// L_PQ(x, y) = −(x − x_P)(y_Q − y_P) + (y − y_P)(x_Q − x_P)      (L5, Computing Barycentric Coordinates)
 /// ```
-/// It is [`f`], written about the first of the points.
+/// It equals [`f`], written relative to the first point.
 pub fn line(from: DVec2, to: DVec2, p: DVec2) -> f64 {
     -(p.x - from.x) * (to.y - from.y) + (p.y - from.y) * (to.x - from.x) // L_PQ
 }
@@ -74,7 +79,8 @@ pub fn weights_of_distances([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     [alpha, beta, 1.0 - alpha - beta]
 }
 
-/// Returns the signed area of a triangle: half of a cross product, positive where it runs counter-clockwise with y upward.
+/// Returns the signed area of a triangle, half of a cross product. It is positive if the triangle
+/// runs counter-clockwise with y upward.
 /// ```text
 /// A_abc = ½ (x_a y_b + x_b y_c + x_c y_a − x_a y_c − x_b y_a − x_c y_b)      (CS171 1)
 /// ```
@@ -82,8 +88,9 @@ pub fn signed_area([a, b, c]: [DVec2; 3]) -> f64 {
     0.5 * (b - a).perp_dot(c - a) // A_abc
 }
 
-/// Returns the weights as proportional areas, A_a / A and so on, where A_a is the area of the triangle that has p in the place of
-/// a (CS171 1, Figure 3). The areas have signs, so that it holds outside of the triangle too.
+/// Returns the weights as proportional areas, A_a / A and so on. A_a is the area of the triangle
+/// with p in place of a (CS171 1, Figure 3). The areas are signed, so that the weights also hold
+/// outside the triangle.
 pub fn weights_of_areas([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     let whole = signed_area([a, b, c]);
     [
@@ -93,18 +100,18 @@ pub fn weights_of_areas([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     ]
 }
 
-/// Returns the "weights" as L5 prints them, of areas without a sign:
+/// Returns the "weights" as L5 prints them, from areas without a sign:
 /// ```text
 /// α = A_A / (A_A + A_B + A_C),      A_A = ½ ‖PB × PC‖      (L5, Proportional Areas)
 /// ```
-/// Inside of the triangle they are the weights. Outside they are wrong, and lie in 0..=1 none the less: whoever asks them
-/// whether a point is inside is always told yes. Only the figure of barycentric weights draws them.
+/// Inside the triangle they are the weights. Outside they are wrong and still lie in 0..=1, so that
+/// a test by them calls every point inside. Only the figure about barycentric weights draws them.
 pub fn unsigned_weights([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     let areas = [[p, b, c], [a, p, c], [a, b, p]].map(|triangle| signed_area(triangle).abs());
     areas.map(|area| area / (areas[0] + areas[1] + areas[2]))
 }
 
-/// Returns the two weights on a line: for each end the distance from the *other* one.
+/// Returns the two weights on a line. The weight of each end is the distance from the *other* end.
 /// ```text
 /// v = (x_2 − x) / (x_2 − x_1) v_1 + (x − x_1) / (x_2 − x_1) v_2      (CS171 1, Figure 2)
 /// ```
@@ -112,7 +119,7 @@ pub fn weights_on_line(x1: f64, x2: f64, x: f64) -> [f64; 2] {
     [(x2 - x) / (x2 - x1), (x - x1) / (x2 - x1)]
 }
 
-/// Returns the point at which all weights are ⅓ (L5, Center of mass).
+/// Returns the point where all weights are ⅓ (L5, Center of mass).
 pub fn centre_of_mass([a, b, c]: [DVec2; 3]) -> DVec2 {
     (a + b + c) / 3.0
 }
@@ -128,7 +135,8 @@ mod tests {
         DVec2::new(coordinate(), coordinate())
     }
 
-    /// Triangles that have an area, small ones and such as fill the guard band, and points about them.
+    /// Triangles with an area, small ones and ones that fill the guard band, and points around
+    /// them.
     fn triangles(seed: u64, mut visit: impl FnMut([DVec2; 3], DVec2)) {
         let mut random = Random::new(seed);
         for round in 0..6000 {
@@ -140,8 +148,9 @@ mod tests {
         }
     }
 
-    /// True if two formulas agree: each is one rounded quotient of exact numbers and at most two sums of such, at sizes up
-    /// to those of the weights themselves: four half-ulps of the largest, for each of the two.
+    /// True if two formulas agree. Each is one rounded quotient of exact values and at most two
+    /// sums, whose sizes are at most those of the weights: four half-ulps of the largest, for each
+    /// of the two.
     #[track_caller]
     fn agree(found: Weights, expected: Weights) {
         let largest = expected.iter().fold(1.0f64, |m, w| m.max(w.abs()));
@@ -169,7 +178,8 @@ mod tests {
     #[test]
     fn the_line_equation_is_f_exactly() {
         triangles(2, |[a, b, _], p| assert_eq!(line(a, b, p), f(a, b, p)));
-        // And proportional to the distance: 5 times it on the line through (0, 0) and (4, 3), whose length is 5.
+        // L is also proportional to the distance: 5 times the distance from the line through (0, 0)
+        // and (4, 3), whose length is 5.
         let (from, to) = (DVec2::ZERO, DVec2::new(4.0, 3.0));
         for distance in [-2.0, 0.0, 1.0, 7.0] {
             let p = 2.0 * to + DVec2::new(-3.0, 4.0) * distance;
@@ -182,11 +192,12 @@ mod tests {
         triangles(3, |t, p| {
             let [alpha, beta, gamma] = weights(t, p);
             let largest = alpha.abs().max(beta.abs()).max(gamma.abs()).max(1.0);
-            // Each weight is off by half an ulp of itself, the sums of three add two more.
+            // Each weight is off by half an ulp of itself, and the sums of three add two more.
             assert!((alpha + beta + gamma - 1.0).abs() <= 2.5 * f64::EPSILON * largest);
             let back = alpha * t[0] + beta * t[1] + gamma * t[2];
             let size = t.iter().fold(0.0f64, |m, v| m.max(v.abs().max_element()));
-            // Three products of an off weight, rounded once each, and two sums: (3 · 2 + 2) half-ulps of the largest.
+            // Three products of an inexact weight, rounded once each, and two sums: (3 · 2 + 2)
+            // half-ulps of the largest.
             assert!((back - p).abs().max_element() <= 4.0 * f64::EPSILON * 3.0 * largest * size);
         });
     }
@@ -198,7 +209,7 @@ mod tests {
             DVec2::new(8.0, 0.0),
             DVec2::new(0.0, 4.0),
         ];
-        // (2, 1) is half of b − a's quarter and c − a's quarter from a: (½, ¼, ¼).
+        // (2, 1) is a quarter of b − a and a quarter of c − a from a: (½, ¼, ¼).
         assert_eq!(weights(right, DVec2::new(2.0, 1.0)), [0.5, 0.25, 0.25]);
         assert_eq!(weights(right, right[2]), [0.0, 0.0, 1.0]);
         // As printed: 8 · 1 / (−4 · 2), and at c a division by zero.
@@ -208,7 +219,7 @@ mod tests {
         triangles(4, |t, p| {
             let [alpha, beta, gamma] = weights(t, p);
             if beta != 0.0 {
-                // Three rounded quotients and a product, of exact numbers.
+                // Three rounded quotients and a product, of exact values.
                 let expected = -gamma / beta;
                 assert!(
                     (printed_gamma(t, p) - expected).abs() <= 2.0 * f64::EPSILON * expected.abs()
@@ -221,7 +232,7 @@ mod tests {
             sums_to_one += usize::from(is_one(printed_gamma(t, p)));
             all += 1;
         });
-        // Only by chance: where f_ac(p) happens to be f_ab(c), on the grid of small triangles.
+        // Only by chance: where f_ac(p) happens to equal f_ab(c), on the grid of small triangles.
         assert!(sums_to_one * 20 < all, "{sums_to_one} of {all}");
     }
 
@@ -241,7 +252,7 @@ mod tests {
             );
             let inside = weights(t, (2.0 * a + b + c) / 4.0);
             assert_eq!(inside, [0.5, 0.25, 0.25]);
-            // Over the edge from a: the mirror image of a in the middle of b and c.
+            // Beyond the edge opposite a: the mirror image of a in the middle of b and c.
             assert_eq!(weights(t, b + c - a), [-1.0, 1.0, 1.0]);
         });
     }
@@ -303,7 +314,8 @@ mod tests {
         assert_eq!(weights_on_line(2.0, 10.0, 4.0), [0.75, 0.25]);
         assert_eq!(weights_on_line(2.0, 10.0, 2.0), [1.0, 0.0]);
         assert_eq!(weights_on_line(10.0, 2.0, 2.0), [0.0, 1.0]);
-        // On an edge of a triangle they are its weights: the distances along it are those of the line.
+        // On an edge of a triangle they are its weights: distances along the edge behave as on the
+        // line.
         let t = [
             DVec2::new(2.0, 1.0),
             DVec2::new(10.0, 1.0),

@@ -3,14 +3,16 @@
 use crate::scene::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
 use glam::DVec3;
 
-/// Returns the colour of the point `p` with the normal `n` (CS171 2, Algorithm 3, with its Attenuation):
+/// Returns the colour of the point `p` with the normal `n` (CS171 2, Algorithm 3, with its
+/// Attenuation):
 /// ```text
 /// c = min(1, c_a + c_d Σ l_c max(0, n · l) + c_s Σ l_c max(0, n · (e + l) / |e + l|)^p),    l_c ∝ 1 / (1 + k d²)
 /// ```
 ///
-/// `n` is taken as it is given, unit or not. The products of light and material come from `light`, as do what the text
-/// does not have: lights and eye at infinity, highlights by R·V, and their gate. CS171's own model is
-/// [`SpecularModel::Blinn`] with [`SpecularGate::Ungated`]. Where e + l vanishes there is no h, and n · h counts as 0.
+/// `n` is used unchanged, unit vector or not. `light` has the products of light and material, and
+/// what the text does not have: lights and eye at infinity, highlights by R·V, and their gate.
+/// CS171's own model is [`SpecularModel::Blinn`] with [`SpecularGate::Ungated`]. If e + l vanishes,
+/// there is no h, and n · h counts as 0.
 pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let mut sum = wide(light.ambient);
@@ -21,7 +23,7 @@ pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
     for l in &light.lights {
         let (l_direction, attenuation) = match l.place {
             Place::Local(l_p) => {
-                // The distance is taken before the vector is normalised.
+                // Measure the distance before the vector is normalised.
                 let vector = wide(l_p) - p;
                 (
                     vector.normalize_or_zero(),
@@ -35,7 +37,7 @@ pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
         let cosine = match light.specular {
             SpecularModel::Blinn => {
                 let sum = e_direction + l_direction;
-                // Opposite vectors have none halfway between them.
+                // Opposite vectors have no vector halfway between them.
                 let is_sum = sum.length_squared() > f64::from(SpecularModel::LEAST_SUM);
                 if is_sum { n.dot(sum.normalize()) } else { 0.0 }
             }
@@ -52,8 +54,8 @@ pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
     sum.min(DVec3::ONE) // cwise_min
 }
 
-/// Returns the strength of a light at the distance d (CS171 2, Attenuation; the other two are L5's). Distances below 1e-15
-/// count as that.
+/// Returns the strength of a light at the distance d (CS171 2, Attenuation; the other two laws are
+/// L5's). Distances below 1e-15 count as 1e-15.
 fn attenuation(falloff: Falloff, d: f64) -> f64 {
     let d = d.max(1e-15);
     match falloff {

@@ -1,7 +1,8 @@
-//! CS171's algorithms as they are printed, in `f64`: slow, and to be read beside the text.
+//! CS171's algorithms as they are printed, in `f64`: slow, and meant to be read beside the text.
 //!
-//! One function an algorithm, over triangles. They share no arithmetic with the engines of [`crate::raster`] nor with
-//! [`mod@crate::reference`], so that each can be held against the others.
+//! There is one function per algorithm, over triangles. They share no arithmetic with the engines
+//! of [`crate::raster`] or with [`mod@crate::reference`], so that each can be checked against the
+//! others.
 //!
 //! | algorithm | here |
 //! |---|---|
@@ -29,59 +30,64 @@ pub use shading::{flat_shading, full_shading, gouraud_shading, phong_shading, re
 use crate::picture::{Alpha, Picture};
 use glam::DVec3;
 
-/// A rule for pixels whose centres lie on an edge.
+/// The rule for pixels whose centres lie on an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Inside {
-    /// To every triangle that has the edge: α, β, γ ∈ [0, 1], as in the algorithms. Shared edges are drawn twice.
+    /// They belong to every triangle with the edge: α, β, γ ∈ [0, 1], as in the algorithms. Shared
+    /// edges are drawn twice.
     #[default]
     Closed,
-    /// To none: 0 < α, β, γ < 1, as in the text. Shared edges are holes.
+    /// They belong to no triangle: 0 < α, β, γ < 1, as in the text. Shared edges become holes.
     Open,
 }
 
-/// A rule for two points at the same depth.
+/// The rule for two points at equal depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ties {
-    /// The later one: `!(NDC.z > buffer(x, y))`, as in Algorithm 8.
+    /// The later one is seen: `!(NDC.z > buffer(x, y))`, as in Algorithm 8.
     #[default]
     Later,
-    /// The earlier one: "less than the value stored", as in the text, and as in every other engine here.
+    /// The earlier one is seen: "less than the value stored", as in the text and in every other
+    /// engine here.
     Earlier,
 }
 
-/// A reading of the text where it can be read in two ways.
+/// How the text is read where it allows two readings.
 ///
 /// # Where the text is not followed
 ///
-/// * γ is `f_ab(p) / f_ab(c)`; the text divides by `f_ac(p)` ([`barycentric::printed_gamma`]).
-/// * "very shiny … p value close to 1" is the wrong way round: a large exponent gives the small highlight of a shiny
-///   surface, as its own Figure 7 shows. The exponent is the material's.
-/// * Algorithm 4 hands the corners on where it means their places in NDC and their colours.
-/// * The text has a point inside where 0 < α, β, γ < 1, the algorithms where they are in [0, 1]: [`Inside`].
-/// * The text renders what is *less* deep than the buffer, Algorithm 8 what is *not deeper*: [`Ties`].
-/// * Algorithm 7 gives an interpolated normal to a lighting model that asks for a unit normal. [`Reading::normalise`]
-///   makes it one; without it highlights are lost between the corners.
-/// * Colours, world coordinates and normals are interpolated linearly on the screen, which is right under an orthographic
-///   camera only; NDC is right under both. A frame that asks for perspective interpolation gets it
-///   ([`crate::frame::perspective`]).
-/// * The test against the cube is not clipping: a corner behind the eye has no place on the picture
-///   ([`world_to_ndc`]). What comes from a frame is clipped, and tested besides.
-/// * `cross.z < 0` lets a triangle without area through, and then f_ij divides by zero: it is left out.
+/// * γ is `f_ab(p) / f_ab(c)`. The text divides by `f_ac(p)` ([`barycentric::printed_gamma`]).
+/// * "very shiny … p value close to 1" is the wrong way round. A large exponent makes the small
+///   highlight of a shiny surface, as its own Figure 7 shows. The exponent is the material's.
+/// * Algorithm 4 passes on the corners where it means their NDC and their colours.
+/// * In the text a point is inside if 0 < α, β, γ < 1, in the algorithms if they are in [0, 1]:
+///   [`Inside`].
+/// * The text draws points that are *less* deep than the buffer, Algorithm 8 points that are *not
+///   deeper*: [`Ties`].
+/// * Algorithm 7 passes an interpolated normal to a lighting model that expects a unit normal.
+///   [`Reading::normalise`] makes it one. Without it, highlights between the corners are lost.
+/// * Colours, world coordinates and normals are interpolated linearly on the screen. That is right
+///   only under an orthographic camera. NDC is right under both. A frame that asks for perspective
+///   interpolation gets it (`src/frame/perspective.rs`).
+/// * The test against the cube is not clipping: a corner behind the eye has no position on the
+///   picture ([`world_to_ndc`]). The polygons of a frame are clipped, and then tested as well.
+/// * `cross.z < 0` lets a triangle without area through, and f_ij then divides by zero. Such a
+///   triangle is left out.
 /// * Pixels are tested at their centres, and only those of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
     /// Pixels on edges.
     pub inside: Inside,
-    /// Points at the same depth.
+    /// Points at equal depth.
     pub ties: Ties,
-    /// True if interpolated and averaged normals are made unit vectors, which Algorithms 6 and 7 leave out.
+    /// True if interpolated and averaged normals are normalised, which Algorithms 6 and 7 omit.
     pub normalise: bool,
     /// True if [`full_shading`] leaves out back faces, as Algorithm 8 does.
     pub cull: bool,
 }
 
 impl Default for Reading {
-    /// Reads the algorithms' lines, with unit normals.
+    /// Follows the algorithms, with unit normals.
     fn default() -> Self {
         Reading {
             inside: Inside::Closed,
@@ -92,10 +98,10 @@ impl Default for Reading {
     }
 }
 
-/// The values that are interpolated.
+/// Which values are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shading {
-    /// Nothing: one colour per triangle, of the average corner (Algorithm 6).
+    /// None: one colour per triangle, of the average corner (Algorithm 6).
     Flat,
     /// The colours of the corners (Algorithms 4 and 5).
     Gouraud,
@@ -109,28 +115,29 @@ pub type Corners = [TriangleCorner; 3];
 /// A corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleCorner {
-    /// v: the position in the space where lights and eye are.
+    /// v: the position, in the space of lights and eye.
     pub world: DVec3,
-    /// n: the unit normal there.
+    /// n: the unit normal.
     pub normal: DVec3,
-    /// The normalised device coordinates: x to the right, y upward, z from near to far; visible ones are in −1..=1.
+    /// The normalised device coordinates: x to the right, y upward, z from near to far. Visible
+    /// ones are in −1..=1.
     pub ndc: DVec3,
-    /// The reciprocal of its depth in any unit, over 0, for perspective interpolation; the same at all corners for
-    /// interpolation on the screen, as printed.
+    /// The reciprocal of the depth in any unit, above 0, for perspective interpolation. Equal at
+    /// all corners for interpolation on the screen, as printed.
     pub inv_w: f64,
 }
 
 /// The raster grid, and the buffer grid of Algorithm 8.
 #[derive(Clone, Debug)]
 pub struct Raster {
-    /// Red, green, blue in 0..=1; alpha is 1 where a triangle was drawn.
+    /// Red, green, blue in 0..=1. Alpha is 1 where a triangle was drawn.
     pub colours: Picture<[f64; 4]>,
-    /// The NDC depth of what was drawn; the largest double where nothing was.
+    /// The NDC depth of the drawn points, and the largest double elsewhere.
     pub buffer: Picture<f64>,
 }
 
 impl Raster {
-    /// Makes a grid of `width` × `height` pixels of this colour, on which nothing was drawn.
+    /// Makes an empty grid of `width` × `height` pixels with this background.
     pub fn new(width: usize, height: usize, background: DVec3) -> Raster {
         let [r, g, b] = background.to_array();
         Raster {
@@ -139,23 +146,24 @@ impl Raster {
         }
     }
 
-    /// Returns columns and rows.
+    /// Returns the counts of columns and rows.
     pub fn size(&self) -> [usize; 2] {
         [self.colours.width(), self.colours.height()]
     }
 
-    /// Returns the mean of each `side` × `side` samples, alpha too; of a square that is covered in part with straight alpha, the
-    /// mean colour of the covered ones. 0 counts as 1, and samples beyond the last whole square are left out.
+    /// Returns the mean of each `side` × `side` samples, including alpha. With straight alpha, the
+    /// colour of a partly covered square is the mean of its covered samples. A `side` of 0 counts
+    /// as 1, and samples beyond the last whole square are left out.
     pub fn filtered(&self, side: usize, alpha: Alpha) -> Picture<[f64; 4]> {
         let side = side.max(1);
         let [width, height] = self.size().map(|count| count / side);
         let mut picture = Picture::new(width, height, [0.0; 4]);
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-            let places = (0..side * side).map(|i| (x * side + i % side, y * side + i / side));
-            let samples = places.map(|(x, y)| self.colours.get(x, y));
+            let positions = (0..side * side).map(|i| (x * side + i % side, y * side + i / side));
+            let samples = positions.map(|(x, y)| self.colours.get(x, y));
             let covered = samples.clone().filter(|sample| sample[3] > 0.0).count();
             let all = (side * side) as f64;
-            // The samples that the colour is the mean of: their number, and the least alpha among them.
+            // How many samples the colour is the mean of, and the least alpha among them.
             let (count, least) = match alpha {
                 Alpha::Straight if covered > 0 => (covered as f64, 1.0),
                 _ => (all, 0.0),

@@ -1,36 +1,38 @@
-//! Algorithms 1, 2, 5 and 8: the pixels that a triangle fills.
+//! Algorithms 1, 2, 5 and 8: which pixels a triangle fills.
 
 use super::barycentric::{Weights, f, weights};
 use super::{Inside, Raster, Reading, Ties, TriangleCorner};
 use crate::frame::perspective::weights_in_space;
 use glam::{DMat4, DVec2, DVec3};
 
-/// Maps a point from the world to NDC (World_To_NDC): `matrix` is that of the camera to clip space with depths in 0..=w, as
-/// [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix) has it.
+/// Maps a point from the world to NDC (World_To_NDC). `matrix` is the camera's matrix to clip space
+/// with depths in 0..=w, as [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix) returns it.
 ///
-/// A point behind the eye has a w below 0: the division turns it over to the other side of the picture, and a triangle
-/// that reaches there is drawn wrongly. That is why one clips first; the test against the cube, pixel by pixel, comes too
-/// late for it.
+/// A point behind the eye has a negative w. The division turns it over to the other side of the
+/// picture, and a triangle that extends there is drawn wrongly. Therefore one clips first. The test
+/// against the cube, pixel by pixel, comes too late.
 pub fn world_to_ndc(matrix: &DMat4, v: DVec3) -> DVec3 {
     let clip = *matrix * v.extend(1.0);
     DVec3::new(clip.x, clip.y, 2.0 * clip.z - clip.w) / clip.w
 }
 
-/// Maps NDC to the screen (NDC_To_Screen): columns to the right and rows downward, in pixels, to the nearest 1/256 pixel as in a frame, so that what
-/// is summed of them is exact ([`super::barycentric`]).
+/// Maps NDC to the screen (NDC_To_Screen): columns to the right and rows downward, in pixels,
+/// rounded to the nearest 1/256 pixel as in a frame. Sums of such values are exact
+/// ([`super::barycentric`]).
 pub fn ndc_to_screen(ndc: DVec3, [width, height]: [usize; 2]) -> DVec2 {
     let nearest = |pixels: f64| libm::rint(pixels * 256.0) / 256.0;
     DVec2::new(
         nearest((ndc.x + 1.0) / 2.0 * width as f64),
-        // Rows run downward, NDC upward. It turns the triangle over, so that back faces are told in NDC.
+        // Rows run downward and NDC upward. This mirrors the triangle, so back faces are recognised
+        // in NDC.
         nearest((1.0 - ndc.y) / 2.0 * height as f64),
     )
 }
 
-/// Calls `fill` (Algorithm 1) for every pixel of a grid of this size, columns and rows, whose centre is in the triangle, with
-/// the weights of that centre.
+/// Calls `fill` (Algorithm 1) for every pixel whose centre is in the triangle, with column, row and
+/// the weights of the centre. `size` is the size of the grid in columns and rows.
 ///
-/// Places are in pixels, x to the right and y downward.
+/// Corners are in pixels, x to the right and y downward.
 pub fn raster_triangle(
     triangle: [DVec2; 3],
     size: [usize; 2],
@@ -57,15 +59,16 @@ pub fn raster_triangle(
     }
 }
 
-/// Returns the pixels of a row of so many whose centres are in `min..=max`. The text goes on beyond the grid's rim, and would fill
-/// there.
+/// Returns the pixels, of a row of `count`, whose centres are in `min..=max`. The text continues
+/// beyond the grid's edge, and would fill pixels there.
 fn centres(min: f64, max: f64, count: usize) -> core::ops::Range<usize> {
     let first = libm::ceil(min - 0.5).max(0.0);
     let end = (libm::floor(max - 0.5) + 1.0).clamp(0.0, count as f64);
     (first as usize).min(end as usize)..end as usize
 }
 
-/// Fills a triangle (Algorithm 2) with the colours between those of its corners. Places as in [`raster_triangle`].
+/// Fills a triangle (Algorithm 2) with colours interpolated between those of its corners. `places`
+/// are positions as in [`raster_triangle`].
 pub fn raster_colored_triangle(
     places: [DVec2; 3],
     colours: [DVec3; 3],
@@ -82,14 +85,15 @@ pub(super) fn blend([alpha, beta, gamma]: Weights, [a, b, c]: [DVec3; 3]) -> DVe
     alpha * a + beta * b + gamma * c
 }
 
-/// True if a point is one that the camera sees.
+/// True if the camera sees the point.
 fn is_in_cube(ndc: DVec3) -> bool {
     ndc.abs().max_element() <= 1.0
 }
 
-/// Fills the part of a triangle that lies in the cube (Algorithm 5) with the colours between those of its corners.
+/// Fills the part of a triangle that lies in the cube (Algorithm 5) with colours interpolated
+/// between those of its corners.
 ///
-/// Algorithm 4 calls it with its corners a, b, c; what it needs of them is NDC and colours.
+/// Algorithm 4 calls it with its corners a, b, c, and means their NDC and colours.
 pub fn raster_colored_ndc_triangle(
     corners: &[TriangleCorner; 3],
     colours: [DVec3; 3],
@@ -99,7 +103,8 @@ pub fn raster_colored_ndc_triangle(
     raster_ndc_triangle(corners, reading, grid, |weights| blend(weights, colours));
 }
 
-/// Runs Algorithm 5 with any colour of the three weights: the loop of Algorithms 6 and 7 too.
+/// Runs Algorithm 5 with any colour as a function of the three weights. This is also the loop of
+/// Algorithms 6 and 7.
 pub(super) fn raster_ndc_triangle(
     corners: &[TriangleCorner; 3],
     reading: Reading,
@@ -121,7 +126,8 @@ pub(super) fn raster_ndc_triangle(
     });
 }
 
-/// Runs Algorithm 8 with any colour of the three weights: the loop of Algorithm 5 with back faces culled and a depth buffer.
+/// Runs Algorithm 8 with any colour as a function of the three weights: the loop of Algorithm 5,
+/// with back faces culled and a depth buffer.
 pub(super) fn raster_visible_triangle(
     corners: &[TriangleCorner; 3],
     reading: Reading,
@@ -139,7 +145,7 @@ pub(super) fn raster_visible_triangle(
         let ndc = blend(weights, ndc);
         let buffer = &mut grid.buffer.row_mut(y)[x];
         let is_seen = match reading.ties {
-            Ties::Later => ndc.z <= *buffer, // !(NDC.z > buffer(x, y)): no number is missing here
+            Ties::Later => ndc.z <= *buffer, // !(NDC.z > buffer(x, y)): no value is NaN here
             Ties::Earlier => ndc.z < *buffer,
         };
         if is_in_cube(ndc) && is_seen {

@@ -1,4 +1,4 @@
-//! Algorithms 4, 6, 7 and 8: the colours of pixels; and a frame drawn by them.
+//! Algorithms 4, 6, 7 and 8: the colours of pixels, and a frame drawn by them.
 
 use super::barycentric::Weights;
 use super::rasterize::{blend, raster_ndc_triangle, raster_visible_triangle};
@@ -10,7 +10,7 @@ use crate::scene::{Interpolation, Lighting};
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// Lights the corners and lets Algorithm 5 fill the triangle (Algorithm 4).
+/// Lights the corners and fills the triangle by Algorithm 5 (Algorithm 4).
 pub fn gouraud_shading(corners: &Corners, light: &Lighting, reading: Reading, grid: &mut Raster) {
     let colours = corners.map(|corner| lighting(corner.world, corner.normal, light));
     raster_colored_ndc_triangle(corners, colours, reading, grid);
@@ -22,15 +22,15 @@ pub fn flat_shading(corners: &Corners, light: &Lighting, reading: Reading, grid:
     raster_ndc_triangle(corners, reading, grid, |_| colour);
 }
 
-/// Lights every pixel, with position and normal between those of the corners (Algorithm 7).
+/// Lights every pixel, with position and normal interpolated between the corners (Algorithm 7).
 pub fn phong_shading(corners: &Corners, light: &Lighting, reading: Reading, grid: &mut Raster) {
     raster_ndc_triangle(corners, reading, grid, |weights| {
         phong_colour(corners, weights, light, reading)
     });
 }
 
-/// Draws with a depth buffer, and without back faces: Algorithm 8, which stands for Gouraud shading, and the same for the
-/// other two.
+/// Draws with a depth buffer and without back faces. This is Algorithm 8, which is printed for
+/// Gouraud shading, with the other two kinds of shading as well.
 pub fn full_shading(
     shading: Shading,
     corners: &Corners,
@@ -64,7 +64,7 @@ fn average(corners: &Corners) -> [DVec3; 2] {
     ]
 }
 
-/// Returns `n`, made a unit vector if the reading asks for it.
+/// Returns `n`, normalised if the reading asks for it.
 fn read(n: DVec3, reading: Reading) -> DVec3 {
     if reading.normalise {
         n.normalize_or_zero()
@@ -83,20 +83,23 @@ fn phong_colour(corners: &Corners, weights: Weights, light: &Lighting, reading: 
     lighting(v, read(n, reading), light)
 }
 
-/// Draws the triangles of `frame` by Algorithm 8; without a depth test by Algorithms 4 to 7, in drawing order.
+/// Draws the triangles of `frame` by Algorithm 8, or, without a depth test, by Algorithms 4 to 7 in
+/// drawing order.
 ///
-/// Polygons of more than three corners are passed over: [`triangulated`](crate::frame::triangulate::triangulated) cuts them. The
-/// average corner is that of the scene's polygon ([`Frame::mean`]). A corner that clipping made is not lit, but lies
-/// between two that are. A point on the near or far plane itself may be lost to rounding, as the cube is closed and tested
-/// in `f64`. Of a frame with several samples per pixel the grid is one of samples: [`Raster::filtered`].
+/// Polygons of more than three corners are skipped:
+/// [`triangulated`](crate::frame::triangulate::triangulated) cuts them into triangles. The average
+/// corner is that of the scene's polygon ([`Frame::mean`]). A corner that clipping made is not lit,
+/// but interpolated between two that are. A point on the near or far plane itself may be lost to
+/// rounding, because the cube is closed and tested in `f64`. For a frame with several samples per
+/// pixel the grid consists of samples: see [`Raster::filtered`].
 pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Raster {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let corners = corners(frame);
-    let light = |number: u32| &frame.lightings()[frame.material(number) as usize];
+    let light = |vertex: u32| &frame.lightings()[frame.material(vertex) as usize];
     let mut colours: Vec<DVec3> = match shading {
         Shading::Gouraud => {
             let lit = (0..).zip(&corners);
-            lit.map(|(number, corner)| lighting(corner.world, corner.normal, light(number)))
+            lit.map(|(vertex, corner)| lighting(corner.world, corner.normal, light(vertex)))
                 .collect()
         }
         Shading::Flat | Shading::Phong => Vec::new(),
@@ -112,8 +115,8 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Raster {
         let &[a, b, c] = frame.corners(polygon) else {
             continue;
         };
-        let numbers = [a, b, c].map(|number| number as usize);
-        let triangle = numbers.map(|number| corners[number]);
+        let vertices = [a, b, c].map(|vertex| vertex as usize);
+        let triangle = vertices.map(|vertex| corners[vertex]);
         let light = &frame.lightings()[polygon.material as usize];
         let colour: &dyn Fn(Weights) -> DVec3 = match shading {
             Shading::Flat => {
@@ -121,7 +124,7 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Raster {
                 let colour = flat_colour([wide(mean.position), wide(mean.normal)], light, reading);
                 &move |_| colour
             }
-            Shading::Gouraud => &|weights| blend(weights, numbers.map(|number| colours[number])),
+            Shading::Gouraud => &|weights| blend(weights, vertices.map(|vertex| colours[vertex])),
             Shading::Phong => &|weights| phong_colour(&triangle, weights, light, reading),
         };
         if frame.depth_test() {
@@ -133,13 +136,14 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Raster {
     grid
 }
 
-/// Returns the vertices of a frame as corners: NDC from places and depths, world coordinates from the eye.
+/// Returns the vertices of a frame as corners. NDC come from positions on the screen and depths;
+/// world coordinates are relative to the eye.
 fn corners(frame: &Frame) -> Vec<TriangleCorner> {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let size = [frame.width() as f64, frame.height() as f64];
-    let corner = |(number, v): (u32, &ScreenVertex)| TriangleCorner {
-        world: wide(frame.position(number)),
-        normal: wide(frame.normal(number)),
+    let corner = |(vertex, v): (u32, &ScreenVertex)| TriangleCorner {
+        world: wide(frame.position(vertex)),
+        normal: wide(frame.normal(vertex)),
         ndc: DVec3::new(
             2.0 * v.x.to_num::<f64>() / size[0] - 1.0,
             1.0 - 2.0 * v.y.to_num::<f64>() / size[1],

@@ -1,4 +1,5 @@
-//! Values of a scene file or of flags: checked by `scene/ranges.rs`, with errors that name the key or the flag.
+//! Checks values of a scene file or of flags against `scene/ranges.rs`. Errors name the key or the
+//! flag.
 
 use super::diagnostics::{Origin, SceneError};
 use super::schema::ChoiceWord;
@@ -14,40 +15,41 @@ use std::collections::BTreeMap;
 use std::format;
 use std::string::String;
 
-/// A table that is read: values in their ranges, or errors that name the key, or the flag that stands for it, and its place.
+/// A table to be checked. Its functions return values that are in their ranges, or errors that name
+/// the key, or the flag that set it, and its place.
 #[derive(Clone, Copy)]
 pub(super) struct Section<'a> {
     /// The table.
     pub table: &'a SceneTable,
-    /// The name of it in errors; empty for the scene.
+    /// The name of the table in errors. Empty for the scene itself.
     pub name: &'static str,
 }
 
-/// A table that is not given.
+/// The table that stands for an absent one.
 static NONE: SceneTable = SceneTable {
     entries: BTreeMap::new(),
     origin: Origin::Program,
 };
 
 impl<'a> Section<'a> {
-    /// Returns the table called `key`, empty if it is not given; errors call it `name`.
+    /// Returns the table called `key`, or an empty one if it is absent. Errors call it `name`.
     pub fn section(&self, key: &str, name: &'static str) -> Section<'a> {
         let table = self.table.table(key).unwrap_or(&NONE);
         Section { table, name }
     }
 
-    /// Returns the tables called `key`; errors call each of them `name`.
+    /// Returns the tables called `key`. Errors call each of them `name`.
     pub fn sections(&self, key: &str, name: &'static str) -> impl Iterator<Item = Section<'a>> {
         let tables = self.table.tables(key).iter();
         tables.map(move |table| Section { table, name })
     }
 
-    /// True if `key` is given.
+    /// True if `key` is set.
     pub fn has(&self, key: &str) -> bool {
         self.table.get(key).is_some()
     }
 
-    /// Returns what the user called `key`: the flag, where one gave it.
+    /// Returns the user's name for `key`: the flag if a flag set it.
     pub fn name(&self, key: &str) -> String {
         match self.table.get(key).map(|value| &value.origin) {
             Some(Origin::Flag(flag)) => flag.clone(),
@@ -73,7 +75,7 @@ impl<'a> Section<'a> {
         SceneError::new(self.table.origin.clone(), problem, expected)
     }
 
-    /// Makes `error` point at the value of `key`, too, if that is given.
+    /// Makes `error` also point at the value of `key`, if it is set.
     pub fn pointing_at(&self, key: &str, label: &str, error: SceneError) -> SceneError {
         match self.table.get(key) {
             Some(value) => error.related(&value.origin, label),
@@ -81,12 +83,13 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Returns the first of `keys`, names with spaces between them, that is given.
+    /// Returns the first of `keys` that is set. `keys` are names with spaces between them.
     fn given<'k>(&self, keys: &'k str) -> Option<&'k str> {
         keys.split(' ').find(|key| self.has(key))
     }
 
-    /// Refuses one of `keys` beside one of `others`, both names with spaces between them; `why` says what is expected.
+    /// Refuses one of `keys` beside one of `others`. Both are names with spaces between them. `why`
+    /// says what is expected.
     pub fn exclude(&self, keys: &str, others: &str, why: &str) -> Result<(), SceneError> {
         match (self.given(keys), self.given(others)) {
             (Some(key), Some(other)) => Err(self.conflict(key, other, why)),
@@ -101,7 +104,7 @@ impl<'a> Section<'a> {
         self.pointing_at(other, "the other one is here", error)
     }
 
-    /// Returns a number for which `is_valid` holds.
+    /// Returns a number for which `is_valid` holds, or `None` if the key is absent.
     fn number_if(
         &self,
         key: &str,
@@ -120,19 +123,19 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Returns a number in its range.
+    /// Returns a number in this range.
     pub fn number(&self, key: &str, range: &NumberRange) -> Result<Option<f64>, SceneError> {
         self.number_if(key, |value| range.holds(value), range.expected)
     }
 
-    /// Returns an angle in radians, given as at most `most` degrees in either direction.
+    /// Returns an angle in radians. The user writes degrees, at most `most` in either direction.
     pub fn angle(&self, key: &str, most: f64) -> Result<Option<f64>, SceneError> {
         let expected = format!("degrees between -{most} and {most}");
         let degrees = self.number_if(key, |value| value.abs() <= most, &expected)?;
         Ok(degrees.map(f64::to_radians))
     }
 
-    /// Returns three numbers in their range; an error calls the first that is wrong by its name.
+    /// Returns three numbers in this range. An error names the first one that is wrong.
     fn three(
         &self,
         key: &str,
@@ -140,10 +143,10 @@ impl<'a> Section<'a> {
         range: &NumberRange,
     ) -> Result<Option<DVec3>, SceneError> {
         let values = self.table.triple(key);
-        let numbers = names
+        let named = names
             .into_iter()
             .zip(values.into_iter().flat_map(|v| v.to_array()));
-        let Some((name, wrong)) = numbers.into_iter().find(|(_, v)| !range.holds(*v)) else {
+        let Some((name, wrong)) = named.into_iter().find(|(_, v)| !range.holds(*v)) else {
             return Ok(values);
         };
         let is_one = values.is_some_and(|v| v.to_array().map(f64::to_bits) == [wrong.to_bits(); 3]);
@@ -154,7 +157,7 @@ impl<'a> Section<'a> {
         Err(self.error(key, &problem, format!("expected {}", range.expected)))
     }
 
-    /// Returns a point: three numbers within the range of coordinates.
+    /// Returns a point: three numbers in the range of coordinates.
     pub fn point(&self, key: &str) -> Result<Option<DVec3>, SceneError> {
         self.three(key, ["x", "y", "z"], &COORDINATE)
     }
@@ -171,12 +174,12 @@ impl<'a> Section<'a> {
         Err(self.error(key, problem, expected))
     }
 
-    /// Returns a number of 0 or more that an `f32` holds.
+    /// Returns a number of 0 or more that an `f32` can hold.
     pub fn strength(&self, key: &str) -> Result<Option<f64>, SceneError> {
         self.number(key, &STRENGTH)
     }
 
-    /// Returns a colour, or a coefficient of each channel.
+    /// Returns a colour, or a coefficient per channel.
     pub fn channels(&self, key: &str, range: &NumberRange) -> Result<Option<Rgb>, SceneError> {
         let channels = self.three(key, ["red", "green", "blue"], range)?;
         Ok(channels.map(|values| values.as_vec3().to_array()))
@@ -197,24 +200,24 @@ impl<'a> Section<'a> {
         valid.map(Some).ok_or_else(refused)
     }
 
-    /// Returns a side of the picture.
+    /// Returns the width or height of the picture.
     pub fn side(&self, key: &str) -> Result<Option<u32>, SceneError> {
         let sides = 1..=Scene::MAX_SIDE;
         let expected = format!("1 to {}", Scene::MAX_SIDE);
         self.whole(key, |side| sides.contains(&side), &expected)
     }
 
-    /// Returns a choice, if it is given.
+    /// Returns the choice, if the key is set.
     pub fn choice<T: ChoiceWord>(&self, key: &str) -> Option<T> {
         self.table.text(key).and_then(T::from_word)
     }
 
-    /// Returns a choice, its default if none is given.
+    /// Returns the choice, or the default one if the key is absent.
     pub fn word<T: ChoiceWord>(&self, key: &str) -> T {
         self.choice(key).unwrap_or_default()
     }
 
-    /// True if a switch is given and on.
+    /// True if the switch is set and on.
     pub fn is_on(&self, key: &str) -> bool {
         self.data(key) == Some(&Data::Switch(true))
     }

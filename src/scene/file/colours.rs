@@ -1,4 +1,4 @@
-//! Vertex colours that are lit: the material that suits a mesh file with colours that is drawn on its own.
+//! The default material of a mesh file with vertex colours.
 
 use super::check::Section;
 use super::diagnostics::Origin;
@@ -6,13 +6,14 @@ use super::value::{Data, SceneTable};
 use crate::mesh::Material;
 use crate::scene::Object;
 
-/// Gives `object` the neutral material, but for what flags say of it; `chosen` gets the keys that are changed. The
-/// default material is brown, and colours times brown are not those of the file.
+/// Gives `object` the neutral material, except for what flags say about it. Adds the changed keys
+/// to `chosen`. The usual default material is brown, and the file's colours times brown would not
+/// look like the file's colours.
 pub(super) fn take_neutral_material(scene: &Section, object: &mut Object, chosen: &mut SceneTable) {
     let given = scene.section("material", "material");
     let is_open = |key: &str| {
         let value = given.table.get(key);
-        // No scene file names the mesh, so that what no flag gives is the default.
+        // No scene file names the mesh, so every value that no flag set is a default.
         !value.is_some_and(|value| matches!(value.origin, Origin::Flag(_)))
     };
     let (neutral, material) = (Material::NEUTRAL, object.material.get_or_insert_default());

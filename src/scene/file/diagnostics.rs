@@ -1,4 +1,4 @@
-//! Errors of scene files: what is wrong, where it stands, what was expected.
+//! Errors of scene files: what is wrong, where, and what was expected.
 
 use annotate_snippets::{
     AnnotationKind, Group, Level, Origin as Path, Renderer, Snippet, normalize_untrusted_str,
@@ -12,22 +12,22 @@ use std::string::{String, ToString};
 use std::sync::Arc;
 use std::vec::Vec;
 
-/// The place where a value was given: errors about it point there.
+/// Where a value was set. Errors about the value point there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
     /// By the program.
     #[default]
     Program,
-    /// In the scene file, at these bytes.
+    /// In the scene file, at this range of bytes.
     File(Range<usize>),
     /// By this command-line flag, for example `--fovy`.
     Flag(String),
 }
 
-/// The text of a scene file and its path, kept to show lines of it.
+/// The path and the text of a scene file, kept so that errors can show its lines.
 #[derive(Debug)]
-pub struct SourceText {
-    /// As the user named it.
+pub(super) struct SourceText {
+    /// The path, as the user wrote it.
     pub path: PathBuf,
     /// The contents of the file.
     pub text: String,
@@ -35,7 +35,8 @@ pub struct SourceText {
 
 /// A scene that cannot be read or drawn.
 ///
-/// `Display` is one line: the place in the file if there is one, the problem, and what was expected; [`SceneError::render`] shows the text of the file, too.
+/// `Display` is one line: the place in the file if there is one, the problem, and what was
+/// expected. [`SceneError::render`] also shows the text of the file.
 #[derive(Clone, Debug)]
 pub struct SceneError(Box<Diagnostic>);
 
@@ -51,7 +52,8 @@ struct Diagnostic {
 }
 
 impl SceneError {
-    /// Makes an error at `origin`: `title` says what is wrong, `expected` what should be there (may be empty).
+    /// Makes an error at `origin`. `title` says what is wrong, and `expected`, which may be empty,
+    /// what should be there.
     pub(in crate::scene) fn new(
         origin: Origin,
         title: impl Into<String>,
@@ -65,7 +67,7 @@ impl SceneError {
         }))
     }
 
-    /// Adds the file, lines of which are shown.
+    /// Adds the file whose lines are shown.
     pub(super) fn within(mut self, source: &Option<Arc<SourceText>>) -> Self {
         self.0.source = source.clone();
         self
@@ -77,13 +79,13 @@ impl SceneError {
         self
     }
 
-    /// Adds a remark of more than one line.
+    /// Adds a remark of several lines.
     pub(super) fn note(mut self, note: impl Into<String>) -> Self {
         self.0.note = Some(note.into());
         self
     }
 
-    /// Points at a second place in the same file, if `origin` is one.
+    /// Points at a second place in the same file, if `origin` is in a file.
     pub(super) fn related(mut self, origin: &Origin, label: &str) -> Self {
         if let Origin::File(span) = origin {
             self.0.related.push((span.clone(), label.into()));
@@ -91,8 +93,8 @@ impl SceneError {
         self
     }
 
-    /// Returns line and column in the scene file, both from 1, the column counted in characters; `None` for errors that do not
-    /// stand in a file.
+    /// Returns line and column in the scene file, both counted from 1, the column in characters.
+    /// Returns `None` if the error is not about a place in a file.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
         let span = self.span()?;
         let before = &self.0.source.as_ref()?.text[..span.start];
@@ -103,7 +105,8 @@ impl SceneError {
         ))
     }
 
-    /// Returns the bytes that the error is about, kept inside the text and on character boundaries.
+    /// Returns the range of bytes that the error is about, moved to character boundaries inside the
+    /// text.
     fn span(&self) -> Option<Range<usize>> {
         let text = &self.0.source.as_ref()?.text;
         let Origin::File(span) = &self.0.origin else {
@@ -113,13 +116,13 @@ impl SceneError {
         Some(start..text.ceil_char_boundary(span.end).max(start))
     }
 
-    /// Returns the problem, and the values that were expected where there are some.
+    /// Returns the problem, and what was expected if the error says so.
     fn sentence(&self) -> String {
         let gap = if self.0.expected.is_empty() { "" } else { ": " };
         format!("{}{gap}{}", self.0.title, self.0.expected)
     }
 
-    /// Returns the error as text, with terminal colours or without.
+    /// Returns the error as text, with or without terminal colours.
     pub fn render(&self, colour: bool) -> String {
         let error = &*self.0;
         let span = self.span();

@@ -1,4 +1,4 @@
-//! The camera and the lights that a mesh file has, in the scene of it alone.
+//! The camera and lights of a mesh file that is drawn without a scene file.
 
 use super::SceneFile;
 #[cfg(feature = "gltf")]
@@ -12,7 +12,7 @@ use std::string::String;
 use std::vec::Vec;
 
 impl SceneFile {
-    /// Takes camera and lights from a mesh file, where the scene can have them.
+    /// Adopts the camera and lights of a mesh file, as far as a scene can have them.
     #[cfg(feature = "gltf")]
     pub(in crate::scene) fn see_as(&mut self, view: &FileView) {
         let mut text = String::new();
@@ -47,14 +47,14 @@ impl SceneFile {
         }
     }
 
-    /// True if the lights are those of the mesh file, and nothing has replaced them.
+    /// True if the scene still has the lights of the mesh file.
     #[doc(hidden)]
     pub fn has_lights_of_mesh_file(&self) -> bool {
         let lights = self.of_mesh_file.get("light");
         lights.is_some() && lights == self.table.get("light")
     }
 
-    /// True if the eye is where the mesh file's camera has it, and looks where that does.
+    /// True if the eye and its direction are still those of the mesh file's camera.
     fn has_camera_of_mesh_file(&self) -> bool {
         let (Some(given), Some(camera)) = (
             self.of_mesh_file.table("camera"),
@@ -66,11 +66,14 @@ impl SceneFile {
         ["eye", "target", "up"].iter().all(is_same) && camera.get("fit").is_none()
     }
 
-    /// Returns what the scene has of the mesh file's view now, in a sentence.
+    /// Says in a sentence what the scene still has of the mesh file's camera and lights.
     pub(super) fn view_note(&self) -> Option<String> {
         let mut taken = Vec::new();
         if self.has_camera_of_mesh_file() {
-            taken.push("seen by the file's own camera (--view 27,15 and other angles fit the mesh instead)".into());
+            taken.push(
+                "seen by the file's own camera (--view 27,15 or other angles fit the mesh instead)"
+                    .into(),
+            );
         }
         if self.has_lights_of_mesh_file() {
             taken.push(match self.table.tables("light").len() {

@@ -1,4 +1,4 @@
-//! `[[light]]`: from a table to a light.
+//! Reads `[[light]]`: from a table to a light.
 
 use super::check::Section;
 use super::diagnostics::SceneError;
@@ -9,7 +9,7 @@ use crate::scene::{Falloff, Light, Place, stands_at};
 use glam::DVec3;
 use std::format;
 
-/// Returns the light that a table describes, light number `number` of the scene, from 1.
+/// Returns the light that a table describes. `number` is the light's number in messages, from 1.
 pub(super) fn light(section: &Section, number: usize) -> Result<Light, SceneError> {
     let why = "expected one of them: a light is at infinity or at a place";
     section.exclude("position", "direction", why)?;
@@ -45,7 +45,7 @@ fn falloff(section: &Section) -> Result<Falloff, SceneError> {
     for key in ["attenuation", "falloff"] {
         if section.has(key) && section.has("direction") {
             let expected = "expected it beside `position`: a light at infinity has no distance";
-            let problem = "is given for a light with a `direction`";
+            let problem = "is set for a light with a `direction`";
             return Err(section.error(key, problem, expected));
         }
     }
@@ -57,7 +57,8 @@ fn falloff(section: &Section) -> Result<Falloff, SceneError> {
     })
 }
 
-/// Checks that the light stands at none of `points`, where the direction toward it is undefined. Both are seen from `eye`.
+/// Refuses a light that stands at one of `points`, where the direction toward it is undefined.
+/// `eye` is the camera's eye.
 pub(super) fn check_distance(
     section: &Section,
     points: &[DVec3],

@@ -1,29 +1,51 @@
-//! The scene file: TOML whose keys are listed in [`schema`].
+//! Scene files: TOML whose keys are described in `scenes/README.md`.
 //!
-//! A scene that was read has known keys and values of the right kind; ranges are checked by [`SceneFile::resolve`], for
-//! values from files and from command-line flags alike.
+//! [`SceneFile::parse`] and [`SceneFile::load`] check that keys are known and that values are of
+//! the right kind. [`SceneFile::resolve`] checks ranges, also of values that flags set, loads the
+//! meshes and returns a [`Scene`].
+//!
+//! ```
+//! use fastphong::mesh::builtin::builtin;
+//! use fastphong::scene::file::{SceneFile, UnusableMesh};
+//!
+//! let file = SceneFile::parse("image.width = 320\n[[object]]\nmesh = 'cube'\n", "cube.toml")?;
+//! let resolved = file.resolve(|name, _folder| match builtin(name) {
+//!     Ok(mesh) => Ok((mesh.into(), Vec::new())),
+//!     Err(error) => Err(UnusableMesh::new(error.to_string())),
+//! })?;
+//! assert_eq!(resolved.scene.width, 320);
+//! # Ok::<(), fastphong::scene::file::SceneError>(())
+//! ```
 
 mod check;
 mod colours;
+#[doc(hidden)]
 pub mod diagnostics;
 mod file_view;
 mod lights;
 mod normal_source;
+#[doc(hidden)]
 pub mod resolve;
+#[doc(hidden)]
 pub mod schema;
 mod sides;
 #[cfg(test)]
 mod tests;
 mod upright;
+#[doc(hidden)]
 pub mod value;
 mod viewpoint;
 mod visibility;
+
+pub use diagnostics::SceneError;
+pub use resolve::{Resolved, UnusableMesh};
+pub use value::SceneTable;
 
 use super::Scene;
 use crate::mesh::Material;
 use crate::mesh::read::content::foreign;
 use crate::mesh::read::{cause, gzip};
-use diagnostics::{Origin, SceneError, SourceText};
+use diagnostics::{Origin, SourceText};
 use glam::DVec3;
 use schema::SCENE;
 use std::path::Path;
@@ -31,30 +53,31 @@ use std::string::{String, ToString};
 use std::sync::Arc;
 use std::vec::Vec;
 use std::{format, io};
-use value::{Data, SceneTable, Value};
+use value::{Data, Value};
 
 /// The beginning of the name of a built-in mesh.
 pub(super) const BUILTIN: &str = "builtin:";
 
-/// The name of standard input, as an input and as the mesh of a scene.
-pub const STANDARD_INPUT: &str = "-";
+/// The name of standard input, both as an input and as the mesh of a scene.
+pub(crate) const STANDARD_INPUT: &str = "-";
 
-/// Returns the name of an input or a mesh as messages show it.
-pub fn shown(name: &str) -> &str {
+/// Returns the name of an input or a mesh for messages.
+pub(crate) fn shown(name: &str) -> &str {
     match name {
         STANDARD_INPUT => "standard input",
         name => name,
     }
 }
 
-/// A scene as it is written. Two scene files are equal when they say the same, wherever it stands.
+/// A scene as it is written down. Two scene files are equal if they state the same values, wherever
+/// these stand.
 #[derive(Clone, Debug, Default)]
 pub struct SceneFile {
     table: SceneTable,
     source: Option<Arc<SourceText>>,
-    /// What a mesh file has and the scene cannot have.
+    /// Remarks on what a mesh file has and a scene cannot have.
     notes: Vec<String>,
-    /// What a mesh file has given: its camera and its lights.
+    /// The camera and lights that a mesh file contributed.
     of_mesh_file: SceneTable,
 }
 
@@ -65,13 +88,15 @@ impl PartialEq for SceneFile {
 }
 
 impl SceneFile {
-    /// Reads a scene from `text`; `path` is what messages call it and what its mesh files are relative to.
+    /// Reads a scene from `text`. Messages call it `path`, and the paths of its meshes are relative
+    /// to the folder of `path`.
     ///
     /// # Errors
-    /// [`SceneError`] where the text is not TOML, a key or word is unknown, or a value is of the wrong kind.
+    /// [`SceneError`] if the text is not TOML, a key or word is unknown, or a value is of the wrong
+    /// kind.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
-        // Some editors start a file with a byte-order mark; offsets count without it. NUL ends a C string that was written whole, and 1A
-        // a text of DOS.
+        // Some editors start a file with a byte-order mark, and offsets do not count it. A NUL ends
+        // a C string that was written with its end, and 1A ends a DOS text.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let text = text.trim_end_matches(['\0', '\x1a']).to_string();
         let path = path.as_ref().into();
@@ -91,15 +116,17 @@ impl SceneFile {
     /// Reads the scene in the file `path`.
     ///
     /// # Errors
-    /// [`SceneError`] when the file cannot be read or is not UTF-8, and those of [`SceneFile::parse`].
+    /// [`SceneError`] if the file cannot be read or is not UTF-8, and the errors of
+    /// [`SceneFile::parse`].
     pub fn load(path: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
         SceneFile::load_by(path.as_ref(), &mut |path| std::fs::read(path))
     }
 
-    /// Reads the scene in the file `path` as [`SceneFile::load`] does, by `read`.
+    /// Reads the scene in the file `path` as [`SceneFile::load`] does. `read` returns the contents
+    /// of files.
     ///
     /// # Errors
-    /// As [`SceneFile::load`].
+    /// As for [`SceneFile::load`].
     pub fn load_by(
         path: &Path,
         read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
@@ -122,12 +149,13 @@ impl SceneFile {
         SceneFile::parse(&text, path)
     }
 
-    /// Returns the scene that a mesh alone gets: a fitted three-quarter view, one white light, [`Material::default`].
+    /// Returns the default scene around one mesh: a fitted three-quarter view, one white light, and
+    /// [`Material::default`].
     ///
-    /// Its vertex normals are those of
-    /// [`PolygonMesh::normal_rule`](crate::mesh::PolygonMesh::normal_rule), unless keys are added: of a
-    /// mesh file its own, or averaged by angle, of a built-in mesh averaged ones. Every other default
-    /// that matters is spelt out, so that the printed scene shows what there is to change.
+    /// Without further keys, vertex normals follow
+    /// [`PolygonMesh::normal_rule`](crate::mesh::PolygonMesh::normal_rule): a mesh file's own
+    /// normals, or averages by angle, and plain averages of a built-in mesh. Every other default
+    /// that matters is spelt out, so that the printed scene shows what can be changed.
     pub fn for_mesh(mesh: impl Into<String>) -> SceneFile {
         let (width, height) = Scene::DEFAULT_SIZE;
         let (fit, direction) = (Scene::DEFAULT_FIT, Scene::DEFAULT_DIRECTION);
@@ -150,36 +178,36 @@ impl SceneFile {
             notes: Vec::new(),
             of_mesh_file: SceneTable::default(),
         };
-        // Set apart, as the name may hold quotes.
+        // Set separately, because the name may contain quotes.
         let mesh = mesh.into();
         let object = &mut file.objects_mut()[0];
         object.set("mesh", Data::Text(mesh), Origin::Program);
         file
     }
 
-    /// Returns the scene as TOML, such that [`SceneFile::parse`] gives an equal scene.
+    /// Returns the scene as TOML. [`SceneFile::parse`] reads an equal scene from it.
     pub fn to_toml(&self) -> String {
         let mut text = String::new();
         self.table.write(SCENE, "", &mut text);
         text
     }
 
-    /// Returns the path of the file that the scene was read from, if it was.
+    /// Returns the path of the file that the scene was read from, if there is one.
     pub fn path(&self) -> Option<&Path> {
         self.source.as_ref().map(|source| source.path.as_path())
     }
 
-    /// Returns all that is given.
+    /// Returns all keys that are set.
     pub fn table(&self) -> &SceneTable {
         &self.table
     }
 
-    /// Returns the name for captions.
+    /// Returns the title, for captions.
     pub fn title(&self) -> Option<&str> {
         self.table.text("title")
     }
 
-    /// Returns the text for captions.
+    /// Returns the description, for captions.
     pub fn description(&self) -> Option<&str> {
         self.table.text("description")
     }
@@ -190,13 +218,13 @@ impl SceneFile {
         objects.filter_map(|object| object.text("mesh"))
     }
 
-    /// True if an object shows the mesh called `mesh` in the materials that it comes with.
+    /// True if an object shows the mesh called `mesh` in the mesh's own materials.
     pub(super) fn draws_materials_of(&self, mesh: &str) -> bool {
         let mut objects = self.table.tables("object").iter();
         objects.any(|object| object.text("mesh") == Some(mesh) && object.get("material").is_none())
     }
 
-    /// Returns the objects, to be changed.
+    /// Returns the objects for writing.
     pub fn objects_mut(&mut self) -> &mut [SceneTable] {
         let objects = self.table.entries.get_mut("object");
         match objects.map(|value| &mut value.data) {
@@ -205,12 +233,12 @@ impl SceneFile {
         }
     }
 
-    /// Replaces what `over` gives, key by key; lights and objects as whole lists.
+    /// Replaces the values that `over` sets, key by key. Lists of lights and of objects are
+    /// replaced as a whole.
     ///
-    /// The view and the light that the program chose for a mesh alone are turned where `over` names the axis that is up.
-    ///
-    /// In the camera, keys that exclude each other replace each other. Near and far planes that were meant for the camera
-    /// below are dropped when its place changes.
+    /// In the camera, a key replaces the keys that it excludes. Near and far planes that were meant
+    /// for the old camera are dropped when the camera moves. If `over` names the axis that is up,
+    /// the view and the light that the program chose for a mesh are turned with it.
     pub fn overlay(&mut self, over: SceneTable) {
         if let Some(camera) = over.table("camera") {
             if self.source.is_none() && camera.text("up").is_some() {
@@ -236,9 +264,9 @@ impl SceneFile {
     }
 }
 
-/// Removes from the camera `below` what `over` excludes or makes meaningless.
+/// Removes from the camera `below` the keys that `over` excludes or makes meaningless.
 fn make_way(below: &mut SceneTable, over: &SceneTable) {
-    /// If one of the first keys is given, the others are dropped.
+    /// If one of the first keys is set, the others are dropped.
     const DROPPED: [(&str, &str); 6] = [
         ("half_height fovy", "half_height fovy"),
         ("fit", "half_height"),
@@ -250,7 +278,8 @@ fn make_way(below: &mut SceneTable, over: &SceneTable) {
             "near far",
         ),
     ];
-    // `half_height` replaces `fit`; where an eye was given only for its direction, that direction is all that stays of it.
+    // `half_height` replaces `fit`. If an eye only said from which direction to fit, that direction
+    // is kept and the eye is not.
     if over.get("half_height").is_some()
         && below.entries.remove("fit").is_some()
         && let Some(eye) = below.triple("eye")

@@ -1,4 +1,5 @@
-//! The source of vertex normals that a scene file asks for, and notes on what of a mesh file it leaves unused.
+//! Where vertex normals come from, as a scene file says, and notes on what it leaves unused in a
+//! mesh file.
 
 use super::check::Section;
 use super::diagnostics::{Origin, SceneError};
@@ -10,7 +11,7 @@ use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-/// What an object says of its vertex normals: a source, a weight, both, or neither.
+/// What an object states about its vertex normals: a source, a weight, both, or neither.
 #[derive(Clone, Copy)]
 pub(super) struct StatedNormals {
     source: Option<NormalSource>,
@@ -29,7 +30,7 @@ impl StatedNormals {
         })
     }
 
-    /// Returns the rule for the object, which takes from `usual` what it does not say itself.
+    /// Returns the rule for the object. What it does not state comes from `usual`.
     pub fn or(self, usual: NormalRule) -> NormalRule {
         NormalRule {
             source: self.source.unwrap_or(usual.source),
@@ -38,7 +39,8 @@ impl StatedNormals {
     }
 }
 
-/// Writes into the table of an object what it leaves open and `rule` says otherwise than scene files do. True if there is something.
+/// Writes into an object's table what the table does not state and where `rule` differs from the
+/// defaults of scene files. Returns true if anything was written.
 pub(super) fn spell_out(rule: NormalRule, object: &mut SceneTable) -> bool {
     let is_open = |key: &str| object.get(key).is_none();
     let source = match rule.source {
@@ -63,7 +65,8 @@ pub(super) fn spell_out(rule: NormalRule, object: &mut SceneTable) -> bool {
         > 0
 }
 
-/// Adds a note, once, for normals and smoothing groups of the mesh file `name` that `source` leaves unused.
+/// Adds a note, once, if `source` does not use the normals or the smoothing groups of the mesh file
+/// `name`.
 pub(super) fn note_unused(
     name: &str,
     mesh: &PolygonMesh,
@@ -82,7 +85,7 @@ pub(super) fn note_unused(
         (used.leaves_groups, "smoothing groups"),
     ] {
         let note = format!(
-            "{name}: the {what} of the file are not used under {by}, but by normals = \"auto\""
+            "{name}: the {what} of the file are not used under {by}: normals = \"auto\" uses them"
         );
         if is_left && !notes.contains(&note) {
             notes.push(note);

@@ -1,4 +1,4 @@
-//! From a scene file to a scene: values are checked, meshes loaded, the camera is fitted.
+//! From a scene file to a scene: checks values, loads meshes, and fits the camera.
 
 use super::check::Section;
 use super::colours::take_neutral_material;
@@ -28,37 +28,60 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-/// A scene that can be drawn, and what is odd about it.
+/// A scene that can be drawn, with warnings and notes.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Resolved {
     /// The scene.
     pub scene: Scene,
-    /// Things to know before trusting the picture, one sentence each.
+    /// Problems to know before trusting the picture, one sentence each.
     pub warnings: Vec<String>,
-    /// Things that the scene leaves unused on purpose, or leaves open, one sentence each.
+    /// What the scene leaves unused or undecided on purpose, one sentence each.
     pub notes: Vec<String>,
-    /// Keys that the scene leaves open and its mesh decided. With these [laid over](SceneFile::overlay) it, the scene means the same
-    /// wherever it is written down.
+    /// Keys that the scene leaves open and that its mesh decided. [Laid over](SceneFile::overlay)
+    /// the scene file, they make it mean the same wherever it is written down.
     #[doc(hidden)]
     pub chosen: SceneTable,
 }
 
-/// A mesh, and what its loader found odd about it; or why there is none, with a line for each thing that was odd before.
-pub type LoadedMesh = Result<(Arc<PolygonMesh>, Vec<String>), String>;
+/// A mesh with the warnings of its loader, or the error.
+pub(crate) type MeshResult = Result<(Arc<PolygonMesh>, Vec<String>), UnusableMesh>;
+
+/// A mesh that a scene names and that cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{reason}")]
+#[non_exhaustive]
+pub struct UnusableMesh {
+    /// What is wrong, where, and what was expected: one line.
+    pub reason: String,
+    /// What was odd before it and may be the cause: one line each.
+    pub warnings: Vec<String>,
+}
+
+impl UnusableMesh {
+    /// Makes an error without warnings.
+    pub fn new(reason: impl Into<String>) -> UnusableMesh {
+        UnusableMesh {
+            reason: reason.into(),
+            warnings: Vec::new(),
+        }
+    }
+}
 
 impl SceneFile {
     /// Returns the scene that the file describes.
     ///
-    /// `load_mesh` is asked once for each different mesh: with what the file says (`vase.obj`, `builtin:sphere?rings=8`)
-    /// and the folder to which files are relative. That is the folder of the scene file, or the empty path (the current
-    /// folder) for meshes named by a flag or by the program.
+    /// `load_mesh` loads each different mesh once. Its arguments are the mesh's name in the file
+    /// (`vase.obj`, `builtin:sphere?rings=8`) and the folder to which file names are relative. That
+    /// is the folder of the scene file; for meshes that a flag or the program names, it is the
+    /// empty path (the current folder). It returns the mesh and the loader's warnings.
     ///
     /// # Errors
-    /// [`SceneError`] for the first value that is out of its range or contradicts another one, for a transform that
-    /// flattens an object, and for what `load_mesh` reports.
+    /// [`SceneError`] for the first value that is out of its range or contradicts another one, for
+    /// a transform that flattens an object, and for a mesh that `load_mesh` refuses.
     pub fn resolve(
         &self,
-        load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
+        load_mesh: impl FnMut(&str, &Path) -> MeshResult,
     ) -> Result<Resolved, SceneError> {
         let scene = self.scene(load_mesh);
         scene.map_err(|error| error.within(&self.source))
@@ -66,7 +89,7 @@ impl SceneFile {
 
     fn scene(
         &self,
-        load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
+        load_mesh: impl FnMut(&str, &Path) -> MeshResult,
     ) -> Result<Resolved, SceneError> {
         let file = Section {
             table: &self.table,
@@ -104,9 +127,9 @@ impl SceneFile {
         {
             take_neutral_material(&file, object, &mut sides.chosen);
         }
-        // What a built-in mesh has is right, and nothing that the user stated.
+        // Built-in meshes are correct, and the user stated nothing about them.
         let from_files = objects.iter().zip(self.meshes());
-        // Objects that share a mesh and take the same normals share what is odd about them.
+        // Objects that share a mesh and a source of normals would repeat the same notes.
         let mut looked_at = BTreeSet::new();
         for (object, name) in from_files.filter(|(_, name)| !name.starts_with(BUILTIN)) {
             let name = shown(name);
@@ -166,11 +189,11 @@ impl SceneFile {
         })
     }
 
-    /// Returns the objects with their meshes, each of which is loaded once.
+    /// Returns the objects with their meshes. Each mesh is loaded once.
     fn objects(
         &self,
         file: &Section,
-        mut load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
+        mut load_mesh: impl FnMut(&str, &Path) -> MeshResult,
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Object>, SceneError> {
         let given = file.section("material", "material");
@@ -182,7 +205,7 @@ impl SceneFile {
             let error = SceneError::new(Origin::Program, problem, expected);
             return Err(error.help("for example: [[object]] with mesh = \"builtin:sphere\""));
         }
-        // All that can be checked without a mesh is, before the first one costs time.
+        // Check everything that needs no mesh first, before loading one costs time.
         let placed = file.sections("object", "object").map(|section| {
             let own = section.section("material", "object.material");
             let own = match section.has("material") {
@@ -198,7 +221,8 @@ impl SceneFile {
             ))
         });
         let placed = placed.collect::<Result<Vec<_>, _>>()?;
-        // Each mesh as it was loaded, and with the default material where polygons had none, once that was needed.
+        // Each mesh as it was loaded, and, if an object needs it, with the default material for
+        // polygons that had none.
         type Known = [Option<Arc<PolygonMesh>>; 2];
         let mut meshes: BTreeMap<(PathBuf, &str), Known> = BTreeMap::new();
         let mut objects = Vec::with_capacity(placed.len());
@@ -241,7 +265,8 @@ impl SceneFile {
                     known.or_insert_with(weld).clone()
                 }
             };
-            // What is told is what is drawn: of [material] nothing, where no object shows it.
+            // Warn only about coefficients that are drawn: [material] counts only if an object
+            // shows it.
             if section.has("material") {
                 let own = section.section("material", "object.material");
                 tell_over_one(&[own, given], &mut over_one);
@@ -269,7 +294,8 @@ impl SceneFile {
         Ok(objects)
     }
 
-    /// Returns the name and the mesh of the only object, if that was read from a file and no scene file names it.
+    /// Returns the name and the mesh of the only object, if the mesh was read from a file and no
+    /// scene file names it.
     fn mesh_alone<'a>(
         &'a self,
         file: &Section,
@@ -285,7 +311,7 @@ impl SceneFile {
         }
     }
 
-    /// Returns the folder to which the mesh of `object` is relative.
+    /// Returns the folder to which the mesh path of `object` is relative.
     fn mesh_folder(&self, object: &SceneTable) -> PathBuf {
         let origin = object.get("mesh").map(|mesh| &mesh.origin);
         match (origin, self.path().and_then(Path::parent)) {
@@ -295,7 +321,7 @@ impl SceneFile {
     }
 }
 
-/// Returns the lights, or the one that is there when none are given.
+/// Returns the lights, or the default one if the scene states none.
 fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
     if !file.has("light") {
         let usual =
@@ -313,8 +339,8 @@ fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
         .collect()
 }
 
-/// Returns the tables of all objects, with what meshes that no scene file names choose of their vertex normals; `None` if they
-/// choose nothing that is not stated.
+/// Returns the tables of all objects, completed with the vertex normals that meshes choose if no
+/// scene file names them. Returns `None` if nothing was added.
 fn normals_spelt_out(file: &Section, objects: &[Object]) -> Option<Vec<SceneTable>> {
     let mut tables = file.table.tables("object").to_vec();
     let mut is_any_open = false;
@@ -327,28 +353,27 @@ fn normals_spelt_out(file: &Section, objects: &[Object]) -> Option<Vec<SceneTabl
     is_any_open.then_some(tables)
 }
 
-/// True if a scene file names the mesh of `object`. Else the input itself does: there is no line of a scene file, and no key.
+/// True if a scene file names the mesh of `object`. Otherwise the mesh is the input itself, and
+/// there is neither a line of a scene file nor a key to point at.
 fn is_named_in_file(object: &Section) -> bool {
     let origin = object.table.get("mesh").map(|value| &value.origin);
     matches!(origin, Some(Origin::File(_)))
 }
 
 /// Makes the error for a mesh that could not be loaded; the caret stands under its name.
-///
-/// The first line of `reason` says why, lines after it what was odd before.
-fn mesh_error(object: &Section, mesh: &str, reason: &str) -> SceneError {
-    let (reason, odd) = reason.split_once('\n').unwrap_or((reason, ""));
+fn mesh_error(object: &Section, mesh: &str, why: &UnusableMesh) -> SceneError {
+    let reason = why.reason.as_str();
     let error = match is_named_in_file(object) {
         true => object.error("mesh", &format!("`{mesh}` cannot be used"), reason),
         false => SceneError::new(Origin::Program, reason, ""),
     };
-    match odd {
-        "" => error,
-        odd => error.note(odd),
+    match &why.warnings[..] {
+        [] => error,
+        odd => error.note(odd.join("\n")),
     }
 }
 
-/// Returns the coefficients given in a table, those of `default` where none are.
+/// Returns the coefficients in a table, with those of `default` for absent ones.
 fn material(section: &Section, default: &Material) -> Result<Material, SceneError> {
     let coefficient = |key| section.channels(key, &STRENGTH);
     let shininess = section.strength("shininess")?;
@@ -360,7 +385,8 @@ fn material(section: &Section, default: &Material) -> Result<Material, SceneErro
     })
 }
 
-/// Adds a warning, once, for each coefficient that is over 1 in a channel: each is that of the first table that gives it.
+/// Adds a warning, once, for each coefficient that is above 1 in a channel. The first table that
+/// sets a coefficient decides.
 fn tell_over_one(tables: &[Section], warnings: &mut Vec<String>) {
     for key in ["ka", "kd", "ks"] {
         let Some(section) = tables.iter().find(|section| section.has(key)) else {
@@ -371,7 +397,7 @@ fn tell_over_one(tables: &[Section], warnings: &mut Vec<String>) {
             continue;
         }
         let warning = format!(
-            "`{}` is {most}: a surface that reflects more light than it gets; expected 0 to 1, what is over 1 is clamped at each pixel",
+            "`{}` is {most}: a surface that reflects more light than it gets; expected 0 to 1, as light above 1 is clamped at each pixel",
             section.name(key)
         );
         if !warnings.contains(&warning) {
@@ -385,11 +411,11 @@ fn lacks_material(mesh: &PolygonMesh) -> bool {
     (0..mesh.polygon_count()).any(|polygon| mesh.polygon_material(polygon).is_none())
 }
 
-/// The part of a mesh's size up to which positions are one.
+/// The distance up to which positions are merged, as a fraction of the mesh's size.
 const WELD: NumberRange =
-    NumberRange::new(1e-12, 0.1, "a part of the size of the mesh, 1e-12 to 0.1");
+    NumberRange::new(1e-12, 0.1, "a fraction of the mesh's size, 1e-12 to 0.1");
 
-/// Factors of a scale. Those of [`SIZE`] have room for the rounding of a rotation.
+/// The factors of a scale. [`SIZE`] also has room for the rounding of a rotation.
 const SCALE: NumberRange = NumberRange::new(1e-15, 1e15, SIZE.expected);
 
 /// Returns the transform from model space to world space.
@@ -419,7 +445,7 @@ fn placement(object: &Section) -> Result<DAffine3, SceneError> {
     ))
 }
 
-/// Returns the transform that is given by a matrix.
+/// Returns the transform that a matrix states.
 fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, SceneError> {
     let why = "expected `matrix`, or `scale`, `rotate` and `translate`";
     object.exclude("matrix", "scale rotate translate", why)?;
@@ -468,7 +494,7 @@ fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, warnings: &
     }
 }
 
-/// Returns the mesh with `default` as the material of each polygon that had none.
+/// Returns the mesh with `default` as the material of every polygon that had none.
 fn with_default_material(mut mesh: Arc<PolygonMesh>, default: Material) -> Arc<PolygonMesh> {
     if lacks_material(&mesh) {
         Arc::make_mut(&mut mesh).set_default_material(default);

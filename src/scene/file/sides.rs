@@ -1,4 +1,5 @@
-//! The sides of polygons that are drawn and lit: as a scene file says, or as suits a mesh file that is drawn on its own.
+//! Which sides of polygons are drawn and lit: as a scene file says, or as suits a mesh file without
+//! a scene.
 
 use super::check::Section;
 use super::diagnostics::Origin;
@@ -11,17 +12,18 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// The sides of polygons that are drawn and lit.
+/// Which sides of polygons are drawn and lit.
 pub(super) struct Sides {
     pub culling: Culling,
     pub two_sided: bool,
-    /// The keys that the scene leaves open and its mesh decides.
+    /// The keys that the scene leaves open and that its mesh decided.
     pub chosen: SceneTable,
 }
 
 impl Sides {
-    /// Reads the keys of `scene`. For `alone`, the name and the mesh of a file that no scene file names, keys that are not given
-    /// follow its winding: where that is doubtful, both sides are drawn and lit, and a note says why.
+    /// Reads the keys of `scene`. `alone` is the name and the mesh of a file that no scene file
+    /// names. For such a mesh, absent keys depend on its winding: if it is doubtful, both sides are
+    /// drawn and lit, and a note says why.
     pub fn new(
         scene: &Section,
         alone: Option<(&str, &PolygonMesh)>,
@@ -44,13 +46,14 @@ impl Sides {
         if sides.two_sided && sides.culling == Culling::Back {
             let name = scene.name("two_sided");
             warnings.push(format!(
-                "`{name}` means nothing with cull = \"back\": what is seen from behind is left out"
+                "`{name}` has no effect with cull = \"back\": polygons seen from behind are left out"
             ));
         }
         sides
     }
 
-    /// Chooses what `scene` leaves open for a mesh whose winding is in doubt. Returns the note about it.
+    /// Chooses the keys that `scene` leaves open for a mesh with doubtful winding. Returns the note
+    /// about it.
     fn choose(&mut self, scene: &Section, name: &str, doubts: &WindingDoubts) -> String {
         let mut done = "lit on the side that is seen";
         let set = |table: &mut SceneTable, key, data| table.set(key, data, Origin::Program);

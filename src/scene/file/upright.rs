@@ -1,11 +1,14 @@
-//! Worlds whose up is another axis than y: default view and light are turned with it.
+//! Worlds in which another axis than y points up. The default view and the default light are turned
+//! with it.
 
 use super::diagnostics::Origin;
 use super::value::{Data, SceneTable};
 use glam::{DMat3, DVec3};
 
-/// Returns the rotation of a world whose up is y into one whose up is the axis that `camera` names: none where it names none. The
-/// side toward the viewer of the default view stays toward the viewer, or becomes −y where z is up and y where −z is.
+/// Returns the rotation from a world where y points up into one where the axis that `camera` names
+/// points up. Without a name it is the identity. The side of the world that faces the viewer of the
+/// default view stays there, except for z and −z: it becomes −y where z points up, and y where −z
+/// does.
 pub(super) fn turn(camera: Option<&SceneTable>) -> DMat3 {
     let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
     let [right, up, toward] = match camera.and_then(|camera| camera.text("up")) {
@@ -19,7 +22,7 @@ pub(super) fn turn(camera: Option<&SceneTable>) -> DMat3 {
     DMat3::from_cols(right, up, toward)
 }
 
-/// Turns a direction that a table has, unless a flag gave it.
+/// Turns the direction in a table, unless a flag set it.
 pub(super) fn turn_default(table: &mut SceneTable, turn: DMat3) {
     let Some(value) = table.entries.get_mut("direction") else {
         return;
@@ -27,7 +30,7 @@ pub(super) fn turn_default(table: &mut SceneTable, turn: DMat3) {
     if let (Data::Triple(direction), false) =
         (&mut value.data, matches!(value.origin, Origin::Flag(_)))
     {
-        // Adding 0 makes 0 of −0.
+        // Adding 0 turns −0 into 0.
         *direction = (turn * DVec3::from_array(*direction) + DVec3::ZERO).to_array();
     }
 }

@@ -1,4 +1,5 @@
-//! Values of a scene file, and where each one was given: read from TOML by the list of keys, and written again.
+//! Values of a scene file and where each was set. Read from TOML by the list of keys, and written
+//! back.
 
 use super::diagnostics::{Origin, SceneError};
 use super::schema::{AXES, Key, SCENE, ValueKind};
@@ -14,12 +15,12 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 use toml_writer::ToTomlValue;
 
-/// A value and where it was given. Two of them are equal when their data are.
+/// A value and where it was set. Two values are equal if their data are.
 #[derive(Clone, Debug)]
 pub struct Value {
-    /// The value: of the kind that its key asks for, its range not yet checked.
+    /// The value. It has the kind of its key, but its range is not checked yet.
     pub data: Data,
-    /// The place where it was given.
+    /// Where it was set.
     pub origin: Origin,
 }
 
@@ -34,7 +35,7 @@ pub enum Data {
     Whole(i64),
     /// A number.
     Number(f64),
-    /// Three numbers, or one that stands for all of them.
+    /// Three numbers, or one number that stands for all three.
     Triple([f64; 3]),
     /// Three rows of four numbers.
     Matrix([[f64; 4]; 3]),
@@ -44,12 +45,14 @@ pub enum Data {
     Tables(Vec<SceneTable>),
 }
 
-/// A table: values by their keys.
+/// A table of values by their keys.
 #[derive(Clone, Debug, Default)]
 pub struct SceneTable {
     /// The values.
+    #[doc(hidden)]
     pub entries: BTreeMap<&'static str, Value>,
-    /// The place of its header.
+    /// Where its header is.
+    #[doc(hidden)]
     pub origin: Origin,
 }
 
@@ -73,7 +76,7 @@ impl SceneTable {
     pub fn parse(text: &str) -> Result<SceneTable, SceneError> {
         let table = DeTable::parse(text).map_err(|error| SceneError::from_toml(&error))?;
         let mut scene = read_table(table.get_ref(), Origin::File(table.span()), SCENE)?;
-        // An empty table says as much as none.
+        // An empty table means the same as no table.
         scene.entries.retain(|_, value| match &value.data {
             Data::Table(table) => !table.entries.is_empty(),
             _ => true,
@@ -81,17 +84,19 @@ impl SceneTable {
         Ok(scene)
     }
 
-    /// Gives a value to `key`.
+    /// Sets `key` to a value.
+    #[doc(hidden)]
     pub fn set(&mut self, key: &'static str, data: Data, origin: Origin) {
         self.entries.insert(key, Value { data, origin });
     }
 
-    /// Returns the value of `key`, if it is given.
+    /// Returns the value of `key`, if it is set.
+    #[doc(hidden)]
     pub fn get(&self, key: &str) -> Option<&Value> {
         self.entries.get(key)
     }
 
-    /// Returns the text or word that `key` stands for, if it is given.
+    /// Returns the text or word of `key`, if it is set.
     pub fn text(&self, key: &str) -> Option<&str> {
         match &self.get(key)?.data {
             Data::Text(text) => Some(text),
@@ -99,7 +104,7 @@ impl SceneTable {
         }
     }
 
-    /// Returns the three numbers of `key`, if they are given.
+    /// Returns the three numbers of `key`, if it is set.
     pub fn triple(&self, key: &str) -> Option<DVec3> {
         match self.get(key)?.data {
             Data::Triple(values) => Some(DVec3::from_array(values)),
@@ -107,7 +112,7 @@ impl SceneTable {
         }
     }
 
-    /// Returns the table called `key`, if it is given.
+    /// Returns the table called `key`, if it is set.
     pub fn table(&self, key: &str) -> Option<&SceneTable> {
         match &self.get(key)?.data {
             Data::Table(table) => Some(table),
@@ -115,7 +120,7 @@ impl SceneTable {
         }
     }
 
-    /// Returns the table called `key`, made if it is not given.
+    /// Returns the table called `key`, and creates it if it is absent.
     pub fn table_mut(&mut self, key: &'static str) -> &mut SceneTable {
         let value = self.entries.entry(key).or_insert_with(|| Value {
             data: Data::Table(SceneTable::default()),
@@ -127,7 +132,7 @@ impl SceneTable {
         }
     }
 
-    /// Returns the tables called `key`; none if they are not given.
+    /// Returns the tables called `key`, or none if it is absent.
     pub fn tables(&self, key: &str) -> &[SceneTable] {
         match self.get(key).map(|value| &value.data) {
             Some(Data::Tables(tables)) => tables,
@@ -135,7 +140,8 @@ impl SceneTable {
         }
     }
 
-    /// Replaces what `over` gives: key by key within tables, lists as a whole.
+    /// Replaces the values that `over` sets, key by key within tables. Lists are replaced as a
+    /// whole.
     pub fn overlay(&mut self, over: SceneTable) {
         for (key, value) in over.entries {
             match value.data {
@@ -147,7 +153,9 @@ impl SceneTable {
         }
     }
 
-    /// Appends the table as TOML: first the values in it, then its tables, under headers that begin with `path`.
+    /// Appends the table as TOML: its values first, then its tables, under headers that begin with
+    /// `path`.
+    #[doc(hidden)]
     pub fn write(&self, kind: ValueKind, path: &str, out: &mut String) {
         let given = |key: &'static Key| Some((key, &self.get(key.name())?.data));
         for (key, data) in kind.keys().filter_map(given) {
@@ -173,14 +181,15 @@ impl SceneTable {
     }
 }
 
-/// Returns a value as it is written on the right of an equals sign; `None` for tables under headers.
+/// Returns a value as it is written on the right of an equals sign, or `None` for tables under
+/// headers.
 fn inline(data: &Data, kind: ValueKind) -> Option<String> {
     Some(match (data, kind) {
         (Data::Text(text), _) => text.to_toml_value(),
         (Data::Switch(value), _) => value.to_toml_value(),
         (Data::Whole(value), _) => value.to_toml_value(),
         (Data::Number(value), _) => value.to_toml_value(),
-        // By their bits: 0 and −0 are kept apart.
+        // Compared by their bits, so that 0 and −0 stay apart.
         (Data::Triple([r, g, b]), ValueKind::OneOrThree)
             if [g, b].map(|v| v.to_bits()) == [r.to_bits(); 2] =>
         {
@@ -226,7 +235,7 @@ fn read_table(table: &DeTable, origin: Origin, kind: ValueKind) -> Result<SceneT
     Ok(SceneTable { entries, origin })
 }
 
-/// Reads a value of the kind that its key asks for.
+/// Reads a value of the kind that its key requires.
 fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
     let table = |value: &Spanned<DeValue>| match value.get_ref() {
         DeValue::Table(table) => read_table(table, Origin::File(value.span()), kind),
@@ -277,7 +286,7 @@ fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
     }
 }
 
-/// Returns a whole number, written with any radix.
+/// Returns a whole number, written in any radix.
 fn whole(value: &DeValue) -> Option<i64> {
     let integer = value.as_integer()?;
     i64::from_str_radix(integer.as_str(), integer.radix()).ok()
@@ -286,7 +295,7 @@ fn whole(value: &DeValue) -> Option<i64> {
 fn number(value: &Spanned<DeValue>) -> Result<f64, SceneError> {
     let number = match value.get_ref() {
         DeValue::Float(float) => float.as_str().parse().ok(),
-        // Also of more digits than a whole number may have.
+        // An integer in place of a float may have more digits than a whole number.
         DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
         other => whole(other).map(|whole| whole as f64),
     };
@@ -312,7 +321,7 @@ fn list<T, const N: usize>(
     })
 }
 
-/// Makes the error for a value in place of the one that is expected.
+/// Makes the error for a value of the wrong kind.
 fn wrong(value: &Spanned<DeValue>, expected: &str) -> SceneError {
     let found = match value.get_ref() {
         DeValue::String(text) => format!("string {text:?}"),
@@ -327,7 +336,7 @@ fn wrong(value: &Spanned<DeValue>, expected: &str) -> SceneError {
     SceneError::new(origin, format!("expected {expected}"), found)
 }
 
-/// Makes the error for a key or a word that does not exist, with the one that may have been meant.
+/// Makes the error for an unknown key or word, with a suggestion if one is near.
 fn unknown(what: &str, found: &str, at: Range<usize>, known: &[&'static str]) -> SceneError {
     let (title, known) = (format!("unknown {what} `{found}`"), known.iter().copied());
     let error = SceneError::new(Origin::File(at), title, suggest::one_of(known.clone()));

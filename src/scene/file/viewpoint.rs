@@ -12,10 +12,10 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// The part of the picture that objects fill.
+/// The fraction of the picture that objects fill.
 const FIT: NumberRange = NumberRange::new(1e-3, 100.0, "a fraction of the picture, 0.001 to 100");
 
-/// A camera whose every value is valid by itself; what depends on the objects is still open.
+/// A camera whose values are valid one by one. Values that depend on the objects are still missing.
 pub(super) struct Viewpoint<'a> {
     section: Section<'a>,
     /// Eye and target, unless the camera is fitted around the objects.
@@ -27,7 +27,7 @@ pub(super) struct Viewpoint<'a> {
 }
 
 impl<'a> Viewpoint<'a> {
-    /// Reads `[camera]`; `aspect` is the width of the picture over its height.
+    /// Reads `[camera]`. `aspect` is the width of the picture over its height.
     pub fn new(section: Section<'a>, aspect: f64) -> Result<Self, SceneError> {
         exclusions(&section)?;
         let half_height = section.number("half_height", &HALF_HEIGHT)?;
@@ -74,7 +74,7 @@ impl<'a> Viewpoint<'a> {
         camera.far = self.far.unwrap_or(camera.far);
         let Camera { near, far, eye, .. } = camera;
         if near >= far {
-            // One of them was given, the other one is where the objects end.
+            // The scene sets one of the planes, and the other one is where the objects end.
             let [near, far] = [near, far].map(Written);
             let problem = format!("leaves nothing between near = {near} and far = {far}");
             let key = if self.far.is_some() { "far" } else { "near" };
@@ -88,7 +88,8 @@ impl<'a> Viewpoint<'a> {
         Ok(camera)
     }
 
-    /// Makes a camera at a given place; the planes, and without a projection the half height, follow from the objects.
+    /// Makes a camera at a fixed position. The planes follow from the objects, and so does the half
+    /// height if the scene states no projection.
     fn fixed(
         &self,
         eye: DVec3,
@@ -112,7 +113,7 @@ impl<'a> Viewpoint<'a> {
         };
         match camera.depth_range(points) {
             Some(range) => (camera.near, camera.far) = range,
-            None => warnings.push("nothing lies before the eye".into()),
+            None => warnings.push("nothing lies in front of the eye".into()),
         }
         camera
     }
@@ -135,7 +136,7 @@ fn exclusions(section: &Section) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Returns the near and far distances that are given.
+/// Returns the near and far distances that are set.
 fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     let near = if section.has("fovy") {
         section.number("near", &NEAR)?
@@ -153,8 +154,8 @@ fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     }
 }
 
-/// Returns eye and target, unless the camera is fitted, and the direction toward the eye; angles and the default direction are
-/// turned.
+/// Returns the eye and the target, unless the camera is fitted, and the direction toward the eye.
+/// `turn` turns angles and the default direction.
 fn stand(section: &Section, turn: DMat3) -> Result<(Option<[DVec3; 2]>, DVec3), SceneError> {
     if let Some(eye) = section.point("eye")? {
         let target = section.point("target")?.unwrap_or(DVec3::ZERO);
@@ -163,7 +164,7 @@ fn stand(section: &Section, turn: DMat3) -> Result<(Option<[DVec3; 2]>, DVec3), 
             let error = section.error("eye", "is the point that the camera looks at", expected);
             return Err(match section.has("target") {
                 true => section.pointing_at("target", "target is here", error),
-                false => error.help("without a target that is the origin: give one, too"),
+                false => error.help("`target` is the origin by default: set it, too"),
             });
         }
         let fixed = (!section.has("fit")).then_some([eye, target]);
@@ -181,14 +182,15 @@ fn stand(section: &Section, turn: DMat3) -> Result<(Option<[DVec3; 2]>, DVec3), 
     Ok((None, direction.unwrap_or_else(usual)))
 }
 
-/// Returns the azimuth in radians; 0 when it is not given.
+/// Returns the azimuth in radians, 0 by default.
 fn azimuth(section: &Section) -> Result<f64, SceneError> {
-    // Beyond some turns the degrees of an angle are lost to rounding.
+    // Rounding would lose the degrees of an angle of many turns.
     Ok(section.angle("azimuth", 36_000.0)?.unwrap_or(0.0))
 }
 
-/// Returns the upward direction: the given one, else that of a turned world, y without a turn; else, in a view along it, the one of a
-/// camera tilted there.
+/// Returns the upward direction. It is the one that the scene states, or else the up axis of the
+/// world. If the view looks along that axis, it is the upward direction of a camera that was tilted
+/// there.
 fn up(section: &Section, toward_eye: DVec3, turn: DMat3) -> Result<DVec3, SceneError> {
     let upright = turn * DVec3::Y;
     match section.direction("up")? {

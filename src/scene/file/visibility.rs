@@ -1,4 +1,5 @@
-//! From a scene file to the settings that decide which polygon is seen: hidden surfaces, clipping, samples.
+//! From a scene file to the settings that decide which polygon is seen: hidden surfaces, clipping,
+//! samples.
 
 use super::check::Section;
 use super::diagnostics::SceneError;
@@ -7,7 +8,7 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// Returns the search for hidden surfaces. A key that means nothing under the way chosen is worth a warning.
+/// Returns the method for hidden surfaces. Warns about a key that has no effect under this method.
 pub(super) fn hidden_surfaces(
     scene: &Section,
     warnings: &mut Vec<String>,
@@ -26,7 +27,7 @@ pub(super) fn hidden_surfaces(
     ] {
         if scene.has(key) && choice != needs {
             let name = scene.name(key);
-            let warning = format!("`{name}` means nothing without visibility = \"{needs}\"");
+            let warning = format!("`{name}` has no effect without visibility = \"{needs}\"");
             warnings.push(warning);
         }
     }
@@ -40,7 +41,7 @@ pub(super) fn hidden_surfaces(
     })
 }
 
-/// Returns the test that keeps polygons within the view: CS171's goes with its interpolation only.
+/// Returns the clipping method. CS171's works only with interpolation on the screen.
 pub(super) fn clipping(scene: &Section) -> Result<Clipping, SceneError> {
     let clipping = scene.word("clipping");
     let is_perspective = scene.word::<Interpolation>("interpolation") == Interpolation::Perspective;
@@ -51,7 +52,7 @@ pub(super) fn clipping(scene: &Section) -> Result<Clipping, SceneError> {
     Ok(clipping)
 }
 
-/// Returns the samples per pixel along each side of a picture of these sides.
+/// Returns the samples per pixel along each side. The argument is the size of the picture.
 pub(super) fn samples(image: &Section, [width, height]: [u32; 2]) -> Result<u32, SceneError> {
     let is_known = |samples| [1, 2, 4, 8].contains(&samples);
     let samples = image.whole("samples", is_known, "1, 2, 4 or 8")?;

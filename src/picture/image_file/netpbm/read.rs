@@ -1,6 +1,8 @@
-//! Reading of portable pixmaps: PBM, PGM and PPM, plain (P1 to P3) and raw (P4 to P6), PAM (P7), and PFM (PF, Pf).
+//! Reads portable pixmaps: PBM, PGM and PPM, plain (P1 to P3) and raw (P4 to P6), PAM (P7), and PFM
+//! (PF, Pf).
 //!
-//! Samples are kept as the file has them, with the largest value that its header states: nothing is rounded.
+//! Samples stay as the file has them, together with the largest value that its header states.
+//! Nothing is rounded.
 
 use std::io::{self, BufRead};
 use std::string::String;
@@ -12,10 +14,11 @@ use super::super::{
 };
 use crate::picture::Picture;
 
-/// Longest word of a header that is looked at: a file that is none can have words of any length.
+/// The longest word of a header that is read. A file that is no pixmap may have words of any
+/// length.
 const LONGEST: usize = 200;
 
-/// A format of the family, by its first two bytes.
+/// A format of the family, identified by the first two bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Kind {
     /// The name in messages.
@@ -23,20 +26,20 @@ pub(crate) struct Kind {
     layout: Layout,
 }
 
-/// The order and the form of samples.
+/// The order and form of the samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Layout {
     /// Digits 0 and 1, where 1 is black.
     PlainBits,
-    /// Rows of bits, packed into bytes from the highest on, where 1 is black.
+    /// Rows of bits, packed into bytes from the highest bit on, where 1 is black.
     RawBits,
-    /// Numbers in text; channels.
+    /// Numbers in text, with this many channels.
     Plain(usize),
-    /// Bytes, or two bytes each, the high one first; channels.
+    /// One byte each, or two with the high one first, with this many channels.
     Raw(usize),
-    /// A header of lines that names everything.
+    /// PAM: a header of lines that states everything.
     Arbitrary,
-    /// Floats, the bottom row first; channels.
+    /// Floats, the bottom row first, with this many channels.
     Floats(usize),
 }
 
@@ -63,7 +66,8 @@ impl Kind {
     }
 }
 
-/// Reads the picture of a file whose first bytes announce `kind`; of several pictures the first.
+/// Reads the picture of a file whose first bytes announce `kind`. If the file holds several
+/// pictures, reads the first.
 pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, ReadProblem> {
     let mut file = Reader {
         kind,
@@ -71,7 +75,7 @@ pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, R
         last_space: b' ',
         may_be_shifted: false,
     };
-    // The two bytes that announced the format.
+    // Skip the two bytes that announced the format.
     file.fill(&mut [0; 2])?;
     let mut picture = match kind.layout {
         Layout::Floats(channels) => return file.floats(channels),
@@ -95,7 +99,7 @@ pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, R
     Ok(picture)
 }
 
-/// A file that is read from its start to its end.
+/// A file that is read from start to end.
 struct Reader<'a> {
     kind: Kind,
     input: &'a mut dyn BufRead,
@@ -105,16 +109,16 @@ struct Reader<'a> {
     may_be_shifted: bool,
 }
 
-/// The bytes after a picture.
+/// What follows the picture in the file.
 enum Rest {
     Nothing,
-    /// White space after binary samples; text may end with it.
+    /// White space after binary samples. White space at the end of text is normal.
     Space,
     Picture,
 }
 
 impl Reader<'_> {
-    /// Takes the next byte; `None` at the end.
+    /// Reads the next byte. Returns `None` at the end.
     fn byte(&mut self) -> io::Result<Option<u8>> {
         let byte = self.input.fill_buf()?.first().copied();
         self.input.consume(usize::from(byte.is_some()));
@@ -125,7 +129,7 @@ impl Reader<'_> {
         Ok(self.input.fill_buf()?.first().copied())
     }
 
-    /// Fills `bytes`; returns how many there were, fewer only at the end.
+    /// Fills `bytes` and returns how many were filled: fewer only at the end of the file.
     fn fill(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let mut filled = 0;
         while filled < bytes.len() {
@@ -141,7 +145,7 @@ impl Reader<'_> {
         Ok(filled)
     }
 
-    /// Skips white space and comments, which go from `#` to the end of their line.
+    /// Skips white space and comments. A comment runs from `#` to the end of its line.
     fn skip_space(&mut self) -> io::Result<()> {
         while let Some(byte) = self.peek()? {
             match byte {
@@ -162,7 +166,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Takes the next word, and the one byte of white space, or the comment, that ends it.
+    /// Reads the next word, and the one byte of white space, or the comment, that ends it.
     fn word(&mut self) -> io::Result<Vec<u8>> {
         self.skip_space()?;
         let mut word = Vec::new();
@@ -208,7 +212,7 @@ impl Reader<'_> {
         loop {
             let word = self.word()?;
             match names.iter().position(|known| known.as_bytes() == word) {
-                Some(place) => values[place] = Some(self.number(names[place])?),
+                Some(index) => values[index] = Some(self.number(names[index])?),
                 None if word == b"ENDHDR" => break,
                 None if word == b"TUPLTYPE" => type_follows = true,
                 None if type_follows => (tuple_type, type_follows) = (word, false),
@@ -245,7 +249,8 @@ impl Reader<'_> {
             b"RGB_ALPHA" => Some(4),
             _ => None,
         };
-        // Samples beyond those that the type names would be passed over: nobody writes them.
+        // A deeper picture would have samples that the type does not name, and they would be
+        // ignored. Nobody writes such files.
         if known != Some(depth) {
             let found = format!("{depth} samples a pixel of type `{}`", start(&tuple_type));
             let expected = "1 (GRAYSCALE), 2 (GRAYSCALE_ALPHA), 3 (RGB) or 4 (RGB_ALPHA)";
@@ -254,8 +259,8 @@ impl Reader<'_> {
         self.integers(size, depth as usize, maximum)
     }
 
-    /// Reads the samples of a picture of integers: grey; grey and alpha; red, green, blue; or those and alpha. `maximum` stands for
-    /// full intensity.
+    /// Reads integer samples: grey; grey and alpha; red, green, blue; or these and alpha. `maximum`
+    /// stands for full intensity.
     fn integers(
         &mut self,
         size: [usize; 2],
@@ -269,11 +274,12 @@ impl Reader<'_> {
                 return Err(self.broken(problem));
             }
         };
-        // If the line ends in CR LF, LF is the first sample by the rules, and the last byte is left over: what looks like space
-        // there is none.
+        // If the last line of the header ends in CR LF, the format says that LF is the first
+        // sample, and the last byte of the file is left over. That byte may look like white space,
+        // and is not.
         self.may_be_shifted = self.last_space == b'\r' && self.peek()? == Some(b'\n');
         let pixels = match 255 % maximum {
-            // Every sample is a whole number of grey levels.
+            // Every sample is a whole grey level.
             0 => {
                 let factor = 255 / maximum;
                 let level = |sample| (sample * factor) as u8;
@@ -313,6 +319,7 @@ impl Reader<'_> {
                 Layout::RawBits => {
                     self.raw_row(&mut bytes, width.div_ceil(8), y, height)?;
                     for (x, sample) in row.iter_mut().enumerate() {
+                        // In PBM a set bit is black.
                         *sample = u16::from(bytes[x / 8] >> (7 - x % 8) & 1 == 0);
                     }
                 }
@@ -347,7 +354,7 @@ impl Reader<'_> {
         Ok(whole(width, height, pixels))
     }
 
-    /// Reads a row of `count` bytes, row `y` of `height`.
+    /// Reads `count` bytes: row `y` of `height`.
     fn raw_row(
         &mut self,
         bytes: &mut Vec<u8>,
@@ -365,7 +372,7 @@ impl Reader<'_> {
         Err(self.broken(format!("it ends too early: {samples}")))
     }
 
-    /// Reads digits that need no space between them.
+    /// Reads digits, which need no space between them.
     fn plain_bits(&mut self, row: &mut [u16]) -> Result<(), ReadProblem> {
         for sample in row {
             self.skip_space()?;
@@ -396,7 +403,8 @@ impl Reader<'_> {
     /// Returns what follows the picture.
     ///
     /// # Errors
-    /// If it is anything but white space and another picture: the header then says less than the file holds.
+    /// If anything but white space or another picture follows. The file then holds more than its
+    /// header says.
     fn rest(&mut self) -> Result<Rest, ReadProblem> {
         let is_text = matches!(self.kind.layout, Layout::PlainBits | Layout::Plain(_));
         let has_more = self.peek()?.is_some();
@@ -424,8 +432,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the rest of a PFM file, of either order of bytes. The size of the scale is a unit that nobody agrees on, and
-    /// is passed over.
+    /// Reads the rest of a PFM file, in either byte order. The size of the scale is ignored,
+    /// because programs do not agree on its unit.
     fn floats(&mut self, channels: usize) -> Result<FilePicture, ReadProblem> {
         let [width, height] = self.size()?;
         let scale: f32 = self.number("the scale")?;
@@ -451,7 +459,7 @@ impl Reader<'_> {
             let problem = "it goes on after its last pixel: expected its end";
             return Err(self.broken(problem));
         }
-        // The bottom row came first.
+        // The file has the bottom row first: swap the rows.
         for y in 0..height / 2 {
             let (upper, lower) = pixels.split_at_mut((height - 1 - y) * width);
             upper[y * width..][..width].swap_with_slice(&mut lower[..width]);
@@ -468,18 +476,18 @@ impl Reader<'_> {
     }
 }
 
-/// Makes a picture of as many pixels as were read.
+/// Makes a picture of the pixels, all of which were read.
 fn whole<P: Copy>(width: usize, height: usize, pixels: Vec<P>) -> Picture<P> {
     debug_assert!(pixels.len() as u64 <= MAX_PIXELS, "the size was checked");
     Picture::from_pixels(width, height, pixels).expect("every row was read")
 }
 
-/// Returns the start of a word as messages show it.
+/// Returns the start of a word for a message.
 fn start(word: &[u8]) -> impl fmt::Display {
     word[..word.len().min(20)].escape_ascii()
 }
 
-/// True for the white space of these formats.
+/// True for white space as these formats define it.
 fn is_space(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t'..=b'\r')
 }

@@ -1,11 +1,11 @@
 use super::expect::{check, error};
 use super::{cubes, with_object};
 use crate::scene::Scene;
-use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::value::{Data, SceneTable};
+use crate::scene::file::value::Data;
+use crate::scene::file::{SceneFile, SceneTable, UnusableMesh};
 use std::format;
-use std::string::String;
+use std::string::{String, ToString};
 use std::vec;
 
 #[test]
@@ -194,7 +194,7 @@ fn cameras_that_cannot_be() {
         "[camera]\neye = «[0, 0, 0]»\n",
         "`camera.eye` is the point that the camera looks at",
         "expected two different points",
-        Some("without a target that is the origin: give one, too"),
+        Some("`target` is the origin by default: set it, too"),
     );
     check(
         "[camera]\neye = «[0, nan, 0]»\n",
@@ -226,7 +226,7 @@ fn cameras_that_cannot_be() {
         "expected more than near = 3",
         None,
     );
-    // The cube reaches from 4 to 6 along the line of sight, and 5 % of 2 is added.
+    // The cube extends from 4 to 6 along the line of sight, and 5 % of 2 is added.
     check(
         &with_object(&format!("[camera]\n{eye}near = «7»\n")),
         "`camera.near` leaves nothing between near = 7 and far = 6.1",
@@ -392,7 +392,7 @@ fn scenes_as_a_whole() {
     );
 }
 
-/// The error points at a mesh that cannot be loaded. What was odd before follows below.
+/// The error points at a mesh that cannot be loaded. Earlier warnings follow below.
 #[test]
 fn meshes_that_cannot_be_loaded() {
     let file = SceneFile::parse("[[object]]\nmesh = \"vase.obj\"\n", "scene.toml").expect("valid");
@@ -401,21 +401,27 @@ fn meshes_that_cannot_be_loaded() {
   |
 2 | mesh = "vase.obj"
   |        ^^^^^^^^^^ "#;
-    for (reason, rest) in [
-        ("no such file", "no such file"),
+    for (reason, warnings, rest) in [
+        ("no such file", &[][..], "no such file"),
         (
-            "line 3: no number\n`x` is odd\n`y` is odd",
+            "line 3: no number",
+            &["`x` is odd", "`y` is odd"],
             "line 3: no number\n  |\n  = note: `x` is odd\n          `y` is odd",
         ),
     ] {
         let error = file
-            .resolve(|_, _| Err(reason.into()))
+            .resolve(|_, _| {
+                Err(UnusableMesh {
+                    warnings: warnings.iter().map(ToString::to_string).collect(),
+                    ..UnusableMesh::new(reason)
+                })
+            })
             .expect_err("no mesh");
         assert_eq!(error.render(false), format!("{head}{rest}"));
     }
 }
 
-/// The full text of an error has two places, a hint, and colour only if asked for.
+/// The full text of an error has two places, a hint, and colour only on request.
 #[test]
 fn the_text_of_an_error() {
     let conflict = error("[camera]\nhalf_height = 1\nfovy = 30\n");
@@ -446,7 +452,8 @@ error: unknown word `bakc`
     assert!(misspelt.render(true).contains('\u{1b}'));
 }
 
-/// Values from flags pass the checks of files. The error names the flag and shows no file.
+/// Values from flags pass the same checks as those from files. The error names the flag and shows
+/// no file.
 #[test]
 fn values_from_flags() {
     let file =
@@ -474,7 +481,7 @@ fn values_from_flags() {
         error.render(false),
         "error: `--light` has no length: expected a direction: not all numbers 0"
     );
-    // Set the value directly: `overlay` would replace `half_height` by `fit`.
+    // Set the value directly, because `overlay` would replace `half_height` by `fit`.
     let mut flagged = file;
     let camera = flagged.table.table_mut("camera");
     camera.set("fit", Data::Number(0.5), flag("--fit"));

@@ -1,8 +1,8 @@
-//! Checks of errors: their text and their place.
+//! Checks the text and the place of errors.
 
 use super::cubes;
+use crate::scene::file::SceneError;
 use crate::scene::file::SceneFile;
-use crate::scene::file::diagnostics::SceneError;
 use std::format;
 use std::string::ToString;
 

@@ -86,7 +86,7 @@ fn a_light_is_in_one_place() {
         None,
     );
     let expected = "expected it beside `position`: a light at infinity has no distance";
-    let key = |key: &str| format!("`light.{key}` is given for a light with a `direction`");
+    let key = |key: &str| format!("`light.{key}` is set for a light with a `direction`");
     check(
         &format!("{TOWARD}attenuation = «0.5»\n"),
         &key("attenuation"),
@@ -141,8 +141,8 @@ fn a_light_is_somewhere() {
     assert!(format!("{error}").starts_with(&number(1)), "{error}");
 }
 
-/// A light must not be at a vertex, or as near as `f32` can resolve. The corners of the cube are
-/// ±1.
+/// A light must not be at a vertex, or nearer than `f32` can resolve. The corners of the cube are
+/// at ±1.
 #[test]
 fn a_light_at_a_vertex() {
     let expected =
@@ -266,6 +266,6 @@ fn lights_from_flags() {
     let toward = ("direction", Data::Triple([1.0; 3]), "--light");
     assert!(
         refused(&[toward, attenuation])
-            .starts_with("error: `--attenuation` is given for a light with")
+            .starts_with("error: `--attenuation` is set for a light with")
     );
 }

@@ -2,9 +2,9 @@ use super::{cube, cubes, resolve, with_object};
 use crate::mesh::vertex_normals::{NormalSource, NormalWeight};
 use crate::mesh::{Material, MeshBuilder, PolygonMesh};
 use crate::picture::Encoding;
+use crate::scene::file::Resolved;
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::resolve::Resolved;
 use crate::scene::file::value::Data;
 use crate::scene::{
     Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Light,
@@ -19,7 +19,7 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-/// True if two vectors differ by a few roundings only. Coordinates here are below 10, and each
+/// True if two vectors differ only by a few roundings. Coordinates here are below 10, and each
 /// comes from fewer than 50 operations with an error of 2^-53 each.
 fn near(a: DVec3, b: DVec3) -> bool {
     (a - b).abs().max_element() < 10.0 * 50.0 * f64::EPSILON
@@ -138,7 +138,7 @@ fn the_rest_of_visibility() {
     );
 }
 
-/// Each hidden-surface method has its own settings. A warning names settings of another method.
+/// Each method for hidden surfaces has settings. A warning names settings of another method.
 #[test]
 fn every_way_of_hiding_surfaces() {
     let of = |text: &str| resolve(&with_object(text));
@@ -178,19 +178,19 @@ fn every_way_of_hiding_surfaces() {
     for (text, warning) in [
         (
             "two_sided = true",
-            "`two_sided` means nothing with cull = \"back\": what is seen from behind is left out",
+            "`two_sided` has no effect with cull = \"back\": polygons seen from behind are left out",
         ),
         (
             "painter_key = 'mean'",
-            "`painter_key` means nothing without visibility = \"painter\"",
+            "`painter_key` has no effect without visibility = \"painter\"",
         ),
         (
             "visibility = 'painter'\ndepth_bits = 16",
-            "`depth_bits` means nothing without visibility = \"z-buffer\"",
+            "`depth_bits` has no effect without visibility = \"z-buffer\"",
         ),
         (
             "visibility = 'draw-order'\ndepth = 'per-sample'",
-            "`depth` means nothing without visibility = \"z-buffer\"",
+            "`depth` has no effect without visibility = \"z-buffer\"",
         ),
     ] {
         assert_eq!(of(text).warnings, [warning]);
@@ -198,7 +198,7 @@ fn every_way_of_hiding_surfaces() {
 }
 
 /// Returns the unit sphere of 72 × 36 segments with its axis along z. Another program computed the
-/// numbers in `fit_rule` from it.
+/// values in `fit_rule` from it.
 fn sphere() -> PolygonMesh {
     let mut positions = vec![Vec3::Z];
     for ring in 1..36 {
@@ -223,8 +223,8 @@ fn sphere() -> PolygonMesh {
 
 #[test]
 fn fit_rule() {
-    // Positions are rounded to 2^-24, and a distance is at most 7 of them: below 1e-6. So are nine
-    // printed digits.
+    // Positions are rounded to 2^-24, and a distance is at most 7 of them: below 1e-6. Nine printed
+    // digits are just as exact.
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
     let sphere = |text: &str| {
         let file = SceneFile::parse(&with_object(text), "scene.toml").expect("valid");
@@ -290,7 +290,7 @@ fn camera_at_a_given_place() {
         (camera.projection, camera.up),
         (Projection::Perspective { fovy: 90.0 }, DVec3::X)
     );
-    // The cube lies from 4 to 6 before the eye, and 5 % of 2 is added.
+    // The cube lies from 4 to 6 in front of the eye, and 5 % of 2 is added.
     assert!(
         near(
             DVec3::new(camera.near, camera.far, 0.0),
@@ -298,8 +298,8 @@ fn camera_at_a_given_place() {
         ),
         "{camera:?}"
     );
-    // Without a projection the cube fills 0.8 of the frame: in height here, in width if that is
-    // smaller.
+    // Without a projection the cube fills 0.8 of the picture: in height here, or in width if that
+    // is smaller.
     for (size, half_height) in [("width = 640", 1.0 / 0.8), ("width = 240", 2.0 / 0.8)] {
         let text = format!("[image]\n{size}\n[camera]\neye = [0, 0, 5]");
         let Projection::Orthographic { half_height: found } =
@@ -315,7 +315,7 @@ fn camera_at_a_given_place() {
     let away = resolve(&with_object(
         "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\nfovy = 30",
     ));
-    assert_eq!(away.warnings, ["nothing lies before the eye"]);
+    assert_eq!(away.warnings, ["nothing lies in front of the eye"]);
 }
 
 #[test]
@@ -626,7 +626,8 @@ fn camera_flags_over_a_file() {
     );
 }
 
-/// An axis by its name turns all that the program chooses; three numbers turn the picture only.
+/// The name of an axis turns everything that the program chooses; three numbers turn only the
+/// picture.
 #[test]
 fn up_by_name_turns_default_view_and_light_and_up_by_numbers_does_not() {
     let at_rest = resolve(&with_object("")).scene;
@@ -647,7 +648,7 @@ fn up_by_name_turns_default_view_and_light_and_up_by_numbers_does_not() {
         let camera = turned.camera;
         assert_eq!(camera.up, up);
         assert!((camera.view().dot(up) - unit.y).abs() < 1e-15, "{name}");
-        // Light and view turn together: each lies to the other, and to up, as before.
+        // Light and view turn together: each keeps its place relative to the other and to up.
         let angle = |scene: &Scene| {
             let [view, toward] = [scene.camera.view(), toward(scene)];
             [
@@ -659,7 +660,7 @@ fn up_by_name_turns_default_view_and_light_and_up_by_numbers_does_not() {
         for (a, b) in angle(&turned).into_iter().zip(angle(&at_rest)) {
             assert!((a - b).abs() < 1e-15, "{name}: {a} {b}");
         }
-        // A turntable goes around it, from above, too.
+        // A turntable turns around it, also when seen from above.
         for (view, expected) in [
             ("azimuth = 0\nelevation = 90", up),
             ("elevation = -90", -up),
@@ -675,7 +676,7 @@ fn up_by_name_turns_default_view_and_light_and_up_by_numbers_does_not() {
         assert_eq!((told.camera.up, toward(&told)), (up, toward(&at_rest)));
         assert!(near(told.camera.view(), at_rest.camera.view()));
     }
-    // What a scene states stays.
+    // What a scene states is left alone.
     let stated = "[camera]\nup = 'z'\ndirection = [1, 1, 1]\n[[light]]\ndirection = [0, 1, 0]";
     let stated = resolve(&with_object(stated)).scene;
     assert!(near(stated.camera.view(), DVec3::ONE.normalize()));
@@ -707,7 +708,8 @@ fn positions_that_are_nearly_one_are_welded_where_an_object_asks_for_it() {
     assert!(Arc::ptr_eq(welded, again), "welded once");
 }
 
-/// Coefficients over 1 are told where something is drawn in them, under the name that the user gave them.
+/// Coefficients above 1 are reported if something is drawn with them, under the user's name for
+/// them.
 #[test]
 fn coefficients_over_one_are_told_where_they_are_drawn() {
     let told = |text: &str| resolve(text).warnings;
@@ -723,7 +725,7 @@ fn coefficients_over_one_are_told_where_they_are_drawn() {
     let own = "[[object]]\nmesh = 'builtin:cube'\nmaterial = { KEYS }\n";
     let own = |keys: &str| own.replace("KEYS", keys);
     starts(&own("ks = 255"), "object.material.ks");
-    // Every object has its own: that of the scene is drawn where they leave it.
+    // Each object has its own. Objects that leave a coefficient open show the scene's.
     let scene = "[material]\nka = 255\n";
     starts(&format!("{scene}{}", own("kd = 0.5")), "material.ka");
     assert!(told(&format!("{scene}{}", own("ka = 1"))).is_empty());

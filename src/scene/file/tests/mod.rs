@@ -8,7 +8,7 @@ mod reading;
 mod round_trip;
 mod shipped;
 
-use super::resolve::LoadedMesh;
+use super::resolve::MeshResult;
 use crate::mesh::{MeshBuilder, PolygonMesh};
 use glam::Vec3;
 use std::path::Path;
@@ -35,12 +35,12 @@ fn cube() -> PolygonMesh {
 }
 
 /// Loads a cube for every mesh.
-fn cubes(_: &str, _: &Path) -> LoadedMesh {
+fn cubes(_: &str, _: &Path) -> MeshResult {
     Ok((Arc::new(cube()), Vec::new()))
 }
 
 /// Resolves the scene of `text`, with cubes for all meshes.
-fn resolve(text: &str) -> crate::scene::file::resolve::Resolved {
+fn resolve(text: &str) -> crate::scene::file::Resolved {
     let file = crate::scene::file::SceneFile::parse(text, "scene.toml")
         .unwrap_or_else(|error| panic!("{error}"));
     file.resolve(cubes)

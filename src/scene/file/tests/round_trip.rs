@@ -7,7 +7,7 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// A scene file that nobody wrote.
+/// A random scene file.
 struct Random(SplitMix);
 
 impl Random {
@@ -95,7 +95,7 @@ impl Random {
     }
 }
 
-/// A written scene reads back as the same scene, with equal bits of every value.
+/// A written scene reads back as an equal scene, with equal bits of every value.
 #[test]
 fn written_scenes_read_back_equal() {
     let mut random = Random(SplitMix(21));
