@@ -1,6 +1,6 @@
-/* Documents of several machines or commits side by side. */
+/* Compares documents of several machines or commits side by side. */
 
-/* Documents side by side, a column each under its processor. */
+/* Draws the table of all documents: a column for each, headed by its processor. */
 function beside() {
 	const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))];
 	const pick = $("#beside-scene");
@@ -11,7 +11,7 @@ function beside() {
 		)}`;
 	pick.onchange = beside;
 	const shared = pick.value ? [pick.value] : names.filter(n => DOCS.every(d => rowsOf(d, n)));
-	// Older documents judged the row engine by the polygons of the span engine.
+	// Older documents took the polygons of the span engine as the truth for the row engine's errors.
 	const sameErrors = rows =>
 		DOCS.every(d => d.schema === D.schema) || !rows.some(r => r.engine === "row");
 	const cell = (d, m) => {

@@ -1,12 +1,12 @@
 /* Charts: axes, curves and labels, as SVG. */
 
-/* The size of type; charts are drawn smaller by it, and scaled. */
+/* The size of type as a multiple of the default: charts are laid out in default type, then scaled by this. */
 const zoomOf = () => parseFloat(getComputedStyle(ROOT).fontSize) / 16;
 
-/* The width of a chart, before it is scaled. */
+/* The width of a chart in pixels, before it is scaled. */
 const widthOf = el => Math.round(el.clientWidth / zoomOf());
 
-/* A picture of charts: a group of controls if its marks can be chosen, else an image. */
+/* The SVG of a chart: a group of controls if one can choose its marks, else an image. */
 const svg = (w, h, label, body, controls) =>
 	html`
 		<svg viewBox="0 0 ${w} ${h}" role="${controls ? "group" : "img"}" aria-label="${label}">
@@ -66,7 +66,7 @@ function linearTicks({ low, high, from, to }, gap) {
 	);
 }
 
-/* Numbers of few digits, the roundest first: those that others leave no room for are left out. */
+/* Numbers of few digits on a logarithmic scale. The roundest come first, and later ones are left out where there is no room. */
 function logTicks(at, gap) {
 	const first = Math.floor(Math.log10(at.low));
 	const powers = Array.from(
@@ -93,7 +93,7 @@ function tickText(v) {
 			: String(+v.toPrecision(3));
 }
 
-/* Numbers of the axis on the left, with lines, and of the one below. */
+/* The numbers of the axis on the left, with grid lines, and of the axis below. */
 const axisY = (y, left, right, ticks, unit = "") =>
 	ticks.map(t => [
 		line(left, y(t), right, y(t)),
@@ -103,18 +103,19 @@ const axisY = (y, left, right, ticks, unit = "") =>
 const axisX = (x, bottom, ticks) =>
 	ticks.map(t => text(x(t), bottom + 17, tickText(t), "tick mid"));
 
-/* Positions near those wished for, at least `gap` apart if there is room. */
+/* Moves positions apart, until they are at least `gap` apart if there is room. */
 function spread(wished, gap, low, high) {
 	const list = wished.map((y, i) => ({ y, i })).sort(by(p => p.y));
 	const room = (high - low) / Math.max(1, list.length - 1);
 	gap = Math.min(gap, room);
+	// Pushes positions up from the lower end, then back from the upper end.
 	list.reduce((least, p) => (p.y = Math.max(p.y, least)) + gap, low);
 	list.reduceRight((most, p) => (p.y = Math.min(p.y, most)) - gap, high);
 	return list.sort(by(p => p.i)).map(p => p.y);
 }
 
-/* Curves with marks and whiskers at their points and names at their ends.
-   A series has points [x, y, low, high], a method or colour, a name, and may have a value, a link
+/* Draws curves with marks and whiskers at their points, and names at their ends.
+   A series has points [x, y, low, high], a method or a colour, and a name. It may have a value, a link
    and a tip. */
 function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 	const end = s => s.points[s.points.length - 1];
@@ -148,7 +149,8 @@ function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 	});
 }
 
-/* Places labels of points side by side, with a leader if far away; one without room is left out. */
+/* Places the labels of points so that they do not overlap. Tries positions on growing rings around each point and takes the
+   cheapest. A label that is far from its point gets a leader, and one without room is left out. */
 function place(points, box, bars) {
 	const done = [];
 	const squares = points.map(o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9]);
@@ -159,6 +161,7 @@ function place(points, box, bars) {
 		list.filter(([x, y]) => x > d[0] && x < d[2] && y > d[1] && y < d[3]).length;
 	for (const p of [...points].sort((a, b) => b.priority - a.priority || a.y - b.y)) {
 		let best = null;
+		// Ring 0 has four positions right beside the point, further rings have 16.
 		for (let ring = 0; ring < 9; ring++)
 			for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
 				const angle = (turn * Math.PI) / 8;
@@ -179,10 +182,12 @@ function place(points, box, bars) {
 				const ey = clamp(p.y, q[1] + 3, q[3] - 3);
 				const apart = o =>
 					Math.hypot(o.x - clamp(o.x, q[0], q[2]), o.y - clamp(o.y, q[1], q[3]));
+				// Without a leader a label must be clearly nearest to its own point.
 				const tied = ring || points.some(o => apart(o) < apart(p) + 8);
 				const leader = tied
 					? [0.2, 0.4, 0.6, 0.8].map(t => [p.x + t * (ex - p.x), p.y + t * (ey - p.y)])
 					: [];
+				// What the label or its leader would cover: other marks, the bars, and labels that are placed already.
 				const crossed =
 					sum(
 						squares.map((d, i) =>
@@ -194,11 +199,12 @@ function place(points, box, bars) {
 				const covers = points.filter(
 					o => o !== p && o.x > q[0] - 2 && o.x < q[2] + 2 && o.y > q[1] - 2 && o.y < q[3] + 2,
 				).length;
+				// A label at the right of its point costs least.
 				const cost = 1000 * covers + ring * 22 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
 				if (!best || cost < best.cost)
 					best = { cost, x: q[0], y: cy, q, end: tied && [ex, ey], leader };
 			}
-		// A label on another's mark would name the wrong one.
+		// A label that covers another point's mark would seem to name that point.
 		p.label = best && best.cost < (p.priority ? 1000 : 420) ? best : null;
 		if (p.label)
 			done.push(best.q, ...best.leader.map(([x, y]) => [x - 2, y - 2, x + 2, y + 2]));

@@ -1,4 +1,4 @@
-/* Controls: what is chosen, lists that fold, fades at the ends of what scrolls. */
+/* Controls: buttons of which one is chosen, lists that fold, and fades where a list scrolls on. */
 
 /* Fades the end of a list or table that scrolls on. */
 function fadeEnd(el) {
@@ -24,10 +24,10 @@ function onChoose(el, choose) {
 	};
 }
 
-/* Lists that are shown whole. */
+/* The lists that the reader has unfolded. */
 const unfolded = new Set();
 
-/* The first ones of a long list, and the button that shows the rest. */
+/* Returns the first entries of a long list, and the button that shows the rest. */
 function folded(list, most, what) {
 	const all = unfolded.has(what) || list.length < 1.2 * most;
 	return [
@@ -43,7 +43,7 @@ addEventListener("click", e => {
 	route();
 });
 
-/* Wires buttons of which one is pressed; returns what marks that one. */
+/* Wires buttons of which one is pressed. Returns the function that marks the pressed one. */
 function segments(el, pressed, choose) {
 	const update = () =>
 		$$("button", el).forEach(b => {
@@ -57,7 +57,7 @@ function segments(el, pressed, choose) {
 	return update;
 }
 
-/* A slider with its name and its value as text; `key` says which to whoever listens. */
+/* A slider with its name and its value as text. Listeners know it by its `key`. */
 const slider = ({ key, label, title, min, max, step = 1, value, text }) =>
 	html`
 		<label class="handle" title="${title ?? label}">
@@ -65,8 +65,8 @@ const slider = ({ key, label, title, min, max, step = 1, value, text }) =>
 			<input type="range" data-handle="${key}" min="${min}" max="${max}" step="${step}" value="${value}">
 		</label>`;
 
-/* Which way arrow keys lead: to the right, downward. */
+/* Which way the arrow keys lead, as [to the right, downward]. */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
-/* Scrolls a chosen entry into sight. */
+/* Scrolls a chosen entry into view. */
 const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });

@@ -15,7 +15,7 @@ const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 const fastest = c =>
 	STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
 
-/* Methods as lines; a place has a name, a note and values [v, low, high]. */
+/* Draws a line for each method over some places. A place has a name, a note and a function `values` that returns [v, low, high]. */
 function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 	const el = $(id);
 	const W = widthOf(el);
@@ -68,7 +68,7 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 	el.innerHTML = html`${panes.map(pane)}`;
 }
 
-/* Draws both charts, of all methods or of those with the same picture. */
+/* Draws both charts, with all methods or only those that draw naive Phong's picture. */
 function corners(mode) {
 	cornerMode = mode;
 	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]);

@@ -1,12 +1,12 @@
-/* Costs: the operations that each method takes for the picture of chapter 0, from the document's counts and the picture's trace. */
+/* Costs: how many operations each method needs for the picture of chapter 0, from the document's counts and the picture's trace. */
 
-/* The methods of the course in its order, and the kinds of operations that tell them apart. */
+/* The methods in the order of the course, and the kinds of operations in which they differ. */
 const COURSE_METHODS = ["flat", "gouraud", "naive-phong", "fast-phong", "slerp-phong"];
 const COST_KINDS = ["additions", "multiplications", "divisions", "roots", "sines, arctangents"];
 
 let coursePicture;
 
-/* How many vertices, edges, runs and pixels the picture has; nothing where the page brings no trace. */
+/* Counts the vertices, edges, runs and pixels of the picture. Returns nothing if the page has no trace. */
 async function pictureCounts() {
 	if (typeof tracesOf !== "function" || !hasTraces()) return null;
 	const [trace] = Object.values(await tracesOf());
@@ -23,7 +23,7 @@ async function pictureCounts() {
 	};
 }
 
-/* The operations of a method for the picture, of each kind. */
+/* How many operations of each kind a method needs for the picture. */
 function costOf(method, picture) {
 	const [operations] = M[method].operations;
 	return COST_KINDS.map(kind => {
@@ -38,7 +38,7 @@ function costTable(costs) {
 	return scrolling("Operations of each method", table(["for the picture", ...COST_KINDS], rows, "plain"));
 }
 
-/* Bars of a method, which start where those of the method before ended. */
+/* The bars of a method. They start as long as those of the previous method, and then grow or shrink. */
 function costBars(costs, at) {
 	const most = COST_KINDS.map((_, k) => Math.max(...costs.map(c => c[k])));
 	const row = (kind, k) => {
@@ -72,7 +72,7 @@ async function costInto(el, method) {
 	look();
 }
 
-/* Bars grow, or fall, from the method before to their own when they are seen. */
+/* Lets bars grow or shrink from the previous method's length to their own when the reader sees them. */
 function growCosts() {
 	for (const b of $$("#course [data-width]")) {
 		if (b.getBoundingClientRect().bottom > innerHeight) continue;

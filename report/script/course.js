@@ -1,9 +1,9 @@
-/* View: course. Chapters that Rust made of docs/course, one below the other; figures and findings come when they are near. */
+/* View: course. Shows the chapters that Rust made from docs/course, one below the other, and fills in figures and findings when they come near. */
 
 const CHAPTERS = $$("#course article");
 const chapterOf = part => CHAPTERS.find(c => c.dataset.part === (part === "stop" ? "0" : part));
 
-/* The handles that were moved, by chapter, as queries of addresses. */
+/* The state of each chapter's handles that were moved, as the query of an address. */
 const movedIn = new Map();
 
 /* The address of a chapter, with the state of its figure. */
@@ -13,16 +13,16 @@ function addressOf(chapter) {
 	return query ? `#course/${part === "0" ? "stop" : part}?${query}` : `#course/${part}`;
 }
 
-/* The chapter that is being read. */
+/* The chapter that the reader is reading. */
 let reading;
 
-/* Has the address say what is being read, without a new entry in the history. */
+/* Makes the address name the chapter that is being read, without a new entry in the history. */
 function keepChapter() {
 	const to = addressOf(reading);
 	if (view === "course" && location.hash !== to) history.replaceState(null, "", to);
 }
 
-/* Marks a chapter in the list. The list alone scrolls to it, and not the page. */
+/* Marks a chapter in the list. Only the list scrolls to it, not the page. */
 function follow(chapter) {
 	reading = chapter;
 	CHAPTERS.forEach(c => c.classList.toggle("on", c === chapter));
@@ -35,7 +35,7 @@ function follow(chapter) {
 	}
 }
 
-/* A finding: the value, and what follows from it. */
+/* Shows a finding: its value, and what follows from it. */
 function findingInto(el, { agreement, verdict, label, ...measured }) {
 	el.classList.add(agreement);
 	el.innerHTML = html`
@@ -46,7 +46,7 @@ function findingInto(el, { agreement, verdict, label, ...measured }) {
 const figureNamed = name => FIGURES.find(f => f.name === name);
 const findingOf = (name, key) => figureNamed(name)?.findings.find(x => x.key === key);
 
-/* Fills a figure's place, unless it is as its width asks for. On paper figures have no handles. */
+/* Fills a figure's place, unless it is filled for this width already. On paper figures have no handles. */
 function fillFigure(el, onPaper) {
 	const chapter = el.closest("article");
 	const f = figureNamed(el.dataset.figure);
@@ -55,7 +55,7 @@ function fillFigure(el, onPaper) {
 	if (onPaper && (el.dataset.filled || !f.blocks.some(b => b.pictures ?? b.plot))) return;
 	el.dataset.filled = filled;
 	const query = onPaper ? undefined : new URLSearchParams(movedIn.get(chapter));
-	// A figure that says at once how it stands was not moved yet.
+	// What a figure reports first is its state before anything was moved.
 	let start = movedIn.get(chapter) ? "" : null;
 	figureInto(el, f, query, moved => {
 		start ??= String(moved);
@@ -66,7 +66,7 @@ function fillFigure(el, onPaper) {
 	});
 }
 
-/* Fills a place of a chapter; what a page does not have stays as it was written. */
+/* Fills a place of a chapter. If the page does not have what belongs there, the place keeps its text. */
 function fillPlace(el, onPaper = false) {
 	const { figure, finding, hands, cost } = el.dataset;
 	const found = finding && findingOf(figure, finding);
@@ -76,14 +76,14 @@ function fillPlace(el, onPaper = false) {
 	else if (hands && !onPaper) handsInto(el, hands);
 }
 
-/* Fills the places of a chapter that are not folded. */
+/* Fills all places of a chapter. */
 const fillChapter = (chapter, onPaper) =>
 	$$("[data-figure], [data-cost]", chapter).forEach(el => fillPlace(el, onPaper));
 
-/* Places and chapters that were not near yet. */
+/* The places and chapters that have not come near yet. */
 const farAway = new Set();
 
-/* Fills places that are near: less than a window's height away. Terms of a chapter are marked with them. */
+/* Fills the places that are less than a window's height away, and marks the terms of chapters that are. */
 function fillNear() {
 	for (const el of farAway) {
 		const { top, bottom, width } = el.getBoundingClientRect();
@@ -97,8 +97,8 @@ function fillNear() {
 
 let looks = false;
 
-/* Looks, at the next frame, at what is near, and which chapter a third of the window's height lies in: it is the one that
-   is read. */
+/* Fills, at the next frame, what has come near. The chapter at a third of the window's height counts as the one that is being
+   read. */
 function look() {
 	if (looks || view !== "course") return;
 	looks = true;
@@ -116,7 +116,7 @@ function look() {
 
 addEventListener("scroll", look, { passive: true });
 
-/* Where one starts to read. It stays in its place while figures above it are filled, until the reader scrolls. */
+/* The place where the reader starts to read. It keeps its place in the window while figures above it are filled, until the reader scrolls. */
 let held = null;
 
 function settle() {
@@ -126,7 +126,7 @@ function settle() {
 	else scrollBy(0, el.getBoundingClientRect().top - top);
 }
 
-/* Where links were followed; the history has their indices. */
+/* The places where the reader followed links. The history holds indices into this list. */
 const followed = [];
 
 const holding = new ResizeObserver(() => {
@@ -139,7 +139,7 @@ addEventListener("drawn", settle);
 for (const type of ["wheel", "touchmove", "keydown", "pointerdown"])
 	addEventListener(type, () => (held = null), { passive: true });
 
-/* Makes questions and goals, and watches for what comes near; once. */
+/* Makes questions and goals, and starts to watch what comes near. Does so once. */
 function startCourse() {
 	if (reading) return;
 	reading = CHAPTERS[0];
@@ -147,7 +147,7 @@ function startCourse() {
 	for (const el of $$("#course .toy")) goalInto(el);
 	for (const el of $$("#course :is(article, [data-figure], [data-cost], [data-hands])")) farAway.add(el);
 	holding.observe(CHAPTERS[0].parentElement);
-	// A link back leads to where one read, and not to the start of the chapter.
+	// Going back leads to the place where the link was followed, not to the start of the chapter.
 	$("#course").addEventListener("click", e => {
 		const link = e.target.closest("a[href^='#']");
 		if (!link) return;
@@ -159,7 +159,7 @@ function startCourse() {
 	});
 }
 
-/* Puts a link above the figure that stops, back to where one read about it. */
+/* Puts a link above the figure that can be stopped. It leads back to the chapter that the reader came from. */
 function offerBack(chapter) {
 	const [{ state }, { hash }] = [history, location];
 	$(".go-back")?.remove();
@@ -175,7 +175,7 @@ function offerBack(chapter) {
 	};
 }
 
-/* #course, #course/4.1, #course/4.2?angle=95, #course/stop?line=6: returns where one starts to read. */
+/* #course, #course/4.1, #course/4.2?angle=95, #course/stop?line=6. Returns the element to scroll to. */
 function course([part], query) {
 	startCourse();
 	const chapter = chapterOf(part);
@@ -187,7 +187,7 @@ function course([part], query) {
 	}
 	follow(chapter ?? CHAPTERS[0]);
 	if (place) fillPlace(place);
-	// What was filled at another width, or for paper, is filled again when it is near.
+	// Figures that were filled at another width, or for paper, are filled again when they come near.
 	for (const el of $$("#course .live[data-filled]")) farAway.add(el);
 	look();
 	if (part && !chapter) history.replaceState(null, "", "#course");
@@ -195,16 +195,16 @@ function course([part], query) {
 	return part === "stop" ? ($(".go-back") ?? place) : chapter;
 }
 
-/* Scrolls to where one reads: where a link was followed, if one comes back to it, or to a chapter, or to the start. */
+/* Scrolls to the link that the reader followed, if the reader comes back to it, else to a chapter, else to the top. */
 function startReading(chapter) {
 	held = followed[history.state?.at] ?? (chapter && { el: chapter });
 	if (held) settle();
 	else scrollTo(0, 0);
-	// Whoever scrolls by other means is not held for long.
+	// Other means of scrolling send no event that lets go of the place, so it is let go after a while.
 	delay("held", 4000, () => (held = null));
 }
 
-/* On paper are all chapters, with what is measured. */
+/* Fills all chapters before the page is printed. */
 addEventListener("beforeprint", () => {
 	if (CHAPTERS.length) CHAPTERS.forEach(c => fillChapter(c, true));
 });

@@ -1,16 +1,16 @@
-/* The document that `fastphong report` wrote, and what the views want to know of it. */
+/* The document that `fastphong report` wrote, in the form that the views need. */
 
 const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
 
-/* The instructions that drew, as readers know them. */
+/* The name of an instruction set, as readers know it. */
 const levelName = ({ level }) =>
 	level === "scalar" ? level : (LEVELS[level] ?? level.toUpperCase());
 
-/* A speed over another's; one that may be a tie is marked. */
+/* A ratio of speeds as text, with = before it if it may be a tie. */
 const ratioText = q =>
 	q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
 
-/* The document, and those that it is laid beside. */
+/* The document, and the documents to compare it with. */
 const D = JSON.parse($("#fastphong-data").textContent);
 const DOCS = [D, ...(D.beside ?? [])];
 
@@ -60,7 +60,7 @@ function rowOf(
 	};
 }
 
-/* The scenes by their part of an address, and in the order of the document. */
+/* The scenes by their ids, which are parts of addresses, and in the order of the document. */
 const S = Object.create(null);
 
 const SCENES = (D.comparisons ?? []).map((c, number) => {

@@ -1,9 +1,9 @@
 /* Error maps: differences from the reference, in colours. */
 
-/* A stored value in 0..=1 as linear light (IEC 61966-2-1). */
+/* Turns a stored sRGB value in 0..=1 into linear light (IEC 61966-2-1). */
 const fromSrgb = c => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
 
-/* Error of each pixel: the largest difference of a channel from the reference, in linear levels. */
+/* The error of each pixel: the largest difference of a channel from the reference, in linear levels. */
 const errors = (s, m) =>
 	s.one?.(m).errors ??
 	memo(`errors ${s.id} ${m}`, async () => {
@@ -20,7 +20,7 @@ const errors = (s, m) =>
 		);
 	});
 
-/* Colours of the error map; its scale is logarithmic for `top` 0, else linear up to `top`. */
+/* The colours of the error map. Its scale is logarithmic if `top` is 0, else linear up to `top`. */
 const STOPS = [
 	"#000004",
 	"#1c1044",
@@ -43,10 +43,10 @@ const HEAT = (() => {
 	return new Uint32Array(pen.getImageData(0, 0, 256, 1).data.buffer);
 })();
 
-/* The place of an error on the scale, in 0..=1. */
+/* Where an error lies on the scale, in 0..=1. */
 const heat = (error, top) => (top ? Math.min(1, error / top) : Math.log2(1 + error) / 8);
 
-/* The colours of errors in equal steps up to the end of the scale: quicker than a logarithm a pixel. */
+/* The colours of errors in equal steps up to the end of the scale. A look-up is faster than a logarithm per pixel. */
 const HEAT_STEPS = 16384;
 const heatTable = top =>
 	memo(`heat ${top}`, () =>

@@ -1,8 +1,8 @@
-/* Figures with handles: claim, handles, and what follows them, made by the code of the stored figures. */
+/* Figures with handles: a claim, handles, and pictures and findings that follow them. The code that made the stored figures makes these, too. */
 
 let figureStudio;
 
-/* The values of a figure's handles that an address gives. */
+/* Reads the values of a figure's handles from an address. */
 const valuesOf = ({ handles }, query) =>
 	handles.map(({ name, range: [low, high], step, start }) => {
 		const given = query?.get(name);
@@ -12,15 +12,15 @@ const valuesOf = ({ handles }, query) =>
 
 const shownValue = (v, { unit }) => `${+v.toFixed(4)}${unit}`;
 
-/* A finding in a line: what was measured, and what follows. */
+/* A finding in one line: what was measured, and what follows from it. */
 const verdictLine = x => html`
 	<p class="verdict">
 		${chip(x.agreement, x.agreement)}
 		<span>${sentence(x.label)}: <b>${findingValue(x)}</b>. ${x.verdict}</span>
 	</p>`;
 
-/* Puts a figure that follows the hand into an element; `remember` is told the values at rest. False if it cannot be drawn
-   here. */
+/* Puts a figure with handles into an element. Calls `remember` with the values whenever they come to rest. Returns false if the
+   figure cannot be drawn here. */
 function handlesInto(el, f, query, remember) {
 	if (!CAN_DRAW || !f.live) return false;
 	if (f === SPHERES) return spheresWithVerdicts(el, query, remember);
@@ -107,13 +107,13 @@ function handlesInto(el, f, query, remember) {
 	return true;
 }
 
-/* Shows pictures and plots of a content. */
+/* Shows the pictures and plots of a figure's content. */
 function showContent(body, { content, pictures }) {
 	body.content = content;
 	const columns = content.blocks.find(b => b.pictures)?.pictures.columns ?? 1;
 	const shown = content.blocks.flatMap(b => b.pictures?.shown ?? []);
 	const plots = content.blocks.flatMap(b => b.plot ?? []);
-	// Elements stay while there are as many: a picture that is drawn again does not flicker.
+	// Elements are kept while their count stays, so that pictures do not flicker when they are drawn again.
 	const key = `${shown.length} ${plots.length}`;
 	if (body.dataset.key !== key) {
 		body.dataset.key = key;
@@ -141,7 +141,7 @@ function showContent(body, { content, pictures }) {
 	});
 }
 
-/* Draws the polygon of points that are dragged. */
+/* Draws the polygon whose corners the reader can drag. */
 function drawPad(pad, values, points, handles) {
 	const at = points.map(i => [values[i], -values[i + 1]]);
 	const focus = pad.contains(document.activeElement) && document.activeElement.dataset.point;
@@ -158,7 +158,7 @@ function drawPad(pad, values, points, handles) {
 	if (focus) $(`[data-point="${focus}"]`, pad)?.focus({ preventScroll: true });
 }
 
-/* Has points of a pad dragged, or moved by arrow keys. */
+/* Lets the reader drag the points of a pad, or move them by arrow keys. */
 function dragPoints(pad, to, of) {
 	let held = null;
 	const local = e => {

@@ -1,9 +1,9 @@
-/* Findings: what figures measured of what a lecture says. */
+/* Findings: values that figures measured, each with a verdict on what the lecture says. */
 
-/* What a finding says of the lecture, as a sign. */
+/* The sign of each verdict on the lecture. */
 const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
 
-/* How many findings have each verdict, of verdicts that there are. */
+/* Counts the findings of each verdict, without verdicts that no finding has. */
 const counts = list =>
 	Object.keys(VERDICTS)
 		.map(k => [k, list.filter(x => x.agreement === k).length])
@@ -21,12 +21,12 @@ function findingValue({ value, unit }) {
 	return html`${number} ${unit}`;
 }
 
-/* A table of findings; with `where`, of several figures. */
+/* A table of findings. With `where` it has a column for the figure. */
 function findingTable(list, where) {
 	const figure = f => html`
 		<a href="#lectures/${f.name}">${topic(f)}</a>
 		<small>${f.lecture}</small>`;
-	// A figure, and a finding of several measurements, stand once.
+	// A figure is named only on its first row, and so is a verdict that several measurements share.
 	const rows = list.map((x, i) => [
 		...(where ? [x.figure !== list[i - 1]?.figure && figure(x.figure)] : []),
 		x.verdict !== list[i - 1]?.verdict && x.verdict,

@@ -1,4 +1,4 @@
-/* Formulas as mathematics: MathML from what `fastphong explain` prints. */
+/* Turns formulas that `fastphong explain` prints into MathML. */
 
 const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" };
 const FUNCTIONS = ["sin", "cos", "sqrt", "min", "max"];
@@ -8,13 +8,13 @@ const SIGNS = { ".": "·", "*": "×", "-": "−", "...": "…" };
 const operator = t => html`<mo stretchy="false">${t}</mo>`;
 const group = parts => html`<mrow>${parts}</mrow>`;
 
-/* Words are text: not names of one or two letters, of functions or of Greek letters. */
+/* True if a token is a word of text, and not the name of a variable, function or Greek letter. */
 const isSpace = t => /^\s+$/.test(t);
 const isWord = t =>
 	(/^[A-Za-z]{3,}$/.test(t) && !FUNCTIONS.includes(t) && !GREEK[t]) ||
 	["by", "of", "at", "to", "on", "eq"].includes(t);
 
-/* A name: d… is a difference, trailing letters are an index, N, L, V and the like are vectors. */
+/* Sets a name or a number: a leading d is a difference, trailing letters are an index, and N, L, V, R, H and P are vectors. */
 function symbol(t) {
 	if (/^\d/.test(t)) return html`<mn>${t}</mn>`;
 	if (GREEK[t]) return html`<mi>${GREEK[t]}</mi>`;
@@ -31,7 +31,7 @@ function symbol(t) {
 	return index ? html`<msub>${group(name)}${group(html`<mi>${index}</mi>`)}</msub>` : group(name);
 }
 
-/* Makes fractions: a / b with spaces takes the products on both sides, a/b the neighbours. */
+/* Makes fractions. In `a / b` with spaces they hold the whole products on both sides, in `a/b` only the neighbours. */
 function fractions(items) {
 	for (let i = items.findIndex(x => x.over); i > 0; i = items.findIndex(x => x.over)) {
 		const end = (k, step) => {
@@ -48,7 +48,7 @@ function fractions(items) {
 	return items.map(x => x.html);
 }
 
-/* Reads tokens up to `close` as mathematics; takes them from the list. */
+/* Reads tokens up to `close` as mathematics, and removes them from the list. */
 function mathematics(tokens, close) {
 	const items = [];
 	const push = (html, more) => items.push({ html, ...more });
@@ -93,7 +93,7 @@ function mathematics(tokens, close) {
 	return fractions(items);
 }
 
-/* Sets a formula as `fastphong explain` prints it; the rest stays words. */
+/* Sets a formula that `fastphong explain` prints. Parts without an operator stay words. */
 const formula = source =>
 	source
 		.split(/[;\n]|,(?![^(]*\))/)

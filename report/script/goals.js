@@ -1,4 +1,4 @@
-/* Goals of the course: figures whose handles are to be moved until something fails. Findings of the figure decide. */
+/* Goals of the course: the reader moves a figure's handles until something fails. The figure's findings decide when. */
 
 /* Reads a goal: `FIGURE RULE KEY [HANDLE] [times N UNIT]`. */
 function goalOf(text) {
@@ -8,9 +8,9 @@ function goalOf(text) {
 	return { figure, rule, key, handle: rest[0], factor: +factor, unit: unit.join(" ") };
 }
 
-/* Rules: each takes what was measured at values of the handles, and says whether the goal is reached, and how far it is. */
+/* The rules. Each gets what was measured at the handles' values, and returns whether the goal is reached, and a sentence about it. */
 const RULES = {
-	/* The smallest value of a handle at which the finding contradicts the lecture: one step below it, it must not. */
+	/* The goal is the smallest value of a handle at which the finding contradicts the lecture. One step below, it must not contradict. */
 	first: ({ found, said, handle, value, tried }) => {
 		const fails = found.agreement === "contradicts";
 		tried.set(value, fails);
@@ -22,14 +22,14 @@ const RULES = {
 		if (!fails) return [false, html`Not yet at ${here}: <b>${said}</b>.`];
 		return [false, html`It shows at ${here}: <b>${said}</b>. Does it at a smaller one, too?`];
 	},
-	/* As much as the stored finding. */
+	/* The goal is to reach the stored finding's value. */
 	most: ({ found, said, stored }) =>
 		found.value > 0.9999 * stored.value
 			? [true, html`<b>${said}</b>. More is not possible.`]
 			: [false, html`Not yet: <b>${said}</b>.`],
 };
 
-/* Follows the handles of a figure until its goal is reached. Without handles there is no goal, and what is learnt is text. */
+/* Follows the handles of a figure until its goal is reached. If the figure has no handles here, the goal is hidden and what it teaches stays visible. */
 function goalInto(el) {
 	const goal = goalOf(el.dataset.toy);
 	const f = figureNamed(goal.figure);
@@ -51,7 +51,7 @@ function goalInto(el) {
 		if (el.dataset.done != null) return;
 		const found = content.findings.find(x => x.key === goal.key);
 		if (!found) {
-			state.textContent = "The other handles stand elsewhere: put them back.";
+			state.textContent = "The other handles have been moved: put them back.";
 			return;
 		}
 		const { value, unit } = found;

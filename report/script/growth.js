@@ -3,7 +3,7 @@
 const curveName = c => (c.engine === "span" ? "lecture’s form" : nameOf(c.method));
 const curveHue = c => (c.engine === "span" ? "var(--ink3)" : hue(c.method));
 
-/* Times of whole frames against a count. */
+/* Draws times of whole frames against a count, of triangles or of pixels. */
 function grow(id, keep, count, label) {
 	const el = $(id);
 	const W = widthOf(el);
@@ -50,7 +50,7 @@ const COSTS = [
 	["background_ns", "pixel of the picture"],
 ];
 
-/* The largest misfit of fits that are shown. */
+/* Fits with a larger misfit than this are not shown. */
 const MISFIT = 0.5;
 
 /* Draws the table of fitted costs. */
@@ -62,7 +62,7 @@ function costs() {
 		const poor = !list.includes(c) && html` <span class="bad">poor fit</span>`;
 		return html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${poor}`;
 	};
-	// The span from which on less work a pixel pays for more work a span.
+	// The length of a span from which less work per pixel makes up for more work per span.
 	const even = c => {
 		const base = list.find(o => o.method === BASE && o.engine === c.engine)?.costs;
 		const more = c.costs.span_ns - base?.span_ns;

@@ -1,35 +1,35 @@
-/* Your own hands: exercises that the reader programs. Their text runs in a worker, and is graded against the engine's values. */
+/* Your own hands: exercises that the reader programs. The reader's code runs in a worker, and its values are compared with the engine's. */
 
-/* Milliseconds that the reader's text may run, and within which a worker starts. */
+/* How many milliseconds the reader's code may run, and how many a worker may take to start. */
 const HANDS_LIMIT = 500;
 const HANDS_START = 5000;
 
-/* A list of n values: the first one, and what a function makes of the one before. */
+/* A list of n values: the first one, and then what a function makes of the previous one. */
 const walked = (n, first, next) => {
 	const list = [first];
 	for (let k = 1; k < n; k++) list.push(next(list[k - 1], k));
 	return list;
 };
 
-/* What readers often make of a value that grows by Δ a pixel: what it then is, and why. */
+/* Common mistakes with a value that grows by Δ per pixel: the values that each leads to, and what was done wrong. */
 const slips = (name, n, first, by) => {
 	const steps = (from, step) => walked(n, from, v => v + step);
 	return [
-		[steps(first, 0), `nothing was added${name && ` to ${name}`}`],
-		[steps(first, 2 * by), `Δ${name} was added twice`],
-		[steps(first, -by), `Δ${name} was subtracted`],
-		[steps(first + by, by), `Δ${name} was added before the pixel was given`],
+		[steps(first, 0), `nothing is added${name && ` to ${name}`}`],
+		[steps(first, 2 * by), `Δ${name} is added twice`],
+		[steps(first, -by), `Δ${name} is subtracted`],
+		[steps(first + by, by), `Δ${name} is added before pixel() is called`],
 	];
 };
 
-/* A column of the table of Lecture 21's exercises, a value a pixel. */
+/* Reads a column of the table of Lecture 21's exercises: a value for each pixel. */
 function column(name) {
 	const { blocks } = FIGURES.find(f => f.name === "exercises");
 	const { head, rows } = blocks.find(b => b.table?.head[0] === "pixel").table;
 	return rows.map(row => [+row[head.indexOf(name)]]);
 }
 
-/* A run of a trace: its pixels, and its edges where they cross the line. */
+/* Finds a run of a trace: its pixels, and where its edges cross the line. */
 async function runOf(variant, y, x) {
 	const { active, runs, spans } = (await tracesOf())[variant].lines[y];
 	const run = runs.find(r => r.x === x);
@@ -44,8 +44,8 @@ async function runOf(variant, y, x) {
 const loop = (before, ...body) =>
 	`${before}\nfor (let i = 0; i < n; i++) {\n${body.map(l => `\t${l}\n`).join("")}}`;
 
-/* The exercises. Each has what is given, the text to start with and a solution, what a pixel has and the engine's values, slips
-   for each of these, and what is learnt. */
+/* The exercises. Each has the values to start from (`given`), the code to start with and a solution (`texts`), the names of the
+   values of a pixel, the engine's values, common mistakes for each value (`slips`), and a sentence on what it teaches. */
 const EXERCISES = {
 	"3.6": async () => {
 		const { x, n, at, by, values, ends } = await runOf("gouraud", 6, 3);
@@ -64,9 +64,9 @@ const EXERCISES = {
 			slips: [
 				[
 					...slips("I", n, first, ΔI),
-					[steps(I1, ΔI), "I starts at x₁, and not at the centre of the first pixel"],
-					[steps(first, (I2 - I1) / n), "I₂ − I₁ was divided by the number of pixels, and not by x₂ − x₁"],
-					[steps(first, I2 - I1), "I₂ − I₁ was not divided by x₂ − x₁"],
+					[steps(I1, ΔI), "I starts at x₁, not at the centre of the first pixel"],
+					[steps(first, (I2 - I1) / n), "I₂ − I₁ is divided by the number of pixels, not by x₂ − x₁"],
+					[steps(first, I2 - I1), "I₂ − I₁ is not divided by x₂ − x₁"],
 				],
 			],
 			learnt: "One addition a pixel, and nothing else.",
@@ -96,16 +96,16 @@ const EXERCISES = {
 				slips("J", n, J, ΔJ),
 				slips("K", n, K, ΔK),
 				[
-					[walked(n, d, v => v), "d or N was not changed"],
-					[D.map(Math.sqrt), "this is the root itself, to which Newton’s step only comes near"],
-					[walked(n, d, (v, k) => v - F(v, k)), "F(x) was not divided by 2x"],
-					[walked(n, d, (v, k) => v - F(v, k) / v), "F(x) was divided by x, and not by 2x"],
-					[walked(n, d, (v, k) => v + F(v, k) / (2 * v)), "F(x) / 2x was added, and not subtracted"],
-					[walked(n, d, (v, k) => newton(v, k - 1)), "D is that of the pixel before: step N first"],
-					[walked(n, d, (v, k) => newton(newton(v, k), k)), "these are two of Newton’s steps"],
+					[walked(n, d, v => v), "d or N does not change"],
+					[D.map(Math.sqrt), "this is the root itself, which Newton’s step only approaches"],
+					[walked(n, d, (v, k) => v - F(v, k)), "F(x) is not divided by 2x"],
+					[walked(n, d, (v, k) => v - F(v, k) / v), "F(x) is divided by x, not by 2x"],
+					[walked(n, d, (v, k) => v + F(v, k) / (2 * v)), "F(x) / 2x is added, not subtracted"],
+					[walked(n, d, (v, k) => newton(v, k - 1)), "D is still the previous pixel’s: step N first"],
+					[walked(n, d, (v, k) => newton(newton(v, k), k)), "these are two Newton steps"],
 				],
 			],
-			learnt: "Five additions and one of Newton’s steps, and no root. Here N turns fast, so that a single step comes late: the engine’s d does so too.",
+			learnt: "Five additions and one Newton step, and no root. N turns fast here, so a single step lags behind, and so does the engine’s d.",
 		};
 	},
 	"exercise 1": async () => {
@@ -123,8 +123,8 @@ const EXERCISES = {
 			slips: [
 				[
 					...slips("", n, sin24, (sin25 - sin24) / 10),
-					[walked(n, sin24, v => v + sin25 - sin24), "a whole degree was added: a pixel is a tenth of one"],
-					[values.map((_, k) => Math.sin((24 + k / 10) / DEGREES)), "this is the sine itself: read between the lines of the table"],
+					[walked(n, sin24, v => v + sin25 - sin24), "a whole degree is added, but a pixel is a tenth of a degree"],
+					[values.map((_, k) => Math.sin((24 + k / 10) / DEGREES)), "this is the sine itself: interpolate between the lines of the table instead"],
 				],
 			],
 			learnt: `Pixel 3 answers the exercise: sin 24.3° is about ${values[3][0].toFixed(4)}.`,
@@ -142,25 +142,26 @@ const EXERCISES = {
 			values,
 			slips: [
 				[
-					[walked(n, 1, v => v), "nothing was multiplied"],
-					[walked(n, 1, v => v * Δt), "the factor is Δt: it should be e to the Δt"],
-					[walked(n, 1, v => v + Δt), "Δt was added: eᵗ grows by a factor"],
-					[walked(n, 1, v => v / factor), "t grows: it should fall by a quarter a pixel"],
-					[walked(n, factor, v => v * factor), "the factor came in before the pixel was given"],
+					[walked(n, 1, v => v), "nothing is multiplied"],
+					[walked(n, 1, v => v * Δt), "the factor is Δt, but should be e to the Δt"],
+					[walked(n, 1, v => v + Δt), "Δt is added, but eᵗ changes by a factor"],
+					[walked(n, 1, v => v / factor), "t grows, but should fall by a quarter per pixel"],
+					[walked(n, factor, v => v * factor), "the factor is applied before pixel() is called"],
 				],
 			],
-			learnt: "One multiplication a pixel. So fog costs no exponential.",
+			learnt: "One multiplication per pixel. So fog needs no exponential.",
 		};
 	},
 };
 
-/* How far a right value may be from the engine's, at pixel k of values of this size. The engine works in f32: each of k additions
-   rounds by half a unit in the last place, 2⁻²⁴ of the value; of k products the factor is rounded, too, which makes 2k. At most eight
-   roundings come before: of t₀, Δt, differences, and Newton's step. The reader's f64 adds nothing that counts. Three components of N
-   carry their roundings into d, √3 times as many at most. 2 · (2k + 8) · 2⁻²⁴ holds for all. */
+/* How far a right value may be from the engine's, at pixel k, for values of this size. The engine works in f32. Each of k additions
+   rounds by half a unit in the last place, which is 2⁻²⁴ of the value. With products the factor is rounded, too, so that k products
+   make 2k roundings. At most eight roundings come before: of t₀, Δt, differences, and Newton's step. The reader's f64 adds nothing
+   that matters. The three components of N carry their roundings into d, which makes at most √3 times as many. 2 · (2k + 8) · 2⁻²⁴
+   covers all of these. */
 const handsTolerance = (k, size) => 2 * (2 * k + 8) * 2 ** -24 * size;
 
-/* The first wrong value of what the reader's text gave, and why; nothing if all are right. */
+/* Finds the first wrong value of the reader's code, and guesses why. Returns nothing if all are right. */
 function firstWrong({ names, values, slips }, all) {
 	const size = Math.max(...values.flat().map(Math.abs));
 	for (const [k, given] of all.slice(0, values.length).entries())
@@ -168,20 +169,21 @@ function firstWrong({ names, values, slips }, all) {
 			const [is, should] = [given[c], values[k][c]];
 			if (Math.abs(is - should) <= handsTolerance(k, size)) continue;
 			const isAlike = (v, i) => i >= all.length || Math.abs(v - all[i][c]) < 1e-5;
-			const slip = Number.isFinite(is) ? slips[c].find(([list]) => list.every(isAlike)) : [0, /^“/.test(is) ? "this is a text, not a number" : "this is no number"];
+			const slip = Number.isFinite(is) ? slips[c].find(([list]) => list.every(isAlike)) : [0, /^“/.test(is) ? "this is a text, not a number" : "this is not a number"];
 			return { k, c, name, is, should, why: slip?.[1] };
 		}
 }
 
-/* Two values with as many digits as tell them apart. */
+/* Writes two values with as many digits as they need to look different. */
 function apart(...pair) {
 	const shown = digits => pair.map(v => (Number.isFinite(v) ? v.toFixed(digits).replace("-", "−") : String(v)));
 	const enough = [4, 5, 6, 7].find(digits => shown(digits)[0] !== shown(digits)[1]);
 	return shown(enough ?? 8);
 }
 
-/* A worker that runs a text, which is its third line and those below, with some values given by their names. The page's policy
-   holds in it, too: it reaches no network. It posts little. */
+/* Starts a worker that runs the reader's code, with the given values under their names. The code begins on the worker's third line,
+   which `runHands` subtracts from the lines of errors. The page's policy holds in the worker, too, so it reaches no network. What it
+   posts is short, whatever the code does. */
 function handsWorker(given, text) {
 	const source = `"use strict";onerror=(m,u,line)=>{postMessage({says:m.slice(0,120),line});return true};postMessage("begins");const all=[];let exps=0;{const e=Math.exp;Math.exp=x=>(exps++,e(x))}const plain=x=>typeof x=="number"?x:typeof x=="string"?"“"+x.slice(0,20)+"”":Array.isArray(x)?"a list":typeof x;
 (function({${Object.keys(given)}},pixel){
@@ -192,7 +194,7 @@ ${text}
 	return new Worker(url);
 }
 
-/* Runs a text, until a signal ends it: what it gave, or an error with its line. */
+/* Runs the reader's code until a signal ends it. Resolves to its pixels, or fails with an error and its line. */
 const runHands = (given, text, signal) =>
 	new Promise((done, fail) => {
 		const worker = handsWorker(given, text);
@@ -206,9 +208,9 @@ const runHands = (given, text, signal) =>
 			clearTimeout(timer);
 			timer = setTimeout(() => end(fail, Error(says)), ms);
 		};
-		// Firefox does not say where a syntax error is.
+		// Firefox does not say where a syntax error is, so there may be no line.
 		const fails = (says, at) => {
-			if (!Number.isFinite(at)) return end(fail, Error("This is no JavaScript yet: look for a missing bracket or quote"));
+			if (!Number.isFinite(at)) return end(fail, Error("This is not JavaScript yet: look for a missing bracket or quote"));
 			const line = clamp(at - 2, 1, text.split("\n").length);
 			const short = says.replace("Uncaught ", "").replace(/(?<=^[^]{90})[^]+/, "…");
 			end(fail, Object.assign(Error(`Line ${line}: ${short}`), { line }));
@@ -216,7 +218,7 @@ const runHands = (given, text, signal) =>
 		limit(HANDS_START, "No worker starts here");
 		signal.onabort = () => end(() => {});
 		worker.onmessage = ({ data }) => {
-			if (data === "begins") limit(HANDS_LIMIT, "It was stopped after half a second: does the loop end?");
+			if (data === "begins") limit(HANDS_LIMIT, "Stopped after half a second: does the loop end?");
 			else if (Array.isArray(data?.all)) end(done, data);
 			else if (data?.says) fails(String(data.says), data.line);
 		};
@@ -226,7 +228,7 @@ const runHands = (given, text, signal) =>
 		};
 	});
 
-/* Bars for what the reader's text gave, over dots for the engine's values: a row for each name. */
+/* Draws bars for the reader's values, and dots for the engine's: a row for each name. */
 function handsStrip({ names, values, x, range: [low, high] = [0, 1] }, all, wrong) {
 	const [W, H, l] = [44, 74, 34];
 	const at = k => l + W * k;
@@ -249,7 +251,7 @@ function handsStrip({ names, values, x, range: [low, high] = [0, 1] }, all, wron
 	return svg(at(values.length) + 4, H * names.length + 12, `Bars: your pixels. Dots: the engine’s.${told.join("")}`, [names.map(row), below]);
 }
 
-/* What was found, in a sentence or two. */
+/* Says what is wrong, in a sentence or two. Returns nothing if all is right. */
 function judgement(own, { all, exps }, wrong) {
 	const n = own.values.length;
 	if (wrong) {
@@ -257,11 +259,11 @@ function judgement(own, { all, exps }, wrong) {
 		const name = own.names.length > 1 && html`, ${wrong.name}`;
 		return html`Pixel ${own.x + wrong.k}${name}: it should be <b>${should}</b>, yours is <b>${is}</b>${wrong.why && `: ${Number.isFinite(wrong.is) ? "it seems that " : ""}${wrong.why}`}.`;
 	}
-	if (all.length !== n) return `${all.length} pixels were given, and not ${n}.`;
-	if (exps > 2) return `All ${n} pixels are right, but the exponential was called ${exps} times: once is enough.`;
+	if (all.length !== n) return `Your code called pixel() ${all.length} times, but there are ${n} pixels.`;
+	if (exps > 2) return `All ${n} pixels are right, but your code called the exponential ${exps} times: once is enough.`;
 }
 
-/* A text that is kept while the window is open, where that is allowed. */
+/* Keeps the reader's code while the window is open, where the browser allows it. */
 function handsKept(name, text) {
 	try {
 		if (text != null) sessionStorage.setItem(name, text);
@@ -271,7 +273,7 @@ function handsKept(name, text) {
 	}
 }
 
-/* Puts an exercise into an element, once; what was there stays where it cannot run. */
+/* Puts an exercise into an element, once. Where it cannot run, the element keeps its text. */
 async function handsInto(el, name) {
 	if (!EXERCISES[name] || !("Worker" in window) || el.dataset.made) return;
 	el.dataset.made = name;
@@ -285,10 +287,10 @@ async function handsInto(el, name) {
 		"beforeend",
 		html`
 			<div class="own">
-				<p class="given">Given: ${given}<br><code>pixel(…)</code> gives the next pixel.</p>
+				<p class="given">Given: ${given}<br>Call <code>pixel(…)</code> once for each pixel.</p>
 				<div class="editor">
 					<div class="lines" aria-hidden="true"></div>
-					<textarea rows="${rows}" spellcheck="false" autocapitalize="off" wrap="off" aria-label="Your code: it gives ${own.names.join(", ")} at each pixel"></textarea>
+					<textarea rows="${rows}" spellcheck="false" autocapitalize="off" wrap="off" aria-label="Your code, which calls pixel(${own.names.join(", ")}) for each pixel"></textarea>
 				</div>
 				<p class="acts">
 					<button data-do="run">Run</button>
@@ -324,7 +326,7 @@ async function handsInto(el, name) {
 			const wrong = firstWrong(own, result.all);
 			const fault = judgement(own, result, wrong);
 			draw(result.all, wrong);
-			say(fault ? "bad" : "good", fault ?? `Right: all pixels are the engine’s. ${own.learnt}`);
+			say(fault ? "bad" : "good", fault ?? `Right: all pixels agree with the engine’s. ${own.learnt}`);
 		} catch (error) {
 			say("bad", error.message.replace(/[.!?…]*$/, marks => marks[0] ?? "."));
 			if (error.line) select(error.line);

@@ -1,19 +1,19 @@
-/* View: lectures. Figures, and what they found. */
+/* View: lectures. Shows the figures and their findings. */
 
 /* The pictures of a figure, as addresses of images. */
 const figurePictures = f =>
 	memo("figures", () => JSON.parse($("#figure-pictures").textContent))[FIGURES.indexOf(f)] ?? [];
 
-/* How many findings of a figure have each verdict. */
+/* Chips that count a figure's findings by verdict. */
 function chips(f, named) {
 	const all = counts(f.findings).map(([k, n]) => chip(k, n + (named ? " " + k : "")));
 	return html`<span class="chips">${all}</span>`;
 }
 
-/* The title of a figure, in short. */
+/* The short title of a figure: the part before the colon. */
 const topic = f => f.title.split(":")[0];
 
-/* A function that writes pictures of a figure, each time the next one, in rows as its blocks have them. */
+/* Returns a function that writes one block of pictures of a figure, and with each call the next. */
 function pictureRows(f) {
 	const files = [...figurePictures(f)];
 	const picture = p => html`
@@ -37,7 +37,7 @@ function figureBody(f) {
 				<figcaption>${b.caption}</figcaption>
 			</figure>`,
 		pictures: pictureRows(f),
-		// The figure that can be stopped stands above, and draws them.
+		// Traces are drawn by the figure that can be stopped, which is above.
 		trace: () => "",
 	};
 	return f.blocks.map((block, at) => {
@@ -46,7 +46,7 @@ function figureBody(f) {
 	});
 }
 
-/* Draws the plots of a figure into the places that its text has for them. */
+/* Draws the plots of a figure into their places between its texts. */
 function drawPlots(f) {
 	for (const el of $$("[data-plot]")) {
 		const { plot: p } = f.blocks[el.dataset.plot];
@@ -54,8 +54,8 @@ function drawPlots(f) {
 	}
 }
 
-/* Puts a figure into an element: with handles if an address is given and it can be drawn here, else the pictures and plots
-   that it shows first. A link leads to all of it. */
+/* Puts a figure into an element: with handles if there is a query and the page can draw it, else its first pictures and plots.
+   A link leads to the whole figure. */
 function figureInto(el, f, query, remember) {
 	const isSeen = b => b.pictures ?? b.plot;
 	const from = f.blocks.findIndex(isSeen);
@@ -112,7 +112,7 @@ function figureLinks(shown) {
 	return html`<nav class="list" aria-label="Figures">${links}</nav>`;
 }
 
-/* Keeps the address in step with the handles of a figure, while it is that figure's. */
+/* Keeps the address in step with the handles of a figure, as long as the address names this figure. */
 const rememberFigure = f => query => {
 	const [path] = location.hash.split("?");
 	const text = String(query);

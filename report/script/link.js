@@ -1,17 +1,17 @@
 /* Addresses: #view/part?left=…&right=…&mode=…&x=…&y=…&zoom=…&row=… */
 
-/* The view that is shown; addresses are not remembered while one is being restored. */
+/* The view that is shown. While it is being restored from an address, viewers do not change the address. */
 let view = "";
 let restoring = true;
 
-/* Goes to an address, also to the one that is there: a mesh of the reader's own may be shown instead. */
+/* Goes to an address. If it is the current one, shows it again, because the reader's own mesh may be shown in its place. */
 function go(hash) {
 	clearTimeout(timers.remember);
 	if (location.hash === "#" + hash) route();
 	else location.hash = hash;
 }
 
-/* A part of an address, as it is if it cannot be decoded. */
+/* Decodes a part of an address, or returns it unchanged if that fails. */
 function decoded(part) {
 	try {
 		return decodeURIComponent(part);
@@ -45,7 +45,7 @@ function fromRoute(query, v) {
 	return state;
 }
 
-/* Has the address name what a viewer shows. */
+/* Makes the address name what a viewer shows. */
 function keepAddress(v) {
 	const own = v === v1 ? "overview" : "scenes";
 	const { scene: s, pin } = v;
@@ -78,7 +78,7 @@ function route(e) {
 	clearTimeout(timers.remember);
 	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?");
 	const [asked, ...parts] = path.split("/").map(decoded);
-	// A short address for talks.
+	// #stop is a short address for talks.
 	if (asked === "stop") return location.replace(`#lectures/stop${query ? "?" + query : ""}`);
 	const isView = Object.hasOwn(VIEWS, asked) && FILLED[asked];
 	const name = isView ? asked : FILLED.overview ? "overview" : "lectures";
@@ -104,10 +104,11 @@ function route(e) {
 }
 
 addEventListener("hashchange", route);
-/* The viewer that is seen. */
+/* The viewer of the current view, if it has one. */
 const seenViewer = () => (view === "overview" ? v1 : view === "scenes" ? v2 : null);
 
-/* Shows all as wide as the window is now. The address has neither a mesh of the reader's own nor what still moves. */
+/* Draws everything for the window's new width. The address knows neither the reader's own mesh nor a view that still moves, so
+   these are not restored from it. */
 function resized() {
 	const v = seenViewer();
 	if (v?.hand.moves) return delay("resize", 120, resized);

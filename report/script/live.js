@@ -1,9 +1,9 @@
-/* Scenes that are drawn in the page, from wherever one looks: a second source of pictures. */
+/* Scenes that the page draws itself, from any direction: the second source of pictures beside the stored ones. */
 
-/* How a scene is looked at when nothing was moved. */
+/* The view of a scene before anything is moved. */
 const STILL = { azimuth: 0, elevation: 0, size: 1, light: null, exponent: 0, given: {} };
 
-/* True if a view is that of the stored pictures. */
+/* True if a view is the view of the stored pictures. */
 const isStill = view =>
 	!view.azimuth &&
 	!view.elevation &&
@@ -12,19 +12,19 @@ const isStill = view =>
 	!view.exponent &&
 	!Object.keys(view.given).length;
 
-/* True if the page has what the scene is made of, and can draw it. */
+/* True if the page has the scene's files, and can draw them. */
 const canTurn = s => CAN_DRAW && (!!s.own || !!$(`#live-${s.number}`));
 
-/* The name of a method with the parameters that were chosen. */
+/* The name of a method with its chosen parameters. */
 const variantOf = (m, given = {}) =>
 	[m, ...Object.entries(given).map(([k, v]) => `${k}=${v}`)].join(":");
 
-/* The drawings of a method that its time is taken from, and of those the first, which are slower. */
+/* How many of the latest drawings decide a method's time, and how many of the first do not count because they are slower. */
 const SAMPLES = 24;
 const WARM_UP = 2;
 
-/* Stands for a scene where `picture` and `errors` are asked for one: what it says of the scene is the scene's own, its
-   pictures and rows are of the view. */
+/* A scene that `picture` and `errors` accept in place of a stored one. It has the facts of the scene, but pictures and rows of the
+   current view. */
 class LiveScene {
 	static async make(s) {
 		const live = Object.assign(new LiveScene(), s, { scene: s, times: {} });
@@ -39,8 +39,9 @@ class LiveScene {
 		return live;
 	}
 
-	/* Looks from elsewhere. While something moves, pixels have one sample, and errors are from naive Phong, as the reference
-	   takes longer: in every third frame, unless `maps` are shown, since numbers need not change as fast as pictures. */
+	/* Changes the view. While something moves, a pixel has one sample, and errors are against naive Phong, because the reference is
+   slower. They are then computed only in every third frame, since numbers need not change as fast as pictures, unless `maps` are
+   shown. */
 	look(view, moves, maps) {
 		this.view = view;
 		this.moves = moves;
@@ -61,7 +62,7 @@ class LiveScene {
 		return variantOf(m, this.view.given[m]);
 	}
 
-	/* Draws by a method, and notes how that went. */
+	/* Draws by a method, and notes its time and its errors. */
 	draw(m) {
 		if (m !== "reference" && !this.list.includes(m)) throw Error(`${nameOf(m)} is not known here`);
 		const ms = this.time(m, this.studio.draw(m === "reference" ? m : this.variant(m)));
@@ -73,13 +74,13 @@ class LiveScene {
 		if (this.rows[m]) this.rows[m].ms = ms;
 	}
 
-	/* The picture by a method, drawn unless it has been. */
+	/* Returns the picture by a method, and draws it if need be. */
 	one(m) {
 		if (this.drawn[m]) return this.drawn[m];
 		const { studio, w, h } = this;
 		this.draw(m);
 		const bytes = studio.bytes(w, h);
-		// What is kept must not lie in the module's memory.
+		// A picture that is kept must not lie in the module's memory, which the next drawing overwrites.
 		const image = new ImageData(this.moves ? bytes : bytes.slice(), w, h);
 		const canvas = create("canvas");
 		[canvas.width, canvas.height] = [w, h];
@@ -87,9 +88,9 @@ class LiveScene {
 		return (this.drawn[m] = { canvas, px: image.data, errors: this.errors[m] });
 	}
 
-	/* The mean of the faster half of the latest drawings. */
+	/* Returns the mean time of the faster half of the latest drawings. */
 	time(m, ms) {
-		// Moving and at rest pixels have other samples.
+		// Pixels have fewer samples while something moves, so these times are kept apart.
 		const all = (this.times[`${this.variant(m)} ${this.exact}`] ??= []);
 		all.push(ms);
 		if (all.length > SAMPLES + WARM_UP) all.splice(WARM_UP, 1);
@@ -98,7 +99,7 @@ class LiveScene {
 		return half.length > 1 ? sum(half) / half.length : null;
 	}
 
-	/* The colours of errors, as of stored pictures. */
+	/* Draws the error map of a method, in the colours of the stored pictures' maps. */
 	map(m, top) {
 		if (!this.errors[m]) this.draw(m);
 		const [errors, colours] = [this.errors[m], heatTable(top)];
@@ -107,7 +108,7 @@ class LiveScene {
 	}
 }
 
-/* A mesh file of the reader's as a scene, with the material libraries that come with it. */
+/* Makes a scene of a mesh file of the reader, with the material libraries that come with it. */
 async function ownScene(list, s) {
 	const file = list.find(f => /\.(obj|stl|ply|off)$/i.test(f.name));
 	if (!file) throw Error(`${list[0].name}: expected a mesh file that ends in .obj, .stl, .ply or .off`);

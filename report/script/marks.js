@@ -1,6 +1,6 @@
 /* Each method's name, key, colour and mark. */
 
-/* Each family of methods has a hue and a shape, each member a filling; naive Phong is ink. */
+/* Each family of methods has a hue and a shape, and each member a filling. Naive Phong's family is drawn in ink. */
 const FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
 const SHAPES = $$("[id^=mark-]:not(#mark-diamond)").map(path => path.id.slice(5));
 
@@ -11,7 +11,7 @@ for (const m of METHODS) {
 	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
 	m.filling = members.indexOf(m) % 3;
 	m.head = members[0] === m;
-	// Over all scenes: the worst error, and the geometric mean of speeds.
+	// The worst error and the geometric mean of speeds, over all scenes.
 	const drawn = SCENES.filter(s => s.rows[m.name]);
 	const ratios = drawn.map(s => s.rows[m.name].ratio?.median).filter(Boolean);
 	m.scene = [...drawn].sort(by(s => -s.rows[m.name].max))[0];
@@ -20,7 +20,7 @@ for (const m of METHODS) {
 	m.speed = ratios.length && ratios.length === drawn.length ? mean(ratios) : null;
 }
 
-/* Keys 1 to 9: the first of each family, then the most exact others. */
+/* Keys 1 to 9 go to the first method of each family, then to the most exact others. */
 const order = m => IDS.indexOf(m.name);
 
 [...METHODS]
@@ -31,14 +31,14 @@ const order = m => IDS.indexOf(m.name);
 		m.key = String(i + 1);
 	});
 
-/* How a method is written, in words and by its key and colour. */
+/* A method's name, short name, colour and key. */
 const nameOf = m => M[m]?.label ?? m;
 const shortName = m => nameOf(m).replace(" Phong", "");
 const hue = m => M[m]?.hue ?? "var(--ink3)";
 
 const keyOf = m => (m === "reference" ? "0" : M[m].key);
 
-/* Methods that the answer names, the best of them, and those that charts emphasise. */
+/* The methods that the answer names, the best of these, and the methods that charts emphasise. */
 const NAMED = $$(".answer .m").map(a => a.dataset.m);
 const BEST = NAMED[0] ?? IDS[IDS.length - 1];
 const MARKED = new Set([BASE, BEST, ...NAMED]);

@@ -10,7 +10,7 @@ const ENTITIES = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "
 /* Text that is HTML or SVG already. */
 class Markup extends String {}
 
-/* Writes a value as markup. Nothing, and `false` of a condition, are left out. */
+/* Writes a value as markup. Null, undefined and `false` are left out. */
 function put(v) {
 	if (v instanceof Markup) return v;
 	if (Array.isArray(v)) return v.map(put).join("");
@@ -18,10 +18,10 @@ function put(v) {
 	return String(v).replace(/[&<>"']/g, c => ENTITIES[c]);
 }
 
-/* A text with a capital, as a sentence begins; names with capitals or signs stay. */
+/* Capitalises a text like a sentence. Names with capitals or signs stay unchanged. */
 const sentence = text => text.replace(/^[a-z](?![a-z]*-)/, letter => letter.toUpperCase());
 
-/* Drops line breaks with their indentation. One before a word, as an attribute, is a space. */
+/* Drops line breaks with their indentation. A line break before a word, for example an attribute, becomes a space. */
 const joinLines = text => text.replace(/\n\s*(\w?)/g, (_, letter) => letter && " " + letter);
 
 /* Tags a template of HTML or SVG: escapes values that are no markup, and joins lists. */
@@ -30,7 +30,7 @@ function html(texts, ...values) {
 	return new Markup(rest.reduce((all, text, i) => all + put(values[i]) + text, first));
 }
 
-/* Puts markup into an element, and gives the focus back to the control that had it. */
+/* Puts markup into an element, and returns the focus to the control that had it. */
 function fill(el, markup) {
 	const { key, handle } = el.contains(document.activeElement) ? document.activeElement.dataset : {};
 	el.innerHTML = markup;
@@ -59,7 +59,7 @@ function table(heads, rows, kind = "") {
 		</table>`;
 }
 
-/* A part that scrolls by itself, by keys too. */
+/* A part that scrolls separately from the page, also by keys. */
 const scrolling = (label, body) =>
 	html`<div class="scroll" tabindex="0" role="region" aria-label="${label}">${body}</div>`;
 
@@ -73,13 +73,13 @@ const bar = (value, percent, colour) =>
 
 const timers = {};
 
-/* Does something later, unless asked again before. */
+/* Does something after a while. A second call with this name before then replaces the first. */
 function delay(what, ms, action) {
 	clearTimeout(timers[what]);
 	timers[what] = setTimeout(action, ms);
 }
 
-/* Does something at the next frame of the screen; where none comes, as in a window that nobody sees, soon. */
+/* Does something at the next frame of the screen, or after 100 ms if none comes, as in a hidden window. */
 function atNextFrame(action) {
 	let isDone = false;
 	const once = () => {

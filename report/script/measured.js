@@ -1,6 +1,6 @@
-/* View: how measured. */
+/* View: how it was measured. */
 
-/* Quotes a word for a shell where need be. */
+/* Quotes a word for a shell if it needs quotes. */
 const quoted = w => (/^[\w\-./:=,+@%]+$/.test(w) ? w : `'${w.replace(/'/g, "'\\''")}'`);
 
 /* #measured */
@@ -41,7 +41,7 @@ function measured() {
 		.sort(by(v => v));
 	const typical = spreads[spreads.length >> 1] ?? 0;
 	$("#busy").hidden = typical < 0.1;
-	// A mesh alone is lit by the report, not by `compare`.
+	// The report adds lights to a bare mesh file, and `compare` does not, so no command is shown for it.
 	const again = [
 		command,
 		scene &&

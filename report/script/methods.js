@@ -12,7 +12,7 @@ const OPERATIONS = [
 	"reads of tables",
 ];
 
-/* How often operations are done, and which. */
+/* How often a method does operations, with a function that returns them. */
 const RATES = [
 	["pixel", o => o.walk.map((n, i) => n + o.shade[i])],
 	["span", o => o.span],
@@ -22,13 +22,13 @@ const RATES = [
 	["polygon", o => o.polygon],
 ];
 
-/* A bar of operations of each kind, as long as their share of `most`. */
+/* A bar of the operations of each kind. Its length is their share of `most`. */
 function stack(counts, most) {
 	const list = counts.map((n, i) => [n, OPERATIONS[i], Math.min(i, 5)]).filter(([n]) => n);
 	if (!list.length) return html`<div class="hint">none</div>`;
 	const width = Math.max(4, (sum(counts) / most) * 100);
 	const label = list.map(([n, what]) => `${n} ${what}`).join(", ");
-	// Divisions, roots and the like are few, and get room for their number.
+	// Divisions, roots and other costly operations are few, so they get extra room for their count.
 	const parts = list.map(([n, what, i]) => {
 		const number = (n / most > 0.05 || i > 2) && n;
 		const flex = `${n} 0 ${i > 2 ? 13 : 0}px`;
@@ -38,7 +38,7 @@ function stack(counts, most) {
 		<div class="stack" style="width:${width}%" role="img" aria-label="${label}">${parts}</div>`;
 }
 
-/* What there is to say of a method. */
+/* The card of a method. */
 function article(m, most) {
 	const { worst, scene: s } = m;
 	const corner = CORNERS.find(c => c.work === "frame" && !c.scalar);

@@ -1,4 +1,4 @@
-/* Numbers, and texts made of them. */
+/* Numbers, and their texts. */
 
 const TIMES = "\u2009×";
 const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
@@ -22,16 +22,16 @@ function num(v, digits = 3) {
 const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
 const csvCell = c => (/[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : (c ?? ""));
 
-/* Comma-separated values: a line an object, the names of its fields on top. */
+/* Comma-separated values: a line for each object, below a line with the names of their fields. */
 const csv = list =>
 	[Object.keys(list[0]), ...list.map(Object.values)]
 		.map(row => row.map(csvCell).join(",") + "\r\n")
 		.join("");
 
-/* The latest uses are last. */
+/* Values by key. The most recently used ones are last. */
 const memory = new Map();
 
-/* Keeps what `make` makes, and forgets what was not used for long. */
+/* Returns the value of a key, which `make` makes the first time. Forgets values that were not used for long. */
 function memo(key, make) {
 	const kept = memory.get(key) ?? make();
 	memory.delete(key);

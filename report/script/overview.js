@@ -1,6 +1,6 @@
 /* View: overview. */
 
-/* Speeds of a few methods in each scene, as a strip of marks. */
+/* Draws the speeds of a few methods in each scene as a strip of marks. */
 function strip() {
 	const el = $("#strip");
 	const W = widthOf(el);
@@ -74,11 +74,11 @@ function breakPair() {
 /* The viewer of this view. */
 let v1;
 
-/* Makes the viewer, and has the chart choose what it shows. */
+/* Makes the viewer, and lets the chart choose what it shows. */
 function startOverview() {
 	let hasTurned = false;
 	const change = (v, changed) => {
-		// Whoever turns a scene for the first time sees what it changes.
+		// When the reader turns a scene for the first time, the chart switches to this scene, so that its changes are seen.
 		if (changed.round && !hasTurned) {
 			hasTurned = true;
 			basis = "scene";
@@ -102,7 +102,7 @@ function startOverview() {
 			pareto(v1);
 		},
 	);
-	// Hovering shows a mark; choosing keeps it.
+	// Hovering over a mark shows its method for a moment, and choosing it keeps it.
 	const el = $("#pareto");
 	onChoose(el, (m, e) => {
 		if (!e.shiftKey) v1.kept = m;

@@ -1,6 +1,6 @@
 /* Starts the page. */
 
-/* Links of the answer, whose words Rust writes. */
+/* Colours the methods in the answer, whose words Rust writes. */
 $$(".answer .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
 
 $$("[data-scene]").forEach(a => {
@@ -13,7 +13,7 @@ $$("[data-if]").forEach(el => {
 });
 
 addEventListener("beforeprint", () => {
-	// Until the address is read again, it stays as it is.
+	// Drawing all views for print must not change the address.
 	restoring = true;
 	$$(".view").forEach(s => s.classList.toggle("on", !!FILLED[s.id]));
 	for (const name in VIEWS) if (FILLED[name]) VIEWS[name]([], new URLSearchParams());

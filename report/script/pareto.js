@@ -1,9 +1,9 @@
 /* The chart of the overview: error against time. */
 
-/* What the chart shows: all scenes, or that of the viewer. */
+/* Which scenes the chart covers: all, or only the viewer's. */
 let basis = MANY ? "all" : "scene";
 
-/* Error against time of every method, and the line of those that nothing beats. */
+/* Draws the error of every method against its time, and a line through the methods that no other beats in both. */
 function pareto(v) {
 	const el = $("#pareto");
 	const s = v.source;
@@ -12,7 +12,7 @@ function pareto(v) {
 	write({
 		"pareto-sub": all
 			? `Worst error in ${SCENES.length} scenes, mean time.`
-			: `${s.title}, ${s.w} × ${s.h}${isLive ? ", as it stands here: one thread of this browser" : ""}.`,
+			: `${s.title}, ${s.w} × ${s.h}${isLive ? ", as turned here, on one thread of this browser" : ""}.`,
 	});
 	const W = widthOf(el);
 	const H = Math.max(340, el.clientHeight / zoomOf());
@@ -74,7 +74,7 @@ function pareto(v) {
 		),
 	);
 	if (base && timed) shown.push(line(base.x, t, base.x, b, "dots"));
-	// The line goes down at each method that is more exact than all faster ones.
+	// The line steps down at each method that is more exact than all faster ones.
 	const steps = [];
 	if (timed)
 		for (const p of [...points].sort((p, q) => p.time - q.time || p.error - q.error)) {

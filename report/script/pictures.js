@@ -1,6 +1,6 @@
-/* Pictures: planes, deflated, of what each picture adds to the one most like it. */
+/* Pictures: each is stored as three deflated planes of its difference from the picture most like it. */
 
-/* Unpacks three planes. Each byte is stored as what it adds to the one before it, modulo 256. */
+/* Unpacks three planes. Each byte is stored as its difference from the previous byte, modulo 256. */
 async function unpack(text, { w, h }) {
 	const bytes = await inflate(text);
 	return [0, 1, 2].map(p => {
@@ -10,7 +10,7 @@ async function unpack(text, { w, h }) {
 	});
 }
 
-/* Adds the planes of a picture to others, modulo 256. */
+/* Adds the planes `base` to the planes `more`, modulo 256. */
 function add(more, base) {
 	more.forEach((plane, p) => {
 		const under = base[p];
@@ -19,10 +19,11 @@ function add(more, base) {
 	return more;
 }
 
-/* Green, red − green and blue − green of a method's picture. */
+/* The planes of a method's picture: green, red − green and blue − green. */
 const planes = (s, m) =>
 	memo(`planes ${s.id} ${m}`, async () => {
 		const data = memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
+		// The reference is stored whole, and every other picture as its difference from one that is nearer to it.
 		if (m === "reference") return unpack(data.reference, s);
 		const { on = "reference", add: more } = data.rows[m];
 		const base = await planes(s, on);
@@ -40,7 +41,7 @@ function canvasOf(s, word) {
 	return { canvas, px: image.data };
 }
 
-/* The picture in grey levels, linear or sRGB as the scene says: stored, or drawn here. */
+/* The picture in grey levels, linear or sRGB as the scene's encoding says. It is stored, or drawn in the page. */
 const picture = (s, m) =>
 	s.one?.(m) ??
 	memo(`picture ${s.id} ${m}`, async () => {
@@ -55,10 +56,10 @@ const picture = (s, m) =>
 		);
 	});
 
-/* What is still to be drawn. */
+/* A promise of everything that is still to be drawn. */
 let queue = Promise.resolve();
 
-/* Does something when all else is done. */
+/* Does something when everything before it is done. */
 const later = what => {
 	queue = queue
 		.then(() => new Promise(done => setTimeout(done, 8)))
@@ -93,7 +94,7 @@ const thumbs = root =>
 			);
 	});
 
-/* Draws a part of a picture around a pixel, its pixels as squares. */
+/* Draws the part of a picture around a pixel, enlarged without smoothing. */
 function crop(canvas, s, m, worst, w, h) {
 	[w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
 	const [cx, cy] = worst ?? [s.w / 2, s.h / 2];

@@ -1,8 +1,8 @@
-/* Plots of curves, as figures and the row of a picture have them. */
+/* Plots of curves, for figures and for the rows of a picture. */
 
 const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
 
-/* Curves over one another, on axes unless the chart is a small one. */
+/* Draws several curves in one chart, with axes unless the chart is small. */
 function plot(p, W, H) {
 	const small = H < 150;
 	const series = p.series.map((s, i) => ({
@@ -43,10 +43,10 @@ function plot(p, W, H) {
 	]);
 }
 
-/* A series with the colour and the dashes of its number, unless it has its own. */
+/* Gives a series the colour and the dashes of its index, unless it has its own. */
 const keyed = (s, i) => ({ colour: `var(${PLOT_HUES[i % 6]})`, kind: `dash${i % 6}`, ...s });
 
-/* A piece of each curve and its name. */
+/* The legend: a piece of each curve, and its name. */
 function legend(series) {
 	const piece = [
 		[0, 4],

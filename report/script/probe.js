@@ -1,9 +1,9 @@
-/* The pixel that is pointed at, by every method. */
+/* The probe: the pixel that the reader points at, by every method. */
 
-/* Counts the calls: of those that wait for pictures, the last one draws. */
+/* Counts the calls. If several wait for pictures, only the last one draws. */
 let probing = 0;
 
-/* Shows every method at the pixel pointed at, held, or worst. */
+/* Shows every method at one pixel: where the reader points, else the held one, else the worst one. */
 async function probe(v) {
 	const s = v.source;
 	const turn = ++probing;
@@ -54,7 +54,7 @@ async function probe(v) {
 		html`<li><button data-fold="methods">All ${list.length - 1} methods</button></li>`;
 	fill($("#probe-list"), html`${entries}${more}`);
 	if (!pixel) return;
-	// Seven by seven pixels around it, left and right, each ten times as large.
+	// Draws seven by seven pixels around it from the left and the right picture, ten times as large.
 	const pen = $("#probe canvas").getContext("2d");
 	const images = await Promise.all([picture(s, v.a), picture(s, v.b)]);
 	pen.imageSmoothingEnabled = false;

@@ -1,6 +1,6 @@
-/* Questions of the course: the reader answers, a measured value decides, and what was measured is unfolded. */
+/* Questions of the course: the reader answers, a measured value decides, and then the chapter's measurements are shown. */
 
-/* How near an answer is near, in parts of the slider. */
+/* Answers within this part of the slider's range count as close. */
 const CLOSE = 0.12;
 
 /* Reads a question: `FIGURE slider KEY LOW HIGH STEP UNIT`, or `FIGURE largest KEY KEY…`. */
@@ -30,7 +30,7 @@ function saysAnswer(given, { value, verdict }, { low, high, step, unit }) {
 		Measured: <b>${withUnit(value, unit)}</b>. ${verdict}`;
 }
 
-/* Says whether a choice is the right one. */
+/* Says if a choice is the right one. */
 const saysChoice = (i, best, all) => html`
 	${chip(...(i === best ? ["confirms", "Right"] : ["contradicts", "Not quite"]))}
 	Measured: <b>${withUnit(all[i].value, all[i].unit)}</b>${
@@ -50,13 +50,13 @@ function askControl(q, choices) {
 		</div>`;
 }
 
-/* Shows what was measured in a chapter, and fills it. */
+/* Shows a chapter's measurements, and fills their places. */
 function unfold(chapter) {
 	chapter.classList.remove("folded");
 	$$(".measured :is([data-figure], [data-cost])", chapter).forEach(el => fillPlace(el));
 }
 
-/* Lets the reader answer a question. The findings after it are folded until then, or until the reader wants to see them. */
+/* Lets the reader answer a question. The chapter's measurements stay folded until then, or until the reader asks to see them. */
 function askInto(el) {
 	const q = questionOf(el.dataset.question);
 	if (q.all.some(x => !x)) return;
@@ -84,7 +84,7 @@ function askInto(el) {
 			b.disabled = true;
 		}
 		said.innerHTML = text;
-		// What was pressed is gone: the focus stays in the question.
+		// The button that was pressed is gone, so the focus moves to the question.
 		said.focus({ preventScroll: true });
 	};
 	if (input)

@@ -15,7 +15,7 @@ function showRow(v, y) {
 	remember(v);
 }
 
-/* Intensity of a row by each method, and its slope below. */
+/* Draws the intensity of a row by each method, and its slope below. */
 async function rowPlot(v) {
 	const el = $("#rowplot-chart");
 	const s = v.source;
@@ -25,7 +25,7 @@ async function rowPlot(v) {
 	const pixels = await Promise.all(list.map(m => picture(s, m)));
 	const greys = pixels.map(({ px }) =>
 		Array.from({ length: s.w }, (_, x) =>
-			// The weights of ITU-R BT.709.
+			// Luminance, with the weights of ITU-R BT.709.
 			[0.2126, 0.7152, 0.0722].reduce(
 				(grey, k, c) => grey + k * px[4 * (row * s.w + x) + c],
 				0,

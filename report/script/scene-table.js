@@ -1,10 +1,10 @@
 /* The table of all methods on a scene. */
 
-/* How the table is sorted, and what else it shows. */
+/* How the table is sorted, and which optional parts it shows. */
 let sort = { key: TIMED ? "ratio" : "max", up: !TIMED };
 let options = { cols: false, bary: false };
 
-/* Columns of the table: key, head, a mark for those that are always shown. */
+/* The columns of the table: key, head, and a mark if the column is always shown. */
 const COLUMNS = [
 	["max", "max error", 1],
 	["rms", "RMS", 1],
@@ -21,10 +21,10 @@ const COLUMNS = [
 	["barycentric", "× barycentric"],
 ];
 
-/* Columns whose large numbers are the good ones. */
+/* Columns in which larger is better. */
 const DESCENDING = ["ratio", "barycentric", "psnr", "ssim"];
 
-/* A speed over naive Phong's: its interval on the scale `x`, and its median. */
+/* A speed as a multiple of naive Phong's: its interval on the scale `x`, and its median. */
 function speedBar(r, m, x, width) {
 	const ends = [r.low, r.high].map(v => line(x(v), 3, x(v), 15, "whisker"));
 	const verdict = r.tie ? "" : r.median > 1 ? "good" : "bad";

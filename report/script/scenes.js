@@ -1,9 +1,9 @@
-/* View: scenes. One at a time, with its pictures, pixels, rows and table. */
+/* View: scenes. Shows one scene at a time, with its pictures, pixels, rows and table. */
 
 /* The viewer of this view. */
 let v2;
 
-/* Opens a scene with what the viewer shows; `stepScene` one after or before it. */
+/* Opens a scene in the viewer's current state. `stepScene` opens the next or the previous one. */
 const openScene = s =>
 	go(`scenes/${s.id}?left=${v2.a}&right=${v2.b}${v2.mode === "slide" ? "" : `&mode=${v2.mode}`}`);
 
@@ -53,7 +53,7 @@ function startScenes(s) {
 	onChoose($("#table"), chooseInTable);
 }
 
-/* Says what the scene is. */
+/* Shows the title, the description and the facts of a scene. */
 function sceneHead(s) {
 	write({
 		"t-scenes": s.title,
@@ -84,7 +84,7 @@ function scenes([id], query) {
 	else if (v2.line != null && query.has("left")) showRow(v2, null);
 }
 
-/* What is known of a scene, in some words each. */
+/* The facts of a scene, in a few words each. */
 function sceneFacts(s) {
 	if (s.own) return ["drawn here", `${s.w} × ${s.h}`];
 	const cut = s.triangulation;
@@ -112,9 +112,9 @@ function sceneFacts(s) {
 		plural(s.lights, "light"),
 		`${((s.covered_pixels / s.w / s.h) * 100).toFixed(0)} % covered`,
 		clamped > 0.02 &&
-			`light over 1 in ${(clamped * 100).toFixed(0)} % of that: clamped, errors vanish there`,
+			`light is over 1 in ${(clamped * 100).toFixed(0)} % of that: it is clamped, which hides errors`,
 		others > 0.1 &&
-			`up to ${num(others)} % of that show another polygon than the reference: their depths are one but for rounding`,
+			`up to ${num(others)} % of that show a different polygon than the reference, because depths are equal up to rounding`,
 		`${s.w} × ${s.h}`,
 		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct",
 		`${levelName(s.renderer)} code, ${plural(s.renderer.threads, "thread")}`,

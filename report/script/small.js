@@ -1,13 +1,13 @@
-/* Charts of loops in integers, on processors without a floating-point unit. */
+/* Charts of the loops in integers, for processors without a floating-point unit. */
 
-/* The method of the table that has a loop, for its mark and colour: names of loops begin like it. */
+/* The method that a loop belongs to, for its mark and colour. The names of loops begin with their method's name. */
 function methodOfLoop(loop) {
 	const printed = loop.endsWith("-as-printed");
 	const method = `integer-${loop.split("-")[0]}${printed ? "-printed" : ""}`;
 	return M[method] ? method : null;
 }
 
-/* Parts of the names of loops, as readers know them. */
+/* What parts of the names of loops mean to a reader. */
 const PARTS = { 1: "+ Newton", nh: "N·H", dull: "no highlight" };
 
 const nameOfLoop = loop =>
@@ -16,7 +16,7 @@ const nameOfLoop = loop =>
 		.map(part => PARTS[part] ?? part)
 		.join(" ");
 
-/* Error at 15° against the cost of a pixel: number `column` of a loop's figures. */
+/* Draws error at 15° against the cost of a pixel, which is the figure at index `column` of a loop. */
 function costOfLoops(id, column, label) {
 	const el = $(id);
 	const W = widthOf(el);
@@ -40,7 +40,7 @@ function costOfLoops(id, column, label) {
 	for (const p of points) {
 		[p.x, p.y] = [x(p.cost), y(p.error)];
 		p.w = textWidth(p.name) + 6;
-		// The plain loops, by their whole name, are labelled first.
+		// Loops whose name is one word are the plain ones. They are labelled first.
 		p.priority = +!p.name.includes(" ");
 	}
 	place(points, [l + 2, t, r, b - 1], []);

@@ -1,15 +1,15 @@
-/* The first thing that is seen: two spheres of the same triangles under one sun, which the reader moves. */
+/* The first thing on the page: two spheres of equal triangles under one sun, which the reader moves. */
 
 const SPHERES = FIGURES.find(f => f.name === "spheres" && f.live);
 
-/* The circle on which the sun goes when it shines from the side, in parts of a picture's width. */
+/* The radius of the circle on which the sun is drawn when it shines from the side, as a part of a picture's width. */
 const SUN_ORBIT = 0.455;
-/* Milliseconds in which the sun goes around once by itself. */
+/* How many milliseconds the sun needs to go around once by itself. */
 const SUN_ROUND = 12000;
-/* How far a finger moves before it drags, in pixels. */
+/* How many pixels a finger moves before it drags. */
 const SUN_SLOP = 8;
 
-/* Where the sun stands, from the right against the clock. */
+/* Names of the sun's directions, counterclockwise from the right. */
 const SUN_SIDES = ["right", "upper right", "top", "upper left", "left", "lower left", "bottom", "lower right"];
 
 /* A verdict with its measured value in bold. */
@@ -18,18 +18,18 @@ function withValue(text) {
 	return value ? html`${before}<b>${value}</b>${after}` : text;
 }
 
-/* What was measured at the highlight, in two sentences. */
+/* The measurements at the highlight, in two sentences. */
 const saysHighlight = ([gouraud, fast]) =>
 	html`${withValue(gouraud.verdict)} Fast Phong is off by <b>${num(fast.value, 2)}</b>.`;
 
-/* A point, or the nearest one within the orbit. */
+/* Returns a point, or the nearest point within the orbit. */
 function inOrbit([x, y]) {
 	const far = Math.max(1, Math.hypot(x, y));
 	return [x / far, y / far];
 }
 
 class Spheres {
-	/* The sun moves by itself at first where no address places it, unless the reader wants rest. */
+	/* The sun first moves by itself, unless an address places it or the reader prefers reduced motion. */
 	constructor(el, query, remember, tell) {
 		Object.assign(this, { el, remember, tell });
 		this.values = valuesOf(SPHERES.live, query);
@@ -47,7 +47,7 @@ class Spheres {
 			this.isHeld = true;
 			this.go(!this.goes);
 		};
-		// Nothing moves where nobody looks, on another view or beyond the window.
+		// The sun stops when the spheres are out of sight, on another view or outside the window.
 		new IntersectionObserver(entries => {
 			if (!entries.at(-1).isIntersecting) this.go(false);
 		}).observe(el);
@@ -84,7 +84,7 @@ class Spheres {
 			</div>`;
 	}
 
-	/* Has the outline fit the still, and a pointer move the sun. */
+	/* Fits the outline to the still picture, and lets a pointer move the sun. */
 	prepare(ball) {
 		if (CAN_DRAW) this.listen(ball);
 		const still = $("img", ball);
@@ -94,7 +94,7 @@ class Spheres {
 		else still.onload = fit;
 	}
 
-	/* Makes the engine, and lets the sun go around once, unless the reader has it already, or wants rest. */
+	/* Makes the engine, and lets the sun go around once, unless the reader has moved it or prefers reduced motion. */
 	async start() {
 		try {
 			this.studio = await (figureStudio ??= Studio.make());
@@ -106,7 +106,7 @@ class Spheres {
 		}
 	}
 
-	/* Draws both spheres for the values. */
+	/* Draws both spheres for the current values. */
 	draw() {
 		const { content, pictures } = this.studio.figure(SPHERES.name, this.values);
 		this.balls.forEach((ball, i) => {
@@ -158,7 +158,7 @@ class Spheres {
 		});
 	}
 
-	/* Has the sun go around by itself, some times or until it is stopped. */
+	/* Lets the sun go around by itself, a few times or until it is stopped. */
 	go(goes, rounds = Infinity) {
 		if (goes === !!this.goes || (goes && !this.studio)) return;
 		this.button.textContent = goes ? "Stop" : "Move the sun";
@@ -189,7 +189,8 @@ class Spheres {
 		this.move([this.values[0] + dx * step, this.values[1] - dy * step]);
 	}
 
-	/* A mouse takes the sun anywhere. A finger takes it where it is, or moves it by a tap or sideways: else it scrolls. */
+	/* A mouse drags the sun from anywhere on the ball. A finger drags it from the sun itself or by moving sideways, and moves it by a tap.
+   Other movements of a finger scroll the page. */
 	listen(ball) {
 		let held = null;
 		const to = e => {
@@ -220,7 +221,7 @@ class Spheres {
 	}
 }
 
-/* Puts the spheres into an element, with the lecture's claim and all that is measured. */
+/* Puts the spheres into an element, with the lecture's claim and all findings. */
 function spheresWithVerdicts(el, query, remember) {
 	el.classList.add("live-figure");
 	el.innerHTML = html`
@@ -234,7 +235,7 @@ function spheresWithVerdicts(el, query, remember) {
 	return true;
 }
 
-/* Fills the places of a view that are for the spheres. */
+/* Fills the places of a view that are meant for the spheres. */
 function placeSpheres(view) {
 	for (const el of SPHERES ? $$("[data-spheres]:empty", view) : []) new Spheres(el);
 }

@@ -1,10 +1,10 @@
-/* Steps of a trace: the one document of a picture becomes the list of what happened, one thing after the other. No number is
-   computed here; a step only says where in the trace it stands. */
+/* Steps of a trace: turns the trace of a picture into the list of everything that happened, in order. Nothing is computed here: a
+   step only says where its values are in the trace. */
 
-/* What a step knows when nothing has begun. */
+/* The state before anything has begun. */
 const NOTHING = { active: [], spans: [], depth: [], runs: [] };
 
-/* Lists the steps of a picture: edges into buckets, then line by line, and three questions on the way. */
+/* Lists the steps of a picture: first edges go into buckets, then lines follow one by one, with three questions on the way. */
 function stepsOf(trace) {
 	const edges = edgesOf(trace);
 	const events = edges.map(edge => ({ ...NOTHING, k: "bucket", row: -1, edge }));
@@ -22,7 +22,7 @@ function stepsOf(trace) {
 	return events;
 }
 
-/* Lists the steps of a line. `before` are the active edges of the line above, `after` those of this line. */
+/* Lists the steps of a line. `before` holds the active edges of the line above, `after` the active edges of this line. */
 function stepsOfLine(line, edges, before, after, width) {
 	const events = [];
 	const now = { ...NOTHING, row: line.y };
@@ -54,7 +54,7 @@ function stepsOfLine(line, edges, before, after, width) {
 	return events;
 }
 
-/* Two neighbours of a polygon are the ends of a span: it is found, and then its depth is tested. */
+/* Lists the steps of the spans of a line. Two neighbouring edges of a polygon bound a span: one step finds it, the next tests its depth. */
 function spanSteps(line, now, say) {
 	const spans = line.spans.map((s, number) => ({
 		...s,
@@ -94,7 +94,7 @@ function pairsOf(active) {
 	return pairs;
 }
 
-/* What is seen of a span is shaded, run by run and pixel by pixel. */
+/* Lists the steps that shade the visible parts of spans, run by run and pixel by pixel. */
 function runSteps(line, now, say) {
 	for (const r of line.runs) {
 		const span = now.all[r.span];
@@ -105,7 +105,7 @@ function runSteps(line, now, say) {
 	}
 }
 
-/* Puts the questions where there is something to predict. */
+/* Inserts the questions where there is something to predict. */
 function askOf(events, trace) {
 	const places = [askEdges(events), askShared(events, trace), askNext(events)];
 	const found = places.filter(Boolean).sort(by(q => -q.before));
@@ -117,7 +117,7 @@ function askOf(events, trace) {
 	}
 }
 
-/* Which edges are active? On the line where most edges change. */
+/* Finds a place for *Which edges are active?*: the line where most edges change. */
 function askEdges(events) {
 	const change = new Map();
 	const add = (e, n) => {
@@ -131,7 +131,7 @@ function askEdges(events) {
 	return best && { ask: "edges", before: events.findIndex(e => e.row === best.row) };
 }
 
-/* The polygons that the pixels around a crossing belong to: two at its left, two at its right; none where spans overlap or end. */
+/* The polygons that own the two pixels at the left of a crossing and the two at its right. A pixel has none where spans overlap or end. */
 function ownersAt({ pixel }, { spans }) {
 	return [-2, -1, 0, 1].map(by => {
 		const own = spans.filter(s => pixel + by >= s.start && pixel + by < s.end);
@@ -139,7 +139,7 @@ function ownersAt({ pixel }, { spans }) {
 	});
 }
 
-/* Whose pixels? On a line where two polygons meet in an edge, and a centre lies on it if possible. */
+/* Finds a place for *Whose pixels are these?*: a line where two polygons share an edge, if possible with a pixel's centre on it. */
 function askShared(events, trace) {
 	const ends = ({ edge }) => `${edge.top} ${edge.bottom}`;
 	const meet = [];
@@ -158,7 +158,7 @@ function askShared(events, trace) {
 	return best && { ask: "shared", before: best.i + 1, meet: best };
 }
 
-/* What comes next? In the middle of a long run. */
+/* Finds a place for *What comes next?*: the middle of a long run. */
 function askNext(events) {
 	const i = events.findIndex(e => e.k === "run" && e.row >= 7 && e.run.pixels >= 6);
 	return i >= 0 && events[i].run.list[0].values.length > 0 && { ask: "next", before: i + 5 };

@@ -1,4 +1,4 @@
-/* The questions of the figure: predict, then look. The answers are read from the trace. */
+/* The questions of the figure: the reader predicts, then looks. The answers come from the trace. */
 
 const verdictOf = ({ ok, shown }, why) => html`
 	<div class="s-verdict">
@@ -46,7 +46,7 @@ const EDGES_QUESTION = {
 				? `An edge is active while the centre of the line, ${row}.5, is between its ends: ${listed(names)}.`
 				: html`<ul>${mine.bad.map(d => html`<li>${d.name} ${isOne(d)}.</li>`)}</ul>`;
 		return html`
-			<p>The edges of line ${e.row} are chosen already. Take out those that end, and add those that begin: the edge table shows where.</p>
+			<p>The edges of line ${e.row} are chosen already. Remove those that end, and add those that begin: the edge table shows where.</p>
 			<p>${choices}</p>
 			${mine.done ? verdictOf(mine, why) : askButtons()}`;
 	},
@@ -80,7 +80,7 @@ const SHARED_QUESTION = {
 			a.rest[0] === 0
 				? `The centre of pixel ${a.pixel} lies exactly on the edge. A centre on an edge belongs to the polygon at its right: one owner, no gap, no pixel drawn twice.`
 				: `What counts is the centre: from pixel ${a.pixel} on, centres lie right of the crossing.`;
-		const given = !mine.ok && !mine.shown && `They go to ${mine.right.map(letterOf).join(" ")}. `;
+		const given = !mine.ok && !mine.shown && `They belong to ${mine.right.map(letterOf).join(" ")}. `;
 		return html`
 			<p>${first} and ${second} share the edge that crosses line ${e.row} at x = ${fixed(a.x, 2)}. Tap each pixel until it shows its owner.</p>
 			<p>${choices}</p>
@@ -104,7 +104,7 @@ const NEXT_QUESTION = {
 		const isStepped = growth != null && !run.is_ends;
 		const why = html`
 			It is <b>${fixed(p.values[0], 4)}</b>${!mine.shown && `, you said ${fixed(mine.value)}`}.
-			${isStepped ? ` Each step is the same: ${plus(growth, 4)}. Add it to the last one, and there you are.` : " On a circle the steps are not all alike, but nearly so."}`;
+			${isStepped ? ` All steps are equal: ${plus(growth, 4)}. Add it to the last value, and there you are.` : " On a circle the steps are nearly equal, but not quite."}`;
 		return html`
 			<p>The last pixels of this run had ${formulaOf(name)} = ${before.join(", ")}. What does pixel ${p.x} have?</p>
 			<p class="s-slide">
@@ -118,7 +118,7 @@ const NEXT_QUESTION = {
 
 const QUESTIONS = { edges: EDGES_QUESTION, shared: SHARED_QUESTION, next: NEXT_QUESTION };
 
-/* Has the buttons of a question do what they say. */
+/* Makes the buttons of a question work. */
 function wireAsk(box, figure) {
 	const redraw = () => figure.draw();
 	box.onclick = ({ target }) => {

@@ -1,6 +1,6 @@
 /* The panel beside the stage: what happens now, the active edges, the pixel by each method, and the program. */
 
-/* The page of the figure, empty. Icons are drawn, as not every machine has their letters. */
+/* The empty page of the figure. Icons are drawn, because not every machine has a font with them. */
 const ICON = {
 	"line-back": "M2 3h2v10H2zM14 3v10L8.7 8zM9 3v10L3.7 8z",
 	back: "M11.5 3v10L4.5 8z",
@@ -21,7 +21,7 @@ const TRIES = [
 	[
 		"newton",
 		"Watch Newton run after the root",
-		"The normals of D nearly oppose each other: d falls fast, and one step is late.",
+		"The normals of D are nearly opposite: d falls fast, and one step lags behind.",
 	],
 	["edge", "A centre exactly on an edge", "B and C both touch it. Who may draw the pixel?"],
 	["depth", "D pierces A", "Half of it is in front. Each pixel decides for itself."],
@@ -38,7 +38,7 @@ const STOP_PAGE = html`
 			<div class="seg s-methods" role="group" aria-label="Method"></div>
 			<div class="s-variants"><span></span><div class="seg" role="group" aria-label="Newton’s steps a pixel"></div></div>
 			<span class="s-gap"></span>
-			<button data-do="bare" title="The figure alone, with larger type (T)" aria-pressed="false">Talk</button>
+			<button data-do="bare" title="Only the figure, with larger type (T)" aria-pressed="false">Talk</button>
 			<button data-do="full">Full screen</button>
 		</div>
 		<div class="s-body">
@@ -78,7 +78,7 @@ const STOP_PAGE = html`
 	<div class="s-tries">${TRIES.map(([key, title, text]) => html`<button data-try="${key}"><b>${title}</b> ${text}</button>`)}</div>
 	<p class="s-say" aria-live="polite"></p>`;
 
-/* Puts markup into an element if it is not there already: what stays the same costs nothing. */
+/* Puts markup into an element if it is not there already, so that unchanged parts cost nothing. */
 function renew(el, markup) {
 	const text = String(markup ?? "");
 	if (el.written === text) return;
@@ -121,7 +121,7 @@ class Panel {
 		wireAsk(this.ask, figure);
 	}
 
-	/* Lays out what belongs to a trace: its methods, its time line. */
+	/* Lays out the parts that depend on the trace: its methods and its time line. */
 	lay() {
 		const { figure } = this;
 		const { events, method, variant } = figure;
@@ -170,8 +170,8 @@ class Panel {
 		const { figure } = this;
 		const keys = list => [...list].map(k => html`<kbd>${k}</kbd> `);
 		const move = figure.canMove
-			? figure.problem || "Drag any corner: its value goes with it."
-			: "Corners cannot be dragged here without WebAssembly; the numbers are stored ones.";
+			? figure.problem || "Drag any corner: its intensity stays."
+			: "Corners cannot be dragged here without WebAssembly, so the numbers are the stored ones.";
 		const asks = figure.events.filter(e => e.ask).length;
 		const last = String(Math.min(9, figure.methods.length));
 		return html`
@@ -216,7 +216,7 @@ class Panel {
 		renew(this.legend, html`${legend.map(entry)}`);
 	}
 
-	/* One sentence for those who listen; what was said already is not said again. */
+	/* Announces the step to screen readers in one sentence, and does not repeat a sentence. */
 	announce({ p, ask }, { kicker, head }) {
 		const isDone = this.figure.answers[ask]?.done;
 		const text = isDone
@@ -234,7 +234,7 @@ class Panel {
 		renew(this.ask, question.markup(e, mine, figure));
 	}
 
-	/* The active edges, as the trace has them. */
+	/* The table of the active edges. */
 	activeTable(e) {
 		const { figure } = this;
 		const rows = e.k === "retire" ? e.before : e.active;
@@ -271,7 +271,7 @@ class Panel {
 			const look = colour ? `background:${screenColour(colour)}` : "visibility:hidden";
 			this.swatches[i].firstElementChild.style = look;
 			const off = colour && truth ? levels(colour[0], truth.colour[0]) : null;
-			// Where normals are far apart, the circle is another path: that is no error.
+			// Where normals are far apart, the great circle is a different path, so the difference is not an error.
 			const isFar = Math.abs(off) > 0.5;
 			const isOther = isFar && m === "slerp-phong";
 			const text =
@@ -302,7 +302,7 @@ class Panel {
 		);
 		this.where.textContent = `step ${e.i + 1} of ${last + 1}`;
 		renew(drives.play, figure.timer ? "❚❚ Stop" : "▶ Play");
-		// Not `disabled`, which would take the focus away from who is there.
+		// Not `disabled`, because a disabled button would lose the focus.
 		drives.back.ariaDisabled = drives["line-back"].ariaDisabled = e.i === 0;
 		drives.forth.ariaDisabled = drives["line-forth"].ariaDisabled = e.i === last;
 		this.segments.forEach(({ end }, i) => this.parts[i].classList.toggle("s-done", end <= e.i));
@@ -310,7 +310,7 @@ class Panel {
 		for (const b of this.speeds) b.ariaPressed = +b.dataset.speed === figure.speed;
 	}
 
-	/* A question on the time line, and how it was answered. */
+	/* Shows on the time line how a question was answered. */
 	drawMark(button) {
 		const { ask } = button.dataset;
 		const { done, shown, ok } = this.figure.answers[ask] ?? {};

@@ -1,4 +1,4 @@
-/* The stage of the figure: buckets at the left, pixels, polygons, active edges, the scan line and what is on it. */
+/* The stage of the figure: the edge table at the left, then pixels, polygons, active edges, and the scan line with its crossings. */
 
 function svgNode(tag, attributes = {}, parent) {
 	const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -7,7 +7,7 @@ function svgNode(tag, attributes = {}, parent) {
 	return node;
 }
 
-/* A group whose shapes stay from step to step: each is only changed where it differs, which is what makes a step quick. */
+/* A group whose shapes are kept from step to step. Only attributes that differ are changed, which makes a step fast. */
 class Layer {
 	constructor(parent) {
 		this.group = svgNode("g", { "aria-hidden": true }, parent);
@@ -33,7 +33,7 @@ class Layer {
 		Object.assign(shape, { attributes, text });
 	}
 
-	/* Hides what was not drawn since the last time. */
+	/* Ends a drawing: hides shapes of the previous one that were not drawn again. */
 	end() {
 		this.shapes.slice(this.used).forEach(({ node, attributes }) => {
 			if (attributes.display !== "none") node.setAttribute("display", "none");
@@ -43,7 +43,7 @@ class Layer {
 	}
 }
 
-/* A colour of the trace as the screen has it. */
+/* Turns a colour of the trace into a colour of the screen. */
 const screenColour = colour => `rgb(${colour.map(c => Math.round(255 * clamp(c, 0, 1))).join()})`;
 
 const GROUPS = ["gutter", "polygons", "edges", "corners", "line", "marks"];
@@ -53,7 +53,7 @@ class Stage {
 		Object.assign(this, { figure, svg });
 	}
 
-	/* Lays the stage out for its width, and draws what does not change from step to step. */
+	/* Lays the stage out for its width, and draws the parts that no step changes. */
 	lay(width, height) {
 		const { svg, figure } = this;
 		const [columns, rows] = figure.trace.size;
@@ -107,7 +107,7 @@ class Stage {
 		this.figure.hands.draw();
 	}
 
-	/* The pixels that are drawn so far. */
+	/* Paints the pixels that are drawn so far. */
 	drawPixels(e) {
 		this.cells.forEach((cell, i) => {
 			const paint = this.figure.painted[i];
@@ -117,7 +117,7 @@ class Stage {
 		});
 	}
 
-	/* The edge table: an outline waits, a filled one is active, a faded one is over. */
+	/* Draws the edge table. An edge that waits is an outline, an active one is filled, and one that has ended is faded. */
 	drawGutter(e) {
 		const { figure, gutter, isSmall, left } = this;
 		const { trace } = figure;
@@ -184,7 +184,7 @@ class Stage {
 			const style = `--c:${polygonHue(i)}`;
 			polygons.put("polygon", { points: points.join(" "), class: "s-polygon", style });
 			let [x, y] = [0, 1].map(axis => sum(points.map(p => p[axis])) / points.length);
-			// The first polygon's letter keeps away from the highlight.
+			// The first polygon's letter would cover the highlight in the middle.
 			if (i === 0) [x, y] = [x + 3.4 * unit, y - 0.9 * unit];
 			const isInTheWay = e.row >= 0 && Math.abs(y - this.y(e.row + 0.5)) < 1.1 * unit;
 			const visibility = isInTheWay ? "hidden" : "visible";
@@ -196,7 +196,7 @@ class Stage {
 		});
 	}
 
-	/* What the corners carry: I by Gouraud, else a normal. */
+	/* Draws what the corners carry: I by Gouraud, else a normal. */
 	drawCorners() {
 		const { corners, unit, figure } = this;
 		const { vertices, polygons, names, size } = figure.trace;
@@ -210,7 +210,7 @@ class Stage {
 			const others = polygons
 				.filter(p => p.corners.includes(i))
 				.flatMap(p => p.corners.map(c => this.point(c)));
-			// Away from the middle of its polygons, and not below the last line.
+			// The value is placed away from the middle of its polygons, and not below the last line.
 			const out = [x, y].map((v, axis) => v - sum(others.map(p => p[axis])) / others.length);
 			const [right, down] = out.map(v => v / (Math.hypot(...out) || 1));
 			const at = {
@@ -241,7 +241,7 @@ class Stage {
 		for (const edge of e.gone ?? []) draw(edge, 3, true);
 	}
 
-	/* The scan line, with a point at each centre, and crossings on it. */
+	/* Draws the scan line, with a point at each pixel's centre, and the crossings on it. */
 	drawLine(e) {
 		const { line } = this;
 		const [columns, rows] = this.figure.trace.size;
@@ -266,7 +266,7 @@ class Stage {
 		}
 	}
 
-	/* A box on the scan line. */
+	/* Draws a box on the scan line. */
 	box(e, from, end, more) {
 		this.marks.put("rect", {
 			x: this.x(from),
@@ -277,7 +277,7 @@ class Stage {
 		});
 	}
 
-	/* The span, run and pixel of the step, with the crossings at its ends. */
+	/* Marks the span, run and pixel of the step, and the crossings at its ends. */
 	drawMarks(e) {
 		const { marks, unit } = this;
 		const { span, run, p } = e;
@@ -310,7 +310,7 @@ class Stage {
 		if (e.ask === "shared") this.drawOwners(e);
 	}
 
-	/* The pixels of the question whose they are. */
+	/* Marks the pixels of the question *Whose pixels are these?* */
 	drawOwners(e) {
 		const { own, right, done } = this.figure.answers.shared ?? {};
 		e.meet.owners.forEach(({ x }, i) => {
@@ -323,7 +323,7 @@ class Stage {
 	}
 }
 
-/* The corners as handles: dragged, or moved by arrow keys. They stay from step to step, so that they keep the focus. */
+/* The corners as handles, which the reader drags or moves by arrow keys. They are kept from step to step, so that they keep the focus. */
 class CornerHands {
 	constructor(figure) {
 		this.figure = figure;
@@ -344,7 +344,7 @@ class CornerHands {
 		const { figure } = this;
 		node.setAttribute("tabindex", 0);
 		node.setAttribute("role", "button");
-		// A finger on a corner drags it: the page does not scroll.
+		// A finger on a corner drags the corner and must not scroll the page.
 		node.addEventListener("touchstart", e => e.preventDefault(), { passive: false });
 		node.onpointerdown = e => {
 			figure.halt();

@@ -1,8 +1,9 @@
-/* The strip below the stage: what is stepped along the line, pixel below pixel; and the normals of a run in their plane. */
+/* The strip below the stage, which shows the values that are stepped along the line, below their pixels; and the normals of a run in
+   their plane. */
 
 const STRIP_HEIGHT = 132;
 
-/* What the strip draws of each method, with its terms. */
+/* What the strip draws for each method: pairs of a term and its legend. */
 const STRIP_TERMS = {
 	__proto__: null,
 	depth: [
@@ -33,7 +34,7 @@ const STRIP_TERMS = {
 
 const showsDepth = ({ k }) => k === "span" || k === "depth";
 
-/* A dot or line of the strip has the colour of its term, unless a style gives another. */
+/* The style that gives a dot or line a polygon's colour in place of its term's. */
 const hueStyle = polygon => `--t:${polygonHue(polygon)}`;
 
 class Strip {
@@ -98,7 +99,7 @@ class Strip {
 		});
 	}
 
-	/* How near each span of the line is, and which is seen. */
+	/* Draws how near each span of the line is, and which one is visible. */
 	drawDepth(e) {
 		const depths = this.figure.trace.vertices.map(v => v.depth);
 		const [near, far] = [Math.min(...depths), Math.max(...depths)];
@@ -113,7 +114,7 @@ class Strip {
 		}
 	}
 
-	/* The pixels of a run that are drawn so far. */
+	/* Returns the pixels of a run that are drawn so far. */
 	seen(e, run) {
 		if (e.target?.run === run) return run.list.slice(0, e.target.p.i);
 		if (run !== e.run) return run.list;
@@ -157,7 +158,7 @@ class Strip {
 		(draw[method] ?? this.other).call(this, e, run, seen);
 	}
 
-	/* A value over the whole run, as a curve. */
+	/* Draws a value over the whole run as a curve. */
 	curve(run, name, value) {
 		const points = run.list.map(p => [p.x + 0.5, value(p)]);
 		this.line(
@@ -228,7 +229,7 @@ class Strip {
 		}
 	}
 
-	/* The first values of any other method, where they are on the strip. */
+	/* Draws the first values of any other method, as far as they fit on the strip. */
 	other(e, run, seen) {
 		const isOnStrip = v => v >= 0 && v <= 1.05;
 		this.figure.names.pixel.slice(0, 3).forEach((name, i) => {
@@ -238,7 +239,7 @@ class Strip {
 		});
 	}
 
-	/* What the reader says comes next, and what does. */
+	/* Draws the reader's prediction, and the true value once the reader has answered. */
 	drawGuess({ target: { p, run } }) {
 		const { value = run.list[p.i - 1].values[0], done } = this.figure.answers.next ?? {};
 		this.bar(p.x, 0, value, { class: "s-guess" });
@@ -273,12 +274,12 @@ class Fan {
 		layer.end();
 	}
 
-	/* Where a vector of the plane is drawn: [to the right, upward]. */
+	/* Returns where a vector of the plane, [to the right, upward], is drawn. */
 	place([right, up], length = 1) {
 		return [round(FAN.x + FAN.radius * right * length), round(FAN.y - FAN.radius * up * length)];
 	}
 
-	/* By slerp: angles of the trace, all of length 1. */
+	/* Returns slerp's normals by their angles in the trace. All have length 1. */
 	turned(run) {
 		const phi = phiOf(run.list[0]);
 		const at = degrees => [Math.sin, Math.cos].map(f => f(((degrees - phi / 2) * Math.PI) / 180));
@@ -286,7 +287,7 @@ class Fan {
 		return { ends: [at(0), at(phi)], pixels, note: `${fixed(phi, 0)}° apart; all of length 1` };
 	}
 
-	/* Between straight ends: normals of the trace, seen in the plane of both ends. */
+	/* Returns linearly interpolated normals of the trace, projected into the plane of both ends. */
 	between(e, run) {
 		const { figure } = this;
 		const ends = [run.span.left, run.span.right].map(end => normalAt(figure, end.at));

@@ -1,15 +1,15 @@
-/* What a step of the figure says: a heading, a sentence, and equations with their numbers, which are the trace's. */
+/* What each step of the figure says: a heading, a sentence, and equations with the values of the trace. */
 
-/* A number with fixed digits and a proper minus. */
+/* Writes a value with fixed digits and a proper minus sign. */
 const fixed = (v, digits = 3) => {
 	const text = v.toFixed(digits);
 	return (+text === 0 ? text.replace("-", "") : text).replace("-", "−");
 };
-/* A number that is added to another. */
+/* Writes a value as a summand, with its sign. */
 const plus = (v, digits = 3) => (v < 0 ? "− " : "+ ") + fixed(Math.abs(v), digits);
 const vector = (v, digits = 2) => `(${v.map(c => fixed(c, digits)).join(", ")})`;
 
-/* A share in per cent, as a power of ten where it needs to be one. */
+/* Writes a share in per cent, and as a power of ten if it is small. */
 function percent(share) {
 	const v = 100 * share;
 	if (v === 0 || v >= 0.01) return `${fixed(v, v < 0.1 ? 2 : 1)} %`;
@@ -19,7 +19,7 @@ function percent(share) {
 
 /* The angle of a sine and a cosine, in degrees. */
 const degreesOf = ([sin, cos]) => (Math.atan2(sin, cos) * 180) / Math.PI;
-/* The angle φ of a great circle: what is behind and what is ahead. */
+/* The angle φ of a great circle: the sum of the angle behind and the angle ahead. */
 const phiOf = ({ t, rest }) => degreesOf(t) + degreesOf(rest);
 
 const listed = items =>
@@ -28,7 +28,7 @@ const listed = items =>
 /* Each polygon's colour. */
 const polygonHue = p => `var(--h${[2, 3, 4, 1, 5, 6, 8, 9][p % 8]})`;
 
-/* An equation: the formula, its number in the lecture, and the same line in numbers. */
+/* An equation: the formula, its number in the lecture, and its values. */
 const equation = (formula, number, values, polygon) => html`
 	<div class="s-eq" style="--c:${polygonHue(polygon)}">
 		<span class="s-f">${formulaOf(formula)}</span>
@@ -43,7 +43,7 @@ const PROGRAM = [
 	["for each line:", ""],
 	["  drop edges that end", ""],
 	["  x += Δx, values += Δ", "3.3, 3.6"],
-	["  take in the bucket", ""],
+	["  add the line’s bucket", ""],
 	["  sort by crossing", ""],
 	["  for each pair: a span", "Δx = 1"],
 	["    nearer than the line?", "depth"],
@@ -55,7 +55,7 @@ const PROGRAM = [
 const levels = (a, b) => 255 * (a - b);
 const isLate = (d, root) => Math.abs(d / root - 1) > 2e-3;
 
-/* -- methods: how each one's values are named, and what its equations are: [formula, number, numbers] */
+/* -- methods: the names of each one's values, and its equations: [formula, number in the lecture, values] */
 
 const normalAt = (s, at) => at.slice(s.names.varyings.indexOf("Nx"));
 const spaced = (values, digits = 2) => values.map(v => fixed(v, digits)).join(" ");
@@ -66,7 +66,7 @@ const shortly = values => spaced(values).replace(/\b0\./g, ".");
 /* current + Δ = next, of the term that is named. */
 const added = (name, current, growth, next, digits = 3) =>
 	html`${fixed(current, digits)} ${plus(growth, digits)} = ${bold(name, fixed(next, digits))}`;
-/* from + t₀ · (to − from) = the value at the first centre. */
+/* from + t₀ · (to − from) = value at the first centre. */
 const begun = (name, from, to, t0, value, digits = 3) =>
 	html`${fixed(from)} + ${fixed(t0, digits)} · ${fixed(to - from)} = ${bold(name, fixed(value, digits))}`;
 
@@ -88,7 +88,7 @@ const ofGouraud = {
 		["I = I₁ + t₀ (I₂ − I₁)", "first centre", bold("I", fixed(run.at[0], 4))],
 	],
 	head: "One addition",
-	text: "Nothing else is computed at a pixel. No light, no vector, no power: that was done at the corners.",
+	text: "At the pixel there is only this addition. The corners were lit before.",
 	pixel: (s, { p, last, run }) => [
 		last
 			? ["I_next = I_current + ΔI", "(3.6)", added("I", last.values[0], run.by[0], p.values[0], 4)]
@@ -100,7 +100,7 @@ const ofGouraud = {
 		[
 			"ΔI = (I₂ − I₁) / (x₂ − x₁)",
 			"(3.5)",
-			html`${ofGouraud.growth(run)}, <br>the same for the whole run`,
+			html`${ofGouraud.growth(run)}, <br>constant along the whole run`,
 		],
 	],
 };
@@ -121,7 +121,7 @@ const ofNaive = {
 		["N", "first centre", html`${bold("N", vector(run.at, 3))}, shorter than 1`],
 	],
 	head: "Three additions and a root",
-	text: "What lies between two unit vectors is shorter than 1. So each pixel pays for a root and a division, and then lights itself.",
+	text: "A blend of two unit vectors is shorter than 1. So each pixel needs a root and a division before it is lit.",
 	pixel: (s, { p, last, run }) => [
 		[
 			"N_next = N_current + ΔN",
@@ -137,11 +137,11 @@ const ofNaive = {
 	],
 };
 
-/* What Newton made of its guess, or that it was a true root. */
+/* Says how Newton's steps improved the guess, or that the pixel took a true root. */
 function newtonOf(s, { p, row: y }) {
 	const d = s.value(p, "d");
 	const root = s.truth(y, p.x)?.d;
-	const why = !p.i && s.usesNewton && ": somebody must begin";
+	const why = !p.i && s.usesNewton && ": the first pixel has no guess";
 	if (p.guess.length < 2)
 		return ["d = √D", "(4.4)", html`${bold("d", fixed(d, 5))}, a true root${why}`];
 	const guesses = p.guess.slice(0, -1).map(g => `${fixed(g, 5)} → `);
@@ -160,7 +160,7 @@ function newtonOf(s, { p, row: y }) {
 function offText(s, { p, row: y }) {
 	const truth = s.truth(y, p.x);
 	const off = truth && Math.abs(levels(p.colour[0], truth.colour[0]));
-	if (!truth || off < 0.05) return truth && ": naive Phong’s to 0.05 grey levels";
+	if (!truth || off < 0.05) return truth && ": naive Phong’s within 0.05 levels";
 	return html` · <span class="${off > 0.5 && "bad"}">${fixed(off, 1)} grey levels off</span>`;
 }
 
@@ -200,7 +200,7 @@ const ofFast = {
 	head: "Additions, and a true root",
 	newton:
 		"The d of the pixel at the left is the guess. Newton’s step improves it: an error e becomes about e²/2.",
-	text: "On this run the rule of the program takes true roots.",
+	text: "On this run the program’s rule takes true roots.",
 	pixel(s, e) {
 		const { p, last, run } = e;
 		const j = last
@@ -208,7 +208,7 @@ const ofFast = {
 			: html`J = ${bold("J", fixed(p.values[0]))}`;
 		return [
 			[
-				"J_next = J_current + ΔJ, K likewise",
+				"J_next = J_current + ΔJ, and so for K",
 				"(4.3)",
 				html`${j} · K = ${bold("K", fixed(p.values[1]))} · D = N·N = ${bold("D", fixed(s.value(p, "D"), 4))}`,
 			],
@@ -239,15 +239,15 @@ const ofSlerp = {
 		["φ = cos⁻¹ (N₁ · N₂)", "(4.7)", html`${bold("φ", fixed(phiOf(p), 2))}°`],
 		["sin Δtφ, cos Δtφ", "constants", spaced(p.step, 5)],
 	],
-	head: "Turned by the same angle",
-	text: "The weights ride on a circle, so N keeps its length and nobody needs a root.",
+	head: "Turned by an equal angle",
+	text: "The weights move on a circle, so N keeps its length and no root is needed.",
 	pixel: (s, { p, last }) => [
 		[
 			TURN,
 			"(4.9)",
 			html`${last && `${fixed(last.t[0], 4)} · ${fixed(p.step[1])} + ${fixed(last.t[1], 4)} · ${fixed(p.step[0])} = `}${bold("t", fixed(p.t[0], 4))}`,
 		],
-		["sin (1 − t − Δt)φ likewise", "(4.10–4.12)", bold("t", fixed(p.rest[0], 4))],
+		["sin (1 − t − Δt)φ, and both cosines", "(4.10–4.12)", bold("t", fixed(p.rest[0], 4))],
 		[
 			"J = sin (1 − t)φ J₁ / sin φ + sin tφ J₂ / sin φ",
 			"(4.8)",
@@ -301,8 +301,8 @@ const TELL = {
 				? `Edge ${edge.name} waits beside line ${edge.first}`
 				: `Edge ${edge.name} crosses no line`,
 			text: edge.crosses
-				? "That is the first line whose centre it crosses. Lines before it need not look at it at all."
-				: "It lies between the centres of two lines, or it is level. It is left out: its neighbours close the polygon without it.",
+				? "That is the first line whose centre it crosses. It plays no part before."
+				: "It lies between the centres of two lines, or it is horizontal. It is left out, because its neighbours close the polygon without it.",
 			eqs: rowsOf(
 				[
 					[
@@ -330,7 +330,7 @@ const TELL = {
 		line: 2,
 		kicker: "Active edges",
 		head: `${listed(e.gone.map(g => g.name))} ${e.gone.length > 1 ? "end" : "ends"} before line ${e.row}`,
-		text: "An edge leaves when the centre of the line is no longer above its lower end. It is not even stepped.",
+		text: "An edge leaves when the line’s centre is no longer above the edge’s lower end. It is not stepped again.",
 		eqs: html`${e.gone.slice(0, 2).map(g => equation(`${g.name}: end ≤ line`, "", html`${ceiling(s.corners[g.bottom][1])} = <b>${g.end}</b> ≤ ${e.row}`, g.polygon))}`,
 	}),
 	step(e, s) {
@@ -340,7 +340,7 @@ const TELL = {
 			line: 3,
 			kicker: "Along the edges",
 			head: `${e.active.length > 1 ? `All ${e.active.length} edges step` : `Edge ${a.edge.name} steps`} to line ${e.row}`,
-			text: `One line down, every active edge grows by its own Δ: a place and ${s.words.values[0]}. Here is edge ${a.edge.name}:`,
+			text: `One line down, each active edge adds its own Δ to its x and its ${s.words.values[0]}. Here is edge ${a.edge.name}:`,
 			eqs: rowsOf(
 				[["x_next = x_current + Δx", "(3.3)", added("x", b.x, a.dx, a.x)], s.words.along(a, b)],
 				a.edge.polygon,
@@ -389,7 +389,7 @@ const TELL = {
 			return {
 				...told,
 				head: `${letterOf(polygon)}: no pixel centre between its edges`,
-				text: "So nothing is drawn, and nothing is lost: the neighbour on the other side has that centre.",
+				text: "So nothing is drawn, and nothing is lost: the centre belongs to a neighbour.",
 				eqs: rowsOf(
 					[["⌈x₁ − ½⌉ = ⌈x₂ − ½⌉", "", html`x₁ = ${fixed(left.x)}, x₂ = ${fixed(right.x)}`]],
 					polygon,
@@ -398,7 +398,7 @@ const TELL = {
 		return {
 			...told,
 			head: `${letterOf(polygon)} covers ${end - start > 1 ? `pixels ${start} to ${end - 1}` : `pixel ${start}`}`,
-			text: "A pixel belongs to the span if its centre is right of the left crossing, or on it, and left of the right one. Never both neighbours, never none.",
+			text: "A pixel belongs to the span if its centre is on the left crossing or right of it, and left of the right crossing. So no pixel is drawn twice or skipped.",
 			eqs: rowsOf(
 				[
 					[
@@ -432,8 +432,8 @@ const TELL = {
 			kicker: "Depth test",
 			head: heads.find(Boolean) || `Nothing is in front of ${name}`,
 			text: turn
-				? "Nearer wins, pixel by pixel, before anything is shaded. The letters say who is seen."
-				: "An empty line is infinitely far away, so every pixel is seen. Nothing is shaded yet.",
+				? "At each pixel the nearer polygon wins, before anything is shaded. The letters show which one is visible."
+				: "An empty line is infinitely far away, so every pixel is visible. Nothing is shaded yet.",
 			eqs: rowsOf(
 				[
 					[
@@ -444,7 +444,7 @@ const TELL = {
 					turn && [
 						`pixel ${turn.x}: is q < stored?`,
 						"",
-						html`${fixed(turn.z, 4)} ${turn.seen ? "<" : "≥"} ${fixed(turn.old.z, 4)}: <b>${letterOf(turn.seen ? polygon : turn.old.polygon)}</b> is seen`,
+						html`${fixed(turn.z, 4)} ${turn.seen ? "<" : "≥"} ${fixed(turn.old.z, 4)}: <b>${letterOf(turn.seen ? polygon : turn.old.polygon)}</b> is visible`,
 					],
 				],
 				polygon,
@@ -455,7 +455,7 @@ const TELL = {
 		line: 8,
 		kicker: "Run",
 		head: `${plural(run.pixels, "visible pixel")} of ${letterOf(run.polygon)}`,
-		text: "All divisions are done here, once. From now on each pixel is made from the one at its left.",
+		text: "All divisions are done here, once. From now on each pixel follows from the one at its left.",
 		eqs: rowsOf(s.words.run(run, s), run.polygon),
 	}),
 	pixel(e, s) {
@@ -481,7 +481,7 @@ const TELL = {
 		line: 10,
 		kicker: "Done",
 		head: "All lines are drawn",
-		text: "Every pixel was written once, or not at all: hidden ones were never shaded. Now move a corner, or choose another method.",
+		text: "Every pixel was written once or not at all, and hidden pixels were never shaded. Now move a corner, or choose another method.",
 	}),
 	ask: e => ({
 		line: { edges: 2, shared: 6, next: 9 }[e.ask],
@@ -493,7 +493,7 @@ const TELL = {
 	}),
 };
 
-/* What the whole picture costs, in a sentence: counted in the trace. */
+/* Says in a sentence what the whole picture costs, counted in the trace. */
 function answerOf(s) {
 	const pixels = s.events.filter(e => e.p).map(e => e.p);
 	if (!pixels.length)
@@ -508,7 +508,7 @@ function answerOf(s) {
 				? html` Its picture is naive Phong’s.`
 				: html` Off by at most <b>${fixed(off, 1)} grey levels</b>.`;
 	const costs = {
-		gouraud: html`with <b>one addition each</b>. All else happens at corners and edges. Stop it anywhere and look.`,
+		gouraud: html`with <b>one addition each</b>. Everything else happens at corners and edges. Stop it anywhere and look.`,
 		"naive-phong": html`with <b>three additions each</b>, and then pays for <b>${pixels.length} roots</b> and all of the light at each pixel.`,
 		"fast-phong": html`with <b>five additions each</b> and <b>${plural(newton, "Newton step")}</b> in place of ${pixels.length} roots: <b>${roots} are left</b>.${far}`,
 		"slerp-phong": html`along circles: <b>four additions and eight products each</b>, and <b>no root at a pixel</b>.`,

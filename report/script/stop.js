@@ -2,21 +2,21 @@
 
    Addresses, after #lectures/stop? or #course/stop? (#stop? leads to the first):
      method=gouraud | naive-phong | fast-phong | slerp-phong | any other that the traces hold
-     steps=1 | 2 | 3        Newton's steps of fast-phong; without it as many as the program's rule takes
-     line=9&x=7             the pixel 7 of line 9
+     steps=1 | 2 | 3        Newton's steps of fast-phong; without it the program's rule decides
+     line=9&x=7             pixel 7 of line 9
      line=9&event=span&polygon=3
                             a step of a line: retire, step, enter, sort, span, depth, run, pixel; of polygon 0, 1, …
      event=bucket&edge=A2   an edge on its way into a bucket;  event=end is the finished picture
      ask=edges | shared | next
                             a question;  try=highlight | newton | edge | depth  starts an experiment
      x1=3.5&y1=4            corners that were moved, in pixels
-     bare                   the figure alone, in the whole window, with larger type
+     bare                   only the figure, in the whole window, with larger type
 */
 
 const REFERENCE = "naive-phong";
 const FIRST = { line: "6", x: "9" };
 const OWN_KEYS = ["method", "steps", "line", "x", "event", "polygon", "edge", "ask", "try"];
-/* The time between two steps, in ms, and how many steps it takes at once. */
+/* For each speed, the milliseconds between two drawings, and how many steps each drawing advances. */
 const SPEEDS = [
 	[550, 1],
 	[90, 1],
@@ -41,7 +41,7 @@ const EXPERIMENTS = {
 		s.go(s.events.length - 1);
 		s.later = setTimeout(() => s.variant === "gouraud" && s.chooseMethod(REFERENCE), 1500);
 	},
-	// To the pixel where one step of Newton's is furthest from the root.
+	// Goes to the pixel where one Newton step is furthest from the root.
 	newton(s) {
 		s.show("fast-phong:steps=1");
 		const off = ({ p, row }) => Math.abs(s.value(p, "d") / s.truth(row, p.x).d - 1);
@@ -51,7 +51,7 @@ const EXPERIMENTS = {
 		s.show(s.variant);
 		s.go(s.seek({ ask: "shared" }).i);
 	},
-	// To a polygon that is partly in front of what was there before.
+	// Goes to a polygon that is partly in front of an earlier one.
 	depth(s) {
 		s.show(s.variant);
 		const isBoth = e => [true, false].every(is => e.tests?.some(t => t.old && t.seen === is));
@@ -69,7 +69,7 @@ class StopFigure {
 			speed: 1,
 			views: new WeakMap(),
 		});
-		// Methods with views of their own first; of variants of a method those with parameters.
+		// Methods with their own view come first, and a method's variants with parameters before the one without.
 		const known = Object.keys(KNOWN);
 		const place = v => known.indexOf(methodOf(v)) + 1 || 99;
 		this.variants = Object.keys(stored).sort(by(v => 2 * place(v) - v.includes(":")));
@@ -100,7 +100,7 @@ class StopFigure {
 
 	/* -- traces */
 
-	/* The steps of a trace and its pixels by their places: made once. */
+	/* Returns the steps of a trace, and its pixels by their places. Makes them once. */
 	viewOf(trace) {
 		if (this.views.has(trace)) return this.views.get(trace);
 		const view = { events: stepsOf(trace), pixels: [] };
@@ -109,7 +109,7 @@ class StopFigure {
 		return view;
 	}
 
-	/* Shows a variant; `like` is the step of another one whose place is kept. */
+	/* Switches to a variant, at the step most like `like`, which is a step of another variant. */
 	useTrace(variant, like) {
 		const trace = this.traces[variant];
 		Object.assign(this, { trace, variant, method: methodOf(variant), names: trace.names });
@@ -128,7 +128,7 @@ class StopFigure {
 		return this.events[this.at];
 	}
 
-	/* A value of a pixel by its name. */
+	/* Returns a value of a pixel by its name. */
 	value(p, name) {
 		return p.values[this.names.pixel.indexOf(name)];
 	}
@@ -138,26 +138,26 @@ class StopFigure {
 		return trace && this.viewOf(trace).pixels[row * trace.size[0] + x]?.p;
 	}
 
-	/* The pixel by naive Phong, which every other is measured against. */
+	/* Returns the pixel by naive Phong, with which all others are compared. */
 	truth(row, x) {
 		return this.pixelBy(REFERENCE, row, x);
 	}
 
-	/* The greatest difference from naive Phong's picture, in grey levels; null if that is not at hand. */
+	/* Returns the greatest difference from naive Phong's picture in grey levels, or null if there is no trace of it. */
 	worst() {
 		if (!this.traces[REFERENCE]) return null;
 		const off = ({ p, row }) => p && Math.abs(levels(p.colour[0], this.truth(row, p.x).colour[0]));
 		return Math.max(0, ...this.events.map(e => off(e) ?? 0));
 	}
 
-	/* How an edge crosses the first of its lines. */
+	/* Returns how an edge crosses its first line. */
 	crossing(edge) {
 		const line = edge.crosses && this.trace.lines[edge.first];
 		const a = line && line.active.find(v => v.edge === edge.id);
 		return a && crossingOf(a);
 	}
 
-	/* The step most like one of another trace. */
+	/* Returns the step that is most like a step of another trace. */
 	nearest(old) {
 		const x = e => e.p?.x ?? -9;
 		const cost = e =>
@@ -172,7 +172,8 @@ class StopFigure {
 
 	/* -- corners that are moved */
 
-	/* Corners are the trace's vertices, handles are the figure's; both begin at the same places. */
+	/* Returns the index of a corner's first handle. Corners are vertices of the trace, and handles belong to the figure: they match if
+   they start at the same place. */
 	handleOf(corner) {
 		const at = Object.values(this.stored)[0].vertices[corner].at.map(c => c / this.trace.unit);
 		const isThere = (h, i) =>
@@ -193,7 +194,7 @@ class StopFigure {
 		this.waits = true;
 	}
 
-	/* Traces the method that is shown for the corners as they are now, and the others when the hand rests. */
+	/* Traces the current method for the moved corners, and the other methods when the hand rests. */
 	async retrace() {
 		this.waits = false;
 		const { moved } = this;
@@ -203,7 +204,7 @@ class StopFigure {
 			this.traces = { [this.variant]: trace };
 			this.problem = "";
 		} catch (error) {
-			this.problem = `Not traced here: ${error.message}. The numbers are stored ones.`;
+			this.problem = `Not traced here: ${error.message}. The numbers are the stored ones.`;
 			this.restore();
 		}
 		this.show(this.variant, this.now);
@@ -211,7 +212,7 @@ class StopFigure {
 		this.later = setTimeout(() => this.retraceOthers(), 120);
 	}
 
-	/* Traces one more of the other methods, naive Phong first, unless the hand moves on. */
+	/* Traces the next of the other methods, naive Phong first, unless the hand moves on. */
 	async retraceOthers() {
 		const { moved, traces } = this;
 		const missing = [REFERENCE, ...Object.values(this.chosen), ...this.variants].find(
@@ -226,7 +227,7 @@ class StopFigure {
 		this.later = setTimeout(() => this.retraceOthers(), 0);
 	}
 
-	/* Brings the corners back to where they were at first. */
+	/* Returns the corners to their first places. */
 	restore() {
 		this.moved = null;
 		this.traces = this.stored;
@@ -236,7 +237,7 @@ class StopFigure {
 
 	resized() {
 		const { clientWidth: width, clientHeight } = $(".s-stage", this.root);
-		// In a talk the stage has the height that is left, else what its width asks for.
+		// In a talk the stage fills the remaining height. Otherwise its height follows from its width.
 		const isFixed = getComputedStyle(this.stage.svg).position === "absolute";
 		const height = isFixed ? clientHeight : Infinity;
 		if (!width || (width === this.width && height === this.height)) return;
@@ -254,7 +255,7 @@ class StopFigure {
 		this.draw();
 	}
 
-	/* A method that has no trace yet of the corners where they are now. */
+	/* Shows a method that has no trace for the moved corners yet, after tracing it. */
 	async traceFirst(variant, like) {
 		const { moved, traces } = this;
 		traces[variant] = await traceBy(variant, moved);
@@ -288,7 +289,7 @@ class StopFigure {
 		this.go(this.at + by);
 	}
 
-	/* To the next line or question, or to the start of this line or of the one before. */
+	/* Goes forward to the next line or question, or back to the start of this line or of the previous one. */
 	line(by) {
 		this.halt();
 		const { events, at, now } = this;
@@ -313,7 +314,7 @@ class StopFigure {
 		this.advance(1);
 	}
 
-	/* Goes on by some steps, but not past a question that waits. */
+	/* Advances by some steps, but not past an open question. */
 	advance(count) {
 		let i = this.at;
 		for (let k = 0; k < count; k++) {
@@ -337,11 +338,11 @@ class StopFigure {
 
 	/* -- addresses */
 
-	/* Goes where a query leads. */
+	/* Goes to the step that a query names. */
 	follow(query) {
 		const text = String(query);
 		const given = Object.fromEntries(query);
-		// An address of something else leaves the figure as the reader left it.
+		// An address that does not mention the figure leaves it where the reader left it.
 		const isMine = key => OWN_KEYS.includes(key) || this.handles.some(h => h.name === key);
 		if (this.address != null && (text === this.address || !Object.keys(given).some(isMine))) return;
 		this.address = text;
@@ -354,7 +355,7 @@ class StopFigure {
 			const isTry = this.startsTry(given.try);
 			if (!isTry) this.go(this.seek(given).i);
 			const shown = this.query();
-			// An address of what is not there is put right.
+			// If an address names a step that does not exist, it is corrected.
 			const isBroken = OWN_KEYS.some(key => given[key] && given[key] !== shown.get(key));
 			this.kept = isBroken && !isTry ? "" : String(shown);
 		};
@@ -362,7 +363,7 @@ class StopFigure {
 			this.show(variant);
 			return open();
 		}
-		// Corners that an address gives: nothing is shown of others meanwhile.
+		// The address moves corners. Nothing is shown until they are traced.
 		this.variant = variant;
 		this.retrace().then(open);
 	}
@@ -375,7 +376,7 @@ class StopFigure {
 		if (values) [this.moved, this.traces] = [values, {}];
 	}
 
-	/* The step that an address names, or the nearest to it. */
+	/* Returns the step that an address names, or the nearest one. */
 	seek(given) {
 		const { events } = this;
 		if (given.ask) return events.find(e => e.ask === given.ask) ?? events[0];
@@ -391,7 +392,7 @@ class StopFigure {
 		return events.find(isIt) ?? events.find(e => e.row === +line) ?? events[0];
 	}
 
-	/* What leads to the step that is shown. */
+	/* Returns the query that leads to the current step. */
 	query() {
 		const e = this.now;
 		const [, ...parameters] = this.variant.split(":");
@@ -479,7 +480,7 @@ class StopFigure {
 		this.panel.drives.play.focus({ preventScroll: true });
 	}
 
-	/* Shows the figure alone, or not; full screen is a talk, too. */
+	/* Switches to a talk, which shows only the figure, and back. Full screen is a talk, too. */
 	talk(isBare = !this.isBare) {
 		if (!isBare && document.fullscreenElement) document.exitFullscreen();
 		this.setBare(isBare);
@@ -504,7 +505,7 @@ class StopFigure {
 		else this.draw();
 	}
 
-	/* What a key does. Those that scroll the page do it only where the figure has the focus, or is alone. */
+	/* Handles a key. Keys that usually scroll the page drive the figure only if it has the focus, or in a talk. */
 	key({ key, target }, isInside) {
 		const scrolls = {
 			PageDown: () => this.line(1),
@@ -530,7 +531,7 @@ class StopFigure {
 		return key in keys;
 	}
 
-	/* How much of the window the figure fills. */
+	/* Returns how much of the figure is visible, or how much of the window it fills if it is higher than that. */
 	get seen() {
 		const { top, bottom, height } = $(".s-frame", this.root).getBoundingClientRect();
 		return height
@@ -539,7 +540,7 @@ class StopFigure {
 	}
 }
 
-/* The figures that were mounted, by the view that they stand in: one that was left is found as it was. */
+/* The figure of each view. When the reader returns to a view, its figure is in the state in which it was left. */
 const stopFigures = new Map();
 
 addEventListener("keydown", e => {
@@ -557,16 +558,17 @@ addEventListener("keydown", e => {
 		s => s.root.checkVisibility(),
 	);
 	const inside = figures.find(s => s.root.contains(on));
-	// A focus elsewhere in the page keeps its keys, and so does what scrolls.
+	// Keys stay with an element elsewhere that has the focus, and arrow keys with a part that scrolls.
 	if (e.key.startsWith("Arrow") && on.closest?.(".s-scroll")) return;
 	const figure = inside ?? figures.find(s => on === document.body && (s.isBare || s.seen > 0.5));
 	if (figure?.key(e, !!inside)) e.preventDefault();
 });
 
-// Another address shows the whole page, unless it asks for the figure alone.
+// A new address ends a talk, unless it asks for one.
 addEventListener("hashchange", () => ROOT.removeAttribute("data-bare"));
 
-/* Puts the figure into an element; `remember` is told the query of each step at rest. False if it cannot be shown here. */
+/* Puts the figure into an element. Calls `remember` with the query of each step at which the figure rests. Returns false if the figure
+   cannot be shown here. */
 function stopInto(el, f, query, remember) {
 	if (!isTraced(f) || !hasTraces()) return false;
 	const place = view;

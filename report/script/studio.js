@@ -1,6 +1,6 @@
 /* The studio: fastphong itself, compiled to WebAssembly, which draws scenes and figures in the page. */
 
-/* Inflates bytes that are written in base 64. */
+/* Inflates bytes that are encoded in base 64. */
 async function inflate(text) {
 	const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
 	const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
@@ -10,13 +10,13 @@ async function inflate(text) {
 /* The JSON of an element that may be missing. */
 const jsonOf = id => JSON.parse($("#" + id)?.textContent ?? "null");
 
-/* True if this page and this browser can draw; what fails later says so. */
+/* True if this page and this browser can draw. Drawing may still fail later, with a message. */
 const CAN_DRAW =
 	!!$("#live-module") && "WebAssembly" in window && "DecompressionStream" in window;
 
 let module;
 
-/* Compiles the module, once: each instance of it is one studio. */
+/* Compiles the module once. Each instance of it is one studio. */
 const compiled = () =>
 	(module ??= inflate(jsonOf("live-module")).then(bytes => WebAssembly.compile(bytes)));
 
@@ -27,12 +27,12 @@ class Studio {
 		return Object.assign(studio, { exports });
 	}
 
-	/* Numbers in the module's memory, which moves when it grows: the address is computed first. */
+	/* Returns values in the module's memory. This memory moves when it grows, so a caller computes the address first. */
 	at(Kind, address, count) {
 		return new Kind(this.exports.memory.buffer, address, count);
 	}
 
-	/* Writes a text, or bytes, for the next function. */
+	/* Passes a text, or bytes, to the module's next function. */
 	put(text) {
 		const bytes = typeof text === "string" ? new TextEncoder().encode(text) : text;
 		this.at(Uint8Array, this.exports.text(bytes.length), bytes.length).set(bytes);
@@ -42,13 +42,13 @@ class Studio {
 		return new TextDecoder().decode(this.at(Uint8Array, this.exports.said(), length));
 	}
 
-	/* What a function returned; less than 0 is an error. */
+	/* Checks what a function of the module returned: a negative value is the length of an error message. */
 	ask(number) {
 		if (number < 0) throw Error(this.said(-number));
 		return number;
 	}
 
-	/* Takes a file: its name is a line before it. */
+	/* Passes a file to the module, after a line with its name. */
 	file(name, bytes) {
 		const head = new TextEncoder().encode(name + "\n");
 		const all = new Uint8Array(head.length + bytes.length);
@@ -58,28 +58,28 @@ class Studio {
 		this.exports.file();
 	}
 
-	/* Loads a scene, as text, or the name of a mesh file; returns how many polygons it has. */
+	/* Loads a scene from its text, or a mesh file by its name. Returns how many polygons it has. */
 	load(scene) {
 		this.put(scene);
 		return this.ask(this.exports.load());
 	}
 
-	/* What was odd about the scene. */
+	/* Returns the warnings about the scene. */
 	warnings() {
 		return this.said(this.exports.warnings());
 	}
 
-	/* Azimuth and elevation of the frame: no camera turns beyond the poles. */
+	/* Returns azimuth and elevation of the frame, which stop at the poles. */
 	turned() {
 		return [...this.at(Float64Array, this.exports.turned(), 2)];
 	}
 
-	/* The direction to the first light: to the right, upward, toward the eye. */
+	/* Returns the direction to the first light: to the right, upward, toward the eye. */
 	light() {
 		return [...this.at(Float64Array, this.exports.light(), 3)];
 	}
 
-	/* Makes the frame of a view, with the samples of the scene if none are given. */
+	/* Makes the frame of a view. Takes the scene's samples per pixel if `samples` is 0. */
 	frame(w, h, { azimuth, elevation, size, light, exponent }, samples = 0) {
 		const [x, y, z] = light ?? [0, 0, 0];
 		this.ask(
@@ -87,12 +87,12 @@ class Studio {
 		);
 	}
 
-	/* The scene as it is looked at, as a file. */
+	/* Returns the scene in its current view as the text of a scene file. */
 	scene() {
 		return this.said(this.ask(this.exports.scene()));
 	}
 
-	/* Draws by a method, or as the exact picture; returns the milliseconds that it took. */
+	/* Draws by a method. With `exact` draws the picture that others are compared with. Returns how many milliseconds it took. */
 	draw(method, exact = 0) {
 		this.put(method);
 		const start = performance.now();
@@ -100,12 +100,12 @@ class Studio {
 		return performance.now() - start;
 	}
 
-	/* The bytes of the picture, until the next function is called. */
+	/* Returns the bytes of the picture, which are valid until the next function is called. */
 	bytes(w, h) {
 		return this.at(Uint8ClampedArray, this.exports.picture(), 4 * w * h);
 	}
 
-	/* Compares the picture with the exact one, in grey levels. */
+	/* Compares the picture with the exact one. Errors are in grey levels. */
 	compare() {
 		const [max, x, y, rms, count] = this.at(Float64Array, this.exports.compare(), 5);
 		const errors = this.at(Float32Array, this.exports.errors(), count).slice();
@@ -118,19 +118,19 @@ class Studio {
 		return this.exports.parameters() >= 0;
 	}
 
-	/* The parameters of a method. */
+	/* Returns the parameters of a method. */
 	parameters(method) {
 		this.put(method);
 		return JSON.parse(this.said(this.ask(this.exports.parameters())));
 	}
 
-	/* Traces the mesh of the figure that can be stopped, by a variant of a method, with its corners at x1 y1 x2 y2 …, in pixels. */
+	/* Traces how a variant of a method draws the figure that can be stopped, with corners at x1 y1 x2 y2 …, in pixels. */
 	trace(variant, corners) {
 		this.put(`${variant}\n${corners.join(" ")}`);
 		return JSON.parse(this.said(this.ask(this.exports.trace())));
 	}
 
-	/* Makes a figure for values of its handles: its content, and its pictures. */
+	/* Makes a figure for these values of its handles. Returns its content and its pictures. */
 	figure(name, values) {
 		this.put(`${name}\n${values.join(" ")}`);
 		const content = JSON.parse(this.said(this.ask(this.exports.figure())));

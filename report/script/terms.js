@@ -1,13 +1,13 @@
-/* Terms: each quantity of the course has one colour, in texts, cards and strips. Pointing at one lights all of it up. */
+/* Terms: each quantity of the course has one colour in texts, cards and strips. Pointing at a term lights it up everywhere. */
 
-/* A term in a text: alone, or with what says which one of it (I_next, J₁, t₀). */
+/* Matches a term in a text, alone or with an index (I_next, J₁, t₀). */
 const TERM =
 	/(?<![\p{Nd}_'’]|(?!t(?=φ))\p{L})(Δ[INJKx]|[INJKdDφxt])(?![\p{Nd}'’]|(?!φ)\p{L}|_(?!next|current))/u;
 
-/* A term, marked. */
+/* Marks a term. */
 const term = (name, text = name) => html`<span data-term="${name}">${text}</span>`;
 
-/* A formula: its terms are marked, and what follows a low line stands low. */
+/* Sets a formula: marks its terms, and lowers what follows an underscore. */
 const formulaOf = text => {
 	const low = part => new Markup(put(part).replace(/_(\w+)/g, "<sub>$1</sub>"));
 	return html`${text.split(TERM).map((part, i) => (i % 2 ? term(part) : low(part)))}`;
@@ -36,7 +36,7 @@ function markTerms(el) {
 let litScope;
 const litRule = document.head.appendChild(create("style"));
 
-/* Lights a term up in the chapter or figure around it; nothing puts it out. */
+/* Lights up a term in the chapter or figure around it. Without an element, puts out the term that is lit. */
 function lightTerm(el) {
 	const scope = el && (el.closest("article") ?? el.closest(".stop"));
 	if (!scope && !litScope) return;

@@ -1,9 +1,9 @@
-/* Traces: what the engine did on each line of a picture, by each method (schema fastphong.trace/1). Those of the figure that
-   can be stopped are stored in the page; the module makes them anew for corners that were moved. */
+/* Traces: what the engine did on each line of a picture, by each method (schema fastphong.trace/1). The page stores the traces of the
+   figure that can be stopped. When the reader moves a corner, the module makes new ones. */
 
 let storedTraces;
 
-/* True if the page brings traces, and this browser can unpack them. */
+/* True if the page has traces, and this browser can unpack them. */
 const hasTraces = () => !!$("#figure-traces") && "DecompressionStream" in window;
 
 /* Unpacks the stored traces, once: a trace for each variant of a method. */
@@ -18,7 +18,7 @@ async function traceBy(variant, corners) {
 	return studio.trace(variant, corners);
 }
 
-/* Edges with a name for people: the letter of the polygon, and which of its edges it is. */
+/* Names edges for readers: by the letter of the polygon and the number of the edge. */
 const letterOf = polygon => String.fromCharCode(65 + (polygon % 26));
 const edgesOf = trace =>
 	trace.edges.map((edge, id) => ({
@@ -27,20 +27,20 @@ const edgesOf = trace =>
 		name: letterOf(edge.polygon) + (edge.corner + 1),
 	}));
 
-/* Where a crossing is, in pixels, and how far it moves in a line: both are fractions of whole numbers in the trace. */
+/* Where a crossing is, in pixels, and how far it moves from line to line. In the trace both are fractions of whole numbers. */
 const crossingOf = ({ pixel, rest: [rest, whole], step: [pixels, more] }) => ({
 	x: pixel + 0.5 - rest / whole,
 	dx: pixels + more / whole,
 });
 
-/* The pixels of a run, each with all that the trace has of it. */
+/* The pixels of a run, each with everything that the trace knows about it. */
 const pixelsOf = ({ x, pixels, values, colours, inside = {} }) =>
 	Array.from({ length: pixels }, (_, i) => ({
 		x: x + i,
 		i,
 		values: values?.[i] ?? [],
 		colour: colours[i],
-		// The first pixel takes a true root: what Newton makes of it afterwards is the same.
+		// The first pixel takes a true root, which Newton's steps no longer change.
 		guess: (i && inside.guess?.[i]) || [],
 		d: [inside.d?.[i]].flat()[0],
 		D: [inside.D?.[i]].flat()[0],

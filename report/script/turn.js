@@ -1,13 +1,14 @@
-/* The hands of a viewer: they turn the model, move the light, and choose parameters. */
+/* The handles of a viewer: they turn the model, move the light, and choose parameters. */
 
 const DEGREES = 180 / Math.PI;
 
-/* The angle from the line of sight at which the light's handle stands on a circle of this part of the stage's short side. */
+/* The light's handle is at this part of the stage's short side from the middle (SUN_RING) when the light is at this angle from the
+   line of sight (SUN_ANGLE). The light goes no further than SUN_MOST. */
 const SUN_RING = 0.36;
 const SUN_ANGLE = 90 / DEGREES;
 const SUN_MOST = 175 / DEGREES;
 
-/* A view as a link has it, in degrees and with few digits, and back. */
+/* Writes a view for a link, in degrees and with few digits. `viewOf` reads it back. */
 const viewQuery = ({ azimuth, elevation, size, light, exponent, given }) => {
 	const fixed = (...list) => list.map(v => +v.toFixed(1)).join(",");
 	const [angle, toward] = light ? sunOf(light) : [];
@@ -41,7 +42,7 @@ function viewOf({ turn, size, sun, exponent, with: chosen }) {
 	};
 }
 
-/* A direction by its angle from the line of sight, and the one around it; and back. */
+/* Makes a direction from its angle from the line of sight and its angle around it. `sunOf` does the reverse. */
 const lightAt = (angle, toward) => [
 	Math.sin(angle) * Math.cos(toward),
 	Math.sin(angle) * Math.sin(toward),
@@ -49,7 +50,7 @@ const lightAt = (angle, toward) => [
 ];
 const sunOf = ([x, y, z]) => [Math.atan2(Math.hypot(x, y), z), Math.atan2(y, x)];
 
-/* A slider of so many positions over a logarithmic range. */
+/* A slider with this many steps over a logarithmic range. */
 const logarithmic = (low, high, steps) => ({
 	min: 0,
 	max: steps,
@@ -65,7 +66,7 @@ class Hand {
 		[this.sun, this.panel] = [$(".sun", v.root), $(".handles", v.root)];
 		this.panel.oninput = e => this.handle(e.target);
 		this.panel.onchange = () => this.controls();
-		// A slider is held until it is let go, anywhere; a list opens, and may take that event.
+		// A slider is held until the pointer is released anywhere. A list is not, because it opens and may swallow that event.
 		this.panel.onpointerdown = e => {
 			this.holds = e.target.matches("input");
 		};
@@ -78,13 +79,13 @@ class Hand {
 			if (e.target.closest(".file")) this.saveScene();
 		};
 		this.listenToSun();
-		// No handler returns false: the browser would then do nothing else, as with Tab.
+		// The handler must not return false, because the browser would then ignore the key, for example Tab.
 		v.stage.onkeydown = e => {
 			if (e.target === v.stage) this.key(e);
 		};
 		v.stage.ondragover = e => e.preventDefault();
 		v.stage.ondrop = e => this.drop(e);
-		// Whoever comes near gets the light and the handles.
+		// The light and the handles appear when the pointer or the focus first comes near.
 		const comes = () => {
 			this.near = true;
 			this.controls();
@@ -97,14 +98,14 @@ class Hand {
 		return canTurn(this.v.scene) && this.failed !== this.v.scene;
 	}
 
-	/* What pictures are asked of: the stored scene, or the one that is drawn here. */
+	/* Where pictures come from: the stored scene, or the one that the page draws. */
 	get source() {
 		const { scene, view } = this.v;
 		const isLive = this.live?.scene === scene && (scene.own || !isStill(view));
 		return isLive ? this.live : scene;
 	}
 
-	/* Loads the scene; false if it cannot be drawn here. */
+	/* Loads the scene. Returns false if it cannot be drawn here. */
 	async ready() {
 		const s = this.v.scene;
 		if (this.live?.scene === s) return true;
@@ -126,7 +127,7 @@ class Hand {
 		}
 	}
 
-	/* What cannot be drawn here stays as it is stored. */
+	/* Says why the scene cannot be drawn here, and shows its stored pictures. */
 	fail(error) {
 		toast(`Not drawn here: ${error.message.split("\n")[0]}`);
 		this.failed = this.v.scene;
@@ -135,7 +136,7 @@ class Hand {
 		this.controls();
 	}
 
-	/* Looks from elsewhere, at the next frame of the screen; exactly, when nothing has moved for a while. */
+	/* Changes the view and draws it at the next frame of the screen. Draws it exactly when nothing has moved for a while. */
 	move(change) {
 		this.v.view = { ...this.v.view, ...change };
 		if (this.waits) return;
@@ -165,7 +166,7 @@ class Hand {
 		}
 	}
 
-	/* Shows the view exactly: that of its link, so that this restores it to the byte. */
+	/* Shows the view exactly. Takes it through its link first, so that the link restores the picture to the byte. */
 	async rest() {
 		const { v } = this;
 		v.view = this.known(viewOf(viewQuery(v.view)));
@@ -177,14 +178,14 @@ class Hand {
 		delay("rounds", 60, () => this.round());
 	}
 
-	/* The view without parameters that no method has: a link may ask for any. */
+	/* Returns the view without parameters that its methods do not have, since a link may ask for any. */
 	known(view) {
 		const isKnown = ([m, all]) =>
 			Object.entries(all).every(([k, v]) => this.live?.studio.knows(`${m}:${k}=${v}`));
 		return { ...view, given: Object.fromEntries(Object.entries(view.given).filter(isKnown)) };
 	}
 
-	/* Draws by all methods, some times, so that chart and times are of this view; then nothing works any more. */
+	/* Draws by all methods a few times, so that the chart shows errors and times of this view. Then the page is idle. */
 	round() {
 		const { live, v } = this;
 		if (this.moves || this.source !== live || this.rounds >= 6 || v.root.offsetParent === null) return;
@@ -200,7 +201,7 @@ class Hand {
 		delay("rounds", 8, () => this.round());
 	}
 
-	/* Has the browser save the scene as it is looked at. */
+	/* Saves the scene in its current view as a file. */
 	saveScene() {
 		try {
 			this.live.studio.frame(this.live.w, this.live.h, this.v.view);
@@ -210,7 +211,7 @@ class Hand {
 		}
 	}
 
-	/* Handles of what can be moved, and of the parameters of both methods. */
+	/* Shows the handles: size, exponent, and the parameters of both methods. */
 	controls() {
 		const { v, live } = this;
 		const shown = this.can && live?.scene === v.scene;
@@ -220,7 +221,7 @@ class Hand {
 		v.stage.classList.toggle("turnable", this.can);
 		v.stage.ariaLabel = `The pictures${this.can ? ": arrow keys turn the model" : ""}`;
 		this.sun.hidden = !shown || !live.firstLight.some(Boolean);
-		// A handle that is held stays the same element.
+		// A handle that is being held must not be replaced.
 		if (!shown || this.holds) return;
 		const { size, exponent } = v.view;
 		const methods = [...new Set([v.a, v.b])].filter(m => live.list.includes(m) && !m.includes(":"));
@@ -240,7 +241,7 @@ class Hand {
 			html`
 				${parts}
 				<button class="still" ${isStill(v.view) && "disabled"}>As stored</button>
-				<button class="file" title="What is seen here, for fastphong render">Scene file</button>`,
+				<button class="file" title="The scene in this view, for fastphong render">Scene file</button>`,
 		);
 		this.placeSun();
 	}
@@ -302,7 +303,7 @@ class Hand {
 						: (now[key.split(":")[0]]?.[key.split(":")[1]] ?? value);
 	}
 
-	/* Turns by a drag of so many pixels, or by arrow keys. */
+	/* Turns the model as a drag by this many pixels does. Arrow keys use it, too. */
 	turnBy(dx, dy) {
 		const { azimuth, elevation } = this.v.view;
 		const k = 2.4 / Math.max(200, this.v.stage.clientHeight);
@@ -322,7 +323,7 @@ class Hand {
 		return this.v.view.light ?? this.live?.firstLight ?? [0, 0, 1];
 	}
 
-	/* Where the light stands on the stage, or beside it. */
+	/* Where the light's handle belongs, on the stage or beside it. */
 	sunAt() {
 		const { w, h } = this.v.part();
 		const [angle, toward] = sunOf(this.light);
@@ -330,7 +331,7 @@ class Hand {
 		return { x: w / 2 + r * Math.cos(toward), y: h / 2 - r * Math.sin(toward), w, h };
 	}
 
-	/* Puts the light's handle where the light is, or at the edge of the stage; behind the model it is hollow. */
+	/* Puts the light's handle where it belongs, or at the edge of the stage. If the light is behind the model, the handle is hollow. */
 	placeSun() {
 		const { sun } = this;
 		if (sun.hidden) return;
@@ -385,7 +386,7 @@ class Hand {
 		};
 	}
 
-	/* A mesh file that is dropped on the stage. */
+	/* Shows a mesh file that the reader drops on the stage. */
 	async drop(e) {
 		e.preventDefault();
 		const files = [...(e.dataTransfer?.files ?? [])];

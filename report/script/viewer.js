@@ -1,6 +1,6 @@
-/* The viewer: two pictures beside, over or after one another, or their errors. */
+/* The viewer: two pictures side by side, with a slider between them, or in turn, or their errors. */
 
-/* Ways to compare by their keys, and what other keys and buttons do. */
+/* The ways to compare by their keys, and what other keys and buttons do. */
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 
 const KEYS = {
@@ -58,7 +58,7 @@ class Viewer {
 		new ResizeObserver(() => atNextFrame(() => this.draw())).observe(this.stage);
 	}
 
-	/* The scene, stored or drawn here, of which pictures and rows are shown. */
+	/* Where the shown pictures and rows come from: the stored scene, or the one that the page draws. */
 	get source() {
 		return this.hand.source;
 	}
@@ -66,7 +66,7 @@ class Viewer {
 	/* Changes scene, pictures, mode or view. */
 	async set(change) {
 		const { live, ...others } = change;
-		// A view is of one scene.
+		// A view belongs to one scene.
 		if (others.scene && others.scene !== this.scene) others.view ??= STILL;
 		const looks = "view" in others;
 		Object.assign(this, others);
@@ -98,7 +98,7 @@ class Viewer {
 		this.change?.(this, change);
 		const isLive = !isStill(this.view) || s.own;
 		const isReady = isLive && (await this.hand.ready());
-		// What cannot be drawn here is shown as it is stored, unless another scene was chosen meanwhile.
+		// If the page cannot draw the view, the stored pictures are shown, unless the reader chose another scene meanwhile.
 		if (this.scene !== s) return;
 		if (isLive && !isReady) this.view = STILL;
 		if (isReady && looks) await this.hand.rest();
@@ -340,7 +340,7 @@ class Viewer {
 				];
 				gesture.far = Math.max(gesture.far, Math.hypot(dx, dy));
 				if (kind === "split" && gesture.far > 2) this.move(part);
-				// A finger that begins upward or downward scrolls the page.
+				// A finger that starts upward or downward scrolls the page.
 				const scrolls =
 					e.pointerType === "touch" && !gesture.last && Math.abs(dy) >= Math.abs(dx);
 				if (kind === "turn" && gesture.far > 2 && !scrolls) {
@@ -388,7 +388,7 @@ class Viewer {
 		};
 	}
 
-	/* Holds the pixel, or lets it go; without a probe, flips or moves the divider. */
+	/* Holds the pixel or releases it. Without a probe, flips the pictures or moves the divider. */
 	tap(e) {
 		if (this.probe) {
 			const pixel = this.pixelAt(e);

@@ -1,7 +1,7 @@
-/* The views, and what there is of them. A new one is a file that `src/report/page.rs` lists, a
-   section and a link of the template, and a name in both lists here. */
+/* The views, and which of them have something to show. A new view needs a file that `src/report/page.rs` lists, a section and a link in the
+   template, and a name in both lists here. */
 
-/* Functions that draw a view, given the parts of its address, in the order of the navigation. */
+/* The functions that draw the views, in the order of the navigation. Each gets the parts of the view's address. */
 const VIEWS = { overview, scenes, methods, speed, lectures, course, measured };
 
 /* Parts of the page that have something to show. */

@@ -1,5 +1,5 @@
-//! Amounts: a picture in linear light is a sum of ambient, diffuse and specular light. How much of each is
-//! in it is a question of least squares.
+//! Amounts: a picture in linear light is a sum of ambient, diffuse and specular light. Least
+//! squares tell how much of each it contains.
 
 use super::drawer::Drawer;
 use super::recipe::{Curve, Recipe, Rounding};
@@ -8,19 +8,19 @@ use crate::picture::Encoding;
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
-/// Factors of the exponent that are tried.
+/// The factors of the exponent to try.
 const EXPONENTS: [f64; 11] = [1.0, 0.25, 0.5, 0.67, 0.8, 1.25, 1.5, 2.0, 3.0, 4.0, 8.0];
 
-/// Channels of this share of the range and more may have been clamped.
+/// From this share of the range on, channels may have been clamped.
 const BRIGHT: f64 = 0.99;
 
-/// Channels that have to be compared.
+/// The fewest channels to decide from.
 const FEWEST: usize = 90;
 
-/// The factors of light terms that come nearest to a picture.
+/// The factors of the light terms that come closest to a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amounts {
-    /// The factor of ambient light; 1 where the scene has none.
+    /// The factor of ambient light; 1 if the scene has none.
     pub ambient: f64,
     /// The factor of diffuse light.
     pub diffuse: f64,
@@ -28,14 +28,15 @@ pub struct Amounts {
     pub specular: f64,
     /// The factor of exponents.
     pub exponent: f64,
-    /// What is left, in levels, as a residual.
+    /// The mean difference that is left, in levels.
     pub residual: f64,
-    /// The same of differences less 1.
+    /// The mean of the differences beyond one level.
     pub beyond: f64,
 }
 
 impl Amounts {
-    /// Finds the amounts of a picture that is right otherwise.
+    /// Finds the amounts of a picture that is right in all else. Returns `None` if too few pixels
+    /// can tell.
     pub fn find(
         drawer: &mut Drawer<'_>,
         base: &Recipe,
@@ -72,7 +73,7 @@ impl Amounts {
             };
             let residual = mean(&|left| left);
             let beyond = mean(&|left| (left - 1.0).max(0.0));
-            // Another exponent has to be better, not only as good.
+            // Another exponent must be clearly better.
             if best.is_none_or(|best| residual < 0.9 * best.residual) {
                 best = Some(Amounts {
                     ambient,
@@ -87,13 +88,13 @@ impl Amounts {
         best
     }
 
-    /// True if no factor is less than 0, and some are wrong.
+    /// True if no factor is negative, and some are wrong.
     pub fn is_possible(&self) -> bool {
         let least = self.ambient.min(self.diffuse).min(self.specular);
         least > -0.03 && !self.wrong().is_empty()
     }
 
-    /// Returns the names and factors of the amounts that are wrong: by more than 3 %.
+    /// Returns the names and factors of the amounts that are wrong by more than 3 %.
     pub fn wrong(&self) -> Vec<(&'static str, f64)> {
         let all = [
             ("ambient", self.ambient),
@@ -106,7 +107,7 @@ impl Amounts {
     }
 }
 
-/// Solves the normal equations for three factors; a term that is 0 everywhere has the factor 1.
+/// Solves the normal equations for three factors. A term that is 0 everywhere has the factor 1.
 fn least_squares(rows: &[([f64; 3], f64)]) -> [f64; 3] {
     let mut matrix = DMat3::ZERO;
     let mut right = DVec3::ZERO;
@@ -115,26 +116,29 @@ fn least_squares(rows: &[([f64; 3], f64)]) -> [f64; 3] {
         matrix += DMat3::from_cols(terms * terms.x, terms * terms.y, terms * terms.z);
         right += terms * *light;
     }
-    // A term that is missing, or that others stand for, keeps its factor: a faint pull toward 1.
+    // A faint pull toward 1 keeps the matrix regular: a term that is missing, or that depends on
+    // the others, keeps its factor.
     let pull = 1e-9 * (matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z).max(1e-12);
     matrix += DMat3::from_diagonal(DVec3::splat(pull));
     right += DVec3::splat(pull);
     (matrix.inverse() * right).to_array()
 }
 
-/// A picture whose levels are a function of the reference's.
+/// A tone curve: the levels of the picture are a function of the reference's levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tone {
-    /// The exponent of that function, of shares of the range: 0.45 brightens as 1/2.2 does.
+    /// The exponent of this function on 0..=1. 0.45 brightens like 1/2.2.
     pub gamma: f64,
-    /// How far levels scatter about their median, by the reference's level: the residual.
+    /// The mean distance of levels from their median, among pixels with the same level of the
+    /// reference.
     pub scatter: f64,
 }
 
 impl Tone {
-    /// Finds the tone curve of a picture by the reference's `levels`, of pixels that are compared.
+    /// Finds the tone curve from pairs of levels: the reference's and the picture's. It sorts the
+    /// pairs.
     pub fn find(pairs: &mut [(f32, f32)]) -> Option<Tone> {
-        // Levels of the reference in steps of 4.
+        // Levels of the reference are grouped in steps of 4.
         const STEP: f32 = 4.0;
         let step = |level: f32| (level / STEP) as i32;
         pairs.sort_by(|a, b| step(a.0).cmp(&step(b.0)).then(a.1.total_cmp(&b.1)));

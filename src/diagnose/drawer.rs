@@ -1,4 +1,4 @@
-//! The drawer: draws recipes at sampled pixels, and keeps what several of them share.
+//! The drawer draws recipes at sampled pixels, and stores everything that several recipes share.
 
 use super::geometry::DrawnFrame;
 use super::hits::{Hits, LookedAt};
@@ -24,24 +24,24 @@ type Light = Rc<Vec<DVec3>>;
 
 /// A recipe at the sampled pixels.
 pub struct Drawn {
-    /// Levels of 0..=255.
+    /// The levels, 0..=255.
     pub levels: Vec<[f32; 3]>,
     pub hits: Rc<Hits>,
 }
 
-/// A picture that is sampled: pixels of the student's file.
+/// Draws recipes of a scene at the sampled pixels of someone's picture.
 pub struct Drawer<'a> {
     scene: &'a Scene,
     prepared: &'a PreparedScene,
     surface: &'a Surface<'a>,
     /// The sampled pixels: column, row.
     pub pixels: Vec<[usize; 2]>,
-    /// The levels of what nothing covers.
+    /// The levels of pixels that nothing covers.
     pub background: [f32; 3],
-    /// The levels of the picture at the sampled pixels, which say how far it was stretched; none if
-    /// there is no such picture.
+    /// The levels of the diagnosed picture at the sampled pixels, from which the drawer finds out
+    /// how far colours are stretched. Empty if there is no picture.
     pub target: Vec<[f32; 3]>,
-    /// The lengths of light directions as the file states them; 1 where there is none.
+    /// The lengths of light directions in the scene file; 1 for lights without an entry.
     pub light_lengths: Vec<f64>,
     finds_edges: bool,
     frames: HashMap<Cut, Option<Rc<DrawnFrame>>>,
@@ -53,7 +53,8 @@ pub struct Drawer<'a> {
     methods: HashMap<(Geometry, u8), Option<Rc<LinearPicture>>>,
 }
 
-/// Pictures with more pixels are not drawn by methods: they would be kept as a whole.
+/// Pictures with more pixels are not drawn by methods, because a method's picture is stored as a
+/// whole.
 const MOST_OF_METHODS: usize = 1 << 22;
 
 impl<'a> Drawer<'a> {
@@ -84,7 +85,7 @@ impl<'a> Drawer<'a> {
         }
     }
 
-    /// Draws a recipe; `None` where nothing can be drawn like this.
+    /// Draws a recipe, or returns `None` if it cannot be drawn.
     pub fn draw(&mut self, recipe: &Recipe) -> Option<Drawn> {
         let hits = self.hits(recipe.geometry, recipe.place)?;
         let light = self.light(recipe.geometry, recipe.place, recipe.shading)?;
@@ -92,7 +93,7 @@ impl<'a> Drawer<'a> {
         Some(Drawn { levels, hits })
     }
 
-    /// Returns the levels of linear light, and of the background where nothing is seen.
+    /// Returns the levels of linear light, and the background's where nothing is visible.
     pub fn levels(&self, storage: Storage, hits: &Hits, light: &[DVec3]) -> Vec<[f32; 3]> {
         let mut levels = Levels::new(storage, self.scene.encoding);
         if levels.is_stretched() {
@@ -106,8 +107,8 @@ impl<'a> Drawer<'a> {
         all.map(of).collect()
     }
 
-    /// Returns the factor by which colours are stretched: the one that comes nearest to the picture,
-    /// whose brightest pixel need not be among the samples.
+    /// Returns the factor by which colours are stretched. It is the factor that comes closest to
+    /// the picture, because the picture's brightest pixel need not be among the samples.
     fn stretched(&self, levels: &Levels, light: &[DVec3], hits: &Hits) -> f64 {
         let (mut both, mut own) = (0.0, 0.0);
         for (i, stored) in self.target.iter().enumerate() {
@@ -119,15 +120,16 @@ impl<'a> Drawer<'a> {
         }
         let most = light.iter().map(|c| c.max_element()).fold(0.0, f64::max);
         match most > 0.0 {
-            // The brightest pixel is brighter than the brightest sample, but not twice.
+            // The picture's brightest pixel is brighter than the brightest sample, but not twice as
+            // bright.
             true if own > 0.0 => (both / own).clamp(0.5 / most, 1.02 / most),
             true => 1.0 / most,
             false => 1.0,
         }
     }
 
-    /// Returns the frame of a geometry. Those that several recipes draw, of triangles that are cut in
-    /// other ways, are kept.
+    /// Returns the frame of a geometry. Frames that differ only in the cut of polygons serve many
+    /// recipes, and are stored.
     fn frame(&mut self, geometry: Geometry) -> Option<Rc<DrawnFrame>> {
         let plain = Geometry {
             cut: geometry.cut,
@@ -143,7 +145,7 @@ impl<'a> Drawer<'a> {
             .clone()
     }
 
-    /// Returns what is seen at each sampled pixel.
+    /// Returns the hits at the sampled pixels.
     pub fn hits(&mut self, geometry: Geometry, place: Place) -> Option<Rc<Hits>> {
         if let Some(hits) = self.hits.get(&(geometry, place)) {
             return hits.clone();
@@ -194,7 +196,7 @@ impl<'a> Drawer<'a> {
         self.pixels.iter().map(of).collect()
     }
 
-    /// Returns the linear light at each sampled pixel, not clamped; 0 where nothing is seen.
+    /// Returns the linear light at each sampled pixel, not clamped, and 0 where nothing is visible.
     pub fn light(&mut self, geometry: Geometry, place: Place, shading: Shading) -> Option<Light> {
         let key = (geometry, place, shading);
         if let Some(light) = self.kept.get(&key).or_else(|| self.lights.get(&key)) {
@@ -213,8 +215,8 @@ impl<'a> Drawer<'a> {
         light
     }
 
-    /// Returns the terms of each pixel's colour (ambient, diffuse, specular), with exponents multiplied
-    /// by `factor`.
+    /// Returns the terms of each pixel's colour (ambient, diffuse, specular). Exponents are
+    /// multiplied by `factor`.
     pub fn terms(&mut self, recipe: &Recipe, factor: f64) -> Option<Vec<Terms>> {
         let hits = self.hits(recipe.geometry, recipe.place)?;
         let shading = recipe.shading;
@@ -276,25 +278,26 @@ impl<'a> Drawer<'a> {
         Some(all.map(|pixel| pixel.map_or(DVec3::ZERO, colour)).collect())
     }
 
-    /// Keeps the light of all recipes that were drawn so far: pairs are drawn of it.
+    /// Stores the light of all recipes drawn so far, because pairs of mistakes are drawn from it.
     pub fn keep_light(&mut self) {
         self.kept.extend(self.lights.drain());
     }
 
-    /// Forgets the light of all recipes since: as many as there are pairs would fill the memory.
+    /// Forgets the light of all recipes drawn since: for all pairs of mistakes it would fill the
+    /// memory.
     pub fn forget_light(&mut self) {
         self.lights.clear();
     }
 }
 
-/// Draws a method on a frame, if it is for such frames and the picture is not too large.
+/// Draws a method on a frame, if the method can draw it and the picture is not too large.
 pub fn drawn_by(frame: &Frame, method: &Variant) -> Option<LinearPicture> {
     let is_small = frame.width() * frame.height() <= MOST_OF_METHODS;
     let picture = is_small.then(|| method.render_linear_with(frame, Renderer::fastest()))?;
     picture.ok()
 }
 
-/// A point of the surface, as it is lit.
+/// A point of the surface, ready to be lit.
 #[derive(Clone, Copy, Default)]
 struct Point {
     normal: DVec3,
@@ -303,7 +306,7 @@ struct Point {
     colour: DVec3,
 }
 
-/// A recipe's shading of the pixels of some hits.
+/// The shader of a recipe, which lights hits.
 struct Shader<'a> {
     surface: &'a Surface<'a>,
     materials: &'a [Material],
@@ -321,7 +324,8 @@ impl Shader<'_> {
             let sum = |i| self.terms(i).iter().sum();
             return (0..self.hits.len()).map(sum).collect();
         }
-        // A vertex is lit once, or once for each of its polygons if these have their own normals.
+        // A vertex is lit once, or once for each of its polygons if polygons have their own
+        // normals.
         let is_by_polygon = matches!(self.shading.normals, Normals::OfFaces | Normals::OfFacesRaw);
         let mut lit = HashMap::new();
         let mut colour = |i: usize, vertex: u32| {
@@ -353,7 +357,7 @@ impl Shader<'_> {
         (0..self.hits.len()).map(at_pixel).collect()
     }
 
-    /// Returns the terms of the colour at pixel `i`; 0 where nothing is seen.
+    /// Returns the terms of the colour at pixel `i`, or 0 where nothing is visible.
     fn terms(&self, i: usize) -> Terms {
         if !self.hits.is_covered(i) {
             return [DVec3::ZERO; 3];
@@ -398,7 +402,8 @@ impl Shader<'_> {
                 self.lit(i, whole(n.normalize_or_zero()), None)
             }
             Rate::FirstVertex => {
-                // Corners of mirrored objects stand in the reverse order; triangles begin as in the file.
+                // Polygons of mirrored objects have their corners in reverse order. Pieces begin
+                // with the same corner as in the file.
                 let is_reversed = piece.is_none() && surface.is_mirrored(corners[0]);
                 let first = if is_reversed {
                     corners[corners.len() - 1]
@@ -408,7 +413,8 @@ impl Shader<'_> {
                 let first = self.front(first);
                 self.lit(i, self.at_vertex(self.vertex_normal(i, first), first), None)
             }
-            // Terms are asked for amounts, which are linear in colours of vertices, too.
+            // Terms are read to find amounts. They are linear in vertex colours, too, so that these
+            // can be interpolated term by term.
             Rate::Vertex | Rate::VertexUnclamped => {
                 let mut sum = [DVec3::ZERO; 3];
                 for &(v, weight) in self.hits.weights(i) {
@@ -438,7 +444,7 @@ impl Shader<'_> {
         };
         let (n, p) = (point.normal, point.position);
         let terms = self.illumination.terms(&material, n, p, at.unwrap_or(p));
-        // Weights that add up to 1 but for rounding make no white.
+        // Weights add up to 1 only up to rounding: multiplying by white would change a level.
         if !self.surface.is_coloured(self.hits.materials[i]) {
             return terms;
         }
@@ -464,7 +470,7 @@ impl Shader<'_> {
         let whole = self.surface.corners(self.hits.polygons[i]);
         let corners = piece.as_ref().map_or(whole, |piece| &piece[..]);
         let at = |k: usize| self.surface.positions[corners[k % corners.len()] as usize];
-        // About the first corner, which keeps products small.
+        // Measured from the first corner, which keeps products small.
         let cross = |k: usize| (at(k) - at(0)).cross(at(k + 1) - at(0));
         (1..corners.len() - 1).map(cross).sum::<DVec3>().length()
     }
@@ -480,7 +486,7 @@ impl Shader<'_> {
         self.turned(i, own.unwrap_or(whole))
     }
 
-    /// Returns a normal of the side that is seen at pixel `i`.
+    /// Turns a normal to the visible side of the polygon at pixel `i`.
     fn turned(&self, i: usize, n: DVec3) -> DVec3 {
         let is_one_sided = self.shading.facing == Facing::OneSided;
         if self.hits.flipped[i] && !is_one_sided {

@@ -1,4 +1,4 @@
-//! The geometry of a recipe: from a prepared scene to the frame that someone with these mistakes draws.
+//! The geometry of a recipe: the frame of a scene that someone with these mistakes draws.
 
 use super::recipe::{Aspect, Cut, Depth, Geometry, Interpolated, Lens, Mirrored, Near, Snapping};
 use crate::frame::triangulate::triangulated;
@@ -7,23 +7,23 @@ use crate::scene::{
     Clipping, Culling, DepthBuffer, HiddenSurfaces, Interpolation, PainterKey, Projection, Scene,
 };
 
-/// A frame, and whether its picture is turned by half a circle.
+/// A frame, and a flag for pictures that are turned by half a circle.
 pub struct DrawnFrame {
     pub frame: Frame,
-    /// True if the focal length is negative: the picture is turned about its centre.
+    /// True if the focal length is negative, which turns the picture by 180° around its centre.
     pub is_turned: bool,
 }
 
-/// Half of the picture's extent at distance 1 (perspective) or everywhere (orthographic).
+/// The part of the world that the picture shows.
 struct Extent {
     projection: Projection,
-    /// Factors of x and y on the picture that the projection alone cannot say.
+    /// Factors of x and y on the picture, which the projection cannot express.
     scale: [f64; 2],
     is_turned: bool,
 }
 
 impl Geometry {
-    /// Draws the frame; `None` where nothing can be drawn like this.
+    /// Makes the frame, or returns `None` if nothing can be drawn like this.
     pub fn frame(&self, prepared: &PreparedScene) -> Option<DrawnFrame> {
         let mut prepared = prepared.clone();
         let scene = prepared.settings_mut();
@@ -31,7 +31,7 @@ impl Geometry {
             scene.culling = culling;
         }
         let culling = scene.culling;
-        // Sides are found triangle by triangle, or in another way, below.
+        // These mistakes cull in another way, or triangle by triangle: see `culled` below.
         let is_culled_later = self.mirrored == Mirrored::Inside || self.cut == Cut::FanOfConcave;
         if is_culled_later {
             scene.culling = Culling::None;
@@ -42,7 +42,7 @@ impl Geometry {
         }
         match self.depth {
             Depth::Stated => {}
-            // Depths are negated below; levels of z would clamp them.
+            // Depths are negated below. A buffer of few bits would clamp negative ones.
             Depth::Reversed => {
                 scene.hidden_surfaces = HiddenSurfaces::ZBuffer(DepthBuffer::default());
             }
@@ -123,7 +123,8 @@ impl Geometry {
             Aspect::Inverted => [aspect * aspect, 1.0],
             Aspect::OnHeight => [aspect, 1.0 / aspect],
         };
-        // Polygons outside the view are not in a frame: it may be stretched, never shrunk.
+        // A frame has no polygons outside its view. So make the view large enough that the frame is
+        // only ever stretched.
         let least = scale[0].min(scale[1]).min(1.0);
         half /= least;
         let projection = match is_perspective {
@@ -195,7 +196,7 @@ impl Geometry {
     }
 }
 
-/// Leaves out polygons that a plane of the view cut.
+/// Leaves out polygons that clipping cut.
 fn without_cut_polygons(frame: &Frame) -> Frame {
     let first_cut = frame.geometry.vertex_count() as u32;
     frame.with_pieces(|polygon, add| {
@@ -206,27 +207,27 @@ fn without_cut_polygons(frame: &Frame) -> Frame {
     })
 }
 
-/// Cuts polygons into fans around their corner `start`, of whose triangles `keeps` says how many are kept;
-/// concave polygons into ears, unless `of_concave`.
+/// Cuts polygons into fans around the corner at index `start`. `keeps` returns how many of a fan's
+/// triangles are kept. Concave polygons are cut into ears, unless `of_concave` is set.
 fn fans(frame: &Frame, start: usize, keeps: fn(usize) -> usize, of_concave: bool) -> Frame {
     let cut = (!of_concave).then(|| triangulated(frame));
     let ears = cut.iter().flat_map(|cut| {
-        let numbered = cut.origins.iter().zip(cut.frame.polygons());
-        numbered.map(|(origin, piece)| (*origin, cut.frame.corners(piece)))
+        let pieces = cut.origins.iter().zip(cut.frame.polygons());
+        pieces.map(|(origin, piece)| (*origin, cut.frame.corners(piece)))
     });
     let mut ears = ears.peekable();
-    let mut number = 0..;
+    let mut index = 0..;
     frame.with_pieces(|polygon, add| {
-        let number = number.next().unwrap_or(u32::MAX);
+        let index = index.next().unwrap_or(u32::MAX);
         let corners = frame.corners(polygon);
         let is_fan = of_concave || is_convex(frame, corners);
-        while let Some((_, piece)) = ears.next_if(|(origin, _)| *origin <= number) {
+        while let Some((_, piece)) = ears.next_if(|(origin, _)| *origin <= index) {
             if !is_fan {
                 add(piece);
             }
         }
         if is_fan {
-            // Corners of mirrored objects stand in the reverse order.
+            // Polygons of mirrored objects have their corners in reverse order.
             let is_reversed = is_mirrored(frame, corners);
             let sides = corners.len();
             let first = if is_reversed {
@@ -243,12 +244,13 @@ fn fans(frame: &Frame, start: usize, keeps: fn(usize) -> usize, of_concave: bool
     })
 }
 
-/// Leaves out polygons on the side that `culling` names, which may be the other one in mirrored objects.
+/// Leaves out polygons on the side that `culling` names. In mirrored objects `mirrored` may
+/// exchange the sides.
 fn culled(frame: Frame, culling: Culling, mirrored: Mirrored) -> Frame {
     let is_kept = |polygon: &Polygon| {
         let corners = frame.corners(polygon);
         let is_mirrored = is_mirrored(&frame, corners);
-        // Rows grow downward: corners run counter-clockwise where the area is less than 0.
+        // Rows grow downward, so corners run counter-clockwise where the area is negative.
         let is_turned = is_mirrored && mirrored == Mirrored::Inside;
         let is_front = (twice_area(&frame, corners) < 0) != is_turned;
         match culling {
@@ -264,11 +266,12 @@ fn culled(frame: Frame, culling: Culling, mirrored: Mirrored) -> Frame {
     })
 }
 
-/// True if a polygon is of an object that its transform mirrors.
+/// True if a polygon belongs to an object that its transform mirrors.
 fn is_mirrored(frame: &Frame, corners: &[u32]) -> bool {
     let models = &frame.geometry.models;
     let count = frame.geometry.normals.len();
-    // Vertices of the second side follow those of the first, and those that clipping made come last.
+    // Vertices of the second side follow the vertices of the first. Vertices from clipping come
+    // last.
     let first_cut = frame.geometry.vertex_count();
     let own = corners
         .iter()
@@ -277,14 +280,14 @@ fn is_mirrored(frame: &Frame, corners: &[u32]) -> bool {
     object.is_some_and(|object| object.transform.matrix3.determinant() < 0.0)
 }
 
-/// Returns how far apart two vertices are in space.
+/// Returns the square of the distance between two vertices in space.
 fn distance(frame: &Frame, a: u32, b: u32) -> f32 {
     let [a, b] = [a, b].map(|vertex| frame.position(vertex));
     let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
     squares.sum()
 }
 
-/// Returns twice the area of a polygon on the picture, in sub-pixels.
+/// Returns twice the signed area of a polygon on the picture, in sub-pixels squared.
 fn twice_area(frame: &Frame, corners: &[u32]) -> i64 {
     let at = |i: usize| {
         let vertex = &frame.vertices()[corners[i % corners.len()] as usize];
@@ -297,7 +300,7 @@ fn twice_area(frame: &Frame, corners: &[u32]) -> i64 {
     (0..corners.len()).map(cross).sum()
 }
 
-/// True if a polygon turns to one side only on the picture.
+/// True if a polygon turns only to one side on the picture.
 fn is_convex(frame: &Frame, corners: &[u32]) -> bool {
     let at = |i: usize| {
         let vertex = &frame.vertices()[corners[i % corners.len()] as usize];

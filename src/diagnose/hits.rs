@@ -1,10 +1,10 @@
-//! Hits: what is seen at sampled pixels, as a polygon and the weights of its vertices. The engine says
-//! which polygon; the weights are the reference's closed forms.
+//! Hits: the visible polygon at each sampled pixel, and the weights of its vertices. The engine
+//! finds the polygon. The weights are the reference's closed forms.
 
 use super::recipe::{Corners, Geometry, Interpolated};
 use super::surface::Surface;
 use crate::frame::{Frame, Polygon};
-use crate::raster::{NOTHING, for_each_polygon_row};
+use crate::raster::{NO_POLYGON, for_each_polygon_row};
 use crate::reference::coverage::Scanline;
 use crate::scene::Interpolation;
 use alloc::vec;
@@ -12,47 +12,49 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use glam::DVec3;
 
-/// What is seen at each of some pixels.
+/// The visible polygons at some pixels.
 #[derive(Default)]
 pub struct Hits {
-    /// The polygon of the scene, or [`NOTHING`].
+    /// The polygon of the scene, or [`NO_POLYGON`].
     pub polygons: Vec<u32>,
-    /// The corners of the triangle that is drawn there, if it is one, whole, and of a larger polygon.
+    /// The corners of the triangle at the pixel, if the polygon was cut into triangles and clipping
+    /// did not cut this one.
     pub pieces: Vec<Option<[u32; 3]>>,
-    /// Its material.
+    /// The polygon's material.
     pub materials: Vec<u32>,
-    /// True where it is lit from behind: its normals are negated.
+    /// True if the back of the polygon is visible: its normals are negated.
     pub flipped: Vec<bool>,
-    /// True beside an edge of what is covered, a jump of depth, or a crease, where the picture of
-    /// another rasterizer may show another polygon.
+    /// True beside an outline, a jump of depth or a crease, where another rasterizer may show
+    /// another polygon.
     pub edges: Vec<bool>,
     ends: Vec<u32>,
     weights: Vec<(u32, f64)>,
 }
 
-/// The neighbours that decide whether a pixel is at an edge.
+/// The steps to a pixel's neighbours, among which edges are looked for.
 const AROUND: [[i64; 2]; 4] = [[-1, 0], [1, 0], [0, -1], [0, 1]];
 
-/// Points of one surface are nearer to each other than this share of the scene's extent.
+/// The largest distance between neighbouring points of one surface, as a share of the scene's
+/// extent.
 const JUMP: f64 = 0.06;
 
-/// Normals of one surface have at least this cosine at neighbouring pixels: 20°.
+/// The least cosine between normals of one surface at neighbouring pixels: 20°.
 const CREASE: f64 = 0.94;
 
 impl Hits {
-    /// Finds what is seen at the pixels of `frame` that are looked at.
+    /// Finds the visible polygons at the pixels of `looked_at`.
     pub fn new(
         frame: &Frame,
         surface: &Surface<'_>,
         looked_at: &LookedAt,
         geometry: &Geometry,
     ) -> Hits {
-        let numbers = looked_at.polygons(frame);
+        let indices = looked_at.polygons(frame);
         let mut hits = Hits::default();
         let mut weights = Weights::new(frame, surface, geometry);
-        let numbers = numbers.chunks(looked_at.slots());
-        for (pixel, numbers) in looked_at.pixels.iter().zip(numbers) {
-            let seen = pixel.zip(frame.polygons().get(numbers[0] as usize));
+        let indices = indices.chunks(looked_at.slots());
+        for (pixel, indices) in looked_at.pixels.iter().zip(indices) {
+            let seen = pixel.zip(frame.polygons().get(indices[0] as usize));
             let is_hit = seen.is_some_and(|([x, y], polygon)| weights.find(polygon, [x, y]));
             if let Some((_, polygon)) = seen.filter(|_| is_hit) {
                 hits.add(polygon, weights.piece(polygon), &weights.found);
@@ -63,19 +65,19 @@ impl Hits {
                 hits.edges.push(true);
                 continue;
             };
-            let is_uniform = numbers.iter().all(|number| *number == numbers[0]);
+            let is_uniform = indices.iter().all(|index| *index == indices[0]);
             let seen = seen.filter(|_| is_hit && !is_uniform);
             let here = seen.and_then(|([x, y], polygon)| {
                 weights
                     .find_right(polygon, [x, y])
-                    .then(|| (numbers[0], weights.place()))
+                    .then(|| (indices[0], weights.place()))
             });
-            let mut others = looked_at.around.iter().zip(&numbers[1..]);
+            let mut others = looked_at.around.iter().zip(&indices[1..]);
             hits.edges.push(
                 !is_uniform
-                    && others.any(|(step, number)| {
+                    && others.any(|(step, index)| {
                         let other = looked_at.stepped(*pixel, *step);
-                        other.is_some_and(|other| weights.is_apart(here, *number, other))
+                        other.is_some_and(|other| weights.is_apart(here, *index, other))
                     }),
             );
         }
@@ -92,25 +94,25 @@ impl Hits {
     }
 
     fn add_nothing(&mut self) {
-        self.polygons.push(NOTHING);
+        self.polygons.push(NO_POLYGON);
         self.pieces.push(None);
         self.materials.push(0);
         self.flipped.push(false);
         self.ends.push(self.weights.len() as u32);
     }
 
-    /// Returns the number of pixels.
+    /// Returns how many pixels there are.
     pub fn len(&self) -> usize {
         self.polygons.len()
     }
 
-    /// True if anything is seen at pixel `i`.
+    /// True if a polygon is visible at pixel `i`.
     pub fn is_covered(&self, i: usize) -> bool {
-        self.polygons[i] != NOTHING
+        self.polygons[i] != NO_POLYGON
     }
 
-    /// Returns the vertices of pixel `i` with their weights, which sum to 1. Vertices of the second side
-    /// are those of the first.
+    /// Returns the vertices at pixel `i` with their weights, which add up to 1. For the back of a
+    /// polygon they are the vertices of its front.
     pub fn weights(&self, i: usize) -> &[(u32, f64)] {
         let start = if i == 0 { 0 } else { self.ends[i - 1] };
         &self.weights[Range {
@@ -120,19 +122,20 @@ impl Hits {
     }
 }
 
-/// The pixels of a frame that are looked at, in the order in which rows are drawn.
+/// The sampled pixels of a frame, sorted in the order in which rows are drawn.
 pub struct LookedAt {
-    /// Column and row; `None` outside the picture.
+    /// Column and row, or `None` outside the picture.
     pixels: Vec<Option<[usize; 2]>>,
-    /// Neighbours of each pixel that are looked at, too: all four, or none.
+    /// The neighbours of each pixel that are sampled, too: all four, or none.
     around: &'static [[i64; 2]],
     size: [usize; 2],
-    /// Row, column, and place among the pixels and their neighbours.
+    /// Row, column, and index among the pixels and their neighbours.
     order: Vec<[u32; 3]>,
 }
 
 impl LookedAt {
-    /// Looks at `pixels` of a picture of `size`; with `finds_edges` at their neighbours as well.
+    /// Samples `pixels` of a picture of `size`. With `finds_edges` it samples their neighbours as
+    /// well.
     pub fn new(pixels: Vec<Option<[usize; 2]>>, size: [usize; 2], finds_edges: bool) -> LookedAt {
         let mut looked_at = LookedAt {
             pixels,
@@ -161,7 +164,7 @@ impl LookedAt {
         self.around.len() + 1
     }
 
-    /// Returns the neighbour of a pixel, if it is in the picture.
+    /// Returns the neighbour of a pixel, or `None` if it is outside the picture.
     fn stepped(&self, [x, y]: [usize; 2], [dx, dy]: [i64; 2]) -> Option<[usize; 2]> {
         let x = usize::try_from(x as i64 + dx)
             .ok()
@@ -172,17 +175,18 @@ impl LookedAt {
         Some([x, y])
     }
 
-    /// Returns the polygon of `frame` that is seen at each pixel, and then at its neighbours.
+    /// Returns the index of the visible polygon of `frame` at each pixel, followed by those at its
+    /// neighbours.
     fn polygons(&self, frame: &Frame) -> Vec<u32> {
-        let mut numbers = vec![NOTHING; self.slots() * self.pixels.len()];
+        let mut indices = vec![NO_POLYGON; self.slots() * self.pixels.len()];
         for_each_polygon_row(frame, &mut |row, polygon| {
             let start = self.order.partition_point(|[y, ..]| (*y as usize) < row);
             let here = self.order[start..].iter();
             for &[_, x, slot] in here.take_while(|[y, ..]| *y as usize == row) {
-                numbers[slot as usize] = polygon(x as usize);
+                indices[slot as usize] = polygon(x as usize);
             }
         });
-        numbers
+        indices
     }
 }
 
@@ -191,7 +195,7 @@ struct Weights<'a> {
     frame: &'a Frame,
     surface: &'a Surface<'a>,
     scanline: Scanline<'a>,
-    /// The polygon and row that `scanline` is at.
+    /// The polygon, by its first corner, and the row that `scanline` cut last.
     at: Option<(u32, usize)>,
     corners: Corners,
     is_times_w: bool,
@@ -211,7 +215,8 @@ impl<'a> Weights<'a> {
         }
     }
 
-    /// Finds the weights of a polygon at a pixel; false if it is not there.
+    /// Finds the weights of a polygon's vertices at a pixel. Returns false if the polygon does not
+    /// cover it.
     fn find(&mut self, polygon: &'a Polygon, [x, y]: [usize; 2]) -> bool {
         if self.at != Some((polygon.first, y)) {
             self.scanline.cut(self.frame.corners(polygon), y);
@@ -228,7 +233,7 @@ impl<'a> Weights<'a> {
             (false, true) => vertices[v as usize].inv_w,
             (false, false) => 1.0,
         };
-        let all = self.given(self.frame.corners(polygon), weights.all());
+        let all = self.assigned(self.frame.corners(polygon), weights.all());
         let all = all.map(|(v, weight)| (v, weight * factor(v)));
         let sum: f64 = all.iter().map(|(_, weight)| weight).sum();
         for (vertex, weight) in all.into_iter().filter(|(_, weight)| *weight != 0.0) {
@@ -237,7 +242,7 @@ impl<'a> Weights<'a> {
         true
     }
 
-    /// Finds the weights without mistakes: edges are where polygons are.
+    /// Finds the weights without mistakes, because edges do not depend on them.
     fn find_right(&mut self, polygon: &'a Polygon, pixel: [usize; 2]) -> bool {
         let own = (self.corners, self.is_times_w);
         (self.corners, self.is_times_w) = (Corners::Own, false);
@@ -246,8 +251,8 @@ impl<'a> Weights<'a> {
         is_found
     }
 
-    /// Gives the weights of a triangle to the corners that they are said to belong to.
-    fn given(&self, corners: &[u32], weights: [(u32, f64); 4]) -> [(u32, f64); 4] {
+    /// Assigns the weights of a triangle to its corners, which a mistake may exchange.
+    fn assigned(&self, corners: &[u32], weights: [(u32, f64); 4]) -> [(u32, f64); 4] {
         let &[a, b, c] = corners else { return weights };
         let of = |v: u32| -> f64 {
             let own = weights.iter().filter(|(vertex, _)| *vertex == v);
@@ -261,7 +266,7 @@ impl<'a> Weights<'a> {
         }
     }
 
-    /// Adds a vertex, or for one that clipping made the two between which it lies.
+    /// Adds a vertex. If clipping made it, adds the two vertices between which it lies.
     fn add(&mut self, vertex: u32, weight: f64) {
         if let Some(cut) = self.frame.clip_corner(vertex) {
             let t = f64::from(cut.t);
@@ -273,7 +278,8 @@ impl<'a> Weights<'a> {
         self.found.push((front as u32, weight));
     }
 
-    /// Returns the corners of a triangle that is part of a larger polygon.
+    /// Returns the corners of a triangle that is a piece of a larger polygon and that clipping did
+    /// not cut.
     fn piece(&self, polygon: &Polygon) -> Option<[u32; 3]> {
         let whole = self.surface.corners(polygon.source);
         let corners = <[u32; 3]>::try_from(self.frame.corners(polygon)).ok()?;
@@ -284,7 +290,7 @@ impl<'a> Weights<'a> {
         (whole.len() > 3 && is_whole).then(|| corners.map(front))
     }
 
-    /// Returns position, unit normal and object of the weights found last.
+    /// Returns position, unit normal and object of the point whose weights were found last.
     fn place(&self) -> (DVec3, DVec3, usize) {
         let sum = |of: &[DVec3]| -> DVec3 {
             let found = self.found.iter();
@@ -298,23 +304,24 @@ impl<'a> Weights<'a> {
         (sum(&self.surface.positions), normal, object)
     }
 
-    /// True if the polygon `number` at a neighbouring pixel is not of the surface that is seen `here`.
+    /// True if the polygon at `index`, which is visible at a neighbouring pixel, belongs to another
+    /// surface than the one visible `here`.
     fn is_apart(
         &mut self,
         here: Option<(u32, (DVec3, DVec3, usize))>,
-        number: u32,
+        index: u32,
         neighbour: [usize; 2],
     ) -> bool {
         let frame = self.frame;
-        let other = frame.polygons().get(number as usize);
+        let other = frame.polygons().get(index as usize);
         let (Some((own, (p, n, object))), Some(other)) = (here, other) else {
             return here.is_some() != other.is_some();
         };
-        if own == number || !self.find_right(other, neighbour) {
+        if own == index || !self.find_right(other, neighbour) {
             return false;
         }
         let (q, m, neighbour) = self.place();
-        // Surfaces of two objects at one depth fight, in another way in each rasterizer.
+        // Two objects at the same depth fight for a pixel, and each rasterizer decides differently.
         object != neighbour || (p - q).length() > JUMP * self.surface.extent || n.dot(m) < CREASE
     }
 }

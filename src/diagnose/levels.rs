@@ -1,20 +1,20 @@
-//! From linear light to the levels of a file, right or with mistakes.
+//! Converts linear light to the levels of a file, correctly or with mistakes.
 
 use super::recipe::{Channels, Curve, LevelRange, Rounding, Storage};
 use crate::picture::Encoding;
 use crate::picture::encoding::Encoder;
 use glam::DVec3;
 
-/// The way from a colour to levels of 0..=255.
+/// A conversion from colours to levels of 0..=255.
 pub struct Levels {
     storage: Storage,
     curve: Curve,
-    /// Multiplies colours.
+    /// The factor of colours, 1 unless they are [stretched](Self::is_stretched).
     pub scale: f64,
 }
 
 impl Levels {
-    /// Makes the way of `storage`, for a scene that states `encoding`.
+    /// Makes the conversion of `storage` for a scene with `encoding`.
     pub fn new(storage: Storage, encoding: Encoding) -> Levels {
         let stated = match encoding {
             Encoding::Linear => Curve::Linear,
@@ -30,7 +30,7 @@ impl Levels {
         }
     }
 
-    /// True if colours are to be divided by the largest of them: [`Levels::scale`].
+    /// True if all colours are divided by the largest one. Then set [`Levels::scale`].
     pub fn is_stretched(&self) -> bool {
         self.storage.range == LevelRange::Stretched
     }
@@ -61,7 +61,7 @@ impl Levels {
         channels.map(|c| self.level(c) as f32)
     }
 
-    /// Returns the linear light of a level, as if it had been stored like this.
+    /// Returns the linear light that this conversion stores as a level.
     pub fn decoded(&self, level: f64) -> f64 {
         let c = level / 255.0;
         match self.curve {
@@ -74,7 +74,7 @@ impl Levels {
         }
     }
 
-    /// True if levels are those of the encoder of pictures, which is quicker.
+    /// True if the crate's own encoder computes the same levels, which is faster.
     fn is_plain_srgb(&self) -> bool {
         self.curve == Curve::Srgb
             && self.storage.rounding == Rounding::Nearest

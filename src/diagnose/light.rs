@@ -1,7 +1,7 @@
 //! The illumination model (L21 2.1) with a switch for each mistake, in `f64`.
 //!
-//! It shares no arithmetic with the methods, and none with the reference either; a test compares it
-//! with the reference where no switch is set.
+//! It shares no arithmetic with the methods, nor with the reference. A test compares it with the
+//! reference when no switch is set.
 
 use super::recipe::{
     AmbientUse, Axes, Cap, Cosine, DiffuseUse, Exponent, Facing, FalloffUse, Halfway, Highlight,
@@ -14,7 +14,7 @@ use crate::scene::{Camera, Falloff, Place, Scene, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
-/// A light as a recipe has it: positions count from the frame's origin.
+/// A light of a recipe. Positions are relative to the frame's origin.
 #[derive(Clone, Copy)]
 struct Source {
     place: Place<DVec3>,
@@ -24,7 +24,7 @@ struct Source {
     falloff: Strength,
 }
 
-/// The strength of a light with the distance r.
+/// The strength of a light at the distance r.
 #[derive(Clone, Copy)]
 enum Strength {
     Constant,
@@ -45,26 +45,27 @@ pub struct Illumination {
     ambient: DVec3,
     /// Right, up and toward the viewer.
     axes: DMat3,
-    /// Where the viewer is.
+    /// The viewer's position, or the direction to it.
     viewer: Place<DVec3>,
     model: SpecularModel,
-    /// Multiplies the exponents of materials.
+    /// The factor of the materials' exponents.
     exponent: f64,
     gate: SpecularGate,
-    /// Divides the sum of all lights.
+    /// The divisor of the sum of all lights.
     shares: f64,
 }
 
-/// A colour or coefficient in double precision.
+/// Converts a colour or coefficient to double precision.
 fn wide(c: Rgb) -> DVec3 {
     DVec3::from_array(c.map(f64::from))
 }
 
-/// The terms of a material's colour before any is clamped: ambient, diffuse, specular.
+/// The terms of a colour before clamping: ambient, diffuse, specular.
 pub type Terms = [DVec3; 3];
 
 impl Illumination {
-    /// Reads the lights of `scene`, whose directions have these lengths in the file, with the mistakes of `switches`.
+    /// Reads the lights of `scene` with the mistakes of `switches`. `lengths` are the lengths of
+    /// light directions in the file.
     pub fn new(scene: &Scene, lengths: &[f64], origin: DVec3, switches: Shading) -> Illumination {
         let camera = &scene.camera;
         let count = scene.lights.len();
@@ -108,7 +109,7 @@ impl Illumination {
     /// ```text
     /// I = I_a k_a + Σ (I_p k_d (L·N) + I_p k_s (R·V)ⁿ)      (L21 2.1)
     /// ```
-    /// `at` is the point from which lights and viewer are seen: `p`, unless L and V are constant.
+    /// `at` is the point where L and V are computed: `p`, unless L and V are constant.
     pub fn terms(&self, material: &Material, n: DVec3, p: DVec3, at: DVec3) -> Terms {
         let switches = &self.switches;
         let (kd, ks) = (wide(material.diffuse), wide(material.specular));
@@ -168,7 +169,7 @@ impl Illumination {
                     terms[1] += d;
                     terms[2] += s;
                 }
-                // Ambient light belongs to the first one; what is cut off is cut off the highlight.
+                // Each light's sum is clamped, and the highlight loses what the clamp cuts off.
                 Sum::ClampedPerLight => {
                     let sum = (d + s).clamp(DVec3::ZERO, DVec3::ONE);
                     terms[1] += d.min(sum);
@@ -208,7 +209,7 @@ impl Illumination {
         }
     }
 
-    /// Returns the vector toward a light, and its strength there.
+    /// Returns the vector from a point toward a light, and the light's strength there.
     fn toward_light(&self, source: &Source, at: DVec3) -> (DVec3, f64) {
         let (l, strength) = match source.place {
             Place::Infinite(l) => (l * source.length, 1.0),
@@ -332,7 +333,7 @@ fn sources(scene: &Scene, lengths: &[f64], origin: DVec3, switches: &Shading) ->
     }
 }
 
-/// Returns the cosine of highlights, and the factor of the materials' exponents.
+/// Returns the highlights' cosine (R·V or N·H), and the factor of the materials' exponents.
 fn highlight_model(scene: &Scene, switches: &Shading) -> (SpecularModel, f64) {
     let stated = scene.specular;
     let other = match stated {
@@ -364,7 +365,7 @@ fn signed(v: DVec3, sign: Sign) -> DVec3 {
 }
 
 impl Strength {
-    /// Reads a falloff as a recipe takes it.
+    /// Returns the strength for a scene's falloff and a recipe's mistake in it.
     fn new(stated: Falloff, taken: FalloffUse) -> Strength {
         match (taken, stated) {
             (FalloffUse::Missing, _) | (FalloffUse::Stated, Falloff::None) => Strength::Constant,
@@ -400,7 +401,7 @@ fn axes(camera: &Camera) -> DMat3 {
     DMat3::from_cols(right, up, -forward)
 }
 
-/// Returns the place of a light as a recipe takes it, from the frame's origin.
+/// Returns the place of a light with a recipe's mistakes, relative to the frame's origin.
 fn light_place(
     stated: Place<DVec3>,
     origin: DVec3,

@@ -1,13 +1,14 @@
-//! Why is a picture wrong? Analysis by synthesis: each mistake that people make is drawn, and the one that
-//! comes nearest to the picture is named.
+//! Finds out why a picture is wrong, by synthesis: it draws each mistake that people make, and
+//! names the one that comes closest to the picture.
 //!
-//! A mistake (`mistakes.rs`) sets choices of a recipe (`recipe.rs`). Few recipes differ in what is seen at
-//! a pixel (`geometry.rs`, `hits.rs`), so that the others are shadings (`light.rs`, `surface.rs`) and
-//! stored levels (`levels.rs`) of the same hits, at a few thousand pixels: `drawer.rs` keeps what recipes
-//! share. `residual.rs` measures, `search.rs` decides, `amounts.rs` asks what is wrong by a factor.
+//! A mistake (`mistakes.rs`) sets choices of a recipe (`recipe.rs`). Few mistakes change which
+//! polygon is visible at a pixel (`geometry.rs`, `hits.rs`). All others only shade (`light.rs`,
+//! `surface.rs`) or store (`levels.rs`) the same hits in another way, at a few thousand pixels. So
+//! `drawer.rs` stores everything that recipes share. `residual.rs` measures, `search.rs` decides,
+//! and `amounts.rs` looks for light that is wrong by a factor.
 //!
-//! Pixels are samples of the whole picture: a smaller one would have other edges. Levels are rounded as a
-//! file has them, so that a mistake that is the right one leaves nothing at all.
+//! The pixels are samples of the whole picture, because a smaller picture would have other edges.
+//! Levels are rounded like those of a file, so the right mistake leaves no difference at all.
 
 mod amounts;
 mod drawer;
@@ -26,11 +27,10 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-pub use amounts::{Amounts, Tone};
 pub use mistakes::{MISTAKES, Mistake, Part};
-pub use residual::{Residual, Votes};
 pub use search::Verdict;
-pub use shown_by::{scene_that_tells, scenes_that_show};
+pub(crate) use shown_by::scene_that_tells;
+pub use shown_by::scenes_that_show;
 
 use crate::frame::{Frame, FrameError, PreparedScene};
 use crate::number::split_mix::SplitMix;
@@ -40,24 +40,26 @@ use crate::reference::Model;
 use crate::scene::Scene;
 use crate::shading::Variant;
 use alloc::vec::Vec;
+use amounts::{Amounts, Tone};
 use drawer::{Drawer, Drawn};
 use recipe::{Rate, Recipe};
-use residual::{Target, apart, distance};
+use residual::{Residual, Target, Votes, apart, distance};
 use search::{Candidate, Findings, INVISIBLE, Search};
 use subject::{Subject, background};
 use surface::Surface;
 
-/// Pixels that are compared, about: of those that anything covers.
+/// About how many covered pixels are compared.
 const SAMPLES: usize = 3000;
 
-/// The most pixels that are looked at for them.
+/// The most pixels that are sampled to find them.
 const MOST_SAMPLES: usize = 20_000;
 
-/// The background has to differ by this many levels to be wrong.
+/// The background counts as wrong from this difference on, in levels.
 const OTHER_BACKGROUND: f32 = 2.0;
 
-/// Why a picture cannot be diagnosed.
+/// The reason why a picture cannot be diagnosed.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum DiagnoseError {
     /// The scene cannot be drawn.
     Frame(FrameError),
@@ -65,49 +67,52 @@ pub enum DiagnoseError {
     NothingToCompare,
 }
 
-/// What is asked about a picture.
+/// A picture to diagnose, and the scene that it should show.
 pub struct Question<'a> {
-    /// The scene; its size is that of the picture, or the picture's with columns and rows exchanged.
+    /// The scene. It has the size of the picture, or the size of the picture with columns and rows
+    /// exchanged.
     pub scene: &'a Scene,
-    /// The method that was to be drawn: the reference's Phong shading if `None`.
+    /// The method that should have drawn it, or `None` for the reference's Phong shading.
     pub method: Option<&'a Variant>,
     /// The picture.
     pub picture: &'a FilePicture,
-    /// The lengths of the lights' directions as the scene file states them, which people forget to divide by;
-    /// 1 for lights after the last.
+    /// The lengths of the lights' directions in the scene file, by which people forget to divide.
+    /// Lights without an entry have the length 1.
     pub light_lengths: &'a [f64],
 }
 
-/// What was found out about a picture.
+/// The findings about a picture.
 pub struct Diagnosis {
-    /// True if columns and rows of the picture are exchanged: what follows is about it after that.
+    /// True if columns and rows of the picture are exchanged. All other findings are about the
+    /// picture with them put right.
     pub is_transposed: bool,
-    /// The background of the picture and that of the scene, in levels, if they differ.
+    /// The background of the picture and the background of the scene, in levels, if they differ.
     pub background: Option<[[f32; 3]; 2]>,
     /// The encoding that the file states, if the scene states another one.
     pub stated_encoding: Option<Encoding>,
-    /// True if colours of pixels that are covered in part are multiplied by their alpha.
+    /// True if partly covered pixels have colours that are multiplied by their alpha.
     pub is_premultiplied: bool,
-    /// The share of compared pixels that are covered in the picture or in the scene, and not in both: another outline.
+    /// The share of compared pixels that only the picture or only the scene covers: another
+    /// outline.
     pub outline: f64,
-    /// The share of what is seen that has the background's colour where it should not: cracks.
+    /// The share of visible pixels that wrongly have the background's colour: cracks.
     pub cracks: f64,
     pub verdict: Verdict,
-    /// The distance of the picture from what was asked for.
+    /// The distance of the picture from the right one.
     pub reference: Residual,
-    /// How polygons of more than three sides are cut where that distance is least.
+    /// How polygons of more than three sides are cut so that this distance is least.
     pub cut: &'static str,
-    /// The mistakes that explain the picture, then others that do so as well.
+    /// The mistakes that explain the picture, the best first, then others that explain it as well.
     pub causes: Vec<Cause>,
     /// All single mistakes, the best first.
     pub singles: Vec<Cause>,
     pub votes: Option<Votes>,
     pub amounts: Option<Amounts>,
     pub tone: Option<Tone>,
-    /// The pixel that shows it best.
+    /// The pixel that shows the mistakes best.
     pub look_at: Option<Spot>,
-    /// Column, row, width and height of the part of the picture that differs most from the nearest
-    /// explanation.
+    /// The part of the picture that differs most from the closest explanation: column, row, width
+    /// and height in pixels.
     pub worst: Option<[usize; 4]>,
     /// Mistakes that this scene would not show.
     pub invisible: Vec<&'static Mistake>,
@@ -118,7 +123,7 @@ pub struct Diagnosis {
 pub struct Cause {
     /// The mistakes.
     pub mistakes: Vec<Mistake>,
-    /// What is left of the picture's difference, in levels.
+    /// The difference that they leave unexplained, in levels.
     pub residual: f64,
     recipe: Recipe,
 }
@@ -128,18 +133,19 @@ pub struct Cause {
 pub struct Spot {
     /// Column and row.
     pub pixel: [usize; 2],
-    /// The picture that is diagnosed.
+    /// Its levels in the picture that is diagnosed.
     pub yours: [f32; 3],
-    /// The reference.
+    /// Its levels in the reference.
     pub reference: [f32; 3],
-    /// The reference with the mistakes, if any were named.
+    /// Its levels in the reference with the mistakes, if any were named.
     pub explained: Option<[f32; 3]>,
 }
 
-/// Finds out why a picture differs from its scene. `progress` takes the share of the work that is done.
+/// Finds out why a picture differs from its scene. `progress` is called with the share of the work
+/// that is done, 0 to 1.
 ///
 /// # Errors
-/// When the scene cannot be drawn, or there is nothing to compare.
+/// [`DiagnoseError`] if the scene cannot be drawn, or if there is nothing to compare.
 pub fn diagnose(
     question: &Question<'_>,
     progress: &mut dyn FnMut(f32),
@@ -185,8 +191,8 @@ pub fn diagnose(
     Ok(diagnosis)
 }
 
-/// Returns how far each mistake of [`MISTAKES`] changes the picture of a scene, in grey levels, as a mean over
-/// what is seen; `None` for those that are no mistakes there.
+/// Returns how far each mistake of [`MISTAKES`] changes the picture of a scene, in grey levels, as
+/// a mean over all covered pixels. It is `None` for choices that are right in this scene.
 ///
 /// # Errors
 /// As [`diagnose`].
@@ -194,11 +200,12 @@ pub fn shown(scene: &Scene) -> Result<Vec<Option<f64>>, DiagnoseError> {
     with_search(scene, |search| search.shown())
 }
 
-/// Returns how far apart the pictures of a scene are that someone draws with each of two mistakes.
+/// Returns how far two pictures of a scene differ in grey levels, one drawn with some mistakes and
+/// one with others.
 ///
 /// # Errors
 /// As [`diagnose`].
-pub fn told_apart(scene: &Scene, mistakes: [&[Mistake]; 2]) -> Result<f64, DiagnoseError> {
+fn told_apart(scene: &Scene, mistakes: [&[Mistake]; 2]) -> Result<f64, DiagnoseError> {
     with_search(scene, |search| {
         let [a, b] = mistakes.map(|mistakes| {
             let made: Vec<&Mistake> = mistakes.iter().collect();
@@ -209,7 +216,7 @@ pub fn told_apart(scene: &Scene, mistakes: [&[Mistake]; 2]) -> Result<f64, Diagn
     })
 }
 
-/// Runs `with` on a search in the right picture of a scene.
+/// Calls `with` with a search in the right picture of a scene.
 fn with_search<T>(
     scene: &Scene,
     with: impl FnOnce(&mut Search<'_, '_>) -> T,
@@ -242,7 +249,8 @@ fn prepared(scene: &Scene) -> Result<PreparedScene, DiagnoseError> {
     Ok(prepared)
 }
 
-/// Returns the recipes of what was asked for. The lecture leaves open whether colours are clamped at vertices.
+/// Returns the right recipes. Gouraud's method has two, because the lecture does not say if colours
+/// are clamped at vertices.
 fn right(method: Option<&Variant>) -> Vec<Recipe> {
     let rates: &[Rate] = match method.map(|method| method.closed_form().model) {
         None | Some(Model::Phong | Model::Slerp) => &[Rate::Pixel],
@@ -259,8 +267,8 @@ fn right(method: Option<&Variant>) -> Vec<Recipe> {
     rates.iter().map(with).collect()
 }
 
-/// Returns the distance of a picture from what a method itself draws, which its closed form only comes near to;
-/// `None` for large pictures.
+/// Returns the distance of a picture from the method's own picture, which differs a little from its
+/// closed form. Returns `None` for large pictures.
 fn by_method(method: &Variant, frame: &Frame, search: &mut Search<'_, '_>) -> Option<Residual> {
     let plain = Recipe::default();
     let hits = search.drawer.hits(plain.geometry, plain.place)?;
@@ -276,11 +284,12 @@ fn by_method(method: &Variant, frame: &Frame, search: &mut Search<'_, '_>) -> Op
     search.target.residual(&Drawn { levels, hits })
 }
 
-/// A right picture with several samples per pixel is not farther than this from one with one, in levels.
+/// The largest distance in levels between right pictures with several samples per pixel and with
+/// one.
 const MOST_OF_SAMPLES: f64 = 2.0;
 
-/// Returns the distance of a picture from what is right with 2 × 2 samples per pixel: the mean of covered ones in
-/// linear light.
+/// Returns the distance of a picture from the right one with 2 × 2 samples per pixel, which is the
+/// mean of covered samples in linear light.
 fn supersampled(
     prepared: &PreparedScene,
     surface: &Surface<'_>,
@@ -320,7 +329,8 @@ fn nearer(a: Residual, b: Option<Residual>) -> Residual {
     b.filter(|b| b.levels < a.levels).unwrap_or(a)
 }
 
-/// Chooses pixels on a grid, each somewhere in its cell, so many that about [`SAMPLES`] are covered.
+/// Chooses pixels on a grid, each at a random place in its cell, so that about [`SAMPLES`] are
+/// covered.
 fn samples(scene: &Scene, prepared: &PreparedScene, surface: &Surface<'_>) -> Vec<[usize; 2]> {
     let size = [scene.width as usize, scene.height as usize];
     let coarse = grid(size, SAMPLES);
@@ -361,7 +371,7 @@ fn target(subject: &Subject<'_>, pixels: &[[usize; 2]], background: [f32; 3]) ->
     Target { levels, is_drawn }
 }
 
-/// Puts the findings of a search into words and places.
+/// Turns the findings of a search into a diagnosis: names the mistakes, and the pixels to look at.
 fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
     let reference = search.drawer.draw(&search.base);
     let named = findings.causes.first();
@@ -417,7 +427,7 @@ fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
     }
 }
 
-/// Returns the mistakes that change nothing that can be seen.
+/// Returns the mistakes that change nothing visible.
 fn invisible(shown: &[Option<f64>]) -> Vec<&'static Mistake> {
     let is_invisible = |shown: &Option<f64>| shown.is_some_and(|levels| levels < INVISIBLE);
     let all = MISTAKES.iter().zip(shown);
@@ -426,7 +436,7 @@ fn invisible(shown: &[Option<f64>]) -> Vec<&'static Mistake> {
         .collect()
 }
 
-/// Returns the pixel at which the picture is farthest from the reference, and nearest to the explanation.
+/// Returns the pixel that is farthest from the reference and closest to the explanation.
 fn spot(
     target: &Target,
     pixels: &[[usize; 2]],
@@ -452,7 +462,7 @@ fn spot(
     })
 }
 
-/// Parts that a picture is divided into along each side, to say where it is worst.
+/// How many parts a picture is divided into along each side, to say where it is worst.
 const PARTS: usize = 8;
 
 /// Returns the part of a picture that is farthest from a recipe: column, row, width and height.
@@ -477,11 +487,11 @@ fn worst_part(
     (sums[row][column] > 0.0).then_some([x, y, right - x, bottom - y])
 }
 
-/// The most pixels that are asked whether they are premultiplied.
+/// The most partly covered pixels that are tested.
 const MOST_PARTLY_COVERED: usize = 2000;
 
-/// True if pixels with parts of alpha have colours that are multiplied by it: nearly all are nearer to the
-/// scene's colour times alpha than to that colour.
+/// True if partly covered pixels are multiplied by alpha: nine in ten are closer to the scene's
+/// colour times alpha than to the colour itself.
 fn is_premultiplied(
     scene: &Scene,
     prepared: &PreparedScene,
@@ -506,7 +516,7 @@ fn is_premultiplied(
     voters >= 20 && 10 * multiplied >= 9 * voters
 }
 
-/// True if less than a 50th of what a recipe shows is there.
+/// True if the picture shows less than a 50th of the pixels that a recipe covers.
 fn is_empty(target: &Target, drawn: Option<&Drawn>) -> bool {
     let covered = |i: &usize| drawn.is_some_and(|drawn| drawn.hits.is_covered(*i));
     let all = (0..target.levels.len()).filter(covered).count();
@@ -517,7 +527,8 @@ fn is_empty(target: &Target, drawn: Option<&Drawn>) -> bool {
     50 * there < all
 }
 
-/// Returns the share of pixels, of those that the picture or a recipe covers, that only one of them covers.
+/// Returns the share of pixels that only the picture or only a recipe covers, of all that either
+/// covers.
 fn outline(target: &Target, drawn: &Drawn) -> f64 {
     let (mut all, mut one) = (0usize, 0usize);
     for i in 0..target.levels.len() {
@@ -528,7 +539,7 @@ fn outline(target: &Target, drawn: &Drawn) -> f64 {
     one as f64 / all.max(1) as f64
 }
 
-/// Returns the share of pixels inside of what a recipe draws that have the background's colour and should not.
+/// Returns the share of pixels inside a recipe's outline that wrongly have the background's colour.
 fn cracks(target: &Target, drawn: &Drawn, background: [f32; 3]) -> f64 {
     let (mut inside, mut holes) = (0usize, 0usize);
     for i in 0..target.levels.len() {
@@ -549,8 +560,8 @@ impl Diagnosis {
         self.verdict == Verdict::Correct && is_file_right
     }
 
-    /// Returns the picture that is diagnosed, put right if its columns and rows were exchanged, at every
-    /// `step`-th pixel of each row and column.
+    /// Returns every `step`-th column and row of the picture that is diagnosed. If its columns and
+    /// rows were exchanged, they are put right.
     pub fn yours(&self, question: &Question<'_>, step: usize) -> Picture8 {
         let subject = Subject::new(question.picture, question.scene, self.is_transposed);
         let [width, height] = subject.size();
@@ -565,11 +576,10 @@ impl Diagnosis {
         picture
     }
 
-    /// Draws the picture as it is with the named mistakes, or without them, at every `step`-th pixel of
-    /// each row and column.
+    /// Draws every `step`-th column and row of the scene, with the named mistakes or without them.
     ///
     /// # Errors
-    /// When the scene cannot be drawn.
+    /// [`DiagnoseError`] if the scene cannot be drawn.
     pub fn draw(
         &self,
         question: &Question<'_>,

@@ -1,10 +1,10 @@
-//! A recipe: how a picture of a scene is drawn, right or with mistakes. The default recipe draws the
-//! scene as it is stated; a mistake sets some of the choices (`mistakes.rs`).
+//! A recipe: all choices in drawing a scene, right or with mistakes. The default recipe draws what
+//! the scene states. A mistake sets some of the choices (`mistakes.rs`).
 //!
-//! Choices stand in four parts, in the order in which a picture is made: [`Geometry`] (which polygon
-//! is seen at a pixel, and where in it), [`Place`] (which pixel of that picture is taken), [`Shading`]
-//! (its light), [`Storage`] (the levels in the file). What is computed for one part is kept for all
-//! recipes that agree in it.
+//! The choices have four parts, in the order in which a picture is made: [`Geometry`] (the visible
+//! polygon at a pixel, and the point in it), [`Place`] (the pixel of that picture that the file
+//! shows), [`Shading`] (its light) and [`Storage`] (the levels in the file). The result of each
+//! part is stored for all recipes that agree in it.
 
 use crate::picture::Encoding;
 use crate::scene::{Culling, HiddenSurfaces, Projection, Scene, SpecularGate};
@@ -19,10 +19,12 @@ pub struct Recipe {
 }
 
 impl Recipe {
-    /// Returns the recipe in which choices say nothing that say what `scene` states.
+    /// Resets choices that `scene` states anyway, so that two recipes of the same picture are
+    /// equal.
     pub fn of_scene(mut self, scene: &Scene) -> Recipe {
         let is_square = scene.width == scene.height;
-        // Columns of a square picture, read as rows, exchange x and y.
+        // Columns of a square picture, read as rows, exchange x and y: that is `Transposed`. Other
+        // pictures cannot be transposed and keep their size.
         let is_other = if is_square {
             Place::Columns
         } else {
@@ -75,11 +77,12 @@ impl Recipe {
     }
 }
 
-/// The choices that decide which polygon is seen at a pixel, and with which weights of its vertices.
+/// The choices that decide which polygon is visible at a pixel, and the weights of its vertices
+/// there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Geometry {
     pub cut: Cut,
-    /// The sides that are left out; `None`: those of the scene.
+    /// The sides that are left out, or `None` for the scene's choice.
     pub culling: Option<Culling>,
     pub depth: Depth,
     pub interpolation: Interpolated,
@@ -87,7 +90,7 @@ pub struct Geometry {
     pub lens: Lens,
     pub aspect: Aspect,
     pub near: Near,
-    /// Halves of a pixel by which everything is moved to the right and downward.
+    /// How far everything moves to the right and downward, in half pixels.
     pub halves: [i8; 2],
     pub corners: Snapping,
     pub mirrored: Mirrored,
@@ -104,32 +107,32 @@ pub enum Snapping {
     LessOne,
 }
 
-/// The winding of objects that a mirroring transform turns around.
+/// The visible side of objects that a transform mirrors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mirrored {
     #[default]
     Outside,
-    /// The inside of mirrored objects is seen.
+    /// The inside of mirrored objects is visible.
     Inside,
 }
 
 /// The triangles that polygons of more than three sides are cut into.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Cut {
-    /// None: interpolation along edges and spans, as the lecture has it.
+    /// None: interpolation runs along edges and spans, as in the lecture.
     #[default]
     Whole,
     /// A fan around the first corner; concave polygons by ear clipping.
     Fan,
-    /// The same around the second corner: the other diagonal of a quadrilateral.
+    /// A fan around the second corner, which is the other diagonal of a quadrilateral.
     OtherFan,
-    /// A fan, of quadrilaterals along the shorter diagonal.
+    /// A fan, but quadrilaterals along the shorter diagonal.
     Shorter,
-    /// A fan around the first corner, of concave polygons too; sides are left out triangle by triangle.
+    /// A fan around the first corner even of concave polygons. Each triangle is culled on its own.
     FanOfConcave,
     /// A fan without its last triangle.
     FanWithoutLast,
-    /// The first triangle of the fan alone.
+    /// Only the first triangle of the fan.
     FirstTriangle,
     /// Corners 0 1 2, 1 2 3 and so on.
     Strip,
@@ -156,38 +159,38 @@ impl Cut {
 pub enum Interpolated {
     #[default]
     Stated,
-    /// Linear on the screen for perspective, and the reverse.
+    /// Linear on the screen where the scene asks for perspective, or the reverse.
     Other,
     /// Multiplied by w where perspective divides by it.
     TimesW,
 }
 
-/// The corners of triangles that barycentric coordinates are given to.
+/// The corners that barycentric coordinates are assigned to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Corners {
     #[default]
     Own,
     /// Each corner has the weight of the next.
     Next,
-    /// Each corner has the weight of the one before.
+    /// Each corner has the weight of the previous one.
     Before,
 }
 
-/// The search for the nearest polygon.
+/// The rule that decides which polygon is visible.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Depth {
-    /// As the scene states it.
+    /// The scene's rule.
     #[default]
     Stated,
-    /// The farthest polygon is seen.
+    /// The farthest polygon is visible.
     Reversed,
-    /// The last polygon of the file is seen.
+    /// The last polygon of the file is visible.
     LastInFile,
-    /// The first polygon of the file is seen.
+    /// The first polygon of the file is visible.
     FirstInFile,
-    /// Polygons have one depth each, the mean of their corners.
+    /// Each polygon has one depth, the mean of its corners.
     OfPolygons,
-    /// The last of equally near polygons is seen.
+    /// The last of equally near polygons is visible.
     TiesToLast,
 }
 
@@ -196,17 +199,17 @@ pub enum Depth {
 pub enum Lens {
     #[default]
     Stated,
-    /// tan(fovy/2) of an angle in degrees, taken for radians.
+    /// tan(fovy/2) with degrees used as radians.
     Degrees,
-    /// tan(fovy) of an angle in degrees, taken for radians.
+    /// tan(fovy) with degrees used as radians.
     WholeDegrees,
     /// tan(fovy/4), or half of the height.
     Half,
     /// tan(fovy), or twice the height.
     Double,
-    /// The vertical angle, taken for the horizontal one.
+    /// The vertical angle, used as the horizontal one.
     Horizontal,
-    /// Orthographic for perspective, of the same size at the target, and the reverse.
+    /// Orthographic in place of perspective, or the reverse, with the same size at the target.
     OtherProjection,
 }
 
@@ -215,27 +218,27 @@ pub enum Lens {
 pub enum Aspect {
     #[default]
     Stated,
-    /// Left out: a square view fills the picture.
+    /// The ratio is left out, so that a square view fills the picture.
     Missing,
-    /// x is multiplied by it.
+    /// x is multiplied by the ratio.
     Inverted,
-    /// y is divided by it, and not x.
+    /// y is divided by the ratio, and not x.
     OnHeight,
 }
 
 /// The treatment of polygons that reach in front of the near plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Near {
-    /// They are cut there.
+    /// They are cut at the near plane.
     #[default]
     Cut,
     /// They are left out.
     LeftOut,
-    /// They are not cut: corners behind the eye are divided by w like others.
+    /// They are not cut: corners behind the eye are divided by w like all others.
     Divided,
 }
 
-/// The place in the picture of a scene that a pixel of the file shows.
+/// The pixel of the scene's picture that a pixel of the file shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Place {
     #[default]
@@ -243,11 +246,11 @@ pub enum Place {
     MirroredX,
     MirroredY,
     Turned,
-    /// Moved by so many pixels to the right and downward.
+    /// Moved to the right and downward, in pixels.
     Moved([i8; 2]),
-    /// Columns are stored one after another, and read as rows.
+    /// The picture is stored by columns and read by rows.
     Columns,
-    /// x and y are exchanged, of a picture as wide as high.
+    /// x and y are exchanged in a square picture.
     Transposed,
 }
 
@@ -259,7 +262,7 @@ pub struct Shading {
     pub normal_sign: Sign,
     pub normal_length: Length,
     pub normal_space: Space,
-    /// The same of the normal in highlights only.
+    /// The length of the normal in highlights only.
     pub highlight_normal: Length,
     pub facing: Facing,
     pub light_sign: Sign,
@@ -279,7 +282,7 @@ pub struct Shading {
     pub halfway: Halfway,
     pub cap: Cap,
     pub exponent: Exponent,
-    /// `None`: as the scene states it.
+    /// The gate of highlights, or `None` for the scene's.
     pub gate: Option<SpecularGate>,
     pub ambient: AmbientUse,
     pub diffuse: DiffuseUse,
@@ -293,9 +296,9 @@ pub struct Shading {
 pub enum MaterialUse {
     #[default]
     Own,
-    /// The first one for all.
+    /// The first material for all polygons.
     First,
-    /// The default one, as if no material had been read.
+    /// The default material, as if none had been read.
     Default,
 }
 
@@ -307,17 +310,17 @@ pub enum Rate {
     Pixel,
     /// At each vertex; colours are interpolated (L21 3).
     Vertex,
-    /// At each vertex, and colours over 1 are clamped only at pixels.
+    /// At each vertex, but colours over 1 are clamped only at pixels.
     VertexUnclamped,
-    /// Once a polygon, with its own normal (L21 2).
+    /// Once per polygon, with its own normal (L21 2).
     Face,
-    /// Once a polygon, with the mean of its vertex normals.
+    /// Once per polygon, with the mean of its vertex normals.
     FaceMean,
-    /// Once a polygon, with the normal of its first vertex, at that vertex.
+    /// Once per polygon, at its first vertex with the normal there.
     FirstVertex,
-    /// At each pixel, with L and V of the middle of the polygon.
+    /// At each pixel, with L and V from the middle of the polygon.
     ConstantVectors,
-    /// By the method of this place in `METHODS`, drawn by its engine.
+    /// By the method at this index of `METHODS`, drawn by its engine.
     Method(u8),
 }
 
@@ -328,15 +331,17 @@ pub enum Normals {
     Stated,
     /// The polygon's own normal at each of its corners.
     OfFaces,
-    /// The same, as long as twice the area of the polygon.
+    /// The polygon's own normal, as long as twice its area.
     OfFacesRaw,
     /// Averages weighted by the areas of polygons: Newell's sums, not normalised.
     ByArea,
     /// Averages weighted by the angles of polygons at the vertex.
     ByAngle,
-    /// Averages over polygons that share a vertex of the file: others at its position do not count.
+    /// Averages over polygons that share a vertex of the file. Other vertices at its position do
+    /// not count.
     ByIndex,
-    /// Averages over all polygons at a position, whatever the file or a crease says.
+    /// Averages over all polygons at a position, even if the file has normals or the scene a
+    /// crease.
     OverPosition,
     /// Sums of unit normals that are not normalised before they are interpolated.
     Sums,
@@ -350,9 +355,9 @@ pub enum Normals {
     AsPoints,
     /// Negated in objects that a mirroring transform turns inside out.
     InsideOut,
-    /// Those of the file, where the scene has averages.
+    /// The file's normals where the scene asks for averages.
     OfFile,
-    /// That of the last polygon at each vertex.
+    /// The normal of the last polygon at each vertex.
     OfLastPolygon,
     /// Averages of normals from the first two edges of polygons.
     OfFirstEdges,
@@ -374,7 +379,7 @@ pub enum Length {
     /// 1.
     #[default]
     Unit,
-    /// As it comes.
+    /// Not normalised.
     Raw,
 }
 
@@ -383,9 +388,9 @@ pub enum Length {
 pub enum Facing {
     #[default]
     Stated,
-    /// Turned toward the viewer, pixel by pixel.
+    /// They are turned toward the viewer at each pixel.
     TowardViewer,
-    /// Left as they are where the scene is two-sided.
+    /// They are left unchanged where the scene is two-sided.
     OneSided,
 }
 
@@ -406,18 +411,18 @@ pub enum Axes {
 pub enum Space {
     #[default]
     World,
-    /// That of the camera: x to the right, y up, z toward the viewer.
+    /// The camera's space: x to the right, y up, z toward the viewer.
     Camera,
 }
 
-/// The reading of a light's three numbers.
+/// The meaning of a light's three coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LightPlace {
     #[default]
     Stated,
-    /// Positions are directions.
+    /// Positions are used as directions.
     PositionsAreDirections,
-    /// Directions are positions.
+    /// Directions are used as positions.
     DirectionsArePositions,
 }
 
@@ -448,7 +453,7 @@ pub enum LightUse {
     Last,
     /// None: ambient light only.
     None,
-    /// All, and their sum is divided by their number.
+    /// The mean of all.
     Mean,
 }
 
@@ -460,9 +465,9 @@ pub enum LightColour {
     White,
     /// White, as strong as the strongest channel.
     WhiteOfStrength,
-    /// That of the first light for all.
+    /// The colour of the first light for all.
     OfFirst,
-    /// Left out of highlights.
+    /// The colour is left out of highlights.
     WhiteHighlights,
 }
 
@@ -471,9 +476,9 @@ pub enum LightColour {
 pub enum Viewer {
     #[default]
     Stated,
-    /// Infinitely far away for at the eye, and the reverse.
+    /// Infinitely far away where the scene has it at the eye, or the reverse.
     Other,
-    /// The position of the eye, taken for the direction to it.
+    /// The position of the eye, used as the direction to it.
     EyeAsDirection,
     /// V = (0, 0, 1).
     AlongZ,
@@ -501,7 +506,7 @@ pub enum Reflected {
     /// R = 2 (L·N) N − L.
     #[default]
     Right,
-    /// −R: of the ray from the light.
+    /// −R, which functions called reflect return for L.
     Negated,
     /// (L·N) N − L.
     WithoutTwo,
@@ -511,14 +516,15 @@ pub enum Reflected {
     OfView,
 }
 
-/// The cosine of highlights, where R·V and N·H are exchanged.
+/// The cosine of highlights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Highlight {
     #[default]
     Stated,
-    /// The other one, with the same exponent.
+    /// N·H in place of R·V, or the reverse, with the same exponent.
     Other,
-    /// The other one, with an exponent that makes the highlight as large.
+    /// N·H in place of R·V, or the reverse, with an exponent that makes the highlight equally
+    /// large.
     OtherConverted,
     /// N·V.
     NormalView,
@@ -539,13 +545,13 @@ pub enum Halfway {
     Difference,
 }
 
-/// The cosine of a highlight below 0.
+/// The treatment of a negative cosine of a highlight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Cap {
     /// It counts as 0.
     #[default]
     Clamped,
-    /// It is raised to the exponent: positive where that is even.
+    /// It is raised to the exponent, which makes it positive if the exponent is even.
     Unclamped,
 }
 
@@ -558,11 +564,11 @@ pub enum Exponent {
     Double,
     Quarter,
     Fourfold,
-    /// 128 times as much, as for shininess of 0 to 1.
+    /// 128 times the exponent, as if shininess went from 0 to 1.
     Times128,
     /// 1: the power is left out.
     One,
-    /// It is a factor.
+    /// The exponent is used as a factor.
     Factor,
 }
 
@@ -582,7 +588,7 @@ pub enum AmbientUse {
     TimesDiffuse,
     /// I_a k_d.
     DiffuseColour,
-    /// Added once for each light, and weakened with it.
+    /// Added once for each light, and weakened by the light's falloff.
     WithFalloff,
 }
 
@@ -629,7 +635,7 @@ pub struct Storage {
     pub range: LevelRange,
 }
 
-/// The curve from linear light to what is stored.
+/// The curve from linear light to stored values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Curve {
     #[default]
@@ -652,11 +658,11 @@ pub enum Channels {
     #[default]
     Rgb,
     Bgr,
-    /// The mean of the three in each.
+    /// The mean of all three in each channel.
     Grey,
 }
 
-/// The way from 0..=1 to whole levels.
+/// The rounding from 0..=1 to whole levels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Rounding {
     #[default]
@@ -672,9 +678,9 @@ pub enum Rounding {
 pub enum LevelRange {
     #[default]
     Clamped,
-    /// Levels beyond 255 begin anew at 0.
+    /// Levels beyond 255 wrap to 0.
     Wrapped,
-    /// All colours are divided by the largest channel of the picture, or all grow until that is 255.
+    /// All colours are divided by the largest channel of the picture, which then has the level 255.
     Stretched,
     /// Each colour over 1 is divided by its largest channel.
     ByLargest,

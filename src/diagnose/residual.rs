@@ -3,47 +3,49 @@
 use super::drawer::Drawn;
 use alloc::vec::Vec;
 
-/// Differences of more levels count as this many: a pixel of another polygon is wrong, not very wrong.
+/// The most that a difference counts, in levels: where another polygon is visible, a pixel is
+/// wrong, not very wrong.
 pub const MOST: f64 = 48.0;
 
-/// Pixels that have to be compared, or nothing is known.
+/// The fewest pixels to decide from.
 const FEWEST: usize = 30;
 
-/// Two recipes differ at a pixel where a channel differs by this many levels.
+/// Two recipes differ at a pixel if a channel differs by at least this many levels.
 const DIFFERENT: f32 = 2.0;
 
-/// Pixels that have to vote.
+/// The fewest pixels for a vote.
 const FEWEST_VOTES: usize = 20;
 
-/// The picture that is diagnosed at the sampled pixels.
+/// The sampled pixels of the picture that is diagnosed.
 pub struct Target {
-    /// Levels of 0..=255.
+    /// The levels, 0..=255.
     pub levels: Vec<[f32; 3]>,
-    /// True where it is not the background.
+    /// True where the pixel does not have the background's colour.
     pub is_drawn: Vec<bool>,
 }
 
 /// A recipe's distance from the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
-    /// The mean over pixels of the mean difference of channels, in levels, each at most 48.
+    /// The mean of [`distance`] over pixels, in levels.
     pub levels: f64,
-    /// The same of differences less 1: noise of a level and other rounding leave nothing of it.
+    /// The mean of the differences beyond one level, which ignores noise of a level and other
+    /// rounding.
     pub beyond: f64,
-    /// Pixels that were compared.
+    /// How many pixels were compared.
     pub compared: usize,
-    /// Pixels beside edges, which were left out.
+    /// How many pixels beside edges were left out.
     pub left_out: usize,
 }
 
-/// Returns the mean difference of two colours, at most [`MOST`].
+/// Returns the mean difference of the channels of two colours, in levels, at most [`MOST`].
 pub fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     let sum: f32 = a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum();
     (sum / 3.0).min(MOST as f32)
 }
 
 impl Target {
-    /// Returns the distance of a recipe; `None` where too few pixels can be compared.
+    /// Returns the distance of a recipe, or `None` if too few pixels can be compared.
     pub fn residual(&self, drawn: &Drawn) -> Option<Residual> {
         let (mut sum, mut beyond, mut compared, mut left_out) = (0.0, 0.0, 0, 0);
         for i in 0..self.levels.len() {
@@ -72,7 +74,7 @@ impl Target {
         })
     }
 
-    /// Asks the pixels at which two recipes differ which of them they are nearer to.
+    /// Lets the pixels where two recipes differ vote for the recipe that they are closer to.
     pub fn votes(&self, reference: &Drawn, other: &Drawn) -> Votes {
         let (mut voters, mut nearer, mut before, mut after) = (0, 0, 0.0, 0.0);
         for i in 0..self.levels.len() {
@@ -97,25 +99,25 @@ impl Target {
     }
 }
 
-/// The answer of pixels at which two recipes differ.
+/// The votes of the pixels where two recipes differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Votes {
-    /// Their number.
+    /// How many pixels vote.
     pub voters: usize,
-    /// The share that is nearer to the second recipe.
+    /// The share of pixels that are closer to the second recipe.
     pub nearer: f64,
-    /// The share of their distance from the first recipe that the second one takes away.
+    /// The share of their distance from the first recipe that the second one removes.
     pub explained: f64,
 }
 
 impl Votes {
-    /// True if they elect the second recipe.
+    /// True if the votes elect the second recipe.
     pub fn elect(&self) -> bool {
         self.nearer >= 0.9 && self.explained >= 0.6
     }
 }
 
-/// Returns the mean difference of two recipes, in levels, without the edges of either.
+/// Returns the mean difference of two recipes in levels, without the edges of either.
 pub fn apart(a: &Drawn, b: &Drawn) -> f64 {
     let (mut sum, mut compared) = (0.0, 0usize);
     for i in 0..a.levels.len() {

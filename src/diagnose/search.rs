@@ -1,4 +1,4 @@
-//! The search: which mistake, which two or three, explain what a picture differs by.
+//! The search for the mistake, or the two or three, that explain how a picture differs.
 
 use super::amounts::{Amounts, Tone};
 use super::drawer::Drawer;
@@ -9,25 +9,28 @@ use crate::scene::Scene;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A picture that is this near to a recipe, in levels, is its picture: what rounding leaves.
+/// The largest residual of an exact explanation, in levels: only rounding is left.
 const EXACT: f64 = 0.02;
 
-/// What a mistake that explains a picture may leave, in levels: noise of a level and other rounding.
+/// The largest residual of an explanation, in levels: noise of a level or another rounding may be
+/// left.
 const NEAR: f64 = 0.6;
 
-/// The same of what is beyond a level. A picture that no mistake explains is right if it is this near.
+/// The largest [`Residual::beyond`] of an explanation. A picture that no mistake explains is right
+/// if it is this close.
 const NOISE: f64 = 0.1;
 
-/// A picture that is farther from the reference than this is not one that a method drew.
+/// A picture that is farther from the reference than this, in levels, is not another method's
+/// picture.
 const FAR_FROM_METHODS: f64 = 12.0;
 
-/// Mistakes that change no picture by more than this cannot be seen in it.
+/// A mistake that changes a picture by less than this, in levels, is invisible in it.
 pub const INVISIBLE: f64 = 0.004;
 
-/// The best of single mistakes that pairs are built on.
+/// How many of the best single mistakes are combined with others.
 const FIRST_OF_PAIRS: usize = 4;
 
-/// Some mistakes, and how far a picture with them is from the one that is diagnosed.
+/// Some mistakes, and the residual that they leave.
 #[derive(Clone)]
 pub struct Candidate {
     /// The mistakes, as indices into [`Search::mistakes`].
@@ -36,24 +39,24 @@ pub struct Candidate {
     pub residual: Residual,
 }
 
-/// The search in one picture.
+/// A search in one picture.
 pub struct Search<'a, 'd> {
     pub scene: &'a Scene,
     pub drawer: &'d mut Drawer<'a>,
     pub target: &'d Target,
     pub mistakes: Vec<Mistake>,
-    /// How far each mistake of the table changes the scene's picture, in levels; `None` for those that are
-    /// none here.
+    /// How far each mistake of the table changes the scene's picture, in levels, or `None` if it is
+    /// not a mistake here.
     pub shown: Vec<Option<f64>>,
-    /// What is right, with the cut of polygons that comes nearest.
+    /// The right recipe, with the cut of polygons that comes closest.
     pub base: Recipe,
     pub reference: Residual,
 }
 
-/// What a search found.
+/// The result of a search.
 pub struct Findings {
     pub verdict: Verdict,
-    /// The mistakes that are named: the best ones, and others that explain the picture as well.
+    /// The mistakes to name: the best ones, then others that explain the picture as well.
     pub causes: Vec<Candidate>,
     /// Single mistakes, the best first.
     pub singles: Vec<Candidate>,
@@ -62,22 +65,23 @@ pub struct Findings {
     pub tone: Option<Tone>,
 }
 
-/// The answer to the question what is wrong.
+/// The kind of answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Verdict {
-    /// Nothing.
+    /// The picture is right.
     Correct,
     /// One mistake explains the picture.
     One,
-    /// Several mistakes together do.
+    /// Several mistakes together explain it.
     Several,
-    /// The amounts of light are others.
+    /// Wrong amounts of light explain it.
     Amounts,
-    /// The levels are a function of the right ones.
+    /// A tone curve explains it: its levels are a function of the right ones.
     Tone,
     /// A mistake explains most of it.
     Partly,
-    /// No mistake that is known explains it.
+    /// No known mistake explains it.
     None,
     /// The picture shows nothing.
     Empty,
@@ -100,24 +104,24 @@ impl Verdict {
 }
 
 impl Residual {
-    /// True if nothing is left.
+    /// True if nothing is left but rounding.
     fn is_nothing(&self) -> bool {
         self.levels <= EXACT
     }
 
-    /// True if no more is left than noise and other rounding leave.
+    /// True if only noise or another rounding is left.
     fn is_small(&self) -> bool {
         self.levels <= NEAR || self.beyond <= NOISE
     }
 
-    /// True if another mistake may be in what is left: it is no rounding and no noise of a level.
+    /// True if another mistake may be left: more than rounding and noise of a level.
     fn is_worth_explaining(&self) -> bool {
         self.levels > 3.0 * EXACT && self.beyond > EXACT
     }
 }
 
-/// True if a residual explains what another one left: nearly all of it, or all of it that noise of a
-/// level does not.
+/// True if a mistake explains the residual `before` and leaves `after`: nearly nothing, or nearly
+/// nothing beyond noise of a level.
 fn explains(after: Residual, before: Residual) -> bool {
     let nearly = |after: f64, before: f64, near: f64| {
         after <= near.max(0.08 * before) && after <= 0.3 * before
@@ -126,7 +130,7 @@ fn explains(after: Residual, before: Residual) -> bool {
     nearly(after.levels, before.levels, NEAR) || is_noise_apart
 }
 
-/// Returns the residual up to which mistakes explain a picture as well as one that leaves `best`.
+/// Returns the largest residual that is as good as `best`.
 fn as_good_as(best: f64) -> f64 {
     best + (0.3 * best).max(EXACT)
 }
@@ -140,8 +144,8 @@ fn with_cut(mut recipe: Recipe, cut: Cut) -> Recipe {
 }
 
 impl<'a, 'd> Search<'a, 'd> {
-    /// Begins a search; `right` are recipes of what was asked for, which are as good as one another. `None`
-    /// where too little of the scene is seen.
+    /// Begins a search. `right` are the right recipes, which are all equally good. Returns `None`
+    /// if too little of the scene is visible.
     pub fn new(
         scene: &'a Scene,
         drawer: &'d mut Drawer<'a>,
@@ -156,7 +160,7 @@ impl<'a, 'd> Search<'a, 'd> {
             let drawn = drawer.draw(&recipe);
             let found = drawn.and_then(|drawn| target.residual(&drawn));
             let Some(found) = found else { continue };
-            // Another cut is harmless.
+            // Prefer the first cut unless another one is clearly closer.
             if best.is_none_or(|(_, best)| found.levels < 0.99 * best.levels) {
                 best = Some((recipe, found));
             }
@@ -173,7 +177,8 @@ impl<'a, 'd> Search<'a, 'd> {
         })
     }
 
-    /// Looks for an explanation. `progress` takes the share of the work that is done.
+    /// Looks for an explanation. `progress` is called with the share of the work that is done, 0
+    /// to 1.
     pub fn run(mut self, progress: &mut dyn FnMut(f32)) -> (Findings, Search<'a, 'd>) {
         self.shown = self.shown();
         if self.reference.is_nothing() {
@@ -214,9 +219,10 @@ impl<'a, 'd> Search<'a, 'd> {
         };
         let votes = self.votes(&best);
         let is_exact = best.residual.is_nothing();
-        // All differences are within a level: noise, unless a mistake leaves nothing at all.
+        // If all differences are within a level they are noise, unless a mistake leaves nothing at
+        // all.
         let is_noise = before.beyond <= EXACT && !is_exact;
-        // Votes are for highlights and other small parts, of which a mean says little.
+        // Votes decide about highlights and other small parts, which change the mean only a little.
         let is_small = best.residual.levels <= 2.0 * NEAR;
         let is_elected = is_small && votes.is_some_and(|votes| votes.elect());
         let is_one = (explains(best.residual, before) || is_elected) && !is_noise;
@@ -253,7 +259,7 @@ impl<'a, 'd> Search<'a, 'd> {
         findings
     }
 
-    /// Returns all single mistakes among `which` with their residuals, the best first.
+    /// Returns the single mistakes at the indices `which` with their residuals, the best first.
     fn singles(
         &mut self,
         which: core::ops::Range<usize>,
@@ -268,7 +274,7 @@ impl<'a, 'd> Search<'a, 'd> {
             progress(0.5 * (index - first) as f32 / count);
         }
         sort(&mut found);
-        // Where light depends on the cut of polygons, it may be another one.
+        // Where light depends on the cut of polygons, try all cuts.
         for (place, candidate) in found.iter_mut().enumerate() {
             if place < 8 || depends_on_cut(&candidate.recipe) {
                 *candidate = self.with_any_cut(candidate.clone());
@@ -278,7 +284,7 @@ impl<'a, 'd> Search<'a, 'd> {
         found
     }
 
-    /// Returns the same mistakes with the cut of polygons that leaves least.
+    /// Returns a candidate's mistakes with the cut of polygons that leaves the least.
     fn with_any_cut(&mut self, candidate: Candidate) -> Candidate {
         let mut best = candidate;
         for cut in CUTS {
@@ -310,12 +316,13 @@ impl<'a, 'd> Search<'a, 'd> {
         Some(self.target.votes(&reference, &other))
     }
 
-    /// Looks for two and three mistakes that leave less than one does.
+    /// Looks for two or three mistakes that together leave less than one.
     fn several(&mut self, findings: &mut Findings, progress: &mut dyn FnMut(f32)) {
         let before = self.reference;
         self.drawer.keep_light();
         let mut best = findings.singles[0].residual;
-        // Of two mistakes that are far apart one alone takes something away.
+        // If two mistakes concern different things, each of them removes some of the difference on
+        // its own.
         let helps = |single: &&Candidate| single.residual.levels < 0.95 * before.levels;
         let helping = findings.singles.iter().filter(helps);
         let mut from: Vec<Candidate> = helping.take(FIRST_OF_PAIRS).cloned().collect();
@@ -348,10 +355,10 @@ impl<'a, 'd> Search<'a, 'd> {
         }
     }
 
-    /// Returns the single mistakes that change the whole picture so much that no other one shows while they are
-    /// there: it is mirrored, or stored in another way.
+    /// Returns the single mistakes that change the whole picture so much that they hide all others:
+    /// it is mirrored, or stored in another way.
     fn of_whole_picture(&self, findings: &Findings) -> Vec<Candidate> {
-        let is_such = |single: &&Candidate| {
+        let is_whole = |single: &&Candidate| {
             let recipe = &single.recipe;
             let is_turned = matches!(
                 recipe.place,
@@ -361,10 +368,10 @@ impl<'a, 'd> Search<'a, 'd> {
             is_turned || own.curve != right.curve || own.channels != right.channels
         };
         let first = findings.singles.iter().skip(FIRST_OF_PAIRS);
-        first.filter(is_such).cloned().collect()
+        first.filter(is_whole).cloned().collect()
     }
 
-    /// Returns candidates of one more mistake, the best first.
+    /// Adds each mistake of the table to each candidate. Returns the results, the best first.
     fn with_one_more(
         &mut self,
         from: &[Candidate],
@@ -383,7 +390,7 @@ impl<'a, 'd> Search<'a, 'd> {
                     other.sort_unstable();
                     other == sorted
                 });
-                // Geometry takes long to draw: only with the mistakes that leave least.
+                // Other geometry takes long to draw: combine it only with the best candidates.
                 let is_shown = self.shown[another].is_some_and(|levels| levels >= INVISIBLE);
                 let is_quick = place < FIRST_OF_PAIRS || self.keeps_geometry(another);
                 if is_known || candidate.mistakes.contains(&another) || !is_quick || !is_shown {
@@ -418,10 +425,11 @@ impl<'a, 'd> Search<'a, 'd> {
         recipe.geometry == self.base.geometry
     }
 
-    /// Looks for other amounts of light, and for a tone curve, where mistakes leave `left`.
+    /// Looks for wrong amounts of light and for a tone curve, if mistakes leave the residual
+    /// `left`.
     fn amounts(&mut self, findings: &mut Findings, left: f64) {
         let encoding = self.scene.encoding;
-        // Another cut than the base's changes little but where colours are lit at vertices.
+        // Cuts matter only where colours are lit at vertices.
         let is_at_vertices = depends_on_cut(&self.base);
         let cuts = if is_at_vertices {
             &CUTS[..]
@@ -466,15 +474,15 @@ impl<'a, 'd> Search<'a, 'd> {
         }
     }
 
-    /// Returns how far each mistake of the table changes the picture of this scene, in levels; `None` for
-    /// those that are none here.
+    /// Returns how far each mistake of the table changes the picture of this scene, in levels, or
+    /// `None` if it is not a mistake here.
     pub fn shown(&mut self) -> Vec<Option<f64>> {
         let Some(reference) = self.drawer.draw(&self.base) else {
             return vec![None; MISTAKES.len()];
         };
         let shown = |mistake: &Mistake| {
             let recipe = Mistake::all(&[mistake], self.base, self.scene)?;
-            // Nothing that can be drawn is nothing like the reference.
+            // A recipe that cannot be drawn is as far from the reference as possible.
             let drawn = self.drawer.draw(&recipe);
             Some(drawn.map_or(MOST, |drawn| apart(&reference, &drawn)))
         };
@@ -498,7 +506,7 @@ fn tied(sorted: &[Candidate]) -> Vec<Candidate> {
     let most = as_good_as(best);
     let is_tied = |candidate: &&Candidate| candidate.residual.levels <= most;
     let mut tied: Vec<Candidate> = sorted.iter().take_while(is_tied).cloned().collect();
-    // Of those that are equal, the mistakes first that come first in the table: frequent ones.
+    // Among equal candidates the table's order decides: frequent mistakes come first there.
     let equal = tied.partition_point(|candidate| candidate.residual.levels <= best + 0.01);
     tied[..equal].sort_by_key(|candidate| (candidate.mistakes.len(), candidate.mistakes.clone()));
     tied

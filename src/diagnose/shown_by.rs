@@ -1,13 +1,13 @@
-//! The shipped scenes that show a mistake. The table is written by
-//! `FASTPHONG_BLESS=1 cargo test --test documents mistakes`.
+//! The shipped scenes that show a mistake. `FASTPHONG_BLESS=1 cargo test --test documents mistakes`
+//! writes the table.
 
 use super::shown_by_table::{SHOWING, SHOWN};
 use super::{Cause, told_apart};
 use crate::scene::input::{SCENES, resolve};
 use alloc::vec::Vec;
 
-/// Returns the shipped scenes that show a mistake, the one first that shows it best, each with the grey
-/// levels by which the mistake changes its picture.
+/// Returns the shipped scenes that show the mistake `id`, the best first, each with the grey levels
+/// by which the mistake changes its picture.
 pub fn scenes_that_show(id: &str) -> Vec<(&'static str, f32)> {
     let row = SHOWN.iter().find(|(name, _)| *name == id);
     let hundredths = row.map_or(&[][..], |(_, hundredths)| hundredths);
@@ -18,10 +18,10 @@ pub fn scenes_that_show(id: &str) -> Vec<(&'static str, f32)> {
     found
 }
 
-/// A mistake that changes a picture by less, as a mean over what is seen, is hard to tell from noise.
+/// The least mean difference in grey levels over covered pixels that is easy to tell from noise.
 const VISIBLE: f32 = 0.05;
 
-/// Returns a shipped scene in which two explanations are not alike, if there is one.
+/// Returns a shipped scene where two explanations look different, if there is one.
 pub fn scene_that_tells(causes: [&Cause; 2]) -> Option<&'static str> {
     let [a, b] = causes.map(|cause| &cause.mistakes[..]);
     let small = SCENES

@@ -1,4 +1,5 @@
-//! How far each mistake changes each shipped scene: written by `FASTPHONG_BLESS=1 cargo test --test documents mistakes`.
+//! How far each mistake changes each shipped scene: written by
+//! `FASTPHONG_BLESS=1 cargo test --test documents mistakes`.
 
 /// The scenes, in the order of columns.
 #[rustfmt::skip]

@@ -1,23 +1,23 @@
-//! The subject: the picture that is diagnosed, as levels over the scene's background.
+//! The subject: the picture that is diagnosed, put over the scene's background.
 
 use crate::picture::Encoding;
 use crate::picture::image_file::{FilePicture, FilePixels};
 use crate::scene::Scene;
 use alloc::vec::Vec;
 
-/// A picture of someone's.
+/// Someone's picture of a scene.
 pub struct Subject<'a> {
     picture: &'a FilePicture,
     /// True if its columns are the rows of the scene.
     pub is_transposed: bool,
-    /// The colour that transparent pixels are put over, in levels.
+    /// The colour behind transparent pixels, in levels.
     under: [f64; 3],
     encoding: Encoding,
 }
 
 impl<'a> Subject<'a> {
-    /// Looks at a picture of `scene`, which has its size or, if `is_transposed`, the size of its columns
-    /// and rows exchanged.
+    /// Makes the subject of a picture that has the size of `scene`. With `is_transposed` the
+    /// picture has columns and rows exchanged.
     pub fn new(picture: &'a FilePicture, scene: &Scene, is_transposed: bool) -> Subject<'a> {
         Subject {
             picture,
@@ -36,7 +36,8 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Returns the levels of a pixel, 0 to 255; floats are encoded and rounded as a file would have them.
+    /// Returns the levels of a pixel, 0 to 255. Floats are encoded and rounded like in a file of
+    /// eight bits.
     pub fn levels(&self, [x, y]: [usize; 2]) -> [f32; 3] {
         let [x, y] = if self.is_transposed { [y, x] } else { [x, y] };
         let (rgba, is_float) = match &self.picture.pixels {
@@ -62,7 +63,8 @@ impl<'a> Subject<'a> {
         levels.map(|level| level as f32)
     }
 
-    /// Returns up to `most` pixels with parts of alpha: place, levels as they are stored, and alpha of 0 to 1.
+    /// Returns up to `most` partly covered pixels: column and row, stored levels, and alpha from 0
+    /// to 1.
     pub fn partly_covered(&self, most: usize) -> Vec<([usize; 2], [f32; 3], f32)> {
         let FilePixels::Stored(picture) = &self.picture.pixels else {
             return Vec::new();
@@ -78,13 +80,14 @@ impl<'a> Subject<'a> {
         stored.take(most).collect()
     }
 
-    /// Returns the most frequent colour of the picture's border, if more than half of it has that colour.
+    /// Returns the most frequent colour of the picture's border, if more than half of it has that
+    /// colour.
     pub fn border(&self) -> Option<[f32; 3]> {
         let [width, height] = self.size();
         let rows = (0..width).flat_map(|x| [[x, 0], [x, height - 1]]);
         let columns = (0..height).flat_map(|y| [[0, y], [width - 1, y]]);
         let levels = rows.chain(columns).map(|pixel| self.levels(pixel));
-        // Whole levels compare as numbers; parts of one do not matter here.
+        // Round to whole levels, which can be sorted: fractions do not matter here.
         let mut all: Vec<[i32; 3]> = levels.map(|l| l.map(|c| libm::roundf(c) as i32)).collect();
         all.sort_unstable();
         let longest = all.chunk_by(|a, b| a == b).max_by_key(|same| same.len())?;

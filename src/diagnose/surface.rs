@@ -1,5 +1,5 @@
-//! The surface of a scene: positions, normals and materials of all its vertices and polygons,
-//! whatever a camera sees of them, with normals as people average and transform them by mistake.
+//! The surface of a scene: positions, normals and colours of all its vertices and polygons, visible
+//! or not, and the normals that people compute by mistake.
 
 use super::recipe::Normals;
 use crate::frame::PreparedScene;
@@ -10,7 +10,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
-/// The vertices and polygons of a scene. Positions count from the frame's origin, in `f64`.
+/// The vertices and polygons of a scene. Positions are relative to the frame's origin, in `f64`.
 pub struct Surface<'a> {
     prepared: &'a PreparedScene,
     objects: &'a [Object],
@@ -18,12 +18,12 @@ pub struct Surface<'a> {
     pub positions: Vec<DVec3>,
     /// The vertex normals that the scene states.
     stated: Vec<DVec3>,
-    /// The side of the box around all positions that is longest.
+    /// The longest side of the box around all positions.
     pub extent: f64,
 }
 
 impl<'a> Surface<'a> {
-    /// Looks at a scene; `origin` is that of its frames.
+    /// Makes the surface of a scene, whose frames have this `origin`.
     pub fn new(scene: &'a Scene, prepared: &'a PreparedScene, origin: [f64; 3]) -> Surface<'a> {
         let geometry = prepared.geometry();
         let origin = DVec3::from_array(origin);
@@ -58,7 +58,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Returns the number of vertices on one side.
+    /// Returns how many vertices one side has.
     pub fn len(&self) -> usize {
         self.stated.len()
     }
@@ -90,23 +90,24 @@ impl<'a> Surface<'a> {
         DVec3::from_array(face.map(f64::from))
     }
 
-    /// Returns the number of the object that a vertex is of.
+    /// Returns the index of a vertex's object.
     pub fn object_of(&self, vertex: u32) -> usize {
         let front = vertex as usize % self.len();
         self.prepared.geometry().models.object_of(front)
     }
 
-    /// True if a vertex is of an object that its transform mirrors.
+    /// True if a vertex belongs to an object that its transform mirrors.
     pub fn is_mirrored(&self, vertex: u32) -> bool {
         let models = &self.prepared.geometry().models;
         let object = &models.objects[self.object_of(vertex)];
         object.transform.matrix3.determinant() < 0.0
     }
 
-    /// Returns vertex normals.
+    /// Computes vertex normals by one of the ways, right or wrong.
     pub fn normals(&self, normals: Normals) -> Vec<DVec3> {
         match normals {
-            // Those of faces are not at vertices: `Shader` asks polygons.
+            // `Shader` computes the normals of faces itself, because they do not belong to
+            // vertices.
             Normals::Stated | Normals::OfFaces | Normals::OfFacesRaw => self.stated.clone(),
             Normals::ByArea => self.averaged(Group::Stated, &|_, at| newell(at)),
             Normals::ByAngle => {
@@ -136,7 +137,7 @@ impl<'a> Surface<'a> {
                     .normalize_or_zero()
             }),
             Normals::OfTriangles => self.averaged(Group::Stated, &|i, at| {
-                // Triangles of the fan around the first corner that have corner i.
+                // All triangles of the fan around the first corner that contain corner i.
                 let unit = |k: usize| (at[k] - at[0]).cross(at[k + 1] - at[0]).normalize_or_zero();
                 let all = 1..at.len() - 1;
                 all.filter(|k| i == 0 || i == *k || i == k + 1)
@@ -150,15 +151,15 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Returns `normal` of the matrix and translation of each object and a normal in model space, as unit
-    /// vectors.
+    /// Calls `normal` with each object's matrix and translation and each normal in model space.
+    /// Returns the results as unit vectors.
     fn by_object(&self, normal: impl Fn(DMat3, DVec3, DVec3) -> DVec3) -> Vec<DVec3> {
         let mut all = Vec::with_capacity(self.len());
         let mut first = 0;
         for object in &self.prepared.geometry().models.objects {
             let (matrix, at) = (object.transform.matrix3, object.transform.translation);
             for stated in &self.stated[first..object.end] {
-                // N = |det| M⁻ᵀ n up to its length, so that Mᵀ N goes back to n.
+                // Apart from its length, N = |det| M⁻ᵀ n, so Mᵀ N has the direction of n.
                 let model = (matrix.transpose() * *stated).normalize_or_zero();
                 all.push(normal(matrix, at, model).normalize_or(*stated));
             }
@@ -167,13 +168,13 @@ impl<'a> Surface<'a> {
         all
     }
 
-    /// Returns the normals of [`Surface::sums`] in the world.
+    /// Returns the normals of [`Surface::sums`] as unit vectors in the world.
     fn averaged(&self, by: Group, share: Share<'_>) -> Vec<DVec3> {
         self.to_world(&self.sums(by, false, share))
     }
 
-    /// Returns the sum of what each polygon adds to its vertices, in model space, or only what the last
-    /// one adds.
+    /// Adds up the polygons' shares at each group of vertices, in model space. With `keeps_last`
+    /// only the share of the last polygon counts.
     fn sums(&self, by: Group, keeps_last: bool, share: Share<'_>) -> Vec<DVec3> {
         let models = &self.prepared.geometry().models;
         let (groups, count) = self.groups(by);
@@ -191,7 +192,7 @@ impl<'a> Surface<'a> {
                     .iter()
                     .map(|&corner| models.position(corner as usize)),
             );
-            // Corners of mirrored objects and of turned polygons run the other way.
+            // In mirrored objects and turned polygons corners run the other way.
             let object = &models.objects[models.object_of(corners[0] as usize)];
             let outward = cofactors(object.transform.matrix3) * newell(&at);
             let sign = outward.dot(face).signum();
@@ -217,7 +218,7 @@ impl<'a> Surface<'a> {
         all
     }
 
-    /// Returns the normals that came with meshes, where there are some.
+    /// Returns the meshes' own normals, and the stated ones where a mesh has none.
     fn of_file(&self) -> Vec<DVec3> {
         let models = &self.prepared.geometry().models;
         let mut all = self.stated.clone();
@@ -225,18 +226,18 @@ impl<'a> Surface<'a> {
             let Some(given) = mesh.given_normals() else {
                 return;
             };
-            let number = match &given.corners {
+            let index = match &given.corners {
                 Some(corners) => corners[corner],
                 None => mesh.corners()[corner],
             };
             let object = &models.objects[models.object_of(vertex)];
-            let n = cofactors(object.transform.matrix3) * given.values[number as usize].as_dvec3();
+            let n = cofactors(object.transform.matrix3) * given.values[index as usize].as_dvec3();
             all[vertex] = n.normalize_or(all[vertex]);
         });
         all
     }
 
-    /// Returns the group of each vertex, and their number.
+    /// Returns the group of each vertex, and how many groups there are.
     fn groups(&self, by: Group) -> (Vec<u32>, usize) {
         let models = &self.prepared.geometry().models;
         let object = |v: usize| models.object_of(v) as u32;
@@ -259,7 +260,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Returns the position of its mesh that each vertex has, by index.
+    /// Returns the index of each vertex's position in its mesh.
     fn indices(&self) -> Vec<u32> {
         let mut indices = vec![0; self.len()];
         self.for_each_corner(|mesh, corner, vertex| indices[vertex] = mesh.corners()[corner]);
@@ -288,15 +289,16 @@ impl<'a> Surface<'a> {
 /// The vertices of an object that share an average.
 #[derive(Clone, Copy)]
 enum Group {
-    /// Those at one position that have one normal.
+    /// Vertices with the same position and the same stated normal.
     Stated,
-    /// All at one position.
+    /// Vertices with the same position.
     Position,
-    /// Those that are one vertex in the file.
+    /// Vertices that are one vertex in the file.
     Index,
 }
 
-/// What a polygon adds to the normal of its corner `i`; `at` are the places of its corners.
+/// A function that returns the share of a polygon in the normal at its corner `i`. Its second
+/// parameter is the positions of its corners.
 type Share<'a> = &'a dyn Fn(usize, &[DVec3]) -> DVec3;
 
 /// Returns Newell's sum, twice the area of a polygon along its normal (L21 1.1).
@@ -316,7 +318,7 @@ fn angle(i: usize, at: &[DVec3]) -> f64 {
     if angle.is_finite() { angle } else { 0.0 }
 }
 
-/// Returns the matrix that carries normals: the inverse transpose up to a positive factor.
+/// Returns the matrix that transforms normals: the inverse transpose, up to a positive factor.
 fn cofactors(m: DMat3) -> DMat3 {
     let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
     let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };

@@ -1,4 +1,4 @@
-//! The recipe without mistakes is the reference; each mistake changes a picture and is found again.
+//! The recipe without mistakes draws the reference's pictures.
 
 use super::drawer::Drawer;
 use super::recipe::{Rate, Recipe};
@@ -15,7 +15,7 @@ fn scene(name: &str, [width, height]: [u32; 2]) -> Scene {
     scene
 }
 
-/// Returns the names of the shipped scenes, but for the one that takes seconds to prepare.
+/// Returns the names of the shipped scenes, except the one that takes seconds to prepare.
 fn names() -> impl Iterator<Item = &'static str> {
     SCENES
         .iter()
@@ -30,7 +30,7 @@ fn all_pixels(scene: &Scene) -> Vec<[usize; 2]> {
         .collect()
 }
 
-/// The recipe of each closed form is the reference's picture of that form.
+/// The recipe of each closed form draws the reference's picture of that form.
 #[test]
 fn recipes_without_mistakes_are_the_reference() {
     let rates = [
@@ -60,9 +60,9 @@ fn recipes_without_mistakes_are_the_reference() {
                 let colour = light[i].clamp(glam::DVec3::ZERO, glam::DVec3::ONE);
                 if hits.is_covered(i) {
                     for (own, other) in colour.to_array().iter().zip(pixel) {
-                        // Frames round positions, directions and products to `f32`; an exponent of
-                        // 400 makes 400 roundings of one, 400 · 2⁻²⁴ = 2.4e-5 of a highlight of 1.
-                        // Positions of `f32` relative to lights nearby: as much again.
+                        // Frames round positions, directions and products to `f32`. An exponent of
+                        // 400 multiplies a rounding by 400: 400 · 2⁻²⁴ = 2.4e-5 of a highlight
+                        // of 1. Positions in `f32` relative to lights close by add as much again.
                         assert!(
                             (own - other).abs() < 5e-5,
                             "{name} {rate:?} {i}: {own} {other}"

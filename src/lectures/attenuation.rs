@@ -1,4 +1,4 @@
-//! Falloffs over the distance, and floors that they light (CS171 2, Attenuation; L5, Light
+//! How lights weaken with distance, and the floors that they light (CS171 2, Attenuation; L5, Light
 //! falloff).
 
 use super::prelude::*;
@@ -11,7 +11,7 @@ pub(super) static FIGURE: Figure = Figure {
     live: None,
 };
 
-/// The falloffs with their names.
+/// The falloffs and their names.
 const FALLOFFS: [(&str, Falloff); 6] = [
     ("no falloff", Falloff::None),
     ("1/(1 + 0.1 d²)", Falloff::Attenuation(0.1)),
@@ -20,10 +20,11 @@ const FALLOFFS: [(&str, Falloff); 6] = [
     ("1/r", Falloff::Inverse),
     ("1/r²", Falloff::InverseSquare),
 ];
+/// Indices into [`FALLOFFS`]: 1/r² of Lecture 5, and 1/(1 + d²) of CS171's notes.
 const OF_LECTURE: usize = 5;
 const OF_NOTES: usize = 2;
 
-/// Height of the light above a floor that reaches from −2 to 2.
+/// The height of the light above a floor that reaches from −2 to 2.
 const HEIGHT: f64 = 0.3;
 
 fn strength(falloff: Falloff, r: f64) -> f64 {
@@ -35,7 +36,7 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
     }
 }
 
-/// Draws a white floor under one light close to it, seen from straight above.
+/// Draws a white floor under one light close to it. The camera looks straight down.
 fn floor(falloff: Falloff, intensity: f32) -> Result<LinearPicture> {
     let sheet = "corrugated?waves=0&amplitude=0&segments=8&rows=8";
     let mut scene = scene(sheet, DULL, DVec3::Z, 2.0, [96, 96])?;
@@ -48,7 +49,7 @@ fn floor(falloff: Falloff, intensity: f32) -> Result<LinearPicture> {
     draw(&scene.frame()?, "duff-phong")
 }
 
-/// Returns the part of a picture, in per cent, that is darker than so many grey levels.
+/// Returns how many per cent of a picture are darker than `levels` grey levels.
 fn below(levels: f32, picture: &LinearPicture) -> f64 {
     100.0 * share(picture, |pixel| pixel[0] < levels / 255.0)
 }
@@ -61,15 +62,15 @@ fn curves(content: &mut FigureContent) -> Result {
         FALLOFFS[1..]
             .iter()
             .map(|&(label, falloff)| Series::sampled(label, distances(), |r| strength(falloff, r))),
-        "Far away all but 1/r fall alike; near the light only those with 1 + stay at 1 or below.",
+        "Far from the light, all but 1/r fall alike. Close to it, only those with 1 + never exceed 1.",
     ));
     Ok(())
 }
 
 fn floors(content: &mut FigureContent) -> Result {
     content.text(format!(
-        "A white floor of 4 by 4, and a light of strength 1 at the height {HEIGHT}. The cosine \
-         darkens the rim."
+        "A white floor of 4 by 4, lit by a light of strength 1 at height {HEIGHT}. Toward the rim the \
+         light falls at a flatter angle, so that the cosine darkens it as well."
     ));
     let (mut panels, mut rows, mut clipped) = (Vec::new(), Vec::new(), Vec::new());
     for (label, falloff) in FALLOFFS {
@@ -90,21 +91,21 @@ fn floors(content: &mut FigureContent) -> Result {
     content.confirms(
         "clipped | share of the floor that 1/r² clips to white",
         (clipped[OF_LECTURE], "%", clipped[OF_LECTURE] > 1.0),
-        "\"Tends to look bad\": near the light it is brighter than a picture can hold.",
+        "\"Tends to look bad\": near the light the floor is brighter than a picture can hold.",
     );
     content.confirms(
         "clipped-notes | share of the floor that 1/(1 + d²) clips to white",
         (clipped[OF_NOTES], "%", clipped[OF_NOTES] == 0.0),
-        "None: it is at most 1.",
+        "None: this falloff never exceeds 1.",
     );
-    // 1/r² with a light so dim that nothing is clipped.
+    // At the point below the light r is HEIGHT, so that this intensity reaches exactly 1 there.
     let dim = floor(Falloff::InverseSquare, (HEIGHT * HEIGHT) as f32)?;
     let dark = below(1.0, &dim);
     let unattenuated = below(1.0, &floor(Falloff::None, 1.0)?);
     content.confirms(
-        "dark | share of the floor under one level, 1/r² with a light too dim to clip anything",
+        "dark | share of the floor under one level, by 1/r² and a light too dim to clip anything",
         (dark, "%", dark > 20.0 && dark > unattenuated),
-        "Much of the floor is black: local shading has no light from elsewhere.",
+        "Much of the floor is black: local shading has no light from other surfaces.",
     );
     Ok(())
 }

@@ -1,5 +1,5 @@
-//! L and V constant along each polygon, as the lecture assumes, against those of each pixel (L21 1;
-//! Duff 1979).
+//! L and V constant along each polygon, as the lecture assumes, compared with L and V of each pixel
+//! (L21 1; Duff 1979).
 
 use super::prelude::*;
 use crate::number::Counts;
@@ -8,14 +8,14 @@ use alloc::string::ToString;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "constant-vectors",
-    title: "L and V constant along a polygon, and the error of that",
+    title: "L and V constant along a polygon, and the error it makes",
     lecture: "L21 1, L21 4.3",
     parts: &[pictures, errors, products],
     live: Some(&LIVE),
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "L and V are constant along a polygon, so that J = L·N, K = V·N and L·V cost additions (L21 1; 4.3).",
+    claim: "L and V are constant along a polygon, so J = L·N and K = V·N cost additions only, and L·V nothing (L21 1; 4.3).",
     handles: &[
         Handle::slider(
             ["distance", "distance of the light, in radii", ""],
@@ -37,7 +37,7 @@ pub(super) static LIVE: Live = Live {
         let fast = draw(&frame, "fast-phong")?;
         let rms = 255.0 * compare(&truth(&frame), &fast)?.rms;
         let label = format!(
-            "RMS error of constant vectors, {} polygons, light at {distance}",
+            "RMS error of constant vectors, {} polygons, light {distance} radii away",
             2 * rings * rings
         );
         shows(content, &label, rms);
@@ -45,26 +45,27 @@ pub(super) static LIVE: Live = Live {
     },
 };
 
-/// Concludes from the RMS error of constant vectors.
+/// Adds the finding of an RMS error of constant vectors, in grey levels.
 fn shows(content: &mut FigureContent, label: &str, rms: f64) {
     content.found(
         &format!("coarse | {label}"),
         (rms, "grey levels", true),
         Agreement::if_holds(rms <= 1.0),
         match rms <= 1.0 {
-            true => "Not to be seen: polygons are small, or the light is far.",
-            false => "Every polygon shows: the assumption is for lights at infinity.",
+            true => "Nobody sees it: the polygons are small, or the light is far away.",
+            false => "Every polygon shows: the assumption holds for lights at infinity.",
         },
     );
 }
 
-/// Bands from pole to pole of the spheres.
+/// How many bands the spheres have from pole to pole.
 const RINGS: [u32; 5] = [6, 12, 24, 48, 96];
-/// Distances of the light from the surface of the sphere, whose radius is 1.
+/// The distances of the light from the surface of the sphere, whose radius is 1.
 const DISTANCES: [f64; 4] = [0.25, 1.0, 4.0, 16.0];
+/// The direction from the middle of the sphere to the light; its length does not matter.
 const TOWARD: DVec3 = DVec3::new(-0.4, 0.5, 0.77);
 
-/// Makes a sphere seen from near by, with a light so far from its surface.
+/// Makes a sphere seen from close by, with a light at `distance` from its surface.
 fn sphere(rings: u32, distance: f64) -> Result<Scene> {
     let mesh = format!("sphere?rings={rings}&segments={}", 2 * rings);
     let material = grey(0.05, 0.5, 0.4, 24.0);
@@ -77,21 +78,23 @@ fn sphere(rings: u32, distance: f64) -> Result<Scene> {
 
 fn pictures(content: &mut FigureContent) -> Result {
     content.text(
-        "Fast Phong shading takes L, V and the L·V of 4.6 as constants of the polygon. That is \
-         exact with light and eye at infinity. Otherwise polygons must be small, or the light far.",
+        "Fast Phong shading treats L, V and the L·V of 4.6 as constants of the polygon. That is exact \
+         if light and eye are at infinity. Otherwise the polygons must be small, or the light and the \
+         eye far away.",
     );
     let near = sphere(RINGS[1], DISTANCES[0])?.frame()?;
     let duff = compared(content, &near)?;
     let difference = levels(&draw(&near, "naive-phong")?, &duff);
     content.adds(
-        "duff-naive | six quadratics against vectors at each pixel, largest difference",
+        "duff-naive | Duff's six quadratics against vectors at each pixel, largest difference",
         (difference, "grey levels", difference < 0.5),
-        "One picture: the products are exact, to rounding.",
+        "The pictures are the same: apart from rounding, Duff's products are exact.",
     );
     Ok(())
 }
 
-/// Shows constant vectors beside those of each pixel; returns the picture of these.
+/// Shows the picture by constant vectors beside the picture by vectors at each pixel, and returns
+/// the latter.
 fn compared(content: &mut FigureContent, frame: &Frame) -> Result<LinearPicture> {
     let [fast, duff] = draw_each(frame, ["fast-phong", "duff-phong"])?;
     let [fast_8, duff_8] = [&fast, &duff].map(stored);
@@ -99,7 +102,7 @@ fn compared(content: &mut FigureContent, frame: &Frame) -> Result<LinearPicture>
     content.row(
         "A sphere with a light close to it, vectors",
         "constant along each polygon (fast-phong) | at each pixel (duff-phong) | their difference, \
-         to 64 levels",
+         up to 64 levels",
         [fast_8, duff_8, map],
     );
     Ok(duff)
@@ -123,31 +126,34 @@ fn errors(content: &mut FigureContent) -> Result {
         curves.push(Series::new(format!("light at {distance}"), curve));
     }
     let head = polygons.map(|polygons| format!(" | {polygons} polygons"));
-    let head = format!("light's distance: max / RMS in levels{}", head.concat());
+    let head = format!(
+        "distance of the light: max / RMS in levels{}",
+        head.concat()
+    );
     content.table(&head, rows);
     let [coarse, .., fine] = curves[0].points[..] else {
         return Ok(());
     };
     content.plot(Plot::new(
-        "The error of constant vectors over the number of polygons",
+        "The error of constant vectors, by the number of polygons",
         [log("polygons of the sphere"), log("RMS error, grey levels")],
         curves,
-        "Distances are in radii. The eye stays five radii from the middle, and a far light leaves \
-         its error.",
+        "Distances are in radii. The eye stays five radii from the middle: its error is left when the \
+         light is far away.",
     ));
     let label = "RMS error of constant vectors, coarsest sphere and nearest light";
     shows(content, label, coarse.1);
     let finer = f64::from(RINGS[RINGS.len() - 1]) / f64::from(RINGS[0]);
     let order = libm::log(coarse.1 / fine.1) / libm::log(finer);
     content.adds(
-        "order | power of the polygons' size by which the error falls, nearest light",
+        "order | power of the polygons' size with which the error falls, nearest light",
         (order, "", order > 0.5),
-        "Finer polygons make up for it.",
+        "Smaller polygons make up for a near light.",
     );
     Ok(())
 }
 
-/// Counts the operations of the six products, which replace vectors at each pixel by additions.
+/// Counts the operations of Duff's six products, which replace vectors at each pixel by additions.
 fn products(content: &mut FigureContent) -> Result {
     let counts = |method: &str, lights| -> Result<OperationCounts> {
         let bench = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
@@ -174,7 +180,7 @@ fn products(content: &mut FigureContent) -> Result {
     content.adds(
         "additions | additions per pixel that step the six products of one light, and 1/w²",
         (one, "", true),
-        &format!("Two each; a further light takes {more} more. A falloff needs 1/w²."),
+        &format!("Two for each. A second light takes {more} more. 1/w² is for the falloff."),
     );
     Ok(())
 }

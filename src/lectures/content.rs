@@ -1,4 +1,4 @@
-//! The data of a finished figure: texts, pictures, curves, tables and findings, without any layout.
+//! The data of a finished figure: texts, pictures, curves, tables and findings, without layout.
 
 use super::error::Result;
 use super::fixture::stored;
@@ -30,7 +30,7 @@ impl FigureContent {
         self.blocks.push(FigureBlock::Text(text.into()));
     }
 
-    /// Adds captions and pictures of one subject, `columns` in a row where there is room.
+    /// Adds pictures of one subject with their captions, `columns` in a row where there is room.
     pub fn pictures<C: Into<String>>(
         &mut self,
         columns: usize,
@@ -53,25 +53,26 @@ impl FigureContent {
         });
     }
 
-    /// Outlines polygons on the pictures that were added last, the one that matters first.
+    /// Outlines polygons on the pictures that were added last. The polygon that matters comes
+    /// first.
     pub(super) fn outline(&mut self, polygons: Vec<Vec<[f32; 2]>>) {
         if let Some(FigureBlock::Pictures { outlines, .. }) = self.blocks.last_mut() {
             *outlines = polygons;
         }
     }
 
-    /// Adds pictures of one subject in a row: ` | ` separates their captions.
+    /// Adds pictures of one subject in a row. In `captions`, ` | ` separates one from the next.
     ///
     /// # Panics
-    /// If there are not as many captions as pictures.
+    /// If the counts of captions and pictures differ.
     pub fn row<const N: usize>(&mut self, subject: &str, captions: &str, pictures: [Picture8; N]) {
         let captions: Vec<&str> = captions.split(" | ").collect();
         assert_eq!(captions.len(), N, "a caption for each picture");
         self.pictures(N, subject, captions.into_iter().zip(pictures));
     }
 
-    /// Adds two pictures with their captions, and the map of their difference, whose yellow end
-    /// stands for `levels`.
+    /// Adds two pictures with their captions, and a map of their difference. The yellow end of its
+    /// colours means `levels` grey levels.
     ///
     /// # Errors
     /// If the sizes differ.
@@ -111,15 +112,15 @@ impl FigureContent {
         });
     }
 
-    /// Adds a [finding](Self::found) that confirms the lecture if `so`, and contradicts it
-    /// otherwise.
+    /// Adds a [finding](Self::found) that confirms the lecture if the flag of `value` is set, and
+    /// contradicts it otherwise.
     pub fn confirms(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
         let agreement = Agreement::if_holds(value.2);
         self.found(head, value, agreement, says);
     }
 
-    /// Adds a [finding](Self::found) that contradicts the lecture if `so`, and confirms it
-    /// otherwise.
+    /// Adds a [finding](Self::found) that contradicts the lecture if the flag of `value` is set,
+    /// and confirms it otherwise.
     pub fn contradicts(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
         let agreement = Agreement::if_holds(!value.2);
         self.found(head, value, agreement, says);
@@ -130,8 +131,8 @@ impl FigureContent {
         self.found(head, value, Agreement::Adds, says);
     }
 
-    /// Adds a finding: its head `key | label`, and its value with its unit. The verdict is the
-    /// sentence `says`, marked as false unless `so`.
+    /// Adds a finding. Its head is `key | label`. Its value comes with the unit and a flag, `so`:
+    /// does the sentence `says` hold? If not, the verdict says that it does not.
     ///
     /// # Panics
     /// If the head has no ` | `.
@@ -163,29 +164,29 @@ pub enum FigureBlock {
     Text(String),
     /// Pictures side by side.
     Pictures {
-        /// The pictures in a row where there is room, 1 or more.
+        /// How many pictures stand in a row where there is room, at least 1.
         columns: usize,
         /// The pictures, row by row.
         shown: Vec<Panel>,
-        /// The corners of polygons that the page may outline on each picture, the one that matters
-        /// first: column and row, in pixels.
+        /// The polygons that the page can outline on each picture, as columns and rows of their
+        /// corners in pixels. The polygon that matters comes first.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         outlines: Vec<Vec<[f32; 2]>>,
     },
     /// Curves.
     Plot(Plot),
-    /// Rows of cells; the first cell of a row names it.
+    /// Rows of cells. The first cell names the row.
     Table {
         /// The titles of the columns.
         head: Vec<String>,
-        /// The cells: each row has as many as the head.
+        /// The cells. Each row has as many as the head.
         rows: Vec<Vec<String>>,
     },
     /// The engine's work, step by step.
     Trace {
         /// The method, with its parameters.
         method: String,
-        /// The trace. It is stored beside the data.
+        /// The trace. The report stores it beside the data, not in it.
         #[serde(skip)]
         trace: Box<Trace>,
     },
@@ -198,7 +199,8 @@ pub struct Panel {
     pub caption: String,
     /// The description for readers who cannot see the picture.
     pub alt: String,
-    /// The picture, small: the page shows its pixels as squares. It is stored beside the data.
+    /// The picture. It is small, and the page shows its pixels as squares. The report stores it
+    /// beside the data, not in it.
     #[serde(skip)]
     pub picture: Picture8,
 }
@@ -207,9 +209,9 @@ pub struct Panel {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scale {
-    /// Equal differences are equally long.
+    /// Equal differences have equal lengths.
     Linear,
-    /// Equal ratios are equally long; values that have no logarithm stand at the lower end.
+    /// Equal ratios have equal lengths. Values without a logarithm are drawn at the lower end.
     Log,
 }
 
@@ -232,9 +234,9 @@ pub struct Plot {
     pub x: (String, Scale),
     /// The quantity along the vertical axis with its unit, and the scale.
     pub y: (String, Scale),
-    /// The curves: six at most can be told from one another.
+    /// The curves. Readers can tell at most six apart.
     pub series: Vec<Series>,
-    /// The values of x that a vertical line marks, such as edges of polygons.
+    /// The values of x at vertical lines, which mark edges of polygons, for example.
     pub marks: Vec<f64>,
     /// The caption, a sentence or two.
     pub caption: String,
@@ -258,7 +260,7 @@ impl Plot {
         }
     }
 
-    /// Marks values of x by vertical lines.
+    /// Draws a vertical line at each of these values of x.
     pub fn marked(self, marks: impl Into<Vec<f64>>) -> Plot {
         Plot {
             marks: marks.into(),
@@ -272,14 +274,14 @@ impl Plot {
 pub struct Series {
     /// The name of the curve.
     pub label: String,
-    /// The points, in the order in which they are joined; the page leaves out those that are not
+    /// The points, in the order in which a line joins them. The page leaves out points that are not
     /// finite.
     #[serde(serialize_with = "five_digits")]
     pub points: Vec<(f64, f64)>,
 }
 
-/// Writes points with five significant digits, which no chart can show; `null` for a value that is
-/// not finite.
+/// Writes points with five significant digits, more than a chart shows. A value that is not finite
+/// becomes `null`.
 fn five_digits<S: Serializer>(points: &[(f64, f64)], to: S) -> Result<S::Ok, S::Error> {
     let short = |value: f64| format!("{value:.4e}").parse::<f64>().unwrap_or(value);
     let points = points.iter().map(|(x, y)| (short(*x), short(*y)));
@@ -295,7 +297,7 @@ impl Series {
         }
     }
 
-    /// Makes the curve of a function, sampled at each `x`.
+    /// Samples a function at each `x`.
     pub(super) fn sampled(
         label: impl Into<String>,
         x: impl IntoIterator<Item = f64>,
@@ -305,7 +307,7 @@ impl Series {
     }
 }
 
-/// The relation of a measured value to the lecture.
+/// What a measured value says about the lecture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Agreement {
@@ -328,10 +330,10 @@ impl Agreement {
     }
 }
 
-/// A measured value and the conclusion from it.
+/// A measured value, and the conclusion from it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The name for programs: it never changes, and is unique in its figure.
+    /// The name for programs. It never changes, and it is unique in its figure.
     pub key: String,
     /// The name for people.
     pub label: String,
@@ -339,13 +341,13 @@ pub struct Finding {
     pub value: f64,
     /// The unit of the value; empty for a pure number.
     pub unit: String,
-    /// The relation to the lecture.
+    /// What the value says about the lecture.
     pub agreement: Agreement,
-    /// The conclusion, a sentence that the value has chosen.
+    /// The conclusion. The value chose this sentence.
     pub verdict: String,
 }
 
-/// Writes a number for a sentence: three significant digits, a power of ten if it is very small.
+/// Writes a value for a sentence: three significant digits, and a power of ten below 10⁻³.
 pub(super) fn written(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && size < 1e-3 {

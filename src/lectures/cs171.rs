@@ -1,5 +1,6 @@
-//! CS171's red sphere under two coloured lights, by its three algorithms; the highlight that
-//! Algorithm 7 loses as it is printed; and the test against the NDC cube, which is not clipping.
+//! CS171's red sphere under two coloured lights, drawn by its three algorithms; the highlight that
+//! Algorithm 7 as printed loses; and the test against the NDC cube, which does not replace
+//! clipping.
 
 use super::prelude::*;
 use crate::frame::triangulate::triangulated;
@@ -19,14 +20,14 @@ pub(super) static FIGURE: Figure = Figure {
 /// Width and height of the pictures.
 const SIDE: u32 = 96;
 
-/// A picture in `f64`, as the notes' algorithms draw it.
+/// A picture in `f64`, which the notes' algorithms draw.
 type F64Picture = Picture<[f64; 4]>;
 
 fn eight_bits(picture: &F64Picture) -> Picture8 {
     picture.map(|pixel| pixel.map(|c| libm::round(255.0 * c) as u8))
 }
 
-/// Makes a red sphere under a yellow and a blue light at positions, lit as CS171 does it.
+/// Makes a red sphere under a yellow and a blue light at positions, with CS171's lighting.
 fn sphere() -> Result<Frame> {
     let mut scene = fitted("sphere?rings=8&segments=14", [SIDE; 2])?;
     (scene.specular, scene.shininess_for) = (SpecularModel::Blinn, SpecularModel::Blinn);
@@ -48,12 +49,13 @@ fn sphere() -> Result<Frame> {
     Ok(triangulated(&scene.frame()?).frame)
 }
 
-/// Measures the highlights by their green light, of which the sphere's own colour has nearly none.
+/// Measures the highlights in the green channel, because the sphere's own colour has almost no
+/// green.
 fn highlights(content: &mut FigureContent) -> Result {
     content.text(
-        "A red sphere under two lights at positions, by Algorithm 8: once per triangle (Figure 10), \
-         a vertex (Figure 9), a pixel (Figure 11). Algorithm 7 as printed does not normalise the \
-         interpolated normal, though the lighting model asks for a unit normal.",
+        "A red sphere under two lights at positions. Algorithm 8 lights it once per triangle (Figure \
+         10), once per vertex (Figure 9) or once per pixel (Figure 11). Algorithm 7 as printed does \
+         not normalise the interpolated normal, although the lighting model asks for a unit normal.",
     );
     let frame = sphere()?;
     let unit = Reading::default();
@@ -78,31 +80,31 @@ fn highlights(content: &mut FigureContent) -> Result {
     content.adds(
         "peak-phong | brightest pixel of the highlight, its green, Algorithm 7 with unit normals",
         (phong, "levels", true),
-        "The others are measured against this one.",
+        "The other methods are measured against this one.",
     );
     content.confirms(
         "peak-gouraud | brightest pixel of the highlight, its green, Algorithm 4",
         (gouraud, "levels", gouraud < phong - 1.0),
-        "The highlight is cut off between vertices: \"a bit pixelated\", where Phong's is smooth.",
+        "The highlight is cut off between vertices: \"a bit pixelated\". Phong's is smooth.",
     );
     content.adds(
         "peak-printed | brightest pixel of the highlight, its green, Algorithm 7 as printed",
         (raw, "levels", true),
         &format!(
-            "Shorter normals have smaller cosines, and smaller powers: up to {} levels less.",
+            "Shorter normals have smaller cosines and smaller powers: up to {} levels less.",
             written(lost)
         ),
     );
     content.contradicts(
-        "lost | largest loss of a pixel by normals that are not made unit vectors",
+        "lost | largest loss at a pixel without normalising",
         (lost, "levels", lost >= 1.0),
-        "The lighting model asks for unit normals: make them so at each pixel.",
+        "The lighting model asks for unit normals: normalise at each pixel.",
     );
     Ok(())
 }
 
-/// Draws a floor under the eye, from in front of it to `behind`: with the cube alone, as printed,
-/// and clipped.
+/// Draws a floor below the eye, which reaches from in front of it to z = `behind`: first with only
+/// the cube's test, as printed, then clipped.
 fn floors(behind: f64) -> Result<[F64Picture; 2]> {
     let camera = Camera {
         eye: DVec3::ZERO,
@@ -149,14 +151,14 @@ fn only(a: &F64Picture, b: &F64Picture) -> usize {
     pairs.filter(|(a, b)| a[3] > b[3]).count()
 }
 
-/// Compares the test against the cube at each pixel with clipping.
+/// Compares clipping with a test of each pixel against the cube.
 fn cube(content: &mut FigureContent) -> Result {
     let [near, near_clipped] = floors(-1.0)?;
     let [behind, behind_clipped] = floors(2.0)?;
     content.text(
-        "The test against the NDC cube. It cuts off as much as clipping where the whole floor is \
-         in front of the eye. Corners behind the eye are divided by a negative depth and stand \
-         above the horizon: clipping must come first.",
+        "Each pixel is tested against the NDC cube. Where the whole floor is in front of the eye, this \
+         cuts off as much as clipping. A corner behind the eye is divided by a negative depth, which \
+         puts it above the horizon: clipping must come first.",
     );
     content.row(
         "A floor to the horizon",
@@ -165,11 +167,11 @@ fn cube(content: &mut FigureContent) -> Result {
         [&near, &near_clipped, &behind, &behind_clipped].map(eight_bits),
     );
     let differing = only(&near, &near_clipped) + only(&near_clipped, &near);
-    // Clipping makes corners, which are snapped to 1/256 pixel: a pixel of the rim may fall to
-    // either side.
+    // Clipping adds corners, which are snapped to 1/256 pixel, so that a pixel on the rim may fall
+    // to either side.
     content.confirms(
-        "cube-in-front | pixels in which the cube's test and clipping differ, all corners in front \
-         of the eye",
+        "cube-in-front | pixels where the cube's test and clipping differ, all corners in front of the \
+         eye",
         (differing as f64, "pixels", differing <= SIDE as usize),
         "\"Parts within the cube\" are rendered, as the notes say.",
     );
@@ -177,11 +179,11 @@ fn cube(content: &mut FigureContent) -> Result {
     content.contradicts(
         "cube-missing | pixels that the cube's test loses, corners behind the eye",
         (missing as f64, "pixels", missing != 0),
-        "The cube's test is no clipping: corners behind the eye have no place.",
+        "The cube's test does not replace clipping: corners behind the eye have no place on the picture.",
     );
     let extra = only(&behind, &behind_clipped);
     content.contradicts(
-        "cube-extra | pixels that it draws where nothing is",
+        "cube-extra | pixels that it draws where there is no floor",
         (extra as f64, "pixels", extra != 0),
         "The cube's test draws a part of the floor above the horizon.",
     );

@@ -1,4 +1,4 @@
-//! Depth buffers: two ways to compute depth, and the reach of 16, 24 and 32 bits (L5).
+//! Depth buffers: two ways to compute depth, and how far 16, 24 and 32 bits reach (L5).
 
 use super::prelude::*;
 use crate::raster::depth;
@@ -6,18 +6,22 @@ use crate::scene::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "depth",
-    title: "Depth: two ways to compute it, and 16, 24 or 32 bits to keep it",
+    title: "Depth: two ways to compute it, and 16, 24 or 32 bits to store it",
     lecture: "L5, Z-buffer, Z-value Computation",
     parts: &[fighting, ways, curve],
     live: Some(&LIVE),
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "Depth is kept in 16 to 32 bits, z ↦ (f + n)/(f − n) + (1/z) 2fn/(f − n): the nearer the near plane, the fewer levels for what is far (L5).",
+    claim: "Depth is stored in 16 to 32 bits, z ↦ (f + n)/(f − n) + (1/z) 2fn/(f − n). The closer the near plane, the fewer levels are left for distant surfaces (L5).",
     handles: &[
         Handle::slider(["bits", "bits of depth", ""], [16.0, 32.0], 8.0, 16.0),
         Handle::slider(
-            ["near", "near plane, times its distance in the figure", ""],
+            [
+                "near",
+                "near plane, as a multiple of its distance in the figure",
+                "",
+            ],
             [1.0, 25.0],
             1.0,
             1.0,
@@ -57,7 +61,8 @@ const BITS: [(u32, DepthBits); 3] = [
     (32, DepthBits::ThirtyTwo),
 ];
 
-/// Makes a frame of a star a little above a floor, far from the eye; the near plane is so many times as far away as in the scene.
+/// Makes a frame of a star a little above a floor, far from the eye. The near plane is `near` times
+/// as far away as in the scene.
 fn far_away(bits: DepthBits, source: DepthSource, near: f64) -> Result<Frame> {
     let mut scene = shipped("z-fighting", SIZE)?;
     scene.camera.near *= near;
@@ -65,11 +70,11 @@ fn far_away(bits: DepthBits, source: DepthSource, near: f64) -> Result<Frame> {
     Ok(scene.frame()?)
 }
 
-/// Draws a star a little above a floor: with too few bits both have one depth.
+/// Draws a star a little above a floor. With too few bits both have the same depth.
 fn fighting(content: &mut FigureContent) -> Result {
     content.text(
-        "A star a little above a floor, far from the eye. Where few bits round both depths to one \
-         number, the floor shows through: z-fighting.",
+        "A star a little above a floor, far from the eye. Where few bits round both depths to the same \
+         value, the floor shows through: z-fighting.",
     );
     let (mut pictures, mut panels) = (Vec::new(), Vec::new());
     for (count, bits) in BITS {
@@ -85,7 +90,7 @@ fn fighting(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Concludes from the pixels that so many bits show wrongly.
+/// Adds the finding that `bits` bits show `wrong` pixels differently than 32 bits.
 fn fights(content: &mut FigureContent, bits: u32, wrong: usize) {
     let enough = if wrong > 0 { "too few" } else { "enough" };
     content.adds(
@@ -102,13 +107,13 @@ fn ways(content: &mut FigureContent) -> Result {
     let both = corners.pixels().iter().zip(samples.pixels());
     let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
     let difference = largest(both.map(|(a, b)| f64::from((a - b).abs())));
-    // Corners, and each step along an edge and a span, round depths of up to 1 by 2⁻²⁵, on both
-    // ways; the second scales 1/w by f/(f − n), which is close to 1.
+    // Either way rounds depths of up to 1 by 2⁻²⁵ at the corners and at each step along an edge and
+    // a span. The second way scales 1/w by f/(f − n), which is close to 1.
     let bound = 4.0 * (f64::from(SIZE[0] + SIZE[1]) + 4.0) / f64::from(1 << 25);
     content.confirms(
-        "ways | largest difference of depth by both ways",
+        "ways | largest difference between the depths computed in both ways",
         (difference, "", difference <= bound),
-        "Both ways agree to rounding, as 1/z is linear on the screen.",
+        "Apart from rounding both ways agree, because 1/z is linear on the screen.",
     );
     Ok(())
 }
@@ -120,7 +125,7 @@ fn lecture_depth(distance: f64, near: f64, far: f64) -> f64 {
     (far + near) / (far - near) + 2.0 * far * near / (far - near) / z
 }
 
-/// Plots depth over distance for near planes so many times as far away as in the scene.
+/// Plots depth over distance, for near planes that are `times` as far away as in the scene.
 fn over_distance(times: &[f64]) -> Result<Plot> {
     let Camera { near, far, .. } = shipped("z-fighting", SIZE)?.camera;
     let reach = written(far);
@@ -136,7 +141,7 @@ fn over_distance(times: &[f64]) -> Result<Plot> {
         times.iter().map(|times| curve(times * near)),
         format!(
             "L5's formula, mapped to 0..1, for a far plane at {reach}. Only the order of z is \
-             \"preserved after projection\": a nearer near plane leaves fewer levels for far \
+             \"preserved after projection\". A closer near plane leaves fewer levels for distant \
              surfaces."
         ),
     ))
@@ -152,7 +157,7 @@ fn curve(content: &mut FigureContent) -> Result {
         "half | part of the depth range used up at twice the near distance",
         (half, "", true),
         &format!(
-            "Of distances up to {reach}, those below {twice} take {share:.0} % of the levels."
+            "Of all distances up to {reach}, those below {twice} use {share:.0} % of the levels."
         ),
     );
     let at = |i: u32| lecture_depth(near + (far - near) * f64::from(i) / 1000.0, near, far);
@@ -160,13 +165,13 @@ fn curve(content: &mut FigureContent) -> Result {
     let middle = lecture_depth(0.5 * far, near, far);
     let moved = (middle - (0.5 * far - near) / (far - near) * 2.0 + 1.0).abs();
     content.found(
-        "preserved | distance of half-way to the far plane from half-way in depth, of 2",
+        "preserved | depth half-way to the far plane: how far from the middle of the range, which is 2 long",
         (moved, "", true),
         Agreement::if_holds(moved < 1e-3),
         match (moved < 1e-3, is_ordered) {
             (true, _) => "Depth is preserved.",
-            (_, true) => "Depth keeps the order of distances and nothing else (\"preserved\", L5).",
-            (_, false) => "Depth does not even keep the order.",
+            (_, true) => "Depth preserves the order of distances and nothing else (\"preserved\", L5).",
+            (_, false) => "Depth does not even preserve the order.",
         },
     );
     Ok(())

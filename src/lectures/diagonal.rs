@@ -1,4 +1,4 @@
-//! Vertex normals by weight: the diagonal of a square face moves the average (L21 3.1).
+//! Vertex normals by different weights: the diagonal of a square face moves the average (L21 3.1).
 
 use super::prelude::*;
 use crate::mesh::newell::newell;
@@ -16,10 +16,10 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "The normal at a vertex is the average of the normals of the polygons around it (L21 3.1). A face that is cut in two counts twice at two of its corners.",
+    claim: "The normal at a vertex is the average of the normals of the polygons around it (L21 3.1). But a face that is cut in two counts twice at two of its corners.",
     handles: &[
         Handle::slider(
-            ["turned", "faces whose diagonal is turned", ""],
+            ["turned", "faces with the other diagonal", ""],
             [0.0, 6.0],
             1.0,
             1.0,
@@ -58,7 +58,7 @@ pub(super) static LIVE: Live = Live {
     },
 };
 
-/// The weights and what they are called.
+/// The weights and their names.
 const WEIGHTS: [(NormalWeight, &str); 4] = [
     (NormalWeight::Uniform, "uniform"),
     (NormalWeight::Area, "by area"),
@@ -66,19 +66,21 @@ const WEIGHTS: [(NormalWeight, &str); 4] = [
     (NormalWeight::Max, "by Max\u{2019}s weights"),
 ];
 
-/// Degrees that count as rounding: normals are stored in `f32`.
+/// The largest angle in degrees that counts as rounding: normals are stored in `f32`.
 const ROUNDING: f64 = 1e-5;
 
-/// A cube, whose normals by symmetry are its diagonals.
+/// A cube. By symmetry its normals lie along its diagonals.
 struct Cube(PolygonMesh);
 
 impl Cube {
-    /// Makes a cube of squares, or of triangles: diagonals join every second vertex, but for the faces of the bits that are set in
-    /// `turned`.
+    /// Makes a cube of squares, or with `turned` of triangles. Their diagonals join every second
+    /// vertex of the cube, except on the faces whose bits are set in `turned`, which have the other
+    /// diagonal.
     fn new(turned: Option<u32>) -> Result<Cube> {
         let side = |bit: u32| if bit & 1 == 0 { -1.0 } else { 1.0 };
         let positions = (0..8).map(|i| DVec3::new(side(i), side(i >> 1), side(i >> 2)));
-        // The faces that are seen come first. The first corner of each has an even number of bits.
+        // The faces that the camera sees come first. The first corner of each has an even count of
+        // bits, so that the diagonals from there join every second vertex.
         let faces = [
             [5, 1, 3, 7],
             [3, 2, 6, 7],
@@ -103,7 +105,7 @@ impl Cube {
         lit(&self.0, averaged(weight))
     }
 
-    /// Returns the largest angle in degrees between a normal and the diagonal.
+    /// Returns the largest angle between a normal and its diagonal, in degrees.
     fn off(&self, weight: NormalWeight) -> f64 {
         let normals = vertex_normals(&self.0, averaged(weight));
         let corners = self.0.corners().iter().zip(&normals.corners);
@@ -117,12 +119,13 @@ impl Cube {
     }
 }
 
+/// Averages normals with this weight.
 fn averaged(weight: NormalWeight) -> NormalRule {
     let source = NormalSource::Averaged;
     NormalRule { source, weight }
 }
 
-/// Makes a mesh.
+/// Makes a mesh, with a normal for each position if there are `normals`.
 fn mesh(
     positions: &[DVec3],
     normals: Option<&[DVec3]>,
@@ -141,7 +144,7 @@ fn mesh(
     Ok(builder.finish()?)
 }
 
-/// Draws a mesh in grey by naive Phong.
+/// Draws a mesh in grey by naive Phong, through a camera that fits it.
 fn lit(mesh: &PolygonMesh, normals: NormalRule) -> Result<LinearPicture> {
     let mut scene = Scene::of_mesh(mesh.clone());
     (scene.width, scene.height) = (112, 112);
@@ -150,33 +153,34 @@ fn lit(mesh: &PolygonMesh, normals: NormalRule) -> Result<LinearPicture> {
     draw(&scene.frame()?, "naive-phong")
 }
 
-/// Concludes from the largest angle and the largest difference in levels that diagonals make under a weight.
+/// Adds the findings of a weight: the largest angle, in degrees, and the largest difference, in
+/// grey levels, that diagonals make.
 fn concludes(content: &mut FigureContent, (key, name): (&str, &str), off: f64, levels: f64) {
     let moves = off > ROUNDING;
     content.adds(
         &format!("{key} | normals of a cube that is cut, {name}: largest angle from its diagonals"),
         (off, "degrees", true),
         match moves {
-            true => "The diagonals move the normals: the same solid is lit otherwise.",
-            false => "The diagonals do not matter here.",
+            true => "The diagonals move the normals: the same solid is lit differently.",
+            false => "Here the diagonals do not matter.",
         },
     );
     content.adds(
-        &format!("{key}-levels | the same in the picture: largest difference"),
+        &format!("{key}-levels | picture of a cube that is cut, {name}: largest difference from six squares"),
         (levels, "levels", true),
         match levels > 0.5 {
-            true => "It is seen.",
-            false => "It is not seen.",
+            true => "You can see it.",
+            false => "You cannot see it.",
         },
     );
 }
 
-/// Shows a cube whole and cut, and goes through all ways to cut it.
+/// Shows a cube whole and cut, and tries all 64 ways to cut it.
 fn diagonals(content: &mut FigureContent) -> Result {
     content.text(
-        "The corners of a cube have three squares around them, and by symmetry its diagonals for normals. As triangles, the \
-         same squares count once or twice at a corner, as their diagonals are. Weights by angle count the square\u{2019}s right \
-         angle, however it is cut.",
+        "Each corner of a cube has three squares around it, and by symmetry its normal lies along the cube\u{2019}s diagonal. When \
+         the squares are cut into triangles, a square counts once or twice at a corner, depending on its own diagonal. Weights by \
+         angle always count the square\u{2019}s right angle, however it is cut.",
     );
     let whole = Cube::new(None)?;
     let one = Cube::new(Some(1))?;
@@ -200,17 +204,17 @@ fn diagonals(content: &mut FigureContent) -> Result {
     }
     content.pictures(
         5,
-        "A cube with averaged normals, the diagonal of one face turned",
+        "A cube with averaged normals, one face cut along its other diagonal",
         panels,
     );
     content.table(
-        "weight | largest angle over all 64 ways to cut, degrees | ways without an error | one face turned: levels, at most",
+        "weight | largest angle over all 64 ways to cut, degrees | ways without an error | one face cut the other way: levels, at most",
         rows,
     );
     Ok(())
 }
 
-/// Positions on a surface with its normals there, and quads between them.
+/// A surface whose normals are known: points on it, their normals, and quads between them.
 struct Surface {
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
@@ -218,11 +222,12 @@ struct Surface {
 }
 
 impl Surface {
-    /// Makes a torus of radii 1 and 0.4 out of `count` by `count` quads. The smaller radius swells and shrinks by `wave`. Positions
-    /// move on the surface by up to a part `moved` of a cell.
+    /// Makes a torus with radii 1 and 0.4 of `count` by `count` quads. The smaller radius swells
+    /// and shrinks by `wave`. Each point moves along the surface by up to `moved` cells at random.
     fn torus(count: u32, wave: f64, moved: f64) -> Surface {
         let mut random = SplitMix(21);
         let mut off = || moved * (2.0 * (random.next() >> 11) as f64 / (1u64 << 53) as f64 - 1.0);
+        // Returns a point and its normal, the cross product of the derivatives by u and v.
         let at = |i: u32| {
             let [u, v] =
                 [i / count, i % count].map(|k| TAU * (f64::from(k) + off()) / f64::from(count));
@@ -256,7 +261,7 @@ impl Surface {
         }
     }
 
-    /// Makes a unit sphere of `count` meridians.
+    /// Makes a unit sphere with `count` meridians, whose caps are triangles.
     fn sphere(count: u32) -> Surface {
         let rings = count / 2;
         let at = |i: u32| {
@@ -285,12 +290,14 @@ impl Surface {
         }
     }
 
-    /// Makes a cube whose edges are cut off by strips. Its normals are those of a rounded one, whose faces are flat up to the strips.
+    /// Makes a cube whose edges are cut off by strips. Its normals belong to a rounded cube whose
+    /// faces are flat up to the strips.
     fn bevelled() -> Surface {
         const INNER: f64 = 0.85;
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let sign = |bit: usize| if bit & 1 == 0 { -1.0 } else { 1.0 };
-        // Vertex 3i + k is the one of corner i that is on the face along axis k.
+        // Each corner of the cube becomes three vertices: vertex 3i + k of corner i lies on the
+        // face across axis k.
         let corner = |i: usize| DVec3::new(sign(i), sign(i >> 1), sign(i >> 2));
         let normals = (0..24).map(|n| corner(n / 3) * axes[n % 3]);
         let normals: Vec<DVec3> = normals.collect();
@@ -307,7 +314,7 @@ impl Surface {
                         .to_vec(),
                 );
             }
-            // Strips along axis k, between the faces of the two others.
+            // Strips along axis k, between the faces across the two other axes.
             for i in [0, u, w, u | w] {
                 let (a, b) = ((k + 1) % 3, (k + 2) % 3);
                 let far = i | 1 << k;
@@ -318,6 +325,7 @@ impl Surface {
                 );
             }
         }
+        // All polygons shall face outward.
         for polygon in &mut polygons {
             let at = polygon.iter().map(|&i| positions[i as usize]);
             if newell(at).dot(positions[polygon[0] as usize]) < 0.0 {
@@ -331,7 +339,8 @@ impl Surface {
         }
     }
 
-    /// Cuts its quads: all alike, or each as chance has it.
+    /// Cuts its quads into triangles, all along the same diagonal or each along one chosen at
+    /// random.
     fn cut(mut self, at_random: bool) -> Surface {
         let mut random = SplitMix(45);
         let mut triangles = Vec::new();
@@ -348,8 +357,8 @@ impl Surface {
         self
     }
 
-    /// Returns for each weight the error of its normals in degrees and that of the picture in levels, as roots of mean squares, and the
-    /// largest error of the picture.
+    /// Returns three errors for each weight: the RMS error of normals in degrees, and the RMS and
+    /// the largest error of the picture in grey levels.
     fn errors(&self) -> Result<[[f64; 3]; 4]> {
         let mesh = mesh(&self.positions, Some(&self.normals), &self.polygons)?;
         let truth = lit(&mesh, NormalSource::Given.into())?;
@@ -374,7 +383,7 @@ impl Surface {
     }
 }
 
-/// Shows what short edges do.
+/// Shows how short edges pull normals.
 fn bevels(content: &mut FigureContent) -> Result {
     let surface = Surface::bevelled();
     let mesh = mesh(
@@ -393,15 +402,15 @@ fn bevels(content: &mut FigureContent) -> Result {
     content.adds(
         "bevelled | cube with edges cut off: RMS error of normals by angle",
         (angle, "degrees", area < angle && angle < max),
-        "Weights by area keep its large faces flatter than that; Max\u{2019}s, which short edges pull, bend them more.",
+        "Weights by area keep its large faces flatter. Max\u{2019}s weights bend them more, because short edges pull the normals.",
     );
     Ok(())
 }
 
-/// The part of a cell by which points move at random: quads stay convex up to a quarter.
+/// How far points move at random, in cells. Quads stay convex up to a quarter.
 const MOVED: f64 = 0.2;
 
-/// The degrees between neighbouring normals of meshes, and how many quads go around.
+/// How many quads go around, and the degrees between their neighbouring normals.
 const TURNS: [(u32, f64); 3] = [(72, 5.0), (24, 15.0), (12, 30.0)];
 
 /// Measures normals and pictures of surfaces whose normals are known.
@@ -446,9 +455,10 @@ fn surfaces(content: &mut FigureContent) -> Result {
     let bevelled = cells(Surface::bevelled().errors()?);
     rows.push(format!("90 | cube with edges cut off | {bevelled}"));
     content.text(
-        "Surfaces whose normals are known, against pictures with these. In each cell: normals, RMS error in degrees; picture, RMS \
-         error in levels (and the largest). Cut alike means that all diagonals of quads lie alike; the faces of the cube are flat up to \
-         strips, which are 15 % as wide.",
+        "The exact normals of these surfaces are known, so that averaged normals and their pictures can be compared with exact ones. \
+         Each cell has the RMS error of the normals in degrees, then the RMS error of the picture in levels, and the largest in \
+         brackets. Cut alike means that all quads are cut along the same diagonal. The faces of the cube are flat up to strips, whose \
+         width is 15 % of the cube\u{2019}s.",
     );
     content.table(
         "degrees | surface | uniform | by area | by angle | by Max\u{2019}s weights",
@@ -470,28 +480,28 @@ fn surfaces(content: &mut FigureContent) -> Result {
             log("levels, RMS"),
         ],
         curves,
-        "Over the nine smooth surfaces of the table.",
+        "The mean over the nine smooth surfaces of the table.",
     ));
     content.adds(
-        "spheres | normals of spheres, however cut, by Max\u{2019}s weights: largest RMS error",
+        "spheres | normals of spheres, cut in any way, by Max\u{2019}s weights: largest RMS error",
         (of_spheres, "degrees", of_spheres < 1e-3),
-        "Exact, but for the rounding of positions.",
+        "They are exact, apart from the rounding of positions.",
     );
     let [_, [uniform, _, by_angle, max], _] = means;
     content.adds(
         "smooth | smooth surfaces at 15°: mean RMS error of pictures with uniform weights",
         (uniform, "levels", by_angle < uniform),
-        "Farther off than by angle, which does not see the diagonals.",
+        "Weights by angle are closer, because diagonals do not change them.",
     );
     content.adds(
-        "smooth-angle | the same by angle",
+        "smooth-angle | smooth surfaces at 15°: mean RMS error of pictures with weights by angle",
         (by_angle, "levels", max < by_angle),
-        "Nearer than with uniform weights at 15°; Max\u{2019}s are nearer still on surfaces as smooth as these.",
+        "Closer than uniform weights at 15°. Max\u{2019}s weights are closer still on surfaces this smooth.",
     );
     Ok(())
 }
 
-/// Writes the errors of each weight as cells of a row.
+/// Writes the errors of the weights as the cells of a row.
 fn cells(errors: [[f64; 3]; 4]) -> String {
     let cell = |[degrees, rms, most]: [f64; 3]| format!("{degrees:.2}° · {rms:.2} ({most:.0})");
     errors.map(cell).join(" | ")

@@ -6,27 +6,28 @@ use crate::mesh::MeshError;
 use crate::mesh::builtin::BuiltinError;
 use crate::number::NameError;
 use crate::raster::DrawError;
-use crate::scene::file::diagnostics::SceneError;
+use crate::scene::file::SceneError;
 
 /// The result of a part of a figure.
 pub(super) type Result<T = (), E = FigureError> = core::result::Result<T, E>;
 
-/// An error of the room that a figure draws with.
+/// The reason why a figure could not be made.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error(transparent)]
+#[non_exhaustive]
 pub enum FigureError {
-    /// A shape has no such name or parameter.
+    /// No built-in mesh has this name, or it has no such parameter.
     Builtin(#[from] BuiltinError),
-    /// A mesh is not one.
+    /// A mesh is not valid.
     Mesh(#[from] MeshError),
-    /// A shipped scene is not one.
+    /// A shipped scene cannot be read.
     Scene(#[from] SceneError),
-    /// A frame is not one.
+    /// A frame is not valid.
     Frame(#[from] FrameError),
-    /// A method has no such name or parameter.
+    /// No method has this name, or it has no such parameter.
     Method(#[from] NameError),
-    /// A method is not for a frame.
+    /// A method cannot draw a frame.
     Draw(#[from] DrawError),
-    /// Pictures that are compared have different sizes.
+    /// Pictures to be compared have different sizes.
     Size(#[from] SizeMismatch),
 }

@@ -16,16 +16,16 @@ pub(super) static FIGURE: Figure = Figure {
 /// The sines of 24° and 25° in the table of Exercise 1, in five decimals.
 const TABLE: [f64; 2] = [0.40674, 0.42262];
 
-/// Draws the span of Exercise 1: from the centre of pixel 0, which shows the sine of 24°, to that
-/// of pixel 10.
+/// Draws the span of Exercise 1. It runs from the centre of pixel 0, which shows the sine of 24°,
+/// to the centre of pixel 10, which shows the sine of 25°.
 fn span() -> Result<LinearPicture> {
-    // L · N is the normal's z.
+    // The light is along z, so L · N is the normal's z.
     let normals = TABLE.map(|z| DVec3::new(libm::sqrt(1.0 - z * z), 0.0, z));
     let strip = ScreenPolygon::strip([0.5, 10.5], 4.0, normals);
     draw(&frame([11, 4], DULL, DVec3::Z, &[strip])?, "gouraud")
 }
 
-/// Exercise 1: Gouraud shading reads between the lines of a table.
+/// Answers Exercise 1: Gouraud shading reads between the lines of a table.
 fn sine(content: &mut FigureContent) -> Result {
     // Pixel 3 is 0.3 of the way.
     let picture = span()?;
@@ -35,23 +35,23 @@ fn sine(content: &mut FigureContent) -> Result {
     let [error, half] = [truth - found, 0.5e-5].map(written);
     content.text(format!(
         "Exercise 1. Gouraud's method shades a span of ten pixels from {low} (sin 24°) to {high} \
-         (sin 25°). Its fourth pixel, 0.3 of the way, holds {found:.6}; sin 24.3° is {truth:.6}. \
-         The error is {error}; half a unit of the table's last decimal is {half}.",
+         (sin 25°). Its fourth pixel is 0.3 of the way along and holds {found:.6}; sin 24.3° is \
+         {truth:.6}. The error is {error}. Half a unit of the table's last decimal is {half}.",
     ));
     content.confirms(
         "sine | sin 24.3° by linear interpolation",
         (found, "", (found - truth).abs() < 1.5e-5),
-        "The estimate is as good as the table that it is read from.",
+        "The estimate is as good as the table that it comes from.",
     );
     content.adds(
-        "sine-error | its distance from the sine",
+        "sine-error | sin 24.3° minus its estimate",
         (truth - found, "", true),
-        "A chord lies below the sine, and the table is rounded.",
+        "A chord lies below the curve of the sine, and the table is rounded.",
     );
     Ok(())
 }
 
-/// e^{kt} along a span: `e^{t + Δt} = e^t · e^{Δt}` (L21, Exercise 2).
+/// A walk of the exponential along a span: `e^{t + Δt} = e^t · e^{Δt}` (L21, Exercise 2).
 #[derive(Clone, Copy, Debug)]
 struct Exponential<F> {
     at: F,
@@ -59,7 +59,7 @@ struct Exponential<F> {
 }
 
 impl Exponential<f32> {
-    /// Starts at `exp(start)` and goes on to `exp(start + step)`.
+    /// Starts at `exp(start)`; the next pixel has `exp(start + step)`.
     fn new(start: f64, step: f64) -> Self {
         Exponential {
             at: libm::exp(start) as f32,
@@ -78,12 +78,12 @@ impl<F: Num> Walk<F> for Exponential<F> {
     }
 }
 
-/// Exercise 2: the cost of a step, and the drift.
+/// Answers Exercise 2: counts the operations of a step, and measures the drift.
 fn exponential(content: &mut FigureContent) -> Result {
     let counter = Counter::default();
     let mut counted = Exponential {
-        at: counter.number(1.0),
-        factor: counter.number(0.5),
+        at: counter.counted(1.0),
+        factor: counter.counted(0.5),
     };
     counted.next();
     let counts = counter.take();
@@ -103,36 +103,36 @@ fn exponential(content: &mut FigureContent) -> Result {
         (fall, (0..PIXELS).map(error).collect::<Vec<f64>>())
     });
     let most = largest(errors.iter().flat_map(|(_, errors)| errors.iter().copied()));
-    // Each of the products is rounded once, and the factor, rounded once, is in each of them.
+    // Each product rounds once. The factor was rounded once, and that error enters every product.
     let bound = 2.0 * (PIXELS - 1) as f64 / (1 << 24) as f64;
     let [allowed, measured] = [bound, most].map(written);
     content.plot(Plot::new(
-        "Exponential by one multiplication per pixel: relative error over a span",
+        "The exponential by one multiplication per pixel: relative error along a span",
         [linear("pixel"), log("relative error")],
         errors.map(|(fall, errors)| {
             let shown = (8..PIXELS).step_by(8).map(|k| (k as f64, errors[k]));
             Series::new(format!("from 1 to e^−{fall}"), shown)
         }),
         format!(
-            "In f32, over {PIXELS} pixels. Two roundings of 2⁻²⁴ a pixel, of the product and of \
-             its factor, allow {allowed} at the end; {measured} was the largest."
+            "In f32, over {PIXELS} pixels. Product and factor each add a rounding of 2⁻²⁴ per pixel, \
+             which allows {allowed} at the end. The largest measured error is {measured}."
         ),
     ));
     content.confirms(
         "drift | largest relative error over 1024 pixels",
         (most, "", most <= bound),
-        "Within two roundings a pixel: far below a grey level.",
+        "Within two roundings per pixel: far below a grey level.",
     );
     Ok(())
 }
 
-/// Fog lets through e^-`DENSITY` of the light from a surface at depth 1.
+/// How dense the fog is: e^-`DENSITY` of the light from a surface at depth 1 comes through.
 const DENSITY: f64 = 2.5;
 
-/// Draws exponential fog over a tilted plane: depth is linear on the screen, so that the
-/// exponential can be stepped.
+/// Draws exponential fog over a tilted plane. Its depth is linear on the screen, so one
+/// multiplication steps the exponential from pixel to pixel.
 fn fog(content: &mut FigureContent) -> Result {
-    // A plane: depth is a linear function of the position.
+    // The polygon is flat because its depth is a linear function of the position.
     let corner = |[x, y]: [f64; 2]| ScreenCorner {
         depth: 0.45 * x / 240.0 + 0.55 * (1.0 - y / 132.0),
         ..ScreenCorner::new([x, y], DVec3::Z)
@@ -163,8 +163,8 @@ fn fog(content: &mut FigureContent) -> Result {
     let levels = 255.0 * most;
     content.text(format!(
         "Exercise 2 at work: a dark, tilted plane in exponential fog. Under an orthographic camera \
-         depth is linear on the screen: one multiplication a pixel gives the fog, to rounding. The \
-         two pictures differ by at most {} grey levels.",
+         depth is linear on the screen, so one multiplication per pixel computes the fog, apart from \
+         rounding. The two pictures differ by at most {} grey levels.",
         written(levels)
     ));
     content.row(
@@ -173,15 +173,15 @@ fn fog(content: &mut FigureContent) -> Result {
         [&stepped, &exact].map(stored),
     );
     content.confirms(
-        "fog | largest difference of the fog by steps from that by exponentials",
+        "fog | fog by steps against fog by exponentials, largest difference",
         (levels, "grey levels", levels < 0.5),
-        "The pictures cannot be told apart.",
+        "Nobody can tell the pictures apart.",
     );
     Ok(())
 }
 
-/// Lists what both exercises give at each pixel, to the last bit: readers who program them are
-/// graded against it.
+/// Lists the values of both exercises at each pixel, to the last bit: the page grades programs that
+/// readers write against this table.
 fn pixels(content: &mut FigureContent) -> Result {
     let span = span()?;
     let covered = span.row(1).iter().filter(|pixel| pixel[3] > 0.0);
@@ -191,14 +191,14 @@ fn pixels(content: &mut FigureContent) -> Result {
         format!("{k} | {intensity} | {fall}")
     });
     content.text(
-        "Both exercises pixel by pixel, as the engine's f32 has them: the span from sin 24° to sin \
-         25°, and e to the t for t = 0, −0.25 and so on.",
+        "Both exercises pixel by pixel, in the engine's f32: the span from sin 24° to sin 25°, and e to \
+         the t for t = 0, −0.25 and so on.",
     );
     content.table("pixel | intensity | e to the t", rows);
     Ok(())
 }
 
-/// Lets through the part `left` of a pixel's light, and adds white fog for the rest.
+/// Lets the part `left` of a pixel's light through, and adds white fog for the rest.
 fn mix(picture: &mut LinearPicture, x: usize, y: usize, left: f32) {
     for channel in &mut picture.row_mut(y)[x][..3] {
         *channel = *channel * left + (1.0 - left);

@@ -1,5 +1,5 @@
-//! The exponent of the highlight: cosine powers, spheres for k_s and p, and N·H against R·V (L5;
-//! CS171 2, Figure 7).
+//! The exponent of the highlight: powers of the cosine, spheres for k_s and p, and N·H against R·V
+//! (L5; CS171 2, Figure 7).
 
 use super::prelude::*;
 
@@ -13,10 +13,10 @@ pub(super) static FIGURE: Figure = Figure {
 
 const EXPONENTS: [f32; 5] = [1.0, 8.0, 32.0, 128.0, 512.0];
 const STRENGTHS: [f32; 3] = [0.25, 0.5, 0.75];
-/// Half of the visible height; the sphere has radius 1.
+/// Half of the visible height, in radii of the sphere.
 const HALF_HEIGHT: f64 = 1.1;
 
-/// Returns the angle at which cos^p has come down to a half, in degrees.
+/// Returns the angle at which cos^p has fallen to a half, in degrees.
 fn half_width(p: f64) -> f64 {
     libm::acos(libm::pow(0.5, 1.0 / p)).to_degrees()
 }
@@ -32,7 +32,7 @@ fn powers(content: &mut FigureContent) -> Result {
         "Cosine powers",
         ["angle between R and V, degrees", "highlight"].map(linear),
         EXPONENTS.map(curve),
-        format!("Half of the height is left at {wide}° for p = 1 and at {narrow}° for p = 512."),
+        format!("The curve has fallen to half its height at {wide}° for p = 1 and at {narrow}° for p = 512."),
     ));
     let widths = EXPONENTS.map(|p| half_width(p.into()));
     content.confirms(
@@ -43,13 +43,14 @@ fn powers(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Draws a scene whose highlights and exponents are those of `specular`.
+/// Draws a scene with the highlights of `specular`. Its exponents are meant for `specular`, too, so
+/// that nothing converts them.
 fn drawn(mut scene: Scene, specular: SpecularModel) -> Result<LinearPicture> {
     (scene.specular, scene.shininess_for) = (specular, specular);
     draw(&scene.frame()?, "naive-phong")
 }
 
-/// Makes a sphere with a highlight over some diffuse light.
+/// Makes a sphere with a highlight and a little diffuse light.
 fn shiny(strength: f32, exponent: f32, light: DVec3, side: u32) -> Result<Scene> {
     let material = grey(0.02, 0.2, strength, exponent);
     let spec = "sphere?rings=32&segments=64";
@@ -64,12 +65,13 @@ fn grid(content: &mut FigureContent) -> Result {
         for exponent in EXPONENTS {
             let sphere = shiny(strength, exponent, light, 56)?;
             let picture = drawn(sphere, SpecularModel::Phong)?;
-            // Brighter than diffuse and ambient light alone can be.
+            // Ambient and diffuse light together are at most 0.22: the highlight is where it adds
+            // more than half of its strength.
             bright.push(share(&picture, |pixel| pixel[0] > 0.22 + strength / 2.0));
             panels.push((format!("k_s {strength}, p {exponent}"), stored(&picture)));
         }
     }
-    content.text("The strength k_s grows downward, the exponent p to the right.");
+    content.text("The strength k_s grows from top to bottom, the exponent p from left to right.");
     content.pictures(EXPONENTS.len(), "A sphere with a highlight", panels);
     let strongest = &bright[2 * EXPONENTS.len()..];
     let (matte, shiny) = (strongest[0], strongest[3]);
@@ -77,17 +79,18 @@ fn grid(content: &mut FigureContent) -> Result {
     content.contradicts(
         &format!("shiny | share of the sphere in the highlight, p = {low} over p = {high}"),
         (matte / shiny.max(1e-4), "", matte >= shiny),
-        "Very shiny surfaces have a large p, as Figure 7 of CS171 shows: its text says close to 1.",
+        "Very shiny surfaces have a large p, as Figure 7 of CS171 shows. The text of CS171 says that p is \
+         close to 1.",
     );
     Ok(())
 }
 
-/// Measures the half width of the highlight alone, in degrees of the surface, on the middle row of
-/// a sphere lit from the eye. Returns the curve as well.
+/// Measures the half width of a highlight without other light, in degrees of the normal, on the
+/// middle row of a sphere lit from the eye. Also returns the curve, as angles and intensities.
 fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f64)>)> {
     const SIDE: u32 = 481;
-    // Three rows of the picture of full height: the middle one passes through the middle of the
-    // sphere.
+    // The picture has the three middle rows of a square one. Its middle row passes through the
+    // middle of the sphere.
     let half_height = 3.0 * HALF_HEIGHT / f64::from(SIDE);
     let material = grey(0.0, 0.0, 1.0, exponent);
     let spec = "sphere?rings=96&segments=192";
@@ -102,7 +105,7 @@ fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f6
         .filter(|&x| row[x][3] > 0.0)
         .map(|x| (degrees(x as f64), f64::from(row[x][0])))
         .collect();
-    // Between the last pixel over a half and the next one, on the line through both.
+    // Interpolate between the last pixel that has a half or more and the next one.
     let last = points.iter().rposition(|p| p.1 >= 0.5).unwrap_or(0);
     let (a, b) = (points[last], points[(last + 1).min(points.len() - 1)]);
     let part = match a.1 > b.1 {
@@ -112,7 +115,7 @@ fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f6
     Ok((a.0 + part * (b.0 - a.0), points))
 }
 
-/// Compares R·V with N·H of the same exponent, and of four times as much.
+/// Compares R·V with N·H at the same exponent, and at four times the exponent.
 fn half_vector(content: &mut FigureContent) -> Result {
     let (mut widths, mut curves, mut panels) = (Vec::new(), Vec::new(), Vec::new());
     for (label, exponent, specular) in [
@@ -128,21 +131,22 @@ fn half_vector(content: &mut FigureContent) -> Result {
         panels.push((label, stored(&picture)));
     }
     content.text(
-        "The half vector turns half as fast as R: the same exponent makes a wider highlight.",
+        "The angle between N and H is half the angle between R and V, so the same exponent makes a wider \
+         highlight.",
     );
     content.pictures(3, "A sphere with a highlight", panels);
     content.plot(Plot::new(
         "The highlight along the equator of the sphere, lit from the eye",
         [linear("angle of the normal, degrees"), linear("highlight")],
         curves,
-        "The curves of R·V, of N·H with its exponent, and of N·H with four times it.",
+        "R·V, N·H with the same exponent, and N·H with four times the exponent.",
     ));
     let [phong, same, converted] = [0, 1, 2].map(|i| widths[i]);
-    // Half of the angle, so that the width doubles where cos^p is a Gauss curve.
+    // The angle is half as large, so the width doubles as far as cos^p is a Gauss curve.
     content.contradicts(
         "same-exponent | half width of N·H over that of R·V, same exponent",
         (same / phong, "", same / phong > 1.5),
-        "CS171 says that the angle at H \"can also be used\": not with the same exponent.",
+        "CS171 says that the angle at H \"can also be used\". That is not so with the same exponent.",
     );
     let ratio = converted / phong;
     content.adds(
@@ -154,7 +158,7 @@ fn half_vector(content: &mut FigureContent) -> Result {
     content.adds(
         "half-width | half width of R·V for p = 20 on the sphere",
         (phong, "degrees", (phong - expected).abs() < 0.1),
-        "Half of the half width of cos^20, as the normal turns half as fast as R.",
+        "It is half of the half width of cos^20, because the normal turns half as fast as R.",
     );
     Ok(())
 }

@@ -23,8 +23,8 @@ const MESHES: [&str; 6] = [
 /// Grey levels at the yellow end of the difference map.
 const MAP_SCALE: f32 = 8.0;
 
-/// Compares naive Phong on every mesh with fast Phong, with one step and with the fewest that
-/// suffice on each span, which is the default.
+/// Compares fast Phong with naive Phong on every mesh: with one step, and with the fewest steps
+/// that suffice on each span, which is the default.
 fn meshes(content: &mut FigureContent) -> Result {
     let (mut rows, mut fewest, mut by_one) = (Vec::new(), 0.0f64, Vec::new());
     for mesh in MESHES {
@@ -50,8 +50,8 @@ fn meshes(content: &mut FigureContent) -> Result {
         "No pixel differs by more than a grey level.",
     );
     let verdict = |error: f64| match error <= 1.0 {
-        true => "One step is enough there.",
-        false => "One step is not enough there.",
+        true => "One step is enough on this mesh.",
+        false => "One step is not enough on this mesh.",
     };
     let coarse = by_one[0].0;
     content.adds(
@@ -68,18 +68,18 @@ fn meshes(content: &mut FigureContent) -> Result {
         verdict(*error),
     );
     content.text(format!(
-        "The mesh on which one step is farthest from naive Phong: {mesh}."
+        "On this mesh one step is farthest from naive Phong: {mesh}."
     ));
     let captions = "naive Phong | fast Phong, 1 step";
     content.compared(mesh, captions, pictures, MAP_SCALE)
 }
 
-/// Counts the operations per pixel for one light, of walk and shade.
+/// Counts the operations of walk and shade, per pixel and for one light.
 fn operations(content: &mut FigureContent) -> Result {
     content.text(
-        "Operations per pixel for one light and shininess 32, counted by running each method on \
-         counting numbers: walk steps from the previous pixel, shade computes the colour. The \
-         power is five multiplications in every method but flat and Gouraud shading.",
+        "Operations per pixel for one light and shininess 32. They are counted by running each method \
+         with numbers that count. Walk steps from the previous pixel, and shade computes the colour. \
+         The power takes five multiplications in every method except flat and Gouraud shading.",
     );
     let rows = METHODS.iter().map(|entry| {
         let OperationCounts { walk, shade, .. } = entry.variant().operations(1);
@@ -100,7 +100,7 @@ fn operations(content: &mut FigureContent) -> Result {
     content.confirms(
         "roots-naive | naive Phong: square roots per pixel",
         (roots(&naive), "", roots(&naive) == 1),
-        "One, to normalise the interpolated normal.",
+        "One, which normalises the interpolated normal.",
     );
     content.confirms(
         "roots-fast | fast Phong: square roots per pixel",
@@ -119,12 +119,12 @@ fn operations(content: &mut FigureContent) -> Result {
         "One addition per channel.",
     );
     let slerp = count("slerp-phong")?.walk;
-    // One addition and two multiplications each make J and K of the sines (4.8).
+    // J and K each take one addition and two multiplications from the sines (4.8).
     let is_as_said = (slerp.additions, slerp.multiplications) == (4 + 2, 8 + 4);
     content.confirms(
         "walk-slerp | slerp Phong: additions and multiplications to step J and K (4.8)–(4.12)",
         (slerp.additions + slerp.multiplications, "", is_as_said),
-        "6 additions, 12 multiplications: 4 and 8 for the sines, as the lecture counts, 1 and 2 \
+        "6 additions and 12 multiplications: 4 and 8 for the sines, as the lecture counts, and 1 and 2 \
          for each of J and K.",
     );
     Ok(())

@@ -1,7 +1,7 @@
-//! Frames and scenes that figures draw, and the call that draws them.
+//! The frames and scenes that figures draw, and the calls that draw them.
 //!
-//! [`frame`] takes polygons in screen space with given normals; [`scene`] puts one mesh before a
-//! camera that looks along -z; [`shipped`] loads a scene of the repository.
+//! [`frame`] takes polygons in screen space that carry their own normals. [`scene`] puts one mesh
+//! before a camera that looks along -z. [`shipped`] loads a scene that comes with the program.
 
 use super::Result;
 use crate::frame::{Frame, FrameBuilder, Vertex, sub_pixel};
@@ -56,7 +56,7 @@ impl ScreenPolygon {
         }
     }
 
-    /// Makes an upright strip from row 0 to `height` with one normal along each of its two sides.
+    /// Makes an upright strip from row 0 to row `height`. Each of its two sides has one normal.
     pub fn strip([left, right]: [f64; 2], height: f64, [from, to]: [DVec3; 2]) -> ScreenPolygon {
         ScreenPolygon::new([
             ScreenCorner::new([left, 0.0], from),
@@ -66,8 +66,8 @@ impl ScreenPolygon {
         ])
     }
 
-    /// Adds the polygon to a frame, as its polygon `number`.
-    pub fn add(&self, builder: &mut FrameBuilder, material: u32, number: usize) {
+    /// Adds the polygon to a frame, as the polygon at `index`.
+    pub fn add(&self, builder: &mut FrameBuilder, material: u32, index: usize) {
         let vertex = |corner: &ScreenCorner| Vertex {
             x: sub_pixel(corner.position[0]),
             y: sub_pixel(corner.position[1]),
@@ -78,12 +78,12 @@ impl ScreenPolygon {
         };
         let corners = self.corners.iter().map(|c| builder.vertex(vertex(c)));
         let corners: Vec<u32> = corners.collect();
-        builder.polygon(&corners, self.normal.as_vec3().to_array(), number as u32);
+        builder.polygon(&corners, self.normal.as_vec3().to_array(), index as u32);
     }
 }
 
-/// Makes a frame of `polygons` of one material under one white light, drawn in this order and all
-/// visible.
+/// Makes a frame of `polygons` of one material under one white light. They are drawn in this order,
+/// and nothing hides them.
 ///
 /// # Errors
 /// If a coordinate is beyond the guard band, or the size is not allowed.
@@ -97,14 +97,14 @@ pub(super) fn frame(
     builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
     let light = Light::directional(light.normalize(), [1.0; 3]);
     let material = builder.lighting(Lighting::new(&material, [1.0; 3], &[light], DVec3::Z));
-    for (number, polygon) in polygons.iter().enumerate() {
-        polygon.add(&mut builder, material, number);
+    for (index, polygon) in polygons.iter().enumerate() {
+        polygon.add(&mut builder, material, index);
     }
     Ok(builder.finish()?)
 }
 
-/// Returns a material that reflects all channels alike: `k_a`, `k_d`, `k_s` and the exponent (L21
-/// 2.1).
+/// Returns a material that reflects all channels alike, from its `k_a`, `k_d`, `k_s` and exponent
+/// (L21 2.1).
 pub(super) const fn grey(ambient: f32, diffuse: f32, specular: f32, shininess: f32) -> Material {
     Material {
         ambient: [ambient; 3],
@@ -128,11 +128,11 @@ pub(super) fn ends(degrees: f64) -> [DVec3; 2] {
     [toward(-degrees / 2.0), toward(degrees / 2.0)]
 }
 
-/// Puts a built-in mesh around the origin, seen from +z, under one white light. `half_height` of
-/// space is visible above the middle.
+/// Puts a built-in mesh around the origin, seen from +z, under one white light. The camera sees
+/// `half_height` of the world above the origin, and as much below.
 ///
 /// # Errors
-/// If there is no such mesh.
+/// If no built-in mesh matches `mesh`.
 pub(super) fn scene(
     mesh: &str,
     material: Material,
@@ -157,18 +157,18 @@ pub(super) fn scene(
 /// Puts a built-in mesh before a camera that fits it.
 ///
 /// # Errors
-/// If there is no such mesh.
+/// If no built-in mesh matches `mesh`.
 pub(super) fn fitted(mesh: &str, [width, height]: [u32; 2]) -> Result<Scene> {
     let mut scene = Scene::of_mesh(builtin(mesh)?);
     (scene.width, scene.height) = (width, height);
     Ok(scene)
 }
 
-/// Puts a mesh of these corners and polygons before a camera, which sees it from both sides. There
-/// is no light but ambient light.
+/// Puts a mesh of these corners and polygons before a camera, which sees both of its sides. The
+/// only light is ambient.
 ///
 /// # Errors
-/// If a polygon names a corner that does not exist.
+/// If a polygon has the index of a corner that does not exist.
 pub(super) fn bare(
     corners: &[DVec3],
     polygons: &[&[u32]],
@@ -188,10 +188,10 @@ pub(super) fn bare(
     })
 }
 
-/// Loads a shipped scene, for a picture of this size.
+/// Loads a scene that comes with the program, for a picture of this size.
 ///
 /// # Errors
-/// If there is no such scene.
+/// If no shipped scene is called `name`.
 pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene> {
     let mut scene = resolve(&load(name)?)?.scene;
     (scene.width, scene.height) = (width, height);
@@ -201,12 +201,12 @@ pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene> {
 /// Draws a frame by a method.
 ///
 /// # Errors
-/// If there is no such method, or it is not for the frame.
+/// If no method matches `method`, or the method cannot draw the frame.
 pub(super) fn draw(frame: &Frame, method: &str) -> Result<LinearPicture> {
     Ok(Variant::parse(method)?.render_linear(frame)?)
 }
 
-/// Draws a frame by several methods.
+/// Draws a frame by each of several methods.
 ///
 /// # Errors
 /// As [`draw`].
@@ -224,7 +224,7 @@ pub(super) fn truth(frame: &Frame) -> LinearPicture {
     reference::render(frame, Model::Phong).to_linear()
 }
 
-/// Stores a picture in eight bits, without a transfer function.
+/// Stores a picture in eight bits a channel, without a transfer function.
 pub(super) fn stored(picture: &LinearPicture) -> Picture8 {
     store(picture, Encoding::Linear)
 }

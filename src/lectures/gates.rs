@@ -10,13 +10,13 @@ pub(super) static FIGURE: Figure = Figure {
     live: None,
 };
 
-/// From behind and above: it lights surfaces that turn away from the eye.
+/// The direction to a light behind and above: it lights surfaces that turn away from the eye.
 const BEHIND: DVec3 = DVec3::new(-0.55, 0.5, -0.67);
 /// A grazing light makes long highlights with a small exponent.
 const SHINY: Material = grey(0.08, 0.4, 0.8, 12.0);
 const MATTE: Material = grey(0.08, 0.4, 0.0, 1.0);
 
-/// Draws a torus in light from behind, its highlights by N·H as the lectures print them.
+/// Draws a torus in light from behind. Its highlights are N·H, as the lectures print them.
 fn torus(material: Material, gate: SpecularGate) -> Result<LinearPicture> {
     let mesh = "torus?segments=96&sides=48";
     let mut scene = scene(mesh, material, BEHIND, 1.5, [112, 112])?;
@@ -25,8 +25,8 @@ fn torus(material: Material, gate: SpecularGate) -> Result<LinearPicture> {
     draw(&scene.frame()?, "duff-phong")
 }
 
-/// Returns the largest step between covered neighbours in a row, in levels, beyond the step of the
-/// other picture there. So edges of the outline, which both pictures have, do not count.
+/// Returns the largest step between covered neighbours in a row, less the step of the other picture
+/// there, in grey levels. The subtraction removes edges of the surface, which both pictures have.
 fn largest_step(picture: &LinearPicture, other: &LinearPicture) -> f64 {
     let mut largest: f64 = 0.0;
     for y in 0..picture.height() {
@@ -42,8 +42,8 @@ fn largest_step(picture: &LinearPicture, other: &LinearPicture) -> f64 {
 
 fn gates(content: &mut FigureContent) -> Result {
     content.text(
-        "A torus in light from behind it. The lectures raise a cosine to a power without asking \
-         whether the light reaches the surface.",
+        "A torus lit from behind. The lectures raise a cosine to a power without asking whether the \
+         light reaches the surface at all.",
     );
     let gated = torus(SHINY, SpecularGate::Gated)?;
     let ungated = torus(SHINY, SpecularGate::Ungated)?;
@@ -53,7 +53,7 @@ fn gates(content: &mut FigureContent) -> Result {
         "none where L·N ≤ 0 (default) | as printed in CS171 and L5 | weighted by L·N",
         [&gated, &ungated, &weighted].map(stored),
     );
-    // A surface that has no more than ambient light is turned away from the light.
+    // Where the matte surface has only ambient light, 0.08, it is turned away from the light.
     let matte = torus(MATTE, SpecularGate::Gated)?;
     let behind = |picture: &LinearPicture| {
         let pairs = || picture.pixels().iter().zip(matte.pixels());
@@ -66,11 +66,11 @@ fn gates(content: &mut FigureContent) -> Result {
     content.contradicts(
         "behind | share of the surface turned away from the light that shines, as printed",
         (from_behind, "%", from_behind > 1.0),
-        "Light from behind shines through.",
+        "Light from behind shines through the surface.",
     );
     let none = behind(&gated).max(behind(&weighted));
     content.adds(
-        "behind-gated | the same with a gate or a weight",
+        "behind-gated | share of the surface turned away from the light that shines, with a gate or a weight",
         (none, "%", none == 0.0),
         "None.",
     );
@@ -94,8 +94,8 @@ fn clamping(content: &mut FigureContent) -> Result {
     let truth = truth(&frame);
     let [clamped, separate] = draw_each(&frame, ["gouraud", "gouraud-separate"])?;
     content.text(
-        "An overexposed sphere: Gouraud's method clamped at the vertices, clamped at the pixels, \
-         and shading at every pixel.",
+        "An overexposed sphere by Gouraud's method, clamped at the vertices or at the pixels, and lit at \
+         every pixel.",
     );
     content.row(
         "An overexposed sphere",
@@ -106,14 +106,14 @@ fn clamping(content: &mut FigureContent) -> Result {
     content.adds(
         "clamped | clamped at vertices against clamped at pixels, largest difference",
         (difference, "grey levels", difference > 1.0),
-        "Clamping and interpolating cannot be exchanged.",
+        "Clamping before interpolating is not the same as clamping after it.",
     );
     let (first, last) = (compare(&truth, &clamped)?, compare(&truth, &separate)?);
     let ratio = (255.0 * first.rms) / (255.0 * last.rms);
     content.adds(
         "nearer | RMS error of clamping at vertices over that of clamping at pixels",
         (ratio, "", ratio > 1.0),
-        "Colours that are clamped last are nearer to shading at every pixel.",
+        "Clamping last comes closer to lighting every pixel.",
     );
     Ok(())
 }

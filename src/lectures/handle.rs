@@ -1,24 +1,25 @@
-//! Handles: numbers of a figure that its reader moves.
+//! Handles: the parameters of a figure that its reader can move.
 
 use super::Result;
 use super::content::FigureContent;
 use alloc::vec::Vec;
 
-/// The part of a figure that follows the reader's hand: it is made anew for each value of its handles.
+/// The interactive part of a figure. The page makes it again whenever its reader moves a handle.
 #[derive(Debug, serde::Serialize)]
 pub struct Live {
     /// What the lecture says, with its equation.
     pub claim: &'static str,
     /// The handles.
     pub handles: &'static [Handle],
-    /// The function that makes it, with a value of each handle: the findings are made by the code of the stored ones.
+    /// The function that makes it from a value for each handle. It measures with the same code as
+    /// the stored figure.
     #[serde(skip)]
     pub(super) make: fn(&mut FigureContent, &[f64]) -> Result,
 }
 
 impl Live {
-    /// Draws and measures it for a value of each handle. Values out of range become the nearest ones, missing ones those to start
-    /// with.
+    /// Draws and measures it for a value of each handle. A value out of range becomes the nearest
+    /// allowed one. A missing value becomes the handle's start.
     ///
     /// # Errors
     /// As [`super::Figure::make`].
@@ -28,7 +29,8 @@ impl Live {
         Ok(content)
     }
 
-    /// Returns a value of each handle: the given ones, brought into range, or those to start with.
+    /// Returns an allowed value for each handle: the nearest to the value in `given`, or the
+    /// handle's start.
     pub(super) fn values(&self, given: &[f64]) -> Vec<f64> {
         let handles = self.handles.iter().enumerate();
         let values = handles.map(|(i, handle)| handle.allowed(given.get(i).copied()));
@@ -36,7 +38,7 @@ impl Live {
     }
 }
 
-/// A number that a reader moves.
+/// A parameter that a reader can move: a slider, or a coordinate of a corner to drag.
 #[derive(Debug, serde::Serialize)]
 pub struct Handle {
     /// The name in links: lower case.
@@ -47,17 +49,18 @@ pub struct Handle {
     pub unit: &'static str,
     /// The least and the greatest value.
     pub range: [f64; 2],
-    /// Values are multiples of this.
+    /// The distance between neighbouring values, which are multiples of it.
     pub step: f64,
     /// The value to start with.
     pub start: f64,
-    /// The axis that a reader drags it along: handles `x` and `y` that follow one another are a corner of a polygon.
+    /// The axis along which a reader drags it, `x` or `y`; `None` for a slider. A handle `x` and
+    /// the handle `y` after it together are one corner of a polygon.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<char>,
 }
 
 impl Handle {
-    /// Makes a handle that is a slider.
+    /// Makes a slider.
     pub(super) const fn slider(
         [name, label, unit]: [&'static str; 3],
         range: [f64; 2],
@@ -75,7 +78,7 @@ impl Handle {
         }
     }
 
-    /// Makes a handle that is a coordinate of a corner.
+    /// Makes a coordinate of a corner to drag, in steps of 1/16.
     pub(super) const fn coordinate(
         [name, label]: [&'static str; 2],
         axis: char,
@@ -93,7 +96,8 @@ impl Handle {
         }
     }
 
-    /// Makes a handle that is a coordinate of a point that is followed while it moves.
+    /// Makes a coordinate in steps of 1/256, for a point that the figure follows smoothly while it
+    /// moves.
     pub(super) const fn fine_coordinate(
         names: [&'static str; 2],
         axis: char,
@@ -106,7 +110,8 @@ impl Handle {
         }
     }
 
-    /// Returns the allowed value nearest to `value`, or the one to start with if that is no number.
+    /// Returns the allowed value nearest to `value`, or the start if `value` is missing or not
+    /// finite.
     pub(super) fn allowed(&self, value: Option<f64>) -> f64 {
         let [least, most] = self.range;
         let value = value.filter(|value| value.is_finite());
@@ -131,7 +136,8 @@ mod tests {
         assert_eq!(handle.allowed(Some(61.0)), 60.0);
     }
 
-    /// Every handle moves something, at both ends nothing fails, and each live part has a verdict.
+    /// Every handle changes something, nothing fails at either end, and each live part has a
+    /// finding.
     #[test]
     fn handles_change_what_is_shown_from_end_to_end() {
         for (name, live) in LIVE {
@@ -172,7 +178,8 @@ mod tests {
         assert_eq!(live.count(), LIVE.len());
     }
 
-    /// A reader moves handles anywhere: a verdict has a sentence for each case, and none is a stored one marked as false.
+    /// A reader may move handles anywhere, so a verdict needs a sentence for each case: no sentence
+    /// may be marked as false.
     #[test]
     fn every_verdict_is_true_wherever_handles_are() {
         let mut random = Random::new(32);

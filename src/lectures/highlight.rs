@@ -1,4 +1,5 @@
-//! Where Gouraud shading loses the highlight: the size of polygons against that of the highlight (L21 4).
+//! Where Gouraud shading loses the highlight: the size of polygons and the size of the highlight
+//! (L21 4).
 
 use super::prelude::*;
 
@@ -11,7 +12,7 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "\u{201c}Blurring these intensities also blurs specular reflections\u{201d} (L21 4): between vertices each pixel is the one before, plus ΔI (3.6).",
+    claim: "\u{201c}Blurring these intensities also blurs specular reflections\u{201d} (L21 4): between vertices each pixel is the previous one plus ΔI (3.6).",
     handles: &[
         Handle::slider(
             ["cells", "polygons around the sphere", ""],
@@ -39,7 +40,7 @@ pub(super) static LIVE: Live = Live {
             "Intensity along the middle row",
             [linear("column, pixels"), linear("intensity, grey levels")],
             [("Gouraud", &gouraud), ("naive Phong", &naive)].map(row),
-            "Between its vertices Gouraud's intensity cannot rise above theirs.",
+            "Between vertices, Gouraud's intensity cannot rise above theirs.",
         ));
         loses(content, "kept", cells, exponent, kept);
         Ok(())
@@ -48,26 +49,28 @@ pub(super) static LIVE: Live = Live {
 
 /// Width and height of the pictures.
 const SIDE: u32 = 160;
-/// Polygons around the spheres; half as many from pole to pole.
+/// How many polygons go around the spheres; half as many go from pole to pole.
 const CELLS: [u32; 5] = [8, 16, 24, 48, 96];
 const EXPONENTS: [f32; 4] = [4.0, 16.0, 64.0, 200.0];
 const DIFFUSE: f32 = 0.3;
 const AMBIENT: f32 = 0.04;
 
-/// Draws a sphere lit from the eye by both methods, turned so that the middle of a polygon beside the equator faces the eye: no
-/// other place loses as much.
+/// Draws a sphere lit from the eye, by Gouraud and by naive Phong. It is turned so that the middle
+/// of a polygon beside the equator faces the eye: no other place loses as much.
 fn drawn(cells: u32, exponent: f32) -> Result<[LinearPicture; 2]> {
     let mesh = format!("sphere?segments={cells}&rings={}", cells / 2);
     let material = grey(AMBIENT, DIFFUSE, 0.6, exponent);
     let mut scene = scene(&mesh, material, DVec3::Z, 1.05, [SIDE; 2])?;
     let half_cell = core::f64::consts::PI / f64::from(cells);
-    // With an even number of bands a ring of corners lies on the equator, else the middle of a band.
+    // With an even count of bands a ring of corners lies on the equator: turn it by half a band.
+    // With an odd count the middle of a band is there already.
     let up = if (cells / 2).is_multiple_of(2) {
         half_cell
     } else {
         0.0
     };
-    // Corners stand at multiples of a cell from the x axis, and toward +z where a quarter turn is one.
+    // Corners stand at multiples of a cell from the x axis. If a quarter turn is one of them, a
+    // corner faces the eye.
     let aside = if cells.is_multiple_of(4) {
         half_cell
     } else {
@@ -77,31 +80,35 @@ fn drawn(cells: u32, exponent: f32) -> Result<[LinearPicture; 2]> {
     draw_each(&scene.frame()?, ["gouraud", "naive-phong"])
 }
 
-/// Returns how much of the height of the highlight over the diffuse light Gouraud keeps, from 0 to 1.
+/// Returns how much of the highlight's height over the diffuse light Gouraud keeps, from 0 to 1.
 fn kept(gouraud: &LinearPicture, naive: &LinearPicture) -> f64 {
     let middle = SIDE as usize / 2;
-    // Half a cell around the middle: the polygon that faces the eye.
+    // Light, eye and normal agree in the middle, so that ambient and diffuse light have their full
+    // strength.
     let dull = f64::from(AMBIENT + DIFFUSE);
     let height = |picture: &LinearPicture| f64::from(picture.get(middle, middle)[0]) - dull;
     (height(gouraud) / height(naive)).clamp(0.0, 1.0)
 }
 
-/// Returns the angle over which the highlight has at least half of its height on the surface, in degrees: the normal turns half as
-/// fast as R, to both sides.
+/// Returns how wide the part of the surface is where the highlight has at least half of its height,
+/// in degrees. The normal turns half as fast as R, and the highlight has two sides, so that the
+/// factors cancel.
 fn width(exponent: f32) -> f64 {
     libm::acos(libm::pow(0.5, 1.0 / f64::from(exponent))).to_degrees()
 }
 
-/// Concludes from the part of the highlight that is kept.
+/// Adds the finding of the part of the highlight that Gouraud keeps, from 0 to 1.
 fn loses(content: &mut FigureContent, key: &str, cells: u32, exponent: f32, kept: f64) {
     let degrees = 360.0 / f64::from(cells);
     let (wide, cell) = (written(width(exponent)), written(degrees));
     let is_lost = kept < 0.9;
     let facts = format!("The highlight is {wide}° wide, a polygon {cell}°.");
     let says = match (kept < 0.1, is_lost) {
-        (true, _) => "No vertex sees it, so nothing between them can.",
-        (_, true) => "Vertices see less of it, and nothing between them is brighter than they are.",
-        _ => "Polygons are small against the highlight: Gouraud is the cheaper Phong.",
+        (true, _) => "No vertex sees it, so nothing between the vertices can.",
+        (_, true) => {
+            "The vertices see less of it, and nothing between them is brighter than they are."
+        }
+        _ => "The polygons are small compared with the highlight: Gouraud is a cheaper Phong.",
     };
     let agreement = match is_lost {
         true => Agreement::Confirms,
@@ -115,12 +122,12 @@ fn loses(content: &mut FigureContent, key: &str, cells: u32, exponent: f32, kept
     );
 }
 
-/// Measures the part that is kept over sizes of polygons and exponents.
+/// Measures which part Gouraud keeps, for several sizes of polygons and exponents.
 fn sizes(content: &mut FigureContent) -> Result {
     content.text(
-        "A sphere lit from the eye, turned so that the highlight falls into the middle of a polygon: \
-         the place where Gouraud loses most of it. Turned by half a polygon, a vertex stands there \
-         and keeps it all, so that the highlight flickers when the model turns.",
+        "A sphere lit from the eye, turned so that the highlight falls into the middle of a polygon. \
+         There Gouraud loses most of it. Turn the sphere by half a polygon: now a vertex stands there \
+         and keeps all of it. So the highlight flickers when the model turns.",
     );
     let mut rows = Vec::new();
     let mut worst = Vec::new();
@@ -136,7 +143,7 @@ fn sizes(content: &mut FigureContent) -> Result {
     }
     let cells = CELLS.map(|cells| format!(" | {}°", written(360.0 / f64::from(cells))));
     let head = format!(
-        "exponent (width): height kept, by angle of a polygon{}",
+        "exponent (width): height that is kept, by the angle of a polygon{}",
         cells.concat()
     );
     content.table(&head, rows);

@@ -1,8 +1,8 @@
-//! Ambient, diffuse and specular light apart and summed (L5, L21 2.1), and Lambert's law on a cube
-//! that turns.
+//! Ambient, diffuse and specular light, each on its own and summed (L5, L21 2.1), and Lambert's law
+//! on a turning cube.
 
 use super::prelude::*;
-use crate::raster::polygon_numbers;
+use crate::raster::polygon_indices;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "illumination",
@@ -29,7 +29,7 @@ fn terms(content: &mut FigureContent) -> Result {
     let specular = sphere(grey(0.0, 0.0, 0.38, 30.0))?;
     let all = sphere(grey(0.12, 0.5, 0.38, 30.0))?;
     content.text(
-        "The three terms of equation 2.1, each alone and together, on one sphere in one light.",
+        "The three terms of equation 2.1 on one sphere in one light: each on its own, and all together.",
     );
     content.row(
         "A sphere",
@@ -43,14 +43,14 @@ fn terms(content: &mut FigureContent) -> Result {
     }
     let difference = levels(&sum, &all);
     content.confirms(
-        "sum | three pictures added up against one with all terms, largest difference",
+        "sum | sum of the three pictures against one with all terms, largest difference",
         (difference, "grey levels", difference < 0.01),
-        "The terms add, to rounding.",
+        "Apart from rounding the terms add up.",
     );
     Ok(())
 }
 
-/// Draws diffuse light alone for growing k_d.
+/// Draws only diffuse light, for growing k_d.
 fn diffuse_series(content: &mut FigureContent) -> Result {
     let (mut panels, mut ratios) = (Vec::new(), Vec::new());
     for kd in [0.25f32, 0.5, 0.75, 1.0] {
@@ -70,12 +70,12 @@ fn diffuse_series(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Makes the cube of the lecture, turned clockwise by `degrees` around the z axis, under light from
-/// above.
+/// Makes the lecture's cube under light from above, turned clockwise by `degrees` around the z
+/// axis.
 fn turned(degrees: f64) -> Result<Frame> {
     let mut cube = scene("cube", DULL, DVec3::Y, 2.4, SIZE)?;
-    // From the right and from above, so that the top is seen at every angle, and on grey, so that
-    // unlit faces are.
+    // The camera looks from the right and from above, which shows the top at every angle. The grey
+    // background shows unlit faces.
     cube.camera.eye = DVec3::new(2.8, 2.2, 3.4);
     cube.background = [0.3; 3];
     cube.objects[0].normals = NormalSource::Crease(30.0).into();
@@ -83,7 +83,8 @@ fn turned(degrees: f64) -> Result<Frame> {
     Ok(cube.frame()?)
 }
 
-/// Returns the intensity of the face that was on top before the cube was turned.
+/// Returns the intensity of the face that was on top before the cube turned; `None` if no pixel
+/// shows it.
 fn top(frame: &Frame, picture: &LinearPicture, degrees: f64) -> Option<f64> {
     let (sin, cos) = libm::sincos(degrees.to_radians());
     let up = DVec3::new(sin, cos, 0.0);
@@ -92,12 +93,12 @@ fn top(frame: &Frame, picture: &LinearPicture, degrees: f64) -> Option<f64> {
         let normal = polygon.map(|p| DVec3::from_array(frame.polygon_normal(p).map(f64::from)));
         normal.is_some_and(|normal| normal.dot(up) > 0.999)
     };
-    let pixel = polygon_numbers(frame).pixels().iter().position(is_top)?;
+    let pixel = polygon_indices(frame).pixels().iter().position(is_top)?;
     Some(f64::from(picture.pixels()[pixel][0]))
 }
 
-/// Turns a cube under light from above (L5: "top face of 60° rotated cube intercepts half the
-/// light").
+/// Turns a cube under light from above, and measures its top (L5: "top face of 60° rotated cube
+/// intercepts half the light").
 fn cube(content: &mut FigureContent) -> Result {
     let (mut measured, mut panels) = (Vec::new(), Vec::new());
     for degrees in [0.0, 15.0, 30.0, 45.0, 60.0, 75.0] {
@@ -109,7 +110,8 @@ fn cube(content: &mut FigureContent) -> Result {
         }
     }
     content.text(
-        "Lambert's law: the face on top receives light in proportion to the cosine of its turn.",
+        "Lambert's law: the top face receives light in proportion to the cosine of the angle by which it \
+         is turned.",
     );
     content.pictures(2, "A cube under light from above", panels);
     let cosine = |degrees: f64| libm::cos(degrees.to_radians());
@@ -121,7 +123,7 @@ fn cube(content: &mut FigureContent) -> Result {
             Series::new("measured on the picture", measured.iter().copied()),
             Series::sampled("cosine", angles, cosine),
         ],
-        "Points are measured on the picture, the curve is the cosine.",
+        "The points are measured on the picture. The curve is the cosine.",
     ));
     let at = |degrees| measured.iter().find(|(turn, _)| *turn == degrees);
     let [half, whole] = [60.0, 0.0].map(|degrees| at(degrees).map_or(f64::NAN, |m| m.1));
@@ -136,7 +138,10 @@ fn cube(content: &mut FigureContent) -> Result {
     content.confirms(
         &format!("cosine | largest distance from the cosine at {count} angles"),
         (worst, "", worst < 1e-6),
-        &format!("The cosine law, to rounding ({}).", written(worst)),
+        &format!(
+            "The cosine law holds, apart from rounding ({}).",
+            written(worst)
+        ),
     );
     Ok(())
 }

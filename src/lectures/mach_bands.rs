@@ -12,7 +12,7 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "\u{201c}This blurring eliminates Mach bands\u{201d} (L21 3): each pixel is the one before, plus ΔI (3.6), so that nothing jumps where facets meet.",
+    claim: "\u{201c}This blurring eliminates Mach bands\u{201d} (L21 3): each pixel is the previous one plus ΔI (3.6), so nothing jumps where facets meet.",
     handles: &[Handle::slider(
         ["facets", "facets of the cylinder", ""],
         [2.0, 15.0],
@@ -24,24 +24,25 @@ pub(super) static LIVE: Live = Live {
 
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [240, 32];
-/// Radius of the cylinder, in pixels.
+/// The radius of the cylinder, in pixels.
 const RADIUS: f64 = 118.0;
-/// Facets of the cylinder.
+/// How many facets the cylinder has.
 const FACETS: usize = 5;
 const METHODS: [&str; 4] = ["flat", "gouraud", "naive-phong", "slerp-phong"];
 
-/// Returns the angles of the edges of so many facets from the middle, in degrees.
+/// Returns the angles of the edges of `count` facets, in degrees from the middle.
 fn facets(count: usize) -> Vec<f64> {
     let part = |i| i as f64 / count as f64;
     (0..=count).map(|i| 150.0 * part(i) - 75.0).collect()
 }
 
+/// Returns the column of an angle on the cylinder, in pixels.
 fn column(degrees: f64) -> f64 {
     f64::from(SIZE[0]) / 2.0 + RADIUS * libm::sin(degrees.to_radians())
 }
 
-/// Makes an upright cylinder seen from the side, whose facets meet at these angles, with its own
-/// normals at the edges.
+/// Makes an upright cylinder seen from the side. Its facets meet at these angles, with the
+/// cylinder's normals there.
 fn cylinder(angles: &[f64]) -> Result<Frame> {
     let facet = |pair: &[f64]| {
         let sides = [pair[0], pair[1]];
@@ -52,21 +53,21 @@ fn cylinder(angles: &[f64]) -> Result<Frame> {
         }
     };
     let facets: Vec<_> = angles.windows(2).map(facet).collect();
-    // No part of the cylinder is dark: a terminator would bend the profile of its own.
+    // Light reaches the whole cylinder: a terminator would bend the profile as well.
     let light = DVec3::new(0.2, 0.0, 0.98);
     frame(SIZE, grey(0.1, 0.6, 0.3, 12.0), light, &facets)
 }
 
 fn bands(content: &mut FigureContent) -> Result {
     content.text(
-        "A cylinder of five facets of 30°, and its intensities along a scan line; the reference is \
-         drawn on 300 facets. The eye exaggerates jumps of intensity and, less, of its slope: it \
-         sees bands there although no intensity jumps (Mach; Phong 1975).",
+        "A cylinder of five facets of 30°, and its intensities along a scan line. The reference is drawn \
+         on 300 facets. The eye exaggerates jumps of intensity and, less strongly, jumps of its slope. \
+         So it sees bands even where no intensity jumps (Mach; Phong 1975).",
     );
     shown(content, &facets(FACETS))
 }
 
-/// Shows a cylinder whose facets meet at these angles, and measures what jumps there.
+/// Shows a cylinder whose facets meet at these angles, and measures the jumps there.
 fn shown(content: &mut FigureContent, angles: &[f64]) -> Result {
     let fine: Vec<f64> = (0..=300).map(|i| -75.0 + 0.5 * f64::from(i)).collect();
     let smooth = truth(&cylinder(&fine)?);
@@ -77,14 +78,14 @@ fn shown(content: &mut FigureContent, angles: &[f64]) -> Result {
     content.pictures(2, "A cylinder of facets", panels);
     let line = |(name, drawn)| (name, profile(&drawn, SIZE[1] as usize / 2));
     let profiles: Vec<(&str, Vec<f64>)> = pictures.into_iter().map(line).collect();
-    // The background beside the cylinder is no part of it.
+    // Leave out the background beside the cylinder.
     let seen = libm::ceil(column(-75.0)) as usize..libm::floor(column(75.0)) as usize;
     let edges: Vec<f64> = angles[1..angles.len() - 1]
         .iter()
         .map(|a| column(*a))
         .collect();
     curves(content, &profiles, &edges, seen);
-    numbers(content, &profiles, &edges);
+    measure_jumps(content, &profiles, &edges);
     Ok(())
 }
 
@@ -102,7 +103,7 @@ fn curves(
         "Intensity along a scan line",
         [linear("column, pixels"), linear("intensity, grey levels")],
         profiles.iter().map(line),
-        "Flat shading jumps where facets meet; the others only bend.",
+        "Flat shading jumps where facets meet. The others only bend.",
     );
     content.plot(intensity.marked(edges));
     let bend = |(name, profile): &(&str, Vec<f64>)| {
@@ -113,13 +114,13 @@ fn curves(
         "Second difference along a scan line",
         ["column, pixels", "second difference, grey levels"].map(linear),
         profiles[1..].iter().map(bend),
-        "The spikes at the edges are jumps of the slope. The cylinder itself has none.",
+        "Each spike at an edge is a jump of the slope. The cylinder itself has none.",
     );
     content.plot(bends.marked(edges));
 }
 
-/// Measures the largest jumps over the edges between facets.
-fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)], edges: &[f64]) {
+/// Measures the largest jumps at the edges between facets.
+fn measure_jumps(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)], edges: &[f64]) {
     let jumps = |profile: &[f64]| {
         let jumps = || edges.iter().map(|edge| jump(profile, *edge));
         let value = largest(jumps().map(|jump| jump.value.abs()));
@@ -132,7 +133,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)], edges: &[
     content.adds(
         "slope-cylinder | the cylinder itself: largest jump of the slope",
         (control, "grey levels per pixel", true),
-        "The measurement gives this much where nothing bends.",
+        "This is what the measurement returns where nothing bends.",
     );
     let mut rows = Vec::new();
     for (name, profile) in methods {
@@ -144,7 +145,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)], edges: &[
             (value, "grey levels", (value < 0.5) != is_flat),
             match is_flat {
                 true => "The intensity jumps at edges.",
-                false => "Intensities agree along common edges.",
+                false => "Along common edges the intensities agree.",
             },
         );
         let is_smooth = slope < 4.0 * control;
@@ -156,7 +157,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)], edges: &[
                 false => Agreement::if_holds(is_smooth),
             },
             match is_smooth {
-                true => "No more than the cylinder itself has.",
+                true => "It is no larger than on the cylinder itself.",
                 false => "The slope jumps at edges: Mach bands are weakened, not eliminated.",
             },
         );

@@ -1,13 +1,13 @@
-//! Figures and claims of the lectures, drawn anew by the engines, with the measured number beside
-//! each.
+//! Figures and claims of the lectures: the engines draw each one again and measure it.
 //!
-//! A figure is one file and one line of [`FIGURES`]. It draws with the public parts of the crate
-//! and gives data: texts, pictures, curves, tables and [`Finding`]s. [`crate::report`] lays them
-//! out. A finding is a key, a label, a value, a unit, a verdict and one sentence; the value decides
-//! whether the sentence holds.
+//! A figure is one file and one line of [`FIGURES`]. It draws with the same engines as everybody
+//! else and returns data: texts, pictures, curves, tables and [`Finding`]s. `crate::report` lays
+//! them out. A finding is a key, a label, a value with its unit, its agreement with the lecture and
+//! one sentence. The value decides whether the sentence holds.
 //!
-//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw),
-//! `measure.rs` (numbers taken from pictures) and `prelude.rs` (the names that figures import).
+//! Start with `exercises.rs`. Then read `content.rs` (the data), `fixture.rs` (the scenes that
+//! figures draw), `measure.rs` (values measured on pictures) and `prelude.rs` (the names that
+//! figures import).
 //!
 //! ```
 //! use fastphong::lectures::Figure;
@@ -17,7 +17,7 @@
 //! let sine = content.finding("sine").expect("Exercise 1");
 //! // The engine's f32: a rounded normal and a few steps.
 //! assert!((sine.value - 0.411504).abs() < 1.0 / f64::from(1 << 22));
-//! # Ok::<(), fastphong::lectures::FigureError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod attenuation;
@@ -53,11 +53,11 @@ mod square;
 mod stop;
 mod supersampling;
 
-pub use content::{Agreement, FigureBlock, FigureContent, Finding, Panel, Plot, Scale, Series};
-pub use error::FigureError;
+pub use content::{Agreement, FigureBlock, FigureContent, Finding, Panel};
+#[cfg(test)]
+pub(crate) use content::{Plot, Scale, Series};
 use error::Result;
-pub use handle::{Handle, Live};
-#[doc(hidden)]
+pub(crate) use handle::Live;
 pub use stop::trace_of_stop;
 
 use crate::number::suggest::unknown;
@@ -93,8 +93,8 @@ pub static FIGURES: &[&Figure] = &[
     &perspective::FIGURE,
 ];
 
-/// The figures that follow the reader's hand, by their names. They stand apart, so that a program that makes them alone does not hold
-/// what the others draw.
+/// The interactive figures, by their names. They have a table of their own because the report's
+/// live view is compiled with these figures only, and the linker can drop the others.
 pub static LIVE: &[(&str, &Live)] = &[
     ("stop", &stop::LIVE),
     ("spheres", &spheres::LIVE),
@@ -111,7 +111,7 @@ pub static LIVE: &[(&str, &Live)] = &[
     ("supersampling", &supersampling::LIVE),
 ];
 
-/// A drawing or statement of a lecture, to be made anew.
+/// A drawing or statement of a lecture, which [`Figure::make`] draws and measures.
 #[derive(Debug, serde::Serialize)]
 pub struct Figure {
     /// The name for users: lower case, words joined by `-`.
@@ -121,10 +121,10 @@ pub struct Figure {
     /// The place in the lectures: `L21` is *Lecture 21: Shading*, `L5` *Lecture 5: Shading*,
     /// `CS171` the notes to Caltech's second assignment.
     pub lecture: &'static str,
-    /// The functions that draw and measure it, each a part of the content.
+    /// The functions that draw and measure it. Each adds its part to the content.
     #[serde(skip)]
     parts: &'static [fn(&mut FigureContent) -> Result],
-    /// What of it follows the reader's hand.
+    /// Its interactive part, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub live: Option<&'static Live>,
 }
@@ -138,7 +138,7 @@ impl Figure {
     /// Finds the figure called `name`.
     ///
     /// # Errors
-    /// A sentence with the nearest name, or with all of them, if there is no such figure.
+    /// A sentence with the nearest name, or with all names, if no figure is called `name`.
     pub fn find(name: &str) -> Result<&'static Figure, String> {
         let names = FIGURES.iter().map(|figure| figure.name);
         Figure::named(name).ok_or_else(|| unknown("figure", name, names))
@@ -147,7 +147,7 @@ impl Figure {
     /// Draws and measures the figure.
     ///
     /// # Errors
-    /// [`FigureError`] when a mesh, scene or frame of it cannot be made.
+    /// [`FigureError`] if one of its meshes, scenes or frames cannot be made.
     pub fn make(&self) -> Result<FigureContent> {
         let mut content = FigureContent::default();
         self.parts.iter().try_for_each(|part| part(&mut content))?;

@@ -13,7 +13,7 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "N = ½ Σ (Pᵢ − Pᵢ₊₁) × (Pᵢ + Pᵢ₊₁) sums over all edges; two edges are enough only where no corner is flat or reflex (L21 1.1).",
+    claim: "N = ½ Σ (Pᵢ − Pᵢ₊₁) × (Pᵢ + Pᵢ₊₁) sums over all edges. Two edges are enough only if no corner is flat or reflex (L21 1.1).",
     handles: &[
         Handle::coordinate(["x1", "corner 1, right"], 'x', [-1.0, 1.0], -0.9375),
         Handle::coordinate(["y1", "corner 1, up"], 'y', [-1.0, 1.0], -0.8125),
@@ -29,10 +29,10 @@ pub(super) static LIVE: Live = Live {
     make: dragged,
 };
 
-/// The key and the name of a polygon, and its corners in its plane, counter-clockwise.
+/// A polygon: its key, its name, and its corners in its plane, counter-clockwise.
 type Example = (&'static str, &'static str, Vec<DVec2>);
 
-/// Returns the corners in space, rounded as a mesh stores them.
+/// Puts the corners into space, and rounds them to `f32` like a mesh.
 fn in_space(corners: &[DVec2]) -> Vec<Vec3> {
     let placed = corners.iter().map(|c| tilt() * c.extend(0.0));
     placed.map(|c| c.as_vec3()).collect()
@@ -45,8 +45,8 @@ fn hexagon() -> Vec<DVec2> {
         .collect()
 }
 
-/// Returns a hexagon with one more corner between the first two: at this part of their edge, and so
-/// far outside of it.
+/// Returns a hexagon with one more corner between the first two, at the part `part` of their edge
+/// and at the distance `outside` from it.
 fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
     let mut corners = hexagon();
     let edge = corners[1] - corners[0];
@@ -55,7 +55,8 @@ fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
     corners
 }
 
-/// Returns a regular polygon, three cases that the lecture names, and one that it does not.
+/// Returns a regular polygon, three cases that the lecture names, and a reflex corner, which it
+/// does not name.
 fn examples() -> [Example; 5] {
     let beside = |outside| with_corner(0.5, outside);
     let reflex = [(-1.0, -0.8), (0.0, -0.2), (1.0, -0.8), (0.0, 1.0)].map(DVec2::from);
@@ -68,13 +69,13 @@ fn examples() -> [Example; 5] {
     ]
 }
 
-/// Returns the tilt of all polygons, toward +z with x and y of their own, so that no coordinate is
-/// a round number.
+/// Returns the rotation that tilts all polygons, so that no coordinate is a round number.
 fn tilt() -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, DVec3::new(0.31, 0.47, 0.83).normalize())
 }
 
-/// Computes (P_{i+1} − P_i) × (P_{i+2} − P_{i+1}), in `f32` as the corners are; zero may come out.
+/// Computes (P_{i+1} − P_i) × (P_{i+2} − P_{i+1}), in `f32` like the corners. The result may be
+/// zero.
 fn two_edges(corners: &[Vec3], i: usize) -> DVec3 {
     let at = |k: usize| corners[(i + k) % corners.len()];
     (at(1) - at(0)).cross(at(2) - at(1)).as_dvec3()
@@ -84,7 +85,7 @@ fn by_newell(corners: &[Vec3]) -> DVec3 {
     newell(corners.iter().map(|corner| corner.as_dvec3()))
 }
 
-/// Returns the angle from the true normal in degrees; infinity for a vector without a direction.
+/// Returns the angle from the true normal in degrees, or infinity for a vector without a direction.
 fn error(normal: DVec3) -> f64 {
     let unit = normal / normal.length();
     if unit.is_finite() {
@@ -94,7 +95,7 @@ fn error(normal: DVec3) -> f64 {
     }
 }
 
-/// Returns the normals from two edges at every corner, from the best one to the worst.
+/// Returns the normal from two edges at each corner, the best first and the worst last.
 fn by_two_edges(corners: &[Vec3]) -> Vec<DVec3> {
     let mut normals: Vec<_> = (0..corners.len()).map(|i| two_edges(corners, i)).collect();
     normals.sort_unstable_by(|a, b| error(*a).total_cmp(&error(*b)));
@@ -105,7 +106,7 @@ fn worst(corners: &[Vec3]) -> DVec3 {
     by_two_edges(corners)[corners.len() - 1]
 }
 
-/// Shows a polygon whose corners are dragged, and measures its normals.
+/// Shows a polygon whose corners the reader drags, and measures its normals.
 fn dragged(content: &mut FigureContent, values: &[f64]) -> Result {
     let plane: Vec<DVec2> = values
         .chunks_exact(2)
@@ -129,9 +130,10 @@ fn dragged(content: &mut FigureContent, values: &[f64]) -> Result {
     let edges = error(worst(&corners));
     let sum = by_newell(&corners);
     failure(content, "dragged", example.1, edges);
-    // Turned over, its normal is to point away.
+    // If the corners run clockwise, the polygon shows its back and its normal shall point away.
     let off = if twice < 0.0 { error(-sum) } else { error(sum) };
-    // Coordinates are sixteenths: twice the area is a multiple of 1/256, but for rounding.
+    // Coordinates are sixteenths, so twice the area is a multiple of 1/256: less is rounding, and
+    // zero.
     match twice.abs() > 1e-6 {
         true => {
             let rounding = ROUNDING / twice.abs();
@@ -142,43 +144,47 @@ fn dragged(content: &mut FigureContent, values: &[f64]) -> Result {
         false => content.adds(
             "newell | |N| by Newell\u{2019}s formula",
             (sum.length(), "", true),
-            "It encloses no area, or as much on one side as on the other: it has no normal.",
+            "The polygon encloses no area, or as much on one side as on the other: it has no normal.",
         ),
     }
     Ok(())
 }
 
-/// What rounding corners of a polygon that is dragged moves N by, of length 2 Area: each of five by √3 · 2⁻²⁴, as coordinates are below
-/// 2, times the distance of its neighbours, 2√2 at most.
+/// How far rounding the corners of a dragged polygon moves N, whose length is 2 Area. Coordinates
+/// are below 2, so each of five corners moves by up to √3 · 2⁻²⁴, and N by this times the distance
+/// between the corner's neighbours, at most 2√2.
 const ROUNDING: f64 = 5.0 * 1.7321 * 2.8285 / (1u32 << 24) as f64;
-/// The error, and the relative difference, that count as rounding on polygons as large as the examples.
+/// The error in degrees and the relative difference of |N| that count as rounding, on polygons as
+/// large as the examples.
 const LEAST_DEGREES: f64 = 1e-4;
 const LEAST_SHARE: f64 = 1e-6;
 
-/// Concludes from the largest error of Newell's formula, in degrees, of which so many are rounding.
+/// Adds the finding of the largest error of Newell's formula, in degrees. Up to `rounding` degrees
+/// are rounding.
 fn right(content: &mut FigureContent, most: f64, rounding: f64) {
     content.confirms(
         "newell | Newell's formula: largest error over all polygons",
         (most, "degrees", most < rounding),
-        "Rounding of the corners, and no more.",
+        "That is the rounding of the corners, and no more.",
     );
 }
 
-/// Concludes from the largest relative difference of |N| from twice the area, of which so much is rounding.
+/// Adds the finding of the largest relative difference of |N| from twice the area. Up to `rounding`
+/// is rounding.
 fn as_long(content: &mut FigureContent, area: f64, rounding: f64) {
     content.confirms(
         "area | |N| against 2 Area: largest relative difference",
         (area, "", area < rounding),
-        "|N| = 2 Area, rounding aside.",
+        "|N| = 2 Area, apart from rounding.",
     );
 }
 
-/// Draws all polygons, lit by the one normal and by the other.
+/// Draws all polygons twice, lit by the normal from two edges and by Newell's.
 fn pictures(content: &mut FigureContent) -> Result {
     content.text(
-        "One tilted plane for all polygons, with corners rounded to f32. The normal from two edges \
-         is taken at its worst corner: a file may name any corner first. Newell's formula sums \
-         over all.",
+        "All polygons lie in one tilted plane, and their corners are rounded to f32. The normal from two \
+         edges is computed at the worst corner, because a file may begin with any corner. Newell's \
+         formula sums over all of them.",
     );
     let names = examples().map(|(_, what, _)| what).join(", ");
     let edges = format!("lit by the normal from two edges, at its worst corner: {names}");
@@ -224,7 +230,7 @@ fn errors(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Concludes from the error of two edges at the worst corner.
+/// Adds the finding of two edges at the worst corner, whose error is in degrees.
 fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
     let fails = error > 1.0;
     let agreement = match key {
@@ -235,7 +241,8 @@ fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
     content.found(
         &format!(
             "{key} | two edges at the worst corner, {what}: error (180 if there is no direction)"
-        ), // Without a direction any may be taken: the opposite one at worst.
+        ),
+        // Without a direction a program may choose any: at worst the opposite one.
         (error.min(180.0), "degrees", true),
         agreement,
         match error {
@@ -243,15 +250,15 @@ fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
             90.0.. => {
                 "It points to the other side: the polygon would be culled, or lit from behind."
             }
-            1.0.. => "Visibly wrong.",
-            _ => "Good where nothing is degenerate.",
+            1.0.. => "It is visibly wrong.",
+            _ => "It is good where nothing is degenerate.",
         },
     );
 }
 
-/// Draws polygons side by side, lit by a normal of their corners.
+/// Draws polygons side by side, each lit by the normal that `normal` computes from its corners.
 fn lit_by(examples: &[Example], normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
-    // Far from the normal, so that a few degrees are seen.
+    // The light is far from the normal, where a few degrees are visible.
     let light = DVec3::new(-0.6, 0.3, 0.7);
     let polygon = |(i, (_, _, corners)): (usize, &Example)| {
         let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
@@ -259,7 +266,8 @@ fn lit_by(examples: &[Example], normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPi
             |c: &DVec2| ScreenCorner::new([middle.x + 21.0 * c.x, middle.y - 21.0 * c.y], DVec3::Z);
         ScreenPolygon {
             corners: corners.iter().map(corner).collect(),
-            // No direction: turned from the light, which leaves the ambient one.
+            // A normal without a direction is turned away from the light, which leaves ambient
+            // light.
             normal: normal(&in_space(corners)).try_normalize().unwrap_or(-light),
         }
     };

@@ -1,22 +1,22 @@
-//! Newton's method along a span: the error after so many steps per pixel, and where the method breaks
-//! (L21 4.2).
+//! Newton's method along a span: its error after one, two or three steps per pixel, and where it
+//! breaks down (L21 4.2).
 
 use super::prelude::*;
 use crate::shading::walks::{Newton, NewtonSteps};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newton",
-    title: "Newton\u{2019}s method from pixel to pixel: steps, angles, and where it breaks",
+    title: "Newton\u{2019}s method from pixel to pixel: steps, angles, and where it breaks down",
     lecture: "L21 4.2: \"after only a few iterations\"",
-    parts: &[curves, numbers, opposed],
+    parts: &[curves, limits, opposed],
     live: Some(&LIVE),
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "\u{201c}After only a few iterations\u{201d} x − (x² − d²) / 2x gives d = √(N · N), from the d of the pixel before (L21 4.2).",
+    claim: "\u{201c}After only a few iterations\u{201d} x − (x² − d²) / 2x reaches d = √(N · N), if x starts at the d of the previous pixel (L21 4.2).",
     handles: &[
         Handle::slider(["angle", "angle of the span", "°"], [5.0, 175.0], 5.0, 60.0),
-        Handle::slider(["steps", "steps a pixel", ""], [1.0, 3.0], 1.0, 1.0),
+        Handle::slider(["steps", "steps per pixel", ""], [1.0, 3.0], 1.0, 1.0),
     ],
     make: |content, values| {
         content.plot(along_a_span(values[0]));
@@ -25,15 +25,15 @@ pub(super) static LIVE: Live = Live {
     },
 };
 
-/// Pixels of the span that is walked.
+/// How many pixels the span has.
 const PIXELS: usize = 16;
-/// Steps of Newton's method a pixel.
+/// Steps of Newton's method per pixel.
 const STEPS: [u32; 3] = [1, 2, 3];
-/// Half a grey level of 255, which rounding the picture hides.
+/// Half a grey level of 255: rounding the picture hides a smaller error.
 const INVISIBLE: f64 = 0.5 / 255.0;
 
-/// Returns the relative errors of d over a span of [`PIXELS`] pixels whose end normals are
-/// `degrees` apart: the walk of the method itself, against the root in `f64`.
+/// Returns the relative errors of d along a span of [`PIXELS`] pixels whose end normals are
+/// `degrees` apart. It compares the method's own walk with the root in `f64`.
 fn errors(degrees: f64, steps: u32) -> Vec<f64> {
     let [from, to] = ends(degrees);
     let step = (to - from) / PIXELS as f64;
@@ -61,16 +61,16 @@ fn plural(steps: u32) -> String {
 
 fn curves(content: &mut FigureContent) -> Result {
     content.text(format!(
-        "A fixed number of steps x − (x² − d²) / 2x follows d = √(N · N) from pixel to pixel, from \
-         the d of the previous one; the first pixel has a true root. The method's own walk in f32, \
-         over spans of {PIXELS} pixels, is compared with the root in f64.",
+        "A fixed number of steps x − (x² − d²) / 2x follows d = √(N · N) from pixel to pixel. Each pixel \
+         starts from the previous pixel's d; the first one computes a true root. The method's own walk \
+         in f32, along spans of {PIXELS} pixels, is compared with the root in f64.",
     ));
     let over_angles = |steps| Series::sampled(plural(steps), angles(), |d| largest_error(d, steps));
     content.plot(Plot::new(
-        "Largest relative error of d over the angle of a span",
+        "Largest relative error of d, by the angle of a span",
         [linear("angle of the span, degrees"), log("relative error")],
         STEPS.map(over_angles),
-        "Each step squares the error and halves it, until rounding is left (about 10⁻⁷).",
+        "Each step squares the error and halves it, until only rounding is left (about 10⁻⁷).",
     ));
     content.plot(along_a_span(150.0));
     Ok(())
@@ -88,13 +88,13 @@ fn along_a_span(degrees: f64) -> Plot {
         [linear("pixel"), log("relative error of d")],
         STEPS.map(curve),
         format!(
-            "A span of {degrees}°. The error follows the change of d, which vanishes in the \
-             middle, where d is smallest. Errors below 10⁻⁸ are drawn there."
+            "A span of {degrees}°. The error follows the change of d, which vanishes in the middle, where \
+             d is smallest. Errors below 10⁻⁸ are drawn at 10⁻⁸."
         ),
     )
 }
 
-/// Concludes whether so many steps are enough.
+/// Adds the finding that `steps` steps are or are not enough on a span of `degrees`.
 fn few_iterations(content: &mut FigureContent, degrees: f64, steps: u32) {
     let (name, error) = (plural(steps), largest_error(degrees, steps));
     let is_enough = error < INVISIBLE;
@@ -104,23 +104,24 @@ fn few_iterations(content: &mut FigureContent, degrees: f64, steps: u32) {
         Agreement::if_holds(is_enough),
         match is_enough {
             true => "A few iterations are enough: rounding to grey levels hides the error.",
-            false => "Not enough for normals so far apart: the error is half a grey level or more.",
+            false => "Too few for normals this far apart: the error is half a grey level or more.",
         },
     );
 }
 
-fn numbers(content: &mut FigureContent) -> Result {
+/// Measures the errors of one, two and three steps, and the largest angle without a visible error.
+fn limits(content: &mut FigureContent) -> Result {
     let first = largest(STEPS.map(|steps| errors(150.0, steps)[0].abs()));
     content.adds(
         "first-pixel | first pixel of a span: relative error of d",
         (first, "", first < 2e-7),
-        "A true root, rounded.",
+        "It is a true root, rounded.",
     );
     for steps in STEPS {
         few_iterations(content, 60.0, steps);
     }
-    // One step from the previous pixel's d, off by e, leaves e² / (2 (1 + e)); here from the walk
-    // of one step.
+    // If the previous pixel's d is off by e, one step leaves e² / (2 (1 + e)). Compute e from the
+    // walk's own previous pixel.
     let walked = errors(60.0, 1);
     let (sin, cos) = libm::sincos(30.0_f64.to_radians());
     let length = |k: usize| {
@@ -132,9 +133,9 @@ fn numbers(content: &mut FigureContent) -> Result {
         (pair[1] - e * e / (2.0 * (1.0 + e))).abs()
     }));
     content.adds(
-        "theory | the same with 1 step, against e² / (2 (1 + e)): largest difference",
+        "theory | span of 60°, 1 step: largest difference of the error from e² / (2 (1 + e))",
         (off, "", off < 1e-6),
-        "The error is as theory says, rounding aside.",
+        "Apart from rounding, the error is what theory predicts.",
     );
     for steps in STEPS {
         let name = plural(steps);
@@ -143,28 +144,28 @@ fn numbers(content: &mut FigureContent) -> Result {
         let each = written(degrees / PIXELS as f64);
         content.adds(
             &format!(
-                "limit-{steps} | {name}: largest angle over {PIXELS} pixels without a visible error"
+                "limit-{steps} | {name}: largest angle of a span of {PIXELS} pixels without a visible error"
             ),
             (degrees, "degrees", true),
             &format!(
-                "That is {each}° a pixel; in steps of 5°, half a grey level counts as visible."
+                "That is {each}° per pixel. Angles were tried in steps of 5°; half a grey level counts as visible."
             ),
         );
     }
     Ok(())
 }
 
-/// Draws normals that nearly cancel: the length falls to almost nothing and grows again within a
-/// pixel or two.
+/// Draws normals that nearly cancel: their length falls to almost nothing and grows again within
+/// one or two pixels.
 fn opposed(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 179.9;
     let strip = ScreenPolygon::strip([0.0, 31.0], 6.0, ends(DEGREES));
     let frame = frame([31, 6], DULL, DVec3::new(1.0, 0.0, 0.6), &[strip])?;
     let naive = draw(&frame, "naive-phong")?;
     content.text(format!(
-        "Almost opposed normals at the ends ({DEGREES}°, over 31 pixels): d falls to almost \
-         nothing in the middle and grows again. A step from far too small a guess overshoots to \
-         about d² / 2x, and the span is dark until the steps have come down."
+        "The normals at the ends are almost opposite ({DEGREES}°, over 31 pixels), so d falls to almost \
+         nothing in the middle and grows again. There a step starts from far too small a guess and \
+         overshoots to about d² / 2x. The span stays dark until the steps have come down."
     ));
     let mut panels = vec![(String::from("naive Phong"), stored(&naive))];
     let mut not_finite = 0;
@@ -180,15 +181,15 @@ fn opposed(content: &mut FigureContent) -> Result {
                  Phong"
             ),
             (worst, "grey levels", worst > 1.0),
-            "Few iterations are not enough where normals nearly cancel.",
+            "A few iterations are not enough where normals nearly cancel.",
         );
         panels.push((format!("fast Phong, {name}"), stored(&fast)));
     }
-    content.pictures(2, "Almost opposed normals", panels);
+    content.pictures(2, "Almost opposite normals", panels);
     content.adds(
-        "not-finite | pixels there that are infinite or not a number",
+        "not-finite | pixels of these pictures that are infinite or not a number",
         (not_finite as f64, "pixels", not_finite == 0),
-        "Wrong, but always a number.",
+        "The pictures are wrong, but every pixel is a number.",
     );
     Ok(())
 }

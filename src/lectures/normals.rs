@@ -1,5 +1,5 @@
-//! Averaged vertex normals against those of the surface, and the length of interpolated ones (L5;
-//! L21 3.1).
+//! Averaged vertex normals compared with the surface's own, and the length of interpolated normals
+//! (L5; L21 3.1).
 
 use super::prelude::*;
 use crate::mesh::builtin::builtin;
@@ -14,8 +14,8 @@ pub(super) static FIGURE: Figure = Figure {
     live: None,
 };
 
-/// Returns the number of polygons of a mesh, and the angles between its averaged and its given
-/// normals, in degrees, over all corners.
+/// Returns how many polygons a mesh has, and the angle in degrees between the averaged and the
+/// given normal at each of their corners.
 fn angles(spec: &str) -> Result<(usize, Vec<f64>)> {
     let by = |source: NormalSource| -> Result<Frame> {
         let mut scene = Scene::of_mesh(builtin(spec)?);
@@ -51,7 +51,7 @@ fn sources(content: &mut FigureContent) -> Result {
         curves.push(Series::new(name, points));
     }
     content.text(
-        "The angle between an averaged vertex normal (3.1) and the normal of the surface there.",
+        "The angle between an averaged vertex normal (3.1) and the surface's normal at the same point.",
     );
     content.table(
         "surface | polygons | largest, degrees | mean, degrees",
@@ -61,33 +61,33 @@ fn sources(content: &mut FigureContent) -> Result {
         "Averaged normals: mean angle from the normals of the surface",
         [log("polygons"), log("degrees")],
         curves,
-        "Finer meshes have better averages.",
+        "On finer meshes the averages are better.",
     ));
     let [_, [torus, ..], [coarse, _, fine]] = means[..] else {
         return Ok(());
     };
     content.confirms(
-        "averaged | mean angle of averaged normals, teapot of fewest polygons",
+        "averaged | mean angle of averaged normals, coarsest teapot",
         (coarse, "degrees", coarse > 1.0),
-        "Averages are not the normals of the surface: take those where they are known.",
+        "Averages are not the normals of the surface. Use the surface's own where they are known.",
     );
     content.adds(
-        "regular | mean angle of averaged normals, torus of fewest polygons",
+        "regular | mean angle of averaged normals, coarsest torus",
         (torus, "degrees", torus < 1.0),
-        "Polygons that lie evenly around a vertex make good averages, however large they are.",
+        "Where polygons lie evenly around a vertex the average is good, however large they are.",
     );
     let falls = means.iter().all(|means| means.is_sorted_by(|a, b| a > b));
     content.adds(
-        "finer | mean angle of the coarsest teapot over that of the finest, with cells a quarter \
-         the size",
+        "finer | mean angle of averaged normals, coarsest teapot over the finest, whose cells are a \
+         quarter the size",
         (coarse / fine, "", falls),
-        "Of each surface the finer mesh has the better averages.",
+        "On each of the three surfaces the finer mesh has the better averages.",
     );
     Ok(())
 }
 
-/// Measures the length of interpolated normals (L5: "Problem: length of vectors?"), as Duff's
-/// forward differences step it.
+/// Measures the length of interpolated normals (L5: "Problem: length of vectors?") with Duff's
+/// forward differences.
 fn lengths(content: &mut FigureContent) -> Result {
     const PIXELS: usize = 64;
     let mut worst: f64 = 0.0;
@@ -107,42 +107,43 @@ fn lengths(content: &mut FigureContent) -> Result {
         "Length of the interpolated normal along a span",
         [linear("part of the span"), linear("length")],
         curves,
-        "The sum of two unit vectors is shortest in the middle: cos(φ/2).",
+        "An interpolated normal is shortest in the middle, where its length is cos(φ/2).",
     );
     content.plot(plot.marked([0.5]));
-    // 32 steps of D by three half units of 2⁻²⁴ each, and a root of at least a half: see
+    // Each of the 32 steps of D adds three half units of 2⁻²⁴, and the root is at least a half: see
     // `Quadratic`.
     content.adds(
-        "half-way | length half-way between two normals, largest distance from cos(φ/2)",
+        "half-way | length half-way between two normals, largest difference from cos(φ/2)",
         (worst, "", worst < 1e-5),
-        "cos(φ/2), to rounding: between normals 120° apart half of the length is left.",
+        "It is cos(φ/2), apart from rounding: half-way between normals 120° apart, half of the length is \
+         left.",
     );
     Ok(())
 }
 
-/// Shades by normals that are not normalised: by Gouraud's method on a dull surface, as L·N is
-/// linear in N.
+/// Shades with normals that are not normalised. Gouraud's method does this on a dull surface,
+/// because L·N is linear in N.
 fn darkened(content: &mut FigureContent) -> Result {
     let light = DVec3::new(-0.3, 0.4, 0.9);
     let dull = scene("sphere?rings=6&segments=8", DULL, light, 1.1, [112, 112])?;
     let [shortened, unit] = draw_each(&dull.frame()?, ["gouraud", "naive-phong"])?;
     content.text(
-        "Gouraud's method on a dull surface shows normals that are not normalised, as L·N is \
-         linear in N.",
+        "On a dull surface, Gouraud's method draws the same picture as normals that nobody normalises, \
+         because L·N is linear in N.",
     );
     content.row(
         "A coarse sphere, interpolated normals",
-        "as they are | normalised",
+        "not normalised | normalised",
         [&shortened, &unit].map(stored),
     );
-    // Where the light is in front of all corners of a polygon no clamp interferes; elsewhere
-    // Gouraud's clamp brightens.
+    // Compare only where the light is in front of all corners of a polygon. Elsewhere Gouraud
+    // clamps dark corners, which brightens the polygon.
     let lit = covered_by_both(&shortened, &unit).filter(|(_, unit)| unit[0] > 0.5);
     let lost = largest(lit.map(|(shortened, unit)| f64::from(1.0 - shortened[0] / unit[0])));
     content.confirms(
-        "darkened | largest part of the light that is lost without normalising",
+        "darkened | largest part of the light lost without normalising",
         (100.0 * lost, "%", lost > 0.01),
-        "The length of vectors is a problem: the middle of each polygon is dark.",
+        "The length of vectors is a problem indeed: the middle of each polygon is darker.",
     );
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Hidden surfaces by the painter's algorithm, and by a depth buffer (L5).
+//! Hidden surfaces by the painter's algorithm and by a depth buffer (L5).
 
 use super::prelude::*;
 use crate::raster::painter_conflicts::conflicts;
@@ -25,7 +25,7 @@ const ORDERS: [[usize; 3]; 6] = [
     [2, 1, 0],
 ];
 
-/// A scene of three objects, drawn by the depth buffer.
+/// A scene of three objects, and its picture by the depth buffer.
 struct ThreeObjects {
     scene: Scene,
     by_depth: LinearPicture,
@@ -38,7 +38,7 @@ impl ThreeObjects {
         Ok(ThreeObjects { scene, by_depth })
     }
 
-    /// Shows the scene by depth buffer and by painter, side by side. Returns the pixels that
+    /// Shows the pictures by depth buffer and by painter side by side. Returns how many pixels
     /// differ.
     fn by_both(&self, content: &mut FigureContent, what: &str) -> Result<usize> {
         let by_painter = drawn(&self.scene, HiddenSurfaces::Painter(PainterKey::Mean))?;
@@ -48,7 +48,7 @@ impl ThreeObjects {
         Ok(differing(&self.by_depth, &by_painter))
     }
 
-    /// Counts the pixels that differ from the depth buffer's picture, for all orders of drawing.
+    /// Counts the pixels that differ from the depth buffer's picture, for each order of drawing.
     fn by_orders(&self, hidden_surfaces: HiddenSurfaces) -> Result<Vec<usize>> {
         let by_order = |order: [usize; 3]| {
             let scene = Scene {
@@ -75,9 +75,9 @@ fn drawn(scene: &Scene, hidden_surfaces: HiddenSurfaces) -> Result<LinearPicture
 
 fn ring(content: &mut FigureContent) -> Result {
     content.text(
-        "The painter draws from back to front, here by the mean depth of each polygon's corners. A \
-         depth buffer decides at each pixel. Both draw a ring of triangles, and polygons that cut \
-         each other.",
+        "The painter draws from back to front, here sorted by the mean depth of each polygon's corners. A \
+         depth buffer decides at each pixel. Both draw three triangles that hide each other in a ring, \
+         and polygons that cut each other.",
     );
     let ring = ThreeObjects::new("cyclic-triangles")?;
     let wrong = ring.by_both(content, "three triangles in a ring")?;
@@ -91,14 +91,14 @@ fn ring(content: &mut FigureContent) -> Result {
     content.confirms(
         "ring-best-order | wrong pixels in the best of all six orders",
         (least as f64, "pixels", least > 0),
-        "No order is right, all were tried.",
+        "No order is right: all six were tried.",
     );
     let cycles = conflicts(&ring.scene.frame()?).cycles;
     let (rings, members) = (cycles.len(), cycles.iter().map(Vec::len).sum::<usize>());
     content.adds(
-        "ring-cycle | polygons that are found to hide each other in a ring",
+        "ring-cycle | polygons found to hide each other in a ring",
         (members as f64, "polygons", true),
-        &format!("The program warns of {rings} such ring before it draws."),
+        &format!("The program warns of {rings} ring before it draws."),
     );
     Ok(())
 }
@@ -107,15 +107,15 @@ fn cutting(content: &mut FigureContent) -> Result {
     let cutting = ThreeObjects::new("interpenetration")?;
     let wrong = cutting.by_both(content, "polygons that cut each other")?;
     content.confirms(
-        "cutting-wrong | pixels of polygons that cut each other which the painter draws wrongly",
+        "cutting-wrong | polygons that cut each other: pixels that the painter draws wrongly",
         (wrong as f64, "pixels", wrong > 0),
-        "Only the depth buffer shows where they meet.",
+        "Only the depth buffer shows where the polygons meet.",
     );
     let pairs = conflicts(&cutting.scene.frame()?).interpenetrating;
     content.adds(
         "cutting-pairs | pairs of polygons that cut each other on the picture",
         (pairs as f64, "pairs", true),
-        "Each hides a part of the other, so that either order is wrong.",
+        "Each polygon of a pair hides a part of the other, so either order is wrong.",
     );
     Ok(())
 }
@@ -127,9 +127,9 @@ fn order(content: &mut FigureContent) -> Result {
         most = most.max(orders.into_iter().max().unwrap_or(0));
     }
     content.confirms(
-        "order | most pixels by which the depth buffer's pictures differ in any of six orders",
+        "order | pixels that change in the depth buffer's pictures, in the worst of six orders",
         (most as f64, "pixels", most == 0),
-        "The order of drawing does not matter to a depth buffer.",
+        "To a depth buffer the order of drawing does not matter.",
     );
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and the
+//! Perspective: Lecture 5's checkerboard, wrong and right, the weight that makes it right, and the
 //! depth of a point.
 
 use super::prelude::*;
@@ -16,10 +16,10 @@ pub(super) static FIGURE: Figure = Figure {
 
 const WIDTH: usize = 128;
 const HEIGHT: usize = 96;
-/// The colours of the board, and the side of a square.
+/// The two colours of the board, and the side of a square.
 const BOARD: [[f32; 3]; 2] = [[0.9; 3], [0.15, 0.2, 0.45]];
 const SQUARE: f64 = 1.0;
-/// Half of the side of the floor.
+/// Half the side of the floor.
 const REACH: f64 = 4.0;
 /// Vertical field of view, in degrees.
 const FOVY: f64 = 50.0;
@@ -54,7 +54,8 @@ fn ray(x: usize, y: usize) -> Option<[f32; 3]> {
     is_met.then(|| BOARD[usize::from(squares.rem_euclid(2.0) != 0.0)])
 }
 
-/// Returns the percentage of the rays that meet the floor where the picture has the other colour.
+/// Returns how many per cent of the rays that meet the floor see another colour than the picture
+/// has.
 fn wrong(picture: LinearPicture) -> f64 {
     let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
     let met = pixels.filter_map(|(x, y)| Some(picture.get(x, y)[..3] != ray(x, y)?));
@@ -64,9 +65,9 @@ fn wrong(picture: LinearPicture) -> f64 {
 
 fn boards(content: &mut FigureContent) -> Result {
     content.text(
-        "A floor of eight by eight squares, computed at each pixel from interpolated world \
-         coordinates. Linear on the screen, the squares are of one size and bend at the diagonal. \
-         Linear in space, they are those that the rays of the pixels meet.",
+        "A floor of eight by eight squares. Each pixel computes its square from interpolated world \
+         coordinates. If they are linear on the screen, all squares have the same size and bend at the \
+         diagonal. If they are linear in space, each pixel has the colour that its ray meets.",
     );
     let whole: &[&[u32]] = &[&[0, 1, 2, 3]];
     let triangles: &[&[u32]] = &[&[0, 1, 2], &[0, 2, 3]];
@@ -75,7 +76,7 @@ fn boards(content: &mut FigureContent) -> Result {
     let space = board(triangles, Interpolation::Perspective)?;
     content.row(
         "A checkerboard seen in perspective",
-        "linear on the screen | the same, cut into two triangles | linear in space",
+        "linear on the screen | linear on the screen, as two triangles | linear in space",
         [&screen, &cut, &space].map(stored),
     );
     let [screen, cut, space] = [screen, cut, space].map(wrong);
@@ -85,7 +86,7 @@ fn boards(content: &mut FigureContent) -> Result {
         "The board is wrong, as the slide shows it.",
     );
     content.confirms(
-        "wrong-screen-triangles | pixels of the floor in the wrong colour, the same, cut into two \
+        "wrong-screen-triangles | pixels of the floor in the wrong colour, linear on the screen, as two \
          triangles",
         (cut, "%", cut >= 0.5),
         "The board is wrong, as the slide shows it.",
@@ -93,24 +94,24 @@ fn boards(content: &mut FigureContent) -> Result {
     content.confirms(
         "wrong-space | pixels of the floor in the wrong colour, linear in space",
         (space, "%", space < 0.5),
-        "The board is right: only pixels on the rim of a square may fall to either side.",
+        "The board is right: only a pixel on the rim of a square may fall to either side.",
     );
     Ok(())
 }
 
-/// Depths of the two ends of an edge.
+/// The depths of the two ends of an edge.
 const ENDS: [f64; 2] = [1.0, 4.0];
-/// Pixels between them.
+/// How many pixels lie between them.
 const STRIP: usize = 128;
 
-/// Draws a strip from A, on its left, to B: the red of A is 1, that of B 0, so that red is the
-/// weight of A.
+/// Draws a strip from A on the left to B on the right. Red is 1 at A and 0 at B, so a pixel's red
+/// is the weight of A.
 fn strip() -> Result<LinearPicture> {
     let mut builder = FrameBuilder::new(STRIP as u32, 1);
     builder.interpolation(Interpolation::Perspective);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
     let corners = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(end, y): (usize, i32)| {
-        let number = builder.vertex(Vertex {
+        let index = builder.vertex(Vertex {
             x: sub_pixel((end * STRIP) as f64),
             y: sub_pixel(y),
             depth: 0.5,
@@ -118,15 +119,14 @@ fn strip() -> Result<LinearPicture> {
             normal: [0.0, 0.0, 1.0],
             material,
         });
-        builder.colour(number, [[1.0, 0.0, 0.0], [0.0; 3]][end]);
-        number
+        builder.colour(index, [[1.0, 0.0, 0.0], [0.0; 3]][end]);
+        index
     });
     builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
     Ok(vertex_colours(&builder.finish()?, None))
 }
 
-/// Compares the weight of A along an edge in the engine with the corrected and with the printed
-/// formula.
+/// Compares the engine's weight of A along an edge with the corrected and with the printed formula.
 fn weight(content: &mut FigureContent) -> Result {
     let [z_a, z_b] = ENDS;
     let drawn = strip()?;
@@ -151,24 +151,25 @@ fn weight(content: &mut FigureContent) -> Result {
             Series::sampled("linear on the screen", alphas(), |alpha| alpha),
         ],
         format!(
-            "From A at depth {z_a} to B at depth {z_b}. The slide prints the weight of B: 0 at A, \
-             where α = 1."
+            "From A at depth {z_a} to B at depth {z_b}. The formula on the slide is the weight of B: at A, \
+             where α = 1, it is 0."
         ),
     ));
     content.contradicts(
         "printed-weight | largest difference of the printed weight from the engine's",
         (wrong, "", wrong >= 1e-3),
-        "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end.",
+        "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) is the weight of the other end.",
     );
     content.adds(
         "weight | largest difference of the corrected weight from the engine's",
         (right, "", right < 1e-4),
-        "The engine, which divides interpolated values by interpolated weights, has this weight.",
+        "The engine divides interpolated values by interpolated weights, which results in this weight.",
     );
     Ok(())
 }
 
-/// Measures the depth of a middle point (L5: "Z-value is preserved after projection").
+/// Measures the depth of the point half-way between near and far plane (L5: "Z-value is preserved
+/// after projection").
 fn depth(content: &mut FigureContent) -> Result {
     let Camera { near, far, .. } = CAMERA;
     let frustum = Frustum {
@@ -186,8 +187,7 @@ fn depth(content: &mut FigureContent) -> Result {
         "depth | NDC depth, −1 to 1, of the point half-way between near and far plane",
         (middle, "", middle.abs() >= 0.01),
         &format!(
-            "Depth keeps its order, not its value: the first {part} % of the way take half of the \
-             range."
+            "Depth preserves the order, not the value: the first {part} % of the way use half of the range."
         ),
     );
     Ok(())

@@ -1,4 +1,4 @@
-//! The names that most figures use: what they draw, what they measure, and what they show.
+//! The names that most figures import: to draw, to measure and to show.
 
 pub(super) use super::Figure;
 pub(super) use super::content::{Agreement, FigureContent, Plot, Series, linear, log, written};

@@ -1,10 +1,12 @@
-//! Spherical linear interpolation: its speed, the drift of its recurrences, and its ends (L21 4.4).
+//! Spherical linear interpolation: its speed, how its recurrences drift, and what happens near 0°
+//! and 180° (L21 4.4).
 
 use super::prelude::*;
 use crate::number::Counter;
 use crate::raster::normals;
 use crate::reference::{self, Model};
-use crate::shading::walks::{GreatCircle, Sines};
+use crate::shading::walks::GreatCircle;
+use crate::shading::walks::sines::Sines;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "slerp",
@@ -15,7 +17,7 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "sin((1 − t)φ) / sin φ and sin(tφ) / sin φ turn the normal at uniform speed from one end to the other (L21 4.7).",
+    claim: "The weights sin((1 − t)φ) / sin φ and sin(tφ) / sin φ turn the normal at uniform speed from one end to the other (L21 4.7).",
     handles: &[
         Handle::slider(
             ["angle", "angle of the span", "°"],
@@ -33,30 +35,32 @@ pub(super) static LIVE: Live = Live {
     make: |content, values| speeds(content, values[0], values[1] as u32),
 };
 
-/// Pixels of the span whose normals are compared.
+/// How many pixels the span has whose normals are compared.
 const SPAN: u32 = 64;
-/// Pixels of the long span.
+/// How many pixels the long span has, along which recurrences drift.
 const LONG: usize = 1024;
 
-/// Makes a strip of some pixels between normals so many degrees apart, lit from the upper right.
+/// Makes a strip of `pixels` pixels between normals `degrees` apart, lit from the upper right.
 fn strip(degrees: f64, pixels: u32) -> Result<Frame> {
     let strip = ScreenPolygon::strip([0.0, pixels.into()], 4.0, ends(degrees));
     let light = DVec3::new(0.3, 0.4, 0.8);
     frame([pixels, 4], grey(0.1, 0.5, 0.4, 20.0), light, &[strip])
 }
 
-/// Returns the angles from each vector to the next, in degrees.
+/// Returns the angle from each vector to the next, in degrees.
 fn turns(vectors: Vec<DVec3>) -> Vec<f64> {
     let units: Vec<_> = vectors.iter().map(|v| v.normalize()).collect();
     let turn = |pair: &[DVec3]| angle(pair[1], pair[0]);
     units.windows(2).map(turn).collect()
 }
 
-/// Measures degrees per pixel of the two ways to interpolate.
+/// Measures the speed along the figure's own span.
 fn speed(content: &mut FigureContent) -> Result {
     speeds(content, 120.0, SPAN)
 }
 
+/// Measures how many degrees per pixel normals turn, interpolated linearly and along a great
+/// circle.
 fn speeds(content: &mut FigureContent, degrees: f64, pixels: u32) -> Result {
     let picture = normals(&strip(degrees, pixels)?);
     let linear_normals = picture.row(2).iter().map(|pixel| {
@@ -77,15 +81,15 @@ fn speeds(content: &mut FigureContent, degrees: f64, pixels: u32) -> Result {
         Series::new(name, (1..).map(f64::from).zip(turns.iter().copied()))
     };
     content.text(format!(
-        "The turn a pixel of the unit normal, {pixels} pixels between normals {degrees}° apart.",
+        "How far the unit normal turns at each of {pixels} pixels, between normals {degrees}° apart.",
     ));
     let curves = [("linear, then normalised", &lerp), ("great circle", &slerp)];
     content.plot(Plot::new(
         "Speed of the normal along a span",
         [linear("column, pixels"), linear("turn, degrees per pixel")],
         curves.map(curve),
-        "A chord walked at uniform speed turns fastest where it is nearest to the middle of the \
-         circle.",
+        "A point that moves along a chord at uniform speed turns fastest where it is closest to the middle \
+         of the circle.",
     ));
     let ratio = |turns: Vec<f64>| {
         let least = turns.iter().copied().fold(f64::INFINITY, f64::min);
@@ -93,15 +97,15 @@ fn speeds(content: &mut FigureContent, degrees: f64, pixels: u32) -> Result {
     };
     let (slerp, lerp) = (ratio(slerp), ratio(lerp));
     content.confirms(
-        "speed-slerp | great circle: fastest turn by slowest turn",
+        "speed-slerp | great circle: fastest turn over slowest turn",
         (slerp, "", slerp < 1.001),
         "Uniform speed, as the lecture says.",
     );
     let whole = written(1.0 / libm::pow(libm::cos(degrees.to_radians() / 2.0), 2.0));
     content.adds(
-        "speed-linear | linear, then normalised: fastest turn by slowest turn",
+        "speed-linear | linear, then normalised: fastest turn over slowest turn",
         (lerp, "", true),
-        &format!("1 / cos² of half the angle would be {whole} over a whole span."),
+        &format!("From end to end of the span it would be 1 / cos² of half the angle: {whole}."),
     );
     Ok(())
 }
@@ -109,7 +113,7 @@ fn speeds(content: &mut FigureContent, degrees: f64, pixels: u32) -> Result {
 /// Counts the operations of (4.9)–(4.12).
 fn operations(content: &mut FigureContent) -> Result {
     let counter = Counter::default();
-    let [phi, t0, dt] = [0.5, 0.1, 0.01].map(|x| counter.number(x));
+    let [phi, t0, dt] = [0.5, 0.1, 0.01].map(|x| counter.counted(x));
     let mut sines = Sines::new(phi, t0, dt);
     counter.take();
     sines.next();
@@ -125,12 +129,12 @@ fn operations(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Walks J = L · N along a great circle by three recurrences in `f32`: the errors against the sines
-/// themselves in `f64`.
+/// Walks J = L · N along a great circle by three recurrences in `f32`. Returns their errors,
+/// compared with the cosine in `f64`.
 fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
     let phi = degrees.to_radians();
     let delta = phi / LONG as f64;
-    // L stands 40° from the first normal, in the plane of both; J(k) = cos(kδ − 40°).
+    // L stands 40° from the first normal, in the plane of both normals: J(k) = cos(kδ − 40°).
     let j = |k: f64| libm::cos(k * delta - 40f64.to_radians());
     let errors = |walk: &mut dyn FnMut() -> f32| {
         let error = |k| (f64::from(walk()) - j(k as f64)).abs();
@@ -169,23 +173,23 @@ fn drift(content: &mut FigureContent) -> Result {
     ];
     let all = recurrences(DEGREES);
     content.plot(Plot::new(
-        "Error of J along a long span, by recurrence, in f32",
+        "Error of J along a long span by three recurrences, in f32",
         [linear("pixel"), log("error of J = L · N")],
         NAMES.iter().zip(&all).map(|((_, name), errors)| {
             let shown = (8..LONG).step_by(8);
             Series::new(*name, shown.map(|k| (k as f64, errors[k].max(1e-9))))
         }),
         format!(
-            "{DEGREES}° over {LONG} pixels, against the cosine in f64. Chebyshev's recurrence \
-             subtracts nearly equal numbers: a rounding changes the angle of all later steps. In \
-             its difference form α is 4 sin²(δ/2)."
+            "{DEGREES}° over {LONG} pixels, compared with the cosine in f64. Chebyshev's recurrence \
+             subtracts nearly equal values, so one rounding changes the angle of all later steps. In its \
+             difference form α is 4 sin²(δ/2)."
         ),
     ));
     for ((key, name), errors) in NAMES.into_iter().zip(all) {
         let most = largest(errors);
         let verdict = match most > 0.5 / 255.0 {
-            true => "A visible error.",
-            false => "Not visible.",
+            true => "The error is visible.",
+            false => "The error is not visible.",
         };
         content.adds(
             &format!("drift-{key} | {name}: largest error over {LONG} pixels"),
@@ -196,7 +200,8 @@ fn drift(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Compares the printed formulas for φ in `f32`, and slerp Phong over such a span, with the truth.
+/// Compares the printed formula for φ in `f32` with the true angle, and slerp Phong along the same
+/// span with the reference.
 fn ends_of_range(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     let (mut worst, mut printed_worst): (f64, f64) = (0.0, 0.0);
@@ -205,7 +210,7 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         let drawn = draw(&frame, "slerp-phong")?;
         let exact = reference::render(&frame, Model::Slerp).picture;
         let pairs = drawn.pixels().iter().zip(exact.pixels());
-        // A pixel that is not a number counts as wrong by white.
+        // `min` turns NaN into 255: a pixel that is not a number counts as wrong by white.
         let levels = |a: f32, b: f64| (255.0 * (f64::from(a) - b).abs()).min(255.0);
         let off = largest(pairs.map(|(a, b)| levels(a[0], b[0])));
         worst = worst.max(off);
@@ -227,10 +232,10 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         rows.push(format!("{degrees}° | {digits} | {percent} | {off}"));
     }
     content.text(
-        "The lecture divides by sin φ and takes φ from the inverse cosine. In f32 the cosine of a \
-         small angle is about 1, and at 180° there are many great circles. The method takes φ from \
-         2 atan2(|N₂ − N₁|, |N₁ + N₂|), the chord below 10⁻³ radians, and the polygon's normal \
-         above 179°.",
+        "The lecture divides by sin φ and computes φ by the inverse cosine. In f32 the cosine of a small \
+         angle rounds to about 1, and at 180° there are many great circles. The method computes φ as \
+         2 atan2(|N₂ − N₁|, |N₁ + N₂|). Below 10⁻³ radians it follows the chord. Above 179° it uses the \
+         polygon's normal to choose the great circle.",
     );
     content.table(
         "angle of the span | φ as printed, in f32, degrees | error, % | slerp Phong, levels off",
@@ -239,12 +244,12 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
     content.contradicts(
         "printed-angle | φ by the inverse cosine in f32, from 0.02° to 90°: largest relative error",
         (printed_worst, "", printed_worst >= 1e-3),
-        "The formula as printed loses the angle where surfaces are flat.",
+        "The formula as printed loses the angle where surfaces are nearly flat.",
     );
     content.adds(
         "ends | slerp Phong from 0° to 180°: largest difference from the reference",
         (worst, "grey levels", worst < 0.5),
-        "Never visible, at neither end.",
+        "The error is not visible at any of these angles.",
     );
     Ok(())
 }

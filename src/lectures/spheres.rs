@@ -1,10 +1,10 @@
-//! Two spheres of the same triangles under one light that the reader moves: Gouraud and fast Phong
-//! (L21 4).
+//! Two spheres of the same triangles under a light that the reader moves, one by Gouraud, one by
+//! fast Phong (L21 4).
 
 use super::prelude::*;
 use crate::mesh::{MeshBuilder, PolygonMesh};
 use crate::picture::Picture;
-use crate::raster::polygon_numbers;
+use crate::raster::polygon_indices;
 use crate::reference::{self, Model, Visibility};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -16,7 +16,7 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "Gouraud shading lights the corners of each triangle and blends the results (L21 3). Phong shading blends the normals and lights each pixel (L21 4).",
+    claim: "Gouraud shading lights the corners of each triangle and interpolates the results (L21 3). Phong shading interpolates the normals and lights each pixel (L21 4).",
     handles: &[
         Handle::fine_coordinate(["x", "sun, right"], 'x', [-1.0, 1.0], -0.4375),
         Handle::fine_coordinate(["y", "sun, up"], 'y', [-1.0, 1.0], 0.46875),
@@ -31,13 +31,14 @@ pub(super) static LIVE: Live = Live {
 
 /// Width and height of the pictures.
 const SIDE: u32 = 320;
-/// The parts into which each edge of the icosahedron is cut.
+/// How many parts each edge of the icosahedron is cut into.
 const STEPS: u32 = 3;
-/// Space above the middle of the picture, in radii of the sphere: the sun has room around it.
+/// Half the visible height, in radii of the sphere: the sun has room around the sphere.
 const HALF_HEIGHT: f64 = 1.3;
-/// The largest sine of the angle between the line of sight and the light, which stays in front.
+/// The largest sine of the angle between the line of sight and the light, which keeps the light in
+/// front of the sphere.
 const MOST_ASIDE: f64 = 0.99;
-/// Blue under white light: with ambient light and highlight no channel is clamped.
+/// A blue material. Under white light no channel is clamped, not even in the highlight.
 const MATERIAL: Material = Material {
     ambient: [0.03, 0.05, 0.08],
     diffuse: [0.09, 0.25, 0.42],
@@ -47,18 +48,20 @@ const MATERIAL: Material = Material {
 /// The colour of the page behind the spheres.
 const BACKGROUND: [f32; 3] = [11.0 / 255.0, 13.0 / 255.0, 15.0 / 255.0];
 
-/// Returns the direction to the light for the values of the handles, its x and y. Beyond the rim of
-/// the unit disc it lies on the rim.
+/// Returns the direction to the light from the values of the handles, its x and y. Outside the disc
+/// of radius [`MOST_ASIDE`] it moves to the rim.
 fn toward_sun(values: &[f64]) -> DVec3 {
     let flat = DVec2::new(values[0], values[1]).clamp_length_max(MOST_ASIDE);
     flat.extend(libm::sqrt(1.0 - flat.length_squared()))
 }
 
-/// Makes a unit sphere of triangles: an icosahedron with `steps` parts along each edge.
+/// Makes a unit sphere of triangles: an icosahedron whose edges are cut into `steps` parts.
 ///
 /// # Errors
 /// Never: the corners exist.
 fn geodesic(steps: u32) -> Result<PolygonMesh> {
+    // The corners of an icosahedron are those of three rectangles with golden proportions, one in
+    // each coordinate plane. Index i / 4 chooses the rectangle, the two low bits the signs.
     let golden = 0.5 + libm::sqrt(1.25);
     let corner = |i: usize| {
         let sign = |bit: usize| if i & bit == 0 { 1.0 } else { -1.0 };
@@ -88,7 +91,7 @@ fn geodesic(steps: u32) -> Result<PolygonMesh> {
     builder.finish()
 }
 
-/// A mesh in the making, whose triangles share corners.
+/// A mesh under construction, whose triangles share corners.
 #[derive(Default)]
 struct Geodesic {
     corners: Vec<DVec3>,
@@ -114,7 +117,8 @@ impl Geodesic {
         self.triangles.extend(triangles);
     }
 
-    /// Returns the index of a corner. Faces that meet there compute it alike, but for rounding.
+    /// Returns the index of a corner, and adds it if it is new. Faces that meet there compute the
+    /// same place, apart from rounding.
     fn corner(&mut self, place: DVec3) -> u32 {
         let is_here = |known: &DVec3| known.distance_squared(place) < 1e-12;
         let known = self.corners.iter().position(is_here);
@@ -157,7 +161,7 @@ fn sphere(steps: u32) -> Result<Scene> {
     Ok(scene)
 }
 
-/// Where in its triangle the highlight is.
+/// The part of a triangle where the highlight is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Place {
     Corner,
@@ -165,15 +169,16 @@ enum Place {
     Inside,
 }
 
-/// Both spheres under one light, and what is measured at the highlight.
+/// Both spheres under one light, and the measurements at the highlight.
 struct Lit {
     pictures: [LinearPicture; 2],
-    /// The triangles that are seen, in pixels of the picture. The first one holds the highlight.
+    /// The visible triangles, in pixels of the picture. The first one holds the highlight.
     triangles: Vec<Vec<DVec2>>,
     place: Place,
-    /// How much darker than the reference Gouraud is at the brightest pixel, and how far off fast
-    /// Phong is, in grey levels.
+    /// How much darker than the reference Gouraud is at the brightest pixel, in grey levels, in the
+    /// channel that differs most. Negative if it is brighter.
     dark: f64,
+    /// How far off fast Phong is at the same pixel, in grey levels.
     off: f64,
 }
 
@@ -185,7 +190,7 @@ impl Lit {
         let methods = ["gouraud", "fast-phong", "naive-phong"];
         let [gouraud, fast, naive] = draw_each(&frame, methods)?;
         let [x, y] = brightest(&naive);
-        let polygon = polygon_numbers(&frame).get(x, y);
+        let polygon = polygon_indices(&frame).get(x, y);
         let truth = truth_at(&frame, [x, y], polygon);
         let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
         let apart = |picture: &LinearPicture| {
@@ -213,13 +218,13 @@ impl Lit {
             "Gouraud: lit at the corners | fast Phong: lit at each pixel",
             self.pictures.each_ref().map(stored),
         );
-        // Tenths of a pixel are seen by nobody.
+        // Round to tenths of a pixel, which nobody sees, to keep the page small.
         let short = |p: &DVec2| (10.0 * *p).round().as_vec2().to_array().map(|c| c / 10.0);
         let corners = |triangle: &Vec<DVec2>| triangle.iter().map(short).collect();
         content.outline(self.triangles.iter().map(corners).collect());
     }
 
-    /// Says in one sentence where the highlight is, and what becomes of it there.
+    /// Says in one sentence where the highlight is, and how Gouraud draws it there.
     fn says(&self) -> String {
         let place = match self.place {
             Place::Corner => "on a corner",
@@ -230,26 +235,26 @@ impl Lit {
         let gouraud = match self.dark {
             dark if dark > ALIKE => format!("{levels} grey levels too dark there"),
             dark if dark < -ALIKE => format!("{levels} grey levels too bright there"),
-            _ => format!("right to {levels} grey levels"),
+            _ => format!("right within {levels} grey levels"),
         };
         format!("The highlight sits {place}: Gouraud is {gouraud}.")
     }
 
-    /// Concludes from what is measured at the highlight.
+    /// Adds the findings at the highlight, with these keys.
     fn conclude(&self, content: &mut FigureContent, [gouraud, fast]: [&str; 2]) {
         let agreement = match self.dark > ALIKE {
             true => Agreement::Confirms,
             false => Agreement::Adds,
         };
         content.found(
-            &format!("{gouraud} | Gouraud at the brightest place of the highlight: too dark by"),
+            &format!("{gouraud} | Gouraud where the highlight is brightest: too dark by"),
             (self.dark, "grey levels", true),
             agreement,
             &self.says(),
         );
         let says = match self.off <= 0.5 {
-            true => "Nobody sees that.",
-            false => "Normals turn far from one end of a scan line to the other here.",
+            true => "The difference is invisible.",
+            false => "Here normals turn far from one end of a scan line to the other.",
         };
         content.adds(
             &format!("{fast} | fast Phong at the same place: off by"),
@@ -259,7 +264,7 @@ impl Lit {
     }
 }
 
-/// Grey levels within which Gouraud counts as right at the highlight.
+/// The largest error in grey levels with which Gouraud counts as right at the highlight.
 const ALIKE: f64 = 4.0;
 
 /// Returns the corners of all polygons of a frame, in pixels of the picture.
@@ -274,7 +279,7 @@ fn triangles(frame: &Frame) -> Vec<Vec<DVec2>> {
         .collect()
 }
 
-/// Returns the brightest pixel of a picture, where all its channels together are largest.
+/// Returns the column and row of the brightest pixel, where the sum of the channels is largest.
 fn brightest(picture: &LinearPicture) -> [usize; 2] {
     let bright = |pixel: &[f32; 4]| pixel[3] * (pixel[0] + pixel[1] + pixel[2]);
     let all = picture.pixels().iter().map(bright).enumerate();
@@ -285,7 +290,8 @@ fn brightest(picture: &LinearPicture) -> [usize; 2] {
     [most.0 % picture.width(), most.0 / picture.width()]
 }
 
-/// Returns the reference's light at one pixel, which sees `polygon`.
+/// Returns the reference's colour of one pixel, which shows `polygon`. Only this pixel is shaded,
+/// which is much faster than a whole picture.
 fn truth_at(frame: &Frame, [x, y]: [usize; 2], polygon: u32) -> [f64; 4] {
     let empty = |value| Picture::new(frame.width(), frame.height(), value);
     let mut polygons = Picture::new(frame.width(), frame.height(), Visibility::NONE);
@@ -300,7 +306,7 @@ fn truth_at(frame: &Frame, [x, y]: [usize; 2], polygon: u32) -> [f64; 4] {
         .get(x, y)
 }
 
-/// Returns where in a triangle a point is, by its barycentric coordinates.
+/// Returns the part of a triangle where a point is, by its barycentric coordinates.
 fn place(triangle: &[DVec2], point: DVec2) -> Place {
     let &[a, b, c] = triangle else {
         return Place::Inside;
@@ -315,13 +321,12 @@ fn place(triangle: &[DVec2], point: DVec2) -> Place {
     }
 }
 
-/// Shows the spheres as the page first does, and measures the highlight.
+/// Shows the spheres with the light where the page starts, and measures the highlight.
 fn start(content: &mut FigureContent) -> Result {
     content.text(
-        "Both spheres have the same triangles, the same normals at their corners, and the same \
-         light. Gouraud's method computes the light at the corners only. A highlight that falls \
-         between them is lost; one that falls on a corner is there, and as wide as the triangles \
-         around it.",
+        "Both spheres have the same triangles, the same normals at the corners, and the same light. \
+         Gouraud's method computes light at the corners only. It loses a highlight that falls between \
+         them. If the highlight falls on a corner, it draws it as wide as the triangles around the corner.",
     );
     let start: Vec<f64> = LIVE.handles.iter().map(|handle| handle.start).collect();
     let lit = Lit::new(&mut sphere(STEPS)?, toward_sun(&start))?;
@@ -339,7 +344,7 @@ fn corners(content: &mut FigureContent) -> Result {
     let nearest = normals
         .max_by(|a, b| a.z.total_cmp(&b.z))
         .unwrap_or(DVec3::Z);
-    // Its light is reflected to the eye.
+    // From this direction light is reflected at the corner to the eye.
     let light = 2.0 * nearest.z * nearest - DVec3::Z;
     let lit = Lit::new(&mut sphere(STEPS)?, light.normalize())?;
     lit.show(content);
@@ -347,7 +352,7 @@ fn corners(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Moves the light over a grid of directions, on spheres of more and more triangles.
+/// Moves the light over a grid of directions, on four spheres with more and more triangles.
 fn meshes(content: &mut FigureContent) -> Result {
     const GRID: i32 = 2;
     let mut rows = Vec::new();
@@ -373,18 +378,18 @@ fn meshes(content: &mut FigureContent) -> Result {
         loss.push(mean);
     }
     content.table(
-        "triangles | Gouraud at the highlight, mean over 25 lights: levels too dark | at most",
+        "triangles | Gouraud at the highlight: levels too dark, mean over 25 lights | at most",
         rows,
     );
     content.confirms(
         "mean | Gouraud at the highlight, mean over 25 lights: too dark by",
         (loss[1], "grey levels", loss[1] > 10.0),
-        "Blurring intensities blurs the highlight, on finer meshes less so.",
+        "Gouraud blurs the highlight, but less on finer meshes.",
     );
     content.adds(
         "fast | fast Phong at the highlight, on four meshes under 25 lights: off by at most",
         (worst, "grey levels", worst < 0.5),
-        "Nobody sees that.",
+        "The difference is invisible.",
     );
     Ok(())
 }
@@ -417,8 +422,8 @@ mod tests {
         assert_eq!(at(3.0, 3.0), Place::Inside);
     }
 
-    /// What is measured at one pixel is the difference of whole pictures there, and the sentence
-    /// says so.
+    /// The values measured at one pixel are the differences of whole pictures there, and the
+    /// sentence states them.
     #[test]
     fn the_sentence_is_true_wherever_the_sun_is() {
         let mut random = Random::new(44);
@@ -440,7 +445,11 @@ mod tests {
             assert!(fast.iter().any(|e| close(e.abs(), lit.off)), "{values:?}");
             let says = lit.says();
             assert_eq!(says.contains("too dark"), lit.dark > ALIKE, "{says}");
-            assert_eq!(says.contains("right to"), lit.dark.abs() <= ALIKE, "{says}");
+            assert_eq!(
+                says.contains("right within"),
+                lit.dark.abs() <= ALIKE,
+                "{says}"
+            );
             assert!(says.contains(&written(lit.dark.abs())), "{says}");
         }
     }

@@ -1,4 +1,4 @@
-//! The square of Figure 5: turning it, or cutting it into triangles, changes its shading (L21 3).
+//! The square of Figure 5: its shading changes when one turns it or cuts it into triangles (L21 3).
 
 use super::prelude::*;
 use crate::raster::normals;
@@ -7,12 +7,12 @@ pub(super) static FIGURE: Figure = Figure {
     name: "square",
     title: "The square that changes when it is turned",
     lecture: "L21 3, Figure 5; L21 4.1",
-    parts: &[turns, numbers, directions, diagonals, great_circles],
+    parts: &[turns, compare_methods, directions, diagonals, great_circles],
     live: Some(&LIVE),
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "The shading of a polygon changes when it is turned: edges and scan lines interpolate other pairs of corners (L21 3, Figure 5; 4.1).",
+    claim: "The shading of a polygon changes when it is turned, because edges and scan lines then interpolate between other pairs of corners (L21 3, Figure 5; 4.1).",
     handles: &[
         Handle::slider(["turn", "turn of the square", "°"], [0.0, 90.0], 1.0, 30.0),
         Handle::slider(
@@ -27,23 +27,24 @@ pub(super) static LIVE: Live = Live {
 
 /// Width and height of the pictures.
 const SIDE: u32 = 120;
-/// From the middle to a corner, in pixels: no edge or diagonal meets a pixel centre at the quarter
-/// turns.
+/// The distance from the middle to a corner, in pixels. With it no edge or diagonal meets a pixel
+/// centre at 0° and 90°.
 const REACH: f64 = 56.25;
-/// Grey levels at the yellow end of the difference maps: of both diagonals, and of turned
+/// Grey levels at the yellow end of the difference maps, of the two diagonals and of turned
 /// triangles.
 const MAP_SCALES: [f32; 2] = [128.0, 40.0];
 /// The methods that are turned.
 const METHODS: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "slerp-phong"];
 
-/// Unit normals of the corners: top, right, bottom, left, when the square is upright.
+/// The unit normals of the corners: top, right, bottom, left, when the square stands at 0°.
 type Normals = [DVec3; 4];
 
-/// Figure 5: three normals face the light, and that of the lowest corner is at a right angle to it.
+/// The normals of Figure 5: three face the light, and the lowest corner's is at a right angle to
+/// it.
 const DARK_BELOW: Normals = [DVec3::Z, DVec3::Z, DVec3::NEG_Y, DVec3::Z];
 
-/// Returns normals of which no three lie on one great circle. Every way to interpolate between
-/// three that do is the same.
+/// Returns normals of which no three lie on one great circle. If three do, all ways to interpolate
+/// between them agree.
 fn apart() -> Normals {
     let leaning = |right: f64, up: f64| {
         let [x, y] = [right, up].map(|degrees| libm::tan(degrees.to_radians()));
@@ -57,7 +58,7 @@ fn apart() -> Normals {
     ]
 }
 
-/// The polygons of the square, by the numbers of their corners.
+/// The polygons of the square, as indices of their corners.
 type Polygons = &'static [&'static [usize]];
 const WHOLE: Polygons = &[&[0, 1, 2, 3]];
 /// Two triangles that share the diagonal from the dark corner.
@@ -65,8 +66,8 @@ const THROUGH_DARK: Polygons = &[&[0, 1, 2], &[0, 2, 3]];
 /// Two triangles that share the other diagonal.
 const PAST_DARK: Polygons = &[&[0, 1, 3], &[1, 2, 3]];
 
-/// Makes a square that stands on a corner, turned clockwise by `degrees`. Its normals are not
-/// turned: the light sees the same ones.
+/// Makes a square that stands on a corner, turned clockwise by `degrees`. Its normals do not turn,
+/// so that the corners keep their light.
 fn square(degrees: f64, polygons: Polygons, normals: Normals) -> Result<Frame> {
     let middle = f64::from(SIDE) / 2.0;
     let (sin, cos) = sine_and_cosine(degrees);
@@ -87,8 +88,8 @@ fn sine_and_cosine(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// Turns `turned` back by `degrees`: the pixel that stood there, or one between its neighbours;
-/// alpha 0 where one of them is not covered.
+/// Turns `turned` back by `degrees`. Each pixel is interpolated from the four around its place, or
+/// has alpha 0 if one of them is not covered.
 fn turned_back(turned: &LinearPicture, degrees: f64) -> LinearPicture {
     let (sin, cos) = sine_and_cosine(degrees);
     let middle = (turned.width() as f64 - 1.0) / 2.0;
@@ -103,10 +104,12 @@ fn turned_back(turned: &LinearPicture, degrees: f64) -> LinearPicture {
     back
 }
 
-/// Returns the colour at `position`, counted in pixels from the centre of the first one, linear
-/// between the four around it; `None` unless all that count are covered.
+/// Interpolates the colour at `position` from the four pixels around it. The position is in pixels
+/// from the centre of the first one. Returns `None` if a pixel with a weight is not covered.
 fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
     let along = |at: f64| {
+        // Sines and cosines round: a position that is meant to be a pixel's centre may lie just
+        // before it.
         let first = libm::floor(at + 1e-9);
         let part = (at - first).max(0.0);
         [
@@ -133,15 +136,15 @@ fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
     Some(sum.as_vec3().extend(1.0).to_array())
 }
 
-/// Returns the largest angle between the normals of two pictures, which store them as (N + 1)/2, in
-/// degrees.
+/// Returns the largest angle between the normals of two pictures, in degrees. The pictures store
+/// normals as (N + 1)/2.
 fn angles(a: &LinearPicture, b: &LinearPicture) -> f64 {
     let normal =
         |pixel: [f32; 4]| DVec3::from_array([0, 1, 2].map(|i| 2.0 * f64::from(pixel[i]) - 1.0));
     largest(covered_by_both(a, b).map(|(a, b)| angle(normal(a), normal(b))))
 }
 
-/// Draws the square upright, and turned by `degrees` and turned back.
+/// Draws the square twice: at 0°, and turned by `degrees`, whose picture is then turned back.
 fn turned_both_ways(
     degrees: f64,
     polygons: Polygons,
@@ -153,7 +156,7 @@ fn turned_both_ways(
     Ok([upright, turned_back(&turned, degrees)])
 }
 
-/// Draws both ways to cut the square.
+/// Draws the square cut along either diagonal.
 fn both_cuts(method: &str) -> Result<[LinearPicture; 2]> {
     let through = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, method)?;
     let past = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, method)?;
@@ -162,9 +165,9 @@ fn both_cuts(method: &str) -> Result<[LinearPicture; 2]> {
 
 fn turns(content: &mut FigureContent) -> Result {
     content.text(
-        "Three corners are white and one is black. At 0° every scan line of the upper half runs \
-         between two white edges; at 90° one of its edges turns black. The methods interpolate \
-         along edges, then along scan lines: the colour of a point depends on the orientation.",
+        "Three corners are white and one is black. At 0° every scan line of the upper half runs between \
+         two white edges. At 90° one of them goes from white to black. The methods interpolate along \
+         edges, then along scan lines, so the colour of a point depends on the orientation.",
     );
     for (method, name) in [("gouraud", "Gouraud"), ("naive-phong", "naive Phong")] {
         let mut panels = Vec::new();
@@ -177,7 +180,7 @@ fn turns(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Shows the square turned, whole or as two triangles, and what that changes.
+/// Shows the square turned, whole or as two triangles, and measures how its shading changes.
 fn turned(content: &mut FigureContent, values: &[f64]) -> Result {
     let degrees = values[0];
     let polygons = if values[1] < 4.0 { THROUGH_DARK } else { WHOLE };
@@ -195,7 +198,7 @@ fn turned(content: &mut FigureContent, values: &[f64]) -> Result {
                     "square-{method} | {method}, square turned by {degrees}°: largest difference"
                 ),
                 (change, "grey levels", true),
-                "Not even a grey level: turn it further.",
+                "It changes by less than a grey level: turn it further.",
             ),
             _ => depends_not(content, method, degrees, change),
         }
@@ -204,7 +207,7 @@ fn turned(content: &mut FigureContent, values: &[f64]) -> Result {
     Ok(())
 }
 
-/// Concludes from the change of triangles that were turned.
+/// Adds the finding of how far turned triangles change, in grey levels.
 fn depends_not(content: &mut FigureContent, method: &str, degrees: f64, change: f64) {
     // Half a grey level is the least that can be seen in a stored picture.
     let agrees = change < 0.5;
@@ -216,12 +219,12 @@ fn depends_not(content: &mut FigureContent, method: &str, degrees: f64, change: 
         Agreement::if_holds(agrees),
         match agrees {
             true => "Triangles do not depend on the orientation: only rounding is left.",
-            false => "Triangles depend on the orientation too: great circles are not barycentric.",
+            false => "Triangles depend on the orientation, too: great circles are not barycentric.",
         },
     );
 }
 
-/// Concludes from the change of a square that was turned.
+/// Adds the finding of how far a turned square changes, in grey levels.
 fn depends(content: &mut FigureContent, method: &str, degrees: f64, change: f64) {
     content.confirms(
         &format!("square-{method} | {method}, square turned by {degrees}°: largest difference"),
@@ -230,9 +233,9 @@ fn depends(content: &mut FigureContent, method: &str, degrees: f64, change: f64)
     );
 }
 
-/// Compares, by every method, the square and its triangles turned by 45° and by 90°, and both ways
-/// to cut.
-fn numbers(content: &mut FigureContent) -> Result {
+/// Measures for every method how far the square and its triangles change when they turn by 45° and
+/// 90°, and how far the two cuts differ.
+fn compare_methods(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     for method in METHODS {
         let change = |degrees, polygons, normals| {
@@ -252,10 +255,10 @@ fn numbers(content: &mut FigureContent) -> Result {
         depends_not(content, method, 90.0, triangles_90);
         content.confirms(
             &format!(
-                "diagonals-{method} | {method}, one diagonal or the other: largest difference"
+                "diagonals-{method} | {method}, one diagonal against the other: largest difference"
             ),
             (diagonal, "grey levels", diagonal > 1.0),
-            "Different subdivisions give different pixels.",
+            "Different subdivisions have different pixels.",
         );
     }
     content.table(
@@ -264,10 +267,10 @@ fn numbers(content: &mut FigureContent) -> Result {
         rows,
     );
     content.text(
-        "Pictures are turned back and compared where both cover a pixel. After 45° a pixel lies \
-         between four others, which smooths the fold at the diagonal: the triangles show by how \
-         much. Their four normals lean by about 60°, each its own way: on one great circle, as in \
-         Figure 5, all methods interpolate alike.",
+        "Each picture is turned back and compared. At 45° that needs resampling, which blurs the fold at \
+         the diagonal a little: the columns of the triangles show by how much. \
+         Their four normals lean by about 60°, each in another direction. In Figure 5 they lie on one \
+         great circle, and there all methods interpolate alike.",
     );
     Ok(())
 }
@@ -282,22 +285,22 @@ fn directions(content: &mut FigureContent) -> Result {
     content.confirms(
         "normals-square | interpolated normals, square turned by 90°: largest angle",
         (square, "degrees", square > 1.0),
-        "Normals depend on the orientation as intensities do.",
+        "Like intensities, normals depend on the orientation.",
     );
     let triangles = change(THROUGH_DARK, apart())?;
     content.confirms(
         "normals-triangles | interpolated normals, triangles turned by 90°: largest angle",
         (triangles, "degrees", triangles < 0.1),
-        "On triangles normals are barycentric as well.",
+        "On triangles normals are barycentric, too.",
     );
     Ok(())
 }
 
-/// Draws both ways to cut the square.
+/// Compares the square cut along either diagonal.
 fn diagonals(content: &mut FigureContent) -> Result {
     content.text(
-        "Cut into triangles, the square depends on the diagonal in place of the orientation (L21 \
-         3).",
+        "When the square is cut into triangles, its shading depends on the diagonal instead of the \
+         orientation (L21 3).",
     );
     content.compared(
         "The square of two triangles",
@@ -307,11 +310,11 @@ fn diagonals(content: &mut FigureContent) -> Result {
     )
 }
 
-/// Turns triangles shaded by slerp Phong, turns them back, and compares.
+/// Compares triangles by slerp Phong at 0° with triangles turned by 90°.
 fn great_circles(content: &mut FigureContent) -> Result {
     content.text(
-        "Interpolation along great circles is not barycentric: it depends on the orientation of \
-         triangles too.",
+        "Interpolation along great circles is not barycentric: it depends on the orientation even on \
+         triangles.",
     );
     let slerp = |frame: &Frame| draw(frame, "slerp-phong");
     content.compared(

@@ -1,4 +1,5 @@
-//! The rasterizer that one can stop: 24 × 16 pixels, with the engine's own numbers at each step (L21 3 and 4).
+//! The rasterizer that one can stop: 24 × 16 pixels, with the engine's own values at each step (L21
+//! 3 and 4).
 
 use super::prelude::*;
 use crate::frame::{FrameBuilder, Vertex, sub_pixel};
@@ -13,7 +14,7 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "Whatever stands at a corner goes down the edges and along the spans by one addition a step (L21 3.3, 3.6, 4.2).",
+    claim: "Every value at a corner travels down the edges and along the spans by one addition per step (L21 3.3, 3.6, 4.2).",
     handles: &[
         column(["x1", "corner P₁, column"], 2.75),
         line(["y1", "corner P₁, line"], 3.25),
@@ -48,11 +49,13 @@ const fn line(name: [&'static str; 2], start: f64) -> Handle {
     Handle::coordinate(name, 'y', [0.0, SIZE[1] as f64], start)
 }
 
-/// The polygons: a quadrilateral and two triangles that share edges, one of which runs through pixel centres, and a loose triangle.
+/// The polygons: a quadrilateral and two triangles that share edges, and a loose triangle. One
+/// shared edge runs through pixel centres.
 const POLYGONS: [&[u32]; 4] = [&[0, 1, 2, 3], &[1, 4, 2], &[4, 5, 2], &[6, 7, 8]];
 
-/// Depths and normals of the corners, x to the right and y down the picture. Those of P₁ to P₆ bulge, so that the highlight falls
-/// inside the quadrilateral; the loose triangle pierces it, and its normals nearly oppose each other.
+/// Returns depths and normals of the corners, with x to the right and y down the picture. The
+/// normals of P₁ to P₆ bulge, so that the highlight falls inside the quadrilateral. The loose
+/// triangle pierces it, and two of its normals nearly oppose each other.
 fn corners() -> [(f64, DVec3); 9] {
     let bulge = |i: usize| {
         let at = |k: usize| LIVE.handles[2 * i + k].start;
@@ -87,8 +90,8 @@ fn frame(at: &[f64]) -> Result<Frame> {
             material,
         });
     }
-    for (number, corners) in (0..).zip(POLYGONS) {
-        builder.polygon(corners, [0.0, 0.0, 1.0], number);
+    for (index, corners) in (0..).zip(POLYGONS) {
+        builder.polygon(corners, [0.0, 0.0, 1.0], index);
     }
     Ok(builder.finish()?)
 }
@@ -104,21 +107,21 @@ const METHODS: [&str; 7] = [
     "slerp-phong",
 ];
 
-/// Traces a method on the figure's mesh, with its corners at these columns and lines; missing ones are where they start.
+/// Traces a method on the figure's mesh, with the corners at the columns and lines in `given`.
+/// Missing coordinates are where they start.
 ///
 /// # Errors
-/// If there is no such method, or it is not for the frame.
-#[doc(hidden)]
+/// If no method matches `method`, or the method cannot draw the frame.
 pub fn trace_of_stop(method: &str, given: &[f64]) -> Result<Trace> {
     let frame = frame(&LIVE.values(given))?;
     Ok(Variant::parse(method)?.trace(&frame, None)?)
 }
 
-/// Shows the picture by each method, with the traces that the page steps through.
+/// Shows the pictures, and adds the traces that the page steps through.
 fn steps(content: &mut FigureContent) -> Result {
     content.text(
-        "Four polygons on 24 × 16 pixels. B and C share an edge that runs through pixel centres, D pierces A, and the normals of A \
-         bulge so that its highlight falls inside.",
+        "Four polygons on 24 × 16 pixels. B and C share an edge that runs through pixel centres. D pierces A. The normals of A \
+         bulge, so that its highlight falls inside.",
     );
     measured(content, &frame(&LIVE.values(&[]))?)?;
     for method in METHODS {
@@ -127,13 +130,14 @@ fn steps(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Draws the frame by each method and measures what Gouraud loses and what Newton's steps leave.
+/// Draws the frame by each method. Measures how much light Gouraud loses, and the error that
+/// Newton's steps leave.
 fn measured(content: &mut FigureContent, frame: &Frame) -> Result {
     let names = ["gouraud", "naive-phong", METHODS[2], METHODS[3], METHODS[6]];
     let [gouraud, naive, one, two, slerp] = draw_each(frame, names)?;
     content.row(
         "Four polygons on 24 by 16 pixels",
-        "Gouraud | naive Phong | fast Phong, one step of Newton's method a pixel | slerp",
+        "Gouraud | naive Phong | fast Phong, one step of Newton's method per pixel | slerp",
         [&gouraud, &naive, &one, &slerp].map(stored),
     );
     let lost = levels(&gouraud, &naive);
@@ -158,7 +162,7 @@ fn measured(content: &mut FigureContent, frame: &Frame) -> Result {
         let (agreement, says) = match off > 0.5 {
             true => (
                 Agreement::Contradicts,
-                "The length changes too fast from pixel to pixel: the steps are late.",
+                "|N| changes too fast here for one Newton step.",
             ),
             false => (Agreement::Confirms, "Nobody can see it."),
         };

@@ -1,5 +1,4 @@
-//! Supersampling with a depth buffer: occlusion at each sample, and the edge that its filter gives
-//! (L5).
+//! Supersampling with a depth buffer: occlusion at each sample, and the filtered edge (L5).
 
 use super::prelude::*;
 use crate::frame::FrameBuilder;
@@ -15,7 +14,7 @@ pub(super) static FIGURE: Figure = Figure {
 };
 
 pub(super) static LIVE: Live = Live {
-    claim: "Visibility and light at n × n samples of a pixel, then their mean: the edge becomes the area that it covers (L5).",
+    claim: "Compute visibility and light at n × n samples per pixel, then their mean: a pixel on the edge shows how much of it the polygon covers (L5).",
     handles: &[Handle::slider(
         ["doublings", "doublings of the samples along a side", ""],
         [1.0, 3.0],
@@ -43,23 +42,23 @@ pub(super) static LIVE: Live = Live {
 
 const MORE: &str = "More samples, better edges: the depth test works for each sample.";
 
-/// Samples a pixel along each side.
+/// Samples per pixel along each side.
 const SAMPLES: [u32; 4] = [1, 2, 4, 8];
-/// Width and height of the small pictures, whose pixels are to be seen.
+/// Width and height of the pictures, so small that readers see their pixels.
 const SIZE: [u32; 2] = [24, 18];
-/// A green triangle in front of a yellow polygon, in pixels.
+/// A green triangle, and the yellow polygon behind it, in pixels.
 const TRIANGLE: [[f64; 2]; 3] = [[3.2, 1.3], [21.7, 8.1], [6.4, 16.6]];
 const PLANE: [[f64; 2]; 4] = [[-1.0, -1.0], [25.0, -1.0], [25.0, 19.0], [-1.0, 19.0]];
 
-/// The colour, the depth and the corners of a polygon, in pixels.
+/// A polygon: its colour, its depth, and its corners in pixels.
 type Coloured<'a> = ([f32; 3], f64, &'a [[f64; 2]]);
 
-/// Makes a frame of polygons with so many samples per pixel along each side.
+/// Makes a frame of polygons with `samples` samples per pixel along each side.
 fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Frame> {
     let [width, height] = size.map(|side| side * samples);
     let mut builder = FrameBuilder::new(width, height);
     builder.samples(samples);
-    for (number, (colour, depth, corners)) in polygons.iter().enumerate() {
+    for (index, (colour, depth, corners)) in polygons.iter().enumerate() {
         let material = Material {
             ambient: *colour,
             ..DULL
@@ -70,14 +69,14 @@ fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Fram
             ..ScreenCorner::new(corner.map(|c| c * f64::from(samples)), DVec3::Z)
         };
         let polygon = ScreenPolygon::new(corners.iter().map(corner).collect::<Vec<_>>());
-        polygon.add(&mut builder, material, number);
+        polygon.add(&mut builder, material, index);
     }
     let mut frame = builder.finish()?;
     frame.set_alpha(Alpha::Flattened);
     Ok(frame)
 }
 
-/// Draws the green triangle; returns the RMS error of its shares of pixels as well.
+/// Draws the green triangle. Also returns the RMS error of its shares of the pixels.
 fn green(samples: u32) -> Result<(Picture8, f64)> {
     let plane = ([1.0, 1.0, 0.0], 0.8, &PLANE[..]);
     let triangle = ([0.0, 1.0, 0.0], 0.2, &TRIANGLE[..]);
@@ -88,8 +87,8 @@ fn green(samples: u32) -> Result<(Picture8, f64)> {
 
 fn edge(content: &mut FigureContent) -> Result {
     content.text(
-        "A green triangle before a yellow plane, with n × n samples per pixel. Visibility and light \
-         are computed at each sample, and averaged in linear light.",
+        "A green triangle in front of a yellow plane, with n × n samples per pixel. Visibility and light \
+         are computed at each sample, then averaged in linear light.",
     );
     let (mut panels, mut points) = (Vec::new(), Vec::new());
     for samples in SAMPLES {
@@ -109,12 +108,13 @@ fn edge(content: &mut FigureContent) -> Result {
         "RMS error of the triangle's share of a pixel",
         [log("samples along a side"), log("RMS error of shares")],
         [Series::new("measured", points)],
-        "Against the exact area of the triangle in each pixel that its edges cross.",
+        "Compared with the exact area of the triangle in each pixel that its edges cross.",
     ));
     Ok(())
 }
 
-/// Draws a pixel that is half white and half black: the mean of light, and not of stored levels.
+/// Draws a pixel that is half white and half black: it stores the mean of the light, not the mean
+/// of stored levels.
 fn filtering(content: &mut FigureContent) -> Result {
     let half = [[0.0, 0.0], [1.5, 0.0], [1.5, 2.0], [0.0, 2.0]];
     let picture = draw(&frame([2, 2], 2, &[([1.0; 3], 0.5, &half)])?, "flat")?;
@@ -123,12 +123,12 @@ fn filtering(content: &mut FigureContent) -> Result {
     content.adds(
         "linear | stored level of a pixel that is half white and half black, sRGB",
         (level, "of 255", (level - exact).abs() <= 0.5),
-        &format!("The mean is taken before encoding: half of the light is level {exact:.0}."),
+        &format!("The mean is computed before encoding: half of the light is level {exact:.0}."),
     );
     Ok(())
 }
 
-/// Draws two polygons that cut each other: the line is filtered like an edge.
+/// Draws polygons that cut each other: the line where they meet is filtered like an edge.
 fn cutting(content: &mut FigureContent) -> Result {
     let mut scene = shipped("interpenetration", [120, 90])?;
     let mut panels = Vec::new();
@@ -143,8 +143,8 @@ fn cutting(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Returns the part of the unit square at `corner` that lies in the triangle: cut by its three
-/// edges, then measured.
+/// Returns which part of the unit square at `corner` lies in the triangle: the edges cut the
+/// square, and the shoelace formula measures the rest.
 fn share(corner: DVec2) -> f64 {
     let mut shape = Vec::from([DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| corner + c));
     for i in 0..3 {
@@ -166,8 +166,8 @@ fn share(corner: DVec2) -> f64 {
     0.5 * twice_the_area(&shape)
 }
 
-/// Returns the RMS error of the triangle's share of the pixels that its edges cross: 1 less red is
-/// the share of green.
+/// Returns the RMS error of the triangle's share of the pixels that its edges cross. The share is 1
+/// minus red, because the plane is yellow and the triangle green.
 fn share_error(picture: &LinearPicture) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for y in 0..picture.height() {

@@ -1,4 +1,5 @@
-//! The answer: which method to use here, and what it gains, in one sentence made from data.
+//! The answer: which method to use on this machine, and how much it gains, in one sentence made
+//! from data.
 
 use super::document::{label, list, number, text, title};
 use crate::compare::comparison::BASELINE;
@@ -12,41 +13,43 @@ use serde_json::Value;
 /// The lecture's own fast method, which every answer mentions.
 pub(super) const FAST: &str = "fast-phong";
 
-/// Largest error, in grey levels, of a picture that passes for the reference.
+/// The largest error in grey levels with which a picture passes for the reference.
 pub(super) const SAME: f64 = 1.0;
 
-/// Part of a sentence.
+/// A part of a sentence.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Part {
     /// Plain words.
     Text(String),
-    /// A number that matters.
+    /// A number that matters, in bold.
     Strong(String),
     /// A method, by its variant's name.
     Method(String),
-    /// A scene, by its place and its title, to be seen as a method draws it.
+    /// A link to a scene: its index, its title, and the method whose picture it shows.
     Scene(usize, String, String),
 }
 
-/// A method over all scenes.
+/// The results of a method in all scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Overall<'a> {
     /// The variant.
     pub name: &'a str,
-    /// Largest error in any scene, in grey levels.
+    /// The largest error in any scene, in grey levels.
     pub worst: f64,
-    /// The title of the scene of that, and its place.
+    /// The title of the scene with the largest error.
     pub at: &'a str,
+    /// The index of that scene.
     pub scene: usize,
-    /// Scenes in which it is faster than the baseline, beyond chance.
+    /// In how many scenes it is faster than the baseline, beyond chance.
     pub faster: usize,
-    /// Scenes in which it is slower, beyond chance.
+    /// In how many scenes it is slower, beyond chance.
     pub slower: usize,
-    /// Geometric mean of its speeds as a multiple of the baseline's; `None` without times in all scenes.
+    /// The geometric mean of its speeds, as multiples of the baseline's. `None` unless all scenes
+    /// were timed.
     pub speed: Option<f64>,
 }
 
-/// Sums up every variant that was drawn by scanlines in all scenes.
+/// Summarises every variant that was drawn by scanlines in all scenes.
 pub(super) fn overall(data: &Value) -> Vec<Overall<'_>> {
     let scenes = list(data, "/comparisons");
     let rows = scenes.first().map_or(&[][..], |scene| list(scene, "/rows"));
@@ -84,7 +87,7 @@ fn in_all_scenes<'a>(name: &'a str, scenes: &'a [Value]) -> Option<Overall<'a>> 
     })
 }
 
-/// Says which method to use, and what it gains.
+/// Says which method to use, and how much it gains.
 pub(super) fn answer(data: &Value) -> Vec<Part> {
     let plain = |text: &str| Part::Text(text.to_string());
     let (all, scenes) = (overall(data), list(data, "/comparisons"));
@@ -144,7 +147,8 @@ pub(super) fn answer(data: &Value) -> Vec<Part> {
     parts
 }
 
-/// Returns the fastest method whose pictures pass for the reference; with none, the one of least error.
+/// Returns the fastest method whose pictures pass for the reference, or the method with the
+/// smallest error if there is none.
 fn fastest<'a>(all: &'a [Overall<'a>]) -> Option<&'a Overall<'a>> {
     let timed = || all.iter().filter(|o| o.speed.is_some());
     let same = timed().filter(|o| o.worst <= SAME);
@@ -154,9 +158,11 @@ fn fastest<'a>(all: &'a [Overall<'a>]) -> Option<&'a Overall<'a>> {
     fastest.or(near)
 }
 
-/// Returns the corner of whole frames by SIMD, the fastest method there that draws naive Phong's picture, and its speed.
+/// Returns the corner of whole frames with SIMD, the fastest method there that draws naive Phong's
+/// picture, and its speed.
 ///
-/// The picture is judged in all scenes; of a method that was not drawn there, on the study's sphere.
+/// The pictures of all scenes decide if it does. For a method that was not drawn there, the
+/// experiment's sphere decides.
 fn wide_frames<'a>(speedups: &'a Value, all: &[Overall<'_>]) -> Option<(usize, &'a str, f64)> {
     let is_it =
         |c: &Value| c["work"] == "frame" && c["scalar"] == false && text(c, "/level") != "scalar";
@@ -169,7 +175,7 @@ fn wide_frames<'a>(speedups: &'a Value, all: &[Overall<'_>]) -> Option<(usize, &
     timed.max_by(|a, b| a.2.total_cmp(&b.2))
 }
 
-/// Returns the speed of a method in a corner.
+/// Returns the speed of a method in a corner, as a multiple of naive Phong's.
 fn in_corner(method: &Value, corner: usize) -> Option<f64> {
     number(&method["corners"][corner], "/ratio_to_naive/median")
 }
@@ -178,7 +184,7 @@ fn times(ratio: Option<f64>) -> String {
     ratio.map_or_else(|| "–".into(), |ratio| format!("{ratio:.2}\u{A0}×"))
 }
 
-/// Says by which instructions pixels were drawn: `in scalar code`, `in AVX2 code`.
+/// Says which instruction set drew pixels: `in scalar code`, `in AVX2 code`.
 fn on(level: &str) -> String {
     match level {
         "scalar" => "in scalar code".into(),
@@ -187,7 +193,8 @@ fn on(level: &str) -> String {
     }
 }
 
-/// Says where the answer gains nothing and where it errs most, and why faster methods are left out.
+/// Says where the method of the answer gains nothing and where its error is largest, and why faster
+/// methods are left out.
 pub(super) fn remarks(data: &Value) -> Vec<Part> {
     let (all, scenes) = (overall(data), list(data, "/comparisons").len());
     let Some(best) = fastest(&all) else {
@@ -208,7 +215,7 @@ pub(super) fn remarks(data: &Value) -> Vec<Part> {
             .filter(|o| o.speed > best.speed && o.worst > limit)
     };
     if let Some(nearest) = others().min_by(|a, b| a.worst.total_cmp(&b.worst)) {
-        // The list of methods ends with the most exact ones.
+        // The most exact methods are at the end of the list.
         let names: Vec<_> = others().rev().take(1).map(|o| label(o.name)).collect();
         let rest = match others().count() - names.len() {
             0 => String::new(),
@@ -242,7 +249,7 @@ fn untimed(all: &[Overall<'_>]) -> String {
     )
 }
 
-/// Returns the answer of a report without scenes: the findings of its figures.
+/// Returns the answer of a report without scenes, which counts the findings of its figures.
 fn figures(data: &Value) -> String {
     let found = || {
         list(data, "/figures")
@@ -260,7 +267,7 @@ fn figures(data: &Value) -> String {
     }
 }
 
-/// Writes a sentence as HTML whose methods are links.
+/// Writes a sentence as HTML. Methods and scenes are links.
 pub(super) fn html(parts: &[Part]) -> String {
     let part = |part: &Part| match part {
         Part::Text(text) => html_text(text),

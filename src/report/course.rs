@@ -1,10 +1,10 @@
-//! The course: chapters of `docs/course`, from Markdown to parts of the page.
+//! The course: turns the chapters of `docs/course` from Markdown into parts of the page.
 //!
-//! A comment says what the page makes of the paragraph after it:
+//! A comment in the Markdown says what the page does with the paragraph after it:
 //!
 //! | comment | in the page |
 //! |---|---|
-//! | `figure: NAME` | a figure, with handles if it has some |
+//! | `figure: NAME` | a figure, with its handles if it has any |
 //! | `finding: FIGURE KEY` | a measured value |
 //! | `question: FIGURE slider KEY LOW HIGH STEP UNIT` | a question, answered with a slider |
 //! | `question: FIGURE largest KEY KEY..` | a question, answered by a choice from the list after it |
@@ -14,8 +14,8 @@
 //! | `hands: NAME` | an exercise to program |
 //! | `cost: METHOD` | the operations that a picture takes |
 //!
-//! The page has places with the paragraphs of the text, or with values of the document. They are
-//! what a reader without scripts sees; `report/script/course.js` fills them.
+//! The page gets places, which contain the paragraphs of the text or values of the document. A
+//! reader without scripts sees these. `report/script/course.js` replaces them.
 
 use super::document::{list, number, text};
 use crate::compare::comparison::table::significant;
@@ -29,7 +29,7 @@ use serde_json::Value;
 
 /// A chapter of the course.
 struct Chapter {
-    /// The section of the lecture, or a name: its part of an address.
+    /// The section of the lecture, or a name. It is a part of the chapter's address.
     part: &'static str,
     /// The name of the file.
     file: &'static str,
@@ -62,15 +62,16 @@ static CHAPTERS: &[Chapter] = chapters!(
     "teaching" in "teaching.md"
 );
 
-/// The heading of findings, which the page folds until the question before them is answered.
+/// The heading of findings, which the page folds until the reader has answered the question before
+/// them.
 const MEASURED: &str = "\n## Measured\n";
 
-/// What stands before a table, which may be wider than the page.
+/// The element around a table, which may be wider than the page.
 const SCROLLING: &str =
     "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table\">\n";
 
-/// Writes links to all chapters, and the chapters; nothing unless the document has all figures that
-/// they name.
+/// Writes links to all chapters, then the chapters. Returns an empty text unless the document has
+/// all figures that they name.
 pub(super) fn html(data: &Value) -> String {
     let made = list(data, "/figures");
     let is_made = |name| made.iter().any(|figure| text(figure, "/name") == name);
@@ -87,7 +88,7 @@ pub(super) fn html(data: &Value) -> String {
     format!("<nav class=\"list\" aria-label=\"Chapters\">{links}</nav>\n<div>\n{articles}</div>")
 }
 
-/// Returns kind and words of a comment.
+/// Returns the kind and the words of a comment, or `None` if the line is not a comment.
 fn comment(line: &str) -> Option<(&str, &str)> {
     let inside = line.trim_end().strip_prefix("<!-- ")?;
     let inside = inside.strip_suffix(" -->")?;
@@ -102,20 +103,20 @@ fn figure_of(line: &str) -> Option<&str> {
     }
 }
 
-/// The place that a comment makes of the paragraph after it.
+/// An element of the page around the paragraph after a comment.
 struct Place {
-    /// What stands before the paragraph.
+    /// The HTML before the paragraph.
     open: String,
-    /// What stands after it.
+    /// The HTML after it.
     close: &'static str,
-    /// True if the paragraph stands in it.
+    /// True if the place contains the paragraph, false if it replaces it.
     keeps: bool,
-    /// True if the list after the paragraph is a part of it.
+    /// True if the list after the paragraph belongs to the place.
     has_list: bool,
 }
 
 impl Place {
-    /// Makes the place of a comment, if the comment asks for one.
+    /// Makes the place that a comment asks for, if it asks for one.
     fn of(line: &str, data: &Value) -> Option<Place> {
         let (kind, words) = comment(line)?;
         let block = |class: &str, attributes: String| Place {
@@ -160,7 +161,7 @@ impl Place {
     }
 }
 
-/// Writes a finding of the document; nothing if the document lacks it.
+/// Writes a finding of the document, or nothing if the document does not have it.
 fn finding(data: &Value, figure: &str, key: &str) -> String {
     let mut figures = list(data, "/figures").iter();
     let figure = figures.find(|made| text(made, "/name") == figure);
@@ -182,8 +183,8 @@ impl Chapter {
         heading.unwrap_or_default().trim_start_matches("# ")
     }
 
-    /// Writes the chapter as an article. What follows the heading of findings is a section of it,
-    /// but for the last paragraph, which leads to other chapters.
+    /// Writes the chapter as an article. Everything after the heading of findings becomes a
+    /// section, except the last paragraph, which links to other chapters.
     fn html(&self, data: &Value) -> String {
         let part = self.part;
         let mut article = format!("<article id=\"course/{part}\" data-part=\"{part}\">\n");
@@ -206,12 +207,13 @@ impl Chapter {
     }
 }
 
-/// Parses a text: places are made of paragraphs that comments name, pictures are their alternative
-/// texts, headings are a level lower, as the page has a title, and links lead to chapters of the
-/// page.
+/// Parses a text for the page. Paragraphs after comments become places. Pictures become their
+/// alternative texts. Headings move down a level, because the page has its own title. Links lead to
+/// chapters of the page.
 fn events(text: &'static str, data: &Value) -> Vec<Event<'static>> {
     let mut events = vec![];
-    // The place for the next paragraph, whether its paragraph is left out, and its end.
+    // The place for the next paragraph; then a flag if the paragraph is left out, and the place's
+    // end.
     let mut place: Option<Place> = None;
     let (mut is_dropped, mut close) = (false, None);
     let mut is_link = false;
@@ -255,26 +257,26 @@ fn events(text: &'static str, data: &Value) -> Vec<Event<'static>> {
     events
 }
 
-/// Makes an event of HTML.
+/// Makes an event that writes this HTML.
 fn raw(html: impl Into<CowStr<'static>>) -> Event<'static> {
     Event::InlineHtml(html.into())
 }
 
-/// Writes an address of the page as a link to it.
+/// Writes an address of the page as a link.
 fn address(code: &str) -> Event<'static> {
     let to = html_text(code);
     raw(format!("<a href=\"{to}\"><code>{to}</code></a>"))
 }
 
-/// Returns where a link of a chapter leads in the page: to another chapter, or to a site. Other
-/// files of the repository are not there.
+/// Returns the address in the page for a link of a chapter, if it leads to another chapter or to a
+/// website. Other files of the repository are not in the page.
 fn in_page(to: &str) -> Option<String> {
     let chapter = CHAPTERS.iter().find(|chapter| chapter.file == to);
     let chapter = chapter.map(|chapter| format!("#course/{}", chapter.part));
     chapter.or_else(|| to.starts_with("https://").then(|| to.to_owned()))
 }
 
-/// Lowers a heading by a level.
+/// Lowers a heading by one level.
 fn lowered(event: Event<'static>) -> Event<'static> {
     let lower = |level| HeadingLevel::try_from(level as usize + 1).unwrap_or(level);
     match event {
@@ -299,14 +301,14 @@ mod tests {
     use super::*;
     use crate::lectures::FIGURES;
 
-    /// Returns a document with all figures but `without`.
+    /// Returns a document with all figures except `without`.
     fn document(without: &str) -> Value {
         let names = FIGURES.iter().map(|figure| figure.name);
         let made = names.filter(|name| *name != without);
         serde_json::json!({ "figures": made.map(|name| serde_json::json!({ "name": name })).collect::<Vec<_>>() })
     }
 
-    /// Returns how many comments of a kind a text has.
+    /// Counts the comments of a kind in a text.
     fn count(text: &str, kind: &str) -> usize {
         let comments = text.lines().filter_map(comment);
         comments.filter(|(found, _)| *found == kind).count()
@@ -339,7 +341,7 @@ mod tests {
             }
             let folded = html.matches("<section class=\"measured\">").count();
             assert_eq!(folded, count(chapter.text, "question"), "{}", chapter.file);
-            // Neither comments nor pictures are left, and no link leads to a file.
+            // No comments, pictures or links to files are left.
             for gone in ["<!--", "<img", ".md\""] {
                 assert!(!html.contains(gone), "{}: {gone}", chapter.file);
             }
@@ -347,7 +349,7 @@ mod tests {
             assert_eq!(opened, html.matches("</div>").count(), "{}", chapter.file);
         }
         for chapter in CHAPTERS {
-            // In the list, and in the chapter before or after.
+            // A link stands in the list, and in the previous or the next chapter.
             let link = format!("href=\"#course/{}\"", chapter.part);
             assert!(page.matches(&link).count() >= 2, "{link}");
         }

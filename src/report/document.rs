@@ -1,7 +1,8 @@
-//! The document: all numbers and texts of a run, as JSON of schema [`SCHEMA`].
+//! The document: all values and texts of a run, as JSON of schema [`SCHEMA`].
 //!
-//! [`Document`] is the data as it was measured, written by serde; `docs/bench-json.md` describes it. Views read the JSON and
-//! not the structs, so that a document of another machine or commit ([`parse`]) is shown like one that was just made.
+//! [`Document`] holds the measured data, which serde writes. `docs/bench-json.md` describes it.
+//! Views read the JSON, not the structs, so they show a document of another machine or commit
+//! ([`parse`]) like a new one.
 
 use super::shard::Shard;
 use crate::compare::comparison::{BASELINE, Comparison, WHAT_IS_COMPARED, WHAT_IS_TIMED};
@@ -17,14 +18,15 @@ use alloc::vec::Vec;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// The schema of the documents written here. The number grows when a field changes its meaning or goes; new fields alone
-/// do not change it, so readers must pass over what they do not know.
+/// The schema of the documents written here. Its number grows when a field changes its meaning or
+/// disappears. New fields do not change it, so readers must ignore fields that they do not know.
 pub const SCHEMA: &str = "fastphong.bench/2";
 
-/// The schema before, which [`parse`] reads too.
+/// The previous schema, which [`parse`] reads as well.
 pub(super) const OLDER: &str = "fastphong.bench/1";
 
-/// The numbers of documents of the schema [`OLDER`] that mean something else than those of today: see `docs/bench-json.md`.
+/// Says which values mean something else in documents of the schema [`OLDER`]: see
+/// `docs/bench-json.md`.
 pub(super) const NOT_COMPARABLE: &str = "errors of the row engine, bounds, SSIM and FLIP cannot be compared with those of schema \
                                          fastphong.bench/2; times, and errors of other engines, can";
 
@@ -33,7 +35,7 @@ pub(super) const NOT_COMPARABLE: &str = "errors of the row engine, bounds, SSIM 
 pub struct Document {
     /// [`SCHEMA`].
     pub schema: &'static str,
-    /// The command line as typed, program first.
+    /// The command line as typed, with the program first.
     pub command_line: Vec<String>,
     /// The machine that was timed.
     pub machine: Machine,
@@ -43,9 +45,9 @@ pub struct Document {
     pub compared: &'static str,
     /// The day, as [`super::utc_date`] writes it.
     pub date: Option<String>,
-    /// Seconds from the start to the end of measuring and drawing.
+    /// The seconds that measuring and drawing took.
     pub seconds: Option<f64>,
-    /// The method that speeds are stated against.
+    /// The method whose speed counts as 1.
     pub baseline: &'static str,
     /// All methods that were compared or timed, in the order of the method table.
     pub methods: Vec<MethodData>,
@@ -53,44 +55,48 @@ pub struct Document {
     pub comparisons: Vec<Comparison>,
     /// The figures of the lectures.
     pub figures: Vec<FigureData>,
-    /// Speeds of all methods over naive Phong's: kernels and frames, scalar and SIMD.
+    /// Speeds of all methods relative to naive Phong's, in kernels and frames, scalar and SIMD.
     pub speedups: Option<Speedups>,
-    /// Times over the number of triangles and of pixels, and fitted costs.
+    /// Times by the counts of triangles and pixels, and fitted costs.
     pub scaling: Option<Scaling>,
-    /// What pixels cost on processors without a floating-point unit: [`small`]; `None` but in reports.
+    /// Costs of pixels on processors without a floating-point unit, from [`small`]. Only reports
+    /// have them.
     pub small: Option<Value>,
-    /// The run that it is a part of, the same in all parts; `None` if it is whole.
+    /// The run that this document is a part of, the same text in all parts; `None` if it holds a
+    /// whole run.
     pub run: Option<String>,
-    /// The part of that run: of its scenes one of each [`Shard::of`].
+    /// The part of that run.
     pub shard: Option<Shard>,
 }
 
 /// The description of a method.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodData {
-    /// The variant, as a user names it.
+    /// The variant as users write it.
     pub name: String,
     /// The name in a sentence.
     pub label: String,
-    /// Methods of one family share a hue: the first word of their names.
+    /// The first word of the name. Methods with the same family share a hue.
     pub family: &'static str,
     /// The idea in one line.
     pub title: &'static str,
-    /// The formulas, as `fastphong explain` prints them.
+    /// The formulas that `fastphong explain` prints.
     pub formula: &'static str,
     /// The lecture or paper that it comes from.
     pub source: &'static str,
     /// The cases in which it fails.
     pub fails: &'static str,
-    /// The treatment of perspective.
+    /// How it handles perspective.
     pub perspective: &'static str,
-    /// The treatment of lights and eyes at positions.
+    /// How it handles lights and eyes at positions.
     pub local: &'static str,
-    /// For one light and for four: `lights`, and at each of [`RATES`] the counts of [`OPERATIONS`].
+    /// The operations for one light and for four: `lights`, and at each of [`RATES`] the counts of
+    /// [`OPERATIONS`].
     pub operations: Vec<BTreeMap<&'static str, Value>>,
 }
 
-/// A rate at which a method computes: its name in data, its heading, and a function that takes its counts.
+/// A rate at which a method computes: its name in data, its heading, and a function that selects
+/// its counts.
 pub type Rate = (&'static str, &'static str, fn(&OperationCounts) -> Counts);
 
 /// All rates.
@@ -104,7 +110,7 @@ pub const RATES: [Rate; 7] = [
     ("shade", "pixel: shade", |c| c.shade),
 ];
 
-/// A kind of operation: its name, its sign, and a function that takes its count.
+/// A kind of operation: its name, its sign, and a function that selects its count.
 pub type Operation = (&'static str, char, fn(&Counts) -> u32);
 
 /// All kinds of operations.
@@ -119,7 +125,7 @@ pub const OPERATIONS: [Operation; 8] = [
     ("read", '▤', |c| c.lookups),
 ];
 
-/// A figure of the lectures.
+/// A figure of the lectures, finished.
 #[derive(Clone, Debug, Serialize)]
 pub struct FigureData {
     /// The name, the title, and the place in the lecture.
@@ -163,7 +169,7 @@ impl Document {
         self.methods = described(&mut names.chain(timed.map(|m| m.method.clone())));
     }
 
-    /// Writes it as indented JSON, with fields in the order in which they are described.
+    /// Writes the document as indented JSON, with fields in the order of this struct.
     pub fn to_text(&self) -> String {
         indented(self)
     }
@@ -176,13 +182,14 @@ pub(super) fn indented(document: &impl Serialize) -> String {
     text
 }
 
-/// Returns what `examples/small/run` measured on emulated processors without a floating-point unit: they are not this machine.
+/// Returns the measurements of `examples/small/run`, on emulated processors without a
+/// floating-point unit. This machine plays no part in them.
 pub fn small() -> Value {
     let text = include_str!("../../docs/small.json");
     serde_json::from_str(text).expect("a test reads it")
 }
 
-/// Describes variants, each once, in the order of the method table; unknown ones are left out.
+/// Describes each variant once, in the order of the method table. It leaves out unknown variants.
 pub(super) fn described(names: &mut dyn Iterator<Item = String>) -> Vec<MethodData> {
     let mut variants: Vec<Variant> = Vec::new();
     for variant in names.filter_map(|name| Variant::parse(&name).ok()) {
@@ -225,7 +232,7 @@ impl MethodData {
     }
 }
 
-/// Returns a variant's name as it stands in a sentence: `fast Phong rsqrt`, `slerp Phong (steps=2)`.
+/// Returns a variant's name in a sentence: `fast Phong rsqrt`, `slerp Phong (steps=2)`.
 pub fn label(variant: &str) -> String {
     let (name, parameters) = variant.split_once(':').unwrap_or((variant, ""));
     let word = |word: &str| match word {
@@ -241,13 +248,14 @@ pub fn label(variant: &str) -> String {
     }
 }
 
-/// The reason why a text is no document.
+/// The reason why a text is not a document.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum DocumentError {
-    /// It is not JSON; with line and column.
+    /// It is not JSON. The message has line and column.
     #[error("{0}: expected a document of schema `{SCHEMA}`")]
     Json(#[from] serde_json::Error),
-    /// A field is missing, or of another kind than described.
+    /// A field is missing, or has a value of another kind.
     #[error("{0}: expected a document of schema `{SCHEMA}`")]
     Field(String),
     /// It names another schema.
@@ -258,17 +266,18 @@ pub enum DocumentError {
     NoSchema,
 }
 
-/// The fields that views read, with an example of each kind of value. Those with `?` may be missing or null. Of numbers, 0 stands
-/// for a whole number from 0, 0.5 for a number from 0, and -0.5 for any. A list of null and another example may hold both.
+/// The fields that views read, with an example of each value. Fields with `?` may be missing or
+/// null. 0 stands for a whole number from 0, 0.5 for any number from 0, and -0.5 for any number. A
+/// list with null and another example may contain both.
 const FIELDS: &str = include_str!("fields.json");
 
-/// Reads a document, of an older version too. The numbers of the older schema that mean something else today become null, but
-/// for errors of the row engine.
+/// Reads a document of this schema or of the older one. Values of the older schema that mean
+/// something else today become null, except errors of the row engine.
 ///
 /// # Errors
-/// [`DocumentError`] if it is not JSON, or of another schema, or lacks a field.
+/// [`DocumentError`] if the text is not JSON, has another schema, or lacks a field.
 pub fn parse(text: &str) -> Result<Value, DocumentError> {
-    // Some editors and shells begin a text with a mark of its encoding.
+    // Some editors and shells begin a text with a byte-order mark.
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
     let mut document: Value = serde_json::from_str(text)?;
     match document["schema"].as_str() {
@@ -284,12 +293,12 @@ pub fn parse(text: &str) -> Result<Value, DocumentError> {
     Ok(document)
 }
 
-/// True if a document is of the schema [`OLDER`].
+/// True if a document has the schema [`OLDER`].
 pub(super) fn is_older(document: &Value) -> bool {
     document["schema"] == OLDER
 }
 
-/// Compares a value with an example of its kind; says where they differ.
+/// Checks that a value is of the same kind as an example. The error says where it is not.
 fn check(value: &Value, example: &Value, place: &str) -> Result<(), String> {
     match (value, example) {
         (Value::Object(fields), Value::Object(examples)) => {
@@ -304,9 +313,8 @@ fn check(value: &Value, example: &Value, place: &str) -> Result<(), String> {
             Ok(())
         }
         (Value::Array(values), Value::Array(examples)) => {
-            let numbered = values.iter().enumerate();
-            let mut rest =
-                numbered.filter(|(_, value)| !(examples[0].is_null() && value.is_null()));
+            let all = values.iter().enumerate();
+            let mut rest = all.filter(|(_, value)| !(examples[0].is_null() && value.is_null()));
             let example = examples.last().unwrap_or(&Value::Null);
             rest.try_for_each(|(i, value)| check(value, example, &format!("{place} {i}")))
         }
@@ -335,7 +343,7 @@ fn check(value: &Value, example: &Value, place: &str) -> Result<(), String> {
     }
 }
 
-/// Takes numbers out of a document of the schema [`OLDER`] that mean something else today.
+/// Removes the values of a document of the schema [`OLDER`] that mean something else today.
 fn drop_changed(document: &mut Value) {
     for comparison in document["comparisons"].as_array_mut().into_iter().flatten() {
         for rows in ["rows", "barycentric"] {
@@ -347,24 +355,24 @@ fn drop_changed(document: &mut Value) {
     }
 }
 
-/// Returns the text at a JSON pointer; empty if there is none.
+/// Returns the text at a JSON pointer, or an empty one.
 pub(super) fn text<'a>(value: &'a Value, pointer: &str) -> &'a str {
     let found = value.pointer(pointer).and_then(Value::as_str);
     found.unwrap_or_default()
 }
 
-/// Returns the number at a JSON pointer.
+/// Returns the number at a JSON pointer, if there is one.
 pub(super) fn number(value: &Value, pointer: &str) -> Option<f64> {
     value.pointer(pointer)?.as_f64()
 }
 
-/// Returns the list at a JSON pointer; empty if there is none.
+/// Returns the list at a JSON pointer, or an empty one.
 pub(super) fn list<'a>(value: &'a Value, pointer: &str) -> &'a [Value] {
     let found = value.pointer(pointer).and_then(Value::as_array);
     found.map_or(&[], |list| list)
 }
 
-/// Returns the title of a scene, or its name if there is none.
+/// Returns the title of a scene, or its name if it has no title.
 pub(super) fn title(scene: &Value) -> &str {
     match text(scene, "/title") {
         "" => text(scene, "/name"),

@@ -1,4 +1,4 @@
-//! What the page needs to draw a scene itself: the module, and the scene with its files.
+//! The parts that the page needs to draw a scene itself: the module, and the scene with its files.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -12,17 +12,19 @@ use std::io::Write;
 /// The crate itself, compiled to WebAssembly by `live/build`.
 static MODULE: &[u8] = include_bytes!("../../report/live.wasm");
 
-/// The most polygons in view of a scene that follows the hand: a third as many turn at 24 frames a second (docs/performance.md).
+/// The most visible polygons of a scene that readers can turn on the page. A third of them turn at
+/// 24 frames a second (docs/performance.md).
 pub const MOST_POLYGONS: usize = 150_000;
 
-/// The most bytes of a scene's files in the page, packed.
+/// The most packed bytes of a scene's files in the page.
 const MOST_PACKED: usize = 300_000;
 
-/// The most bytes of a mesh file that may travel in the page: text packs to a tenth at best.
+/// The most bytes of a mesh file in the page: packing reduces text to a tenth at best.
 pub const MOST_BYTES: u64 = 10 * MOST_PACKED as u64;
 
-/// A scene that the page can draw, as JSON: `scene`, its text as TOML, and `files`, names and packed contents. `None` if its files are too
-/// large to travel in the page. `files` are named as the scene asks for them.
+/// Writes a scene that the page can draw, as JSON: `scene`, its text in TOML, and `files`, names
+/// and packed contents. Files have the names that the scene uses. Returns `None` if the files are
+/// too large for the page.
 pub fn live_scene(scene: &str, files: &[(String, Vec<u8>)]) -> Option<String> {
     let packed = files.iter().map(|(name, bytes)| (name, packed(bytes)));
     let packed: Vec<(&String, String)> = packed.collect();
@@ -30,7 +32,7 @@ pub fn live_scene(scene: &str, files: &[(String, Vec<u8>)]) -> Option<String> {
     (size <= MOST_PACKED).then(|| json!({ "scene": scene, "files": packed }).to_string())
 }
 
-/// Returns the module as the page unpacks it, as JSON.
+/// Returns the packed module as JSON, which the page unpacks.
 pub(super) fn module() -> String {
     json!(packed(MODULE)).to_string()
 }

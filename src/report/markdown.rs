@@ -1,4 +1,4 @@
-//! The report in short, for the front page of a repository.
+//! The short report, for the front page of a repository.
 
 use super::document::{label, list, text, title};
 use super::page::{command, machine};
@@ -16,7 +16,7 @@ use serde_json::Value;
 pub struct Markdown {
     /// The text.
     pub text: String,
-    /// The pictures: their names with endings, and the PNG files.
+    /// The pictures: file names and PNG files.
     pub images: Vec<(String, Vec<u8>)>,
 }
 
@@ -28,10 +28,10 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     let scenes = list(data, "/comparisons");
     for table in tables::all(data) {
         text += &format!("## {}\n\n", markdown_text(&table.caption));
-        if let Some(number) = scenes.iter().position(|s| title(s) == table.caption) {
-            text += &about(&scenes[number]);
-            if let Some(pictures) = report.pictures.get(number) {
-                text += &row_of_pictures(number, pictures, folder, &mut images);
+        if let Some(index) = scenes.iter().position(|s| title(s) == table.caption) {
+            text += &about(&scenes[index]);
+            if let Some(pictures) = report.pictures.get(index) {
+                text += &row_of_pictures(index, pictures, folder, &mut images);
             }
         }
         text += &format!("{}\n", table.markdown());
@@ -39,7 +39,7 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     Markdown { text, images }
 }
 
-/// Says in a few points what was found, on which machine and by which command, and how to read the tables.
+/// States the answer, the machine and the command in a few points, and says how to read the tables.
 fn opening(report: &Report) -> String {
     let data = &report.data;
     let [answer, remarks] = [answer::answer(data), answer::remarks(data)];
@@ -74,8 +74,8 @@ fn opening(report: &Report) -> String {
         ),
         (
             "Tables",
-            "A table sums up all scenes, then each scene has its own; costs, operations and findings follow. Speeds are \
-             multiples of naive Phong’s, more is faster, with their 95 % interval; = is a tie."
+            "One table summarises all scenes, then each scene has its own. Costs, operations and findings follow. Speeds are \
+             multiples of naive Phong’s with their 95 % interval: more is faster, and = is a tie."
                 .into(),
         ),
     ]);
@@ -84,7 +84,7 @@ fn opening(report: &Report) -> String {
     lines.collect::<String>() + "\n"
 }
 
-/// Describes a scene in a few words and numbers.
+/// Describes a scene: its text, its size, and its counts.
 fn about(scene: &Value) -> String {
     let plural = |field: &str, one: &str| {
         let s = if scene[field] == 1 { "" } else { "s" };
@@ -92,7 +92,7 @@ fn about(scene: &Value) -> String {
     };
     let clamped = match tables::clamped_share(scene) {
         share if share > NOTABLE_CLAMPING => format!(
-            " The light is over 1 in {:.0} % of them and is clamped: there errors vanish.",
+            " In {:.0} % of them the light is over 1 and is clamped, where errors vanish.",
             100.0 * share
         ),
         _ => String::new(),
@@ -112,7 +112,8 @@ fn about(scene: &Value) -> String {
     }
 }
 
-/// Says that many pixels show another polygon than the reference, if any method has over a thousandth of those covered.
+/// Warns of pixels that show another polygon than the reference, if a method has more than a
+/// thousandth of the covered ones.
 fn others(scene: &Value) -> String {
     let rows = list(scene, "/rows")
         .iter()
@@ -123,16 +124,16 @@ fn others(scene: &Value) -> String {
     let share = 100.0 * most / scene["covered_pixels"].as_f64().unwrap_or(0.0).max(1.0);
     match share > 0.1 {
         true => format!(
-            "At up to {share:.2} % of the pixels covered a method shows another polygon than the reference: their depths are one but for \
-             rounding, and the errors say nothing of these pixels.\n\n"
+            "At up to {share:.2} % of the covered pixels a method shows another polygon than the reference, because both have the \
+             same depth up to rounding. The errors leave out these pixels.\n\n"
         ),
         false => String::new(),
     }
 }
 
-/// Adds the small pictures of a scene to `images`; returns the table that shows them.
+/// Adds the small pictures of the scene at `index` to `images`. Returns the table that shows them.
 fn row_of_pictures(
-    number: usize,
+    index: usize,
     pictures: &ScenePictures,
     folder: &str,
     images: &mut Vec<(String, Vec<u8>)>,
@@ -144,7 +145,7 @@ fn row_of_pictures(
             .chars()
             .map(plain)
             .collect();
-        let file = format!("{:02}-{file}.png", number + 1);
+        let file = format!("{:02}-{file}.png", index + 1);
         heads.push(markdown_text(name));
         cells.push(format!("![{}]({folder}/{file})", markdown_text(name)));
         images.push((file, png.clone()));

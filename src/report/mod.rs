@@ -1,28 +1,11 @@
-//! The report: every method on every scene, in pictures and numbers, as one page that needs nothing else.
+//! The report: every method on every scene, in pictures and figures, as one page that needs nothing
+//! else.
 //!
-//! A [`Report`] is one [`Document`], as JSON, and pictures. The page, Markdown and CSV are views of it: Rust writes data, the
-//! page (`report/template.html`, `app.css`, and `script/`, a file a view) draws it. Start reading in `document.rs`, then `tables.rs`.
+//! A [`Report`] holds one `Document` as JSON, and pictures. The page, Markdown and CSV are views of
+//! it. Rust writes the data, and the page draws it (`report/template.html`, `app.css`, and
+//! `script/` with a file for each view). Start reading in `document.rs`, then `tables.rs`.
 //!
-//! ```
-//! use fastphong::compare::comparison::{Input, compare};
-//! use fastphong::mesh::builtin::builtin;
-//! use fastphong::raster::Renderer;
-//! use fastphong::report::{Document, Report, ScenePictures};
-//! use fastphong::scene::Scene;
-//! use fastphong::shading::METHODS;
-//!
-//! let mut scene = Scene::of_mesh(builtin("sphere?rings=8&segments=16")?);
-//! (scene.width, scene.height) = (48, 36);
-//! let frame = scene.frame()?;
-//! let variants: Vec<_> = METHODS.iter().map(|entry| entry.variant()).collect();
-//! let input = Input { name: "sphere".into(), frame: &frame };
-//! let comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
-//!
-//! let pictures = vec![ScenePictures::new(&comparison)?];
-//! let document = Document::new(vec!["fastphong".into(), "report".into()], vec![comparison]);
-//! assert!(Report::new(&document, pictures)?.html().starts_with("<!doctype html>"));
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! Only [`Report`] is public, for the fuzzer: everything else serves the program.
 
 mod answer;
 mod course;
@@ -31,23 +14,18 @@ mod document;
 mod live;
 mod markdown;
 mod page;
-#[doc(hidden)]
-pub mod pairs_page;
+pub(crate) mod pairs_page;
 mod pictures;
 mod shard;
 mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use date::utc_date;
-pub use document::{
-    Document, DocumentError, FigureData, MethodData, OPERATIONS, Operation, RATES, Rate, SCHEMA,
-    label, parse, small,
-};
-pub use live::{MOST_BYTES, MOST_POLYGONS, live_scene};
-pub use markdown::Markdown;
-pub use page::shell_word;
-pub use shard::{PartOf, Shard, check_whole};
+pub(crate) use date::utc_date;
+pub(crate) use document::{Document, FigureData, OPERATIONS, RATES, parse, small};
+pub(crate) use live::{MOST_BYTES, MOST_POLYGONS, live_scene};
+pub(crate) use page::shell_word;
+pub(crate) use shard::{PartOf, Shard, check_whole};
 
 use crate::compare::comparison::Comparison;
 use crate::lectures::{FigureBlock, FigureContent};
@@ -55,14 +33,16 @@ use crate::picture::encoding::store;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use document::{NOT_COMPARABLE, OLDER};
+use document::{DocumentError, NOT_COMPARABLE, OLDER};
+use markdown::Markdown;
 use pictures::{Pictures, halved, png};
 use serde_json::{Value, json};
 
-/// Methods whose small pictures stand in Markdown: those that the lecture's Programming Project compares.
+/// The methods whose small pictures stand in Markdown, which are the ones in the lecture's
+/// Programming Project.
 const PROJECT: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "slerp-phong"];
 
-/// Packs the traces of all figures: one object in JSON, a trace by each method.
+/// Packs the traces of all figures into one JSON object with a trace for each method.
 fn packed_traces(document: &Document) -> String {
     let blocks = document.figures.iter().flat_map(|f| &f.content.blocks);
     let traces = blocks.filter_map(|block| match block {
@@ -72,47 +52,49 @@ fn packed_traces(document: &Document) -> String {
     let traces: BTreeMap<&str, _> = traces.collect();
     match traces.is_empty() {
         true => String::new(),
-        // Not by way of a `Value`, whose floats are wider and would be written with digits that the engine's have not.
+        // Not through a `Value`: its floats have 64 bits and would be written with digits that the
+        // engine's 32 do not have.
         false => live::packed(&serde_json::to_vec(&traces).expect("numbers and texts")),
     }
 }
 
-/// A document, and the pictures that belong to it.
+/// A document, and its pictures.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// The document as it was written.
-    pub text: String,
-    /// The document as views read it.
+    /// The document's text, unchanged.
+    pub(crate) text: String,
+    /// The document's data, which views read.
     data: Value,
-    /// Documents of other machines or commits, to be laid beside it.
+    /// Documents of other machines or commits, to compare with.
     beside: Vec<Value>,
-    /// Pictures of the scenes, in the order of the document; none where it was read from a file.
+    /// The pictures of the scenes, in the order of the document. Empty if the document was read
+    /// from a file.
     pictures: Vec<ScenePictures>,
-    /// PNG files of the figures' pictures, a list per figure.
+    /// The figures' pictures as PNG files, a list for each figure.
     figures: Vec<Vec<Vec<u8>>>,
-    /// The traces of the figures, by their methods, as the page unpacks them; empty if there are none.
+    /// The packed traces of the figures, which the page unpacks. Empty if there are none.
     traces: String,
 }
 
 /// The pictures of one scene.
 #[derive(Clone, Debug)]
-pub struct ScenePictures {
+pub(crate) struct ScenePictures {
     /// The scene's name.
     name: String,
-    /// The packed pictures that the page unpacks, as JSON.
+    /// The packed pictures, which the page unpacks, as JSON.
     packed: String,
-    /// The scene itself, if the page can draw it: [`live_scene`].
+    /// The scene itself from [`live_scene`], if the page can draw it.
     live: Option<String>,
-    /// PNG files at half the size: the reference, and those of [`PROJECT`].
+    /// PNG files of half the size: the reference, and the methods of [`PROJECT`].
     small: Vec<(String, Vec<u8>)>,
 }
 
 impl ScenePictures {
-    /// Packs the pictures of a comparison, which may be dropped then.
+    /// Packs the pictures of a comparison. The comparison's own pictures are not needed after that.
     ///
     /// # Errors
     /// If the pictures have no pixels, or more than PNG can count.
-    pub fn new(comparison: &Comparison) -> std::io::Result<ScenePictures> {
+    pub(crate) fn new(comparison: &Comparison) -> std::io::Result<ScenePictures> {
         let reference = store(&comparison.reference, comparison.encoding);
         let mut small = Vec::from([("reference".to_string(), png(&halved(&reference))?)]);
         for row in &comparison.rows {
@@ -128,8 +110,9 @@ impl ScenePictures {
         })
     }
 
-    /// Adds the scene itself, so that the page can draw it from elsewhere: what [`live_scene`] returned.
-    pub fn with_live(self, live: Option<String>) -> ScenePictures {
+    /// Adds the scene itself, as [`live_scene`] returned it, so that readers can turn it on the
+    /// page.
+    pub(crate) fn with_live(self, live: Option<String>) -> ScenePictures {
         ScenePictures { live, ..self }
     }
 }
@@ -138,8 +121,11 @@ impl Report {
     /// Makes the report of a document and the pictures of its scenes.
     ///
     /// # Errors
-    /// If a picture of a figure has no pixels, or more than its file format can count.
-    pub fn new(document: &Document, pictures: Vec<ScenePictures>) -> std::io::Result<Report> {
+    /// If a picture of a figure has no pixels, or more than PNG can count.
+    pub(crate) fn new(
+        document: &Document,
+        pictures: Vec<ScenePictures>,
+    ) -> std::io::Result<Report> {
         let files = |content: &FigureContent| {
             let shown = content.blocks.iter().flat_map(|block| match block {
                 FigureBlock::Pictures { shown, .. } => &shown[..],
@@ -159,7 +145,8 @@ impl Report {
         })
     }
 
-    /// Reads a document that was written before; its pictures, and figures, which are pictures, are not in it.
+    /// Reads a document from a file. The report then has no pictures, and no figures, which consist
+    /// of pictures.
     ///
     /// # Errors
     /// As [`parse`].
@@ -176,13 +163,15 @@ impl Report {
         })
     }
 
-    /// Says which numbers of a document that was [read](Self::read) cannot be compared with those of today: it is of an older schema.
-    pub fn not_comparable(&self) -> Option<String> {
+    /// Says which values of a document that was [read](Self::read) cannot be compared with today's.
+    /// Returns `None` if its schema is today's.
+    pub(crate) fn not_comparable(&self) -> Option<String> {
         let is_older = document::is_older(&self.data);
         is_older.then(|| alloc::format!("schema {OLDER}: {NOT_COMPARABLE}"))
     }
 
-    /// Says of this document and those beside it which numbers cannot be compared, if any.
+    /// Says which values of this document and of the documents beside it cannot be compared. Empty
+    /// if all can.
     fn limits(&self) -> String {
         let mut all = [&self.data].into_iter().chain(&self.beside);
         match all.any(document::is_older) {
@@ -191,8 +180,9 @@ impl Report {
         }
     }
 
-    /// Returns the run that a document which was [read](Self::read) is a part of, and the part; `None` if it is whole.
-    pub fn part(&self) -> Option<(&str, Shard)> {
+    /// Returns the run and the part of it that a document holds which was [read](Self::read).
+    /// Returns `None` if it holds a whole run.
+    pub(crate) fn part(&self) -> Option<(&str, Shard)> {
         let shard = &self.data["shard"];
         let number = |name: &str| shard[name].as_u64()?.try_into().ok();
         let shard = Shard {
@@ -202,18 +192,19 @@ impl Report {
         Some((document::text(&self.data, "/run"), shard))
     }
 
-    /// Joins the documents of all parts of one run: scenes in the order of the run, all else as in the first part.
+    /// Joins the documents of all parts of one run. Scenes are in the order of the run, and
+    /// everything else comes from the first part.
     ///
     /// # Panics
-    /// If a part is missing: see [`check_whole`].
-    pub fn joined(mut parts: Vec<Report>) -> Report {
+    /// If a part is missing. Call [`check_whole`] first.
+    pub(crate) fn joined(mut parts: Vec<Report>) -> Report {
         parts.sort_by_key(|part| part.part().map(|(_, shard)| shard.number));
         let scenes = parts
             .iter()
             .map(|part| document::list(&part.data, "/comparisons"));
         let scenes: Vec<_> = scenes.collect();
         let most = scenes.iter().map(|scenes| scenes.len()).max();
-        // One scene of each part in turn.
+        // Parts take scenes in turn: part 1 has the first, part 2 the second, and so on.
         let comparisons = (0..most.unwrap_or(0))
             .flat_map(|i| scenes.iter().filter_map(move |scenes| scenes.get(i)))
             .cloned()
@@ -237,13 +228,13 @@ impl Report {
         }
     }
 
-    /// Lays the numbers of another report beside these.
+    /// Shows the values of another report beside this one's.
     pub fn lay_beside(&mut self, other: Report) {
         self.beside.push(other.data);
     }
 
     /// Returns the pictures of the figures as PNG files with their names, `NAME-1.png` and so on.
-    pub fn figure_files(&self) -> impl Iterator<Item = (String, &[u8])> {
+    pub(crate) fn figure_files(&self) -> impl Iterator<Item = (String, &[u8])> {
         let figures = document::list(&self.data, "/figures").iter();
         figures.zip(&self.figures).flat_map(|(figure, files)| {
             let name = document::text(figure, "/name");
@@ -252,18 +243,18 @@ impl Report {
         })
     }
 
-    /// Writes the page: one file that loads nothing, from the network or elsewhere.
+    /// Writes the page: one file that loads nothing, neither from the network nor from other files.
     pub fn html(&self) -> String {
         page::page(self)
     }
 
-    /// Writes the report in short for the front page of a repository: text, and picture files that stand in the folder
-    /// `images` beside it.
+    /// Writes a short report for the front page of a repository: a text, and picture files for the
+    /// folder `images` beside it.
     pub fn markdown(&self, images: &str) -> Markdown {
         markdown::markdown(self, images)
     }
 
-    /// Writes every table as comma-separated values, each behind its caption.
+    /// Writes every table as comma-separated values, after a line with its caption.
     pub fn csv(&self) -> String {
         let tables = tables::all(&self.data);
         let all = tables.iter().map(|table| {

@@ -1,4 +1,5 @@
-//! The page: a template with the data, the pictures, and what is readable without JavaScript.
+//! The page: a template, filled with the data, the pictures, and the parts that are readable
+//! without JavaScript.
 
 use super::document::{list, number, text};
 use super::pictures::data_uri;
@@ -10,11 +11,12 @@ use alloc::vec::Vec;
 use serde_json::{Number, Value};
 
 const TEMPLATE: &str = include_str!("../../report/template.html");
-/// The parts of a viewer, which it clones.
+/// The template of a viewer, which the script clones.
 pub(super) const VIEWER: &str = include_str!("../../report/viewer.html");
 pub(super) const STYLE: &str = include_str!("../../report/app.css");
 
-/// Joins files of `report/script`, in this order: a file may use at once what those before it define.
+/// Joins files of `report/script` in this order. At load time a file can use only definitions of
+/// files before it.
 macro_rules! script {
     ($($file:literal)*) => {
         concat!($(include_str!(concat!("../../report/script/", $file, ".js"))),*)
@@ -23,7 +25,7 @@ macro_rules! script {
 
 const SCRIPT: &str = script!(
     "markup" "controls" "numbers" "data" "marks" "studio" "pictures" "errors" "live" "turn" "viewer" "charts" "plot" "findings"
-    // Views, and what belongs to one alone.
+    // Views, each with the files that only it uses.
     "pareto" "overview"
     "probe" "row" "scene-table" "scenes"
     "formulas" "methods"
@@ -36,7 +38,7 @@ const SCRIPT: &str = script!(
     "views" "link" "keys" "page"
 );
 
-/// What a viewer needs of the script, where the page brings scenes and pictures.
+/// The part of the script that a viewer needs on a page that brings its own pictures.
 pub(super) const VIEWER_SCRIPT: &str = script!("markup" "controls" "numbers" "viewer");
 
 /// Fills the template.
@@ -66,7 +68,8 @@ pub(super) fn page(report: &Report) -> String {
     filled(TEMPLATE, &parts)
 }
 
-/// Replaces each `{{name}}` of a template; what is put in is not looked at again.
+/// Replaces each `{{name}}` of a template. It does not look for names in the parts that it fills
+/// in.
 pub(super) fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_string();
@@ -79,8 +82,9 @@ pub(super) fn filled(template: &str, parts: &[(&str, String)]) -> String {
     text
 }
 
-/// Leaves out what a browser does not read of a script or a style: indentation, empty lines, and
-/// comments, which stand on lines of their own. No text of the script has lines like them.
+/// Removes everything from a script or a style that browsers ignore: indentation, empty lines, and
+/// comments that have their own lines. No string in the scripts has a line that looks like a
+/// comment.
 fn bare(script: &str) -> String {
     let mut text = String::new();
     let mut is_comment = false;
@@ -95,14 +99,15 @@ fn bare(script: &str) -> String {
     text
 }
 
-/// Escapes JSON for a `<script>`: no `<`, so that neither `</script` nor `<!--` is in it.
+/// Escapes every `<` of JSON, so that a `<script>` around it contains neither `</script` nor
+/// `<!--`.
 fn script_text(json: &str) -> String {
-    // Outside of texts JSON has no `<`.
+    // JSON has `<` only in strings, where this escape is allowed.
     json.replace('<', "\\u003c")
 }
 
-/// Writes the document, with those that it is laid beside, in six digits and without samples: nobody sees more, and
-/// `--json` has all.
+/// Writes the document, and the documents beside it, with six digits and without samples. Nobody
+/// sees more on the page, and `--json` has everything.
 fn json(report: &Report) -> String {
     let mut data = report.data.clone();
     if !report.beside.is_empty() {
@@ -112,7 +117,7 @@ fn json(report: &Report) -> String {
     data.to_string()
 }
 
-/// Rounds all fractions to six significant digits, and leaves of samples their number, `rounds`.
+/// Rounds all fractions to six significant digits, and replaces samples by their count, `rounds`.
 fn shorten(value: &mut Value) {
     match value {
         Value::Number(number) if number.is_f64() => {
@@ -134,7 +139,8 @@ fn shorten(value: &mut Value) {
     }
 }
 
-/// Writes the pictures of each scene and of the figures as elements of their own, parsed when they are first shown.
+/// Writes the pictures of each scene and of the figures as separate elements, which the script
+/// parses when it first shows them.
 fn pictures(report: &Report) -> String {
     let element = |id: String, json: &str| {
         let json = script_text(json);
@@ -151,7 +157,7 @@ fn pictures(report: &Report) -> String {
     let has_handles = list(&report.data, "/figures")
         .iter()
         .any(|figure| figure.get("live").is_some());
-    // The module travels where something can be moved with it.
+    // The page contains the module only if it has something to move.
     let module = match has_handles || !live.is_empty() {
         true => element("live-module".into(), &live::module()),
         false => String::new(),
@@ -170,7 +176,7 @@ fn pictures(report: &Report) -> String {
     text + &live + &module + &element("figure-pictures".into(), &files.to_string()) + &traces
 }
 
-/// Returns pictures and tables for readers without JavaScript.
+/// Writes pictures and tables for readers without JavaScript.
 fn readable(report: &Report) -> String {
     let mut html = spheres(report);
     let shown = report
@@ -198,8 +204,7 @@ fn readable(report: &Report) -> String {
     html
 }
 
-/// Returns the first two pictures of the figure that the page begins with, and what was measured
-/// on them.
+/// Writes the first two pictures of the figure at the top of the page, and the finding about them.
 fn spheres(report: &Report) -> String {
     let figures = list(&report.data, "/figures").iter().zip(&report.figures);
     let found = figures
@@ -236,7 +241,8 @@ fn made(data: &Value) -> String {
     )
 }
 
-/// Describes the machine of a document in one line, as [`Machine::line`](crate::compare::timing::Machine::line) does.
+/// Describes the machine of a document in one line, like
+/// [`Machine::line`](crate::compare::timing::Machine::line).
 pub(super) fn machine(data: &Value) -> String {
     let m = |field: &str| text(&data["machine"], field);
     let (system, compiler) = ([m("/os"), m("/arch")].join(" "), m("/rustc"));
@@ -245,14 +251,14 @@ pub(super) fn machine(data: &Value) -> String {
     format!("{}, {system}; {built}; fastphong {version}", m("/cpu"))
 }
 
-/// Returns the command line of a document as it can be typed into a shell of the Bourne family.
+/// Returns the command line of a document, quoted for shells of the Bourne family.
 pub(super) fn command(data: &Value) -> String {
     let words = list(data, "/command_line").iter();
     let words = words.map(|word| shell_word(text(word, "")));
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// Quotes a word for a shell where need be.
+/// Quotes a word for a shell if it needs quotes.
 pub fn shell_word(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);
     match word {
@@ -293,7 +299,7 @@ mod tests {
             let page = bare(text);
             assert!(!page.contains("\n\t") && !page.contains("\n/*") && page.len() < text.len());
         }
-        // A comment that ends within a line would swallow all lines up to the next one.
+        // `bare` would drop all lines after a comment that ends in the middle of a line.
         let comments = SCRIPT
             .lines()
             .chain(STYLE.lines())

@@ -1,6 +1,6 @@
-//! The page of compared pictures: each pair with its map, those that failed first.
+//! The page of compared pictures: each pair with the map of its difference, failed pairs first.
 //!
-//! Its parts stand in `report/pairs`; style and viewer are those of the report.
+//! Its parts are in `report/pairs`. It shares style and viewer with the report.
 
 use super::page::{STYLE, VIEWER, VIEWER_SCRIPT, filled};
 use super::pictures::data_uri;
@@ -15,35 +15,35 @@ const TEMPLATE: &str = include_str!("../../report/pairs/page.html");
 const OWN_STYLE: &str = include_str!("../../report/pairs/style.css");
 const OWN_SCRIPT: &str = include_str!("../../report/pairs/script.js");
 
-/// The page, to be written.
+/// The contents of the page.
 #[derive(Clone, Debug, Default)]
 pub struct PairsPage {
     /// How many pairs there are of each kind, as text.
     pub title: String,
-    /// What was compared, as text.
+    /// A text that says what was compared.
     pub about: String,
     /// Grey levels at the light end of the maps.
     pub levels: f32,
-    /// The pairs, in the order in which they are shown.
+    /// The pairs, in the order of the page.
     pub pairs: Vec<ShownPair>,
 }
 
-/// A pair on the page. Pictures are PNG files, and empty where there is none.
+/// A pair of pictures on the page. Pictures are PNG files, and empty if there is none.
 #[derive(Clone, Debug, Default)]
 pub struct ShownPair {
     /// The name of both pictures.
     pub name: String,
     /// The result, in one word.
     pub status: &'static str,
-    /// True if the comparison fails by it.
+    /// True if this pair makes the comparison fail.
     pub fails: bool,
     /// The result in a line.
     pub text: String,
     /// Facts about the files.
     pub notes: Vec<String>,
-    /// Width and height as they are shown.
+    /// Width and height on the page.
     pub size: [usize; 2],
-    /// Columns and rows of the pictures that are one pixel of those shown.
+    /// How many columns and rows of the pictures become one pixel on the page.
     pub step: usize,
     /// The reference.
     pub reference: Vec<u8>,
@@ -53,11 +53,11 @@ pub struct ShownPair {
     pub map: Vec<u8>,
     /// The largest difference in grey levels.
     pub largest: Option<f64>,
-    /// Column and row of the first pixel with that.
+    /// Column and row of the first pixel with the largest difference.
     pub worst: Option<[usize; 2]>,
     /// The largest region of pixels over the threshold.
     pub region: Option<LargestRegion>,
-    /// Its place in a line.
+    /// The region's place, in one line.
     pub region_text: String,
 }
 
@@ -100,7 +100,7 @@ impl ShownPair {
         let shots: String = there
             .map(|(kind, png)| self.shot(kind, png, pictures[1].1.is_empty()))
             .collect();
-        // Only a pair of which everything is there can be opened.
+        // The viewer opens only pairs with all three pictures.
         let worst = self
             .worst
             .map(|at| at.map(|place| place / self.step.max(1)));
@@ -150,7 +150,7 @@ impl ShownPair {
         )
     }
 
-    /// Writes a frame around a region, as parts of the picture.
+    /// Writes a frame around a region. Its position is in per cent of the picture.
     fn frame(&self, region: &LargestRegion) -> String {
         let part = |axis: usize, pixels: usize| {
             let side = (self.size[axis] * self.step.max(1)) as f64;

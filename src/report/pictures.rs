@@ -1,8 +1,10 @@
-//! Pictures without loss, as the page unpacks them.
+//! Lossless packing of pictures, which the page unpacks.
 //!
-//! A picture is stored as what it adds, modulo 256, to the picture most like it; methods that draw the same cost a few bytes.
-//! Planes are green, red − green and blue − green, each byte less the one before it, all deflated: a browser inflates by itself.
-//! `docs/performance.md` compares this with lossless WebP and with the filters of PNG.
+//! A picture is stored as its difference, modulo 256, from the picture that is most like it. So
+//! methods that draw the same picture cost a few bytes. Planes are green, red − green and blue −
+//! green. Of each byte the previous one is subtracted, then all are deflated, which browsers can
+//! undo without a library. `docs/performance.md` compares this with lossless WebP and with the
+//! filters of PNG.
 
 use super::live::packed;
 use crate::compare::comparison::Comparison;
@@ -18,7 +20,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-/// The pictures of one scene, as the page reads them.
+/// The packed pictures of one scene.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Pictures {
     /// The packed reference.
@@ -30,10 +32,10 @@ pub(super) struct Pictures {
 /// A picture as a difference from another one.
 #[derive(Clone, Debug, Default, Serialize)]
 struct PackedPicture {
-    /// The variant whose picture it adds to; the reference if `None`.
+    /// The variant whose picture is the base, or `None` for the reference.
     #[serde(skip_serializing_if = "Option::is_none")]
     on: Option<String>,
-    /// The packed difference from its base; `None` if there is none.
+    /// The packed difference from the base, or `None` if the pictures are equal.
     #[serde(skip_serializing_if = "Option::is_none")]
     add: Option<String>,
 }
@@ -57,13 +59,13 @@ impl Pictures {
         }
     }
 
-    /// Writes them as the page reads them.
+    /// Writes them as JSON for the page.
     pub fn json(&self) -> String {
         serde_json::to_string(self).expect("texts and lists of them")
     }
 }
 
-/// Returns the number of the picture most like `picture`, or `None` for `base`.
+/// Returns the index of the picture that is most like `picture`, or `None` if `base` is.
 fn nearest(picture: &[Vec<u8>], base: &[Vec<u8>], others: &[Vec<Vec<u8>>]) -> Option<usize> {
     let differing = |other: &[Vec<u8>]| {
         let pairs = picture.iter().zip(other);
@@ -72,16 +74,16 @@ fn nearest(picture: &[Vec<u8>], base: &[Vec<u8>], others: &[Vec<Vec<u8>>]) -> Op
             .sum::<usize>()
     };
     let mut best = (differing(base), None);
-    for (number, other) in others.iter().enumerate() {
+    for (index, other) in others.iter().enumerate() {
         let count = differing(other);
         if count < best.0 {
-            best = (count, Some(number));
+            best = (count, Some(index));
         }
     }
     best.1
 }
 
-/// Returns what `picture` adds to `base`, modulo 256.
+/// Returns `picture` minus `base`, modulo 256.
 fn added(base: &[Vec<u8>], picture: &[Vec<u8>]) -> Vec<Vec<u8>> {
     let plane = |(a, b): (&Vec<u8>, &Vec<u8>)| {
         let pairs = a.iter().zip(b);
@@ -90,7 +92,7 @@ fn added(base: &[Vec<u8>], picture: &[Vec<u8>]) -> Vec<Vec<u8>> {
     base.iter().zip(picture).map(plane).collect()
 }
 
-/// Splits a picture into green, red − green and blue − green; coverage is not kept.
+/// Splits a picture into green, red − green and blue − green. It drops coverage.
 fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
     let plane = |of: fn(&[u8; 4]) -> u8| picture.pixels().iter().map(of).collect();
     Vec::from([
@@ -100,7 +102,8 @@ fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
     ])
 }
 
-/// Deflates what each byte of a plane adds, modulo 256, to the one before it, and writes that in base 64.
+/// Subtracts from each byte of a plane the previous one, modulo 256, deflates the result, and
+/// writes it in base 64.
 fn pack(planes: &[Vec<u8>]) -> String {
     let steps = planes.iter().flat_map(|plane| {
         let before = core::iter::once(&0).chain(plane);
@@ -118,12 +121,13 @@ pub(super) fn png(picture: &Picture8) -> std::io::Result<Vec<u8>> {
     FilePicture::stored(picture.map(|[r, g, b, _]| [r, g, b, 255])).encode(Format::Png)
 }
 
-/// Returns the bytes of a PNG file as the address of an `<img>`.
+/// Returns a PNG file as the address of an `<img>`.
 pub(super) fn data_uri(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", STANDARD.encode(png))
 }
 
-/// Halves the sides of a picture: every pixel is the mean of a square of four.
+/// Halves the sides of a picture. Every pixel is the mean of a square of four, or of fewer at the
+/// right and lower edge.
 pub(super) fn halved(picture: &Picture8) -> Picture8 {
     let (width, height) = (picture.width().div_ceil(2), picture.height().div_ceil(2));
     let mut small = Picture8::new(width, height, [0; 4]);
@@ -169,7 +173,7 @@ mod tests {
 
     #[test]
     fn planes_come_back() {
-        // Knuth's multiplier scatters one plane; the others are a ramp and a constant.
+        // Knuth's multiplier scatters one plane. The others are a ramp and a constant.
         let scattered: Vec<u8> = (0..1200u32)
             .map(|i| (i.wrapping_mul(2_654_435_769) >> 24) as u8)
             .collect();

@@ -1,4 +1,5 @@
-//! Parts of long runs, which any machines may do in any order: `--shard 3/16` does one, `--from` joins all.
+//! Parts of long runs, which several machines can do in any order: `--shard 3/16` does one,
+//! `--from` joins all.
 
 use alloc::collections::BTreeSet;
 use alloc::format;
@@ -6,20 +7,20 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-/// A part of a run: of all its items those `number − 1`, `number − 1 + of`, …
+/// A part of a run. It has the items at the indices `number − 1`, `number − 1 + of` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Shard {
     /// The number of the part, counted from 1.
     pub number: u32,
-    /// The number of parts.
+    /// How many parts there are.
     pub of: u32,
 }
 
 impl Shard {
-    /// A run that is one part.
+    /// A whole run, which has one part.
     pub const WHOLE: Shard = Shard { number: 1, of: 1 };
 
-    /// Reads a part as users write it, `3/16`.
+    /// Reads a part that a user wrote as `3/16`.
     ///
     /// # Errors
     /// A sentence that says what was expected.
@@ -35,12 +36,12 @@ impl Shard {
             .ok_or_else(|| "expected a part of a whole of 100000 at most, as in 3/16".into())
     }
 
-    /// True if the number is one of so many.
+    /// True if the number is from 1 to the count of parts, which is at most 100,000.
     pub fn is_part(&self) -> bool {
         (1..=self.of).contains(&self.number) && self.of <= 100_000
     }
 
-    /// True if an item belongs to the part, counted from 0.
+    /// True if the item at this index belongs to the part.
     pub fn has(&self, item: usize) -> bool {
         item % self.of as usize == self.number as usize - 1
     }
@@ -49,15 +50,16 @@ impl Shard {
 /// The document of a part.
 #[derive(Clone, Debug)]
 pub struct PartOf {
-    /// The file that it was read from, as users know it.
+    /// The file that it was read from, as the user named it.
     pub file: String,
-    /// The same text in all parts of one run.
+    /// The text that all parts of one run have in common.
     pub run: String,
     /// The part.
     pub shard: Shard,
 }
 
-/// Says what is wrong with parts that are to be joined: they are of one run, of as many parts, and none is missing or there twice.
+/// Checks parts before they are joined: all must be parts of one run with the same count of parts,
+/// none may be missing, and none may be there twice.
 ///
 /// # Errors
 /// A sentence that names the file or the parts.

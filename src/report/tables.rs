@@ -1,4 +1,4 @@
-//! The tables that stand in Markdown, in CSV, and on the page for readers without JavaScript.
+//! The tables for Markdown, for CSV, and for readers of the page without JavaScript.
 
 use super::answer::overall;
 use super::document::{OPERATIONS, RATES, label, list, number, text, title};
@@ -13,7 +13,8 @@ use serde_json::Value;
 /// A cell without a value.
 const NONE: &str = "–";
 
-/// Returns all tables of a document: all scenes, each scene, four corners, growth, processors without a floating-point unit, operations, findings.
+/// Returns all tables of a document: all scenes, each scene, speeds in four corners, growth,
+/// processors without a floating-point unit, operations, and findings.
 pub(super) fn all(data: &Value) -> Vec<Table> {
     let scenes = list(data, "/comparisons");
     let mut tables = Vec::new();
@@ -39,12 +40,12 @@ pub(super) fn all(data: &Value) -> Vec<Table> {
     tables
 }
 
-/// Writes the number at a pointer, if there is one.
+/// Writes the number at a JSON pointer, or [`NONE`] if there is none.
 fn cell(value: &Value, pointer: &str, write: impl Fn(f64) -> String) -> String {
     number(value, pointer).map_or_else(|| NONE.into(), write)
 }
 
-/// Sums up every method over all scenes.
+/// Summarises every method over all scenes.
 fn summary(data: &Value) -> Table {
     let scenes = list(data, "/comparisons").len();
     let head = ["method", "max error, levels", "in", "speed, × naive Phong"];
@@ -61,7 +62,7 @@ fn summary(data: &Value) -> Table {
     table
 }
 
-/// Lists what pixels cost in integers, and how wrong they are.
+/// Lists the costs of pixels in integers, and their errors.
 fn small(data: &Value) -> Table {
     let title = "Without a floating-point unit: a pixel of a span of 32 pixels, 15° between its normals, in integers on emulated processors";
     let head = [
@@ -125,13 +126,14 @@ pub(super) fn scene(scene: &Value) -> Table {
     table
 }
 
-/// Returns the share of the covered picture whose light is clamped; 0 in documents that do not say.
+/// Returns the share of the covered pixels whose light is clamped, or 0 if the document does not
+/// say.
 pub(super) fn clamped_share(scene: &Value) -> f64 {
     let count = |field: &str| number(scene, &format!("/clamping/{field}")).unwrap_or(0.0);
     count("clamped") / count("covered").max(1.0)
 }
 
-/// Writes a ratio with its interval; `=` before it says that the interval holds 1.
+/// Writes a ratio with its interval. A `=` before it says that the interval contains 1.
 fn ratio(ratio: &Value) -> String {
     let tie = if ratio["tie"] == true { "= " } else { "" };
     let [low, high] = ["/low", "/high"].map(|end| cell(ratio, end, |v| format!("{v:.2}")));
@@ -178,7 +180,7 @@ fn growth(scaling: &Value) -> Table {
         "largest misfit, %",
     ];
     let caption = format!(
-        "What one of each costs in frames of {mesh}, in nanoseconds; – where the fit misses a time by more than 50 %"
+        "Cost of one of each in frames of {mesh}, in nanoseconds; – where the fit is off from a time by more than 50 %"
     );
     let mut table = Table::new(caption, &head);
     for curve in list(scaling, "/curves") {
@@ -200,8 +202,8 @@ fn growth(scaling: &Value) -> Table {
 /// Lists the operations of each method, for one light and for four.
 fn operations(data: &Value) -> Table {
     let caption = "Operations: + additions, × multiplications, < comparisons, ÷ divisions, √ roots, ∿ sines, ^ powers, ▤ reads of tables; \
-                   counted by running each method on numbers that count, for shininess 32; of methods in integers spans and pixels as their \
-                   loops stand";
+                   counted by running each method with numbers that count, at shininess 32; for methods in integers, spans and pixels are \
+                   counted in the source of their loops";
     let mut table = Table::new(caption, &["method, lights"]);
     table
         .head
@@ -219,7 +221,7 @@ fn operations(data: &Value) -> Table {
 /// Writes counts as `14 + 9 ×`.
 fn counts(counts: &Value) -> String {
     let signs = list(counts, "").iter().zip(OPERATIONS);
-    // A space that does not break keeps a number with its sign.
+    // A no-break space keeps a number with its sign.
     let some = signs.filter(|(n, _)| **n != 0);
     let cells: Vec<String> = some
         .map(|(n, (_, sign, _))| format!("{n}\u{A0}{sign}"))
@@ -230,7 +232,7 @@ fn counts(counts: &Value) -> String {
     }
 }
 
-/// Lists everything that the figures of the lectures found.
+/// Lists all findings of the lectures' figures.
 fn findings(data: &Value) -> Table {
     let head = ["measured", "figure", "value", "the lecture", "in words"];
     let mut table = Table::new("What the lectures say, measured", &head);

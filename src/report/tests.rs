@@ -1,5 +1,5 @@
 use super::answer::{answer, html, overall, remarks};
-use super::document::{list, title};
+use super::document::{SCHEMA, list, title};
 use super::*;
 use crate::compare::comparison::{
     Input, MethodRow, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
@@ -51,7 +51,7 @@ fn ratio(median: f64, spread: f64) -> Ratio {
     Ratio::new(median / spread, median, median * spread)
 }
 
-/// Gives each row a speed and an error in grey levels.
+/// Sets the speed and the error of a row in grey levels.
 fn given(row: &mut MethodRow, of: &[(&str, f64, f64)]) {
     let known = of.iter().find(|(name, ..)| *name == row.name());
     let (_, speed, levels) = *known.unwrap_or(&("", 0.5, 40.0));
@@ -64,7 +64,7 @@ fn given(row: &mut MethodRow, of: &[(&str, f64, f64)]) {
     });
 }
 
-/// Returns the answer for one scene with made-up numbers.
+/// Returns the answer for one scene with made-up values.
 fn said(of: &[(&str, f64, f64)], study: Option<Speedups>) -> String {
     let mut document = document(&[(SPHERE, "sphere")]);
     let rows = &mut document.comparisons[0].rows;
@@ -115,9 +115,9 @@ fn the_page_holds_its_data_and_its_pictures() {
     let drawn = METHODS.len() - left_out;
     assert_eq!(list(&data, "/methods").len(), drawn);
     assert_eq!(list(&data, "/comparisons").len(), 2);
-    for number in 0..2 {
+    for index in 0..2 {
         let pictures: serde_json::Value =
-            serde_json::from_str(element(&page, &format!("pictures-{number}"))).unwrap();
+            serde_json::from_str(element(&page, &format!("pictures-{index}"))).unwrap();
         let rows = pictures["rows"].as_object().unwrap();
         assert_eq!(rows.len(), drawn, "a picture a method");
     }
@@ -168,6 +168,26 @@ fn the_page_is_readable_without_javascript() {
         assert!(inside.contains(text), "{text}");
     }
     assert!(!inside.contains("<script"));
+}
+
+/// Every figure takes less than 200,000 bytes of the page.
+#[test]
+fn figures_take_little_of_the_page() {
+    let mut document = document(&[]);
+    let size = |document: &Document| {
+        let page = report(document).html();
+        // All live figures share one module, which does not count.
+        let module = page.split("id=\"live-module\">").nth(1);
+        page.len() - module.map_or(0, |rest| rest.find('<').expect("it ends"))
+    };
+    let bare = size(&document);
+    for figure in FIGURES {
+        let content = figure.make().expect("a figure");
+        document.figures.push(FigureData { figure, content });
+        let bytes = size(&document) - bare;
+        assert!(bytes < 200_000, "{} takes {bytes} bytes", figure.name);
+        document.figures.clear();
+    }
 }
 
 fn figure() -> FigureData {
@@ -395,7 +415,7 @@ fn the_description_names_every_field() {
             ]
             .iter()
             .any(|before| description.contains(&format!("{before}{field}`")));
-            // One sentence describes the blocks of figures. Parameters are named by their methods.
+            // One sentence describes the blocks of figures. Methods name their parameters.
             assert!(is_named || field == "timing", "`{field}` is not described");
             fields += 1;
             if !["blocks", "parameters"].contains(&&**field) {
@@ -461,13 +481,13 @@ fn texts_that_are_no_documents_are_refused() {
     }
     assert!(message("{\n]").contains("line 2 column 1"));
     assert!(message("").contains("fastphong.bench/2"));
-    // Deeper than any document, and a number that is none.
+    // Lists deeper than in any document, and numbers that JSON does not have.
     assert!(message(&"[".repeat(100_000)).contains("recursion limit exceeded at line 1"));
     assert!(message("{\"seconds\": NaN}").contains("expected value at line 1 column"));
     assert!(message("{\"seconds\": 1e999}").contains("number out of range at line 1 column"));
 }
 
-/// A field that holds another kind of value, or a number out of its range, is told with its place.
+/// A field with another kind of value, or with a number out of range, is reported with its place.
 #[test]
 fn values_of_another_kind_are_told_with_their_place() {
     let mut document = document(&[(SPHERE, "sphere")]);
@@ -548,7 +568,8 @@ fn values_of_another_kind_are_told_with_their_place() {
     );
 }
 
-/// What means something else today is taken out of older documents, and said; the rest stays.
+/// Values of older documents that mean something else today are removed, and the report says so.
+/// All others stay.
 #[test]
 fn older_documents_lose_the_numbers_that_changed_their_meaning() {
     let mut document = document(&[(SPHERE, "sphere")]);
