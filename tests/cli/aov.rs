@@ -66,7 +66,7 @@ fn aovs_show_depth_normals_and_polygons() {
         .refused(&["cannot be used with"]);
 }
 
-/// `--aov kind` shows which polygon took which kind, of the method that is asked for.
+/// `--aov kind` shows which of its kinds the requested method chose for each polygon.
 #[test]
 fn aovs_show_kinds_of_polygons() {
     let folder = Folder::new();
@@ -90,9 +90,9 @@ fn aovs_show_kinds_of_polygons() {
     let colours: std::collections::BTreeSet<[u8; 4]> = six.pixels().iter().copied().collect();
     let expected = [[0; 4], [86, 180, 233, 255], [153, 153, 153, 255]];
     assert_eq!(Vec::from_iter(colours), expected);
-    folder
-        .run(&format!("{ball} -m flat -o out.png"))
-        .refused(&["flat has one kind of polygons; take series-phong, cubic-phong"]);
+    folder.run(&format!("{ball} -m flat -o out.png")).refused(&[
+        "flat has only one kind of polygons: expected one of series-phong, cubic-phong",
+    ]);
 }
 
 /// AOVs show vertex colours of a triangle with a red, a green and a blue corner, and a checkerboard
@@ -110,7 +110,8 @@ fn aovs_show_vertex_colours_and_a_checkerboard() {
         .done()
         .says("40x40, colours");
     let rgb = picture(&folder.path("rgb.png"));
-    // Weights sum to 1 and so do the colours: 255, give or take a half for each of three roundings.
+    // The weights sum to 1, so the colours sum to 255, up to half a level for each of three
+    // roundings.
     let drawn: Vec<[u8; 4]> = rgb
         .pixels()
         .iter()

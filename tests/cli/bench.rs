@@ -1,11 +1,11 @@
 //! `fastphong compare` and `fastphong bench`: the engines that are timed, and the data.
 
 use super::{Folder, SPHERE};
-use fastphong::number::Level;
-use fastphong::shading::{METHODS, MethodRow, Standing};
+use fastphong::number::SimdLevel;
+use fastphong::shading::{METHODS, MethodRow, Tier};
 use serde_json::{Value, json};
 
-/// Returns engine, level and threads of a renderer or of a row.
+/// Returns the engine, the instruction set and the threads of a renderer or of a row.
 fn drawn_by(value: &Value) -> (&str, &str, u64) {
     let text = |key: &str| value[key].as_str().unwrap();
     (
@@ -19,11 +19,11 @@ fn rows(comparison: &Value) -> &Vec<Value> {
     comparison["rows"].as_array().unwrap()
 }
 
-/// As few rounds as possible.
+/// Two methods, and as few rounds as possible.
 const QUICK: &str = "--time-budget 0 --methods fast-phong,duff-phong";
 
-/// A scene with a positional light. Fast Phong keeps L and V constant over a polygon and Duff's
-/// method interpolates them, neither by plane equations.
+/// A scene with a positional light. Fast Phong keeps L and V constant over a polygon, and Duff's
+/// method interpolates them. Neither uses plane equations.
 const NEAR: &str = "builtin:sphere?rings=6&segments=8 --size 64x48 --light-at 2,3,4";
 
 /// `compare` draws with the scalar span engine unless another engine is asked for, and reports the
@@ -31,14 +31,14 @@ const NEAR: &str = "builtin:sphere?rings=6&segments=8 --size 64x48 --light-at 2,
 #[test]
 fn comparisons_name_the_renderer_of_each_row() {
     let folder = Folder::new();
-    let best = Level::best().name();
+    let best = SimdLevel::best().name();
     let compared = |flags: &str| {
         let ended = folder
             .run(&format!("compare {NEAR} {QUICK} {flags} --json"))
             .done();
         ended.json()["comparisons"][0].clone()
     };
-    let is_simd = Level::best() != Level::Scalar;
+    let is_simd = SimdLevel::best() != SimdLevel::Scalar;
     if !is_simd {
         return;
     }
@@ -107,7 +107,7 @@ fn errors_come_from_the_requested_engine() {
     };
     let lecture = errors("--engine span --simd scalar");
     assert_eq!(errors(""), lecture);
-    for level in Level::available().filter(|level| *level != Level::Scalar) {
+    for level in SimdLevel::available().filter(|level| *level != SimdLevel::Scalar) {
         // Blocks of eight restart their increments, so some bits of the errors must change.
         assert_ne!(errors(&format!("--simd {level}")), lecture, "{level}");
     }
@@ -129,7 +129,9 @@ fn every_instruction_set_is_timed_separately() {
         .collect();
     assert_eq!(
         levels,
-        Level::available().map(Level::name).collect::<Vec<_>>()
+        SimdLevel::available()
+            .map(SimdLevel::name)
+            .collect::<Vec<_>>()
     );
     for comparison in comparisons {
         let (engine, level, threads) = drawn_by(&comparison["renderer"]);
@@ -142,7 +144,11 @@ fn every_instruction_set_is_timed_separately() {
             "bench {SPHERE} {QUICK} --simd scalar,auto,scalar --json -"
         ))
         .done();
-    let expected = if Level::best() == Level::Scalar { 1 } else { 2 };
+    let expected = if SimdLevel::best() == SimdLevel::Scalar {
+        1
+    } else {
+        2
+    };
     assert_eq!(
         twice.json()["comparisons"].as_array().unwrap().len(),
         expected
@@ -159,7 +165,7 @@ fn every_instruction_set_is_timed_separately() {
             .collect::<Vec<_>>()
     };
     assert_eq!(renderers("--engine span --simd all"), ["scalar"]);
-    if Level::best() != Level::Scalar {
+    if SimdLevel::best() != SimdLevel::Scalar {
         assert_eq!(renderers("--engine row --simd all"), levels[1..]);
         folder
             .run(&format!("bench {SPHERE} --engine row --simd scalar,auto"))
@@ -170,7 +176,7 @@ fn every_instruction_set_is_timed_separately() {
         .refused(&["did you mean `avx2`?"]);
 }
 
-/// `--frame-times` prints one line per method, and JSON with equal numbers.
+/// `--frame-times` prints one line per method, and its JSON has the same values.
 #[test]
 fn frame_times_are_one_line_per_method() {
     let folder = Folder::new();
@@ -182,10 +188,10 @@ fn frame_times_are_one_line_per_method() {
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["schema"], "fastphong.frame-times/1");
     let times = json["frame_times"].as_array().unwrap();
-    // Without a choice, the default ones.
+    // Without `--methods` the default methods are timed.
     let expected = METHODS
         .iter()
-        .filter(|method| method.info.standing == Standing::Default);
+        .filter(|method| method.info.tier == Tier::Default);
     assert_eq!(times.len(), 2 * expected.clone().count());
     assert_eq!(ended.out.lines().count(), times.len());
     let described = include_str!("../../docs/bench-json.md");
@@ -232,8 +238,8 @@ fn frame_times_are_one_line_per_method() {
         );
         let method = MethodRow::named(time["method"].as_str().unwrap()).unwrap();
         let level = match method.scalar_only() {
-            Some(_) => Level::Scalar,
-            None => Level::best(),
+            Some(_) => SimdLevel::Scalar,
+            None => SimdLevel::best(),
         };
         assert_eq!(
             (&time["level"], &time["reason"]),
@@ -263,7 +269,7 @@ fn frame_times_are_one_line_per_method() {
 }
 
 #[test]
-fn frame_times_take_engines_instruction_sets_and_numbers_of_frames() {
+fn frame_times_accept_engines_instruction_sets_and_frame_counts() {
     let folder = Folder::new();
     let quick = "--frame-times --frames 1 --warmup 0 --methods fast-phong";
     let lines = |flags: &str| {
@@ -278,14 +284,17 @@ fn frame_times_take_engines_instruction_sets_and_numbers_of_frames() {
     );
     assert_eq!(
         lines("--simd all").lines().count(),
-        Level::available().count()
+        SimdLevel::available().count()
     );
-    if Level::best() != Level::Scalar {
+    if SimdLevel::best() != SimdLevel::Scalar {
         let duff = "--frame-times --frames 1 --methods duff-phong --engine row";
         folder
             .run(&format!("bench {NEAR} {duff}"))
             .done()
-            .prints(&format!(" duff-phong engine row level {} ", Level::best()));
+            .prints(&format!(
+                " duff-phong engine row level {} ",
+                SimdLevel::best()
+            ));
         folder
             .run(&format!("bench {NEAR} {duff} --depth per-sample"))
             .done()
@@ -320,7 +329,8 @@ fn frame_times_take_engines_instruction_sets_and_numbers_of_frames() {
         .refused(&["did you mean `teapot`?"]);
 }
 
-/// Triangles of two colours in one plane, whose depths are equal but for rounding, seen from in front.
+/// Writes triangles of two colours in one plane, seen from in front. Their depths are equal up to
+/// rounding.
 fn coplanar(folder: &Folder) {
     let (mut vertices, mut faces) = (String::from("mtllib plane.mtl\n"), String::new());
     // Corners within −1..1, by a linear congruence.
@@ -343,8 +353,9 @@ fn coplanar(folder: &Folder) {
         .write("plane.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
 }
 
-/// Where depths are equal but for rounding, engines and instruction sets show different polygons. The error of each is taken
-/// where it shows that of the reference; elsewhere a shade of red would be compared with one of blue.
+/// Where depths are equal up to rounding, engines and instruction sets show different polygons.
+/// Each row's error counts only pixels that show the reference's polygon. Elsewhere a shade of red
+/// would be compared with a shade of blue.
 #[test]
 fn each_engine_is_compared_where_it_shows_the_polygon_of_the_reference() {
     let folder = Folder::new();
@@ -359,7 +370,7 @@ fn each_engine_is_compared_where_it_shows_the_polygon_of_the_reference() {
         "--light-at 1,2,9",
     ] {
         let mut others = 0;
-        for level in Level::available() {
+        for level in SimdLevel::available() {
             let arguments = format!(
                 "compare {scene} {flags} --simd {} -m {methods} --time-budget 0 --json",
                 level.name()
@@ -373,18 +384,19 @@ fn each_engine_is_compared_where_it_shows_the_polygon_of_the_reference() {
                 others += count;
             }
         }
-        // The painter draws in one order everywhere.
+        // The painter draws in the same order everywhere.
         let is_painted = flags.contains("painter");
         assert_eq!(others > 0, !is_painted, "{flags}: {others}");
     }
 }
 
-/// The mark of a row that misses its closed form is explained where a row has it, and only there.
+/// A table explains the mark of rows that miss their closed form only if one of its rows has the
+/// mark.
 #[test]
-fn the_legend_of_the_mark_stands_only_under_tables_that_have_it() {
+fn the_legend_of_the_mark_stands_only_under_tables_with_marked_rows() {
     let folder = Folder::new();
     coplanar(&folder);
-    // Too few steps for edges of large angles.
+    // One step is too few for edges of large angles.
     let missed = "builtin:sphere?rings=4&segments=5 -m fast-phong:steps=1";
     for (scene, is_marked) in [("plane.obj -m naive-phong,flat", false), (missed, true)] {
         for command in ["compare", "compare --all-columns", "bench"] {
@@ -398,7 +410,7 @@ fn the_legend_of_the_mark_stands_only_under_tables_that_have_it() {
     }
 }
 
-/// Returns free memory and swap.
+/// Returns how many gigabytes of memory and swap are free.
 #[cfg(target_os = "linux")]
 fn free_gigabytes() -> u64 {
     let memory = std::fs::read_to_string("/proc/meminfo").expect("Linux tells");
@@ -410,26 +422,27 @@ fn free_gigabytes() -> u64 {
     gigabytes("MemAvailable:") + gigabytes("SwapFree:")
 }
 
-/// The reference keeps more than eighty bytes a pixel.
+/// The reference keeps more than eighty bytes per pixel.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_reference_that_does_not_fit_into_memory_is_not_begun() {
     if free_gigabytes() > 20 {
-        return; // it would be drawn
+        return; // this machine has the memory and would draw it
     }
     let folder = Folder::new();
     folder
         .run("render builtin:cube --size 16384x16384 -m reference -o out.png")
-        .refused(&["16384x16384: reference needs about 21.5 GB of memory, and "]);
+        .refused(&["16384x16384: reference needs about 21.5 GB of memory, but "]);
     assert!(folder.names().is_empty());
 }
 
-/// A picture that can be drawn and not compared in this memory is an error before anything is drawn, not a program that is gone.
+/// If a picture fits into memory but its comparison does not, the tool says so before it draws
+/// anything, and the system never has to kill it.
 #[cfg(target_os = "linux")]
 #[test]
-fn what_a_comparison_needs_is_said_and_checked() {
+fn comparisons_check_and_report_the_memory_that_they_need() {
     if free_gigabytes() > 90 {
-        return; // it would be drawn
+        return; // this machine has the memory and would draw it
     }
     let folder = Folder::new();
     for command in ["compare", "bench", "report --full"] {
@@ -437,7 +450,7 @@ fn what_a_comparison_needs_is_said_and_checked() {
             .run(&format!("{command} builtin:cube --size 16384x16384"))
             .refused(&[
                 "16384x16384: comparing needs about ",
-                " GB of memory, and ",
+                " GB of memory, but ",
                 " GB are free: expected fewer pixels or samples, or fewer methods",
             ]);
     }

@@ -1,7 +1,7 @@
 //! Defaults of the tool.
 
 use super::Folder;
-use fastphong::number::Level;
+use fastphong::number::SimdLevel;
 
 /// Without `--method` the tool draws naive Phong's picture, which fast Phong does not under
 /// positional lights. `--verbose` names the method and the reason.
@@ -29,10 +29,10 @@ fn auto_is_the_default_method_and_names_its_choice() {
             .run(&format!("{scene} {flags} -o out.png --verbose"))
             .done();
         picture
-            .says(&format!("method {method}, by auto: "))
+            .says(&format!("method {method}, chosen by auto: "))
             .says(&format!("out.png: 160x120, {method}\n"));
     };
-    if Level::best() != Level::Scalar {
+    if SimdLevel::best() != SimdLevel::Scalar {
         take("", "phong-rsqrt");
     }
     take("--simd scalar", "naive-phong");
@@ -76,14 +76,14 @@ fn without_arguments_five_commands_are_suggested() {
     for command in &commands[..4] {
         folder.run(command).done();
     }
-    assert_eq!(folder.names(), ["fast.png", "teapot.png"]);
+    assert_eq!(folder.names(), ["report", "teapot.png"]);
     assert!(said.lines().all(|line| line.len() <= 100), "{said}");
 }
 
-/// A mesh wound the wrong way draws nothing, which both `render` and `compare` warn of; a mesh of which some polygons are
-/// culled is said to have all of them.
+/// A mesh that is wound the wrong way draws nothing: `render` and `compare` both warn. If only some
+/// polygons are culled, `compare` counts them and nobody warns.
 #[test]
-fn culled_polygons_are_not_silent() {
+fn culled_polygons_are_reported() {
     let folder = Folder::new();
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     folder.write("back.obj", format!("{corners}f 1 3 2\n"));
@@ -102,14 +102,15 @@ fn culled_polygons_are_not_silent() {
         .run("compare both.obj --methods flat --size 32x32 --time-budget 0")
         .done()
         .prints("both.obj: 32×32, 1 of 2 polygons, ")
-        .says("--simd auto compares on the engine that `render` uses");
+        .says("--simd auto compares in the engine that `render` uses");
     folder
         .run("info back.obj")
         .done()
         .prints("1, 1 polygon in all");
 }
 
-/// An unknown method is answered with the nearest name, one that contains it, or all names that the flag takes.
+/// The answer to an unknown method is the nearest name, a name that contains it, or every name that
+/// the flag accepts.
 #[test]
 fn unknown_methods_are_answered_with_names() {
     let folder = Folder::new();
@@ -127,9 +128,10 @@ fn unknown_methods_are_answered_with_names() {
         .refused(&["`integer-fast-printed`, `auto`, `reference`"]);
 }
 
-/// The usage of `render` names the flags of which one is needed, so that no line of it is refused.
+/// The usage of `render` names the flags of which one is required. Each usage line that it shows
+/// works.
 #[test]
-fn usage_of_render_says_what_is_needed() {
+fn usage_of_render_names_the_required_flags() {
     let folder = Folder::new();
     folder
         .run("render --help")

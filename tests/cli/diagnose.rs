@@ -16,17 +16,17 @@ fn drawn(flags: &str) -> Folder {
 }
 
 #[test]
-fn a_right_picture_is_said_to_be_right() {
+fn a_right_picture_is_reported_as_right() {
     drawn("")
         .run("diagnose yours.png teapot")
         .done()
         .prints("agrees with teapot: it is 0.00 grey levels off");
-    // Supersampled edges are edges of another rasterizer.
+    // Supersampled edges count as those of another rasterizer, which is no mistake.
     drawn("--samples 4").run("diagnose yours.png teapot").done();
 }
 
 #[test]
-fn mistakes_are_named_with_evidence_and_what_to_do() {
+fn mistakes_are_named_with_evidence_and_advice() {
     let folder = drawn("-m gouraud");
     let ended = folder
         .run("diagnose yours.png teapot -o strip.png")
@@ -40,7 +40,7 @@ fn mistakes_are_named_with_evidence_and_what_to_do() {
         .prints("docs/course/3-gouraud-shading.md");
     let strip = picture(&folder.path("strip.png"));
     assert_eq!([strip.width(), strip.height()], [3 * 160 + 2 * 8, 120]);
-    // The third picture is the first: the mistake explains all of it.
+    // The third picture equals the first: the mistake explains every difference.
     for y in 0..120 {
         let row = strip.row(y);
         let differ = row[..160]
@@ -60,11 +60,11 @@ fn mistakes_are_named_with_evidence_and_what_to_do() {
     let amounts = drawn("--ambient 0.5")
         .run("diagnose yours.png teapot")
         .differs();
-    amounts.prints("other amounts").prints("ambient × 0.50");
+    amounts.prints("amounts of light").prints("ambient × 0.50");
 }
 
 #[test]
-fn what_no_mistake_explains_is_said_to_be_so() {
+fn a_picture_that_no_mistake_explains_is_reported_as_unexplained() {
     let folder = Folder::new();
     folder
         .run("render vase --size 160x120 -o vase.png -q")
@@ -83,7 +83,7 @@ fn what_no_mistake_explains_is_said_to_be_so() {
 }
 
 #[test]
-fn json_holds_what_each_mistake_leaves() {
+fn json_lists_the_causes_and_every_mistake_that_was_tried() {
     let found = drawn("-m gouraud")
         .run("diagnose yours.png teapot --json")
         .differs()
@@ -109,7 +109,7 @@ fn json_holds_what_each_mistake_leaves() {
     );
 }
 
-/// Exchanges columns and rows.
+/// Returns the picture with columns and rows exchanged.
 fn transposed(from: &Picture8) -> Picture8 {
     let mut to = Picture8::new(from.height(), from.width(), [0; 4]);
     for y in 0..to.height() {
@@ -121,7 +121,7 @@ fn transposed(from: &Picture8) -> Picture8 {
 }
 
 #[test]
-fn size_and_background_are_looked_at_first() {
+fn size_and_background_are_checked_first() {
     let folder = drawn("");
     let right = picture(&folder.path("yours.png"));
     let turned = FilePicture::stored(transposed(&right));
@@ -131,7 +131,7 @@ fn size_and_background_are_looked_at_first() {
         .differs();
     ended
         .prints("width and height are exchanged")
-        .prints("agrees with teapot, but for that");
+        .prints("agrees with teapot apart from that");
     // The scene is drawn at the size of the picture, whatever it is.
     folder
         .run("render teapot --size 90x200 -o tall.png -q")
@@ -150,12 +150,12 @@ fn size_and_background_are_looked_at_first() {
     write_picture(&folder.path("blue.png"), &FilePicture::stored(other)).unwrap();
     let ended = folder.run("diagnose blue.png teapot").differs();
     ended
-        .prints("the background is 0 0 90 and not 0 0 0")
-        .prints("agrees with teapot, but for that");
+        .prints("the background is 0 0 90, but the scene says 0 0 0")
+        .prints("agrees with teapot apart from that");
 }
 
 #[test]
-fn what_cannot_be_diagnosed_is_refused() {
+fn pictures_that_cannot_be_diagnosed_are_refused() {
     let folder = drawn("");
     folder.write("no.png", "nothing");
     folder.run("diagnose no.png teapot").refused(&["no.png"]);
@@ -170,7 +170,7 @@ fn what_cannot_be_diagnosed_is_refused() {
         .refused(&["`--output` is the picture itself"]);
     folder
         .run("diagnose yours.png local-lights --as integer-fast")
-        .refused(&["--as integer-fast: in integers, lights and eye are at infinity"]);
+        .refused(&["--as integer-fast: integer methods need lights and an eye at infinity"]);
     folder
         .run("diagnose yours.png teapot --as nothing")
         .refused(&["unknown method"]);
@@ -178,7 +178,7 @@ fn what_cannot_be_diagnosed_is_refused() {
     write_picture(&folder.path("small.png"), &FilePicture::stored(small)).unwrap();
     folder
         .run("diagnose small.png teapot")
-        .refused(&["too little is seen"]);
+        .refused(&["too little of it is visible"]);
     let mut ppm = b"P5 20000 1 255\n".to_vec();
     ppm.resize(ppm.len() + 20000, 0);
     folder.write("wide.pgm", ppm);

@@ -5,6 +5,11 @@ use fastphong::compare::metrics::METRICS;
 use fastphong::picture::Picture8;
 use fastphong::picture::image_file::{FilePicture, write_picture};
 
+/// The colour of a pixel beyond the map's scale.
+const BEYOND: [u8; 4] = [255, 0, 255, 255];
+/// The colour, on a signed map, of a pixel too dark by more than the scale.
+const BEYOND_DARKER: [u8; 4] = [0, 255, 0, 255];
+
 /// Writes two pictures of 16 × 12 pixels that differ by 20 levels in one channel of one pixel.
 fn pair() -> Folder {
     let folder = Folder::new();
@@ -89,7 +94,7 @@ fn json_holds_every_metric() {
 }
 
 #[test]
-fn maps_show_where() {
+fn maps_show_where_pictures_differ() {
     let folder = pair();
     let lit = |name: &str| {
         let map = picture(&folder.path(name));
@@ -104,18 +109,15 @@ fn maps_show_where() {
     folder.run("diff a.png b.png -o beyond.png").done();
     assert_eq!(
         lit("beyond.png"),
-        fastphong::compare::metrics::BEYOND,
+        BEYOND,
         "20 levels are beyond the default scale"
     );
     folder.run("diff a.png b.png -o map.png --scale 40").done();
-    assert_ne!(lit("map.png"), fastphong::compare::metrics::BEYOND);
+    assert_ne!(lit("map.png"), BEYOND);
     folder
         .run("diff b.png a.png -o signed.ppm --signed --scale 4")
         .done();
-    assert_eq!(
-        lit("signed.ppm"),
-        fastphong::compare::metrics::BEYOND_DARKER
-    );
+    assert_eq!(lit("signed.ppm"), BEYOND_DARKER);
     folder.run("diff a.png b.png -o flip.png --flip").done();
     let map = picture(&folder.path("flip.png"));
     let level = |x, y| {
@@ -180,7 +182,7 @@ fn pictures_that_cannot_be_compared_are_errors() {
 }
 
 #[test]
-fn flip_of_a_comparison_is_that_of_the_rendered_files() {
+fn flip_of_a_comparison_equals_flip_of_the_rendered_files() {
     let folder = Folder::new();
     let scene = "teapot --size 64x48";
     for (method, file) in [("reference", "r.png"), ("gouraud --simd scalar", "g.png")] {
@@ -203,9 +205,10 @@ fn flip_of_a_comparison_is_that_of_the_rendered_files() {
         .prints("FLIP");
 }
 
-/// Numbers of a corner would say nothing of the pictures. The map shows the upper left part that both have.
+/// Metrics of the common corner would say nothing about the pictures, so `diff` prints none. The
+/// map still shows the upper left part that both pictures have.
 #[test]
-fn pictures_of_different_size_differ_without_numbers_and_their_common_part_is_mapped() {
+fn pictures_of_different_size_have_no_metrics_and_a_map_of_their_common_part() {
     let folder = pair();
     folder.write("small.ppm", [&b"P6 4 9 255\n"[..], &[100; 108]].concat());
     let sizes = "the sizes differ: the reference has 16x12 pixels, the picture 4x9";
@@ -217,7 +220,7 @@ fn pictures_of_different_size_differ_without_numbers_and_their_common_part_is_ma
         "sizes and encodings: {}",
         ended.out
     );
-    // Also where that corner is the same to the bit.
+    // This holds even if the common corner is equal to the bit.
     folder
         .run("render builtin:cube --size 16x12 -o one.png")
         .done();
@@ -251,11 +254,13 @@ fn pictures_of_different_size_differ_without_numbers_and_their_common_part_is_ma
     assert!(json["worst"].is_null());
 }
 
-/// PNG states its encoding, PFM counts as linear: one drawing in both formats is one picture.
+/// PNG states its encoding, and PFM counts as linear, so a drawing is the same picture in both
+/// formats.
 #[test]
-fn one_drawing_in_several_formats_is_one_picture() {
+fn one_drawing_is_the_same_picture_in_several_formats() {
     let folder = Folder::new();
-    // A mesh alone is sRGB and opaque, a scene linear with alpha; supersampled rims are straight in PNG.
+    // A mesh without a scene is sRGB and opaque; a scene is linear and has alpha. Supersampled rims
+    // have straight alpha in PNG.
     for (scene, encoding) in [
         ("builtin:cube --size 64x48", "srgb"),
         (SPHERE, "linear"),
@@ -271,7 +276,7 @@ fn one_drawing_in_several_formats_is_one_picture() {
         let stated =
             format!("encodings: a.png states {encoding}; a.pfm states none, linear is assumed");
         let json = folder.run("diff a.png a.pfm --json").done().json();
-        // Half a level, and floats: 2⁻²⁴ of 255 on either side.
+        // Half a level from the PNG, and from the floats 2⁻²⁴ of 255 on either side.
         let most = json["metrics"]["max"].as_f64().unwrap();
         assert!(
             0.1 < most && most <= 0.5 + 2.0 * 255.0 / f64::from(1 << 24),
@@ -283,19 +288,21 @@ fn one_drawing_in_several_formats_is_one_picture() {
             (&"linear".into(), &true.into())
         );
         diff.prints(&stated);
-        // A PPM file states nothing: the same bytes are the same picture once its encoding is known.
+        // A PPM file does not state its encoding. With the right one, the same bytes are the same
+        // picture.
         let equal = format!("diff a.png a.ppm --assume {encoding} --fail-above 0");
         folder.run(&equal).done().prints("the pictures are equal");
         folder.run("diff a.ppm a.png --json").done();
     }
-    // The rims of a straight picture, put over its background: 0.5 levels of colour and of alpha each are rounded.
+    // `diff` draws the rims of a picture with straight alpha over its background. Colour and alpha
+    // were each rounded by up to 0.5 levels.
     let scene =
         "builtin:gear --size 64x48 --alpha coverage --samples 4 --encoding linear --background 0.5";
     for format in ["png", "pfm"] {
         folder.run(&format!("render {scene} -o a.{format}")).done();
     }
     let diff = folder.run("diff a.png a.pfm --fail-above 1.01").done();
-    diff.says("warning: a.pfm has no alpha: a.png is put over the background that it states");
+    diff.says("warning: a.pfm has no alpha: a.png is drawn over the background that it states");
     let rims = picture(&folder.path("a.png"));
     assert!(
         rims.pixels()
@@ -305,7 +312,7 @@ fn one_drawing_in_several_formats_is_one_picture() {
 }
 
 #[test]
-fn the_encoding_of_files_that_state_none_can_be_given() {
+fn a_flag_states_the_encoding_of_files_that_state_none() {
     let folder = Folder::new();
     folder.write("a.pgm", "P2 1 1 255 188").write(
         "b.pfm",
@@ -341,7 +348,7 @@ fn the_encoding_of_files_that_state_none_can_be_given() {
 }
 
 #[test]
-fn samples_of_16_bits_that_differ_are_told_apart() {
+fn differences_below_a_level_are_seen_in_samples_of_16_bits() {
     let folder = Folder::new();
     folder
         .write("a.ppm", b"P6 1 1 65535 \x80\x00\x80\x00\x80\x00")
@@ -351,9 +358,10 @@ fn samples_of_16_bits_that_differ_are_told_apart() {
     folder.run("diff a.ppm a.ppm --fail-above 0").done();
 }
 
-/// NaN and infinity against the same are equal; against anything else no threshold lets them pass.
+/// NaN equals NaN and an infinity equals itself. Against anything else, no threshold lets them
+/// pass.
 #[test]
-fn what_is_not_finite_is_equal_to_the_same_alone() {
+fn values_that_are_not_finite_equal_only_themselves() {
     let folder = Folder::new();
     let float = |c: f32| [&b"Pf 2 1 -1\n"[..], &c.to_le_bytes(), &[0; 4]].concat();
     let kinds = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38, -3.0];
@@ -402,9 +410,9 @@ fn notes_about_a_file_are_warnings() {
     ended.says("warning: two.ppm: the file holds several pictures: this is the first");
 }
 
-/// A picture whose alpha is 127 is not equal to one without alpha, which is opaque.
+/// Against a file without alpha, which is opaque, a picture with alpha 127 differs.
 #[test]
-fn a_picture_without_alpha_is_opaque_beside_one_that_states_no_background() {
+fn a_picture_without_alpha_counts_as_opaque() {
     let folder = Folder::new();
     let pixel = |alpha| Picture8::new(2, 2, [10, 20, 30, alpha]);
     for (name, alpha) in [("half.png", 127), ("none.png", 0), ("full.png", 255)] {
@@ -426,7 +434,7 @@ fn a_picture_without_alpha_is_opaque_beside_one_that_states_no_background() {
     }
 }
 
-/// Numbers that would fill a line with digits have an exponent.
+/// Values that would fill a line with digits are printed with an exponent.
 #[test]
 fn huge_differences_have_few_digits() {
     let folder = Folder::new();

@@ -2,7 +2,7 @@
 
 use super::{Folder, SPHERE, methods_on_sphere, rendered, sphere};
 use fastphong::compare::metrics::compare;
-use fastphong::number::Level;
+use fastphong::number::SimdLevel;
 use fastphong::scene::input;
 use fastphong::shading::Variant;
 
@@ -43,7 +43,7 @@ fn engines_agree_and_report_their_work() {
 }
 
 /// CS171's algorithms draw the pictures of the corresponding methods. With normals as printed they
-/// draw another one.
+/// draw a different picture.
 #[test]
 fn cs171_draws_what_the_engines_draw() {
     let folder = Folder::new();
@@ -83,7 +83,7 @@ fn cs171_draws_what_the_engines_draw() {
 }
 
 #[test]
-fn polygons_that_cross_themselves_are_told_of() {
+fn polygons_that_cross_themselves_are_reported() {
     let folder = Folder::new();
     folder.write(
         "bow.obj",
@@ -127,8 +127,8 @@ fn instruction_sets_draw_the_span_engines_picture() {
             assert!(sphere(&format!("-m {method} --simd {level}")) == other);
             let difference = compare(&lecture, &other).unwrap();
             // At 64 columns and 48 rows each picture is off its closed form by less than a tenth of
-            // a level (`Variant::bound`). Where Newton's root is followed it is a quarter
-            // (`Newton::LARGEST_ERROR`). Stored values differ by at most one level.
+            // a level (`Variant::bound`). A method that follows Newton's root is off by up to a
+            // quarter (`Newton::LARGEST_ERROR`). So stored values differ by at most one level.
             assert!(
                 255.0 * difference.max <= 1.0,
                 "{method}, {level}: {difference:?}"
@@ -138,9 +138,9 @@ fn instruction_sets_draw_the_span_engines_picture() {
     }
 }
 
-/// Returns the SIMD levels of this machine.
-fn simd() -> impl Iterator<Item = Level> {
-    Level::available().filter(|level| *level != Level::Scalar)
+/// Returns the SIMD instruction sets of this machine.
+fn simd() -> impl Iterator<Item = SimdLevel> {
+    SimdLevel::available().filter(|level| *level != SimdLevel::Scalar)
 }
 
 /// The span engine is scalar and the row engine SIMD. Any other combination is one error that names
@@ -196,9 +196,9 @@ fn threads_change_no_byte() {
 #[test]
 fn verbose_names_the_engine() {
     let folder = Folder::new();
-    // The instruction set that `auto` chooses.
-    let best = Level::best();
-    if best == Level::Scalar {
+    // Name the instruction set that `auto` chooses.
+    let best = SimdLevel::best();
+    if best == SimdLevel::Scalar {
         return;
     }
     let run = |flags: &str| {
@@ -252,8 +252,8 @@ fn verbose_names_the_engine() {
     }
 }
 
-/// A change of engine is reported with its reason: always if the engine was asked for, else with
-/// `--verbose`.
+/// A change of engine is reported with its reason. If the user asked for the engine, it is always
+/// reported, otherwise only with `--verbose`.
 #[test]
 fn a_change_of_engine_is_reported_with_its_reason() {
     let folder = Folder::new();
@@ -312,7 +312,7 @@ fn scalar_renderers_reject_instruction_sets() {
                 .run(&format!("render {SPHERE} {flags} --simd {simd} -o out.png"))
                 .done();
         }
-        let noted = "--threads 2 leaves the pixels on one thread: drawn by ";
+        let noted = "--threads 2 does not apply to the pixels: drawn by ";
         folder
             .run(&format!("render {SPHERE} {flags} --threads 2 -o out.png"))
             .done()
@@ -331,8 +331,7 @@ fn scalar_renderers_reject_instruction_sets() {
         .refused(&["cannot be used with"]);
 }
 
-/// Unknown engines, instruction sets and thread counts give one error each that lists the valid
-/// ones.
+/// An unknown engine, instruction set or thread count is one error, which lists the valid ones.
 #[test]
 fn unknown_engines_levels_and_threads_are_rejected_by_name() {
     let folder = Folder::new();
@@ -371,7 +370,10 @@ fn unknown_engines_levels_and_threads_are_rejected_by_name() {
         ] {
             folder.run(&format!("{command} {flags}")).refused(&[part]);
         }
-        for level in Level::ALL.into_iter().filter(|level| !level.is_available()) {
+        for level in SimdLevel::ALL
+            .into_iter()
+            .filter(|level| !level.is_available())
+        {
             let said = format!("this machine does not have `{level}`: expected ");
             folder
                 .run(&format!("{command} --simd {level}"))
@@ -380,7 +382,7 @@ fn unknown_engines_levels_and_threads_are_rejected_by_name() {
         if !is_render {
             folder
                 .run(&format!("{command} --engine barycentric"))
-                .refused(&["every comparison has it already"]);
+                .refused(&["every comparison includes it already"]);
         }
     }
     folder

@@ -35,7 +35,9 @@ fn unknown_figures_are_rejected_before_anything_is_written() {
     folder
         .run("figure exrcises")
         .refused(&["unknown figure `exrcises`", "did you mean `exercises`?"]);
-    folder.run("figure").refused(&["NAME"]);
+    folder
+        .run("figure")
+        .refused(&["which figure?", "fastphong list figures", "--all"]);
     folder
         .run("figure --all exercises")
         .refused(&["cannot be used with"]);

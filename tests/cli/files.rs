@@ -1,9 +1,10 @@
-//! No command writes a file that it reads, whatever it is called.
+//! No command overwrites a file that it reads, whatever name or link leads to the file.
 
 use super::{Ended, Folder};
 use std::fs;
 
-/// A mesh with its library, a scene of it, two pictures, a document, and links to some of them.
+/// Returns a folder with a mesh, its material library, a scene, two pictures, a document, and links
+/// to some of them.
 fn folder() -> Folder {
     let folder = Folder::new();
     folder
@@ -32,7 +33,7 @@ fn folder() -> Folder {
     folder
 }
 
-/// Returns the contents of all files.
+/// Returns the contents of all files in the folder.
 fn contents(folder: &Folder) -> Vec<(String, Option<Vec<u8>>)> {
     let content = |name: String| {
         let bytes = fs::read(folder.path(&name)).ok();
@@ -55,7 +56,7 @@ fn refuses(folder: &Folder, arguments: &str, said: &str) {
 }
 
 #[test]
-fn a_picture_is_not_written_over_the_files_that_it_is_made_of() {
+fn a_picture_does_not_overwrite_the_files_that_it_is_drawn_from() {
     let folder = folder();
     for (arguments, said) in [
         (
@@ -132,7 +133,7 @@ fn a_picture_is_not_written_over_the_files_that_it_is_made_of() {
 }
 
 #[test]
-fn a_map_is_not_written_over_the_pictures_that_it_compares() {
+fn a_map_does_not_overwrite_the_pictures_that_it_compares() {
     let folder = folder();
     for (to, said) in [
         ("a.png", "`--output` is the reference itself, a.png"),
@@ -154,7 +155,7 @@ fn a_map_is_not_written_over_the_pictures_that_it_compares() {
 }
 
 #[test]
-fn results_are_not_written_over_what_they_are_made_of() {
+fn results_do_not_overwrite_the_files_that_they_are_made_from() {
     let folder = folder();
     fs::copy(folder.path("d.json"), folder.path("README.md")).expect("a copy");
     let quick = "-m flat --time-budget 0";
@@ -221,10 +222,10 @@ fn results_are_not_written_over_what_they_are_made_of() {
     }
 }
 
-/// A shell that appends to a file that is read would destroy it as well.
+/// A shell that appends to an input file would destroy it just as well.
 #[cfg(target_os = "linux")]
 #[test]
-fn standard_output_is_not_appended_to_a_file_that_is_read() {
+fn standard_output_is_not_appended_to_an_input_file() {
     let folder = folder();
     for (file, arguments) in [
         ("c.obj", "render c.obj -o - --verbose"),
@@ -252,10 +253,10 @@ fn standard_output_is_not_appended_to_a_file_that_is_read() {
     }
 }
 
-/// The file that a shell gives as standard input is one that is read.
+/// A file that the shell redirects to standard input is an input, too.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_file_that_comes_by_standard_input_is_not_written() {
+fn a_file_on_standard_input_is_not_overwritten() {
     let folder = folder();
     let old = folder.read("a.png");
     for arguments in [
@@ -270,7 +271,8 @@ fn a_file_that_comes_by_standard_input_is_not_written() {
     }
 }
 
-/// Devices are no files that could be lost, and a file that is only named like one that is read is another.
+/// Devices hold nothing that could be lost, and a file that shares only its name with an input is a
+/// different file.
 #[test]
 fn other_files_and_devices_are_written() {
     let folder = folder();
@@ -287,9 +289,10 @@ fn other_files_and_devices_are_written() {
         .done();
 }
 
-/// A mesh that names a library and uses none of its materials: whoever draws it still owns both files.
+/// A mesh may name a library and use none of its materials. The library is still an input, which
+/// whoever draws the mesh wants to keep.
 #[test]
-fn a_library_that_no_face_uses_is_not_written_over() {
+fn a_library_that_no_face_uses_is_not_overwritten() {
     let folder = folder();
     folder.write(
         "bare.obj",
@@ -300,7 +303,7 @@ fn a_library_that_no_face_uses_is_not_written_over() {
         "render bare.obj -o c.mtl --format png",
         "is the material library itself",
     );
-    // What it lacks is not missed.
+    // The tool does not miss a library that no face needs.
     folder.write(
         "gone.obj",
         "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",

@@ -90,7 +90,7 @@ fn flags_change_the_picture() {
 }
 
 #[test]
-fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
+fn view_zero_looks_along_z_and_azimuth_turns_toward_x() {
     for (view, eye) in [
         ("0,0", "0,0,4"),
         ("90,0", "4,0,0"),
@@ -146,7 +146,7 @@ fn material_flags_override_every_material() {
 }
 
 #[test]
-fn without_lights_only_ambient_light_is_left() {
+fn without_lights_only_ambient_light_remains() {
     let drawn = sphere("--no-lights --ambient 1 --ka 0.2,0.4,0.6");
     // The stored level is round(255 k_a).
     assert!(
@@ -350,8 +350,8 @@ fn invalid_flags_are_rejected_by_name() {
         .refused(&["cannot be used with"]);
 }
 
-/// What a message says is expected holds: a number in the range that it names is not refused, and the number is shown as it was
-/// typed.
+/// Messages state true ranges: a number within the range is accepted. They show the number as it
+/// was typed.
 #[test]
 fn ranges_in_messages_are_true_and_large_numbers_have_exponents() {
     let folder = Folder::new();

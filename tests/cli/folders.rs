@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-/// Writes a grey picture of 8 × 6 pixels of which one is off by `levels`.
+/// Writes a grey picture of 8 × 6 pixels, one of which is off by `levels`.
 fn write(folder: &Folder, name: &str, levels: u8) {
     let path = folder.path(name);
     fs::create_dir_all(path.parent().expect("a folder")).unwrap();
@@ -16,8 +16,8 @@ fn write(folder: &Folder, name: &str, levels: u8) {
     write_picture(&path, &FilePicture::stored(picture)).unwrap();
 }
 
-/// Writes two folders: equal pictures, one that differs by a level, one that differs by 50, one
-/// that is missing, and one that is new, some in a folder.
+/// Writes two folders with some pictures in subfolders. Two pictures are equal, one differs by a
+/// level, one by 50, one is missing, and one is new.
 fn folders() -> Folder {
     let folder = Folder::new();
     for (name, reference, actual) in [
@@ -38,7 +38,7 @@ fn folders() -> Folder {
     folder
 }
 
-/// Returns the files of a folder with their bytes, sorted.
+/// Returns the paths and bytes of all files in a folder, sorted.
 fn all_files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -57,7 +57,7 @@ fn all_files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn pairs_are_compared_by_name_and_those_that_fail_are_listed_first() {
+fn pairs_are_compared_by_name_and_failures_are_listed_first() {
     let folder = folders();
     let ended = folder.run("diff ref now --fail-above 2").differs();
     let expected = [
@@ -68,12 +68,12 @@ fn pairs_are_compared_by_name_and_those_that_fail_are_listed_first() {
         "6 pictures: 2 equal, 1 within what is allowed, 1 new, 1 missing, 1 differs",
     ];
     assert_eq!(ended.out.lines().collect::<Vec<_>>(), expected);
-    ended.says("`--approve` copies pictures that differ and new ones over the references");
+    ended.says("`--approve` copies pictures that differ or are new over the references");
     folder
         .run("diff ref now --fail-above 2 -v")
         .differs()
         .prints("equal    in/d.ppm");
-    // Without a threshold folders have to be equal; a count is over it.
+    // Without a threshold, pictures must be equal.
     folder.run("diff ref now").differs().prints("2 differ");
     folder
         .run("diff ref now --allow 1")
@@ -95,7 +95,7 @@ fn pairs_are_compared_by_name_and_those_that_fail_are_listed_first() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_a_line_and_stops_nothing() {
+fn a_pair_that_cannot_be_compared_is_one_line_and_the_others_go_on() {
     let folder = folders();
     folder
         .write("now/c.png", "no picture")
@@ -110,7 +110,7 @@ fn what_cannot_be_compared_is_a_line_and_stops_nothing() {
         .prints("unreadable  c.png         now/c.png: not a picture that can be read")
         .prints("unreadable  in/gone.png   ref/in/gone.png: the file is empty: expected ")
         .prints("now/in/gone.png: broken PPM file: ")
-        // PPM under the name of PNG is a picture.
+        // PPM data under the name of a PNG file is still a picture.
         .prints("differs     a.png         up to 9 grey levels")
         .prints(
             "differs     b.png         the sizes differ: 8x6 in the reference, 1x1 in the picture",
@@ -126,7 +126,7 @@ fn what_cannot_be_compared_is_a_line_and_stops_nothing() {
 }
 
 #[test]
-fn folders_that_say_nothing_are_refused() {
+fn folders_that_cannot_be_compared_are_refused() {
     let folder = folders();
     fs::create_dir_all(folder.path("empty/inner")).unwrap();
     for two in ["ref ref", "ref ./ref", "ref now/../ref"] {
@@ -147,13 +147,13 @@ fn folders_that_say_nothing_are_refused() {
         .refused(&["no pictures in empty and empty2: expected files"]);
     folder
         .run("diff ref gone")
-        .refused(&["ref is a folder, and gone is none"]);
+        .refused(&["ref is a folder, but gone is not"]);
     folder
         .run("diff - ref")
-        .refused(&["ref is a folder, and - is none"]);
+        .refused(&["ref is a folder, but - is not"]);
     folder
         .run("diff ref/a.png now")
-        .refused(&["now is a folder, and ref/a.png is none"]);
+        .refused(&["now is a folder, but ref/a.png is not"]);
     folder
         .run("diff ref now -o map.png")
         .refused(&["`--output` is for the map of two files"]);
@@ -216,7 +216,7 @@ fn json_has_every_pair() {
 }
 
 #[test]
-fn approving_copies_what_differs_and_what_is_new_and_removes_nothing() {
+fn approving_copies_changed_and_new_pictures_and_removes_nothing() {
     let folder = folders();
     let before = all_files(&folder.path("ref"));
     let ended = folder
@@ -238,7 +238,7 @@ fn approving_copies_what_differs_and_what_is_new_and_removes_nothing() {
         let is_approved = ["c.png", "in/new/e.png"].contains(&&**name);
         let expected = match is_approved {
             true => folder.read(&format!("now/{name}")),
-            // What is within the threshold stays, so that references do not drift.
+            // Pictures within the threshold stay, so that references do not drift.
             false => before
                 .iter()
                 .find(|(old, _)| old == name)
@@ -252,7 +252,7 @@ fn approving_copies_what_differs_and_what_is_new_and_removes_nothing() {
     folder.run("diff ref now --fail-above 2").done();
     let ended = folder.run("diff ref now --fail-above 2 --approve").done();
     assert!(!ended.out.contains("approved"), "{}", ended.out);
-    // An unreadable picture is not approved, one with an unreadable reference is.
+    // An unreadable picture is not approved, but a picture with an unreadable reference is.
     folder.write("now/c.png", "text").write("ref/a.png", "text");
     let ended = folder
         .run("diff ref now --fail-above 2 --approve --json")
@@ -277,7 +277,7 @@ fn approving_changes_nothing_if_one_reference_cannot_be_replaced() {
         !folder.path("ref/in/new").exists(),
         "folders that were made are removed"
     );
-    // A reference that leads to a picture of the other folder, or to another reference.
+    // The reference links to a picture of the other folder, or to another reference.
     for (target, problem) in [
         ("../now/b.png", "leads to a picture that is to be approved"),
         ("b.png", "leads to the same file as another reference"),
@@ -290,7 +290,7 @@ fn approving_changes_nothing_if_one_reference_cannot_be_replaced() {
             .refused(&["ref/c.png", problem]);
         assert_eq!(all_files(&folder.path("ref")), before);
     }
-    // A link to a file elsewhere is followed.
+    // The tool follows a link to a file elsewhere.
     fs::remove_file(&read_only).unwrap();
     write(&folder, "store/c.png", 7);
     std::os::unix::fs::symlink("../store/c.png", &read_only).unwrap();
@@ -301,12 +301,12 @@ fn approving_changes_nothing_if_one_reference_cannot_be_replaced() {
 
 #[cfg(unix)]
 #[test]
-fn links_to_folders_are_not_followed_and_names_may_be_of_any_bytes() {
+fn links_to_folders_are_not_followed_and_names_may_hold_any_bytes() {
     use std::os::unix::ffi::OsStrExt;
     let folder = folders();
     std::os::unix::fs::symlink("..", folder.path("now/in/up")).unwrap();
     std::os::unix::fs::symlink("nowhere.png", folder.path("now/broken.png")).unwrap();
-    // What never ends is not read.
+    // The tool must not read a device that never ends.
     std::os::unix::fs::symlink("/dev/zero", folder.path("now/zero.png")).unwrap();
     let odd = std::ffi::OsStr::from_bytes(b"caf\xe9 <&\">\x01.png");
     write(&folder, "now/x.png", 30);
@@ -319,7 +319,7 @@ fn links_to_folders_are_not_followed_and_names_may_be_of_any_bytes() {
         .prints("unreadable  broken.png")
         .prints("8 pictures: ");
     let xml = String::from_utf8(folder.read("out/j.xml")).unwrap();
-    // XML has no place for the control character of the path, which the message says as it is.
+    // XML cannot hold the control character of the path. The message shows it unchanged.
     for part in [
         "name=\"caf\\xE9 &lt;&amp;&quot;&gt;\\x01.png\"",
         "&quot;&gt;\u{fffd}.png yet",
@@ -363,7 +363,7 @@ fn junit_has_a_case_for_each_pair() {
 }
 
 #[test]
-fn the_page_has_all_pairs_and_the_pictures_of_those_that_differ() {
+fn the_page_lists_all_pairs_and_shows_the_pictures_that_differ() {
     let folder = folders();
     folder
         .run("diff ref now --fail-above 2 --html out/page.html")
@@ -379,7 +379,7 @@ fn the_page_has_all_pairs_and_the_pictures_of_those_that_differ() {
         statuses,
         ["differs", "missing", "new", "within", "equal", "equal"]
     );
-    // Three of each pair that differs, and one of each other.
+    // A pair that differs shows three pictures, every other pair one.
     assert_eq!(page.matches("<img ").count(), 2 * 3 + 4);
     assert_eq!(page.matches("<i class=\"frame\"").count(), 1);
     assert!(page.contains("<title>fastphong: 6 pictures: 2 equal, "));
@@ -389,10 +389,10 @@ fn the_page_has_all_pairs_and_the_pictures_of_those_that_differ() {
     );
 }
 
-/// Runs with an environment of one's own in which the program is stopped are in `signals.rs`; this
-/// one ends between drafts and names.
+/// This run fails after drafts are written and before they get their names. `signals.rs` stops the
+/// program at other moments.
 #[test]
-fn a_folder_in_the_way_of_a_reference_changes_nothing() {
+fn a_folder_in_place_of_a_reference_stops_approving_without_a_change() {
     let folder = folders();
     fs::create_dir_all(folder.path("ref/in/new/e.png")).unwrap();
     let before = all_files(&folder.path("ref"));

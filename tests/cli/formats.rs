@@ -1,4 +1,5 @@
-//! Files are what their bytes say, whatever they are called: scenes, meshes, packed ones, and those of other formats.
+//! The tool recognises files by their bytes, whatever they are called: scenes, meshes, packed
+//! files, and files of other formats.
 
 use super::*;
 use flate2::Compression;
@@ -13,7 +14,7 @@ fn packed(bytes: impl AsRef<[u8]>) -> Vec<u8> {
     encoder.finish().expect("memory")
 }
 
-/// Draws `input` with the file `name` as standard input, if one is given.
+/// Draws `input`. If `stdin` names a file, the file is standard input.
 fn draw(folder: &Folder, input: &str, stdin: Option<&str>) -> Vec<u8> {
     let arguments = format!("render {input} --size 16x12 -o out.png");
     let mut command = folder.command(&arguments);
@@ -103,7 +104,7 @@ fn a_pipe_and_the_device_of_standard_input_are_read_once() {
 }
 
 #[test]
-fn packed_libraries_are_read_and_damaged_ones_told() {
+fn packed_libraries_are_read_and_damaged_ones_reported() {
     let folder = Folder::new();
     let mesh = format!("mtllib lib.mtl\nusemtl red\n{TRIANGLE}");
     let library = packed("newmtl red\nKd 1 0 0\n");
@@ -126,7 +127,7 @@ fn packed_libraries_are_read_and_damaged_ones_told() {
         .refused(&["twice.obj: is a gzip archive in a gzip archive"]);
 }
 
-/// The triangle of [`TRIANGLE`] in every other format.
+/// Returns [`TRIANGLE`] in every other format, with the name of a file.
 fn triangles() -> [(&'static str, Vec<u8>); 4] {
     let stl = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
     let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
@@ -170,7 +171,7 @@ fn every_format_is_drawn_from_a_file_a_pipe_and_a_scene() {
     folder
         .run("info mesh.gltf")
         .done()
-        .prints("those of polygons: glTF without normals is flat by its specification");
+        .prints("per polygon: glTF without normals is flat by its specification");
     folder.run("info mesh.stl").done().prints("--up z");
     folder
         .run("render mesh.stl --size 8x6 -o a.png")
@@ -182,7 +183,8 @@ fn every_format_is_drawn_from_a_file_a_pipe_and_a_scene() {
     assert!(!silent.err.contains("z is up"), "{}", silent.err);
 }
 
-/// The triangle as a glTF file with `camera`, 9 before it, and with `lights`, at 2 before it.
+/// Returns the triangle as a glTF file with `camera` 9 units in front of it and `lights` 2 units in
+/// front.
 fn seen_gltf(camera: &str, lights: &[&str]) -> String {
     let [.., (_, bytes)] = triangles();
     let text = String::from_utf8(bytes).expect("text");
@@ -211,7 +213,7 @@ fn seen_gltf(camera: &str, lights: &[&str]) -> String {
 const CAMERA: &str = r#"{"type": "perspective", "perspective": {"yfov": 0.2, "znear": 0.1}}"#;
 
 #[test]
-fn a_gltf_file_is_seen_by_its_camera_under_its_lights() {
+fn a_gltf_file_is_seen_by_its_own_camera_and_lit_by_its_own_lights() {
     let folder = Folder::new();
     for (kind, of_light) in [
         ("point", "falloff = \"inverse-square\""),
@@ -223,7 +225,8 @@ fn a_gltf_file_is_seen_by_its_camera_under_its_lights() {
         let seen = folder.run(&format!("{command} -o a.png")).done();
         seen.says("seen by the file's own camera")
             .says("lit by its light");
-        // Neither green nor blue is lit but by the surroundings, where the studio's lights are nearly white.
+        // Only the surroundings light green and blue. Under the studio's lights, which are nearly
+        // white, all three channels would be bright.
         let [r, g, b, _] = picture(&folder.path("a.png")).get(5, 3);
         assert!(r > 180 && g < 110 && b < 110, "{kind}: {r} {g} {b}");
         let printed = folder.run(&format!("{command} --print-scene")).done();
@@ -236,7 +239,7 @@ fn a_gltf_file_is_seen_by_its_camera_under_its_lights() {
 }
 
 #[test]
-fn flags_stand_over_camera_and_lights_of_a_gltf_file_and_over_their_notes() {
+fn flags_override_camera_and_lights_of_a_gltf_file_and_their_notes() {
     let folder = Folder::new();
     let light = r#"{"type": "point", "intensity": 20}"#;
     folder.write("seen.gltf", seen_gltf(CAMERA, &[light]));
@@ -264,7 +267,7 @@ fn flags_stand_over_camera_and_lights_of_a_gltf_file_and_over_their_notes() {
 }
 
 #[test]
-fn what_a_gltf_file_has_that_cannot_be_taken_is_told_once() {
+fn unsupported_parts_of_a_gltf_file_are_reported_once() {
     let folder = Folder::new();
     let flat = r#"{"type": "perspective", "perspective": {"yfov": 0, "znear": 0.1}}"#;
     let lights = [
@@ -279,16 +282,16 @@ fn what_a_gltf_file_has_that_cannot_be_taken_is_told_once() {
         .says("camera 0 is left out: its `yfov` is 0")
         .says("light 0 is left out: its intensity is -1, its colour 1,1,1: expected")
         .says("light 1 is left out: its intensity is 1, its colour 2,-1,0: expected")
-        .says("light 2 is left out: its intensity is 0, its colour 1,1,1, so that");
+        .says("light 2 is left out: its intensity is 0, its colour 1,1,1, so it");
     assert_eq!(ended.err.matches("left out").count(), 4, "{}", ended.err);
     assert!(!ended.err.contains("lit by"), "{}", ended.err);
     assert!(!ended.err.contains("seen by"), "{}", ended.err);
-    // The studio's.
+    // No light of the file is usable, so the studio's two are used.
     assert_eq!(ended.out.matches("[[light]]").count(), 2);
 }
 
 #[test]
-fn files_of_other_formats_are_called_by_their_names() {
+fn files_of_other_formats_are_called_by_their_format() {
     let mut coff = vec![0x64, 0x86, 1, 0];
     coff.extend([0; 40]);
     let utf_32 = TRIANGLE.chars().flat_map(|c| u32::from(c).to_be_bytes());
@@ -329,7 +332,7 @@ fn files_of_other_formats_are_called_by_their_names() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_that_leads_nowhere_is_told_as_one() {
+fn a_broken_link_is_reported_as_a_broken_link() {
     let folder = Folder::new();
     for name in ["mesh.obj", "lib.mtl", "lost"] {
         std::os::unix::fs::symlink("gone", folder.path(name)).expect("a link");
@@ -356,11 +359,11 @@ fn a_link_that_leads_nowhere_is_told_as_one() {
 }
 
 #[test]
-fn what_a_mesh_lacks_or_loses_is_told_with_its_cause() {
+fn missing_and_lost_parts_of_a_mesh_are_reported_with_their_cause() {
     let folder = Folder::new();
     folder.write("white.obj", TRIANGLE);
     let command = "render white.obj --aov colours --size 8x6 -o out.png";
-    let told = "white.obj: has no vertex colours: it is white in --aov colours";
+    let told = "white.obj: has no vertex colours: --aov colours shows it in white";
     folder.run(command).done().says(told);
     for (text, told) in [
         (

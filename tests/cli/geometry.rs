@@ -1,12 +1,13 @@
-//! Meshes as strangers write them: far from 0, tiny, with normals and smoothing groups, inside out, or out of sight.
+//! Meshes as people find them: far from the origin, tiny, with normals and smoothing groups, inside
+//! out, or out of sight.
 
 use super::*;
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::builtin::builtin;
 use std::fmt::Write;
 
-/// Returns a built-in shape as an OBJ file, scaled, then moved; its polygons reversed if asked for. Indices count backwards, so
-/// that shapes can be put one after the other.
+/// Returns a built-in shape as OBJ text: scaled, then moved, and with its polygons reversed if
+/// `reversed`. Its indices count backwards, so that several shapes can be concatenated.
 fn obj(shape: &str, scale: f64, at: [f64; 3], reversed: bool) -> String {
     let mesh: PolygonMesh = builtin(shape).expect("a shape");
     let mut text = String::new();
@@ -26,7 +27,7 @@ fn obj(shape: &str, scale: f64, at: [f64; 3], reversed: bool) -> String {
     text
 }
 
-/// Returns the pixels that differ by more than `levels`.
+/// Returns how many pixels differ by more than `levels`.
 fn different(a: &Picture8, b: &Picture8, levels: u8) -> usize {
     let pixels = a.pixels().iter().zip(b.pixels());
     let off = |(p, q): &(&[u8; 4], &[u8; 4])| (0..4).any(|c| p[c].abs_diff(q[c]) > levels);
@@ -59,8 +60,9 @@ fn a_mesh_far_from_the_origin_looks_like_one_at_the_origin() {
         assert_eq!(ended.err, "far.png: 160x120, phong-rsqrt\n", "{name}");
         let far = picture(&folder.path("far.png"));
         assert!(covered(&far) > 5000, "{name}: {}", covered(&far));
-        // Coordinates of the text are rounded to 2⁻⁵³ of the distance: vertices may snap to the next 1/256 pixel, and where an
-        // edge passes the centre of one of 4 samples that closely, coverage flips.
+        // Coordinates in the text are rounded to 2⁻⁵³ of the distance, so a vertex may snap to the
+        // next 1/256 pixel. Where an edge passes that close to one of the 4 samples of a pixel,
+        // coverage flips.
         let off = different(&near, &far, 1);
         assert!(off <= 12, "{name}: {off} pixels differ");
     }
@@ -78,12 +80,12 @@ fn a_checkerboard_far_from_the_origin_has_straight_lines() {
         folder.run(&(board + " --square 0.5")).done();
     }
     let [near, far] = ["near.png", "far.png"].map(|name| picture(&folder.path(name)));
-    // Where a line passes a pixel's centre to within the rounding of either picture.
+    // Pixels may differ where a line passes their centre within the rounding of either picture.
     assert!(different(&near, &far, 1) <= 12);
 }
 
 #[test]
-fn a_camera_far_from_the_mesh_sees_it_lit_as_from_near() {
+fn a_camera_far_from_the_mesh_sees_it_lit_as_a_near_one_does() {
     let folder = Folder::new();
     folder.write("ball.obj", obj(ROUND, 1.0, [0.0; 3], false));
     let draw = |eye: &str, viewer: &str| {
@@ -97,14 +99,15 @@ fn a_camera_far_from_the_mesh_sees_it_lit_as_from_near() {
     assert!(covered(&near) > 2000);
     for eye in ["1e4", "1e6", "1e9", "1e12"] {
         for viewer in ["infinite", "local"] {
-            // From 10⁴ on, a viewer at the eye is as good as one at infinity: its direction differs by 10⁻⁴.
+            // From a distance of 10⁴ on, a viewer at the eye draws the same picture as one at
+            // infinity: its direction differs by 10⁻⁴.
             assert_eq!(different(&near, &draw(eye, viewer), 1), 0, "{eye} {viewer}");
         }
     }
 }
 
 #[test]
-fn one_unused_position_at_the_origin_does_not_bring_a_far_mesh_near() {
+fn an_unused_position_at_the_origin_does_not_change_a_far_mesh() {
     let folder = Folder::new();
     let far = obj(ROUND, 1.0, [4e5, 4e6, 0.0], false);
     folder.write("far.obj", &far);
@@ -121,7 +124,7 @@ fn a_far_mesh_is_placed_lit_and_described_where_it_is() {
     let folder = Folder::new();
     folder.write("near.obj", obj(ROUND, 1.0, [0.0; 3], false));
     folder.write("far.obj", obj(ROUND, 1.0, [4e5, 4e6, 0.0], false));
-    // Eye and lights at positions, and a translation that brings it back.
+    // `far` moves the eye and the light to the mesh; `back` moves the mesh to the origin.
     let near = "[camera]\neye = [2, 1, 5]\nfovy = 30\n[[light]]\nposition = [0.7, 0.7, 0.6]\n[[object]]\nmesh = 'near.obj'\n";
     let far = "[camera]\neye = [400002, 4000001, 5]\ntarget = [400000, 4000000, 0]\nfovy = 30\n\
                [[light]]\nposition = [400000.7, 4000000.7, 0.6]\n[[object]]\nmesh = 'far.obj'\n";
@@ -147,7 +150,7 @@ fn a_far_mesh_is_placed_lit_and_described_where_it_is() {
 }
 
 #[test]
-fn objects_too_far_apart_for_32_bits_are_told() {
+fn objects_too_far_apart_for_32_bits_are_reported() {
     let folder = Folder::new();
     let [near, far] = [0.0, 5e6].map(|x| obj("cube?res=8", 1.0, [x, 0.0, 0.0], false));
     folder.write("both.obj", near + &far);
@@ -158,7 +161,7 @@ fn objects_too_far_apart_for_32_bits_are_told() {
 }
 
 #[test]
-fn coordinates_beyond_all_scenes_are_refused_in_the_words_of_the_user() {
+fn coordinates_beyond_every_scene_are_refused_in_the_words_of_the_user() {
     let folder = Folder::new();
     folder.write("over.obj", obj("cube", 1.0, [2e15, 0.0, 0.0], false));
     let refused = folder.run("render over.obj -o out.png");
@@ -170,7 +173,7 @@ fn coordinates_beyond_all_scenes_are_refused_in_the_words_of_the_user() {
     refused.refused(&["`object.mesh` `over.obj` reaches too far", "over.toml:2:8"]);
 }
 
-/// A cube as Blender writes it: flat normals of its own, and `s off`.
+/// A cube as Blender writes it: it carries flat normals, and `s off`.
 const CUBE: &str = "o Cube\nv 1 1 -1\nv 1 -1 -1\nv 1 1 1\nv 1 -1 1\nv -1 1 -1\nv -1 -1 -1\nv -1 1 1\nv -1 -1 1\n\
     vn 0 1 0\nvn 0 0 1\nvn -1 0 0\nvn 0 -1 0\nvn 1 0 0\nvn 0 0 -1\ns off\n\
     f 1//1 5//1 7//1 3//1\nf 4//2 3//2 7//2 8//2\nf 8//3 7//3 5//3 6//3\n\
@@ -193,7 +196,7 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
     let folder = Folder::new();
     let smooth = without_normals().replace("s off\n", "");
     let on = without_normals().replace("s off", "s 1");
-    // Each side in a group of its own.
+    // Put each side into a smoothing group of its own.
     let mut side = 0;
     let groups: String = without_normals()
         .lines()
@@ -205,19 +208,19 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
             false => format!("{line}\n"),
         })
         .collect();
-    // Its first side has no normals, the others have.
+    // Only the first side lacks normals.
     let mixed = CUBE.replace("f 1//1 5//1 7//1 3//1", "f 1 5 7 3");
     for (name, text, normals) in [
         ("given", CUBE, "given with the mesh (chosen by auto)"),
         (
             "off",
             &without_normals(),
-            "those of polygons: its smoothing is off (chosen by auto)",
+            "per polygon: its smoothing is off (chosen by auto)",
         ),
         (
             "zero",
             &without_normals().replace("s off", "s 0"),
-            "those of polygons: its smoothing is off (chosen by auto)",
+            "per polygon: its smoothing is off (chosen by auto)",
         ),
         (
             "groups",
@@ -227,7 +230,7 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
         (
             "mixed",
             &mixed,
-            "given with the mesh at 20 of 24 corners, elsewhere those of polygons: its smoothing is off (chosen by auto)",
+            "given with the mesh at 20 of 24 corners, elsewhere per polygon: its smoothing is off (chosen by auto)",
         ),
         (
             "smooth",
@@ -239,7 +242,7 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
         folder.write(&format!("{name}.obj"), text);
         let described = folder.run(&format!("info {name}.obj")).done();
         let told = match name {
-            "mixed" => "warning: mixed.obj: a normal that no face uses is passed over (line 10)\n",
+            "mixed" => "warning: mixed.obj: a normal that no face uses is ignored (line 10)\n",
             _ => "",
         };
         assert_eq!(described.err, told, "{name}");
@@ -264,7 +267,7 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
 }
 
 #[test]
-fn normals_and_groups_that_are_not_used_are_told_and_no_others() {
+fn only_unused_normals_and_smoothing_groups_are_reported() {
     let folder = Folder::new();
     folder
         .write("given.obj", CUBE)
@@ -331,7 +334,7 @@ fn normals_and_groups_that_are_not_used_are_told_and_no_others() {
 }
 
 #[test]
-fn a_triangle_of_which_clipping_leaves_nothing_lies_outside_the_view() {
+fn a_triangle_that_clipping_removes_lies_outside_the_view() {
     let folder = Folder::new();
     folder.write(
         "far.obj",
@@ -364,7 +367,7 @@ fn a_triangle_seen_from_behind_in_local_light_is_compared() {
 }
 
 #[test]
-fn what_is_not_seen_is_told_for_what_it_is() {
+fn the_reason_why_nothing_is_visible_is_reported() {
     let folder = Folder::new();
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     folder.write("triangle.obj", triangle);
@@ -374,7 +377,7 @@ fn what_is_not_seen_is_told_for_what_it_is() {
     for (command, told) in [
         (
             "cube.obj --eye 0,0,9 --target 0,0,20 --half-height 1 --near 1 --far 5",
-            "nothing is drawn: 6 polygons lie outside the view; --fit 0.8 looks at all of them",
+            "nothing is drawn: 6 polygons lie outside the view; --fit 0.8 brings all of them into view",
         ),
         (
             "cube.obj --eye 50,0,9 --target 50,0,0 --half-height 1",
@@ -406,7 +409,7 @@ fn what_is_not_seen_is_told_for_what_it_is() {
         ),
         (
             "bow.obj --view 0,0",
-            "warning: 1 of 2 polygons crosses itself, its areas cancel: it has no normal and is left out",
+            "warning: 1 of 2 polygons crosses itself and its areas cancel: it has no normal and is left out",
         ),
         (
             "thin.obj --view 0,0",
@@ -436,7 +439,7 @@ fn what_is_not_seen_is_told_for_what_it_is() {
         let is_empty = picture.pixels().iter().all(|pixel| *pixel == first);
         assert_eq!(is_empty, nothing, "{command}");
     }
-    // From the edge of one of two: nothing to warn of.
+    // One of the two polygons is seen edge-on, which needs no warning.
     folder.write("two.obj", format!("{triangle}v 0 0 1\nf 1 3 4\n"));
     let ended = folder
         .run("render two.obj --view 0,0 -o out.png --size 64x48 --cull back --normals averaged")
@@ -445,7 +448,7 @@ fn what_is_not_seen_is_told_for_what_it_is() {
 }
 
 #[test]
-fn a_closed_mesh_that_is_wound_inside_out_is_told() {
+fn a_closed_mesh_that_is_wound_inside_out_is_reported() {
     let folder = Folder::new();
     folder.write("right.obj", obj("cube", 1.0, [0.0; 3], false));
     folder.write("wrong.obj", obj("cube", 1.0, [0.0; 3], true));
@@ -460,7 +463,7 @@ fn a_closed_mesh_that_is_wound_inside_out_is_told() {
         let command = format!("render {name}.obj -o wrong.png --size 64x48");
         folder.run(&command).done().says(told);
     }
-    // Where the outside is drawn, it is not said to be missing.
+    // With these flags the outside is drawn, and the warning does not call it missing.
     for flag in ["--cull none", "--cull front"] {
         let command = format!("render wrong.obj -o wrong.png --size 64x48 {flag}");
         let ended = folder.run(&command).done();
@@ -470,7 +473,7 @@ fn a_closed_mesh_that_is_wound_inside_out_is_told() {
         .run("render right.obj -o right.png --size 64x48")
         .done();
     assert!(!right.err.contains("inside out"));
-    // What is told to try draws what was meant.
+    // The flags that the warning suggests draw the intended picture.
     let command = "render wrong.obj -o wrong.png --size 64x48 --cull none --two-sided";
     let ended = folder.run(command).done();
     assert!(!ended.err.contains("inside out"));
@@ -479,7 +482,7 @@ fn a_closed_mesh_that_is_wound_inside_out_is_told() {
 }
 
 #[test]
-fn bounds_and_cameras_have_digits_that_fit_their_size() {
+fn bounds_and_cameras_are_printed_with_digits_that_fit_their_size() {
     let folder = Folder::new();
     folder.write("tiny.obj", obj("cube", 1e-7, [0.0; 3], false));
     folder.write("far.obj", obj("cube", 1e-7, [1.0, 0.0, 0.0], false));
@@ -504,10 +507,10 @@ fn bounds_and_cameras_have_digits_that_fit_their_size() {
 }
 
 #[test]
-fn curved_sheets_back_to_back_and_objects_that_touch_stay_as_they_are() {
+fn curved_sheets_back_to_back_and_objects_that_touch_keep_their_normals() {
     let folder = Folder::new();
     let shell = obj("sphere?rings=12&segments=24", 1.0, [0.0; 3], false);
-    // Its inside, on the same positions.
+    // The inside shares all positions with the shell.
     let inside: String = shell
         .lines()
         .filter_map(|line| line.strip_prefix("f "))
@@ -534,9 +537,9 @@ fn curved_sheets_back_to_back_and_objects_that_touch_stay_as_they_are() {
     }
 }
 
-/// A second closed surface of one object, wound inside out, is told by its size.
+/// If only one closed surface of an object is wound inside out, the warning states its size.
 #[test]
-fn a_closed_surface_of_an_object_that_is_wound_inside_out_is_told() {
+fn a_single_surface_that_is_wound_inside_out_is_reported() {
     let folder = Folder::new();
     let right = obj("cube", 1.0, [0.0; 3], false);
     let wrong = obj("cube", 1.0, [5.0, 0.0, 0.0], true);
@@ -547,13 +550,13 @@ fn a_closed_surface_of_an_object_that_is_wound_inside_out_is_told() {
         .prints("closed; 1 surface is closed and wound inside out\n");
 }
 
-/// Of one polygon it is not said that it is one of one polygons.
+/// The message does not say "1 of 1 polygons".
 #[test]
-fn the_only_polygon_is_told_as_such() {
+fn the_only_polygon_is_called_the_only_polygon() {
     let folder = Folder::new();
     folder.write("bow.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
     let told = folder.run("render bow.obj -o bow.png").done();
-    told.says("the only polygon crosses itself, its areas cancel");
+    told.says("the only polygon crosses itself and its areas cancel");
     folder.write("line.obj", "v 0 0 0\nv 1 1 0\nv 2 2 0\nf 1 2 3\n");
     let told = folder.run("render line.obj -o line.png --view 0,0").done();
     told.says("the only polygon has no area and is left out");
@@ -565,35 +568,35 @@ fn the_only_polygon_is_told_as_such() {
 const SQUARE: &str = "v -1 -1 -0.3\nv 1 -1 0.2\nv 1 1 0.3\nv -1 1 -0.2\n";
 
 #[test]
-fn one_face_in_other_pieces_is_told_once() {
+fn a_face_covered_by_its_own_pieces_is_reported_once() {
     let folder = Folder::new();
     folder.write(
         "pieces.obj",
         format!("{SQUARE}f 1 2 3 4\nf 1 2 3\nf 1 3 4\n"),
     );
     let ended = folder.run("render pieces.obj -o a.png --size 80x60").done();
-    let told = "3 polygons meet others at one depth but for rounding";
+    let told = "3 polygons meet others at the same depth up to rounding";
     assert_eq!(ended.err.matches(told).count(), 1, "{}", ended.err);
     assert!(!ended.err.contains("earlier"), "{}", ended.err);
-    // Their pixels are counted where they are left out of errors.
+    // `compare` counts their pixels, which it leaves out of errors.
     let table = folder.run("compare pieces.obj --methods flat --time-budget 0 --size 80x60");
-    let told = "of the pixels covered: their depths are one but for rounding";
+    let told = "of the covered pixels: the depths there are equal up to ";
     assert_eq!(table.done().out.matches(told).count(), 1);
-    // Levels that are equal are told as such, with what helps.
+    // Equal depth levels get their own message, which suggests more bits.
     let levels = folder.run("render z-fighting -o a.png").done();
     assert!(levels.err.contains("in 16 bits"), "{}", levels.err);
     assert!(levels.err.contains("--depth-bits 32"), "{}", levels.err);
 }
 
 #[test]
-fn a_face_that_is_there_twice_is_told_once_and_counted() {
+fn a_doubled_face_is_reported_once_and_counted() {
     let folder = Folder::new();
     folder.write(
         "twice.obj",
         format!("{SQUARE}f 1 2 3 4\nf 2 3 4 1\nf 3 4 1 2\n"),
     );
     let ended = folder.run("render twice.obj -o a.png --size 80x60").done();
-    let told = "2 polygons have the corners of earlier ones, which are seen in their place\n";
+    let told = "2 polygons have the corners of earlier ones, which hide them\n";
     assert_eq!(ended.err.matches(told).count(), 1, "{}", ended.err);
     assert!(!ended.err.contains("rounding"), "{}", ended.err);
     let info = folder.run("info twice.obj").done().out;
@@ -604,14 +607,14 @@ fn a_face_that_is_there_twice_is_told_once_and_counted() {
 }
 
 #[test]
-fn a_ground_that_is_linear_on_the_screen_is_told_unless_it_was_asked_for() {
+fn a_ground_that_is_linear_on_the_screen_is_reported_unless_requested() {
     let folder = Folder::new();
     folder.write(
         "ground.obj",
         "v -50 0 2\nv 50 0 2\nv 50 0 -100\nv -50 0 -100\nf 1 2 3 4\n",
     );
     let near = "--eye 0,1,0 --target 0,0.8,-10 --fovy 60 --light-at 0,2,-4 --viewer local";
-    let told = "--interpolation perspective is right there";
+    let told = "--interpolation perspective makes them right";
     for (more, is_told) in [
         ("", true),
         (" --interpolation screen", false),
@@ -622,7 +625,8 @@ fn a_ground_that_is_linear_on_the_screen_is_told_unless_it_was_asked_for() {
         ));
         assert_eq!(ended.done().err.contains(told), is_told, "{more}");
     }
-    // Nothing varies over a plane that is lit from infinity.
+    // Light from infinity and a distant viewer are constant over a plane, so there is nothing to
+    // interpolate.
     let far = near
         .replace("--light-at", "--light")
         .replace("--viewer local", "");
@@ -630,12 +634,13 @@ fn a_ground_that_is_linear_on_the_screen_is_told_unless_it_was_asked_for() {
     assert!(!ended.done().err.contains(told));
 }
 
-/// A cube as triangles without normals: the diagonal of its first face does not end where the others do.
+/// A cube of triangles without normals. The diagonal of its first face ends at other corners than
+/// the other diagonals do.
 const TRIANGLES: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
     f 2 4 8\nf 2 8 6\nf 4 3 7\nf 4 7 8\nf 7 5 6\nf 7 6 8\nf 1 5 7\nf 1 7 3\nf 1 2 6\nf 1 6 5\nf 1 3 4\nf 1 4 2\n";
 
 #[test]
-fn weights_of_normals_are_set_beside_each_other() {
+fn weights_of_normals_are_compared_side_by_side() {
     let folder = Folder::new();
     folder.write("cube.obj", TRIANGLES);
     let compared = folder.run("compare cube.obj --weights --size 96x72").done();
@@ -647,7 +652,8 @@ fn weights_of_normals_are_set_beside_each_other() {
             .map(|cell| cell.parse().expect("a number"))
             .collect::<Vec<f64>>()
     };
-    // (2, 1, 1) in place of (1, 1, 1): 19.47°; by angle and by Max the diagonals do not matter.
+    // The normal (2, 1, 1) is 19.47° from (1, 1, 1). With weights by angle and by Max, diagonals do
+    // not matter.
     for word in ["uniform", "area"] {
         assert_eq!(numbers(word)[1], 19.5, "{word}");
         assert!(numbers(word)[3] > 10.0, "{word}");
@@ -655,7 +661,7 @@ fn weights_of_normals_are_set_beside_each_other() {
     for word in ["angle", "max"] {
         assert_eq!(numbers(word), [0.0; 4], "{word}");
     }
-    // Shapes by formula have normals to compare with.
+    // Shapes by formula have exact normals to compare with.
     folder
         .run("compare builtin:sphere?triangles=true --weights --size 96x72")
         .done()
@@ -666,7 +672,7 @@ fn weights_of_normals_are_set_beside_each_other() {
 }
 
 #[test]
-fn the_weight_of_a_mesh_file_is_the_angle_unless_it_is_said() {
+fn normals_of_a_mesh_file_are_weighted_by_angle_unless_a_flag_says_otherwise() {
     let folder = Folder::new();
     folder.write("cube.obj", TRIANGLES);
     for (flags, normals) in [

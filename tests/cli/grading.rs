@@ -1,17 +1,17 @@
-//! The page that tells students and teachers how to check pictures: its commands and scripts run as
-//! they are printed.
+//! Two pages of the course tell students and teachers how to check pictures. Here their commands
+//! and scripts run as they are printed.
 
 use super::Folder;
 use serde_json::Value;
 use std::process::{Command, Output};
 
-/// The page.
+/// The page for students.
 const PAGE: &str = include_str!("../../docs/course/check-your-own.md");
 
 /// The page for teachers.
 const TEACHING: &str = include_str!("../../docs/course/teaching.md");
 
-/// Returns the code block with the name `name`, or panics.
+/// Returns the code block that is called `name`; panics if there is none.
 fn script(name: &str) -> &'static str {
     let (_, rest) = PAGE
         .split_once(&format!("<!-- script: {name} -->\n```"))
@@ -20,7 +20,7 @@ fn script(name: &str) -> &'static str {
     text.split("\n```").next().expect("an end")
 }
 
-/// Draws the vase, small, into `name`.
+/// Draws the vase at a small size into the file `name`.
 fn draw(folder: &Folder, name: &str, flags: &str) {
     folder
         .run(&format!(
@@ -29,7 +29,7 @@ fn draw(folder: &Folder, name: &str, flags: &str) {
         .done();
 }
 
-/// Runs a command in the folder of submissions, with the installed program on the path.
+/// Runs a command in `folder`, with the tested program on the path.
 fn run(folder: &Folder, command: &[&str]) -> Output {
     let others = std::env::var("PATH").expect("a path");
     Command::new(command[0])
@@ -42,7 +42,7 @@ fn run(folder: &Folder, command: &[&str]) -> Output {
         .expect("a command that runs")
 }
 
-/// Makes the layout of Gradescope, with the scripts of the page, and runs `setup.sh`.
+/// Builds Gradescope's layout from the scripts of the page, and runs `setup.sh`.
 fn autograder() -> Folder {
     let folder = Folder::new();
     for name in ["source", "submission", "results", "bin"] {
@@ -58,7 +58,7 @@ fn autograder() -> Folder {
     folder
 }
 
-/// Runs the autograder. Returns scores and answers of the tests.
+/// Runs the autograder. Returns the score and the output of each test.
 fn graded(folder: &Folder) -> Vec<(f64, String)> {
     let done = run(folder, &["sh", "../source/run_autograder"]);
     assert!(done.status.success(), "{done:?}");
@@ -111,7 +111,7 @@ fn the_script_of_the_page_grades_right_and_wrong_pictures() {
 }
 
 #[test]
-fn the_validator_of_the_page_gives_a_share() {
+fn the_validator_of_the_page_prints_a_share() {
     let folder = autograder();
     draw(&folder, "submission/phong.png", "--ambient 0");
     let done = run(&folder, &["sh", "../source/validate", "phong.png", "vase"]);
@@ -123,13 +123,13 @@ fn the_validator_of_the_page_gives_a_share() {
 }
 
 #[test]
-fn the_example_of_the_page_is_what_is_said() {
+fn the_example_of_the_page_is_the_output_of_the_program() {
     let folder = Folder::new();
     folder
         .run("render vase --size 320x240 --method phong-unnormalised --alpha opaque -o mine.png")
         .done();
     let found = folder.run("diagnose mine.png vase").exits(1);
-    // Levels and pixels are those of another program.
+    // The page shows levels and pixels of another program, so compare only these lines.
     for part in ["wrong, and", "not normalised", "what to do", "read on"] {
         let line = found.out.lines().find(|line| line.contains(part));
         let line = line.unwrap_or_else(|| panic!("no {part}: {}", found.out));
@@ -138,7 +138,7 @@ fn the_example_of_the_page_is_what_is_said() {
 }
 
 #[test]
-fn commands_and_scene_of_the_page_are_understood() {
+fn commands_and_scene_of_the_page_are_accepted() {
     let folder = Folder::new();
     let football = include_bytes!("../../scenes/football.obj");
     folder.write("football.obj", football);
@@ -184,7 +184,7 @@ fn the_commands_for_teachers_do_what_the_page_says() {
     folder.run(wrong).done();
     folder.run(agrees).done();
     let named = folder.run(named).differs();
-    named.prints("lit at the vertices");
+    named.prints("Vertices are lit");
 
     assert!(TEACHING.contains("`fastphong figure --all -o course.html`"));
     folder.run("figure --all -o course.html").done();

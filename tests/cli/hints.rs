@@ -1,9 +1,11 @@
-//! What is told of scenes that are drawn otherwise than was meant, and of the flags to try.
+//! Hints: the tool explains why a scene may look different from what its author expects, and which
+//! flags to try.
 
 use super::Folder;
 use fastphong::mesh::builtin::builtin;
 
-/// A pyramid whose material has a highlight without an end, as MeshLab writes it.
+/// Writes a pyramid whose highlight covers everything: its material has the exponent 0, as MeshLab
+/// writes it.
 fn flat_highlight(folder: &Folder) {
     let obj = "mtllib a.mtl\nusemtl shiny thing\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1 0\n\
                f 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\nf 1 2 3 4\n";
@@ -12,15 +14,14 @@ fn flat_highlight(folder: &Folder) {
 }
 
 #[test]
-fn light_that_is_clamped_is_told_with_the_material_and_why() {
+fn clamped_light_is_reported_with_material_and_reason() {
     let folder = Folder::new();
     flat_highlight(&folder);
     let told = "material `shiny thing` of a.obj reaches";
-    let why =
-        "with an exponent (Ns, shininess) of 0 the highlight covers all that the light reaches";
+    let why = "with an exponent (Ns, shininess) of 0 the highlight covers everything that is lit";
     let size = "--size 64x48";
     let render = folder.run(&format!("render a.obj -o a.png {size}")).done();
-    let share = "% of what is seen is clamped: its light is over 1 in all channels";
+    let share = "% of the covered picture is clamped: its light is over 1 in all channels";
     for part in [told, why, share] {
         assert!(render.err.contains(part), "{}", render.err);
     }
@@ -30,7 +31,11 @@ fn light_that_is_clamped_is_told_with_the_material_and_why() {
     assert!(compare.err.contains(told), "{}", compare.err);
     let head = compare.out.lines().find(|line| line.starts_with("method "));
     assert!(head.expect("a head").contains("clamped"), "{}", compare.out);
-    assert!(compare.out.contains("and errors vanish"), "{}", compare.out);
+    assert!(
+        compare.out.contains("so that errors vanish"),
+        "{}",
+        compare.out
+    );
     let report = "report a.obj --methods gouraud --time-budget 0 -o r.html --json r.json --csv r.csv --markdown";
     let report = folder.run(&format!("{report} {size}")).done();
     assert!(report.err.contains(told), "{}", report.err);
@@ -40,20 +45,20 @@ fn light_that_is_clamped_is_told_with_the_material_and_why() {
         "{}",
         text("r.csv")
     );
-    assert!(text("README.md").contains("is clamped: there errors vanish"));
+    assert!(text("README.md").contains("is clamped, where errors vanish"));
     let json: serde_json::Value = serde_json::from_str(&text("r.json")).expect("JSON");
     let clamping = &json["comparisons"][0]["clamping"];
     let count = |name: &str| clamping[name].as_u64().expect("a count");
     assert!(count("clamped") > count("covered") / 2, "{clamping}");
 }
 
-/// A highlight of exactly 1 everywhere passes nothing that could be clamped, and is a white disc all the same.
+/// A highlight of exactly 1 everywhere clamps nothing. It is still a white disc and gets its hint.
 #[test]
-fn a_highlight_without_an_end_is_told_where_nothing_is_clamped() {
+fn a_highlight_that_covers_everything_is_reported_where_nothing_is_clamped() {
     let folder = Folder::new();
     flat_highlight(&folder);
     folder.write("a.mtl", "newmtl shiny thing\nNs 0\nKa 0\nKd 0\nKs 1\n");
-    let told = "an exponent (Ns, shininess) of 0 makes a highlight of all that the light reaches: material `shiny thing` of a.obj";
+    let told = "an exponent (Ns, shininess) of 0 makes a highlight of everything that is lit: material `shiny thing` of a.obj";
     assert!(folder.run("info a.obj").done().out.contains(told));
     let err = folder
         .run("render a.obj -o a.png --size 64x48 --light 0,1,1")
@@ -68,13 +73,13 @@ fn a_highlight_without_an_end_is_told_where_nothing_is_clamped() {
 }
 
 #[test]
-fn light_that_is_not_clamped_is_not_told() {
+fn light_that_is_not_clamped_gets_no_hint() {
     let folder = Folder::new();
     flat_highlight(&folder);
     for arguments in [
         "render a.obj -o a.png --size 64x48 --ks 0.2 --shininess 20 --kd 0.5",
         "render teapot -o a.png --size 64x48",
-        // A white plane that faces a light of 1 is 1, and nothing is cut off.
+        // A white plane that faces a light of 1 is exactly 1, and nothing is cut off.
         "render builtin:polygon -o a.png --size 64x48 --light 0,0,1 --view 0,0 --ka 0 --ks 0 --kd 1",
     ] {
         let ended = folder.run(arguments).done();
@@ -85,7 +90,7 @@ fn light_that_is_not_clamped_is_not_told() {
 }
 
 #[test]
-fn colours_over_one_are_told_by_what_is_drawn() {
+fn colours_over_one_are_reported_only_if_they_are_drawn() {
     let folder = Folder::new();
     flat_highlight(&folder);
     folder.write("a.mtl", "newmtl shiny thing\nKd 255 0 0\nmap_Kd wood.png\n");
@@ -103,7 +108,7 @@ fn colours_over_one_are_told_by_what_is_drawn() {
     let err = render("--kd 255,0,0");
     let told = "`--kd` is 255: a surface that reflects more light than it gets";
     assert!(err.contains(told) && !err.contains("a.mtl"), "{err}");
-    // An object with a material of its own, and one without.
+    // One object overrides the material, the other does not.
     let objects = "[[object]]\nmesh = 'a.obj'\nmaterial = { kd = 0.5 }\n";
     folder.write("one.toml", objects);
     folder.write("two.toml", format!("{objects}[[object]]\nmesh = 'a.obj'\n"));
@@ -118,7 +123,7 @@ fn colours_over_one_are_told_by_what_is_drawn() {
 }
 
 #[test]
-fn lights_that_light_nothing_are_told_and_why() {
+fn lights_that_reach_nothing_are_reported_with_the_reason() {
     let folder = Folder::new();
     let render = |arguments: &str| {
         let arguments = format!("render {arguments} -o a.png --size 32x24");
@@ -132,25 +137,25 @@ fn lights_that_light_nothing_are_told_and_why() {
     );
     let err = render("builtin:sphere --light-at 0.1,0,0 --light 0,0,1");
     assert!(err.contains(inside) && !err.contains("ambient"), "{err}");
-    // From within, its inside is seen and lit.
+    // With front faces culled, the lit inside is visible.
     let err = render("builtin:sphere --light-at 0.1,0,0 --cull front --two-sided");
     assert!(!err.contains("light"), "{err}");
     let err = render("builtin:sphere --view 0,0 --light 0,0,-1");
     assert!(
-        err.contains("the light adds nothing to what is seen: surfaces face away from it"),
+        err.contains("the light does not reach anything visible: surfaces face away"),
         "{err}"
     );
     assert!(!err.contains("inside"), "{err}");
     let err = render("builtin:sphere --no-lights --ambient 0");
     assert!(
-        err.contains("there is no light, and no ambient light: all that is seen is black"),
+        err.contains("there is no light, and no ambient light: everything visible is black"),
         "{err}"
     );
     let err = render("builtin:sphere --no-lights --ka 0");
-    assert!(err.contains("all that is seen is black"), "{err}");
+    assert!(err.contains("everything visible is black"), "{err}");
     let err = render("builtin:sphere --view 0,0 --light 0,0,-1 --ambient 0");
     assert!(
-        err.contains("there is no ambient light, and all that is seen is black"),
+        err.contains("there is no ambient light, so everything visible is black"),
         "{err}"
     );
     for fine in [
@@ -161,7 +166,7 @@ fn lights_that_light_nothing_are_told_and_why() {
         let err = render(fine);
         assert!(!err.contains("light"), "{fine}: {err}");
     }
-    // One of two objects is around the light.
+    // The light stands inside one of the two objects.
     let two = "[[object]]\nmesh = 'builtin:cube'\n[[object]]\nmesh = 'builtin:sphere'\ntranslate = [4, 0, 0]\n\
                [[light]]\nposition = [4, 0, 0.1]\n";
     folder.write("two.toml", two);
@@ -174,7 +179,7 @@ fn lights_that_light_nothing_are_told_and_why() {
 }
 
 #[test]
-fn a_local_viewer_beyond_what_a_parallel_view_shows_is_told() {
+fn a_local_viewer_beyond_a_parallel_view_is_reported() {
     let folder = Folder::new();
     let render = |flags: &str| {
         let arguments = format!("render builtin:sphere {flags} -o a.png --size 32x24");
@@ -183,7 +188,7 @@ fn a_local_viewer_beyond_what_a_parallel_view_shows_is_told() {
     let beyond = "--eye 0,0,-5 --target 0,0,-6 --half-height 2";
     let err = render(&format!("{beyond} --viewer local"));
     assert!(
-        err.contains("the eye stands beyond all that is seen"),
+        err.contains("the eye stands beyond everything that is visible"),
         "{err}"
     );
     let err = render("--eye 0,0,0.5 --target 0,0,-1 --half-height 2 --viewer local");
@@ -199,7 +204,8 @@ fn a_local_viewer_beyond_what_a_parallel_view_shows_is_told() {
     }
 }
 
-/// Writes a built-in mesh as an OBJ file: with a position of its own for each corner, moved by the index of its polygon times `by`.
+/// Writes a built-in mesh as an OBJ file. Each corner has its own position, moved by `by` times the
+/// index of its polygon.
 fn corners_apart(spec: &str, by: f64) -> String {
     let mesh = builtin(spec).expect("a shape");
     let (mut obj, mut count) = (String::new(), 0);
@@ -217,7 +223,7 @@ fn corners_apart(spec: &str, by: f64) -> String {
 }
 
 #[test]
-fn a_mesh_that_states_no_smoothing_and_has_sharp_edges_gets_a_hint() {
+fn a_mesh_with_sharp_edges_and_no_smoothing_groups_gets_a_hint() {
     let folder = Folder::new();
     let cube = corners_apart("cube", 0.0);
     folder.write("cube.obj", &cube);
@@ -230,15 +236,15 @@ fn a_mesh_that_states_no_smoothing_and_has_sharp_edges_gets_a_hint() {
         let arguments = format!("render {arguments} -o a.png --size 32x24");
         folder.run(&arguments).done().err
     };
-    let hint = "cube.obj: has neither normals (vn) nor smoothing groups (s): normals are averaged by angle, over 12 edges that turn by more than \
-                40 degrees too; --normals crease=40 keeps these sharp\n";
+    let hint = "cube.obj: has neither normals (vn) nor smoothing groups (s): normals are averaged by angle, even over 12 edges that turn by more than \
+                40 degrees; --normals crease=40 keeps these sharp\n";
     assert!(render("cube.obj").contains(hint), "{}", render("cube.obj"));
     assert_eq!(render("cube.obj").matches("crease=40").count(), 1);
-    // The words of OBJ are not those of other formats.
+    // The hint names OBJ statements only for OBJ files.
     let off = "OFF 8 6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n\
                4 2 3 7 6\n4 3 0 4 7\n";
     folder.write("cube.off", off);
-    let hint = "cube.off: has no normals: normals are averaged by angle, over 12 edges that turn by more than 40 degrees";
+    let hint = "cube.off: has no normals: normals are averaged by angle, even over 12 edges that turn by more than 40 degrees";
     assert!(render("cube.off").contains(hint), "{}", render("cube.off"));
     for silent in [
         "cube.obj --normals crease=40",
@@ -282,7 +288,7 @@ fn positions_that_differ_by_rounding_get_a_hint_and_its_flag_closes_the_mesh() {
         .done()
         .err;
     assert!(!err.contains("weld"), "{err}");
-    // Welded it is smooth again, as the exact one is, and not as facets.
+    // The welded mesh is smooth like the exact one; the unwelded one shows facets.
     let against = |name: &str| folder.run(&format!("diff exact.png {name} --fail-above 3"));
     against("one.png").done();
     against("apart.png").differs();
@@ -344,9 +350,9 @@ fn objects_that_cut_a_smooth_surface_get_a_hint() {
 }
 
 #[test]
-fn up_by_name_turns_view_and_light_of_a_mesh_and_is_printed_as_drawn() {
+fn up_turns_view_and_light_of_a_mesh_and_is_printed() {
     let folder = Folder::new();
-    // The same mesh with z in the place of y, and −y in that of z.
+    // The same mesh with y and z exchanged for z up: (x, y, z) becomes (x, −z, y).
     let mesh = builtin("teapot?res=4").expect("a shape");
     let written = |turned: bool| {
         let positions = mesh.positions().iter();
@@ -379,7 +385,8 @@ fn up_by_name_turns_view_and_light_of_a_mesh_and_is_printed_as_drawn() {
     draw("y.obj -o y.png --view 30,20");
     draw("z.obj -o z.png --view 30,20 --up z");
     differ("y.png", "z.png").done();
-    // `compare` takes the plain light, which turns too; what is printed reads back as the same.
+    // `compare` uses the plain light, which turns as well. The printed scene draws the same
+    // picture.
     let printed = folder.run("render z.obj --up z --print-scene").done().out;
     assert!(printed.contains("up = \"z\""), "{printed}");
     folder.write("printed.toml", &printed);

@@ -1,4 +1,4 @@
-//! Missing, broken or too large inputs: one error each, with its place, and nothing written.
+//! Missing, broken or oversized inputs: each is one error with its place, and nothing is written.
 
 use super::Folder;
 use crate::picture;
@@ -21,7 +21,7 @@ fn refused(files: &[(&str, &[u8])], input: &str, parts: &[&str]) {
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 #[test]
-fn missing_inputs() {
+fn missing_inputs_are_refused_with_suggestions() {
     refused(
         &[],
         "taepot",
@@ -58,7 +58,7 @@ fn missing_inputs() {
 }
 
 #[test]
-fn built_in_meshes_that_do_not_exist() {
+fn unknown_built_in_meshes_are_refused() {
     refused(
         &[],
         "builtin:spere",
@@ -88,7 +88,7 @@ fn built_in_meshes_that_do_not_exist() {
 }
 
 #[test]
-fn broken_mesh_files() {
+fn broken_mesh_files_are_refused_with_their_line() {
     let with = |line: &str| format!("{TRIANGLE}{line}\n");
     for (text, parts) in [
         (Vec::new(), &["mesh.obj: is empty"][..]),
@@ -102,7 +102,7 @@ fn broken_mesh_files() {
         (with("f 1 2 0").into_bytes(), &["mesh.obj:4: "]),
         (
             with("f 1 2 x").into_bytes(),
-            &["mesh.obj:4: `x` is no corner"],
+            &["mesh.obj:4: `x` is not a corner"],
         ),
         (
             with("v NaN 0 0\nf 1 2 4").into_bytes(),
@@ -123,12 +123,12 @@ fn broken_mesh_files() {
             with("f 1 2 4\nv 1 2").into_bytes(),
             &["mesh.obj:5: `v` has too few numbers: expected three, found 2"],
         ),
-        // An answer of a server, saved under the name of the mesh.
+        // A server's error page, saved under the name of the mesh.
         (
             b"404: Not Found\n".to_vec(),
             &[
                 "mesh.obj: has no polygon",
-                "note: `404:` is no OBJ statement and is passed over (line 1)",
+                "note: `404:` is not an OBJ statement and is ignored (line 1)",
             ],
         ),
         (
@@ -146,7 +146,7 @@ fn broken_mesh_files() {
 }
 
 #[test]
-fn broken_scene_files() {
+fn broken_scene_files_are_refused_with_their_place() {
     for (text, parts) in [
         (
             "[[object]]\nmehs = \"builtin:cube\"\n",
@@ -215,7 +215,7 @@ fn odd_meshes_give_warnings() {
 }
 
 #[test]
-fn what_no_face_uses_refuses_no_mesh() {
+fn a_bad_position_or_normal_that_no_face_uses_is_only_a_warning() {
     let folder = Folder::new();
     folder.write(
         "mesh.obj",
@@ -228,7 +228,7 @@ fn what_no_face_uses_refuses_no_mesh() {
 }
 
 #[test]
-fn what_was_odd_before_an_error_in_a_mesh_of_a_scene_is_noted() {
+fn notes_about_a_mesh_are_printed_before_its_error() {
     let folder = Folder::new();
     folder
         .write("mesh.obj", format!("{TRIANGLE}call other.obj\nf 1 2 9\n"))
@@ -241,7 +241,7 @@ fn what_was_odd_before_an_error_in_a_mesh_of_a_scene_is_noted() {
     ]);
 }
 
-/// Runs with the file `name` as standard input.
+/// Runs the tool with the file `name` as standard input.
 fn piped(folder: &Folder, name: &str, arguments: &str) -> super::Ended {
     let mut command = folder.command(arguments);
     command.stdin(std::fs::File::open(folder.path(name)).unwrap());
@@ -304,7 +304,7 @@ fn a_mesh_or_a_scene_is_read_from_standard_input() {
 }
 
 #[test]
-fn bad_standard_input_is_told_with_its_line() {
+fn bad_standard_input_is_reported_with_its_line() {
     let folder = Folder::new();
     folder
         .write("empty", "")
@@ -335,7 +335,7 @@ fn bad_standard_input_is_told_with_its_line() {
     }
     let refused = folder.run("render teapot --input-format obj -o a.png");
     refused.refused(&["`--input-format` is for standard input, not for `teapot`"]);
-    // A file that is read is not written, under this name either.
+    // An input file is not overwritten, even if it comes by standard input.
     let ended = piped(&folder, "mesh", "render - -o mesh --format png");
     ended.refused(&[]);
     assert_eq!(
@@ -348,11 +348,11 @@ fn bad_standard_input_is_told_with_its_line() {
 }
 
 #[test]
-fn vertex_colours_are_lit_or_told() {
+fn vertex_colours_are_lit_or_reported() {
     let folder = Folder::new();
     let points = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\n";
     folder.write("mesh.obj", format!("{points}f 1 2 3\n"));
-    let told = "mesh.obj: has vertex colours, which are not lit: --colours on lights them";
+    let told = "mesh.obj: has vertex colours, which are not used: --colours on uses them";
     folder
         .run("render mesh.obj --size 64x48 --colours off -o off.png")
         .done()
@@ -385,7 +385,7 @@ fn vertex_colours_are_lit_or_told() {
     folder
         .run("info mesh.obj")
         .done()
-        .prints("colours     one a position; --colours off");
+        .prints("colours     one for each position; --colours off");
     folder
         .run("render mesh.obj --size 8x6 --method integer-naive -o b.png")
         .refused(&["--colours off"]);
@@ -399,7 +399,7 @@ fn vertex_colours_are_lit_or_told() {
 }
 
 #[test]
-fn colours_are_for_terminals_only() {
+fn messages_are_coloured_only_in_terminals() {
     let folder = Folder::new();
     folder
         .write("scene.toml", "ambient = \"dark\"\n")
@@ -418,14 +418,15 @@ fn colours_are_for_terminals_only() {
     }
 }
 
-/// The printed scene of a mesh on standard input says where its mesh comes from, and draws it from there.
+/// The printed scene of a mesh on standard input refers to standard input, and draws the mesh from
+/// there.
 #[test]
 fn a_printed_scene_reads_standard_input_again() {
     let folder = Folder::new();
     folder.write("mesh.obj", format!("{TRIANGLE}f 1 2 3\n"));
     let printed = piped(&folder, "mesh.obj", "render - --print-scene")
         .done()
-        .says("`mesh = \"-\"` reads the mesh from standard input again: write a file's name there");
+        .says("`mesh = \"-\"` reads the mesh from standard input again: replace `-` by the name of a file");
     folder.write("printed.toml", &printed.out);
     let draw = |scene: &str, name: &str| {
         let command = format!("render {scene} --size 16x12 -o {name}");
@@ -437,7 +438,8 @@ fn a_printed_scene_reads_standard_input_again() {
     assert!(!named.err.contains("standard input"));
 }
 
-/// A library whose name differs in case is read where only one file can be meant, and told.
+/// If a library's name differs only in case, and only one file fits, the tool reads that file and
+/// says so.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_material_library_is_found_in_another_case() {
@@ -447,13 +449,13 @@ fn a_material_library_is_found_in_another_case() {
     let draw = || folder.run("render mesh.obj --size 16x12 -o red.png").done();
     let named = |library: &str| format!("mtllib {library}\nusemtl red\n{TRIANGLE}f 1 2 3\n");
     folder.write("mesh.obj", named("Parts/cube.mtl"));
-    let told =
-        draw().says("material library `Parts/cube.mtl` is not there: Parts/Cube.MTL is read");
+    let told = draw()
+        .says("material library `Parts/cube.mtl` is not there: Parts/Cube.MTL is read instead");
     assert!(!told.err.contains("no material library defines"));
-    // The exact name is not told.
+    // An exact name needs no note.
     folder.write("mesh.obj", named("Parts/Cube.MTL"));
     assert!(!draw().err.contains("library"));
-    // Of two, neither.
+    // If two files fit, the tool reads neither.
     folder.write("Parts/CUBE.mtl", "newmtl red\nKd 0 1 0\n");
     folder.write("mesh.obj", named("Parts/cube.mtl"));
     draw().says("material library `Parts/cube.mtl` (line 1) cannot be read");

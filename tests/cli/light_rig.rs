@@ -1,14 +1,14 @@
-//! The light rig: how a mesh without a scene is rendered.
+//! The light rig that the tool adds to a mesh without a scene.
 
 use super::{Folder, covered, picture};
 use fastphong::picture::Picture8;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// A mesh alone stands before opaque grey with smooth edges, lit from the camera's upper left in
-/// every view.
+/// A mesh without a scene stands before opaque grey with smooth edges, lit from the camera's upper
+/// left in every view.
 #[test]
-fn a_mesh_alone_is_shown_by_the_light_rig() {
+fn a_mesh_without_a_scene_is_shown_by_the_light_rig() {
     let folder = Folder::new();
     let draw = |flags: &str| {
         folder
@@ -38,7 +38,7 @@ fn a_mesh_alone_is_shown_by_the_light_rig() {
     }
     let smooth = draw("");
     assert!(smooth == draw("--samples 2") && smooth != draw("--samples 1"));
-    // Flags override the rig, each its own part.
+    // Each flag overrides one part of the rig.
     assert_eq!(draw("--background 0").get(0, 0), [0, 0, 0, 255]);
     assert_eq!(draw("--alpha coverage").get(0, 0)[3], 0);
     assert!(draw("--light 0,0,1") != smooth && draw("--kd 0.1") != smooth);
@@ -51,9 +51,10 @@ fn a_mesh_alone_is_shown_by_the_light_rig() {
     assert!(draw(plain) == picture(&folder.path("plain.png")));
 }
 
-/// A mesh alone takes four samples per pixel where they are cheap and fit, and one elsewhere.
+/// A mesh without a scene has four samples per pixel where they are cheap and fit into memory, and
+/// one elsewhere.
 #[test]
-fn many_polygons_and_pixels_have_one_sample() {
+fn meshes_of_many_polygons_and_large_pictures_have_one_sample() {
     let folder = Folder::new();
     let has = |input: &str, samples: bool| {
         let printed = folder
@@ -82,7 +83,7 @@ fn many_polygons_and_pixels_have_one_sample() {
 
 /// Materials of the mesh override the clay, and the report shows a mesh as `render` does.
 #[test]
-fn materials_of_the_mesh_override_the_rig_also_in_the_report() {
+fn materials_of_the_mesh_override_the_rig_in_pictures_and_reports() {
     let folder = Folder::new();
     folder
         .write("red.mtl", "newmtl red\nKa 0 0 0\nKd 1 0 0\nKs 0 0 0\n")

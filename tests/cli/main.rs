@@ -125,7 +125,7 @@ impl Ended {
         self.exits(0)
     }
 
-    /// Asserts exit code 1.
+    /// Asserts exit code 1: the run worked, and pictures differ.
     #[track_caller]
     fn differs(self) -> Ended {
         self.exits(1)
@@ -188,7 +188,7 @@ fn picture(path: &Path) -> Picture8 {
         .to_stored()
 }
 
-/// Renders with `flags`, which include the input.
+/// Renders with `flags`, which include the input, and returns the picture.
 fn rendered(flags: &str) -> Picture8 {
     let folder = Folder::new();
     folder.run(&format!("render {flags} -o out.png")).done();
@@ -200,7 +200,7 @@ fn sphere(flags: &str) -> Picture8 {
     rendered(&format!("{SPHERE} {flags}"))
 }
 
-/// Returns the methods that are for the sphere.
+/// Returns the methods that can draw the sphere.
 fn methods_on_sphere() -> impl Iterator<Item = &'static MethodRow> {
     let file = fastphong::scene::input::load(SPHERE).expect("a scene file");
     let scene = fastphong::scene::input::resolve(&file)
@@ -221,5 +221,5 @@ fn covered(picture: &Picture8) -> usize {
         .count()
 }
 
-/// A scene of a small sphere, 64 × 48 pixels, which renders at once.
+/// A scene of a small sphere, 64 × 48 pixels, which renders quickly.
 const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/sphere.toml");

@@ -1,22 +1,23 @@
-//! Little memory: each command says what it needs before it takes it. Limits of the address space are those that a shell can set.
+//! Too little memory: each command states how much it needs before it allocates. The tests limit
+//! the address space by the shell.
 #![cfg(target_os = "linux")]
 
 use super::{Ended, Folder};
 use std::process::{Command, Stdio};
 
-/// Runs a command with at most so many kilobytes of address space.
+/// Runs a command with at most `kilobytes` of address space.
 fn run_within(folder: &Folder, kilobytes: u32, arguments: &str) -> Ended {
     let tool = env!("CARGO_BIN_EXE_fastphong");
     let limited = format!("ulimit -v {kilobytes} && exec {tool} {arguments}");
     let mut command = Command::new("sh");
     command.args(["-c", &limited]).current_dir(&folder.0);
-    // Each thread takes address space for its stack.
+    // Each thread reserves address space for its stack.
     let command = command.stdin(Stdio::null()).env("RAYON_NUM_THREADS", "2");
     Ended::new(arguments, command.output().expect("a shell"))
 }
 
 #[test]
-fn what_does_not_fit_into_a_limit_of_the_shell_is_one_error_in_every_command() {
+fn a_command_that_does_not_fit_into_the_limit_is_one_error() {
     let folder = Folder::new();
     folder
         .run("render builtin:cube --size 64x48 -o a.png")
@@ -28,7 +29,7 @@ fn what_does_not_fit_into_a_limit_of_the_shell_is_one_error_in_every_command() {
     for (arguments, said, expected) in [
         (
             "render builtin:cube --size 8000x8000 -o o.png",
-            "8000x8000: phong-rsqrt needs about 256.0 MB of memory, and ",
+            "8000x8000: phong-rsqrt needs about 256.0 MB of memory, but ",
             pixels,
         ),
         (
@@ -107,9 +108,10 @@ fn what_does_not_fit_into_a_limit_of_the_shell_is_one_error_in_every_command() {
     assert!(!folder.names().iter().any(|name| name.starts_with("o.")));
 }
 
-/// Pictures are written as they are compressed, and rows as they are drawn: no copy of a file is in memory.
+/// The tool writes pictures while it compresses them, and rows while it draws them. It never holds
+/// a whole file in memory.
 #[test]
-fn what_fits_into_a_limit_of_the_shell_is_drawn() {
+fn a_command_that_fits_into_the_limit_succeeds() {
     let folder = Folder::new();
     for arguments in [
         "render builtin:cube --size 640x480 -o o.png",
@@ -122,9 +124,9 @@ fn what_fits_into_a_limit_of_the_shell_is_drawn() {
     }
 }
 
-/// Pictures that are read ask for their memory first.
+/// The decoder reserves the memory for a picture before it reads the pixels.
 #[test]
-fn pictures_that_do_not_fit_are_one_error() {
+fn pictures_that_do_not_fit_into_memory_are_one_error() {
     let folder = Folder::new();
     folder.write("large.ppm", "P6 9000 9000 255\n");
     run_within(&folder, 250_000, "diff large.ppm large.ppm")

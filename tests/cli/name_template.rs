@@ -3,7 +3,7 @@
 use super::Folder;
 
 #[test]
-fn placeholders_stand_for_the_facts_of_the_picture() {
+fn placeholders_stand_for_facts_about_the_picture() {
     let folder = Folder::new();
     folder.write("my mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     for (render, name) in [
@@ -65,7 +65,7 @@ fn unknown_placeholders_are_one_error() {
             .run(&format!("render teapot -o {name}"))
             .refused(&["which is no placeholder", known]);
     }
-    // The name is expanded before it is compared with the reference's.
+    // The name is expanded before it is compared with the name of the reference.
     folder
         .run("render football --size 64x48 -o football.png")
         .done();

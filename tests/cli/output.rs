@@ -36,7 +36,7 @@ fn unwritable_paths_leave_nothing_behind() {
 }
 
 #[test]
-fn a_picture_already_there_stays_when_something_fails_and_is_replaced_when_nothing_does() {
+fn an_old_picture_survives_errors_and_is_replaced_on_success() {
     let folder = Folder::new();
     folder.write("out.png", "old");
     folder.run("render taepot -o out.png").refused(&["teapot"]);
@@ -83,7 +83,7 @@ fn a_picture_can_be_piped() {
     assert!(Format::ALL.len() == 3, "every format is piped above");
 }
 
-/// A reader that takes nothing, or only the beginning, causes no error and no panic.
+/// A reader that reads nothing, or only the beginning, causes neither an error nor a panic.
 #[test]
 fn a_closed_pipe_ends_the_tool_quietly() {
     let folder = Folder::new();

@@ -1,10 +1,11 @@
-//! Every command with every kind of output: standard output, endings, files of others, full devices, and what is no text.
+//! Every command with every kind of output: standard output, wrong endings, files of other
+//! programs, full devices, and paths that are not text.
 
 use super::{Ended, Folder, SPHERE};
 use std::process::Stdio;
 
-/// Returns each output of each command: the command without it, its flag, and the ending that its contents have. Every command is
-/// quick.
+/// Returns each output of each command: the command without the output, the output's flag, and the
+/// ending that fits its contents. Every command is quick.
 fn cases(folder: &Folder) -> [(String, &'static str, &'static str); 8] {
     folder.run(&format!("render {SPHERE} -o a.png")).done();
     folder
@@ -28,7 +29,8 @@ fn cases(folder: &Folder) -> [(String, &'static str, &'static str); 8] {
     ]
 }
 
-/// Returns the bytes of a file without the name that the document keeps of it, and without times.
+/// Returns the first bytes of a file. They end before the parts that vary: the name that a document
+/// stores of itself, and times.
 fn beginning(bytes: &[u8]) -> &[u8] {
     &bytes[..bytes.len().min(15)]
 }
@@ -46,7 +48,7 @@ fn a_hyphen_is_standard_output_for_every_output() {
             "`{command} {flag} -`"
         );
         assert!(!folder.path("-").exists(), "`{command} {flag} -`");
-        // Nothing else is mixed with it.
+        // Standard output holds nothing else.
         if ending == "json" {
             piped.json();
         }
@@ -55,7 +57,7 @@ fn a_hyphen_is_standard_output_for_every_output() {
 }
 
 #[test]
-fn an_ending_that_denies_the_contents_is_refused_for_every_output() {
+fn an_ending_that_contradicts_the_contents_is_refused_for_every_output() {
     let folder = Folder::new();
     let cases = cases(&folder);
     let before = folder.names();
@@ -72,7 +74,7 @@ fn an_ending_that_denies_the_contents_is_refused_for_every_output() {
                 .refused(&[&format!("out.{other}: "), "expected ."]);
             assert_eq!(folder.names(), before, "`{command}`");
         }
-        // Capitals are the same ending, and a name without one says nothing.
+        // An ending in capitals is accepted, and a name without an ending fits everything.
         let name = format!("out.{}", ending.to_uppercase());
         folder.run(&format!("{command} {flag} {name}")).done();
         std::fs::remove_file(folder.path(&name)).expect("the file was made");
@@ -85,7 +87,7 @@ fn an_ending_that_denies_the_contents_is_refused_for_every_output() {
 }
 
 #[test]
-fn standard_output_holds_one_output_and_no_folder() {
+fn standard_output_can_hold_one_output_and_no_folder() {
     let folder = Folder::new();
     cases(&folder);
     folder
@@ -99,17 +101,17 @@ fn standard_output_holds_one_output_and_no_folder() {
         .refused(&["`--markdown` writes beside the page", "expected `-o FILE`"]);
     folder
         .run("figure exercises --pictures -")
-        .refused(&["--pictures: `-` is standard output, and no folder"]);
+        .refused(&["--pictures: `-` is standard output, not a folder"]);
     folder
         .run("man -")
-        .refused(&["FOLDER: `-` is standard output, and no folder"]);
+        .refused(&["FOLDER: `-` is standard output, not a folder"]);
     folder
         .run("render teapot --reference -")
         .refused(&["-: no picture format has this ending"]);
     assert!(!folder.names().contains(&"-".to_owned()));
 }
 
-/// A document comes by standard input as scenes and pictures do.
+/// A document can come from standard input, as scenes and pictures can.
 #[cfg(unix)]
 #[test]
 fn a_document_is_read_from_standard_input_once() {
@@ -153,9 +155,10 @@ fn a_full_device_is_an_error_for_every_output_and_for_help() {
     }
 }
 
-/// Where the command chooses the name, a file stays that fastphong did not make, and all others with it.
+/// Where the command chooses the file's name, it does not replace a file that fastphong did not
+/// write. Then it writes none of its other files either.
 #[test]
-fn files_of_others_stay_where_the_command_chose_the_name() {
+fn files_of_other_programs_stay_where_the_command_chooses_the_name() {
     let folder = Folder::new();
     cases(&folder);
     let dark = format!("render {SPHERE} --kd 0.1 --reference a.png");
@@ -183,7 +186,7 @@ fn files_of_others_stay_where_the_command_chose_the_name() {
     ] {
         let path = folder.path(others);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-        // A picture of somebody else's, and a text.
+        // A picture by another program, and a text.
         let precious = match others.ends_with(".png") {
             true => png_of_others(),
             false => b"# My own notes\n".to_vec(),
@@ -195,7 +198,7 @@ fn files_of_others_stay_where_the_command_chose_the_name() {
         assert!(folder.read(others) == precious, "`{command}`");
         let is_there = own.is_empty() || !folder.path(own).exists();
         assert!(is_there, "`{command}` writes {own} all the same");
-        // Told to, it replaces the file; and then it knows its own.
+        // With `--force` the command replaces the file. After that it recognises its own file.
         for flag in ["--force", ""] {
             let ended = folder.run(&format!("{command} {flag}"));
             assert_ne!(ended.code, Some(2), "`{command} {flag}`: {}", ended.err);
@@ -208,15 +211,15 @@ fn files_of_others_stay_where_the_command_chose_the_name() {
     }
 }
 
-/// Returns a picture that names no software.
+/// Returns a PNG file that does not name the software that wrote it.
 fn png_of_others() -> Vec<u8> {
     let picture = fastphong::picture::Picture8::new(2, 2, [9; 4]);
     fastphong::picture::image_file::encode_png(&picture).expect("a file")
 }
 
-/// A file that a flag names is replaced, as its name says.
+/// If a flag names a file, the command replaces it, whoever wrote it.
 #[test]
-fn files_that_a_flag_names_are_replaced() {
+fn a_file_that_a_flag_names_is_replaced() {
     let folder = Folder::new();
     for (command, flag, ending) in cases(&folder) {
         let file = format!("old.{ending}");
@@ -226,7 +229,7 @@ fn files_that_a_flag_names_are_replaced() {
     }
 }
 
-/// The environment has the limit of `--threads`, whichever command it is that takes threads.
+/// Thread counts from the environment have the same limit as `--threads`, in every command.
 #[test]
 fn too_many_threads_of_the_environment_are_refused() {
     let folder = Folder::new();
@@ -243,7 +246,7 @@ fn too_many_threads_of_the_environment_are_refused() {
         ("99999999999999999999999", false),
     ] {
         for name in ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"] {
-            // A thousand threads are not started for it.
+            // The error comes before a thousand threads are started.
             let arguments = "list engines";
             let output = folder.command(arguments).env(name, value).output();
             let ended = Ended::new(arguments, output.expect("the tool runs"));
@@ -257,9 +260,10 @@ fn too_many_threads_of_the_environment_are_refused() {
     }
 }
 
-/// Colours are forced, so that no terminal is needed; `NO_COLOR` stands over it. Without them, a pipe has none.
+/// `CLICOLOR_FORCE` colours messages without a terminal, and `NO_COLOR` overrides it. Without
+/// either, a pipe gets no colours.
 #[test]
-fn variables_decide_about_colours() {
+fn environment_variables_decide_about_colours() {
     let folder = Folder::new();
     for (variables, is_coloured) in [
         (&[][..], false),
@@ -283,7 +287,7 @@ fn variables_decide_about_colours() {
     }
 }
 
-/// `script` gives the program a terminal, where there is one.
+/// `script` runs the program in a terminal, if the system has `script`.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_dumb_terminal_and_clicolor_0_have_no_colours() {
@@ -306,7 +310,7 @@ fn a_dumb_terminal_and_clicolor_0_have_no_colours() {
         let output = command.envs(variables.iter().copied()).output().ok()?;
         Some(String::from_utf8_lossy(&output.stdout).into_owned())
     };
-    // Systems without `script` are left out.
+    // Skip systems without `script`.
     let Some(plain) = on_terminal(&[]).filter(|text| text.contains('\x1b')) else {
         return;
     };
@@ -320,10 +324,10 @@ fn a_dumb_terminal_and_clicolor_0_have_no_colours() {
     }
 }
 
-/// File systems of Unix hold any bytes but 0 and `/`.
+/// A Unix file system allows any bytes in a name but 0 and `/`.
 #[cfg(target_os = "linux")]
 #[test]
-fn paths_that_are_no_text_are_paths() {
+fn paths_that_are_not_text_work() {
     use std::ffi::OsStr;
     use std::os::unix::ffi::OsStrExt;
     let folder = Folder::new();
@@ -345,7 +349,7 @@ fn paths_that_are_no_text_are_paths() {
     let ended = run(&[render, name(b"c\xe9.obj"), out, picture]);
     ended.done().says("c\\xE9.obj: ");
     assert!(at(b"\xfe.png").is_file());
-    // Meshes and libraries are found in the folder of the scene, whatever its name is.
+    // Meshes and libraries are found in the scene's folder, whatever bytes its name has.
     let ended = run(&[render, name(b"f\xe9/s\xff.toml"), out, picture]);
     assert!(!ended.done().err.contains("warning"), "the library is read");
     run(&[name(b"diff"), picture, picture])
@@ -367,7 +371,7 @@ fn paths_that_are_no_text_are_paths() {
     ];
     run(&[&page, &quick[..]].concat()).done();
     assert!(at(b"\xfe.html").is_file());
-    // Those that are read are not written, and those that are not there are missed.
+    // Inputs are not overwritten, and missing files are reported.
     let ended = run(&[render, name(b"f\xe9/s\xff.toml"), out, name(b"f\xe9/m.mtl")]);
     assert_eq!(ended.code, Some(2));
     let format = [name(b"--format"), name(b"png")];
@@ -383,5 +387,5 @@ fn paths_that_are_no_text_are_paths() {
     }
     run(&[render, name(b"c\xe9.obj"), name(b"--print-scene")])
         .done()
-        .says("is the name of no file");
+        .says("is not the name of a file");
 }

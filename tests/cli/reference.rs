@@ -1,4 +1,4 @@
-//! `render --reference`: a missing reference, an equal one, one that differs.
+//! `render --reference`: a missing reference, an equal one, and one that differs.
 
 use super::{Folder, SPHERE, picture};
 use fastphong::picture::image_file::{FilePicture, write_picture};
@@ -98,7 +98,7 @@ fn a_difference_leaves_both_pictures_and_a_map() {
 }
 
 #[test]
-fn other_sizes_and_other_coverage_differ() {
+fn pictures_of_other_size_or_coverage_differ() {
     let folder = Folder::new();
     folder.run(&format!("render {SPHERE} -o ref.png")).done();
     let ended = folder
@@ -110,7 +110,7 @@ fn other_sizes_and_other_coverage_differ() {
         .prints("difference of the upper left part that both have");
     let map = picture(&folder.path("ref.diff.png"));
     assert_eq!((map.width(), map.height()), (32, 24));
-    // Black on black: colours agree, coverage differs.
+    // Black on black: the colours agree, but the coverage differs.
     let black = "--ka 0 --kd 0 --ks 0";
     folder
         .run(&format!("render {SPHERE} {black} --fit 0.5 -o black.png"))
@@ -165,9 +165,10 @@ fn paths_are_quoted_for_the_shell() {
     ended.prints(r"cp 'it'\''s mine.actual.png' 'it'\''s mine.png'");
 }
 
-/// References of the time before pictures stated their encoding are compared as stored, and those that state another are not.
+/// A reference that does not state its encoding is compared as stored. If it states another one
+/// than the picture has, the linear one of the two is encoded first.
 #[test]
-fn a_reference_counts_in_its_own_encoding_if_it_states_one() {
+fn a_reference_counts_in_the_encoding_that_it_states() {
     let folder = Folder::new();
     let linear = format!("render {SPHERE}");
     folder.run(&format!("{linear} -o ref.png")).done();
@@ -181,8 +182,9 @@ fn a_reference_counts_in_its_own_encoding_if_it_states_one() {
     folder
         .run(&format!("{linear} --reference old.png {srgb}"))
         .differs();
-    // Levels of the linear picture, encoded, against those of the encoded one: it was rounded at one level, which is up to 12.92
-    // levels of sRGB in the dark, half of that on either side, and half a level.
+    // The linear picture was rounded to levels and then encoded. In the dark, one linear level is
+    // up to 12.92 levels of sRGB, and half of that lies on either side; the encoded picture adds
+    // half a level.
     let near = "--encoding srgb --reference-threshold 7";
     folder
         .run(&format!("{linear} --reference ref.png {near}"))
@@ -190,9 +192,9 @@ fn a_reference_counts_in_its_own_encoding_if_it_states_one() {
         .prints("ref.png is linear, the picture srgb: the linear one is encoded");
 }
 
-/// Depth is infinite where nothing is seen: a picture is equal to itself all the same, and to no other.
+/// Depth is infinite where nothing is visible. The depth picture still equals itself, and no other.
 #[test]
-fn a_reference_that_is_not_finite_is_equal_to_itself_alone() {
+fn a_reference_that_is_not_finite_equals_only_itself() {
     let folder = Folder::new();
     let depth = format!("render {SPHERE} --aov depth");
     folder.run(&format!("{depth} -o ref.pfm")).done();

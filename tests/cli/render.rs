@@ -5,7 +5,7 @@ use fastphong::picture::Picture8;
 use fastphong::picture::image_file::{FilePixels, read_picture};
 
 #[test]
-fn every_kind_of_input_gives_a_picture_of_the_size_asked_for() {
+fn every_kind_of_input_is_drawn_at_the_requested_size() {
     let folder = Folder::new();
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     folder
@@ -35,7 +35,7 @@ fn every_kind_of_input_gives_a_picture_of_the_size_asked_for() {
 }
 
 #[test]
-fn every_method_and_the_reference_draw_and_are_near_each_other() {
+fn every_method_draws_and_is_near_the_reference() {
     let phong = sphere("-m reference");
     for method in methods_on_sphere() {
         let drawn = sphere(&format!("-m {}", method.info.name));
@@ -43,7 +43,8 @@ fn every_method_and_the_reference_draw_and_are_near_each_other() {
     }
     assert!(sphere("-m reference:model=phong") == phong);
     assert!(sphere("-m reference:model=flat") != phong);
-    // Use the span engine: blocks of eight take true roots on spans this short, whatever the steps.
+    // Use the span engine: blocks of eight compute true roots on spans this short, whatever the
+    // steps.
     let steps = |steps: &str| {
         sphere(&format!(
             "-m fast-phong:steps={steps} --engine span --simd scalar"
@@ -68,7 +69,7 @@ fn every_method_and_the_reference_draw_and_are_near_each_other() {
 }
 
 #[test]
-fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
+fn a_pfm_holds_linear_floats_and_every_format_holds_the_same_picture() {
     let folder = Folder::new();
     for ending in ["png", "ppm", "pfm"] {
         folder
@@ -99,7 +100,7 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
 #[test]
 fn statistics_count_omitted_polygons() {
     let folder = Folder::new();
-    // Of two triangles there is nothing to see: one is a line in space, one is seen edge-on.
+    // Two triangles are invisible: one is a line in space, the other is seen edge-on.
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 2 3\nf 1 3 2\nf 1 5 2\nf 1 3 4\n";
     folder.write("mesh.obj", obj);
     let ended = folder
@@ -193,7 +194,7 @@ fn the_printed_scene_gives_the_same_picture() {
     }
 }
 
-/// The painter reports wrongly ordered polygons on standard error, except with `--quiet`.
+/// The painter reports wrongly ordered polygons on standard error, but not with `--quiet`.
 #[test]
 fn the_painter_reports_wrongly_ordered_polygons() {
     let folder = Folder::new();
@@ -227,7 +228,7 @@ fn the_painter_reports_wrongly_ordered_polygons() {
     );
 }
 
-/// Supersampling keeps the picture's size. A depth picture shows single samples.
+/// Supersampling keeps the picture's size. A depth picture shows one sample per pixel.
 #[test]
 fn supersampled_pictures_have_the_size_of_the_scene() {
     let plain = sphere("");
@@ -258,7 +259,7 @@ fn supersampled_pictures_have_the_size_of_the_scene() {
                 "render builtin:torus --size 64x48 --aov {aov} --samples 2 -o out.png"
             ))
             .done()
-            .says("--aov shows single samples");
+            .says("--aov shows a single sample per pixel");
         assert!(
             picture(&folder.path("plain.png")) == picture(&folder.path("out.png")),
             "{aov}"
@@ -274,7 +275,8 @@ fn supersampled_pictures_have_the_size_of_the_scene() {
     );
 }
 
-/// Without clipping, a polygon with a corner in the eye plane is left out, reported and counted.
+/// Without clipping, a polygon with a corner in the eye plane cannot be projected. The tool leaves
+/// it out, reports it and counts it.
 #[test]
 fn unprojectable_polygons_are_reported() {
     let folder = Folder::new();

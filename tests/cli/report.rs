@@ -51,7 +51,7 @@ fn the_page_is_written_and_its_path_printed() {
 }
 
 #[test]
-fn figures_of_the_lectures_stand_in_the_page_on_demand() {
+fn figures_of_the_lectures_stand_in_the_page_on_request() {
     let folder = Folder::new();
     folder
         .run(&format!(
@@ -74,10 +74,10 @@ fn figures_of_the_lectures_stand_in_the_page_on_demand() {
     );
 }
 
-/// Experiments appear in the page on demand. Only one method runs besides naive Phong, because
+/// Experiments stand in the page on request. Only one method runs besides naive Phong, because
 /// frames of 1920 × 1080 are slow in test builds.
 #[test]
-fn experiments_appear_in_the_page_on_demand() {
+fn experiments_stand_in_the_page_on_request() {
     let folder = Folder::new();
     folder
         .run(&format!(
@@ -155,7 +155,7 @@ fn write_errors_are_reported_and_old_files_kept() {
 }
 
 #[test]
-fn scenes_are_drawn_at_the_size_that_is_shown() {
+fn scenes_are_drawn_at_the_size_at_which_the_page_shows_them() {
     let folder = Folder::new();
     folder
         .run("report figure5 --time-budget 0 --methods flat")
@@ -170,7 +170,7 @@ fn scenes_are_drawn_at_the_size_that_is_shown() {
 }
 
 #[test]
-fn documents_are_laid_side_by_side_without_drawing() {
+fn documents_are_shown_side_by_side_without_drawing() {
     let folder = Folder::new();
     folder
         .run(&format!(
@@ -198,7 +198,7 @@ fn documents_are_laid_side_by_side_without_drawing() {
 }
 
 #[test]
-fn a_mesh_called_script_is_shown_and_not_run() {
+fn a_mesh_called_script_is_shown_and_does_not_run() {
     let folder = Folder::new();
     let name = "<script>alert(1)<!--.obj";
     folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -209,9 +209,10 @@ fn a_mesh_called_script_is_shown_and_not_run() {
     assert_eq!(data(&html)["comparisons"][0]["name"], name);
 }
 
-/// A document that is cut off, of another schema, no text or no JSON is one error with its place, and nothing is written.
+/// A document that is cut off, has another schema, or is not text or not JSON is one error with its
+/// place, and nothing is written.
 #[test]
-fn files_that_are_no_documents_are_refused_with_their_place() {
+fn files_that_are_not_documents_are_refused_with_their_place() {
     let folder = Folder::new();
     let compared = folder.run(&format!("compare figure5 {QUICK} --methods flat --json"));
     let text = compared.done().out;
@@ -241,7 +242,7 @@ fn files_that_are_no_documents_are_refused_with_their_place() {
         ),
         (
             "utf16.json",
-            "utf16.json: cannot be read: it is no text in UTF-8",
+            "utf16.json: cannot be read: it is not text in UTF-8",
         ),
         (
             "newer.json",
@@ -262,9 +263,10 @@ fn files_that_are_no_documents_are_refused_with_their_place() {
     }
 }
 
-/// Documents of the schema before are read; the numbers that meant something else are left out, and that is said.
+/// The report reads documents of the previous schema. It leaves out values whose meaning has
+/// changed since, and says so.
 #[test]
-fn what_cannot_be_compared_in_older_documents_is_said() {
+fn values_that_cannot_be_compared_in_older_documents_are_named() {
     let folder = Folder::new();
     let compared = folder.run(&format!("compare figure5 {QUICK} --methods flat --json"));
     let text = compared.done().out;
@@ -296,7 +298,8 @@ fn what_cannot_be_compared_in_older_documents_is_said() {
     assert!(!page(&folder, "one.html").contains("Of documents of schema"));
 }
 
-/// Scenes of one run may be drawn on several machines: joined they are what one machine finds.
+/// Several machines may each draw some scenes of a run. The joined parts equal the report that one
+/// machine writes.
 #[test]
 fn four_parts_are_one_report() {
     let folder = Folder::new();
@@ -327,7 +330,7 @@ fn four_parts_are_one_report() {
     assert_eq!(all, whole, "{:?}", names(&all));
     let described = include_str!("../../docs/bench-json.md");
     assert!(described.contains("`run`, `shard`"));
-    // Shown side by side with another run, and joined.
+    // The joined report can also be shown beside another run.
     folder
         .run("report --from 3.json whole.json 1.json 4.json 2.json -o both.html")
         .done();
@@ -338,7 +341,7 @@ fn four_parts_are_one_report() {
 }
 
 #[test]
-fn parts_that_make_no_report_are_refused() {
+fn parts_that_do_not_make_a_report_are_refused() {
     let folder = Folder::new();
     let scenes = "report figure5 builtin:prism --size 48x36 -m gouraud";
     for part in 1..=2 {
@@ -357,7 +360,7 @@ fn parts_that_make_no_report_are_refused() {
         ),
         (
             "figure5 --shard 1/2",
-            "expected as many parts as scenes at most, 1",
+            "there are fewer scenes than parts: expected at most 1",
         ),
         ("--shard 3/2", "expected a part of a whole"),
         ("--shard 1/2 --studies all", "cannot be used with"),

@@ -6,7 +6,7 @@ use serde_json::Value;
 const SMALL: &str =
     "search -m gouraud,six-point,difference-vector --degrees 10,20 --lights 1,2 --restarts 6 -q";
 
-/// Parts are joined to what one run finds, in whatever order they are given.
+/// Joined in any order, the parts equal the result of one run.
 #[test]
 fn four_parts_find_what_one_run_finds() {
     let folder = Folder::new();
@@ -32,7 +32,7 @@ fn four_parts_find_what_one_run_finds() {
 }
 
 #[test]
-fn parts_that_make_no_whole_are_refused() {
+fn parts_that_do_not_make_a_whole_are_refused() {
     let folder = Folder::new();
     const PART: &str = "expected a part of a whole of 100000 at most, as in 3/16";
     let few = "search -m gouraud --degrees 10 --lights 1 -q";

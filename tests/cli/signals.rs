@@ -6,11 +6,11 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A picture that takes seconds: its draft is there from the beginning.
+/// A command whose picture takes seconds. Its draft exists from the beginning.
 const SLOW: &str =
     "render builtin:sphere --size 1024x1024 --samples 8 -m slerp-phong --simd scalar -o out.ppm";
 
-/// Waits until `is_so`.
+/// Waits until `is_so` returns true for the names in the folder.
 #[track_caller]
 fn wait_until(folder: &Folder, is_so: impl Fn(&[String]) -> bool) {
     let started = Instant::now();
@@ -31,7 +31,8 @@ fn send(signal: &str, to: &Child) {
     assert!(status.expect("kill runs").success());
 }
 
-/// True if this process was started with `signal` ignored, as by `nohup`: then so is the program that it starts.
+/// True if this process was started with `signal` ignored, as by `nohup`. Then the program that it
+/// starts ignores the signal, too.
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -47,7 +48,7 @@ fn start(mut command: Command) -> Child {
 }
 
 #[test]
-fn a_signal_leaves_no_draft_and_the_old_file_and_is_seen_from_outside() {
+fn a_signal_removes_the_draft_keeps_the_old_file_and_sets_the_exit_status() {
     for (name, number) in [("TERM", 15), ("INT", 2), ("HUP", 1), ("QUIT", 3)] {
         if is_ignored(number) {
             continue;
@@ -74,8 +75,9 @@ fn a_signal_leaves_no_draft_and_the_old_file_and_is_seen_from_outside() {
     }
 }
 
-/// Approving is all or nothing, whenever it is ended: while drafts are written, or while they get their names. The pictures are
-/// large, so that drafts take time, and of another size than the references, so that comparing takes none.
+/// Approving changes all references or none, whenever a signal ends it: while it writes drafts, or
+/// while it renames them. The pictures are large, so that drafts take time. The references have
+/// another size, so that comparing takes none.
 #[test]
 fn a_signal_while_pictures_are_approved_leaves_all_old_or_all_new() {
     let [references, pictures] = [Folder::new(), Folder::new()];
@@ -104,7 +106,7 @@ fn a_signal_while_pictures_are_approved_leaves_all_old_or_all_new() {
     }
 }
 
-/// What `nohup` started is not ended by HUP.
+/// HUP does not end a program that `nohup` started.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_signal_that_is_ignored_stays_ignored() {
@@ -117,7 +119,7 @@ fn a_signal_that_is_ignored_stays_ignored() {
     let mut child = start(shell);
     wait_until(&folder, has_draft);
     send("HUP", &child);
-    // Signals are taken in the order of their numbers.
+    // The system delivers pending signals in the order of their numbers.
     send("TERM", &child);
     let status = child.wait().expect("an end");
     assert_eq!(status.signal(), Some(15), "{status}");
@@ -125,7 +127,7 @@ fn a_signal_that_is_ignored_stays_ignored() {
 }
 
 #[test]
-fn of_two_programs_that_write_one_file_the_last_one_leaves_it_whole() {
+fn two_programs_that_write_the_same_file_leave_it_whole() {
     let folder = Folder::new();
     folder.run(&format!("render {SPHERE} -o alone.png")).done();
     let start = || start(folder.command(&format!("render {SPHERE} -o out.png")));
@@ -138,7 +140,7 @@ fn of_two_programs_that_write_one_file_the_last_one_leaves_it_whole() {
 }
 
 #[test]
-fn a_named_pipe_is_written_to_and_stays_one() {
+fn a_named_pipe_is_written_to_and_stays_a_pipe() {
     let folder = Folder::new();
     let pipe = folder.path("pipe.png");
     let made = Command::new("mkfifo").arg(&pipe).status();
@@ -151,7 +153,7 @@ fn a_named_pipe_is_written_to_and_stays_one() {
 }
 
 #[test]
-fn a_dangling_link_stays_one_and_leads_to_the_picture() {
+fn a_dangling_link_stays_a_link_and_leads_to_the_picture() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("folder")).expect("a folder");
     std::os::unix::fs::symlink("folder/new.png", folder.path("link.png")).expect("a link");

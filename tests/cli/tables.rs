@@ -4,10 +4,10 @@ use super::Folder;
 use fastphong::compare::metrics::METRICS;
 use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::BUILTINS;
-use fastphong::number::Level;
+use fastphong::number::SimdLevel;
 use fastphong::raster::Engine;
 use fastphong::scene::input::SCENES;
-use fastphong::shading::{Family, METHODS, MethodRow, Standing};
+use fastphong::shading::{Family, METHODS, MethodRow, Tier};
 
 #[test]
 fn lists_have_an_entry_for_everything_in_their_table() {
@@ -26,7 +26,7 @@ fn lists_have_an_entry_for_everything_in_their_table() {
             "engines" => ["span", "row", "barycentric", "cs171"]
                 .map(str::to_owned)
                 .to_vec(),
-            "simd" => Level::ALL.map(|level| level.name().to_owned()).to_vec(),
+            "simd" => SimdLevel::ALL.map(|level| level.name().to_owned()).to_vec(),
             "scenes" => SCENES.iter().map(|scene| scene.name.to_owned()).collect(),
             _ => METRICS
                 .iter()
@@ -126,12 +126,12 @@ fn engines_and_instruction_sets_are_listed_with_their_abilities() {
     }
     let levels = folder.run("list simd --json").done().json();
     let text = folder.run("list simd").done().out;
-    for ((level, entry), line) in Level::ALL
+    for ((level, entry), line) in SimdLevel::ALL
         .iter()
         .zip(levels.as_array().expect("a list"))
         .zip(text.lines())
     {
-        let (here, auto) = (level.is_available(), *level == Level::best());
+        let (here, auto) = (level.is_available(), *level == SimdLevel::best());
         assert_eq!(
             (&entry["available"], &entry["auto"]),
             (&here.into(), &auto.into()),
@@ -144,7 +144,7 @@ fn engines_and_instruction_sets_are_listed_with_their_abilities() {
         assert_eq!(
             (
                 line.contains("not on this machine"),
-                line.contains("taken by auto")
+                line.contains("chosen by auto")
             ),
             (!here, auto),
             "{line}"
@@ -152,13 +152,13 @@ fn engines_and_instruction_sets_are_listed_with_their_abilities() {
     }
 }
 
-/// Without a word about it, some ten methods are listed, with the number of the others.
+/// Without `--all`, about ten methods are listed, with the count of the others.
 #[test]
 fn default_methods_are_listed_first() {
     let folder = Folder::new();
     let few = METHODS
         .iter()
-        .filter(|method| method.info.standing == Standing::Default);
+        .filter(|method| method.info.tier == Tier::Default);
     let names: Vec<_> = few.map(|method| method.info.name).collect();
     assert!((8..=12).contains(&names.len()), "{names:?}");
     let listed = folder.run("list methods --json").done().json();
@@ -171,9 +171,9 @@ fn default_methods_are_listed_first() {
         .prints(&format!("\n{others} more: fastphong list methods --all"));
 }
 
-/// A family has members, and no method its name.
+/// Every family has members, and no method has the name of a family.
 #[test]
-fn families_are_no_methods() {
+fn families_are_not_methods() {
     for family in Family::ALL {
         assert!(METHODS.iter().any(|m| m.info.family == family));
     }
@@ -225,7 +225,7 @@ fn every_method_is_explained() {
             Some(entry.info.roundings.step)
         );
     }
-    // One Newton step less is one division per pixel less.
+    // One Newton step less saves one division per pixel.
     let divisions = |variant: &str| {
         let json = folder
             .run(&format!("explain {variant} --json"))
@@ -239,7 +239,7 @@ fn every_method_is_explained() {
         divisions("fast-phong:steps=2") - divisions("fast-phong:steps=1"),
         1
     );
-    // The automatic choice is no number, and is written as `auto`.
+    // The automatic choice has no value and is written as `auto`.
     let auto = folder.run("explain fast-phong:steps=auto --json").done();
     let auto = auto.json();
     assert_eq!(
@@ -317,7 +317,7 @@ fn info_counts_parts_of_a_mesh() {
     assert_eq!(football["normals"], "averaged");
 
     // A bent quad, a triangle without area, two triangles of opposite winding, and a third one at
-    // their edge.
+    // their common edge.
     let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 -1 0\nv 5 0 1\n\
                v 0 2 0\nf 1 2 3 4\nf 1 4 10\nf 5 6 7\nf 5 6 8\n";
     folder.write("odd.obj", obj);
@@ -343,7 +343,7 @@ fn info_counts_parts_of_a_mesh() {
 }
 
 #[test]
-fn info_speaks_of_scenes_too() {
+fn info_describes_scenes_too() {
     let folder = Folder::new();
     let ended = folder.run("info perspective --view 0,20").done();
     ended
@@ -372,13 +372,13 @@ fn info_speaks_of_scenes_too() {
 #[test]
 fn info_reports_the_choice_of_auto() {
     let folder = Folder::new();
-    let best = Level::best();
-    // Those in integers and a few others are not for every frame.
+    let best = SimdLevel::best();
+    // Leave out methods in integers and others that cannot draw every frame.
     let choices = |input: &str| {
         let mut all = folder.run(&format!("info {input} --json")).done().json()["auto"].clone();
         let all = all.as_array_mut().unwrap();
         for choice in &mut *all {
-            // h-test is not for lights at positions.
+            // h-test supports no positional lights.
             choice["methods"].as_array_mut().unwrap().retain(|name| {
                 let name = name.as_str().unwrap();
                 name != "h-test" && !MethodRow::named(name).unwrap().is_integer
@@ -403,7 +403,7 @@ fn info_reports_the_choice_of_auto() {
         ),
         (&serde_json::Value::Null, Some(METHODS.len() - scalar))
     );
-    // The others, one by one or of one reason together, say why they are scalar.
+    // The scalar methods follow, those with the same reason together, and each entry says why.
     for choice in &far[1..] {
         let name = choice["methods"][0].as_str().unwrap();
         let why = MethodRow::named(name).unwrap().scalar_only();

@@ -1,20 +1,23 @@
-//! What `diff` and `render --reference` let pass: counts, radii, masks and regions; and what they
-//! say of differences: their spread, and the largest region.
+//! What `diff` and `render --reference` let pass: counts, radii, masks and regions. And how they
+//! describe differences: by their spread and the largest region.
 
 use super::{Folder, SPHERE, picture};
-use fastphong::compare::metrics::judgement::{FRAME, LEFT_OUT};
 use fastphong::picture::Picture8;
 use fastphong::picture::image_file::{FilePicture, write_picture};
 use serde_json::{Value, json};
 
 const GREY: [u8; 4] = [100, 100, 100, 255];
+/// The colour of pixels that are left out, on a map.
+const LEFT_OUT: [u8; 4] = [48, 48, 48, 255];
+/// The colour of the frame around a region.
+const FRAME: [u8; 4] = [0, 255, 255, 255];
 
 fn write(folder: &Folder, name: &str, picture: &Picture8) {
     write_picture(&folder.path(name), &FilePicture::stored(picture.clone())).unwrap();
 }
 
-/// Writes `a.png` of 16 × 12 grey pixels, `b.png` with a block of 3 × 2 pixels that differ by 20
-/// levels, one of them by 40, and one far pixel that differs by 10.
+/// Writes two pictures of 16 × 12 grey pixels, `a.png` and `b.png`. In `b.png` a block of 3 × 2
+/// pixels differs by 20 levels, one of them by 40, and one pixel far away differs by 10.
 fn pair() -> Folder {
     let folder = Folder::new();
     let mut picture = Picture8::new(16, 12, GREY);
@@ -29,7 +32,7 @@ fn pair() -> Folder {
 }
 
 #[test]
-fn a_number_of_pixels_may_be_over_the_threshold() {
+fn a_count_of_pixels_may_be_over_the_threshold() {
     let folder = pair();
     let diff = |flags: &str| folder.run(&format!("diff a.png b.png {flags}"));
     let count = "over 15 grey levels: 6 of 192 compared pixels (3.12 %)";
@@ -53,7 +56,7 @@ fn a_number_of_pixels_may_be_over_the_threshold() {
         .done()
         .prints("over 40 grey levels: 0 of 192");
     diff("--allow 6").refused(&[
-        "`--allow` counts pixels over a threshold, and there is none",
+        "`--allow` counts pixels over a threshold, but there is none",
         "expected `--fail-above GREY_LEVELS` too",
     ]);
     for bad in ["-1", "1.5", "101%", "99999999999999999999", "many"] {
@@ -65,7 +68,7 @@ fn a_number_of_pixels_may_be_over_the_threshold() {
 }
 
 #[test]
-fn the_spread_of_differences_and_the_largest_region_are_told() {
+fn the_spread_of_differences_and_the_largest_region_are_printed() {
     let folder = pair();
     let ended = folder.run("diff a.png b.png").done();
     ended
@@ -106,7 +109,7 @@ fn the_spread_of_differences_and_the_largest_region_are_told() {
     let region =
         json!({ "pixels": 6, "corner": [3, 6], "size": [3, 2], "worst": [4, 7], "levels": 40.0 });
     assert_eq!(found["largest_region"], region);
-    // The region is one of pixels over the threshold, if there is one.
+    // With a threshold, the region holds only pixels over it.
     assert_eq!(
         json("--fail-above 30")["largest_region"]["size"],
         json!([1, 1])
@@ -122,7 +125,7 @@ fn the_spread_of_differences_and_the_largest_region_are_told() {
 }
 
 #[test]
-fn edges_may_move_within_a_radius_and_lines_may_not_go() {
+fn edges_may_move_within_a_radius_but_lines_may_not_vanish() {
     let folder = Folder::new();
     let edge = |x: usize| {
         let mut picture = Picture8::new(16, 12, GREY);
@@ -200,7 +203,7 @@ fn pixels_outside_of_a_region_or_black_in_a_mask_are_left_out() {
     diff("--mask mask.png")
         .done()
         .prints("185 compared pixels, 7 left out:");
-    // Dark is not black.
+    // Almost black is not black.
     mask.row_mut(1)[14] = [0, 0, 1, 255];
     write(&folder, "mask.png", &mask);
     let ended = diff("--mask mask.png -o map.png --json").differs();
@@ -216,7 +219,7 @@ fn pixels_outside_of_a_region_or_black_in_a_mask_are_left_out() {
     );
     let map = picture(&folder.path("map.png"));
     assert_eq!((map.get(4, 7), map.get(0, 0)), (LEFT_OUT, [0, 0, 0, 255]));
-    // What is left out is equal for metrics of neighbourhoods.
+    // Metrics of neighbourhoods treat left-out pixels as equal.
     mask.row_mut(1)[14] = [0, 0, 0, 255];
     write(&folder, "mask.png", &mask);
     let json = diff("--mask mask.png --json").done().json();
@@ -225,7 +228,8 @@ fn pixels_outside_of_a_region_or_black_in_a_mask_are_left_out() {
         (&json!(1.0), &json!(0.0))
     );
     write(&folder, "black.png", &Picture8::new(16, 12, [0, 0, 0, 255]));
-    diff("--mask black.png").refused(&["the mask leaves out every pixel, and nothing is compared"]);
+    diff("--mask black.png")
+        .refused(&["the mask leaves out every pixel, so that nothing is compared"]);
     write(&folder, "small.png", &Picture8::new(12, 16, [255; 4]));
     diff("--mask small.png").refused(&[
         "the mask small.png has 12x16 pixels, the pictures 16x12",
@@ -247,7 +251,7 @@ fn a_frame_shows_the_largest_region_on_the_map() {
         (map.pixels().iter().filter(is_frame).count(), map.get(2, 5))
     };
     assert_eq!(framed("").0, 0);
-    // A rectangle of 3 × 2 with a pixel around it: 5 × 4 without its middle.
+    // The frame around a rectangle of 3 × 2 is 5 × 4 pixels without the middle.
     for flags in ["--frame", "--frame --signed", "--frame --flip"] {
         assert_eq!(framed(flags), (14, FRAME), "{flags}");
     }
@@ -287,7 +291,7 @@ fn a_rendered_picture_is_judged_by_the_same_flags() {
     mask.row_mut(24)[32] = [0; 4];
     write(&folder, "mask.png", &mask);
     check("--mask mask.png").done();
-    // Levels around it differ by less than 4.
+    // The pixels around it differ by less than 4 levels.
     check("--radius 1 --reference-threshold 8.9")
         .done()
         .prints(", within a radius of 1 pixel");
@@ -303,7 +307,7 @@ fn a_rendered_picture_is_judged_by_the_same_flags() {
         folder
             .run(&format!("render {SPHERE} -o new.png {flag}"))
             .refused(&[
-                &format!("`{name}` is for a comparison, and there is none"),
+                &format!("`{name}` is for a comparison, but there is none"),
                 "expected `--reference FILE` too",
             ]);
     }
@@ -314,7 +318,7 @@ fn a_rendered_picture_is_judged_by_the_same_flags() {
 fn pictures_of_different_size_are_not_judged() {
     let folder = pair();
     write(&folder, "small.png", &Picture8::new(8, 8, GREY));
-    // Nothing is allowed to differ in size, whatever else is.
+    // Whatever the flags allow, the sizes must be equal.
     let flags = "--fail-above 255 --allow 100% --radius 1 --region 0,0,16,12";
     let ended = folder
         .run(&format!("diff a.png small.png {flags} --json"))

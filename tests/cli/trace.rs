@@ -1,11 +1,11 @@
-//! `fastphong trace`: its document, and what it refuses.
+//! `fastphong trace`: its document, and the scenes that it refuses.
 
 use super::{Folder, SPHERE};
 use fastphong::picture::image_file::read_picture;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-/// Collects the names of all fields.
+/// Adds the names of all fields of `value` to `to`.
 fn fields(value: &Value, to: &mut BTreeSet<String>) {
     for (name, value) in value.as_object().into_iter().flatten() {
         to.insert(name.clone());
@@ -16,7 +16,7 @@ fn fields(value: &Value, to: &mut BTreeSet<String>) {
 }
 
 #[test]
-fn colours_are_those_that_render_stores() {
+fn traced_colours_equal_those_that_render_stores() {
     let folder = Folder::new();
     for method in ["gouraud", "fast-phong:steps=1", "integer-fast"] {
         let how = format!("{SPHERE} -m {method}");
@@ -77,7 +77,7 @@ fn the_description_names_every_field() {
 }
 
 #[test]
-fn one_line_has_the_polygons_that_it_meets() {
+fn the_trace_of_one_line_holds_the_polygons_that_the_line_meets() {
     let folder = Folder::new();
     let whole = folder.run(&format!("trace {SPHERE}")).done().json();
     let line = folder
@@ -87,7 +87,7 @@ fn one_line_has_the_polygons_that_it_meets() {
     let count = |trace: &Value, list: &str| trace[list].as_array().expect("a list").len();
     assert_eq!(count(&line, "lines"), 1);
     assert!(count(&line, "polygons") < count(&whole, "polygons"));
-    // But for indices the line is that of the whole trace.
+    // The line equals line 20 of the whole trace but for polygon indices.
     let of = |trace: &Value, y: usize| {
         let runs = trace["lines"][y]["runs"].as_array().expect("runs").iter();
         runs.map(|run| {
@@ -111,7 +111,7 @@ fn one_line_has_the_polygons_that_it_meets() {
 }
 
 #[test]
-fn what_cannot_be_traced_is_said() {
+fn scenes_that_cannot_be_traced_are_refused_with_the_limit() {
     let folder = Folder::new();
     let trace = |flags: &str| folder.run(&format!("trace {flags}"));
     trace("coarse-sphere").refused(&["640x480 samples", "at most 64x64", "--line"]);

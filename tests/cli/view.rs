@@ -10,7 +10,7 @@ fn a_program_without_windows_says_how_to_get_one() {
         let told = ["built without windows", "--features view"];
         folder.run(arguments).refused(&told);
     }
-    // It is in no list of what this program can do.
+    // Without windows, `view` stands in no list of commands.
     let help = folder.run("--help").done();
     assert!(!help.out.contains("  view"), "{}", help.out);
 }
@@ -31,7 +31,7 @@ mod with_windows {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn without_a_display_it_says_so() {
+    fn without_a_display_the_tool_says_so() {
         let folder = Folder::new();
         let ended = run(&folder, "view builtin:cube");
         ended.refused(&["no window can be opened", "DISPLAY", "fastphong render"]);
@@ -39,14 +39,14 @@ mod with_windows {
         command
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET");
-        // There may be an X server of nearly any number.
+        // An X server may exist under nearly any display number, so choose an unlikely one.
         command.env("DISPLAY", ":4711");
         let output = command.output().expect("the tool runs");
         Ended::new("DISPLAY=:4711", output).refused(&["no window can be opened", "X server"]);
     }
 
     #[test]
-    fn what_is_wrong_with_input_is_said_first() {
+    fn errors_of_the_input_come_first() {
         let folder = Folder::new();
         folder.write("bad.toml", "colour = 1");
         run(&folder, "view bad.toml").refused(&["unknown key `colour`", "bad.toml:1:1"]);

@@ -90,12 +90,12 @@ fn only_files_can_be_watched() {
     for input in ["teapot", "builtin:cube", "gone.png", "."] {
         folder
             .run(&format!("render {input} --watch -o out.png"))
-            .refused(&["is no file, and never changes: expected a scene file or a mesh file with `--watch`"]);
+            .refused(&["is not a file, so it never changes: expected a scene file or a mesh file with `--watch`"]);
     }
 }
 
 #[test]
-fn a_scene_that_is_not_there_yet_is_drawn_when_it_appears() {
+fn a_missing_scene_is_drawn_when_it_appears() {
     let folder = Folder::new();
     folder
         .write("mesh.obj", MESH)
@@ -116,9 +116,10 @@ impl Folder {
     }
 }
 
-/// Each of the three files goes and comes back, by being written or by being renamed, as editors do it.
+/// Each of the three files disappears and returns: it is written anew, or renamed into place as
+/// editors do.
 #[test]
-fn files_that_go_and_come_back_are_drawn_again() {
+fn files_that_disappear_and_return_are_drawn_again() {
     let folder = Folder::new();
     folder
         .write("scene.toml", SCENE)
@@ -147,15 +148,15 @@ fn files_that_go_and_come_back_are_drawn_again() {
     watcher.says("out.png: 20x12");
     watcher.says("watching 3 files");
     assert_ne!(folder.read("out.png"), grey, "the library is back");
-    // The same size, under the same name.
+    // The new file has the same size and the same name.
     folder.write("new", MESH.replace("1 0 0", "9 0 0"));
     std::fs::rename(folder.path("new"), folder.path("mesh.obj")).expect("another name");
     watcher.says("out.png: 20x12");
 }
 
-/// A library that was never there is looked for as long as the mesh names it.
+/// The tool waits for a library that does not exist yet, as long as the mesh names it.
 #[test]
-fn a_library_that_comes_later_is_drawn() {
+fn a_library_that_appears_later_is_drawn() {
     let folder = Folder::new();
     folder.write("mesh.obj", MESH);
     let watcher = Watcher::new(&folder, "render mesh.obj --size 16x12 --watch -o out.png");
@@ -167,9 +168,9 @@ fn a_library_that_comes_later_is_drawn() {
     assert_ne!(folder.read("out.png"), without);
 }
 
-/// A mesh that cannot be read for a moment is told once, and drawn as soon as it can.
+/// An unreadable mesh is reported once, and drawn as soon as it is readable.
 #[test]
-fn an_error_is_told_once() {
+fn an_error_is_reported_once() {
     let folder = Folder::new();
     folder.write("scene.toml", SCENE);
     let watcher = Watcher::new(&folder, "render scene.toml --watch -o out.png");
@@ -182,6 +183,6 @@ fn an_error_is_told_once() {
     while !watcher.line().contains("out.png: 16x12") {
         lines += 1;
     }
-    // Nothing, or a warning that no library is there.
+    // At most one line comes in between: a warning that no library is there.
     assert!(lines <= 1, "{lines} lines");
 }

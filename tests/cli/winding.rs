@@ -1,9 +1,10 @@
-//! Mesh files whose winding tells no outside: nothing of them vanishes, and nothing is dark that the light reaches.
+//! Mesh files whose winding does not tell the outside: no part of them vanishes, and no lit part is
+//! dark.
 
 use super::*;
 use std::fmt::Write;
 
-/// The quads of a wavy 8 × 8 terrain, all seen from above.
+/// Returns the quads of a wavy 8 × 8 terrain, all seen from above.
 fn terrain() -> Vec<[usize; 4]> {
     let at = |x: usize, y: usize| 9 * y + x + 1;
     let quads = (0..64).map(|k| (k % 8, k / 8));
@@ -12,7 +13,7 @@ fn terrain() -> Vec<[usize; 4]> {
         .collect()
 }
 
-/// Writes the terrain, its quads reversed where `reversed` says so.
+/// Returns the terrain as OBJ text, with the quad at index k reversed if `reversed(k)`.
 fn terrain_obj(reversed: impl Fn(usize) -> bool) -> String {
     let mut text = String::new();
     for k in 0..81 {
@@ -30,7 +31,8 @@ fn terrain_obj(reversed: impl Fn(usize) -> bool) -> String {
     text
 }
 
-/// A cube with flat normals of its own: `sign` is 1 where they point outward. The sides at `reversed` are wound inside out.
+/// Returns a cube with flat normals as OBJ text. The normals point outward if `sign` is 1. The
+/// sides at the indices `reversed` are wound inside out.
 fn cube_obj(sign: i32, reversed: &[usize]) -> String {
     let mut text = String::from(
         "v 1 1 -1\nv 1 -1 -1\nv 1 1 1\nv 1 -1 1\nv -1 1 -1\nv -1 -1 -1\nv -1 1 1\nv -1 -1 1\n",
@@ -63,7 +65,7 @@ fn cube_obj(sign: i32, reversed: &[usize]) -> String {
     text
 }
 
-/// Draws the mesh file `text` with `flags`; returns the picture and what was said.
+/// Draws the OBJ text `text` with `flags`. Returns the picture and the messages.
 fn drawn(text: &str, flags: &str) -> (Picture8, String) {
     let folder = Folder::new();
     folder.write("mesh.obj", text);
@@ -98,20 +100,20 @@ fn a_terrain_with_a_third_of_its_faces_reversed_has_no_holes() {
         "{told}"
     );
     assert_eq!(told.lines().count(), 2, "{told}");
-    // Each polygon has its own normal, toward the eye whichever way it is wound.
+    // Each polygon's normal turns toward the eye, whichever way the polygon is wound.
     assert_eq!(largest_difference(&right, &mixed), 0);
-    // From below too.
+    // The same holds from below.
     let below = "--view 20,-50 -m flat --alpha coverage";
     let [right, mixed] = [terrain_obj(|_| false), third.clone()].map(|text| drawn(&text, below).0);
     assert_eq!(largest_difference(&right, &mixed), 0);
-    // Flags win.
+    // A flag overrides the automatic choice.
     let (culled, told) = drawn(&third, &format!("{view} --cull back"));
     assert!(!told.contains("mesh.obj"), "{told}");
     assert!(covered(&culled) < covered(&right));
 }
 
 #[test]
-fn a_cube_with_normals_of_its_own_is_drawn_by_them_however_its_sides_are_wound() {
+fn normals_decide_how_a_cube_is_drawn_however_its_sides_are_wound() {
     let (right, told) = drawn(&cube_obj(1, &[]), "");
     assert!(!told.contains("mesh.obj"), "{told}");
     for (sign, reversed, why) in [
@@ -146,12 +148,12 @@ fn a_cube_with_normals_of_its_own_is_drawn_by_them_however_its_sides_are_wound()
 }
 
 #[test]
-fn a_plane_that_is_wound_away_is_drawn_lit() {
+fn a_plane_that_is_wound_away_from_the_eye_is_drawn_and_lit() {
     let plane =
         |face: &str| format!("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 -1\n{face}\n");
     let views = [
         "--view 10,10",
-        // Cut by the near plane.
+        // The near plane cuts the plane.
         "--eye 0.5,-0.3,0.1 --target 0.5,0.5,0 --fovy 60 --near 0.25 --far 9",
     ];
     for view in views {
@@ -170,7 +172,7 @@ fn a_plane_that_is_wound_away_is_drawn_lit() {
                     0,
                     "{view} {face} {flags}"
                 );
-                assert!(!told.contains("means nothing"), "{told}");
+                assert!(!told.contains("has no effect"), "{told}");
             }
         }
     }
@@ -182,7 +184,7 @@ fn a_plane_that_is_wound_away_is_drawn_lit() {
     assert!(told.contains("nothing is drawn: 1 polygon is seen from the culled side"));
 }
 
-/// Wheels that a program mirrored are closed and inside out, and the body around them is not.
+/// A program mirrored the wheels: they are closed and inside out, and the body around them is not.
 #[test]
 fn a_closed_part_that_is_inside_out_among_others_is_drawn() {
     let part = |x: f64, reversed: bool| {

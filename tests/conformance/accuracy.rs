@@ -1,4 +1,4 @@
-//! Errors of every method against its `f64` closed form, over all shipped scenes, on linear frames.
+//! Compares linear frames of every method with its `f64` closed form, over all shipped scenes.
 
 use crate::support::cases::{Case, case, cases};
 use crate::support::differences::largest_difference;
@@ -6,11 +6,12 @@ use crate::support::drawings::{Drawing, assert_none, for_each_drawing};
 
 use crate::support::renderers::{self, distinct};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::LinearPicture;
-use fastphong::raster::{NOTHING, Renderer};
+use fastphong::raster::{NO_POLYGON, Renderer};
 use fastphong::reference::{self, Model};
-use fastphong::scene::file::SceneFile;
+use fastphong::scene::file::{SceneFile, UnusableMesh};
 use fastphong::scene::{
     DepthBuffer, Falloff, HiddenSurfaces, LightTerm, Lighting, Place, Power, SpecularGate,
     SpecularModel,
@@ -21,15 +22,16 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Checks that a drawing is within the rounding bound of its closed form. Returns the span engine's
-/// error as a share of that bound, or a message.
+/// error as a share of that bound, 0 for other engines, or a message.
 ///
-/// The other engines round in other places than the span engine but no more often. The row engine steps eight pixels
-/// at a time, the barycentric one interpolates by barycentric coordinates.
+/// The other engines round in other places than the span engine, but no more often. The row engine
+/// steps eight pixels at a time. The barycentric engine interpolates by barycentric coordinates.
 fn check(drawing: &Drawing) -> Result<f64, String> {
     let (case, variant) = (drawing.case, &drawing.variant);
     let (info, frame) = (variant.info(), &case.frame);
     let (seen, truly) = (case.seen(), &case.visibility().polygons);
-    // The span engine is compared wherever it sees the reference's polygon, others where rounding cannot change which one is seen.
+    // The span engine is compared wherever it sees the reference's polygon. Others are compared
+    // where rounding cannot change the visible polygon.
     let counts = |x, y| match drawing.is_by_spans() {
         true => seen.get(x, y) == truly.get(x, y),
         false => case.decided().get(x, y),
@@ -46,13 +48,14 @@ fn check(drawing: &Drawing) -> Result<f64, String> {
         return Ok(0.0);
     }
     // These scenes should exercise rounding. The method's own allowance is for coarser scenes, so
-    // it is left out, and so is what it leaves out by design.
+    // it is left out, and so is its error by design.
     let numbers = with_numbers(info);
     let rounding = numbers.bound(frame) - numbers.approximation(frame);
     Ok(max / rounding.max(0.0))
 }
 
-/// Checks every drawing of these cases. Returns the span engine's errors as shares of their bounds, with case and method.
+/// Checks every drawing of these cases. Returns the case, the method and the span engine's error as
+/// a share of its bound.
 pub fn check_all<'a>(
     cases: impl IntoIterator<Item = &'a Case>,
 ) -> Vec<(&'a Case, &'static str, f64)> {
@@ -73,7 +76,7 @@ pub fn check_all<'a>(
     shares
 }
 
-/// Returns the method with every parameter at its least value, so that it chooses nothing itself.
+/// Sets every parameter of a method to its least value, so that it chooses nothing itself.
 fn with_numbers(info: &Info) -> Variant {
     let mut text = info.name.to_string();
     for parameter in info.parameters {
@@ -105,7 +108,7 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
     }
     let mut nearest: BTreeMap<&str, (f64, &str)> = BTreeMap::new();
     let mut shares = check_all(cases(None));
-    // No shipped scene has small triangles whose highlights are N·H, which some methods ask for.
+    // No shipped scene has small triangles with highlights by N·H, which some methods require.
     let by_half_vectors = ["million", "mirrored"].map(|name| {
         let frame = relit(&case(name, None).frame, |lighting| {
             lighting.specular = SpecularModel::Blinn;
@@ -145,8 +148,8 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Checks every method with every renderer on a scene with each exponent. Returns each method's error as a
-/// share of its bound, by exponent.
+/// Checks every method with every renderer on a scene with each exponent. Returns each method's
+/// error as a share of its bound, by exponent.
 fn check_exponents(name: &str, frame: &Frame, exponents: &[f32]) -> Vec<Vec<f64>> {
     let relit = exponents.iter().map(|&shininess| {
         let frame = relit(frame, |lighting| lighting.shininess = shininess);
@@ -160,7 +163,8 @@ fn check_exponents(name: &str, frame: &Frame, exponents: &[f32]) -> Vec<Vec<f64>
         .collect()
 }
 
-/// Exponents below 1 are infinitely steep at 0, where highlights end on all these scenes.
+/// Powers with an exponent below 1 are infinitely steep at 0, and on all these scenes highlights
+/// fall to 0.
 #[test]
 fn exponents_below_1_are_within_their_bound() {
     for name in [
@@ -178,14 +182,15 @@ fn exponents_below_1_are_within_their_bound() {
     }
 }
 
-/// Builds small squares that all lean by 45° from the eye, each another way, with the light at the eye: R is at a right
-/// angle to the eye, and rounding alone decides whether R·V is just over 0 or just under.
+/// Builds small squares that all lean by 45° from the eye, each in another direction, with the
+/// light at the eye. R is at a right angle to the eye, so only rounding decides if R·V is just over
+/// 0 or just under.
 fn ends_of_highlights(specular: SpecularModel, gate: SpecularGate, colours: &[f32]) -> Frame {
     const SIDE: u32 = 32;
     let mut builder = FrameBuilder::new(SIDE, SIDE);
     let toward = match specular {
         SpecularModel::Phong => [0.0, 0.0, 1.0],
-        // N·H, and not L·N, is 0 for a normal at a right angle to H.
+        // For a normal at a right angle to H, N·H is 0, but L·N is not.
         SpecularModel::Blinn => [0.0, 0.6, 0.8],
     };
     let lights = colours.iter().map(|&colour| LightTerm {
@@ -194,24 +199,21 @@ fn ends_of_highlights(specular: SpecularModel, gate: SpecularGate, colours: &[f3
         specular: [colour; 3],
         falloff: Falloff::None,
     });
-    let material = builder.lighting(Lighting {
-        ambient: [0.0; 3],
-        lights: lights.collect(),
-        view: Place::Infinite([0.0, 0.0, 1.0]),
-        shininess: 1.0,
-        specular,
-        gate,
-        vertex_colours: false,
-    });
+    let mut lighting = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
+    lighting.lights = lights.collect();
+    lighting.shininess = 1.0;
+    (lighting.specular, lighting.gate) = (specular, gate);
+    let material = builder.lighting(lighting);
     for number in 0..SIDE * SIDE {
         let (x, y) = (f64::from(number % SIDE), f64::from(number / SIDE));
-        // The golden angle: directions that do not repeat, and round each in another way.
+        // The golden angle: directions do not repeat, and each rounds differently.
         let (sin, cos) = (f64::from(number) * 2.399963).sin_cos();
         let half = core::f64::consts::FRAC_1_SQRT_2;
         let normal = match specular {
             SpecularModel::Phong => [cos * half, sin * half, half],
             SpecularModel::Blinn => {
-                // H = (0, 0.6, 1.8) / |…|; its normals are spanned by (1, 0, 0) and (0, 1.8, −0.6) / |…|.
+                // H = (0, 0.6, 1.8) / |…|; its normals are spanned by (1, 0, 0) and (0, 1.8, −0.6)
+                // / |…|.
                 let length = f64::hypot(1.8, 0.6);
                 [cos, sin * 1.8 / length, -sin * 0.6 / length]
             }
@@ -232,8 +234,9 @@ fn ends_of_highlights(specular: SpecularModel, gate: SpecularGate, colours: &[f3
     builder.finish().expect("all corners are on the picture")
 }
 
-/// Where highlights end, exponents below 1 turn the last bit of a cosine into grey levels: for each exponent the worst error of
-/// all methods is over a tenth of the bound. Methods that happen to round as the reference does are off by nothing there.
+/// Where highlights end, exponents below 1 turn the last bit of a cosine into grey levels. For each
+/// exponent the largest error of all methods is over a tenth of the bound. A method that happens to
+/// round like the reference has no error there.
 #[test]
 fn exponents_below_1_bite_where_highlights_end() {
     let exponents = [0.1, 0.25, 0.5];
@@ -248,7 +251,8 @@ fn exponents_below_1_bite_where_highlights_end() {
     }
 }
 
-/// A highlight that is weighted with L·N has the error that a length is allowed, as L·N is divided by it.
+/// A highlight that is weighted by L·N has the error that a length may have, because L·N is divided
+/// by the length.
 #[test]
 fn weighted_highlights_are_within_their_bound() {
     let text = "
@@ -267,14 +271,16 @@ fn weighted_highlights_are_within_their_bound() {
     ";
     let file = SceneFile::parse(text, "weighted").unwrap_or_else(|e| panic!("{e}"));
     let resolved = file.resolve(|name, _| {
-        let shape = builtin(name.trim_start_matches("builtin:")).map_err(|e| e.to_string())?;
+        let shape = builtin(name.trim_start_matches("builtin:"));
+        let shape = shape.map_err(|error| UnusableMesh::new(error.to_string()))?;
         Ok((Arc::new(shape), Vec::new()))
     });
     let scene = resolved.unwrap_or_else(|e| panic!("{e}")).scene;
     check_exponents("weighted", &scene.frame().expect("a frame"), &[1.0, 4.0]);
 }
 
-/// The bound holds for both kinds of highlight, for weighted and ungated ones, for lights of many strengths and for several.
+/// The bound holds for both kinds of highlight, for weighted and ungated ones, and for one light or
+/// several of different strengths.
 #[test]
 fn exponents_below_1_are_within_their_bound_under_every_highlight() {
     for specular in [SpecularModel::Phong, SpecularModel::Blinn] {
@@ -288,29 +294,26 @@ fn exponents_below_1_are_within_their_bound_under_every_highlight() {
     }
 }
 
-/// Builds polygons of four corners, and triangles if `is_cut`, in cells 16 pixels wide and high: `corners` in 1/256 pixel from the
-/// corner of a cell, each with a normal whose cosine with a mean direction is `cosine`. The directions differ from cell to cell.
+/// Builds polygons of four corners, or triangles if `is_cut`, in cells 16 pixels wide and high.
+/// `corners` are in 1/256 pixel from the corner of a cell. The cosine between each corner's normal
+/// and the cell's mean direction is `cosine`. The directions differ from cell to cell.
 fn apart(cosine: f64, corners: [[i32; 2]; 4], is_cut: bool) -> Frame {
     const SIDE: u32 = 8;
     let mut builder = FrameBuilder::new(16 * SIDE, 16 * SIDE);
     let toward = DVec3::new(0.3, 0.5, 0.8).normalize().as_vec3().to_array();
-    let material = builder.lighting(Lighting {
-        ambient: [0.0; 3],
-        lights: vec![LightTerm {
-            place: Place::Infinite(toward),
-            diffuse: [0.5; 3],
-            specular: [0.5; 3],
-            falloff: Falloff::None,
-        }],
-        view: Place::Infinite([0.0, 0.0, 1.0]),
-        shininess: 1.0,
-        specular: SpecularModel::Phong,
-        // Continuous, so that rounding alone makes differences.
-        gate: SpecularGate::Ungated,
-        vertex_colours: false,
-    });
+    let mut lighting = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
+    lighting.lights = vec![LightTerm {
+        place: Place::Infinite(toward),
+        diffuse: [0.5; 3],
+        specular: [0.5; 3],
+        falloff: Falloff::None,
+    }];
+    lighting.shininess = 1.0;
+    // A continuous highlight: only rounding makes differences.
+    lighting.gate = SpecularGate::Ungated;
+    let material = builder.lighting(lighting);
     for number in 0..SIDE * SIDE {
-        // The golden angle: directions that do not repeat, and round each in another way.
+        // The golden angle: directions do not repeat, and each rounds differently.
         let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.1, f64::from(number) * 2.399963);
         let cell = [number % SIDE, number / SIDE].map(|cell| 16 * 256 * cell as i32);
         let sine = (1.0 - cosine * cosine).sqrt();
@@ -347,7 +350,8 @@ fn apart(cosine: f64, corners: [[i32; 2]; 4], is_cut: bool) -> Frame {
 /// The corners of a whole cell.
 const SQUARE: [[i32; 2]; 4] = [[0, 0], [0, 4096], [4096, 4096], [4096, 0]];
 
-/// Checks every method with every renderer. Returns the largest error of the span engine as a share of the bound.
+/// Checks every method with every renderer on a frame. Returns the span engine's largest error as a
+/// share of its bound.
 fn most_of_bound(name: &str, frame: Frame) -> f64 {
     let case = Case::new(name, frame);
     let shares = check_all([&case]);
@@ -356,7 +360,8 @@ fn most_of_bound(name: &str, frame: Frame) -> f64 {
         .fold(0.0, |most, (.., share)| most.max(*share))
 }
 
-/// Normals far apart have short ones between them, whose errors of direction are larger. Bounds grow as these do, and no faster.
+/// Between normals that are far apart, interpolated normals are short, and their directions have
+/// larger errors. Bounds grow like these errors, and no faster.
 #[test]
 fn short_normals_are_within_their_bound_and_it_bites() {
     for is_cut in [false, true] {
@@ -369,16 +374,18 @@ fn short_normals_are_within_their_bound_and_it_bites() {
     }
 }
 
-/// A span narrower than a pixel has steps of many times its values: parameters between nearly equal crossings must not lose digits.
+/// In a span narrower than a pixel, steps are many times as large as its values: parameters between
+/// nearly equal crossings must not lose digits.
 #[test]
 fn slivers_are_within_their_bound() {
     let mut found = Vec::new();
     for (left, right) in [(1, 1), (1, 2), (3, 20), (100, 27)] {
-        // Around the centres of column 8.
+        // Both crossings lie around the pixel centres of column 8.
         let [left, right] = [2176 - left, 2176 + right];
         let upright = [[left, 0], [left, 4096], [right, 4096], [right, 0]];
         let crossed = [[left, 0], [right, 4096], [left, 4096], [right, 0]];
-        // By 45°, through the centres of all columns, and by two columns in three rows, where crossings are rounded.
+        // One slants by 45° through the centres of all columns, the other by two columns in three
+        // rows, where crossings are rounded.
         let lean = |[top, bottom]: [i32; 2], right: i32, height: i32| {
             [
                 [left + top, 0],
@@ -415,9 +422,9 @@ fn bound(variant: &str, frame: &Frame) -> f64 {
     Variant::parse(variant).expect("a method").bound(frame)
 }
 
-/// Each further Newton step squares the error on short spans over large angles: a coarse sphere 24
-/// rows high. One step is off by far more than rounding. The report has exact figures, this test
-/// checks their order.
+/// Each further Newton step squares the error on short spans over large angles, here on a coarse
+/// sphere 24 rows high. One step is off by far more than rounding. The report has exact figures;
+/// this test checks their order.
 #[test]
 fn more_steps_are_more_exact() {
     let scene = case("coarse-sphere", Some((32, 24)));
@@ -441,14 +448,14 @@ fn more_steps_are_more_exact() {
     );
 }
 
-/// Fast Phong takes by default the fewest steps whose error is invisible: one on a fine sphere
+/// By default fast Phong chooses the fewest steps whose error is invisible: one on a fine sphere
 /// except at its rim, more on a coarse one. Its bound includes the allowed error, a quarter of a
 /// grey level.
 #[test]
-fn spans_take_as_few_steps_as_cannot_be_seen() {
+fn spans_use_the_fewest_steps_with_an_invisible_error() {
     let fine = &case("fine-sphere", None).frame;
     let coarse = &case("coarse-sphere", Some((32, 24))).frame;
-    // Returns the share of drawn pixels with the same colour as at a fixed number of steps.
+    // Returns the share of drawn pixels with the same colour as at a fixed count of steps.
     let same = |frame: &Frame, steps: u32| {
         let pictures = [
             linear("fast-phong", frame),
@@ -470,7 +477,8 @@ fn spans_take_as_few_steps_as_cannot_be_seen() {
     }
 }
 
-/// The visible polygon differs at few pixels, where two surfaces meet within the rounding of depth.
+/// The visible polygon differs only at a few pixels, where two surfaces meet within the rounding of
+/// depth.
 #[test]
 fn visible_polygons_differ_only_where_surfaces_meet() {
     for scene in cases(None) {
@@ -492,10 +500,10 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
             .seen()
             .pixels()
             .iter()
-            .filter(|&&p| p != NOTHING)
+            .filter(|&&p| p != NO_POLYGON)
             .count();
         println!("{}: {differing} of {drawn} pixels", scene.name);
-        // Narrow depth buffers have wide levels, and rounding decides where one ends.
+        // Narrow depth buffers have wide levels, and rounding decides where a level ends.
         // `hidden_surfaces` tests these pixels.
         let fights = matches!(scene.frame.hidden_surfaces(), HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. })
             if bits.most().is_some());
@@ -507,7 +515,7 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
     }
 }
 
-/// Copies a frame without specular light.
+/// Copies a frame and removes its specular light.
 fn matte(frame: &Frame) -> Frame {
     relit(frame, |lighting| {
         for light in &mut lighting.lights {
@@ -516,7 +524,7 @@ fn matte(frame: &Frame) -> Frame {
     })
 }
 
-/// Copies a frame with its lightings changed.
+/// Copies a frame and changes each lighting by `change`.
 fn relit(frame: &Frame, change: impl Fn(&mut Lighting)) -> Frame {
     let mut builder = FrameBuilder::new(frame.width() as u32, frame.height() as u32);
     builder
@@ -555,8 +563,8 @@ const WITHOUT_HIGHLIGHT: [&str; 6] = [
     "z-fighting",
 ];
 
-/// Every scene shows lit pixels, and highlights unless it has none by design. An ambient-only
-/// picture once concealed a flipped winding.
+/// Every scene shows lit pixels, and highlights unless it has none by design. Without this test, a
+/// flipped winding could hide in a picture of ambient light only.
 #[test]
 fn every_scene_is_lit() {
     let wide = |pixel: [f32; 4]| pixel.map(f64::from);
@@ -566,7 +574,7 @@ fn every_scene_is_lit() {
         let dull = reference::shade(&dull, scene.visibility(), Model::Phong).to_linear();
         let (mut drawn, mut lit, mut highlit) = (0usize, 0usize, 0usize);
         for (i, &polygon) in scene.visibility().polygons.pixels().iter().enumerate() {
-            if polygon == NOTHING {
+            if polygon == NO_POLYGON {
                 continue;
             }
             let lighting = &scene.frame.lightings()
@@ -577,8 +585,8 @@ fn every_scene_is_lit() {
             let shine =
                 |c: usize| f64::from(lighting.lights.iter().map(|l| l.specular[c]).sum::<f32>());
             drawn += 1;
-            // Lit: a tenth of the most that diffuse light could add. Highlit: a quarter of the most
-            // that specular light could.
+            // A pixel is lit from a tenth of the largest possible diffuse light on, and highlit
+            // from a quarter of the largest possible specular light on.
             lit += usize::from(
                 (0..3).any(|c| dull[c] > f64::from(lighting.ambient[c]) + 0.1 * most(c)),
             );
@@ -609,12 +617,13 @@ fn every_scene_is_lit() {
     }
 }
 
-/// Every power function is within its rounding bound of its own closed form, with every engine and instruction set, and its closed
-/// form is no farther from that of tⁿ than it states; and over these scenes both come near to what is stated.
+/// Every power function is within its rounding bound of its own closed form, with every engine and
+/// instruction set. Its closed form is no farther from tⁿ than it states. Over these scenes both
+/// errors come close to their bounds.
 #[test]
 fn every_power_is_within_its_bounds() {
     let mut failures = Vec::new();
-    // The largest shares of the bound and of what is stated, for each power.
+    // The largest shares of both bounds, for each power.
     let mut nearest: Vec<(Power, [f64; 2])> = Power::ALL[1..]
         .iter()
         .map(|&power| (power, [0.0; 2]))
@@ -649,7 +658,7 @@ fn every_power_is_within_its_bounds() {
                     }
                     let stated = variant.approximation(&scene.frame);
                     let (max, _) = largest_difference(scene.truth(form.model), &truth, |_, _| true);
-                    // The references are pictures in single precision.
+                    // The references are stored in single precision.
                     if max > stated + 2.0 * f64::from(f32::EPSILON) {
                         failures.push(format!(
                             "{text} on {}: {max:.2e} from t^n, over {stated:.2e}",

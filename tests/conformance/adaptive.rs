@@ -1,24 +1,24 @@
-//! The promise of `adaptive-phong`: linear colours are within `levels` of naive Phong's closed form in `f64`, but for roundings.
+//! The promise of `adaptive-phong`: apart from rounding, linear colours are within `levels` of
+//! naive Phong's closed form in `f64`.
 
 use crate::support::Random;
 use crate::support::cases::cases;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::mesh::Material;
 use fastphong::reference::{self, Model};
-use fastphong::scene::{
-    Falloff, Interpolation, LightTerm, Lighting, Place, SpecularGate, SpecularModel,
-};
+use fastphong::scene::{Falloff, Interpolation, LightTerm, Lighting, Place, SpecularModel};
 use fastphong::shading::Variant;
 use glam::DVec3;
 use std::slice::Iter;
 
-/// The room for roundings, in grey levels.
+/// The room for rounding, in grey levels.
 const ROUNDINGS: f64 = 0.05;
 
 fn adaptive(levels: f64) -> Variant {
     Variant::parse(&format!("adaptive-phong:levels={levels}")).expect("a method")
 }
 
-/// On every shipped scene the error is within what is promised, and over half of it somewhere.
+/// On every shipped scene the error is within the promise, and somewhere more than half of it.
 #[test]
 fn every_scene_is_within_the_promise() {
     for levels in [0.05, 0.5, 4.0] {
@@ -60,11 +60,12 @@ fn one_of<T: Copy>(share: f64, all: &[T]) -> T {
     all[(share * all.len() as f64) as usize]
 }
 
-/// Numbers of 0..1 that a polygon and its material are made of: random ones, or those that a search changes.
+/// Values in 0..1 from which a polygon and its material are made, either random or changed by a
+/// search.
 type Genes = [f64; GENES];
 const GENES: usize = 96;
 
-/// What polygons of a frame have in common.
+/// The settings that all polygons of a frame share.
 #[derive(Clone, Copy)]
 struct Setting {
     /// The side of the square cell of each polygon, in pixels.
@@ -89,11 +90,11 @@ impl Setting {
     }
 }
 
-/// The polygons of a frame, and the columns of their cells.
+/// The count of polygons in a frame. Their cells stand in `COLUMNS` columns.
 const COUNT: u32 = 64;
 const COLUMNS: u32 = 8;
 
-/// Reads the genes of a polygon one after the other.
+/// Reads a polygon's genes in order.
 struct Reader<'a>(Iter<'a, f64>);
 
 impl Reader<'_> {
@@ -113,31 +114,29 @@ impl Reader<'_> {
 
     fn lighting(&mut self, setting: Setting) -> Lighting {
         let strength = 1.2 / setting.lights as f64;
-        Lighting {
-            ambient: self.colour(0.2),
-            view: Place::Infinite(one_of(self.share(), &[[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]])),
-            shininess: one_of(
-                self.share(),
-                &[0.5, 1.0, 2.0, 5.0, 7.3, 10.0, 32.0, 33.0, 128.0],
-            ),
-            specular: match self.share() < 0.3 {
-                true => SpecularModel::Blinn,
-                false => SpecularModel::Phong,
-            },
-            gate: SpecularGate::Gated,
-            vertex_colours: false,
-            lights: (0..setting.lights)
-                .map(|_| LightTerm {
-                    place: self.direction(),
-                    diffuse: self.colour(strength),
-                    specular: self.colour(strength),
-                    falloff: Falloff::None,
-                })
-                .collect(),
-        }
+        let mut lighting = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
+        lighting.ambient = self.colour(0.2);
+        lighting.view = Place::Infinite(one_of(self.share(), &[[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]]));
+        lighting.shininess = one_of(
+            self.share(),
+            &[0.5, 1.0, 2.0, 5.0, 7.3, 10.0, 32.0, 33.0, 128.0],
+        );
+        lighting.specular = match self.share() < 0.3 {
+            true => SpecularModel::Blinn,
+            false => SpecularModel::Phong,
+        };
+        lighting.lights = (0..setting.lights)
+            .map(|_| LightTerm {
+                place: self.direction(),
+                diffuse: self.colour(strength),
+                specular: self.colour(strength),
+                falloff: Falloff::None,
+            })
+            .collect();
+        lighting
     }
 
-    /// Makes the vertices of a convex polygon of 3 to 6 corners in cell `number`.
+    /// Makes the vertices of a convex polygon of 3 to 6 corners in a cell.
     fn polygon(&mut self, setting: Setting, number: u32, material: u32) -> Vec<Vertex> {
         let middle = (self.vector() + DVec3::new(0.0, 0.0, 1.0)).normalize_or(DVec3::Z);
         let reach = 10f64.powf(self.share() * 3.0 - 2.6);
@@ -168,7 +167,7 @@ impl Reader<'_> {
     }
 }
 
-/// Builds a frame of polygons on materials of their own. `change` changes the lightings.
+/// Builds a frame of polygons, each with its own material. `change` changes the lightings.
 fn frame(setting: Setting, all: &[Genes], change: impl Fn(&mut Lighting)) -> Frame {
     let rows = u32::div_ceil(all.len() as u32, COLUMNS);
     let mut builder = FrameBuilder::new(setting.cell * COLUMNS, setting.cell * rows);
@@ -185,7 +184,8 @@ fn frame(setting: Setting, all: &[Genes], change: impl Fn(&mut Lighting)) -> Fra
     builder.finish().expect("all corners are on the picture")
 }
 
-/// Returns |L·N| of one light at each pixel, as a picture of that light and its opposite alone.
+/// Returns |L·N| of one light at each pixel, from a picture lit only by this light and its
+/// opposite.
 fn cosines(setting: Setting, all: &[Genes], light: usize) -> Vec<f64> {
     let frame = frame(setting, all, |lighting| {
         let Place::Infinite(to) = lighting.lights[light].place else {
@@ -204,13 +204,14 @@ fn cosines(setting: Setting, all: &[Genes], light: usize) -> Vec<f64> {
     picture.pixels().iter().map(|pixel| pixel[0]).collect()
 }
 
-/// What is measured on a frame.
+/// The measurements on a frame.
 struct Measured {
     /// The largest error on each polygon, in grey levels.
     errors: Vec<f64>,
     pixels: usize,
-    /// The pixels that are left out: a highlight jumps where L·N = 0, and a rounding decides; and for exponents below 1 it has no greatest slope where
-    /// it ends, so that only the bound of its roundings holds.
+    /// The pixels that are left out. A highlight jumps where L·N = 0, and rounding decides. For
+    /// exponents below 1 its slope has no limit where it ends, so only the bound of its rounding
+    /// holds.
     apart: usize,
     kinds: [usize; 5],
 }
@@ -258,7 +259,8 @@ fn measure(setting: Setting, all: &[Genes]) -> Measured {
     measured
 }
 
-/// Returns a number of the environment, so that a test runs longer than `cargo test` has time for.
+/// Reads a count from the environment, so that a test can run longer than `cargo test` has time
+/// for.
 pub fn asked(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).map_or(otherwise, |number| number.parse().expect("a number"))
 }
@@ -313,8 +315,9 @@ fn random_polygons_are_within_the_promise() {
     assert!(kinds.iter().all(|kind| kind * 50 > polygons), "{kinds:?}");
 }
 
-/// Searches for the polygon with the largest share of the promise: 64 random ones, then 64 changes of the best one, again and again: of few genes,
-/// by up to a half or by a thousandth of it. Returns the share of the best random one, and of the best of all.
+/// Searches for the polygon with the largest share of the promise. It tries 64 random ones, then
+/// changes the best one 64 times, again and again: a few genes, by up to a half or by a thousandth
+/// of that. Returns the share of the best random one, and of the best of all.
 fn search(random: &mut Random) -> (Setting, [f64; 2]) {
     const GENERATIONS: u32 = 80;
     let setting = Setting {
@@ -349,13 +352,14 @@ fn search(random: &mut Random) -> (Setting, [f64; 2]) {
     (setting, [first, best.0])
 }
 
-/// The worst polygons that a search finds keep the promise, and are worse than random ones. More restarts:
+/// The worst polygons that a search finds keep the promise, and are worse than random ones. To run
+/// more restarts:
 ///
 /// ```text
 /// FASTPHONG_RESTARTS=200 cargo test --release --test conformance -- worst_polygons --nocapture
 /// ```
 #[test]
-fn the_worst_polygons_found_are_within_the_promise() {
+fn the_worst_polygons_that_a_search_finds_are_within_the_promise() {
     let mut worst = 0.0f64;
     for restart in 1..=asked("FASTPHONG_RESTARTS", 12) {
         let (setting, [first, last]) = search(&mut Random::new(1000 + restart));

@@ -87,10 +87,10 @@ fn equal_normals_make_all_methods_equal() {
     }
 }
 
-/// Every number of lights gives the reference's picture. Counts between the compiled sizes are
-/// padded with dark lights.
+/// Any count of lights draws the reference's picture. Counts between the compiled sizes are padded
+/// with dark lights.
 #[test]
-fn any_number_of_lights() {
+fn any_count_of_lights_agrees_with_the_reference() {
     for count in [0, 1, 2, 3, 4, 5, 8, 9, 20, Scene::MAX_LIGHTS] {
         let case = Case::new("", sphere(|scene| scene.lights = lights(count)));
         assert_eq!(case.frame.light_count(), count);
@@ -110,7 +110,7 @@ fn any_number_of_lights() {
     assert!(scene.frame().is_err(), "one light more than there may be");
 }
 
-/// A light behind the sphere makes no highlight. There L·N < 0, but R·V = 1 − 2 (N·V)² is
+/// A light behind the sphere makes no highlight. There L·N < 0, although R·V = 1 − 2 (N·V)² is
 /// positive toward the rim.
 #[test]
 fn a_light_behind_makes_no_highlight() {
@@ -127,7 +127,7 @@ fn a_light_behind_makes_no_highlight() {
         for (pixel, normal) in picture.pixels().iter().zip(normals.pixels()) {
             let n =
                 DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()) * 2.0 - DVec3::ONE;
-            // These pixels are far enough from the rim that no corner of their polygon, 4.5 degrees
+            // These pixels are so far from the rim that no corner of their polygon, 4.5 degrees
             // wide, faces the light.
             if pixel[3] > 0.0 && (0.3..0.6).contains(&n.dot(view)) {
                 assert_eq!(
@@ -190,7 +190,7 @@ fn stored_and_linear_pictures_agree() {
 }
 
 /// With perspective interpolation on a near, wide view every method agrees with the reference. The
-/// picture differs from the one interpolated on screen.
+/// picture differs from the picture that is interpolated on the screen.
 #[test]
 fn perspective_interpolation_agrees_with_the_reference() {
     let near = |interpolation| {
@@ -246,7 +246,7 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
             continue;
         };
         let difference = compare(&theirs, &linear(entry, &frame)).expect("equal sizes");
-        // Both are within the bound of their closed form, and the forms are equal on triangles.
+        // Both pictures are within the bound of their closed forms, which are equal on triangles.
         assert!(
             difference.max <= 2.0 * entry.variant().bound(&frame),
             "{}: {}",

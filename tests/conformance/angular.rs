@@ -1,15 +1,17 @@
-//! Checks the methods that interpolate angles, or by another chart of the sphere, against their own formulas, evaluated in `f64` one pixel
-//! at a time; and those beside them that light Phong's normals in another way.
+//! Checks the methods that interpolate angles, or in another chart of the sphere, against their own
+//! formulas, evaluated in `f64` one pixel at a time. Also checks the related methods that light
+//! Phong's normals differently.
 
 use super::lecture::{
     AMBIENT, DIFFUSE, LIGHT, SHININESS, SPECULAR, TOLERANCE, VIEW, WIDTH, intensity, lighting,
     pairs, strip_lit,
 };
-use fastphong::scene::{Lighting, SpecularModel};
+use fastphong::scene::SpecularModel;
 use fastphong::shading::Variant;
 use glam::{DQuat, DVec3};
 
-/// Draws strips by a method under one kind of highlights and compares their pixels with a formula of both normals and t.
+/// Draws strips by a method with one kind of highlight, and compares their pixels with a formula of
+/// both normals and t.
 #[track_caller]
 fn check(
     specular: SpecularModel,
@@ -19,10 +21,8 @@ fn check(
 ) {
     let variant = Variant::parse(variant).expect("a method");
     for (n1, n2) in pairs() {
-        let lighting = Lighting {
-            specular,
-            ..lighting()
-        };
+        let mut lighting = lighting();
+        lighting.specular = specular;
         let picture = variant
             .render_linear(&strip_lit(lighting, n1, n2))
             .expect("a method for the frame");
@@ -61,7 +61,7 @@ fn lerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
     n1.lerp(n2, t).normalize()
 }
 
-/// In any frame the picture is Phong's.
+/// Turning all vectors into the eye's frame does not change Phong's picture.
 #[test]
 fn phong_in_the_frame_of_the_eye_is_phong() {
     check(
@@ -72,21 +72,21 @@ fn phong_in_the_frame_of_the_eye_is_phong() {
     );
 }
 
-/// Forward differences of N·H are N·H.
+/// Forward differences of N·H give N·H at every pixel.
 #[test]
 fn duff_with_half_vectors_is_phong_with_half_vectors() {
     let formula = |n1, n2, t| lit_half(lerp(n1, n2, t));
     check(SpecularModel::Blinn, "duff-half", TOLERANCE, formula);
 }
 
-/// N·H along the great circle (4.7).
+/// The method follows N·H along the great circle (4.7).
 #[test]
 fn slerp_with_half_vectors_follows_the_great_circle() {
     let formula = |n1, n2, t| lit_half(slerp(n1, n2, t));
     check(SpecularModel::Blinn, "slerp-half", TOLERANCE, formula);
 }
 
-/// CS171, Algorithm 7, as printed: the interpolated normal is lit as it is.
+/// CS171, Algorithm 7, as printed: the interpolated normal is lit without normalising it.
 #[test]
 fn unnormalised_phong_lights_short_normals() {
     check(
@@ -97,7 +97,8 @@ fn unnormalised_phong_lights_short_normals() {
     );
 }
 
-/// The point of the stereographic chart is interpolated. Its walk steps two numbers, and N moves twice as far as they.
+/// A point of the stereographic chart is interpolated. Its walk steps two values, and N moves twice
+/// as far.
 #[test]
 fn stereographic_phong_interpolates_points_of_the_chart() {
     let formula = |n1: DVec3, n2: DVec3, t: f64| {
@@ -114,8 +115,8 @@ fn stereographic_phong_interpolates_points_of_the_chart() {
     );
 }
 
-/// Quaternions of the least turns from the eye's direction are interpolated as such, and turn it into the normal. N turns by twice
-/// as much as they.
+/// Quaternions of the least turns from the eye's direction are interpolated, and turn that
+/// direction into the normal. N turns twice as far as they do.
 #[test]
 fn quaternion_phong_interpolates_turns() {
     let formula = |n1: DVec3, n2: DVec3, t: f64| {
@@ -131,7 +132,8 @@ fn quaternion_phong_interpolates_turns() {
     );
 }
 
-/// Half-reflection turns by twice the angle of a line to the bisector, and doubles errors as often.
+/// Half-reflection turns by twice the angle between a line and the bisector, and each turn doubles
+/// errors.
 #[test]
 fn half_reflection_reflects_the_first_normal() {
     let formula = |n1: DVec3, n2: DVec3, t: f64| {
@@ -147,7 +149,8 @@ fn half_reflection_reflects_the_first_normal() {
     );
 }
 
-/// A Phong map interpolates x and y. Its z is 0.34 at least here, by which errors of x and y are divided.
+/// A Phong map interpolates x and y. Errors of x and y are divided by z, which is at least 0.34
+/// here.
 #[test]
 fn phong_maps_interpolate_x_and_y() {
     let formula = |n1: DVec3, n2: DVec3, t: f64| {
@@ -159,7 +162,8 @@ fn phong_maps_interpolate_x_and_y() {
     check(SpecularModel::Phong, "phong-map", 3.0 * TOLERANCE, formula);
 }
 
-/// Kuijk and Blake's angles are those of the great circle; their parabolas are the power of the cosine but for the 0.015 of the exponent 20.
+/// Kuijk and Blake's angles are those of the great circle. Their parabolas differ from the power of
+/// the cosine by 0.015 at exponent 20.
 #[test]
 fn kuijk_and_blake_follow_angles() {
     let formula = |n1: DVec3, n2: DVec3, t: f64| {
@@ -169,7 +173,7 @@ fn kuijk_and_blake_follow_angles() {
             (n + 65.0) / (5.0 * n + 31.7),
         );
         let here = slerp(n1, n2, t);
-        // H as its part in the plane of the great circle.
+        // Project H into the plane of the great circle.
         let across = n1.cross(n2).normalize();
         let h = (LIGHT + VIEW).normalize();
         let h = h - h.dot(across) * across;
@@ -190,7 +194,7 @@ fn kuijk_and_blake_follow_angles() {
         AMBIENT + DIFFUSE * l_n.max(0.0) + specular
     };
     check(SpecularModel::Blinn, "kuijk-blake", TOLERANCE, formula);
-    // Not by the method's own constants: the picture of the power itself.
+    // Compared with the power itself, not with the method's own constants.
     let powers = |n1, n2, t| lit_half(slerp(n1, n2, t));
     check(
         SpecularModel::Blinn,

@@ -10,9 +10,9 @@ use fastphong::picture::LinearPicture;
 use fastphong::raster::{Edges, checkerboard, vertex_colours};
 use fastphong::scene::{Camera, Culling, Interpolation, Object, Projection, Scene};
 use fastphong::shading::{
-    Carried, Carries, Info, Linear, Lit, MethodRow, Needs, Perspective, Shader, Span,
+    Carried, Carries, Info, LightAt, Linear, MethodRow, Needs, Perspective, Shader, Span,
 };
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 #[allow(dead_code)] // its `main`
@@ -23,14 +23,10 @@ const WIDTH: usize = 96;
 const HEIGHT: usize = 72;
 
 fn camera() -> Camera {
-    Camera {
-        eye: DVec3::new(3.0, 2.0, 9.0),
-        target: DVec3::new(0.0, 0.0, 0.0),
-        up: DVec3::Y,
-        projection: Projection::Perspective { fovy: 50.0 },
-        near: 1.0,
-        far: 40.0,
-    }
+    let projection = Projection::Perspective { fovy: 50.0 };
+    let mut camera = Camera::looking_at(DVec3::new(3.0, 2.0, 9.0), DVec3::ZERO, projection);
+    (camera.near, camera.far) = (1.0, 40.0);
+    camera
 }
 
 fn seen(mesh: PolygonMesh, interpolation: Interpolation) -> Frame {
@@ -38,24 +34,18 @@ fn seen(mesh: PolygonMesh, interpolation: Interpolation) -> Frame {
 }
 
 fn scene_of(mesh: PolygonMesh, interpolation: Interpolation) -> Scene {
-    let object = Object {
-        mesh: Arc::new(mesh),
-        transform: DAffine3::IDENTITY,
-        material: None,
-        normals: NormalSource::Averaged.into(),
-    };
-    Scene {
-        width: WIDTH as u32,
-        height: HEIGHT as u32,
-        interpolation,
-        culling: Culling::None,
-        objects: vec![object],
-        ..Scene::new(camera())
-    }
+    let mut object = Object::new(mesh);
+    object.normals = NormalSource::Averaged.into();
+    let mut scene = Scene::new(camera());
+    (scene.width, scene.height) = (WIDTH as u32, HEIGHT as u32);
+    scene.interpolation = interpolation;
+    scene.culling = Culling::None;
+    scene.objects = vec![object];
+    scene
 }
 
-/// Builds a floor over −4..4 in x and z whose colour is linear in x and z, of two triangles or one
-/// quad.
+/// Builds a floor over −4..4 in x and z, of two triangles or one quad. Its colour is linear in x
+/// and z.
 fn floor(triangles: bool) -> PolygonMesh {
     let corners = [(-4.0, -4.0), (-4.0, 4.0), (4.0, 4.0), (4.0, -4.0)];
     let mut builder =
@@ -78,8 +68,8 @@ fn colour(x: f64, z: f64) -> DVec3 {
     DVec3::new(0.5 + 0.1 * x, 0.5 - 0.1 * z, 0.25 + 0.02 * (x + z))
 }
 
-/// Returns the point (x, z) where a pixel's ray meets the floor, and how far it moves in half a
-/// sub-pixel.
+/// Returns the point (x, z) where a pixel's ray meets the floor, and how far this point moves by
+/// half a sub-pixel.
 fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
     let camera = camera();
     let [right, up, forward] = camera.axes();
@@ -95,7 +85,7 @@ fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
     let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
     let here = at(x, y)?;
     let moved = [at(x + 1.0, y)?, at(x, y + 1.0)?];
-    // Corners are snapped by up to half a sub-pixel in x and in y.
+    // Corners are snapped, so they are off by up to half a sub-pixel in x and in y.
     Some((
         here,
         moved
@@ -106,8 +96,8 @@ fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
     ))
 }
 
-/// Counts pixels on the floor whose colour is not the ray's, and all pixels compared. Skips pixels
-/// closer than twice the snapping error to a line of the board.
+/// Counts the pixels on the floor whose colour is not the ray's, and all compared pixels. Skips
+/// pixels closer than twice the snapping error to a line of the board.
 fn wrong(picture: &LinearPicture) -> (usize, usize) {
     let (mut wrong, mut all) = (0, 0);
     for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
@@ -133,7 +123,7 @@ fn wrong(picture: &LinearPicture) -> (usize, usize) {
 const BOARD: [[f32; 3]; 2] = [[1.0; 3], [0.0; 3]];
 
 /// Lecture 5's board is correct with perspective interpolation, in both engines. Interpolated on
-/// screen it is wrong, and wrong differently if the floor is cut into triangles.
+/// the screen it is wrong, and wrong in another way if the floor is cut into triangles.
 #[test]
 fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
     let board = |triangles, interpolation| {
@@ -187,8 +177,8 @@ fn squares_have_their_size_and_place() {
     }
 }
 
-/// Vertex colours are interpolated linearly on the surface: both engines draw the colour where each
-/// ray meets it.
+/// Vertex colours are interpolated linearly on the surface. Both engines draw the colour of the
+/// point where each ray meets it.
 #[test]
 fn vertex_colours_are_linear_on_the_surface() {
     let frame = seen(floor(true), Interpolation::Perspective);
@@ -204,7 +194,7 @@ fn vertex_colours_are_linear_on_the_surface() {
             let [r, g, b, alpha] = picture.get(x, y).map(f64::from);
             assert_eq!(alpha, 1.0, "at {x}, {y}");
             let error = (DVec3::new(r, g, b) - colour(wx, wz)).abs().max_element();
-            // Colours change by 0.1 per unit, and snapped corners move the surface by `off`. Some
+            // Colours change by 0.1 per unit, and snapped corners move the surface by `off`. About
             // 200 steps of an f32, each off by 2⁻²⁵, are divided by a weight of at least 1/14.
             assert!(error <= 0.1 * 2.0 * off + 2e-4, "{error} at {x}, {y}");
             compared += 1;
@@ -227,7 +217,7 @@ fn vertex_colours_are_linear_on_the_surface() {
 
 /// A mesh without colours is white. A mesh whose colours do not match its positions is rejected.
 #[test]
-fn colours_are_one_a_position_or_none() {
+fn a_mesh_has_one_colour_per_position_or_none() {
     let triangle = [Vec3::ZERO, Vec3::X, Vec3::Z];
     let mut builder = MeshBuilder::new(triangle.to_vec());
     builder.polygon(&[0, 2, 1]);
@@ -254,11 +244,12 @@ fn colours_are_one_a_position_or_none() {
     );
     assert_eq!(
         refused(vec![Vec3::ONE, Vec3::NAN, Vec3::ONE]),
-        "vector 1 is not finite"
+        "colour 1 is not finite: expected finite numbers"
     );
 }
 
-/// Four attributes of a vertex, drawn as a colour: the first three over the fourth.
+/// A method that draws four attributes of a vertex as a colour: the first three divided by the
+/// fourth.
 #[derive(Clone, Copy, Default)]
 struct Quotients;
 
@@ -278,11 +269,11 @@ impl Shader for Quotients {
     type Walk<F: Num> = Linear<(Vector<F>, F)>;
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, _: &Lit<'_, F>, (v, w): (Vector<F>, F)) -> Vector<F> {
+    fn shade<F: Num>(self, _: &LightAt<'_, F>, (v, w): (Vector<F>, F)) -> Vector<F> {
         v * (w.broadcast(1.0) / w)
     }
 }
@@ -292,14 +283,14 @@ impl Carries for Quotients {
     type Varying<F: Num> = (Vector<F>, F);
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, _: Vector<F>) -> (Vector<F>, F) {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, _: Vector<F>) -> (Vector<F>, F) {
         let [x, y, z, w] = lit.attributes();
         (vec3([x, y, z]), w)
     }
 }
 
-/// A method of one's own draws attributes as the vertex colours are drawn: linear on the surface, and where the near plane cuts
-/// it. Dividing by a fourth number undoes the multiplication by it.
+/// A method from outside the crate draws attributes like vertex colours: linear on the surface,
+/// even where the near plane cuts it. Dividing by a fourth value undoes the multiplication by it.
 #[test]
 fn a_method_reads_the_attributes_that_a_mesh_brings() {
     for (near, triangles) in [(1.0, true), (8.0, true), (8.0, false)] {
@@ -337,8 +328,9 @@ fn a_method_reads_the_attributes_that_a_mesh_brings() {
                 for (found, expected) in picture.pixels().iter().zip(expected.pixels()) {
                     assert_eq!(found[3], expected[3]);
                     covered += usize::from(found[3] > 0.0);
-                    // A colour, a weight and a fourth number are each stepped along a row and an edge: rounded twice a pixel by
-                    // half of 2^-23 of numbers up to 1, over weights of 1/4 and more here.
+                    // A colour, a weight and a fourth value are each stepped along a row and an
+                    // edge. Values up to 1 are rounded twice per pixel by half of 2^-23, and
+                    // divided by weights of 1/4 and more here.
                     let most = 4.0 * 3.0 * 2.0 * (WIDTH + HEIGHT) as f32 / 2.0_f32.powi(24);
                     for c in 0..3 {
                         let off = (found[c] - expected[c]).abs();
@@ -351,14 +343,14 @@ fn a_method_reads_the_attributes_that_a_mesh_brings() {
     }
 }
 
-/// Attributes are one a position or none, and stand for those of their object alone.
+/// A mesh has attributes at every position or none, and they do not affect other objects.
 #[test]
-fn attributes_are_four_a_position_or_none() {
+fn a_mesh_has_four_attributes_per_position_or_none() {
     let of = |attributes: Vec<[f32; 4]>| {
         let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Z]);
         builder.polygon(&[0, 2, 1]);
         if !attributes.is_empty() {
-            // Attributes stand in the place of colours.
+            // Attributes take the place of colours.
             builder.colours(vec![Vec3::splat(0.5); 3]);
         }
         builder.attributes(attributes);
@@ -370,18 +362,19 @@ fn attributes_are_four_a_position_or_none() {
         Some(MeshError::AttributeCount { found, expected })
     );
     let wrong = vec![[0.0; 4], [f32::NAN; 4], [0.0; 4]];
-    assert_eq!(of(wrong).err(), Some(MeshError::NotFinite { index: 1 }));
+    assert!(matches!(
+        of(wrong).err(),
+        Some(MeshError::NotFinite { index: 1, .. })
+    ));
 
     let own = vec![[2.0, -3.0, 4.0, 5.0], [0.0; 4], [7.0; 4]];
     for normals in [NormalSource::Averaged, NormalSource::Crease(1.0)] {
         let mut scene = scene_of(of(Vec::new()).expect("a mesh"), Interpolation::Screen);
         let plain = scene.objects[0].clone();
         for mesh in [of(own.clone()).expect("a mesh"), floor(true)] {
-            let mesh = Arc::new(mesh);
-            scene.objects.push(Object {
-                mesh,
-                ..plain.clone()
-            });
+            let mut object = plain.clone();
+            object.mesh = Arc::new(mesh);
+            scene.objects.push(object);
         }
         scene.objects.push(plain);
         scene
@@ -427,8 +420,8 @@ fn attributes_are_four_a_position_or_none() {
     assert!(builder.finish().is_err());
 }
 
-/// Pixels of the floor in `examples/texture.rs` have the colour of the bricks where the ray through the pixel's centre meets the floor,
-/// on every renderer.
+/// Pixels of the floor in `examples/texture.rs` have the colour of the bricks where the ray through
+/// the pixel's centre meets the floor, by every renderer.
 #[test]
 fn a_texture_is_looked_up_where_the_ray_meets_it() {
     let scene = texture::scene().expect("a scene");
@@ -437,7 +430,8 @@ fn a_texture_is_looked_up_where_the_ray_meets_it() {
     };
     let [right, up, forward] = scene.camera.axes();
     let reach = (fovy.to_radians() / 2.0).tan();
-    // On the floor, where lights and eye are far away, light is the same everywhere: a multiple of the bricks' colour, and a highlight.
+    // Lights and eye are far away, so light is the same everywhere on the floor: a multiple of the
+    // bricks' colour, plus a highlight.
     let light = |n: DVec3| {
         let frame = scene.frame().expect("a frame");
         let lit = &frame.lightings()[frame.polygons()[0].material as usize];
@@ -458,7 +452,7 @@ fn a_texture_is_looked_up_where_the_ray_meets_it() {
     };
     let floor = light(DVec3::Y);
     let texel = |u: f64, v: f64, c: usize| {
-        // Linear between four pixels of a picture of 64 × 64 that repeats.
+        // Interpolated between four pixels of a repeated picture of 64 × 64.
         let place = [u, v].map(|at| at.rem_euclid(1.0) * 64.0);
         let [column, row] = place.map(|at| at.floor() as usize);
         let [a, b] = place.map(f64::fract);
@@ -470,7 +464,7 @@ fn a_texture_is_looked_up_where_the_ray_meets_it() {
     for renderer in renderers() {
         let pixels = texture::picture(renderer).expect("a picture");
         let (mut compared, mut largest, mut levels) = (0, 0.0f64, [u8::MAX, 0]);
-        // Below the box, left and right of it.
+        // The rows lie below the box, and left and right of it.
         let rows = (170..240).step_by(3);
         for (x, y) in rows.flat_map(|y| (0..320).map(move |x| (x, y))) {
             let ray = |x: f64, y: f64| {
@@ -482,7 +476,7 @@ fn a_texture_is_looked_up_where_the_ray_meets_it() {
             let next = on_floor(ray(centre[0] + 1.0, centre[1] + 1.0));
             let ray = ray(centre[0], centre[1]);
             let hit = on_floor(ray);
-            // True if the ray is in the box where it is so high above the floor.
+            // True if the ray is inside the box at this height above the floor.
             let is_in_box = |height: f64| {
                 let at = hit + ray * (height / ray.y);
                 at.x.abs() < 1.1 && at.z.abs() < 1.1
@@ -494,8 +488,9 @@ fn a_texture_is_looked_up_where_the_ray_meets_it() {
             levels = [levels[0].min(found[1]), levels[1].max(found[1])];
             for (c, (dull, bright)) in floor.into_iter().enumerate() {
                 let colour = dull * texel(hit.x * 0.5, -hit.z * 0.5, c) + bright;
-                // Half a level by rounding. Corners are rounded to 1/256 pixel, and places of the table to 2⁻¹² in `f32` after
-                // some roundings; pixels of a brick that touch differ by up to 0.6 along each axis.
+                // Rounding is off by half a level. Corners are rounded to 1/256 pixel, and places
+                // in the table to 2⁻¹² after some roundings in `f32`. Neighbouring pixels of a
+                // brick differ by up to 0.6 along each axis.
                 let texels = 32.0 * ((next.x - hit.x).abs() + (next.z - hit.z).abs());
                 let most = 0.5 + 255.0 * dull * 0.6 * (texels / 256.0 + 2f64.powi(-9));
                 let off = (f64::from(found[c]) - 255.0 * colour.min(1.0)).abs();

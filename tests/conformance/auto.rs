@@ -8,8 +8,8 @@ use fastphong::picture::Picture8;
 use fastphong::raster::{Edges, Renderer};
 use fastphong::shading::Variant;
 
-/// Every channel is within one level of naive Phong's on every shipped scene, by every engine and
-/// instruction set.
+/// On every shipped scene, by every engine and instruction set, every channel is within one level
+/// of naive Phong's.
 #[test]
 fn auto_draws_naive_phongs_picture_to_a_level() {
     let naive = Variant::parse("naive-phong").expect("a method");

@@ -9,7 +9,6 @@ use fastphong::raster;
 use fastphong::scene::{Camera, Culling, Interpolation, Light, Object, Projection, Scene};
 use fastphong::shading::Variant;
 use glam::{DAffine3, DVec3, Vec3};
-use std::sync::Arc;
 
 fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
     let material = Material {
@@ -18,33 +17,25 @@ fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
         specular: [0.0; 3],
         shininess: 1.0,
     };
-    Scene {
-        width: 80,
-        height: 60,
-        ambient: [0.0; 3],
-        lights: vec![Light::directional(DVec3::Z, [1.0; 3])],
-        interpolation: Interpolation::Perspective,
-        culling: Culling::None,
-        objects: vec![Object {
-            mesh: Arc::new(mesh),
-            transform: DAffine3::IDENTITY,
-            material: Some(material),
-            normals: NormalSource::Given.into(),
-        }],
-        ..Scene::new(camera)
-    }
+    let mut object = Object::new(mesh);
+    object.material = Some(material);
+    object.normals = NormalSource::Given.into();
+    let mut scene = Scene::new(camera);
+    (scene.width, scene.height) = (80, 60);
+    scene.ambient = [0.0; 3];
+    scene.lights = vec![Light::directional(DVec3::Z, [1.0; 3])];
+    scene.interpolation = Interpolation::Perspective;
+    scene.culling = Culling::None;
+    scene.objects = vec![object];
+    scene
 }
 
 /// Returns a camera one unit above the plane y = 0 that looks along −z and slightly downward.
 fn above_ground(near: f64) -> Camera {
-    Camera {
-        eye: DVec3::new(0.0, 1.0, 0.0),
-        target: DVec3::new(0.0, 0.7, -1.0),
-        up: DVec3::Y,
-        projection: Projection::Perspective { fovy: 60.0 },
-        near,
-        far: 1e4,
-    }
+    let (eye, target) = (DVec3::new(0.0, 1.0, 0.0), DVec3::new(0.0, 0.7, -1.0));
+    let mut camera = Camera::looking_at(eye, target, Projection::Perspective { fovy: 60.0 });
+    (camera.near, camera.far) = (near, 1e4);
+    camera
 }
 
 /// Returns a normal with intensity `i` under the light along z.
@@ -144,8 +135,8 @@ fn ground_under_the_eye_has_the_colours_of_the_rays() {
             let found = f64::from(picture.get(x, y)[0]);
             // Corners are snapped to 1/256 pixel, so they are off by up to half of that in x and y.
             // Pixels near the horizon are long on the ground: one row below it the distance changes
-            // by half of itself. Rays are compared only where the ground moves by at most a
-            // twentieth of its size per pixel, so that 1/512 pixel is 1e-4 of it. Intensity varies
+            // by half of itself. So rays are compared only where the ground moves by at most a
+            // twentieth of its distance per pixel, and 1/512 pixel is 1e-4 of it. Intensity varies
             // by 0.8.
             let step = ground_at(&camera, x, y + 1)
                 .map_or(f64::INFINITY, |(bx, bz)| (bx - gx).hypot(bz - gz));
@@ -179,7 +170,7 @@ fn clipped_neighbours_leave_no_hole_and_no_overlap() {
             counts.iter().all(|&c| c <= 1),
             "{cells} cells: a pixel is drawn twice"
         );
-        // Only rim pixels may differ: there the same edge is cut into pieces whose ends are
+        // Only rim pixels may differ. There the same edge is cut into pieces whose ends are
         // snapped.
         let differing = counts.iter().zip(&whole).filter(|(a, b)| a != b).count();
         assert!(
@@ -206,13 +197,8 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
     });
     let mesh = builder.finish().expect("a mesh");
     let draw = |far: f64| {
-        let mut scene = scene(
-            mesh.clone(),
-            Camera {
-                far,
-                ..above_ground(0.1)
-            },
-        );
+        let mut scene = scene(mesh.clone(), above_ground(0.1));
+        scene.camera.far = far;
         scene.interpolation = Interpolation::Screen;
         let frame = scene.frame().expect("a frame");
         (
@@ -233,7 +219,7 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
         .filter(|(_, b)| b[3] > 0.0)
     {
         // New corners are snapped to 1/256 pixel, so they are off by up to half of that.
-        // Intensities change by 0.8 over some 20 rows.
+        // Intensities change by 0.8 over about 20 rows.
         assert!(
             (a[0] - b[0]).abs() < 0.8 / 20.0 / 256.0 + 1e-5,
             "{a:?} became {b:?}"
@@ -246,11 +232,11 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
     );
 }
 
-/// Clipping a concave comb's teeth at the near plane gives separate pieces that do not touch.
+/// Clipping a concave comb's teeth at the near plane leaves separate pieces that do not touch.
 #[test]
 fn a_comb_is_cut_into_its_teeth() {
-    // The teeth point at the viewer. Either the bar is beyond the plane and the tips before it, or
-    // the reverse.
+    // The teeth point at the viewer. Either the bar is beyond the plane and the tips are in front
+    // of it, or the reverse.
     let teeth = 4;
     for bar_in_front in [true, false] {
         let mut outline = vec![Vec3::new(-4.0, 0.0, -6.0), Vec3::new(-4.0, 0.0, -3.0)];
@@ -291,7 +277,7 @@ fn a_comb_is_cut_into_its_teeth() {
 }
 
 /// Extreme positions never panic: the eye inside the mesh, polygons through the eye plane, corners
-/// at the eye, huge coordinates.
+/// at the eye, and huge coordinates.
 #[test]
 fn extreme_positions_never_panic() {
     for scale in [1e-6, 1.0, 1e6, 1e14] {
@@ -341,14 +327,8 @@ fn inside_a_closed_mesh_every_pixel_is_covered_once() {
             (DVec3::new(-0.1, 0.1, 0.3), DVec3::new(-0.5, -1.0, 0.4)),
         ] {
             let mesh = fastphong::mesh::builtin::builtin(spec).expect("a built-in mesh");
-            let mut scene = scene(
-                mesh,
-                Camera {
-                    eye,
-                    target: eye + direction,
-                    ..above_ground(1e-3)
-                },
-            );
+            let mut scene = scene(mesh, above_ground(1e-3));
+            (scene.camera.eye, scene.camera.target) = (eye, eye + direction);
             let frame = scene.frame().expect("a frame");
             clipped += frame.stats().clipped;
             assert!(
@@ -367,7 +347,8 @@ fn inside_a_closed_mesh_every_pixel_is_covered_once() {
     assert!(clipped > 0, "polygons that are seen reach behind the eye");
 }
 
-/// Returns the frame of one polygon with the given corners, seen orthographically from +z at a scale of 1.
+/// Returns the frame of one polygon with the given corners, seen orthographically from +z at a
+/// scale of 1.
 fn one_polygon(corners: &[[f32; 3]], change: impl FnOnce(&mut Scene)) -> Frame {
     let mut scene = scene_of_one(corners);
     change(&mut scene);
@@ -379,23 +360,18 @@ fn scene_of_one(corners: &[[f32; 3]]) -> Scene {
     let mut builder = MeshBuilder::new(positions);
     let all: Vec<u32> = (0..corners.len() as u32).collect();
     builder.polygon(&all);
-    let camera = Camera {
-        eye: DVec3::new(0.0, 0.0, 5.0),
-        target: DVec3::ZERO,
-        projection: Projection::Orthographic { half_height: 1.0 },
-        near: 1.0,
-        far: 9.0,
-        ..above_ground(1.0)
-    };
+    let projection = Projection::Orthographic { half_height: 1.0 };
+    let mut camera = Camera::looking_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, projection);
+    (camera.near, camera.far) = (1.0, 9.0);
     let mut scene = scene(builder.finish().expect("a mesh"), camera);
     (scene.width, scene.height) = (640, 480);
     scene
 }
 
-/// One plane of the guard band cuts, and what it leaves lies wholly beyond the next, though the polygon is outside no single plane
-/// of the view.
+/// One plane of the guard band cuts a polygon, and the rest lies beyond the next plane, although
+/// the polygon is not outside any single plane of the view.
 #[test]
-fn a_polygon_that_two_planes_leave_nothing_of_is_outside() {
+fn a_polygon_that_two_planes_cut_away_together_is_outside() {
     let triangle = [
         [-200.0, 0.0, 0.0],
         [-200.0, -200.0, 0.0],
@@ -409,7 +385,7 @@ fn a_polygon_that_two_planes_leave_nothing_of_is_outside() {
     }
 }
 
-/// A polygon that stands on the near plane with a corner or an edge, behind it: nothing is inside.
+/// A polygon is behind the near plane and touches it with a corner or an edge: nothing is inside.
 #[test]
 fn a_polygon_that_touches_the_near_plane_from_behind_is_outside() {
     for other in [[0.0, 0.5, 5.5], [0.0, 0.5, 4.0]] {
@@ -421,7 +397,8 @@ fn a_polygon_that_touches_the_near_plane_from_behind_is_outside() {
     }
 }
 
-/// Each polygon is counted once, however near or far its corners are, in pictures whose guard band is wide or narrow.
+/// Each polygon is counted once, no matter how near or far its corners are, and how wide the guard
+/// band of the picture is.
 #[test]
 fn every_polygon_around_the_eye_is_counted_once() {
     // A linear congruential generator (Knuth).
@@ -448,7 +425,7 @@ fn every_polygon_around_the_eye_is_counted_once() {
         });
         let s = frame.stats();
         let left_out = s.no_area + s.cancelling + s.outside;
-        // Pieces of a cut one may each be drawn or seen edge-on.
+        // Each piece of a cut polygon may be drawn, or be seen edge-on.
         let shown = frame.polygons().len() + s.edge_on;
         assert!(left_out + s.clipped <= 1, "{corners:?}: {s:?}");
         match (left_out, s.clipped) {
@@ -462,12 +439,12 @@ fn every_polygon_around_the_eye_is_counted_once() {
     assert!(cut > 300, "{cut}");
 }
 
-/// Weights of perspective are relative to the nearest vertex: a near plane that is very near neither
-/// rounds them to 0 nor leaves a polygon out.
+/// Perspective weights are relative to the nearest vertex. So a near plane very close to the eye
+/// neither rounds them to 0 nor leaves a polygon out.
 #[test]
-fn cuts_have_weights_however_near_the_near_plane_is() {
-    // Two corners are beyond the guard band, so that only cuts have a weight. The least near/w is
-    // 10⁻⁷⁶, 10⁻⁴⁸ or 10⁻⁴², and the least `f32` 1.4·10⁻⁴⁵.
+fn cuts_have_positive_weights_however_close_the_near_plane_is() {
+    // Two corners are beyond the guard band, so only cuts have a weight. The least near/w is 10⁻⁷⁶,
+    // 10⁻⁴⁸ or 10⁻⁴², and the least positive `f32` is 1.4·10⁻⁴⁵.
     let corners = [[0.0, -1.0, 4.0], [9e7, 0.0, -1e6], [-9e7, 0.0, -1e6]];
     for near in [1e-70, 1e-42, 1e-36] {
         let frame = one_polygon(&corners, |scene| {
@@ -484,8 +461,8 @@ fn cuts_have_weights_however_near_the_near_plane_is() {
     }
 }
 
-/// The near plane decides what is cut off and nothing else: where it cuts nothing, its distance changes no bit of a picture
-/// that is interpolated in perspective, however small near/w gets.
+/// The near plane only cuts: where it cuts nothing, its distance changes no bit of a picture that
+/// is interpolated in perspective, no matter how small near/w is.
 #[test]
 fn a_near_plane_that_cuts_nothing_changes_nothing() {
     let torus = "torus?segments=24&sides=16";
@@ -495,7 +472,7 @@ fn a_near_plane_that_cuts_nothing_changes_nothing() {
     scene.camera.projection = Projection::Perspective { fovy: 40.0 };
     scene.interpolation = Interpolation::Perspective;
     let mut frame_with = |exponent: i32| {
-        // Powers of two, so that near/w are the same but for their exponents.
+        // Powers of two, so that all near/w differ only in their exponents.
         scene.camera.near = f64::powi(2.0, exponent);
         scene.frame().expect("a frame")
     };
@@ -519,7 +496,8 @@ fn a_near_plane_that_cuts_nothing_changes_nothing() {
     }
 }
 
-/// Methods square weights of perspective in `f32`: a frame whose weights leave that range is refused.
+/// Methods square perspective weights in `f32`. A frame whose weights leave the range for this is
+/// refused.
 #[test]
 fn perspective_over_too_many_distances_is_refused() {
     for (nearest, is_drawn) in [(1e-8, true), (1e-10, false)] {
@@ -530,14 +508,9 @@ fn perspective_over_too_many_distances_is_refused() {
         ];
         for interpolation in [Interpolation::Perspective, Interpolation::Screen] {
             let mut scene = scene_of_one(&corners);
-            scene.camera = Camera {
-                eye: DVec3::ZERO,
-                target: -DVec3::Z,
-                projection: Projection::Perspective { fovy: 90.0 },
-                near: 1e-20,
-                far: 1e16,
-                ..scene.camera
-            };
+            let projection = Projection::Perspective { fovy: 90.0 };
+            scene.camera = Camera::looking_at(DVec3::ZERO, -DVec3::Z, projection);
+            (scene.camera.near, scene.camera.far) = (1e-20, 1e16);
             scene.interpolation = interpolation;
             let expected = is_drawn || interpolation == Interpolation::Screen;
             let found = scene.frame();

@@ -1,5 +1,5 @@
-//! Vertex colours that are lit: every method and engine against the reference, on the shipped scenes with colours that they do not have
-//! by themselves.
+//! Lit vertex colours: every method and engine against the reference, on the shipped scenes with
+//! added colours.
 
 use super::accuracy::check_all;
 use super::support::cases::Case;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 const SIZE: (i64, i64) = (64, 48);
 
-/// Returns a mesh with a colour at each position, some over 1 and some 0.
+/// Returns a mesh with a colour at each position. Some channels are over 1 and some are 0.
 fn coloured(mesh: &PolygonMesh) -> PolygonMesh {
     let mut builder = MeshBuilder::new(mesh.positions().to_vec());
     mesh.polygons().for_each(|polygon| {
@@ -45,7 +45,7 @@ fn coloured_scene(name: &str) -> Scene {
     scene
 }
 
-/// The shipped scenes whose polygons are few enough to be drawn by every method and engine once more.
+/// The shipped scenes with so few polygons that every method and engine can draw them once more.
 fn scenes() -> impl Iterator<Item = (String, Scene)> {
     let all = shipped().into_iter().map(|name| {
         let scene = coloured_scene(&name);
@@ -54,7 +54,8 @@ fn scenes() -> impl Iterator<Item = (String, Scene)> {
     all.filter(|(_, scene)| scene.objects[0].mesh.polygon_count() < 5_000)
 }
 
-/// Every float method and engine, with lights at infinity and at positions, on the screen and in space, cut and whole.
+/// The scenes cover every float method and engine, lights at infinity and at positions,
+/// interpolation on the screen and in space, and clipped and whole polygons.
 #[test]
 fn every_method_is_within_its_bound() {
     let cases: Vec<Case> = scenes()
@@ -78,9 +79,9 @@ fn every_method_is_within_its_bound() {
     assert!(drawn.len() > 28, "{drawn:?}");
 }
 
-/// The colours change the pictures, of all float methods, and only where they are asked for.
+/// The colours change the pictures of all float methods, but only where the scene asks for them.
 #[test]
-fn without_colours_pictures_are_those_of_plain_meshes() {
+fn without_colours_pictures_equal_those_of_plain_meshes() {
     let plain = scene("football", Some(SIZE));
     let mut scene = coloured_scene("football");
     let lit = scene.frame().expect("a frame");
@@ -99,9 +100,9 @@ fn without_colours_pictures_are_those_of_plain_meshes() {
     }
 }
 
-/// Methods in integers say why they do not draw them.
+/// Methods in integers say why they do not draw colours.
 #[test]
-fn integers_refuse_colours() {
+fn methods_in_integers_refuse_colours() {
     let frame = coloured_scene("coarse-sphere").frame().expect("a frame");
     let mut count = 0;
     for entry in METHODS.iter().filter(|entry| entry.is_integer) {
@@ -115,7 +116,7 @@ fn integers_refuse_colours() {
     assert_eq!(count, 7);
 }
 
-/// Every line of every trace has the bits of the picture.
+/// The colours in every line of every trace equal the picture's to the bit.
 #[test]
 fn traces_have_the_colours_of_the_picture() {
     for name in ["coarse-sphere", "perspective", "local-lights", "polygons"] {
@@ -140,8 +141,8 @@ fn traces_have_the_colours_of_the_picture() {
     }
 }
 
-/// A square that faces light and eye, with two red corners and two of colour (0, 2, ½): ambient and diffuse light times the colour, and
-/// the highlight beside it, by hand.
+/// A square that faces light and eye, with two red corners and two of colour (0, 2, ½). By hand:
+/// ambient and diffuse light times the colour, plus the highlight.
 #[test]
 fn light_is_the_colour_times_ambient_and_diffuse_plus_the_highlight() {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -167,7 +168,8 @@ fn light_is_the_colour_times_ambient_and_diffuse_plus_the_highlight() {
     for entry in floats_on(&frame) {
         let picture = entry.variant().render_linear(&frame).expect("for it");
         let [above, below] = [3, 4].map(|y| picture.get(4, y));
-        // Half-way between rows 3 and 4 lies the middle of the square: the mean of the colours. Each is off by its bound.
+        // The middle of the square, half-way between rows 3 and 4, has the mean of the colours.
+        // Each is off by its bound.
         for (c, mean) in mean.into_iter().enumerate() {
             let off = (above[c] + below[c]) / 2.0 - mean;
             let bound = entry.variant().bound(&frame) as f32;
@@ -183,7 +185,7 @@ fn light_is_the_colour_times_ambient_and_diffuse_plus_the_highlight() {
     }
 }
 
-/// Colours are checked where they are lit, and only there.
+/// Colours are checked only where they are lit.
 #[test]
 fn colours_below_0_are_refused_where_they_are_lit() {
     let mut mesh = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y]);
@@ -206,10 +208,9 @@ fn colours_below_0_are_refused_where_they_are_lit() {
         ),
     ] {
         let mut builder = FrameBuilder::new(8, 8);
-        let material = builder.lighting(Lighting {
-            vertex_colours: is_lit,
-            ..Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z)
-        });
+        let mut lighting = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
+        lighting.vertex_colours = is_lit;
+        let material = builder.lighting(lighting);
         let vertex = builder.vertex(Vertex {
             x: SubPixel::ZERO,
             y: SubPixel::ZERO,
@@ -227,9 +228,9 @@ fn colours_below_0_are_refused_where_they_are_lit() {
     }
 }
 
-/// A mesh with colours gets a grey material of its own, and its own where it has one.
+/// A mesh with colours keeps its material, or gets a grey one if it has none.
 #[test]
-fn a_bare_mesh_with_colours_is_lit_in_them() {
+fn a_mesh_with_colours_and_no_material_is_lit_in_them() {
     let mesh = builtin("terrain?segments=8&rows=8&colours=true").expect("a built-in mesh");
     let scene = Scene::of_mesh(mesh);
     let material = scene.objects[0].material.expect("a material");
@@ -241,7 +242,7 @@ fn a_bare_mesh_with_colours_is_lit_in_them() {
     assert!(picture.pixels().iter().filter(is_green).count() > 100);
 }
 
-/// A span shader lights the colours of its vertices, as the engine does.
+/// A span shader lights the colours of its vertices like the engine.
 #[test]
 fn span_shaders_light_colours() {
     let light = fastphong::scene::Light::directional(DVec3::Z, [1.0; 3]);
@@ -251,10 +252,8 @@ fn span_shaders_light_colours() {
         specular: [0.0; 3],
         shininess: 1.0,
     };
-    let lighting = Lighting {
-        vertex_colours: true,
-        ..Lighting::new(&material, [1.0; 3], &[light], DVec3::Z)
-    };
+    let mut lighting = Lighting::new(&material, [1.0; 3], &[light], DVec3::Z);
+    lighting.vertex_colours = true;
     for method in ["naive-phong", "fast-phong", "gouraud", "slerp-phong"] {
         let variant = Variant::parse(method).expect("a method");
         let mut shader =
@@ -273,7 +272,8 @@ fn span_shaders_light_colours() {
         for (x, colour) in colours.into_iter().enumerate() {
             let expected = [(x as f32 + 0.5) / 4.0, 1.0, 0.5];
             for (found, expected) in colour.into_iter().zip(expected) {
-                // N, colour and product: a few roundings of values of at most 1.
+                // The normal, the colour and their product take a few roundings of values of at
+                // most 1.
                 let off = (found - expected).abs();
                 assert!(off <= 8.0 * f32::EPSILON, "{method}: {colour:?}");
             }

@@ -1,5 +1,5 @@
 //! Compares each method's operation counts, derived by hand from the lecture's formulas, with the
-//! counting backend.
+//! counts of the counting backend.
 //!
 //! Hand counts are written like the formulas: dot products, reflections and so on. The material's
 //! shininess is 32.
@@ -8,8 +8,7 @@ use crate::support::floats;
 use fastphong::number::Counts;
 use fastphong::shading::{MethodRow, OperationCounts, Variant};
 
-/// The numbers of additions, multiplications, divisions, roots, comparisons and trigonometric
-/// functions.
+/// Counts of additions, multiplications, divisions, roots, comparisons and trigonometric functions.
 #[derive(Clone, Copy)]
 struct Ops([u32; 6]);
 
@@ -51,12 +50,12 @@ const ROOT: Ops = Ops([0, 0, 0, 1, 0, 0]);
 const COMPARE: Ops = Ops([0, 0, 0, 0, 1, 0]);
 const TRIGONOMETRIC: Ops = Ops([0, 0, 0, 0, 0, 1]);
 
-/// Dot product of three components.
+/// A dot product of three components.
 const DOT: Ops = Ops([2, 3, 0, 0, 0, 0]);
 
-/// Counts the terms of one light (2.1) after L·N and R·V. Diffuse: L·N is clamped at 0. Highlight:
-/// it is dropped behind the surface, compared with the faintest one, and raised to the power 32 by
-/// five squarings. Each term takes a product and a sum per channel.
+/// Counts the terms of one light (2.1) after L·N and R·V. The diffuse term clamps L·N at 0. The
+/// highlight is dropped behind the surface, compared with the faintest one, and raised to the power
+/// 32 by five squarings. Each term needs a product and a sum per channel.
 fn light() -> Ops {
     3 * COMPARE + 3 * (MULTIPLY + ADD) + 5 * MULTIPLY + 3 * (MULTIPLY + ADD)
 }
@@ -83,14 +82,13 @@ fn clamp() -> Ops {
 }
 
 /// Counts the set-up of one linearly interpolated value: (I_2 − I_1), times t0 and added to I_1,
-/// times Δt (3.5).
+/// and times Δt (3.5).
 fn ramp() -> Ops {
     ADD + MULTIPLY + ADD + MULTIPLY
 }
 
 /// Counts the set-up of a great circle (4.7): both chords and their lengths, and the angle as twice
-/// an inverse tangent. The sine comes from the chords. One division and the scaling of both ends
-/// follow.
+/// an inverse tangent. The sine follows from the chords. Then one division scales both ends.
 fn arc() -> Ops {
     let chords = 3 * ADD + 3 * ADD + DOT + ROOT + DOT + ROOT;
     let angle = TRIGONOMETRIC + ADD;
@@ -98,12 +96,13 @@ fn arc() -> Ops {
     chords + angle + sine + DIVIDE + 2 * (3 * MULTIPLY)
 }
 
-/// Counts the start of the sines: the angles t0 φ, φ − t0 φ and Δt φ, and sine and cosine of each.
+/// Counts the start of the sines: the angles t0 φ, φ − t0 φ and Δt φ, and the sine and cosine of
+/// each.
 fn sines() -> Ops {
     3 * MULTIPLY + ADD + 3 * TRIGONOMETRIC
 }
 
-/// Counts a step of the four sines and cosines (4.9–4.12) as the lecture does: four additions,
+/// Counts a step of the four sines and cosines (4.9–4.12) as the lecture does: four additions and
 /// eight multiplications.
 fn rotation() -> Ops {
     4 * ADD + 8 * MULTIPLY
@@ -114,9 +113,9 @@ fn weighted_normal() -> Ops {
     3 * (2 * MULTIPLY + ADD)
 }
 
-/// Counts the choice of Newton steps for a span: N·ΔN, ΔN·ΔN, the product N·N ΔN·ΔN less the square
-/// of the former if it is below 0, and the square of the latter. Each threshold tried takes a
-/// product, a difference and a comparison.
+/// Counts the choice of Newton steps for a span. It computes N·ΔN and ΔN·ΔN, the product N·N ΔN·ΔN
+/// less the square of N·ΔN if that is below 0, and the square of ΔN·ΔN. Each threshold that it
+/// tries takes a product, a difference and a comparison.
 fn fewest_steps(tried: u32) -> Ops {
     2 * DOT + COMPARE + 3 * MULTIPLY + ADD + tried * (MULTIPLY + ADD + COMPARE)
 }
@@ -132,14 +131,14 @@ struct ByHand {
 }
 
 impl ByHand {
-    /// Takes operations from those of a pixel's shading.
+    /// Subtracts operations from a pixel's shading.
     fn less(mut self, ops: Ops) -> ByHand {
         self.shade = Ops(std::array::from_fn(|i| self.shade.0[i] - ops.0[i]));
         self
     }
 }
 
-/// Returns the hand count of a method with default parameters.
+/// Returns the hand count of a method with default parameters and `lights` lights.
 fn by_hand(method: &str, lights: u32) -> ByHand {
     let lit = lights * lit_from_normal();
     match method {
@@ -173,7 +172,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: 3 * ADD,
             shade: NONE,
         },
-        // 3 with two colours, from one lighting computation and unclamped. Each pixel adds them.
+        // 3 with two colours, from one lighting computation and unclamped. Each pixel adds the two.
         "gouraud-separate" => ByHand {
             vertex: lit,
             polygon: NONE,
@@ -227,10 +226,10 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 + (lights + 1) * MULTIPLY
                 + lights * (highlight() + light()),
         },
-        // Duff 1979: J of each light, K and three coordinates along edges. Along a span J and K
-        // take one addition each and D = N·N takes two. The set-up of D takes N·N, N·ΔN twice,
-        // ΔN·ΔN, and its first and second difference. A pixel takes 1/√D, K and each J times that,
-        // then 2JK − L·V for each light.
+        // Duff 1979: J of each light, K and three coordinates are interpolated along edges. Along a
+        // span J and K take one addition each, and D = N·N takes two. The set-up of D takes N·N,
+        // N·ΔN twice, ΔN·ΔN, and its first and second difference. A pixel takes 1/√D, K and each J
+        // times that, then 2JK − L·V for each light.
         "duff-phong" => {
             let numbers = lights + 4;
             ByHand {
@@ -243,9 +242,11 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: ROOT + DIVIDE + (lights + 1) * MULTIPLY + lights * (highlight() + light()),
             }
         }
-        // As Duff's method, but 1/√D takes two steps of Newton's method from the previous pixel: D/2, and in each step times r twice,
-        // 3/2 less that, times r. A span also chooses its steps: the product D ΔN·ΔN less the square of N·ΔN if that is below 0, the
-        // square of ΔN·ΔN, and a product, a difference and a comparison for each number of steps tried; and 1/√D of the first pixel.
+        // As Duff's method, but 1/√D takes two steps of Newton's method from the previous pixel:
+        // D/2, and in each step times r twice, 3/2 less that, times r. A span also computes 1/√D of
+        // its first pixel, and chooses its steps: the product D ΔN·ΔN less the square of N·ΔN if
+        // that is below 0, the square of ΔN·ΔN, and a product, a difference and a comparison for
+        // each step count that it tries.
         "duff-newton" => {
             let duff = by_hand("duff-phong", lights);
             let choice = COMPARE + 3 * MULTIPLY + ADD + 2 * (MULTIPLY + ADD + COMPARE);
@@ -256,16 +257,19 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..duff
             }
         }
-        // Seiler 1998: J of each light and K at three corners and, of normals halved and normalised, at three edges. A quadratic in
-        // two coordinates is made of these, which a span starts at its first pixel, and which takes two additions a pixel.
+        // Seiler 1998: J of each light and K at three corners, and at three edges with the
+        // normalised mean of two normals. They make a quadratic in two coordinates, which a span
+        // starts at its first pixel and which takes two additions per pixel.
         "six-point" => {
             let products = lights + 1;
             let midway = 3 * (3 * ADD + DOT + ROOT + DIVIDE + 3 * MULTIPLY);
             let area = 4 * ADD + 2 * MULTIPLY + ADD + DIVIDE + 4 * MULTIPLY;
             let weighted = 3 * 3 * MULTIPLY;
-            // Of b, c, b², bc and c²: four products and three sums of the six values, or three and two.
+            // The coefficients of b, c, b², bc and c²: four products and three sums of the six
+            // values, or three and two.
             let of_corners = 4 * (3 * MULTIPLY + 2 * ADD) + (4 * MULTIPLY + 3 * ADD);
-            // Of x, y (two products and a sum each), x², xy and y² (three and two).
+            // The coefficients of x and y take two products and a sum each, those of x², xy and y²
+            // three and two.
             let of_screen = 2 * (2 * MULTIPLY + ADD) + 3 * (3 * MULTIPLY + 2 * ADD);
             let squares = 12 * MULTIPLY + ADD;
             let start = 8 * ADD + 7 * MULTIPLY;
@@ -284,8 +288,9 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: lights * (highlight() + light()),
             }
         }
-        // US patent 5,369,737: a span starts J of each light, K and D from N and ΔN. A pixel takes the parabola by two products and two sums,
-        // and J and K times it. The choice of the polynomial is not counted.
+        // US patent 5,369,737: a span starts J of each light, K and D from N and ΔN. A pixel
+        // evaluates the parabola with two products and two sums, and multiplies J and K by it. The
+        // choice of the polynomial is not counted.
         "series-phong" => {
             let products = lights + 1;
             ByHand {
@@ -297,7 +302,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("phong-rsqrt", lights)
             }
         }
-        // Its line times J and K: cubics, set up by six products and two sums, and their differences by a product and four.
+        // The line of series-phong times J and K gives cubics: six products and two sums set one
+        // up, a product and four sums its differences.
         "cubic-phong" => {
             let products = lights + 1;
             let line = 3 * DOT + ADD + (MULTIPLY + ADD) + 2 * MULTIPLY;
@@ -309,8 +315,10 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("phong-rsqrt", lights)
             }
         }
-        // Lyon 1993: J of each light and K, D + 1 and its growth; of each light twice 1/|L + V|, 2 N·H and its growth, less which
-        // D + 1 starts E. A pixel takes J by one addition and E by two, and 1 − E/2. The light that counts has R·V: 1/|L + V| is given.
+        // Lyon 1993: J of each light and K, D + 1 and its growth; for each light 1/|L + V| twice,
+        // and 2 N·H and its growth, which subtracted from D + 1 start E. A pixel steps J by one
+        // addition and E by two, and computes 1 − E/2. The scene that counts has R·V, so 1/|L + V|
+        // is known.
         "difference-vector" => {
             let products = lights + 1;
             let difference = MULTIPLY + 2 * (ADD + MULTIPLY) + 2 * ADD + 2 * ADD;
@@ -321,8 +329,9 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("phong-rsqrt", lights)
             }
         }
-        // Bishop, Weimer 1986: the normal in the middle and its growth, D and its five derivatives, the series of 1/√D, and it times the
-        // linear J of each light and K. Spans and pixels are those of six-point.
+        // Bishop, Weimer 1986: the normal in the middle and its growth, D and its five derivatives,
+        // the series of 1/√D, and its product with the linear J of each light and K. Spans and
+        // pixels are like six-point's.
         "bishop-weimer" => {
             let six = by_hand("six-point", lights);
             let area = 4 * ADD + 2 * MULTIPLY + ADD + DIVIDE + 4 * MULTIPLY;
@@ -337,8 +346,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..six
             }
         }
-        // Hast, Barrera, Bengtsson 2002: three unit vectors, their quadratic at the first pixel. A pixel takes six additions, K and J of
-        // each light, and 2JK − L·V.
+        // Hast, Barrera, Bengtsson 2002: three unit vectors, and their quadratic at the first
+        // pixel. A pixel takes six additions, K and J of each light, and 2JK − L·V.
         "quadratic-normals" => {
             let units = 3 * (DOT + ROOT + DIVIDE + 3 * MULTIPLY) + 3 * ADD;
             let quadratic = 3 * (2 * MULTIPLY + 2 * ADD) + 3 * (MULTIPLY + 3 * ADD);
@@ -350,8 +359,9 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("phong-rsqrt", lights)
             }
         }
-        // van Overveld, Wyvill 1997: three corners times their squared weights, three unit normals half-way, reflected and weighted; the
-        // quadratics of three components. A pixel takes six additions, 1/|N|, K and J of each light times it, and 2JK − L·V.
+        // van Overveld, Wyvill 1997: three corners times their squared weights, three unit normals
+        // half-way, reflected and weighted, and the quadratics of three components. A pixel takes
+        // six additions, 1/|N|, K and J of each light times it, and 2JK − L·V.
         "biquadratic-normals" => {
             let area = 4 * ADD + 2 * MULTIPLY + ADD + DIVIDE + 4 * MULTIPLY;
             let corner = 4 * MULTIPLY;
@@ -377,8 +387,9 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("phong-rsqrt", lights)
             }
         }
-        // Harrison, Mitchell, Watt 1988: six numbers a vertex. The span that counts has a highlight: a pixel takes all but the diffuse
-        // term of naive Phong with eq 4.5.
+        // Harrison, Mitchell, Watt 1988: six values per vertex. The span that counts has a
+        // highlight, so a pixel takes all operations of naive Phong with (4.5) except the diffuse
+        // term.
         "h-test" => {
             let diffuse = COMPARE + 3 * (MULTIPLY + ADD);
             let specular = 3 * COMPARE + 5 * MULTIPLY + 3 * (MULTIPLY + ADD);
@@ -393,9 +404,10 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: unit + DOT + lights * (DOT + highlight() + specular),
             }
         }
-        // One bright light: a parabola for 1/√D. A span starts J, K and D, which take one addition a pixel, one, and two. A pixel takes the parabola by two
-        // products and two sums, J and K times it, and 2JK − L·V. Choosing the kind is not counted. Four lights are all bright
-        // here: more than are followed.
+        // One bright light: a parabola for 1/√D. A span starts J, K and D, which take one, one and
+        // two additions per pixel. A pixel evaluates the parabola with two products and two sums,
+        // multiplies J and K by it, and computes 2JK − L·V. Choosing the kind is not counted. Four
+        // lights are all bright here, which is more than the method follows.
         "adaptive-phong" if lights == 1 => {
             let square = 3 * DOT + ADD + 2 * ADD;
             ByHand {
@@ -406,8 +418,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             }
         }
         "adaptive-phong" => by_hand("phong-rsqrt", lights),
-        // Barrera, Hast, Bengtsson 2004: slerp whose span follows J of each light and K by ΔF −= α F. The first ΔN takes sines of
-        // neighbours, from 1 − cos δ = sin² δ / (1 + cos δ).
+        // Barrera, Hast, Bengtsson 2004: slerp whose span steps J of each light and K by ΔF −= α F.
+        // The first ΔN takes sines of neighbours, from 1 − cos δ = sin² δ / (1 + cos δ).
         "slerp-chebyshev" => {
             let slerp = by_hand("slerp-phong", lights);
             let differences = (MULTIPLY + ADD + DIVIDE)
@@ -422,7 +434,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             }
         }
         // 4.4: normals along edges. A span computes K and J of each light at both ends, then blends
-        // them by their weights. A pixel takes 2JK − L·V for each light.
+        // them by the weights of (4.8). A pixel takes 2JK − L·V for each light.
         "slerp-phong" => ByHand {
             vertex: NONE,
             polygon: NONE,
@@ -442,7 +454,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: rotation() + weighted_normal(),
             shade: lit,
         },
-        // As Duff's method, with M = N·H of each light in place of K: no product of J and K, which a highlight takes.
+        // As Duff's method, with M = N·H of each light in place of K. A highlight then takes no
+        // product of J and K.
         "duff-half" => {
             let numbers = 2 * lights + 3;
             ByHand {
@@ -455,8 +468,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: ROOT + DIVIDE + lights * (2 * MULTIPLY + light()),
             }
         }
-        // A vertex turns its normal into the frame of eye and first light. There K is a component, and J of the first light has two
-        // products.
+        // A vertex turns its normal into the frame of eye and first light. There K is a component,
+        // and J of the first light takes two products.
         "eye-frame-phong" => {
             let phong = by_hand("phong-rsqrt", lights);
             let products = lights * DOT + (lights + 1) * MULTIPLY;
@@ -472,7 +485,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             shade: (lights + 1) * DOT + lights * (highlight() + light()),
             ..by_hand("phong-rsqrt", lights)
         },
-        // As slerp-chebyshev, with M = N·H of each light in place of K. The first ΔN and N are followed in 2 products a light.
+        // As slerp-chebyshev, with M = N·H of each light in place of K. After the first ΔN and N
+        // come 2 products per light.
         "slerp-half" => {
             let slerp = by_hand("slerp-chebyshev", lights);
             ByHand {
@@ -482,8 +496,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..slerp
             }
         }
-        // A vertex turns its normal and divides by 1 + z. A pixel takes u² + v² + 1 and a quotient once, K by a difference, and J of each
-        // light by two products and sums, and one more.
+        // A vertex turns its normal and divides by 1 + z. A pixel takes u² + v² + 1 and a quotient
+        // once, K by a difference, and for J of each light two products and sums, and one more.
         "stereographic-phong" => ByHand {
             vertex: 3 * DOT + ADD + DIVIDE + 2 * MULTIPLY,
             polygon: NONE,
@@ -497,8 +511,9 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 + ADD
                 + lights * (3 * (MULTIPLY + ADD) + highlight() + light()),
         },
-        // A vertex turns its normal, adds 1 to z and normalises. A pixel takes m·m, 2 m_z over it, and K by a product and a difference;
-        // J of each light by a product with m (the first light has no y), and one more.
+        // A vertex turns its normal, adds 1 to z and normalises. A pixel takes m·m, 2 m_z over it,
+        // and K by a product and a difference; J of each light by a product with m (the first light
+        // has no y), and one more.
         "quaternion-phong" => ByHand {
             vertex: 3 * DOT + ADD + DOT + ROOT + DIVIDE + 3 * MULTIPLY,
             shade: DOT
@@ -510,8 +525,9 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             ..by_hand("phong-rsqrt", lights)
         }
         .less(MULTIPLY + ADD),
-        // A span normalises its ends, and the sum of these, times the length of the last. M and its growth follow, with their products, and
-        // those of the first normal. A pixel takes q by a sum and a quotient, and J of each light and K by a product and a difference.
+        // A span normalises both ends and their sum, multiplied by the length of the last. M and
+        // its growth follow, with their products and those of the first normal. A pixel takes q by
+        // a sum and a quotient, and J of each light and K by a product and a difference.
         "half-reflection" => {
             let unit = DOT + ROOT + DIVIDE + 3 * MULTIPLY;
             let turned = 2 * unit + 3 * ADD + unit + DOT + 3 * MULTIPLY;
@@ -529,17 +545,19 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 ..by_hand("naive-phong", lights)
             }
         }
-        // A vertex turns its normal. A pixel takes 1 − x² − y², not below 0, and its root; J of each light has three products, that of the
-        // first light two.
+        // A vertex turns its normal. A pixel takes 1 − x² − y², clamped at 0, and its root. J of
+        // each light takes three products, J of the first light two.
         "phong-map" => ByHand {
             vertex: 3 * DOT,
             shade: 2 * MULTIPLY + 2 * ADD + COMPARE + ROOT + lights * (DOT + highlight() + light()),
             ..by_hand("stereographic-phong", lights)
         }
         .less(MULTIPLY + ADD),
-        // Kuijk, Blake 1989: a span takes its angle, the normal in its middle and a unit vector across, and of L and H of each light
-        // products with both, an inverse tangent, a root and a difference; five squarings for the size of a highlight. A pixel takes
-        // two additions a light, of each cosine a square, its place in the table and a product, and of each highlight two parabolas.
+        // Kuijk, Blake 1989: a span takes its angle, the normal in its middle and a unit vector
+        // across. It takes the products of L and H of each light with both, an inverse tangent, a
+        // root and a difference, and five squarings for the size of a highlight. A pixel takes two
+        // additions per light, for each cosine a square, its position in the table and a product,
+        // and for each highlight two parabolas.
         "kuijk-blake" => {
             let across = DOT + 3 * (MULTIPLY + ADD) + DOT + ROOT + COMPARE;
             let chords = 3 * ADD + 3 * ADD + DOT + ROOT + across + DOT + ROOT;
@@ -603,9 +621,9 @@ fn operations(variant: &str, lights: usize) -> OperationCounts {
 }
 
 /// L21 3: "we can update I_next by a single addition per pixel". This holds for each of three
-/// channels and any lights.
+/// channels, with any count of lights.
 #[test]
-fn gouraud_is_one_addition_a_channel() {
+fn gouraud_takes_one_addition_per_channel() {
     for lights in [1, 4] {
         let counts = operations("gouraud", lights);
         assert!(counts.walk == 3 * ADD && counts.edge_step == 3 * ADD && counts.shade == NONE);
@@ -624,7 +642,7 @@ fn naive_phong_steps_by_three_additions() {
 }
 
 /// L21 4.2–4.3: fast Phong takes no root per pixel. Instead m Newton steps take m divisions, and
-/// J/d and 2JK/D one each.
+/// J/d and 2JK/D take one each.
 #[test]
 fn fast_phong_trades_the_root_for_divisions() {
     for steps in 1..=8 {
@@ -675,7 +693,7 @@ fn slerp_steps_by_four_additions_and_eight_multiplications() {
 }
 
 /// Four lights cost at most four times as much as one. Operations that do not involve lights cost
-/// the same.
+/// no more.
 #[test]
 fn cost_grows_with_the_lights() {
     let pixel = |entry: &'static MethodRow, lights| {
@@ -685,7 +703,7 @@ fn cost_grows_with_the_lights() {
     for entry in floats() {
         let (one, four) = (pixel(entry, 1), pixel(entry, 4));
         assert!(
-            // A method of kinds may take another loop for four lights.
+            // A method with several kinds may choose another loop for four lights.
             one <= four && (four <= 4 * one || !entry.kinds().is_empty()),
             "{}: {one}, {four}",
             entry.info.name

@@ -1,9 +1,9 @@
-//! Coverage: polygons cover exactly the pixels of the definition, each exactly once.
+//! Coverage: a polygon covers exactly the pixels of its definition, and each exactly once.
 
 use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
-use fastphong::raster::{self, Edges, NOTHING};
+use fastphong::raster::{self, Edges, NO_POLYGON};
 use fastphong::reference;
 use fastphong::scene::{Culling, Scene};
 use fastphong::shading::Variant;
@@ -39,8 +39,8 @@ fn half_space(t: &[Corner], column: i32, row: i32) -> bool {
     let order: [usize; 3] = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
     (0..3).all(|i| {
         let (a, b) = (&t[order[i]], &t[order[(i + 1) % 3]]);
-        // y points downward, so the order is clockwise in the picture. A top edge runs to the
-        // right, a left edge runs upward.
+        // y points downward, so the order is clockwise in the picture: a top edge runs to the
+        // right, a left edge upward.
         let owns = (a.y == b.y && b.x > a.x) || b.y < a.y;
         let side = turn(a, b, x, y);
         side > 0 || (side == 0 && owns)
@@ -66,8 +66,8 @@ fn triangles_follow_the_top_left_rule() {
     }
 }
 
-/// The engine and the reference, which share no arithmetic, see the same polygon at every pixel.
-/// Polygons are concave, self-intersecting or repeat corners. Without a depth test the last polygon
+/// The engine and the reference share no arithmetic, yet they see the same polygon at every pixel.
+/// Polygons are concave, cross themselves or repeat corners. Without a depth test the last polygon
 /// wins, so only coverage matters.
 #[test]
 fn the_engine_covers_what_the_reference_covers() {
@@ -81,7 +81,7 @@ fn the_engine_covers_what_the_reference_covers() {
             .collect();
         let frame = frame(64, 48, false, &polygons);
         assert_eq!(
-            raster::polygon_numbers(&frame),
+            raster::polygon_indices(&frame),
             reference::visibility(&frame).polygons,
             "round {round}"
         );
@@ -214,8 +214,8 @@ fn the_barycentric_renderer_covers_the_same_pixels() {
     );
 }
 
-/// The first of two equal polygons wins with a depth test, because strictly less depth is required.
-/// Without one the last wins. All engines agree.
+/// With a depth test the first of two equal polygons wins, because a later one must have strictly
+/// less depth. Without one the last wins. All engines agree.
 #[test]
 fn at_equal_depth_the_first_polygon_is_seen() {
     let corner = |x, y, depth| Corner {
@@ -229,8 +229,8 @@ fn at_equal_depth_the_first_polygon_is_seen() {
     for (depth_test, seen) in [(true, 0), (false, 1)] {
         let frame = frame(48, 40, depth_test, &[triangle.clone(), triangle.clone()]);
         let numbers = [
-            raster::polygon_numbers(&frame),
-            raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
+            raster::polygon_indices(&frame),
+            raster::barycentric_polygon_indices(&frame, Edges::TopLeft),
             reference::visibility(&frame).polygons,
         ];
         assert!(
@@ -242,7 +242,7 @@ fn at_equal_depth_the_first_polygon_is_seen() {
         );
         for number in numbers.iter().flat_map(|picture| picture.pixels()) {
             assert!(
-                [seen, NOTHING].contains(number),
+                [seen, NO_POLYGON].contains(number),
                 "depth test {depth_test}: polygon {number} is seen"
             );
         }
@@ -260,17 +260,17 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
             .map(|i| random_polygon(&mut random, 64, 48, 3 + i % 5))
             .collect();
         let frame = frame(64, 48, true, &polygons);
-        let ours = raster::polygon_numbers(&frame);
+        let ours = raster::polygon_indices(&frame);
         let truth = reference::visibility(&frame);
         for y in 0..48 {
             for x in 0..64 {
-                drawn += usize::from(truth.polygons.get(x, y) != NOTHING);
+                drawn += usize::from(truth.polygons.get(x, y) != NO_POLYGON);
                 if ours.get(x, y) != truth.polygons.get(x, y) {
                     differing += 1;
                     // Depths lie in 0..1. An edge of at most 48 rows and a span of at most 64
-                    // pixels round twice per step, by half a unit in the last place (2^-24): 224
-                    // roundings for each of the two surfaces. The starts of both walks add fewer
-                    // than 32.
+                    // pixels round twice per step, by half a unit in the last place (2^-24). That
+                    // makes 224 roundings for each of the two surfaces, and the starts of both
+                    // walks add fewer than 32.
                     let gap = truth.depth_gap.get(x, y);
                     assert!(
                         gap <= 2.0 * 256.0 / f64::from(1 << 24),

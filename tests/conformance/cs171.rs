@@ -6,7 +6,7 @@ use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
-use fastphong::raster::{Edges, NOTHING, barycentric_polygon_numbers};
+use fastphong::raster::{Edges, NO_POLYGON, barycentric_polygon_indices};
 use fastphong::reference::cs171::{
     Inside, Raster, Reading, Shading, Ties, TriangleCorner, flat_shading, full_shading,
     gouraud_shading, lighting, ndc_to_screen, phong_shading, raster_colored_ndc_triangle,
@@ -29,21 +29,16 @@ fn lit(mut scene: Scene) -> Scene {
     scene.local_viewer = true;
     scene.lights = vec![
         Light::positional(DVec3::new(2.0, 3.0, 4.0), [0.9, 0.8, 0.3]),
-        Light {
-            falloff: Falloff::Attenuation(0.05),
-            ..Light::positional(DVec3::new(-4.0, 1.0, 2.0), [0.3, 0.5, 1.0])
-        },
+        Light::positional(DVec3::new(-4.0, 1.0, 2.0), [0.3, 0.5, 1.0])
+            .with_falloff(Falloff::Attenuation(0.05)),
     ];
     scene
 }
 
 fn sphere(interpolation: Interpolation, culling: Culling) -> Frame {
     let mesh = builtin("sphere?rings=8&segments=13").expect("a built-in mesh");
-    let scene = Scene {
-        interpolation,
-        culling,
-        ..lit(Scene::of_mesh(mesh))
-    };
+    let mut scene = lit(Scene::of_mesh(mesh));
+    (scene.interpolation, scene.culling) = (interpolation, culling);
     triangulated(&scene.frame().expect("a frame")).frame
 }
 
@@ -74,11 +69,11 @@ fn algorithm_1_covers_closed_triangles() {
         let frame = frame(48, 40, true, &[triangle]);
         let covered = closed_cover(&frame);
         let [closed, owned] =
-            [Edges::Closed, Edges::TopLeft].map(|edges| barycentric_polygon_numbers(&frame, edges));
+            [Edges::Closed, Edges::TopLeft].map(|edges| barycentric_polygon_indices(&frame, edges));
         for (i, &count) in covered.iter().enumerate() {
             assert_eq!(
                 count == 1,
-                closed.pixels()[i] != NOTHING,
+                closed.pixels()[i] != NO_POLYGON,
                 "at {}, {}",
                 i % 48,
                 i / 48
@@ -93,8 +88,9 @@ fn algorithm_1_covers_closed_triangles() {
     );
 }
 
-/// An edge between two triangles is a hole with open intervals, (0, 1), as in the text. With closed
-/// ones, [0, 1], as in the algorithms, it is drawn twice and the second triangle's colour stays.
+/// With open intervals, (0, 1), as in the text, an edge between two triangles is a hole. With
+/// closed intervals, [0, 1], as in the algorithms, it is drawn twice and the second triangle's
+/// colour stays.
 #[test]
 fn shared_edges_are_holes_or_drawn_twice() {
     let place = |x: f64, y: f64| DVec2::new(x + 0.5, y + 0.5);
@@ -142,8 +138,8 @@ fn algorithm_2_mixes_red_and_blue() {
         &mut grid,
     );
     for (x, y) in (0..9).flat_map(|y| (0..9).map(move |x| (x, y))) {
-        // Blue is the distance from the hypotenuse over the opposite corner's distance. Eighths are
-        // exact.
+        // Blue is the distance from the hypotenuse divided by the opposite corner's distance.
+        // Eighths are exact.
         let blue = (y as f64 - x as f64) / 8.0;
         let expected = if blue >= 0.0 {
             [1.0 - blue, 0.0, blue, 1.0]
@@ -163,9 +159,9 @@ fn white(place: Place<[f32; 3]>, diffuse: f32, specular: f32) -> LightTerm {
     }
 }
 
-/// Algorithm 3 gives the results worked out by hand.
+/// Algorithm 3 returns the results that are worked out by hand here.
 #[test]
-fn algorithm_3_by_hand() {
+fn algorithm_3_returns_the_results_worked_out_by_hand() {
     let mut light = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
     light.ambient = [0.125, 0.0, 0.25];
     light.view = Place::Local([0.0, 0.0, 5.0]);
@@ -241,7 +237,7 @@ fn large_exponents_are_the_shiny_ones() {
 }
 
 /// Returns the largest difference of colours at pixels covered by exactly one triangle, and the
-/// number of these pixels. Asserts that all other pixels are empty in both pictures or lie on an
+/// count of these pixels. Asserts that all other pixels are empty in both pictures or lie on an
 /// edge.
 fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
     let ours = render(frame, shading, Reading::default()).colours;
@@ -283,10 +279,10 @@ fn algorithm_8_agrees_with_the_reference() {
             (Shading::Phong, Model::Phong),
         ] {
             let (worst, pixels) = differ(&frame, shading, model);
-            // Each of the two rounds some ten times for a weight, ten for a normal, ten for a
+            // Each of the two rounds about ten times for a weight, ten for a normal, ten for a
             // position and ten for a cosine: forty half-ulps. The power of 32 multiplies the error
-            // of a cosine by 32. Two lights of at most 1 add diffuse and specular terms. Bound:
-            // 2 · 2 · 40 · 32 half-ulps.
+            // of a cosine by 32. Two lights of at most 1 add diffuse and specular terms. Bound: 2 ·
+            // 2 · 40 · 32 half-ulps.
             assert!(
                 worst <= 2.0 * 2.0 * 40.0 * 32.0 * f64::EPSILON,
                 "{shading:?}, {interpolation:?}: {worst}"
@@ -328,7 +324,7 @@ fn algorithm_7_as_printed_is_darker() {
     );
 }
 
-/// Algorithm 8 culls by its cross product the same triangles as the frame's culling.
+/// By its cross product Algorithm 8 culls the same triangles as the frame's culling does.
 #[test]
 fn algorithm_8_culls_back_faces() {
     let (front, all) = (
@@ -348,7 +344,7 @@ fn algorithm_8_culls_back_faces() {
         .colours
     };
     assert_eq!(picture(&all, true), picture(&front, true));
-    // Depth testing alone would hide all back faces except those at the rim.
+    // The depth test by itself would hide all back faces except those at the rim.
     let other = picture(&all, false)
         .pixels()
         .iter()
@@ -419,7 +415,7 @@ fn ties_go_to_the_later_or_earlier_triangle() {
     assert_eq!(grid.colours.get(8, 8)[0], 0.125);
 }
 
-/// Algorithm 5 draws the part of a triangle inside the cube and nothing else.
+/// Algorithm 5 draws exactly the part of a triangle that is inside the cube.
 #[test]
 fn algorithm_5_draws_inside_the_cube() {
     // Depth grows by 4 from left to right. The middle half, columns 4 to 11, is inside the cube.
@@ -435,10 +431,10 @@ fn algorithm_5_draws_inside_the_cube() {
     }
 }
 
-/// Algorithms 4, 6 and 7 draw a single front-facing triangle like Algorithm 8. They draw back faces
-/// too.
+/// Algorithms 4, 6 and 7 draw a single front-facing triangle as Algorithm 8 does. They draw back
+/// faces too.
 #[test]
-fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
+fn algorithms_4_6_and_7_are_algorithm_8_without_hidden_surfaces() {
     let scene = lit(Scene::of_mesh(builtin("cube").expect("a built-in mesh")));
     let matrix = scene.camera.clip_matrix(120.0 / 90.0);
     let light = &scene.frame().expect("a frame").lightings()[0].clone();
@@ -480,7 +476,7 @@ fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
     }
 }
 
-/// Triangles without area pass the test `cross.z < 0`, but fill no pixel and produce no NaN.
+/// Triangles without area pass the test `cross.z < 0`, but they fill no pixel and produce no NaN.
 #[test]
 fn triangles_without_area_draw_nothing() {
     let line = [

@@ -1,5 +1,5 @@
-//! Compares stepped values along edges and spans with closed interpolation, on polygons of any
-//! shape.
+//! Compares values that are stepped along edges and spans with closed interpolation, on polygons of
+//! any shape.
 
 use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::raster;
@@ -29,10 +29,10 @@ fn crossings(polygon: &[Corner], row: usize) -> Vec<(f64, f64)> {
 }
 
 /// Both ends of every span of concave polygons have the closed form's intensity: linear along the
-/// two edges, then along the span (L21 3). Corner intensities are random, so no plane equation
-/// would do.
+/// two edges, then along the span (L21 3). Corner intensities are random, so a plane equation could
+/// not give them.
 #[test]
-fn span_ends_are_closed_edge_interpolation() {
+fn span_ends_equal_closed_edge_interpolation() {
     let gouraud = Variant::parse("gouraud").expect("a method");
     let mut random = Random::new(29);
     let mut spans = 0;
@@ -64,9 +64,9 @@ fn span_ends_are_closed_edge_interpolation() {
                 let truth = i1 + (centre - x1) / (x2 - x1) * (i2 - i1);
                 let found = f64::from(picture.get(x, row)[0]);
                 // A vertex colour is off by 3 roundings. An edge of at most 72 rows and a span of
-                // at most 96 pixels add one rounding per step, and as much again for their rounded
-                // increments. Values are up to 1: 2^-25 each, at most twice that for a start
-                // outside the picture.
+                // at most 96 pixels add one rounding per step, and as many again for their rounded
+                // increments. Values are up to 1, so each rounding is 2^-25, or at most twice that
+                // for a start outside the picture.
                 let bound = (3.0 + 2.0 * (72.0 + 96.0)) / f64::from(1 << 24);
                 assert!(
                     (found - truth).abs() <= bound,
@@ -90,8 +90,8 @@ fn neighbours_agree_along_their_edge() {
         depth: 0.5,
         intensity,
     };
-    // Two quads share the edge from (40, 5) to (56, 91). Their other corners are darker at the top,
-    // brighter at the bottom.
+    // Two quads share the edge from (40, 5) to (56, 91). Their other corners are darker at the top
+    // and brighter at the bottom.
     let (upper, lower) = (corner(40, 5, 0.3), corner(56, 91, 0.9));
     let left = vec![corner(3, 8, 0.3), upper, lower, corner(6, 88, 0.9)];
     let right = vec![upper, corner(92, 2, 0.3), corner(88, 95, 0.9), lower];
@@ -99,7 +99,7 @@ fn neighbours_agree_along_their_edge() {
     let picture = gouraud
         .render_linear(&frame)
         .expect("a method for the frame");
-    let owners = raster::polygon_numbers(&frame);
+    let owners = raster::polygon_indices(&frame);
     for row in 10..85 {
         let border = (1..96)
             .find(|&x| owners.get(x - 1, row) == 0 && owners.get(x, row) == 1)

@@ -1,5 +1,6 @@
-//! The guard of frames: numbers out of their ranges are refused, whoever gives them, and the error names the item and the number.
-//! Directions and normals of any length draw the picture of unit vectors.
+//! The guard of frames: values out of range are refused, wherever they come from, and the error
+//! names the item and the value. Directions and normals of any length draw the picture of unit
+//! vectors.
 
 use crate::support::{floats_on, plain_lighting};
 use fastphong::frame::{
@@ -15,7 +16,7 @@ use fastphong::scene::{
 use fastphong::shading::{METHODS, SpanShader, SpanShaderError, SpanVertex, methods};
 use glam::{DMat3, DVec3, Vec3};
 
-/// A sphere with a light at infinity and one at a place, seen in perspective.
+/// Builds a sphere with a light at infinity and one at a position, seen in perspective.
 fn scene() -> Scene {
     let mut scene = Scene::of_mesh(builtin("sphere?rings=6&segments=12").expect("a sphere"));
     (scene.width, scene.height) = (40, 30);
@@ -26,9 +27,9 @@ fn scene() -> Scene {
     scene
 }
 
-/// Every number that a flag or a scene file may not have, a scene may not have either.
+/// Every value that a flag or a scene file may not have is refused in a scene, too.
 #[test]
-fn what_flags_refuse_a_scene_refuses_by_the_item_and_the_number() {
+fn a_scene_refuses_the_values_that_flags_refuse_and_names_item_and_value() {
     type Change = fn(&mut Scene);
     let orthographic: Change = |s| {
         s.camera.projection = Projection::Orthographic { half_height: -1.0 };
@@ -169,15 +170,15 @@ fn what_flags_refuse_a_scene_refuses_by_the_item_and_the_number() {
     }
 }
 
-/// A prepared scene is asked again for what may have changed since.
+/// A prepared scene checks again everything that may have changed since.
 #[test]
-fn a_prepared_scene_refuses_what_was_changed_later() {
+fn a_prepared_scene_refuses_later_changes_to_bad_values() {
     let mut prepared = scene().prepare().expect("a scene");
     prepared.materials_mut()[0].diffuse[0] = -1.0;
     let error = prepared.frame().expect_err("a negative coefficient");
     let item = FrameItem::Material(0);
     assert!(
-        matches!(error, FrameError::Number { item: found, .. } if found == item),
+        matches!(error, FrameError::Value { item: found, .. } if found == item),
         "{error}"
     );
     prepared.materials_mut()[0].diffuse[0] = 1.0;
@@ -206,7 +207,7 @@ const fn corner(x: i32, y: i32, normal: [f32; 3]) -> Vertex {
 const Z: [f32; 3] = [0.0, 0.0, 1.0];
 const CORNERS: [Vertex; 3] = [corner(1, 1, Z), corner(15, 1, Z), corner(1, 15, Z)];
 
-/// Builds a triangle with one of its corners, its normal and the rest changed.
+/// Builds a triangle. The caller changes one of its corners, its normal, or something else.
 fn built(
     lighting: Lighting,
     last: Vertex,
@@ -223,7 +224,7 @@ fn built(
 }
 
 #[test]
-fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
+fn a_builder_refuses_values_out_of_range_and_names_the_vertex() {
     let last = CORNERS[2];
     let refused = |last: Vertex, normal: [f32; 3], change: fn(&mut FrameBuilder)| {
         let frame = built(plain_lighting(), last, normal, change);
@@ -272,7 +273,7 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
                 material: 7,
                 ..last
             },
-            "vertex 2: its material is 7: expected the number of a material that was added",
+            "vertex 2: its material is 7: expected the index of a material that was added",
         ),
         (
             Vertex {
@@ -352,16 +353,16 @@ fn a_builder_refuses_numbers_out_of_range_and_names_the_vertex() {
     for (change, expected) in changes {
         assert_eq!(refused(last, Z, *change), *expected);
     }
-    // Without planes depth may be any number, and decides at each sample.
+    // Without near and far planes depth may have any value, and decides at each sample.
     let cube = |b: &mut FrameBuilder| {
         b.clipping(Clipping::NdcCube);
     };
     assert!(built(plain_lighting(), Vertex { depth: 1.5, ..last }, Z, cube).is_ok());
 }
 
-/// Without positions a light at a place would light every point as if it were at 0.
+/// Without positions, a positional light would light every point as if it were at 0.
 #[test]
-fn a_light_at_a_position_asks_for_the_positions_of_vertices() {
+fn a_light_at_a_position_needs_the_positions_of_vertices() {
     let near = [Light::positional(DVec3::Z, [1.0; 3])];
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &near, DVec3::Z);
     let error = built(lighting.clone(), CORNERS[2], Z, |_| ());
@@ -385,9 +386,9 @@ fn a_light_at_a_position_asks_for_the_positions_of_vertices() {
     assert!(built(lighting, CORNERS[2], Z, all).is_ok());
 }
 
-/// All methods and the reference draw the same bits, whatever the lengths of normals and directions.
+/// All methods and the reference draw the same bits for normals and directions of any length.
 #[test]
-fn directions_and_normals_of_any_length_are_those_of_unit_vectors() {
+fn directions_and_normals_of_any_length_draw_the_picture_of_unit_vectors() {
     let leaning = [[-0.3, 0.1, 1.0], [0.4, 0.2, 1.0], [0.1, -0.5, 1.0]].map(Vec3::from_array);
     let frame = |length: f32, interpolation| {
         // Powers of two change no digit.
@@ -434,7 +435,7 @@ fn directions_and_normals_of_any_length_are_those_of_unit_vectors() {
         }
         let middle = expected.normal(0);
         let length = Vec3::from_array(middle).length();
-        // Rounded to `f32` from `f64`, and its square once more.
+        // It is rounded from `f64` to `f32`, and its square once more.
         assert!((length - 1.0).abs() < 3e-7, "{length}");
     }
     assert!(compared > 100);
@@ -457,7 +458,7 @@ fn directions_and_normals_of_any_length_are_those_of_unit_vectors() {
     }
 }
 
-/// A vector that was normalised in `f32` is no worse than one that is normalised anew, and keeps its bits.
+/// A vector that was normalised in `f32` keeps its bits: normalising it again would not improve it.
 #[test]
 fn unit_vectors_keep_their_bits() {
     let mut random = crate::support::Random::new(41);
@@ -514,7 +515,7 @@ fn a_span_shader_refuses_what_a_builder_refuses() {
             "light 0 on material 0: the length of its direction is 0: expected a direction: not all numbers 0"
         )
     );
-    // Normals and directions of any length.
+    // Normals and directions may have any length.
     let colour = |length: f64| {
         let light = Light::directional(DVec3::Z * length, [0.5; 3]);
         let mut shader = shader(&lit(&[light])).expect("a direction");
@@ -538,9 +539,10 @@ fn a_span_shader_refuses_what_a_builder_refuses() {
     assert_eq!(colours[0], Material::default().ambient);
 }
 
-/// A method that is not for a frame is an error of drawing, and nothing else that is asked of it panics.
+/// Drawing by a method that cannot draw a frame is an error, and all its other functions do not
+/// panic.
 #[test]
-fn a_method_that_is_not_for_a_frame_is_an_error_and_no_panic() {
+fn a_method_that_cannot_draw_a_frame_returns_an_error_and_does_not_panic() {
     let mut scene = scene();
     scene.interpolation = Interpolation::Perspective;
     scene
@@ -561,7 +563,7 @@ fn a_method_that_is_not_for_a_frame_is_an_error_and_no_panic() {
         assert!((0.0..=1.0).contains(&variant.bound(&frame)), "{variant}");
         assert!(variant.approximation(&frame) >= 0.0, "{variant}");
         variant.polygon_kinds(&frame);
-        variant.polygon_numbers(&frame, fastphong::raster::Renderer::fastest());
+        variant.polygon_indices(&frame, fastphong::raster::Renderer::fastest());
         refused += usize::from(error.is_some());
     }
     assert!(refused >= 7, "methods in integers at least");

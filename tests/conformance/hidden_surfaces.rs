@@ -8,7 +8,7 @@ use fastphong::mesh::MeshBuilder;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::Picture;
 use fastphong::raster::painter_conflicts::conflicts;
-use fastphong::raster::{self, Edges, NOTHING};
+use fastphong::raster::{self, Edges, NO_POLYGON};
 use fastphong::reference;
 use fastphong::scene::{
     Camera, Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey,
@@ -23,34 +23,34 @@ fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
 }
 
 /// Returns a torus without culling, up to four surfaces deep. A wide perspective camera stands near
-/// it, an orthographic one far.
+/// it, an orthographic one far away.
 fn torus(perspective: bool, hidden_surfaces: HiddenSurfaces) -> Frame {
     let mut scene = Scene::of_mesh(builtin("torus?segments=48&sides=24").expect("a built-in mesh"));
     (scene.width, scene.height, scene.culling) = (96, 72, Culling::None);
     if perspective {
         scene.camera.projection = Projection::Perspective { fovy: 60.0 };
         scene.camera.eye = scene.camera.target + scene.camera.view() * 2.5;
-        // Not a power of two: near/w and 1/w are rounded differently.
+        // The near distance is no power of two, so near/w and 1/w round differently.
         (scene.camera.near, scene.camera.far) = (0.45, 5.0);
     }
     scene.hidden_surfaces = hidden_surfaces;
     scene.frame().expect("a frame")
 }
 
-/// Returns the number of roundings of a depth on its way to a sample. Each step down an edge or
-/// along a span rounds twice, and a picture of w × h pixels has at most w + h steps. Fewer than 32
+/// Returns how many roundings a depth has on its way to a sample. Each step down an edge or along a
+/// span rounds twice, and a picture of w × h pixels has at most w + h steps. Fewer than 32
 /// roundings precede the first step.
 fn roundings(frame: &Frame) -> f64 {
     2.0 * (frame.width() + frame.height()) as f64 + 32.0
 }
 
-/// Half a unit in the last place for numbers up to 1.
+/// Half a unit in the last place of values up to 1.
 const ROUNDING: f64 = 1.0 / (1u64 << 25) as f64;
 
 /// Both depth sources agree with each other and with the reference within rounding, under both
 /// cameras.
 #[test]
-fn depth_per_sample_is_interpolated_depth() {
+fn depth_per_sample_equals_interpolated_depth() {
     for perspective in [false, true] {
         let [interpolated, per_sample] = [DepthSource::Interpolated, DepthSource::PerSample]
             .map(|source| torus(perspective, buffer(DepthBits::ThirtyTwo, source)));
@@ -105,8 +105,8 @@ fn engines_and_reference_see_the_same_polygons() {
                 let margin = 2.0 * rounding.max(if level > 0.0 { rounding + level } else { 0.0 });
                 let truth = reference::visibility(&frame);
                 for seen in [
-                    raster::polygon_numbers(&frame),
-                    raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
+                    raster::polygon_indices(&frame),
+                    raster::barycentric_polygon_indices(&frame, Edges::TopLeft),
                 ] {
                     let mut differing = 0;
                     for (i, (seen, expected)) in seen
@@ -128,10 +128,10 @@ fn engines_and_reference_see_the_same_polygons() {
     }
 }
 
-/// With 16 bits, two far layers share one level at many pixels and the first one drawn wins,
-/// although it is farther. The perspective spends most levels near the eye.
+/// With 16 bits, two far layers share a level at many pixels, and the first one drawn wins although
+/// it is farther. Perspective spends most levels near the eye.
 #[test]
-fn sixteen_bits_fight_where_more_do_not() {
+fn sixteen_bits_fight_where_more_bits_do_not() {
     let apart = 0.4 / 65535.0;
     let layer = |depth: f32| -> Vec<Corner> {
         [(2, 2, 0.0), (62, 3, 2e-3), (9, 46, 1e-3)]
@@ -154,12 +154,12 @@ fn sixteen_bits_fight_where_more_do_not() {
         let count = |picture: &fastphong::picture::Picture<u32>, number| {
             picture.pixels().iter().filter(|n| **n == number).count()
         };
-        let ours = raster::polygon_numbers(&frame);
-        assert_eq!(count(&ours, NOTHING), count(&truth, NOTHING));
+        let ours = raster::polygon_indices(&frame);
+        assert_eq!(count(&ours, NO_POLYGON), count(&truth, NO_POLYGON));
         [&ours, &truth].map(|picture| (count(picture, 0), count(picture, 1)))
     };
-    // Layers are 0.4 levels apart, so six pixels of ten show the wrong one if fractional levels are
-    // evenly distributed. They are, because depth grows by 130 levels over the triangle.
+    // Layers are 0.4 levels apart, so six pixels of ten show the wrong layer if fractional levels
+    // are evenly distributed. They are, because depth grows by 130 levels over the triangle.
     for (farther, nearer) in seen(DepthBits::Sixteen) {
         let share = farther as f64 / (farther + nearer) as f64;
         assert!((0.55..0.65).contains(&share), "{share}");
@@ -171,8 +171,8 @@ fn sixteen_bits_fight_where_more_do_not() {
     }
 }
 
-/// For layers of constant depth the painter draws the same picture as a depth buffer, in any
-/// drawing order. The reference and both engines agree to the pixel because only the order matters.
+/// The painter draws layers of constant depth as a depth buffer does, in any drawing order. The
+/// reference and both engines agree to the pixel, because only the order matters.
 #[test]
 fn the_painter_sorts_layers_as_depth_does() {
     let mut random = Random::new(31);
@@ -202,9 +202,9 @@ fn the_painter_sorts_layers_as_depth_does() {
                 frame
                     .polygons()
                     .get(number as usize)
-                    .map_or(NOTHING, |p| p.source)
+                    .map_or(NO_POLYGON, |p| p.source)
             };
-            let numbers = raster::polygon_numbers(frame);
+            let numbers = raster::polygon_indices(frame);
             assert_eq!(
                 numbers,
                 reference::visibility(frame).polygons,
@@ -212,7 +212,7 @@ fn the_painter_sorts_layers_as_depth_does() {
             );
             assert_eq!(
                 numbers,
-                raster::barycentric_polygon_numbers(frame, Edges::TopLeft),
+                raster::barycentric_polygon_indices(frame, Edges::TopLeft),
                 "round {round}"
             );
             numbers.map(source)
@@ -228,7 +228,7 @@ fn the_painter_sorts_layers_as_depth_does() {
     }
 }
 
-/// The painter sorts by its key: a long polygon can be nearer by its mean and farther by its
+/// The painter sorts by its key. A long polygon can be nearer by its mean and farther by its
 /// farthest corner. Equal keys keep the drawing order.
 #[test]
 fn the_painters_key_decides() {
@@ -270,8 +270,8 @@ fn the_painters_key_decides() {
     }
 }
 
-/// Finds occlusion pairs by brute force: draws each polygon alone and compares every pair pixel by
-/// pixel.
+/// Finds occlusion pairs by brute force: draws each polygon on its own and compares every pair
+/// pixel by pixel.
 fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u32, u32)> {
     let depths: Vec<_> = (0..frame.polygons().len())
         .map(|i| reference::visibility(&alone(i)).depth)
@@ -330,9 +330,9 @@ fn painted_wrong(name: &str) -> usize {
             frame
                 .polygons()
                 .get(number as usize)
-                .map_or(NOTHING, |polygon| polygon.source)
+                .map_or(NO_POLYGON, |polygon| polygon.source)
         };
-        raster::polygon_numbers(frame).map(source)
+        raster::polygon_indices(frame).map(source)
     };
     let (painted, buffered) = (
         seen(&painted),
@@ -346,8 +346,8 @@ fn painted_wrong(name: &str) -> usize {
         .count()
 }
 
-/// L5: *Can have unresolvable depth order*. A ring of three polygons that do not cut each other is
-/// drawn wrongly with every key, and so are polygons that cut each other. A mesh without either is
+/// L5: *Can have unresolvable depth order*. With every key, a ring of three polygons that do not
+/// cut each other is drawn wrongly, and so are polygons that cut each other. A mesh with neither is
 /// drawn correctly.
 #[test]
 fn no_order_is_right_for_a_ring() {
@@ -386,7 +386,7 @@ fn torus_of_front_faces() -> Frame {
 fn the_scene_of_z_fighting_fights() {
     let star = |bits| {
         let frame = shipped("z-fighting", buffer(bits, DepthSource::Interpolated));
-        raster::polygon_numbers(&frame)
+        raster::polygon_indices(&frame)
             .pixels()
             .iter()
             .filter(|n| **n == 1)
@@ -403,7 +403,7 @@ fn the_scene_of_z_fighting_fights() {
 /// Engines and reference agree in the z-fighting scene outside a margin. They differ only where one
 /// of the two depths is so near the middle between two levels that rounding decides.
 #[test]
-fn fighting_is_the_same_outside_of_a_margin() {
+fn fighting_is_equal_in_all_engines_outside_a_margin() {
     let fighting = support::scene("z-fighting", Some((48, 36)));
     let frame = fighting.frame().expect("a frame");
     let depths = [0, 1].map(|object| {
@@ -430,14 +430,14 @@ fn fighting_is_the_same_outside_of_a_margin() {
     };
     let (mut differing, mut decided) = (0, [0; 2]);
     for seen in [
-        raster::polygon_numbers(&frame),
-        raster::barycentric_polygon_numbers(&triangulated(&frame).frame, Edges::TopLeft),
+        raster::polygon_indices(&frame),
+        raster::barycentric_polygon_indices(&triangulated(&frame).frame, Edges::TopLeft),
     ] {
         let origins = triangulated(&frame).origins;
-        let is_scanline = seen == raster::polygon_numbers(&frame);
+        let is_scanline = seen == raster::polygon_indices(&frame);
         for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
             let number = seen.get(x, y);
-            let shown = if is_scanline || number == NOTHING {
+            let shown = if is_scanline || number == NO_POLYGON {
                 number
             } else {
                 origins[number as usize]
@@ -483,7 +483,8 @@ fn conflicts_respect_per_sample_clipping() {
     assert_eq!((found.wrong, found.interpenetrating), (vec![(0, 1)], 1));
 }
 
-/// The painter moves a polygon's data with it: a clipped polygon keeps the mean of the whole one.
+/// The painter moves a polygon's data with the polygon: a clipped polygon keeps the mean of the
+/// whole one.
 #[test]
 fn the_painter_keeps_the_means_of_clipped_polygons() {
     let frame = |hidden_surfaces| {
@@ -522,16 +523,16 @@ fn the_painter_keeps_the_means_of_clipped_polygons() {
     }
 }
 
-/// A shape whose corners lie at random places: some of them at the same one.
+/// A shape whose corners lie at random places, where several may coincide.
 #[derive(Clone, Copy, Debug)]
 enum Shape {
-    /// A random polygon of so many corners, which may cross itself.
+    /// A random polygon with this many corners, which may cross itself.
     Sides(usize),
     /// A polygon with a corner inside the hull of the others.
     Concave,
-    /// A triangle, with a second corner where one is, at another depth.
+    /// A triangle with a fourth corner at the place of another, at another depth.
     CornerTwice,
-    /// A polygon that goes to a place and back to where it came from, at another depth.
+    /// A polygon that goes to a point and returns to where it came from, at another depth.
     Spike,
     /// A polygon that crosses itself on a row of pixel centres.
     Bow,
@@ -549,11 +550,12 @@ const SHAPES: [Shape; 9] = [
     Shape::Bow,
 ];
 
-/// Returns the corners of a shape about `size` pixels wide in a picture `side` samples wide, each at a place with a depth and a
-/// 1/w of its own.
+/// Returns the corners of a shape about `size` pixels wide in a picture `side` samples wide. Each
+/// place has its own depth and its own 1/w.
 fn corners_of(shape: Shape, random: &mut Random, size: u64, side: u64) -> Vec<Vertex> {
     let middle = [0; 2].map(|_| random.below(256 * side) as i32);
-    // Every other shape has corners at pixel centres and on their rows: there crossings meet.
+    // About half of the shapes have corners at pixel centres and on their rows, where crossings
+    // then meet.
     let grid = [1, 128][random.below(2) as usize];
     let mut place = || {
         let moved = middle.map(|at| {
@@ -593,7 +595,7 @@ fn corners_of(shape: Shape, random: &mut Random, size: u64, side: u64) -> Vec<Ve
             vec![a, b, c, d, at(c, e)]
         }
         Shape::Bow => {
-            // Both diagonals of a square, whose middle is a pixel centre.
+            // The corners follow both diagonals of a square whose middle is a pixel centre.
             let half = 256 * (1 + size as i32 / 2);
             let [cx, cy] = middle.map(|at| at / 256 * 256 + 128);
             [[-1, -1], [1, 1], [-1, 1], [1, -1]]
@@ -607,25 +609,26 @@ fn corners_of(shape: Shape, random: &mut Random, size: u64, side: u64) -> Vec<Ve
     }
 }
 
-/// Returns the number of pixels where a polygon other than the first is seen, and of those where any is.
+/// Counts the pixels that show another polygon than the first, and the pixels that show any.
 fn later_ones(seen: &Picture<u32>) -> [usize; 2] {
-    let covered = seen.pixels().iter().filter(|number| **number != NOTHING);
+    let covered = seen.pixels().iter().filter(|number| **number != NO_POLYGON);
     [
         covered.clone().filter(|number| **number > 0).count(),
         covered.count(),
     ]
 }
 
-/// Of polygons with the same corners the first is seen everywhere, whichever corner each begins with and whichever way it runs,
-/// by every engine and the reference: depth at a sample depends on the corners alone.
+/// Among polygons with the same corners the first is visible everywhere, by every engine and the
+/// reference. It does not matter with which corner each begins and which way it runs, because depth
+/// at a sample depends only on the corners.
 #[test]
-fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
+fn of_equal_polygons_the_first_is_seen_whatever_corner_each_begins_with() {
     let mut random = Random::new(29);
     let mut found: BTreeMap<String, [usize; 2]> = BTreeMap::new();
     for round in 0..360 {
         let side = 64;
         let shape = SHAPES[round % SHAPES.len()];
-        // From tiny triangles to ones that reach beyond the picture.
+        // Sizes range from tiny triangles to polygons that reach beyond the picture.
         let size = [5, 14, 40, 70, 300][round / SHAPES.len() % 5];
         let [bits, source, range, samples] = [3, 2, 2, 2].map(|n| random.below(n) as usize);
         let range = [
@@ -659,7 +662,7 @@ fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
                 builder.vertex(Vertex { depth, ..corner })
             })
             .collect();
-        // The first of them runs either way from any corner, too.
+        // The first of them also begins with any corner and runs either way.
         let first = random.below(2 * corners.len() as u64) as usize;
         for turn in first..first + 2 * corners.len() {
             let mut turned = corners.clone();
@@ -678,15 +681,16 @@ fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
         };
         count("reference".into(), &reference::visibility(&frame).polygons);
         let cut = triangulated(&frame);
-        let origin = |number: u32| cut.origins.get(number as usize).map_or(NOTHING, |&o| o);
-        let seen = raster::barycentric_polygon_numbers(&cut.frame, Edges::TopLeft);
+        let origin = |number: u32| cut.origins.get(number as usize).map_or(NO_POLYGON, |&o| o);
+        let seen = raster::barycentric_polygon_indices(&cut.frame, Edges::TopLeft);
         count("barycentric".into(), &seen.map(origin));
-        // By plane equations, and by runs because a walk remembers the pixel before.
+        // naive-phong uses plane equations. slerp-phong uses runs, because its walk depends on the
+        // previous pixel.
         for method in ["naive-phong", "slerp-phong"] {
             let variant = Variant::parse(method).expect("a method");
             for renderer in renderers::distinct(&variant, &frame) {
                 let name = format!("{method}, {}", renderers::name(renderer));
-                count(name, &variant.polygon_numbers(&frame, renderer));
+                count(name, &variant.polygon_indices(&frame, renderer));
             }
         }
     }
@@ -696,8 +700,8 @@ fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
     assert!(none_later, "pixels of later ones, and all: {found:?}");
 }
 
-/// Returns a scene of two walls before an eye in the origin, the farther one first: it is `apart` of the distance
-/// behind the nearer one, and wider.
+/// Returns a scene of two walls in front of an eye at the origin, the farther one first. It is
+/// wider than the nearer one, and behind it by the share `apart` of the distance.
 fn walls(distance: f64, apart: f64, slope: f64) -> Scene {
     let wall = |z: f64, half: f64| {
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
@@ -711,23 +715,18 @@ fn walls(distance: f64, apart: f64, slope: f64) -> Scene {
     let mut scene = Scene::of_mesh(builder.finish().expect("a mesh"));
     (scene.width, scene.height) = (80, 60);
     scene.culling = Culling::None;
-    scene.camera = Camera {
-        eye: DVec3::ZERO,
-        target: -DVec3::Z,
-        up: DVec3::Y,
-        projection: Projection::Perspective { fovy: 25.0 },
-        near: 1e-3,
-        far: 1e6,
-    };
+    let projection = Projection::Perspective { fovy: 25.0 };
+    scene.camera = Camera::looking_at(DVec3::ZERO, -DVec3::Z, projection);
+    (scene.camera.near, scene.camera.far) = (1e-3, 1e6);
     scene
 }
 
-/// Returns every picture of the polygons seen: by the reference, the barycentric renderer, and the span and the row
-/// engine on each instruction set, along runs and by plane equations.
+/// Returns all pictures of the visible polygons: by the reference, by the barycentric renderer, and
+/// by the span and the row engine on each instruction set, along runs and by plane equations.
 fn all_that_see(frame: &Frame) -> Vec<(String, Picture<u32>)> {
     let cut = triangulated(frame);
-    let origin = |number: u32| cut.origins.get(number as usize).map_or(NOTHING, |&o| o);
-    let barycentric = raster::barycentric_polygon_numbers(&cut.frame, Edges::TopLeft).map(origin);
+    let origin = |number: u32| cut.origins.get(number as usize).map_or(NO_POLYGON, |&o| o);
+    let barycentric = raster::barycentric_polygon_indices(&cut.frame, Edges::TopLeft).map(origin);
     let mut all = vec![
         (
             "reference".to_owned(),
@@ -739,17 +738,18 @@ fn all_that_see(frame: &Frame) -> Vec<(String, Picture<u32>)> {
         let variant = Variant::parse(method).expect("a method");
         for renderer in renderers::distinct(&variant, frame) {
             let name = format!("{method}, {}", renderers::name(renderer));
-            all.push((name, variant.polygon_numbers(frame, renderer)));
+            all.push((name, variant.polygon_indices(frame, renderer)));
         }
     }
     all
 }
 
-/// Walls a ten-thousandth of their distance apart are told apart wherever they stand between near and far planes that
-/// are 10⁹ times, and up to 10³⁰ times, as far away as one another; also where they are oblique.
+/// Engines distinguish walls that are a ten-thousandth of their distance apart, anywhere between
+/// near and far planes whose distances differ by a factor of 10⁹ and up to 10³⁰, and even if the
+/// walls are oblique.
 #[test]
 fn walls_are_told_apart_at_every_distance() {
-    // Set FASTPHONG_APART to find out how near is too near.
+    // Set FASTPHONG_APART to find out how close is too close.
     let apart =
         std::env::var("FASTPHONG_APART").map_or(1e-4, |text| text.parse().expect("a number"));
     let far_away = [1e-3, 0.02, 1.0, 6.0, 250.0, 1e4, 8e5].map(|w| (w, 0.9e-3, 1e6));
@@ -761,13 +761,14 @@ fn walls_are_told_apart_at_every_distance() {
             for source in [DepthSource::Interpolated, DepthSource::PerSample] {
                 scene.hidden_surfaces = buffer(DepthBits::ThirtyTwo, source);
                 let frame = scene.frame().expect("a frame");
-                let mut nearer = Picture::new(frame.width(), frame.height(), NOTHING);
+                let mut nearer = Picture::new(frame.width(), frame.height(), NO_POLYGON);
                 raster::coverage(&frame, |number, y, pixels| {
                     nearer.row_mut(y)[pixels].fill(number);
                 });
                 assert!(nearer.pixels().iter().filter(|n| **n == 1).count() > 500);
                 for (name, seen) in all_that_see(&frame) {
-                    // The barycentric renderer splits walls: the same pixels.
+                    // The barycentric renderer splits walls into triangles, which cover the same
+                    // pixels.
                     let who = format!("{name} at {distance}, slope {slope}, {source:?}");
                     assert!(seen == nearer, "{who}");
                 }

@@ -9,10 +9,10 @@ use fastphong::scene::{Light, Lighting};
 use fastphong::shading::{MethodRow, Variant};
 use glam::{DVec3, Vec3};
 
-/// Width of the pictures in this module.
+/// The width of the pictures in this module.
 pub const WIDTH: u32 = 64;
 
-/// Exponent n of the specular term.
+/// The exponent n of the specular term.
 pub const SHININESS: i32 = 20;
 
 pub const LIGHT: DVec3 = DVec3::new(0.36, 0.48, 0.8);
@@ -21,8 +21,8 @@ pub const AMBIENT: f64 = 0.1;
 pub const DIFFUSE: f64 = 0.4;
 pub const SPECULAR: f64 = 0.5;
 
-/// Largest difference between a method in `f32` and its formula on a span of [`WIDTH`] pixels and a
-/// few rows.
+/// The largest difference between a method in `f32` and its formula on a span of [`WIDTH`] pixels
+/// and a few rows.
 ///
 /// Each addition of a walk is off by at most 2⁻²⁴. After 64 pixels and 4 rows J, K and each
 /// coordinate of N are off by e = 68 · 2⁻²⁴ = 4.1e-6. In 2JK/D, with D over ½ here, J and K
@@ -76,8 +76,8 @@ pub fn leaning(right: f64, up: f64) -> DVec3 {
     DVec3::new(x, y, 1.0).normalize()
 }
 
-/// Builds four rows as wide as the picture, with one normal at the left and one at the right:
-/// t = (column + ½) / WIDTH.
+/// Builds four rows as wide as the picture, with one normal on the left and one on the right: t =
+/// (column + ½) / WIDTH.
 pub fn strip(left: DVec3, right: DVec3) -> Frame {
     strip_lit(lighting(), left, right)
 }
@@ -115,7 +115,7 @@ fn slerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
     ((1.0 - t) * phi).sin() / phi.sin() * n1 + (t * phi).sin() / phi.sin() * n2
 }
 
-/// Pairs of normals for strips, up to 65 degrees apart.
+/// Returns pairs of normals for strips, up to 65 degrees apart.
 pub fn pairs() -> [(DVec3, DVec3); 3] {
     [
         (leaning(-20.0, 10.0), leaning(35.0, -5.0)),
@@ -147,7 +147,7 @@ fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
     }
 }
 
-/// Gouraud follows (3.5), (3.6): intensities by (2.1) at the ends, linear between them.
+/// Gouraud follows (3.5), (3.6): intensities by (2.1) at the ends, and linear between them.
 #[test]
 fn gouraud_interpolates_intensities() {
     check("gouraud", |n1, n2, t| {
@@ -223,8 +223,8 @@ fn the_summary_of_naive_phong_is_not_section_4_1() {
     assert!((last - lit(section)).abs() < TOLERANCE);
 }
 
-/// Returns a square on one corner, turned clockwise by `turns` quarter turns, with normals for top,
-/// right, bottom and left. No pixel centre lies on its edges or diagonals.
+/// Returns a square that stands on one corner, turned clockwise by `turns` quarter turns, with
+/// normals for top, right, bottom and left. No pixel centre lies on its edges or diagonals.
 fn square(turns: usize, normals: [DVec3; 4]) -> [((f64, f64), DVec3); 4] {
     let (middle, reach) = (f64::from(WIDTH) / 2.0, 24.25);
     let (low, high) = (middle - reach, middle + reach);
@@ -251,8 +251,8 @@ fn largest_difference(a: &LinearPicture, b: &LinearPicture) -> f64 {
 }
 
 /// L21 3, Figure 5: turning a square with one different corner by 90° changes its shading. Cut into
-/// triangles it keeps it, because interpolation on triangles is barycentric (Figure 6). Slerp is
-/// not affine, so even its triangles change.
+/// triangles, the square keeps its shading, because interpolation on triangles is barycentric
+/// (Figure 6). Slerp is not affine, so even its triangles change.
 #[test]
 fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
     let normals = [
@@ -286,7 +286,7 @@ fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
             }
             name => {
                 assert!(square > 0.01, "{name}: {square}");
-                // Both pictures are within the tolerance of the same formula. The default number of
+                // Both pictures are within the tolerance of the same formula. The default count of
                 // Newton steps leaves e²/2 = 3e-4 of a first step of 2.5 %, and then 5e-8.
                 assert!(triangles < 2.0 * TOLERANCE, "{name}: {triangles}");
             }

@@ -112,11 +112,12 @@ fn every_mode_agrees_with_the_reference() {
     }
     println!("{nearest:?}");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    // The bounds combine the worst polygon, light and weight, which never coincide. They are far
+    // The bounds combine the worst polygon, light and weight, which never coincide. So they are far
     // from tight, but still too small to be visible.
     for (name, share) in nearest {
         let least = match name {
-            // Its bound has room for 40 roundings of a quadratic; most of these n-gons take Duff's way, with 6.
+            // Its bound has room for 40 roundings of a quadratic. Most of these n-gons use Duff's
+            // method, which has 6.
             "bishop-weimer" => 0.0004,
             _ => 0.0005,
         };
@@ -162,8 +163,8 @@ fn every_mode_changes_the_picture() {
     }
 }
 
-/// Duff's six quadratics agree with naive Phong. The lecture's form differs: its light vectors are
-/// constant over each polygon.
+/// Duff's six quadratics agree with naive Phong. The lecture's form differs, because its light
+/// vectors are constant over each polygon.
 #[test]
 fn constant_light_vectors_differ_from_quadratics() {
     let frame = frame(|_| ());
@@ -206,9 +207,10 @@ fn the_six_products_take_two_additions_each() {
     assert_eq!(additions(2, Falloff::None, Interpolation::Screen), 20);
 }
 
-/// Quadratics of J, L·V and a strength of each light, and of K, take two additions each per pixel. A triangle takes a root for each
-/// unit vector: toward the eye and each light from six points, and the three normals half-way between; or one for each vector
-/// that is expanded about the middle, N, V and L.
+/// Quadratics of J, L·V and the strength of each light, and of K, take two additions each per
+/// pixel. A triangle takes a root for each unit vector. These are the vectors toward the eye and
+/// each light from six points, and the three normals half-way between corners; or N, V and L at the
+/// middle, which are expanded about it.
 #[test]
 fn quadratics_of_positions_take_two_additions_each() {
     for (name, roots) in [
@@ -242,9 +244,9 @@ fn quadratics_of_positions_take_two_additions_each() {
     }
 }
 
-/// A positional light far away equals a directional light for every method.
+/// For every method a positional light far away equals a directional one.
 #[test]
-fn a_light_far_away_is_one_at_infinity() {
+fn a_light_far_away_equals_one_at_infinity() {
     let direction = DVec3::new(0.36, 0.48, 0.8);
     let far = frame(|s| {
         s.local_viewer = false;
@@ -263,10 +265,10 @@ fn a_light_far_away_is_one_at_infinity() {
     }
 }
 
-/// An exponent for R·V and four times that exponent for N·H give nearly equal highlights. Light and
+/// An exponent for R·V and four times that exponent for N·H make nearly equal highlights. Light and
 /// eye are at infinity, in one plane.
 #[test]
-fn converted_exponents_give_the_same_highlight() {
+fn converted_exponents_make_the_same_highlight() {
     let picture = |specular, shininess_for| {
         let frame = frame(|s| {
             s.local_viewer = false;
@@ -293,10 +295,8 @@ fn converted_exponents_give_the_same_highlight() {
 #[test]
 fn degenerate_light_positions_make_no_artefacts() {
     let eye_inside = |s: &mut Scene| {
-        s.lights = vec![Light {
-            falloff: Falloff::InverseSquare,
-            ..Light::positional(DVec3::new(0.1, 0.2, 0.05), [0.5; 3])
-        }];
+        let light = Light::positional(DVec3::new(0.1, 0.2, 0.05), [0.5; 3]);
+        s.lights = vec![light.with_falloff(Falloff::InverseSquare)];
         s.culling = Culling::None;
         s.camera.eye = DVec3::new(0.0, 0.1, 0.3);
         s.camera.target = DVec3::new(0.0, 0.0, -1.0);
@@ -309,10 +309,7 @@ fn degenerate_light_positions_make_no_artefacts() {
             mesh.positions()[mesh.corners()[mesh.corner_range(100).start + i] as usize].as_dvec3()
         };
         let beyond = corner(0) + 0.4 * (corner(0) - corner(1));
-        s.lights = vec![Light {
-            falloff: Falloff::Inverse,
-            ..Light::positional(beyond, [0.5; 3])
-        }];
+        s.lights = vec![Light::positional(beyond, [0.5; 3]).with_falloff(Falloff::Inverse)];
     };
     // The light is behind the sphere on the line of sight to its middle. L and V are opposite
     // there, and N·H is 0/0.
@@ -344,7 +341,8 @@ fn degenerate_light_positions_make_no_artefacts() {
                 entry.info.name
             );
             if name == "opposite" {
-                // Blue has no specular term: at most ambient and diffuse light, 0.06 + 0.5 · 0.3.
+                // Blue has no specular term, so it has at most ambient and diffuse light, 0.06 +
+                // 0.5 · 0.3.
                 assert!(
                     picture.pixels().iter().all(|t| t[2] <= 0.22),
                     "{}: a highlight without k_s",
@@ -355,7 +353,8 @@ fn degenerate_light_positions_make_no_artefacts() {
     }
 }
 
-/// Puts shapes side by side under a local light, each of its own material. Those of `hidden` show the side that is culled.
+/// Puts shapes side by side under a local light, each with its own material. The shapes in `hidden`
+/// show their culled side.
 fn side_by_side(shape: &str, count: usize, hidden: std::ops::Range<usize>) -> Scene {
     let mesh = Arc::new(builtin(shape).expect("a built-in mesh"));
     scene(|scene| {
@@ -367,19 +366,18 @@ fn side_by_side(shape: &str, count: usize, hidden: std::ops::Range<usize>) -> Sc
                     false => DAffine3::IDENTITY,
                 };
                 let share = (i + 1) as f32 / count as f32;
-                Object {
-                    mesh: mesh.clone(),
-                    transform: DAffine3::from_translation(DVec3::X * place(i))
-                        * turn
-                        * DAffine3::from_scale(DVec3::splat(0.5)),
-                    material: Some(Material {
-                        ambient: [0.1; 3],
-                        diffuse: [share, 0.5, 1.0 - share],
-                        specular: [0.4; 3],
-                        shininess: 4.0 + 3.0 * i as f32,
-                    }),
-                    normals: NormalSource::Given.into(),
-                }
+                let mut object = Object::new(mesh.clone());
+                object.transform = DAffine3::from_translation(DVec3::X * place(i))
+                    * turn
+                    * DAffine3::from_scale(DVec3::splat(0.5));
+                object.material = Some(Material {
+                    ambient: [0.1; 3],
+                    diffuse: [share, 0.5, 1.0 - share],
+                    specular: [0.4; 3],
+                    shininess: 4.0 + 3.0 * i as f32,
+                });
+                object.normals = NormalSource::Given.into();
+                object
             })
             .collect();
         scene.camera.target = DVec3::ZERO;
@@ -389,10 +387,10 @@ fn side_by_side(shape: &str, count: usize, hidden: std::ops::Range<usize>) -> Sc
     })
 }
 
-/// Light is seen from each polygon, and methods on great circles are lit at vertices all the same: whatever the numbers of polygons
-/// and materials are, each polygon has the colours of its own material.
+/// Light depends on the polygon, but methods on great circles are lit at vertices. For any count of
+/// polygons and materials, each polygon has the colours of its own material.
 #[test]
-fn polygons_may_be_more_or_fewer_than_materials_under_local_lights() {
+fn under_local_lights_polygons_may_be_more_or_fewer_than_materials() {
     for (shape, count, hidden, drawn) in [
         ("triangle", 1, 0..1, 0..=0),
         ("triangle", 4, 0..4, 0..=0),

@@ -5,7 +5,7 @@ use crate::support::floats_on;
 use crate::support::{Random, linear};
 use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
-use fastphong::raster::{self, Edges, NOTHING};
+use fastphong::raster::{self, Edges, NO_POLYGON};
 use fastphong::reference;
 use fastphong::scene::{
     Camera, Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation,
@@ -13,7 +13,7 @@ use fastphong::scene::{
 };
 use glam::{DVec3, Vec3};
 
-/// Builds polygons seen by an eye one unit above the origin that looks along −z and slightly
+/// Builds a scene of polygons. Its eye is one unit above the origin and looks along −z and slightly
 /// downward.
 fn scene(polygons: &[Vec<Vec3>], near: f64, far: f64) -> Scene {
     let mut builder = MeshBuilder::new(polygons.concat());
@@ -30,14 +30,9 @@ fn scene_of(mesh: PolygonMesh, near: f64, far: f64) -> Scene {
     let mut scene = Scene::of_mesh(mesh);
     (scene.width, scene.height) = (80, 60);
     (scene.culling, scene.clipping) = (Culling::None, Clipping::NdcCube);
-    scene.camera = Camera {
-        eye: DVec3::new(0.0, 1.0, 0.0),
-        target: DVec3::new(0.0, 0.7, -1.0),
-        up: DVec3::Y,
-        projection: Projection::Perspective { fovy: 60.0 },
-        near,
-        far,
-    };
+    let (eye, target) = (DVec3::new(0.0, 1.0, 0.0), DVec3::new(0.0, 0.7, -1.0));
+    scene.camera = Camera::looking_at(eye, target, Projection::Perspective { fovy: 60.0 });
+    (scene.camera.near, scene.camera.far) = (near, far);
     scene
 }
 
@@ -71,22 +66,22 @@ fn rounding(frame: &Frame) -> f64 {
     (2.0 * (frame.width() + frame.height()) as f64 + 32.0) * largest / f64::from(1 << 24)
 }
 
-/// Counts pixels missing and extra compared with clipping, and how many of them the margins do not
-/// explain.
+/// Counts the pixels that are missing and extra compared with clipping, and the wrong pixels that
+/// the margins do not explain.
 fn wrong_pixels(scene: &Scene) -> (usize, usize, usize) {
     let mut clipped = scene.clone();
     clipped.clipping = Clipping::Planes;
     let [clipped, tested] = [&clipped, scene].map(|scene| scene.frame().expect("a frame"));
-    let [truth, ours] = [&clipped, &tested].map(raster::polygon_numbers);
+    let [truth, ours] = [&clipped, &tested].map(raster::polygon_indices);
     let (mut missing, mut extra, mut unexplained) = (0, 0, 0);
     for (x, y) in (0..80).flat_map(|x| (0..60).map(move |y| (x, y))) {
-        match (truth.get(x, y) == NOTHING, ours.get(x, y) == NOTHING) {
+        match (truth.get(x, y) == NO_POLYGON, ours.get(x, y) == NO_POLYGON) {
             (false, true) => missing += 1,
             (true, false) => extra += 1,
             _ => continue,
         }
-        // Corners made by clipping are snapped to 1/256 pixel, off by up to half of that, so the
-        // cut may move past a centre.
+        // Clipping snaps its new corners to 1/256 pixel, so they are off by up to half of that, and
+        // the cut may move past a pixel centre.
         let (depth, change) = depth_at(&tested, 0, x, y);
         let margin = change / 512.0 + rounding(&tested);
         unexplained += usize::from(depth.abs() > margin && (depth - 1.0).abs() > margin);
@@ -94,8 +89,8 @@ fn wrong_pixels(scene: &Scene) -> (usize, usize, usize) {
     (missing, extra, unexplained)
 }
 
-/// In front of the eye the test equals clipping: a polygon through near and far plane has no
-/// unexplained wrong pixel.
+/// In front of the eye the test equals clipping: a polygon through the near and the far plane has
+/// no unexplained wrong pixel.
 #[test]
 fn in_front_of_the_eye_the_test_equals_clipping() {
     for (from, to, near, far) in [
@@ -113,7 +108,7 @@ fn in_front_of_the_eye_the_test_equals_clipping() {
             ),
             (0, 0, 1)
         );
-        let drawn = raster::polygon_numbers(&frame)
+        let drawn = raster::polygon_indices(&frame)
             .pixels()
             .iter()
             .filter(|n| **n == 0)
@@ -126,8 +121,8 @@ fn in_front_of_the_eye_the_test_equals_clipping() {
     }
 }
 
-/// A polygon through the eye plane projects wrongly. All visible ground is missing, and
-/// pixels are drawn where nothing should be.
+/// A polygon through the eye plane projects wrongly. All visible ground is missing, and pixels are
+/// drawn where nothing should be.
 #[test]
 fn through_the_plane_of_the_eye_the_test_is_wrong() {
     let mut scene = scene(&[ground(3.0, -10.0)], 0.1, 100.0);
@@ -135,7 +130,7 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
     // margin.
     assert_eq!(wrong_pixels(&scene), (3200, 400, 3600));
     scene.clipping = Clipping::Planes;
-    let truth = raster::polygon_numbers(&scene.frame().expect("a frame"));
+    let truth = raster::polygon_indices(&scene.frame().expect("a frame"));
     assert_eq!(
         truth.pixels().iter().filter(|n| **n == 0).count(),
         3200,
@@ -143,11 +138,11 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
     );
 }
 
-/// A corner in the eye plane cannot be projected: its polygon is left out and counted.
+/// A corner in the eye plane cannot be projected. Its polygon is left out and counted.
 #[test]
 fn unprojectable_corners_are_counted() {
-    // Three such corners: in the eye plane, at the eye, and just before it on the line of sight.
-    // The last projects to the middle of the picture, but z/w is -1e5.
+    // Each of three polygons has such a corner: in the eye plane, at the eye, and just in front of
+    // it on the line of sight. The last projects to the middle of the picture, but its z/w is -1e5.
     let [at_the_eye, before_it] = [0.0, -1e-6].map(|z| {
         [(0.0, 1.0, z), (1.0, 0.5, -3.0), (-1.0, 0.5, -3.0)]
             .map(Vec3::from)
@@ -193,17 +188,17 @@ fn anything_around_the_eye_gives_a_picture() {
         let margin = 2.1 * rounding(&frame);
         let level = bits.most().map_or(0.0, |most| 1.0 / f64::from(most));
         for seen in [
-            raster::polygon_numbers(&frame),
-            raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
+            raster::polygon_indices(&frame),
+            raster::barycentric_polygon_indices(&frame, Edges::TopLeft),
         ] {
             for (x, y) in (0..80).flat_map(|x| (0..60).map(move |y| (x, y))) {
                 let pair = [seen.get(x, y), truth.polygons.get(x, y)];
-                drawn += usize::from(pair[1] != NOTHING);
+                drawn += usize::from(pair[1] != NO_POLYGON);
                 if pair[0] == pair[1] {
                     continue;
                 }
                 differing += 1;
-                let at_an_end = pair.iter().filter(|n| **n != NOTHING).any(|&number| {
+                let at_an_end = pair.iter().filter(|n| **n != NO_POLYGON).any(|&number| {
                     let depth = depth_at(&frame, number, x, y).0;
                     depth.abs() <= margin || (depth - 1.0).abs() <= margin
                 });

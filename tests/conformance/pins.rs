@@ -1,12 +1,14 @@
-//! Pins pictures to the bit: a checksum of the linear picture of every shipped scene, by every method and engine, and by the
-//! reference and CS171.
+//! Pins pictures to the bit: stores a checksum of the linear picture of every shipped scene, by
+//! every method and engine, and by the reference and CS171.
 //!
-//! `tests/pins.txt` holds them. The regression tests beside this one let a channel differ by one level; here nothing may. If a
-//! change is meant, look at the pictures, bless the pins with `FASTPHONG_BLESS=1 cargo test --test conformance pins`, and name
-//! the change in CHANGELOG.md under *Pixels changed*.
+//! `tests/pins.txt` holds the checksums. The regression tests beside this file let a channel differ
+//! by one level. Here no bit may differ. If a change is intended, look at the pictures, bless the
+//! pins with `FASTPHONG_BLESS=1 cargo test --test conformance pins`, and name the change in
+//! CHANGELOG.md under *Pixels changed*.
 //!
-//! All of them draw the same bits on every machine, the row engine on each instruction set that it is for. A machine without one
-//! of these sets leaves the pins of rows as they are.
+//! Every engine draws the same bits on every machine, and the row engine on every instruction set
+//! that it supports. A machine without one of these sets does not change the pins of the row
+//! engine.
 
 use crate::support::cases::{Case, cases};
 use crate::support::drawings::for_each_drawing;
@@ -58,7 +60,8 @@ fn of_linear(picture: &LinearPicture) -> u64 {
     checksum(channels.map(|c| c.to_le_bytes()))
 }
 
-/// Draws `case` by the barycentric renderer, CS171 and the reference, which are the same on every machine.
+/// Draws `case` by the barycentric renderer, CS171 and the reference, which do not depend on
+/// instruction sets.
 fn drawn_alike(case: &Case) -> Pins {
     let (frame, mut pins) = (&case.frame, Pins::new());
     let mut pin = |method: &str, by: &str, sum: u64| {
@@ -104,7 +107,7 @@ fn pictures_are_pinned_to_the_bit() {
     });
     let mut changed = Vec::new();
     for (name, sum, drawing) in drawn {
-        // One pin for the rows of all instruction sets.
+        // All instruction sets of the row engine share one pin.
         if *all.entry(name).or_insert(sum) != sum {
             changed.push(format!("{drawing}: not as on another instruction set"));
         }

@@ -1,18 +1,17 @@
-//! Quadratics of the vectors toward lights and eye at positions: against the same quadratics in `f64`, and within their errors against
-//! Phong's picture.
+//! Quadratics of the vectors toward lights and eye at positions: compared with the same quadratics
+//! in `f64`, and with Phong's picture within their errors.
 
 use crate::adaptive::asked;
 use crate::support::Random;
 use crate::support::differences::largest_difference;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::mesh::Material;
 use fastphong::reference::{self, Model};
-use fastphong::scene::{
-    Falloff, Interpolation, LightTerm, Lighting, Place, SpecularGate, SpecularModel,
-};
+use fastphong::scene::{Falloff, Interpolation, LightTerm, Lighting, Place, SpecularModel};
 use fastphong::shading::Variant;
 use glam::DVec3;
 
-/// A triangle and its light. The corners lie in the picture's first half.
+/// A triangle and its light. The corners lie in one half of the square picture.
 struct Triangle {
     places: [[f64; 2]; 3],
     weights: [f32; 3],
@@ -45,7 +44,8 @@ impl Triangle {
         builder.finish().expect("all corners are on the picture")
     }
 
-    /// Returns the products at barycentric coordinates of the picture: K, then J, L·V and the strength of each light.
+    /// Returns the products at barycentric coordinates on the screen: K, then J, L·V and the
+    /// strength of each light.
     fn products(&self, screen: [f64; 3]) -> Vec<f64> {
         let weighted = [0, 1, 2].map(|i| screen[i] * f64::from(self.weights[i]));
         let sum = |of: [DVec3; 3]| -> DVec3 { (0..3).map(|i| of[i] * weighted[i]).sum() };
@@ -69,13 +69,14 @@ impl Triangle {
                 Falloff::Attenuation(k) => 1.0 / (1.0 + f64::from(k) * r * r),
                 Falloff::InverseSquare => 1.0 / (r * r),
                 Falloff::Inverse => 1.0 / r,
+                falloff => unreachable!("{falloff:?} is not known here"),
             };
             all.extend([l.dot(n), l.dot(view), strength]);
         }
         all
     }
 
-    /// Returns the red light of products.
+    /// Returns the red light from the products.
     fn colour(&self, products: &[f64]) -> f64 {
         let lighting = &self.lighting;
         let k = products[0];
@@ -98,7 +99,7 @@ impl Triangle {
         colour
     }
 
-    /// Returns barycentric coordinates of a place on the picture.
+    /// Returns the barycentric coordinates of a point of the picture.
     fn barycentric(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let [a, b, c] = self.places;
         let area = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
@@ -113,7 +114,8 @@ impl Triangle {
     }
 }
 
-/// Lagrange's quadratic through the products at three corners and half-way along three edges of the picture.
+/// Evaluates Lagrange's quadratic through the products at three corners and half-way along three
+/// edges on the screen.
 fn six_points(triangle: &Triangle, [a, b, c]: [f64; 3]) -> Vec<f64> {
     let weighted = [
         ([1.0, 0.0, 0.0], a * (2.0 * a - 1.0)),
@@ -126,7 +128,7 @@ fn six_points(triangle: &Triangle, [a, b, c]: [f64; 3]) -> Vec<f64> {
     sum(weighted.map(|(at, weight)| (triangle.products(at), weight)))
 }
 
-/// Taylor's quadratic about the middle, by second differences of the products themselves.
+/// Evaluates Taylor's quadratic about the middle, by second differences of the products themselves.
 fn taylor(triangle: &Triangle, [_, b, c]: [f64; 3]) -> Vec<f64> {
     let h = 1e-3; // off by h²/6 of the third derivative, and by 2⁻⁵³/h² for rounding
     let third = 1.0 / 3.0;
@@ -172,13 +174,23 @@ fn light(place: Place<[f32; 3]>, falloff: Falloff, strength: f32) -> LightTerm {
     }
 }
 
-/// A triangle of a few lengths' distance from three lights, two of them at positions.
+/// Builds a triangle a few lengths away from three lights, two of them at positions.
 fn given(
     falloff: Falloff,
     specular: SpecularModel,
     weights: [f32; 3],
     eye: Place<[f32; 3]>,
 ) -> Triangle {
+    let mut lighting = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
+    lighting.ambient = [0.05; 3];
+    lighting.view = eye;
+    lighting.shininess = 12.0;
+    lighting.specular = specular;
+    lighting.lights = vec![
+        light(Place::Local([1.0, 2.0, 4.0]), falloff, 1.0),
+        light(Place::Infinite([0.6, 0.0, 0.8]), Falloff::None, 0.3),
+        light(Place::Local([-3.0, 0.5, 3.0]), Falloff::Inverse, 0.8),
+    ];
     Triangle {
         places: [[0.0, 0.0], [48.0, 4.0], [6.0, 48.0]],
         weights,
@@ -188,27 +200,16 @@ fn given(
             DVec3::new(0.5, 0.4, 0.0),
             DVec3::new(-0.4, -0.5, -0.1),
         ],
-        lighting: Lighting {
-            ambient: [0.05; 3],
-            view: eye,
-            shininess: 12.0,
-            specular,
-            gate: SpecularGate::Gated,
-            vertex_colours: false,
-            lights: vec![
-                light(Place::Local([1.0, 2.0, 4.0]), falloff, 1.0),
-                light(Place::Infinite([0.6, 0.0, 0.8]), Falloff::None, 0.3),
-                light(Place::Local([-3.0, 0.5, 3.0]), Falloff::Inverse, 0.8),
-            ],
-        },
+        lighting,
     }
 }
 
-/// For every falloff, both highlights, with and without perspective, and for an eye at a position and at infinity, pixels are lit by the
-/// quadratics.
+/// The quadratics light pixels for every falloff and both highlights, with and without perspective,
+/// and with the eye at a position and at infinity.
 ///
-/// Each product is off by 24 or 40 roundings of 2⁻²⁴, by 3 in each of 100 steps, and by 8 of the half-difference of the formula's own:
-/// e = 2.1e-5. N·H and R·V are off by up to 4 e, which n k_s = 3.6 and the strengths, 2.1 in sum, multiply: 30 e.
+/// Each product is off by 24 or 40 roundings of 2⁻²⁴, by 3 in each of 100 steps, and by 8 in the
+/// formula's half-difference: e = 2.1e-5. N·H and R·V are off by up to 4 e, multiplied by n k_s =
+/// 3.6 and the sum of the strengths, 2.1: 30 e.
 #[test]
 fn pixels_are_lit_by_quadratics() {
     type Quadratic = fn(&Triangle, [f64; 3]) -> Vec<f64>;
@@ -267,7 +268,7 @@ fn pixels_are_lit_by_quadratics() {
     println!("largest error {most:.2e} of {tolerance:.2e}");
 }
 
-/// A random triangle, and one to three lights near it and far away.
+/// Builds a random triangle, and one to three lights near it or far away.
 fn random_triangle(random: &mut Random) -> Triangle {
     let mut signed = || 2.0 * f64::from(random.share()) - 1.0;
     let mut vector = || DVec3::from_array([signed(), signed(), signed()]);
@@ -308,33 +309,31 @@ fn random_triangle(random: &mut Random) -> Triangle {
         diffuse: [random.share(), random.share(), random.share()],
         specular: [random.share(), random.share(), random.share()].map(|c| c * 0.1),
     });
-    let lights = lights.collect();
+    let mut lighting = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
+    lighting.lights = lights.collect();
+    lighting.view = eye;
+    let places = [
+        [0.0, 0.0],
+        [48.0, 48.0 * f64::from(random.share())],
+        [3.0, 48.0],
+    ];
+    let weights = match random.below(2) {
+        0 => [1.0; 3],
+        _ => change.to_array().map(|c| (0.75 + c) as f32),
+    };
+    lighting.shininess = [1.0, 2.0, 8.0][random.below(3) as usize];
+    lighting.specular = [SpecularModel::Phong, SpecularModel::Blinn][random.below(2) as usize];
     Triangle {
-        places: [
-            [0.0, 0.0],
-            [48.0, 48.0 * f64::from(random.share())],
-            [3.0, 48.0],
-        ],
-        weights: match random.below(2) {
-            0 => [1.0; 3],
-            _ => change.to_array().map(|c| (0.75 + c) as f32),
-        },
+        places,
+        weights,
         normals,
         points,
-        lighting: Lighting {
-            ambient: [0.0; 3],
-            view: eye,
-            shininess: [1.0, 2.0, 8.0][random.below(3) as usize],
-            specular: [SpecularModel::Phong, SpecularModel::Blinn][random.below(2) as usize],
-            gate: SpecularGate::Gated,
-            vertex_colours: false,
-            lights,
-        },
+        lighting,
     }
 }
 
-/// Random triangles are as near to Phong's picture as is stated, and not much nearer somewhere; lights and eye that are near them are
-/// followed as Duff does. More of them:
+/// Random triangles are as close to Phong's picture as stated, and somewhere not much closer. If
+/// lights or eye are near, Duff's method follows them. To try more triangles:
 ///
 /// ```text
 /// FASTPHONG_TRIANGLES=60000 cargo test --release --test conformance -- random_triangles --nocapture
@@ -353,7 +352,7 @@ fn random_triangles_are_within_their_bounds() {
                 *sum += kind.polygons;
             }
             let truth = reference::render(&frame, Model::Phong).to_linear();
-            // Where L·N is 0 but for roundings, they decide whether there is a highlight.
+            // Where L·N is 0 up to rounding, rounding decides if there is a highlight.
             let is_clear = |x: usize, y: usize| {
                 let place = [x, y].map(|at| at as f64 + 0.5);
                 let products = triangle.products(triangle.barycentric(place));

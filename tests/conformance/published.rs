@@ -1,4 +1,5 @@
-//! Checks each published method beside the lecture's against its own formula, evaluated in `f64` one pixel at a time.
+//! Checks each published method that is not in the lecture against its own formula, evaluated in
+//! `f64` one pixel at a time.
 
 use super::lecture::{
     AMBIENT, DIFFUSE, LIGHT, SHININESS, SPECULAR, TOLERANCE, VIEW, WIDTH, frame_of, intensity,
@@ -10,7 +11,7 @@ use fastphong::scene::{Interpolation, Lighting, SpecularModel};
 use fastphong::shading::Variant;
 use glam::DVec3;
 
-/// Draws strips by a method and compares their pixels with a formula of both normals and t.
+/// Draws strips by a method, and compares their pixels with a formula of both normals and t.
 #[track_caller]
 fn check(variant: &str, lighting: &Lighting, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
     for (n1, n2) in pairs() {
@@ -25,7 +26,8 @@ fn check(variant: &str, lighting: &Lighting, formula: impl Fn(DVec3, DVec3, f64)
     }
 }
 
-/// Compares the pixels of the first four rows, or all that are covered, with a formula of the place.
+/// Compares the pixels of the first four rows, or all covered pixels, with a formula of column and
+/// row.
 #[track_caller]
 fn compare(variant: &str, picture: &LinearPicture, formula: impl Fn(f64, f64) -> Option<f64>) {
     let mut compared = 0;
@@ -52,12 +54,13 @@ fn lerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     (1.0 - t) * a + t * b
 }
 
-/// The colour by equation 4.5 of J and K.
+/// Returns the colour by (4.5) from J and K.
 fn products(j: f64, k: f64) -> f64 {
     intensity(j, 2.0 * j * k - LIGHT.dot(VIEW))
 }
 
-/// 1/√D by the polynomial of `order` for a strip of these normals: see `src/shading/methods/hybrids/adaptive_plan.rs` (d).
+/// Returns 1/√D by the polynomial of `order` for a strip of these normals: see
+/// `src/shading/methods/hybrids/adaptive_plan.rs` (d).
 fn polynomial(order: u32, n1: DVec3, n2: DVec3, d: f64) -> f64 {
     let low = 1.0 - (n1 - n2).length_squared() / 4.0;
     let (middle, x) = ((1.0 + low) / 2.0, (1.0 - low) / (1.0 + low));
@@ -76,7 +79,7 @@ fn polynomial(order: u32, n1: DVec3, n2: DVec3, d: f64) -> f64 {
     value / middle.sqrt()
 }
 
-/// US patent 5,369,737: J and K linear, 1/√D a polynomial of D.
+/// US patent 5,369,737: J and K are linear, and 1/√D is a polynomial of D.
 #[test]
 fn series_phong_is_its_polynomial() {
     for order in [1, 2] {
@@ -92,7 +95,7 @@ fn series_phong_is_its_polynomial() {
     }
 }
 
-/// The same line for 1/√D, multiplied out.
+/// The line for 1/√D, multiplied out.
 #[test]
 fn cubic_phong_is_the_line_times_j_and_k() {
     check("cubic-phong", &lighting(), |n1, n2, t| {
@@ -102,7 +105,8 @@ fn cubic_phong_is_the_line_times_j_and_k() {
     });
 }
 
-/// Hast 2002: the quadratic through the unit normals of both ends and the middle, lit as it is.
+/// Hast 2002: the quadratic through the unit normals of both ends and the middle, lit without
+/// normalising.
 #[test]
 fn quadratic_normals_are_the_quadratic_through_three() {
     check("quadratic-normals", &lighting(), |n1, n2, t| {
@@ -115,10 +119,8 @@ fn quadratic_normals_are_the_quadratic_through_three() {
 /// Lyon 1993: highlights from |N − H|² of normals that are not normalised, by his power function.
 #[test]
 fn difference_vector_is_the_squared_difference() {
-    let halfway = Lighting {
-        specular: SpecularModel::Blinn,
-        ..lighting()
-    };
+    let mut halfway = lighting();
+    halfway.specular = SpecularModel::Blinn;
     let h = (LIGHT + VIEW).normalize();
     check("difference-vector:power=lyon:k=3", &halfway, |n1, n2, t| {
         let n = lerp(n1, n2, t);
@@ -128,7 +130,8 @@ fn difference_vector_is_the_squared_difference() {
     });
 }
 
-/// The H-test: diffuse light of vertices, highlights of unit normals. Here all strips have some.
+/// The H-test: diffuse light of vertices, highlights of unit normals. Here all strips have
+/// highlights.
 #[test]
 fn h_test_is_gouraud_with_phongs_highlights() {
     check("h-test", &lighting(), |n1, n2, t| {
@@ -140,14 +143,14 @@ fn h_test_is_gouraud_with_phongs_highlights() {
     });
 }
 
-/// The normals of a triangle whose legs are the picture's left and upper edge, within 40 degrees.
+/// The normals of triangles whose legs are the picture's left and upper edge, within 40 degrees.
 const TURNS: [[(f64, f64); 3]; 2] = [
     [(-15.0, 10.0), (15.0, 12.0), (0.0, -20.0)],
     [(5.0, 0.0), (9.0, 0.0), (5.0, 6.0)],
 ];
 
-/// Draws triangles by a method and compares them with products F of their corners' normals and barycentric coordinates of the second and
-/// third corner: of L for J, of V for K.
+/// Draws triangles by a method, and compares them with products F of the corners' normals and the
+/// barycentric coordinates of the second and third corner, with L for J and V for K.
 #[track_caller]
 fn check_triangle(variant: &str, product: impl Fn(DVec3, [DVec3; 3], [f64; 2]) -> f64) {
     let w = f64::from(WIDTH);
@@ -166,7 +169,8 @@ fn check_triangle(variant: &str, product: impl Fn(DVec3, [DVec3; 3], [f64; 2]) -
     }
 }
 
-/// Seiler 1998: Lagrange's quadratic through the products of unit normals at corners and half-way along edges.
+/// Seiler 1998: evaluates Lagrange's quadratic through the products of unit normals at corners and
+/// half-way along edges.
 fn six_points(
     to: DVec3,
     [a, b, c]: [DVec3; 3],
@@ -191,7 +195,8 @@ fn six_point_is_lagranges_quadratic() {
     });
 }
 
-/// Bishop, Weimer 1986: Taylor's quadratic of J/|N| about the middle, here by second differences of the function itself.
+/// Bishop, Weimer 1986: Taylor's quadratic of J/|N| about the middle, computed here by second
+/// differences of the function itself.
 #[test]
 fn bishop_weimer_is_taylors_quadratic() {
     check_triangle("bishop-weimer", |to, [a, b, c], [p, q]| {
@@ -210,8 +215,9 @@ fn bishop_weimer_is_taylors_quadratic() {
     });
 }
 
-/// van Overveld, Wyvill 1997: the quadratic through unit normals at corners and, reflected, half-way along edges; normalised. In space, also
-/// where corners have weights of perspective.
+/// van Overveld, Wyvill 1997: the normalised quadratic through unit normals at corners and
+/// reflected normals half-way along edges. It is a quadratic in space, also where corners have
+/// perspective weights.
 #[test]
 fn biquadratic_normals_are_reflected_half_way() {
     let w = f64::from(WIDTH);

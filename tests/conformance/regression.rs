@@ -2,14 +2,14 @@
 //! instruction set of this machine, and for the reference.
 //!
 //! `tests/references` has a picture of each closed form, `SCENE/reference-MODEL.png`, and
-//! `SCENE/METHOD.png` of the methods that are more than a level off theirs. A method without a
-//! picture of its own is compared with its closed form's; `pins.rs` beside this file holds every
-//! picture to the bit.
+//! `SCENE/METHOD.png` for each method that is more than a level off its closed form. A method
+//! without its own picture is compared with the picture of its closed form. `pins.rs` beside this
+//! file holds every picture to the bit.
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test conformance regression` blesses today's pictures. Look at
 //! each before committing it. Pixels are compared after decoding. A channel may differ by one
-//! level. A value within rounding of a half can be stored as either level, if the compiler reorders
-//! the reference's operations or another engine draws it.
+//! level, because a value within rounding of a half can be stored as either level if the compiler
+//! reorders the reference's operations or another engine draws it.
 
 use crate::support::cases::{Case, case, cases};
 use crate::support::differences::levels_apart;
@@ -39,20 +39,20 @@ fn blessed(scene: &str, name: &str) -> PathBuf {
     folder("tests/references").join(format!("{scene}/{name}.png"))
 }
 
-/// Returns the picture of a closed form and the path of the blessed one.
+/// Returns the picture of a closed form, and the path of the blessed one.
 fn form(case: &Case, model: Model) -> (Picture8, PathBuf) {
     let name = format!("reference-{}", model.name());
     let picture = store_levels(case.truth(model), case.frame.encoding());
     (picture, blessed(&case.name, &name))
 }
 
-/// True if the comparison accepts pictures so far apart.
+/// True if the comparison accepts this difference.
 fn is_alike((levels, uncovered): (u8, usize)) -> bool {
     levels <= 1 && uncovered == 0
 }
 
-/// Compares colours where `counts` holds and coverage everywhere. Returns a message if they differ,
-/// and writes `actual` and the difference.
+/// Compares colours where `counts` holds, and coverage everywhere. If they differ, writes `actual`
+/// and the difference, and returns a message.
 fn check(
     name: &str,
     blessed: &Path,
@@ -110,7 +110,8 @@ fn pictures_are_the_blessed_ones() {
             known.push(file);
         }
     }
-    // The span engine's picture is the blessed one; others may differ where rounding decides visibility.
+    // The span engine draws the blessed picture. Other engines may differ where rounding decides
+    // visibility.
     let drawn = for_each_drawing(cases(Some(SIZE)), |drawing| {
         let (name, case, info) = (drawing.to_string(), drawing.case, drawing.variant.info());
         let (picture, (truth, file)) = (drawing.stored(), form(case, info.model));

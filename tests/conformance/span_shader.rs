@@ -1,10 +1,10 @@
-//! Spans that a rasterizer outside of the crate asks for: the colours are those of the span engine.
+//! Spans for a rasterizer outside the crate: their colours are the span engine's.
 
 use crate::support::renderers::renderers;
 use crate::support::{floats, floats_on};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
-use fastphong::number::{Level, vec3};
+use fastphong::number::{SimdLevel, vec3};
 use fastphong::raster::Renderer;
 use fastphong::scene::{Interpolation, Light, Lighting};
 use fastphong::shading::{Corner, Corners, SpanShader, SpanShaderError, SpanVertex, Variant};
@@ -16,7 +16,8 @@ mod own_rasterizer;
 
 const WIDTH: u32 = 64;
 
-/// An upright rectangle from column 8 to column 56, with other normals on its left side than on its right.
+/// An upright rectangle from column 8 to column 56, with different normals on its left and right
+/// side.
 struct Rectangle {
     vertices: [Vertex; 4],
     positions: [[f32; 3]; 4],
@@ -78,7 +79,7 @@ impl Rectangle {
         })
     }
 
-    /// Shades columns `first` on of row 2 without an engine.
+    /// Shades row 2 from column `first` on, without an engine.
     fn shade(&self, variant: &Variant, first: u32, colours: &mut [[f32; 3]]) {
         let shader = SpanShader::new(variant, &self.lighting, self.interpolation);
         self.shade_by(
@@ -89,7 +90,7 @@ impl Rectangle {
         );
     }
 
-    /// Shades the same by any shader of the method.
+    /// Shades the same columns by any shader of the method.
     fn shade_by(
         &self,
         shader: &mut SpanShader,
@@ -110,7 +111,8 @@ impl Rectangle {
                 mean,
             });
         }
-        // Positions differ from row to row: here both ends are half-way between rows 0 and 4, but for half a pixel.
+        // Positions differ from row to row. Here both ends are half-way between rows 0 and 4, up to
+        // half a pixel.
         let t = 2.5 / 4.0;
         let ends = [[0, 1], [3, 2]].map(|sides: [usize; 2]| {
             let [upper, lower] = sides.map(|i| {
@@ -136,7 +138,7 @@ impl Rectangle {
 }
 
 #[test]
-fn spans_are_those_of_the_engine() {
+fn span_colours_equal_the_engines() {
     let directional = [
         Light::directional(DVec3::new(0.3, 0.4, 0.9).normalize(), [0.5; 3]),
         Light::directional(DVec3::new(-0.5, 0.1, 0.7).normalize(), [0.4; 3]),
@@ -161,8 +163,8 @@ fn spans_are_those_of_the_engine() {
                     assert_eq!(alpha, 1.0, "{who}");
                     for (found, expected) in colour.iter().zip([r, g, b]) {
                         let off = (found.clamp(0.0, 1.0) - expected).abs();
-                        // Vertices of a side are alike where lights are at infinity: its edge steps by 0, unless it is a great
-                        // circle, whose normals are rounded.
+                        // If lights are at infinity, both vertices of a side are equal, so its edge
+                        // steps by 0. On great circles normals are rounded.
                         let is_circle = variant.info().name.starts_with("slerp");
                         let most = match rectangle.lighting.is_local() || is_circle {
                             true => variant.bound(&frame) as f32,
@@ -170,7 +172,7 @@ fn spans_are_those_of_the_engine() {
                         };
                         assert!(off <= most, "{who}: {off:e} at {i}");
                     }
-                    // A part of the line is a part of its colours.
+                    // A part of the line has the same colours as in the whole line.
                     if let Some(again) = i.checked_sub(22).and_then(|i| part.get(i)) {
                         for (found, whole) in again.iter().zip(colour) {
                             let off = (found - whole).abs();
@@ -182,14 +184,14 @@ fn spans_are_those_of_the_engine() {
             }
         }
     }
-    // All but the few that are not for such lights.
+    // All methods except the few that cannot draw these lights.
     assert!(compared >= 3 * 2 * (floats().len() - 8) * 48);
 }
 
-/// On SIMD colours are those of scalar code but for roundings, whatever the number of pixels and whichever came before; the
-/// shader says what it draws by, and it is what the row engine draws by.
+/// Apart from rounding, SIMD draws the colours of scalar code, for any count of pixels and after
+/// any other line. The shader reports its instruction set, and it is the row engine's.
 #[test]
-fn simd_colours_are_those_of_scalar_code() {
+fn simd_colours_equal_those_of_scalar_code() {
     let directional = [Light::directional(DVec3::new(0.3, 0.4, 0.9).normalize(), [0.5; 3]); 2];
     let near = [Light::positional(DVec3::new(0.3, 0.5, 2.0), [0.6; 3])];
     let levels = renderers().into_iter().map(|renderer| renderer.level());
@@ -201,10 +203,10 @@ fn simd_colours_are_those_of_scalar_code() {
                 let frame = rectangle.frame();
                 for variant in floats_on(&frame).map(|entry| entry.variant()) {
                     let shader = SpanShader::new(&variant, &rectangle.lighting, interpolation);
-                    let mut shader = shader.expect("a method for any light").on(level);
+                    let mut shader = shader.expect("a method for any light").with_simd(level);
                     let plan = variant.plan(&frame, Renderer::on(level)).renderer();
                     assert_eq!(Some(Renderer::on(shader.level())), plan, "{variant}");
-                    scalar += usize::from(shader.level() == Level::Scalar);
+                    scalar += usize::from(shader.level() == SimdLevel::Scalar);
                     let most = 2.0 * variant.bound(&frame) as f32;
                     for (first, pixels) in [(30, 20), (8, 48), (8, 1), (9, 16), (11, 7)] {
                         let mut expected = vec![[0.0; 3]; pixels];
@@ -227,19 +229,20 @@ fn simd_colours_are_those_of_scalar_code() {
     assert!(other > 0 || renderers().len() == 1, "SIMD rounds elsewhere");
 }
 
-/// A shader that is kept allocates nothing, for vertices, polygons or lines, of any method.
+/// A shader that is used again allocates nothing, neither for vertices nor for polygons or lines,
+/// by any method.
 #[test]
-fn a_shader_that_is_kept_allocates_nothing() {
+fn a_reused_shader_allocates_nothing() {
     let near = [Light::positional(DVec3::new(0.3, 0.5, 2.0), [0.6; 3])];
     let far = [Light::directional(DVec3::Z, [0.6; 3])];
     for lights in [&near[..], &far[..]] {
         let rectangle = Rectangle::new(lights, Interpolation::Perspective);
         let frame = rectangle.frame();
         for variant in floats_on(&frame).map(|entry| entry.variant()) {
-            for level in [Level::Scalar, Level::best()] {
+            for level in [SimdLevel::Scalar, SimdLevel::best()] {
                 let shader =
                     SpanShader::new(&variant, &rectangle.lighting, Interpolation::Perspective);
-                let mut shader = shader.expect("a method for any light").on(level);
+                let mut shader = shader.expect("a method for any light").with_simd(level);
                 let mut ends = [[0.0; 96]; 2];
                 let mut colours = [[0.0; 3]; 48];
                 let mut line = || {
@@ -272,7 +275,7 @@ fn a_shader_that_is_kept_allocates_nothing() {
 
 #[test]
 #[should_panic(expected = "wants every polygon to be set up")]
-fn a_polygon_that_is_wanted_is_asked_for() {
+fn a_shader_that_needs_polygons_panics_without_one() {
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
     let variant = Variant::parse("slerp-phong").expect("a method");
     let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen)
@@ -281,9 +284,10 @@ fn a_polygon_that_is_wanted_is_asked_for() {
     shader.shade([(0.0, &end), (1.0, &end)], [0, 0], &mut [[0.0; 3]]);
 }
 
-/// A builder that is kept makes its second frame without a single allocation, of vertices on the screen and in clip space.
+/// A builder that is used again makes its second frame without a single allocation, from vertices
+/// on the screen and in clip space.
 #[test]
-fn a_builder_that_is_kept_allocates_nothing() {
+fn a_reused_builder_allocates_nothing() {
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
     let mut builder = FrameBuilder::new(WIDTH, 48);
     builder.lighting(lighting);
@@ -317,18 +321,18 @@ fn a_builder_that_is_kept_allocates_nothing() {
     assert_eq!((again, counted.count_total), (Ok(400), 0));
 }
 
-/// A method that is not for a material says why, as it does for frames.
+/// A method that cannot draw a material says why, as for frames.
 #[test]
-fn a_material_that_a_method_is_not_for_is_refused() {
+fn a_material_that_a_method_cannot_draw_is_refused() {
     let near = [Light::positional(DVec3::Z, [1.0; 3])];
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &near, DVec3::Z);
     let variant = Variant::parse("integer-fast").expect("a method");
     let refused = SpanShader::new(&variant, &lighting, Interpolation::Screen).err();
-    let reason = "in integers, lights and eye are at infinity";
+    let reason = "integer methods need lights and an eye at infinity";
     assert_eq!(refused, Some(SpanShaderError::Refused(reason)));
 }
 
-/// The example draws three balls without holes: every row of a ball is one run of pixels.
+/// The example draws three balls without holes. Every row of a ball is one run of pixels.
 #[test]
 fn the_rasterizer_of_the_example_draws_three_balls() {
     let pixels = own_rasterizer::picture();
@@ -343,7 +347,8 @@ fn the_rasterizer_of_the_example_draws_three_balls() {
             let most = row.iter().map(|[r, ..]| *r).max();
             *brightest = most.max(Some(*brightest)).unwrap_or_default();
         }
-        // The outline is a 16-gon at most, which has over 0.97 of its circle; rings cut a little from it.
+        // The outline is at most a 16-gon, which has over 0.97 of its circle's area. Rings cut a
+        // little off it.
         let disc = std::f64::consts::PI * 70.0 * 70.0;
         assert!(
             (0.95 * disc..disc).contains(&(covered as f64)),

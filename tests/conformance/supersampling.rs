@@ -1,4 +1,5 @@
-//! Supersampling: each sample is depth-tested and shaded on its own, then filtered in linear light.
+//! Supersampling: each sample is depth-tested and shaded, then samples are filtered in linear
+//! light.
 
 use crate::support;
 use crate::support::floats_on;
@@ -15,7 +16,7 @@ use fastphong::shading::Variant;
 
 const BACKGROUND: [f32; 3] = [0.25, 0.5, 0.125];
 
-/// Builds a frame of `side` × `side` pixels with n × n samples and one polygon whose corners are in
+/// Builds a frame of `side` × `side` pixels with n × n samples and one polygon. Its corners are in
 /// samples.
 fn frame(side: u32, n: u32, encoding: Encoding, corners: &[(f64, f64)], intensity: f32) -> Frame {
     let mut builder = FrameBuilder::new(side * n, side * n);
@@ -51,14 +52,40 @@ fn pictures(frame: &Frame) -> [LinearPicture; 3] {
     ]
 }
 
-/// Returns the frame with pictures over its background.
+/// Returns the frame with its pictures flattened over its background.
 fn flattened(frame: &Frame) -> Frame {
     let mut frame = frame.clone();
     frame.set_alpha(Alpha::Flattened);
     frame
 }
 
-/// Filtering keeps a constant picture constant to the last bit, for every number of samples.
+/// A builder's kind of alpha draws as the one that is set on the frame, and stays when the builder
+/// is emptied.
+#[test]
+fn a_builder_keeps_the_kind_of_alpha() {
+    let corners = [(1.5, 2.0), (20.0, 5.0), (9.0, 21.0)];
+    let straight = frame(6, 4, Encoding::Linear, &corners, 0.7);
+    let mut builder = FrameBuilder::new(24, 24);
+    builder.samples(4).background(BACKGROUND);
+    let material = builder.lighting(plain_lighting());
+    builder.alpha(Alpha::Flattened).clear();
+    let corner = |(x, y): (f64, f64)| Corner {
+        x: (x * 256.0) as i32,
+        y: (y * 256.0) as i32,
+        depth: 0.5,
+        intensity: 0.7,
+    };
+    add(&mut builder, material, 0, &corners.map(corner));
+    let lent = builder.frame().expect("a frame");
+    assert_eq!(
+        (straight.alpha(), lent.alpha()),
+        (Alpha::Straight, Alpha::Flattened)
+    );
+    assert_eq!(pictures(lent), pictures(&flattened(&straight)));
+    assert_ne!(pictures(lent), pictures(&straight));
+}
+
+/// Filtering keeps a constant picture constant to the last bit, for every count of samples.
 #[test]
 fn a_constant_picture_stays_constant() {
     for n in [1, 2, 4, 8] {
@@ -77,7 +104,7 @@ fn a_constant_picture_stays_constant() {
                 .expect("a method for the frame");
             assert_eq!((picture.width(), picture.height()), (6, 6));
             let face = picture.get(0, 0);
-            // The face normal of `add` points into the light, the corner normals do not.
+            // The face normal of `add` points into the light, but the corner normals do not.
             assert_eq!(face, [1.0; 4]);
             assert!(picture.pixels().iter().all(|t| *t == face));
             for picture in pictures(&frame) {
@@ -112,7 +139,7 @@ fn a_constant_picture_stays_constant() {
     }
 }
 
-/// A pixel on an edge gets exactly the share of its covered samples. One edge is upright, k samples
+/// A pixel on an edge has exactly the share of its covered samples. One edge is upright, k samples
 /// into pixel 2. The other is a diagonal through pixel corners and the centres of n samples per
 /// pixel, which belong to the right side.
 #[test]
@@ -198,8 +225,8 @@ fn supersampled(name: &str, size: (i64, i64), n: u32) -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// A supersampled picture equals the mean of the picture n times as large, bit by bit, for every
-/// method. Each sample is depth-tested and shaded on its own.
+/// For every method a supersampled picture equals the mean of the picture n times as large, bit by
+/// bit. So each sample is depth-tested and shaded.
 #[test]
 fn every_sample_is_shaded() {
     for n in [2usize, 4] {
@@ -212,7 +239,7 @@ fn every_sample_is_shaded() {
                 let mut mean = [0.0f64; 4];
                 for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
                     let sample = large.get(n * x + i, n * y + j);
-                    // Sums of 16 numbers of 24 bits are exact in 53.
+                    // A sum of 16 values of 24 bits is exact in 53 bits.
                     mean = std::array::from_fn(|c| mean[c] + f64::from(sample[c]));
                 }
                 let mean = mean.map(|sum| (sum / (n * n) as f64) as f32);
@@ -238,9 +265,9 @@ fn every_sample_is_shaded() {
     }
 }
 
-/// The colour of a rim is the mean of its covered samples, without the bright background, by every
-/// engine. Put over that background it is the picture that was filtered over it: no dark rims, and no
-/// bright ones.
+/// By every engine, the colour of a rim is the mean of its covered samples, without the bright
+/// background. Put over that background, it equals the picture that was filtered over it: rims are
+/// neither dark nor bright.
 #[test]
 fn a_supersampled_rim_has_straight_alpha_without_the_background() {
     let n = 4;
@@ -268,16 +295,16 @@ fn a_supersampled_rim_has_straight_alpha_without_the_background() {
             rims += usize::from(alpha < 1.0);
             for (c, value) in [r, g, b].into_iter().enumerate() {
                 let sum: f64 = covered.iter().map(|sample| f64::from(sample[c])).sum();
-                // Of values up to 1 the engines round the mean once, by 2^-25; the reference's samples
-                // are rounded here, and its mean.
+                // For values up to 1 the engines round the mean once, by 2^-25. The reference's
+                // samples are rounded here, and so is its mean.
                 let difference = (value - sum / covered.len() as f64).abs();
                 assert!(
                     difference <= 2.0 / f64::from(1 << 25),
                     "{difference:e} at {x}, {y}"
                 );
             }
-            // The straight mean is rounded once and scaled by alpha, at most 1; the flat one is rounded
-            // once: 2^-25 each, for values up to 1.
+            // The straight mean is rounded once and scaled by alpha, which is at most 1. The flat
+            // mean is rounded once. Each rounding is 2^-25 for values up to 1.
             let over = over([r, g, b, alpha], [1.0, 0.75, 0.5]);
             for (over, flat) in over.into_iter().zip(flat.get(x, y)) {
                 let difference = (over - f64::from(flat)).abs();
@@ -291,7 +318,7 @@ fn a_supersampled_rim_has_straight_alpha_without_the_background() {
     assert!(rims > 3 * 20, "{rims} pixels of rims are looked at");
 }
 
-/// Every way to a picture agrees on straight alpha: engines, rows, stored and linear.
+/// All ways to draw a picture agree on straight alpha: engines, rows, stored and linear.
 #[test]
 fn all_targets_hold_straight_alpha() {
     let frame = supersampled("coarse-sphere", (48, 36), 2);
@@ -312,7 +339,8 @@ fn all_targets_hold_straight_alpha() {
         assert_eq!(stored.pixels(), rows);
         let near = |a: u8, b: u8| a.abs_diff(b) <= 1;
         for (stored, linear) in stored.pixels().iter().zip(linear.pixels()) {
-            // The row engine may scale to levels first: a value near a half falls on either side.
+            // The row engine may scale to levels first, so a value near a half may fall on either
+            // side.
             let linear = linear.map(quantise);
             assert!(
                 (0..4).all(|c| near(stored[c], linear[c])),
@@ -329,14 +357,13 @@ fn supersampled_methods_are_within_their_bounds() {
     for name in ["coarse-sphere", "perspective", "polygons"] {
         let frame = supersampled(name, (64, 48), 2);
         let visible = reference::visibility(&frame);
-        let seen = raster::polygon_numbers(&frame);
+        let seen = raster::polygon_indices(&frame);
         assert_eq!(
             (seen.width(), seen.height()),
             (128, 96),
             "polygon numbers are those of samples"
         );
-        // Pixels with a sample that shows another polygon are not compared. Their depths are within
-        // rounding.
+        // Skip pixels with a sample that shows another polygon. Depths there are within rounding.
         let same = |x: usize, y: usize| {
             let sample = |k: usize| (2 * x + k % 2, 2 * y + k / 2);
             (0..4)

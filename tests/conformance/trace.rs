@@ -1,16 +1,17 @@
-//! Traces: the colours are those of the pictures, and all that is said of edges, spans and pixels follows from the document alone,
-//! in integers and in `f32`, by arithmetic of its own.
+//! Traces: their colours are the pictures' colours. Everything that they say about edges, spans and
+//! pixels follows from the document itself: this test computes it again, in integers and in `f32`.
 
 use super::support::{cases::cases, floats_on};
 use fastphong::frame::Frame;
-use fastphong::raster::{self, NOTHING};
+use fastphong::raster::{self, NO_POLYGON};
 use fastphong::scene::HiddenSurfaces;
 use fastphong::shading::Variant;
 use serde_json::Value;
 
 const SIZE: (i64, i64) = (64, 48);
 
-/// The lines that are traced: all of them, or three of a frame of many polygons, whose documents would be as large.
+/// The lines to trace: all of them, or three if the frame has many polygons, whose document would
+/// be too large.
 fn lines(frame: &Frame) -> Vec<Option<usize>> {
     match frame.polygons().len() {
         0..=10_000 => vec![None],
@@ -18,25 +19,26 @@ fn lines(frame: &Frame) -> Vec<Option<usize>> {
     }
 }
 
-/// Every float method on every scene: the same bits as its picture, at the same pixels, of the polygons that are seen.
+/// For every float method and scene, a trace has the bits of the picture, at the same pixels and of
+/// the visible polygons.
 #[test]
-fn colours_are_those_of_the_picture() {
+fn traced_colours_equal_the_pictures() {
     let mut compared = 0;
     for case in cases(Some(SIZE)) {
-        let (frame, numbers) = (&case.frame, raster::polygon_numbers(&case.frame));
+        let (frame, numbers) = (&case.frame, raster::polygon_indices(&case.frame));
         for entry in floats_on(frame) {
             let variant = entry.variant();
             let picture = variant.render_linear(frame).expect("a method for it");
             for only in lines(frame) {
                 let trace = variant.trace(frame, only).expect("a method for it");
                 for line in &trace.lines {
-                    let mut seen = vec![NOTHING; frame.width()];
+                    let mut seen = vec![NO_POLYGON; frame.width()];
                     for run in &line.runs {
                         let span = &line.spans[run.span];
                         let source = trace.polygons[span.polygon].source;
                         for (x, colour) in (run.x as usize..).zip(&run.colours) {
                             let at = format!("{}, {variant}: {x}, {}", case.name, line.y);
-                            assert_eq!(seen[x], NOTHING, "{at}: in two runs");
+                            assert_eq!(seen[x], NO_POLYGON, "{at}: in two runs");
                             seen[x] = source;
                             let expected = picture.get(x, line.y);
                             let bits = |c: &[f32]| [c[0], c[1], c[2]].map(f32::to_bits);
@@ -45,7 +47,7 @@ fn colours_are_those_of_the_picture() {
                         }
                     }
                     let sources = numbers.row(line.y).iter().map(|number| match *number {
-                        NOTHING => NOTHING,
+                        NO_POLYGON => NO_POLYGON,
                         number => frame.polygons()[number as usize].source,
                     });
                     assert!(sources.eq(seen), "{}, {}: what is seen", case.name, line.y);
@@ -56,7 +58,7 @@ fn colours_are_those_of_the_picture() {
     assert!(compared > 100_000, "{compared} pixels");
 }
 
-/// A walk, at least, of every float method has names for all of its values.
+/// At least one walk of every float method has names for all its values.
 #[test]
 fn values_have_names() {
     for case in cases(Some(SIZE)).filter(|case| case.frame.polygons().len() < 200) {
@@ -77,7 +79,7 @@ fn values_have_names() {
     }
 }
 
-/// The document of a trace as a reader has it.
+/// The document of a trace, as a reader gets it.
 struct Read(Value);
 
 fn floats(value: &Value) -> Vec<f32> {
@@ -99,7 +101,7 @@ fn bits(values: &[f32]) -> Vec<u32> {
     values.iter().map(|v| v.to_bits()).collect()
 }
 
-/// The value at `t0` between two, and what it grows by in a step of `dt`: L21 3.5.
+/// Returns the value at `t0` between two values, and its growth in a step of `dt` (L21 3.5).
 fn ramp(a: f32, b: f32, t0: f32, dt: f32) -> [f32; 2] {
     let difference = b - a;
     [a + difference * t0, difference * dt]
@@ -113,7 +115,7 @@ impl Read {
         Read(serde_json::from_str(&text).expect("JSON"))
     }
 
-    /// Returns both ends of an edge, upper one first, in sub-pixels.
+    /// Returns both ends of an edge in sub-pixels, the upper end first.
     fn ends(&self, edge: &Value) -> [[i128; 2]; 2] {
         ["top", "bottom"].map(|end| {
             let vertex = &self.0["vertices"][whole(&edge[end]) as usize];
@@ -125,7 +127,8 @@ impl Read {
         &self.0["edges"][whole(number) as usize]
     }
 
-    /// The edges that a line has follow from the corners: those whose lower end is below its centre, and the upper one is not.
+    /// Checks the edges of a line, which follow from the corners: their lower ends are below the
+    /// line's centre, and their upper ends are not.
     fn check_edges(&self, line: &Value) {
         let y = whole(&line["y"]);
         let centre = 256 * y + 128;
@@ -155,7 +158,7 @@ impl Read {
         assert_eq!(active, entered, "line {y}: each edge steps or enters");
     }
 
-    /// Crossings, exactly, and their order.
+    /// Checks crossings, exactly, and their order.
     fn check_crossings(&self, line: &Value) {
         let centre = 256 * whole(&line["y"]) + 128;
         let mut before: Option<(i128, [i128; 2])> = None;
@@ -167,7 +170,8 @@ impl Read {
                 whole(&active["rest"][0]),
                 whole(&active["rest"][1]),
             );
-            // X = X0 + (Yc − Y0) dX / dY, and pixel + ½ − rest/of is X in pixels: both times 256 dY of.
+            // X = X0 + (Yc − Y0) dX / dY, and pixel + ½ − rest/of is X in pixels. Both are compared
+            // times 256 dY of.
             let x = [x0 * (y1 - y0) + (centre - y0) * (x1 - x0), y1 - y0];
             let said = (2 * pixel + 1) * of - 2 * rest;
             assert_eq!(x[0] * 2 * of, said * 256 * x[1], "{active}");
@@ -183,7 +187,8 @@ impl Read {
         }
     }
 
-    /// What edges carry: from the ends at the first line, then by one addition a line.
+    /// Checks the values that edges carry: from their ends at the first line, then by one addition
+    /// per line.
     fn check_varyings(&self, line: &Value, before: Option<&Value>) {
         let of = |line: &Value, edge: &Value| {
             let found = list(&line["active"]).iter().find(|a| a["edge"] == *edge);
@@ -230,11 +235,11 @@ impl Read {
         }
     }
 
-    /// Spans, the depth test, and the runs that are left.
+    /// Checks spans, the depth test, and the runs that are left.
     fn check_spans(&self, line: &Value, has_depth_test: bool) {
         let width = whole(&self.0["size"][0]);
         let active = list(&line["active"]);
-        let mut stored = vec![(f32::INFINITY, NOTHING as usize); width as usize];
+        let mut stored = vec![(f32::INFINITY, NO_POLYGON as usize); width as usize];
         for (number, span) in list(&line["spans"]).iter().enumerate() {
             let left = active
                 .iter()
@@ -268,7 +273,7 @@ impl Read {
                 }
             }
         }
-        let mut shown = vec![NOTHING as usize; width as usize];
+        let mut shown = vec![NO_POLYGON as usize; width as usize];
         for run in list(&line["runs"]) {
             let (x, count) = (whole(&run["x"]) as usize, whole(&run["pixels"]) as usize);
             shown[x..x + count].fill(whole(&run["span"]) as usize);
@@ -276,7 +281,8 @@ impl Read {
         assert!(stored.iter().map(|s| s.1).eq(shown), "line {}", line["y"]);
     }
 
-    /// A run starts between its edges and goes on by additions; Newton's guesses follow one another.
+    /// Checks runs: they start between their edges and continue by additions, and Newton's guesses
+    /// follow one another.
     fn check_runs(&self, line: &Value) -> usize {
         let (mut pixels, active) = (0, list(&line["active"]));
         let at = |edge: &Value| {
@@ -298,7 +304,7 @@ impl Read {
             let mut length = None;
             for (i, values) in list(&run["values"]).iter().enumerate() {
                 let values = floats(values);
-                // J and K, or N, or a colour: as many as are carried and shown.
+                // J and K, or N, or a colour: all values that are carried and shown.
                 let same = values
                     .len()
                     .min(here.len())
@@ -338,7 +344,7 @@ impl Read {
     }
 }
 
-/// Scenes of few polygons: all that the document says follows from its vertices.
+/// In scenes of few polygons, everything in the document follows from its vertices.
 #[test]
 fn a_document_can_be_recomputed() {
     let mut pixels = 0;
@@ -376,9 +382,9 @@ fn a_document_can_be_recomputed() {
     assert!(pixels > 10_000, "{pixels} pixels");
 }
 
-/// Great circles are turned by the addition theorems, along edges and along spans.
+/// The addition theorems turn great circles, along edges and along spans.
 #[test]
-fn circles_turn_by_their_step() {
+fn great_circles_turn_by_their_step() {
     let mut turned = 0;
     for case in cases(Some(SIZE)).filter(|case| case.frame.polygons().len() < 100) {
         let slerp = Variant::parse("slerp-phong").expect("a method");

@@ -38,14 +38,10 @@ fn views(change: impl Fn(&mut Scene)) -> [Frame; 2] {
     let mut inside = scene(mesh("torus?segments=24&sides=12"));
     inside.culling = Culling::Front;
     let mut below = scene(mesh("polygon?sides=6"));
-    below.camera = Camera {
-        eye: DVec3::new(0.1, -0.2, -0.15),
-        target: DVec3::new(0.3, 0.8, 0.05),
-        up: DVec3::NEG_Z,
-        projection: Projection::Perspective { fovy: 70.0 },
-        near: 0.05,
-        far: 10.0,
-    };
+    let (eye, target) = (DVec3::new(0.1, -0.2, -0.15), DVec3::new(0.3, 0.8, 0.05));
+    below.camera = Camera::looking_at(eye, target, Projection::Perspective { fovy: 70.0 });
+    below.camera.up = DVec3::NEG_Z;
+    (below.camera.near, below.camera.far) = (0.05, 10.0);
     below.lights[0] = Light::directional(
         DVec3::new(0.2, -0.5, -1.0).normalize(),
         below.lights[0].colour,
@@ -64,7 +60,8 @@ fn exchange(scene: &mut Scene) {
     };
 }
 
-/// Two-sided lighting does not depend on which side is the outside. One-sided lighting does.
+/// With two-sided lighting it does not matter which side is the outside. With one-sided lighting it
+/// does.
 #[test]
 fn inside_and_outside_are_lit_alike() {
     let pairs = views(|_| ()).into_iter().zip(views(exchange));
@@ -77,7 +74,7 @@ fn inside_and_outside_are_lit_alike() {
         for entry in floats_on(&ours) {
             let draw = |frame: &Frame| linear(entry, frame);
             let difference = compare(&draw(&ours), &draw(&exchanged)).expect("equal sizes");
-            // Newell's sum and the averages are taken in another order, so normals differ by a
+            // Newell's sum and the averages add up in another order, so normals differ by a
             // rounding. Both pictures are within the bound of the closed form.
             let bound = 2.0 * entry.variant().bound(&ours);
             assert!(
@@ -105,7 +102,7 @@ fn inside_and_outside_are_lit_alike() {
 }
 
 /// All polygon normals point to the eye. A vertex on the silhouette, between a front and a back
-/// face, occurs twice with opposite normals.
+/// face, occurs twice, with opposite normals.
 #[test]
 fn the_silhouette_has_two_normals() {
     let mut sphere = scene(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
@@ -135,12 +132,12 @@ fn the_silhouette_has_two_normals() {
     };
     let twice = used(&frame) - used(&plain);
     // Every polygon edge on the silhouette has two vertices. The silhouette goes once around the
-    // sphere, over some 24 segments.
+    // sphere, over about 24 segments.
     assert!((20..60).contains(&twice), "{twice}");
     for polygon in frame.polygons() {
         for &corner in frame.corners(polygon) {
-            // A polygon is 15 degrees wide, so its corner normals lean from its own by less than
-            // twice that.
+            // A polygon is 15 degrees wide, so its corner normals lean from its own normal by less
+            // than twice that.
             assert!(wide(frame.normal(corner)).dot(wide(frame.polygon_normal(polygon))) > 0.8);
         }
     }
@@ -159,7 +156,8 @@ fn methods_are_within_their_bounds() {
     }
 }
 
-/// Returns the surface with its averaged normals as its own; if asked for, every other polygon of it is wound the other way.
+/// Returns the surface with its averaged normals as given normals. If asked for, every other
+/// polygon is wound the other way.
 fn with_own_normals(mesh: &PolygonMesh, is_half_turned: bool) -> PolygonMesh {
     let normals = vertex_normals(mesh, NormalSource::Averaged);
     let mut builder = MeshBuilder::new(mesh.positions().to_vec());
@@ -180,10 +178,10 @@ fn with_own_normals(mesh: &PolygonMesh, is_half_turned: bool) -> PolygonMesh {
     builder.finish().expect("a mesh")
 }
 
-/// Where the winding contradicts the normals that a mesh gives, these say where the front is: for whole polygons and for those
-/// that are cut.
+/// Where the winding contradicts the mesh's own normals, the normals decide which side is the
+/// front, for whole and for clipped polygons.
 #[test]
-fn polygons_wound_against_their_own_normals_are_lit_by_these() {
+fn polygons_wound_against_their_own_normals_are_lit_by_the_normals() {
     let seen = |is_half_turned: bool| {
         views(|scene: &mut Scene| {
             scene.culling = Culling::None;
@@ -199,7 +197,7 @@ fn polygons_wound_against_their_own_normals_are_lit_by_these() {
                 drawn.expect("a method for the frame")
             };
             let difference = compare(&draw(&ours), &draw(&turned)).expect("equal sizes");
-            // As above: only roundings differ.
+            // As above, only roundings differ.
             let bound = 2.0 * entry.variant().bound(&ours);
             let (name, max) = (entry.info.name, difference.max);
             assert!(max <= bound, "{name}: {max} over {bound}");

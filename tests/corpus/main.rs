@@ -1,4 +1,5 @@
-//! Replays the corpora of the fuzz targets: what a fuzzer found once stays found, without a fuzzer.
+//! Replays the corpora of the fuzz targets, so that inputs that once failed are tried on every
+//! machine without a fuzzer.
 
 #![cfg(feature = "cli")]
 
@@ -18,7 +19,8 @@ mod scene;
 use std::fs;
 use std::path::Path;
 
-/// Runs each file of a target's corpus, and the file without its last half: most readers stumble at an end.
+/// Runs each file of a target's corpus, and also its first half, because most readers stumble at an
+/// end.
 fn replay(target: &str, run: fn(&[u8])) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("fuzz/corpus")
@@ -36,12 +38,12 @@ fn replay(target: &str, run: fn(&[u8])) {
 }
 
 #[test]
-fn obj_files() {
+fn obj_files_are_read_or_refused() {
     replay("obj", obj::run);
 }
 
 #[test]
-fn mesh_files() {
+fn mesh_files_are_read_or_refused() {
     replay("stl", |bytes| mesh::run("stl", bytes));
     replay("ply", |bytes| mesh::run("ply", bytes));
     replay("off", |bytes| mesh::run("off", bytes));
@@ -49,21 +51,21 @@ fn mesh_files() {
 }
 
 #[test]
-fn scene_files() {
+fn scene_files_are_read_or_refused() {
     replay("scene", scene::run);
 }
 
 #[test]
-fn picture_files() {
+fn picture_files_are_compared_or_refused() {
     replay("picture", picture::run);
 }
 
 #[test]
-fn results_in_json() {
+fn results_in_json_are_shown_or_refused() {
     replay("results", results::run);
 }
 
 #[test]
-fn worlds_by_bytes() {
+fn worlds_from_bytes_are_drawn() {
     replay("pixels", pixels::run);
 }

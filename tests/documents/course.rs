@@ -1,5 +1,5 @@
-//! Checks the course in `docs/course`: its figures and findings exist, and every number that it states
-//! is measured or stands in a figure.
+//! Checks the course in `docs/course`. Its figures and findings exist, and each of its numbers is
+//! measured or stands in a figure.
 #![cfg(feature = "cli")]
 
 use crate::markdown::{files, quoted, read, root, rows};
@@ -8,16 +8,16 @@ use fastphong::shading::Variant;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The chapters, in order: an introduction, and the sections of the lecture.
+/// The chapters in order: an introduction, and the sections of the lecture.
 const SECTIONS: [&str; 9] = ["0", "1", "2", "3", "4.1", "4.2", "4.3", "4.4", "5"];
 
-/// The page for teachers, which stands after the chapters.
+/// The page for teachers, which follows the chapters.
 const TEACHING: &str = "teaching.md";
 
-/// The most bytes of all still pictures.
+/// The most bytes that all still pictures may have together.
 const MOST_BYTES: u64 = 350_000;
 
-/// Returns path and text of all chapters, in order.
+/// Returns the path and the text of each chapter, in order.
 fn chapters() -> Vec<(PathBuf, String)> {
     let all = files("docs/course", "md").into_iter();
     let is_chapter = |path: &PathBuf| name(path).starts_with(|c: char| c.is_ascii_digit());
@@ -25,7 +25,7 @@ fn chapters() -> Vec<(PathBuf, String)> {
     chapters.map(|path| (path.clone(), read(path))).collect()
 }
 
-/// Returns the chapters that measure something: all but the introduction.
+/// Returns the chapters that measure something: all except the introduction.
 fn measuring() -> impl Iterator<Item = (PathBuf, String)> {
     chapters().into_iter().skip(1)
 }
@@ -40,7 +40,7 @@ fn teaching() -> String {
     read(format!("docs/course/{TEACHING}"))
 }
 
-/// Returns what comments of this kind say, each with the paragraph after it.
+/// Returns the contents of each comment of a kind, and the paragraph after the comment.
 fn named<'a>(text: &'a str, kind: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
     let comments = text.split("<!-- ").skip(1).filter_map(move |rest| {
         let (names, after) = rest
@@ -57,7 +57,7 @@ fn named<'a>(text: &'a str, kind: &'a str) -> impl Iterator<Item = (&'a str, &'a
     })
 }
 
-/// Returns the name of the figure of a chapter.
+/// Returns the name of a chapter's figure.
 fn figure_of(text: &str) -> &str {
     let (name, _) = named(text, "figure").next().expect("a figure");
     name
@@ -91,7 +91,7 @@ fn every_section_has_a_chapter_that_leads_to_the_next() {
             "{file}: links at its end"
         );
         let others = text.matches("](").count() - links.len();
-        // A picture, or for teachers the page for students.
+        // The one other link leads to the picture, or for teachers to the page for students.
         assert_eq!(others, 1, "{file}: the page has other chapters only");
     }
 }
@@ -119,7 +119,8 @@ fn every_chapter_has_one_figure_with_its_still() {
     assert!(bytes <= MOST_BYTES, "the stills have {bytes} bytes");
 }
 
-/// Returns the figure that words of a comment name, and its findings.
+/// Returns the figure that a comment's words name, and the findings with the keys that `keys` picks
+/// from the words.
 fn findings_of<'a>(words: &'a str, keys: impl Fn(&[&'a str]) -> Vec<&'a str>) -> Vec<Finding> {
     let words: Vec<_> = words.split(' ').collect();
     let figure = Figure::named(words[0]).unwrap_or_else(|| panic!("no figure {}", words[0]));
@@ -131,7 +132,7 @@ fn findings_of<'a>(words: &'a str, keys: impl Fn(&[&'a str]) -> Vec<&'a str>) ->
 }
 
 #[test]
-fn every_chapter_asks_before_it_says_what_was_measured() {
+fn every_chapter_asks_before_it_states_measurements() {
     for (path, text) in measuring() {
         let path = path.display();
         for part in ["\n## A question\n", "\n## Measured\n"] {
@@ -155,7 +156,7 @@ fn every_chapter_asks_before_it_says_what_was_measured() {
     }
 }
 
-/// Checks a question, and returns the key of the finding that decides.
+/// Checks a question. Returns the key of the finding that decides its answer.
 fn answer(words: &str, question: &str) -> String {
     let kind = words.split(' ').nth(1).expect("a kind of question");
     if kind == "largest" {
@@ -180,7 +181,7 @@ fn answer(words: &str, question: &str) -> String {
     };
     let Finding { key, value, .. } = &found[0];
     assert!((low..=high).contains(value), "{words}: {value}");
-    // The slider starts in the middle: that is no answer.
+    // The slider starts in the middle, which must not be the answer.
     let middle = low + step * ((high - low) / step / 2.0).round();
     assert!(
         (value - middle).abs() > step,
@@ -193,7 +194,7 @@ fn answer(words: &str, question: &str) -> String {
 }
 
 #[test]
-fn goals_are_set_by_findings_and_handles() {
+fn goals_name_existing_findings_and_handles_and_are_not_met_at_the_start() {
     let mut count = 0;
     for (path, text) in chapters() {
         let path = path.display();
@@ -265,7 +266,7 @@ fn is_state(query: &str) {
 }
 
 #[test]
-fn teachers_are_sent_to_places_that_exist() {
+fn links_for_teachers_lead_to_existing_pages() {
     let text = teaching();
     let mut count = 0;
     for quoted in quoted(&text) {
@@ -296,15 +297,15 @@ fn teachers_are_sent_to_places_that_exist() {
 struct Written(f64, f64);
 
 impl Written {
-    /// True if a value is written like this.
+    /// True if `value` would be written like this.
     fn is(&self, value: f64) -> bool {
         let Written(written, half) = *self;
         (value - written).abs() <= half * (1.0 + 1e-9)
     }
 }
 
-/// Returns the numbers of a text, but those of equations, sections, chapters and figures. A power of
-/// ten is a part of its number.
+/// Returns the numbers in a text, without those of equations, sections, chapters and figures. A
+/// power of ten belongs to its number.
 fn numbers(text: &str) -> Vec<Written> {
     let mut found = Vec::new();
     let mut rest = text;
@@ -337,7 +338,8 @@ fn numbers(text: &str) -> Vec<Written> {
     found
 }
 
-/// Returns what a figure says: texts, captions, titles, cells, and labels and sentences of findings.
+/// Returns all texts of a figure: paragraphs, captions, titles, cells, and the labels and sentences
+/// of findings.
 fn says(content: &FigureContent) -> Vec<&str> {
     let mut texts = Vec::new();
     for block in &content.blocks {
@@ -358,7 +360,8 @@ fn says(content: &FigureContent) -> Vec<&str> {
     texts
 }
 
-/// Finds the first number of a text that neither is the value nor stands in what a figure says.
+/// Returns the first number in a text that is neither `value` nor in a text of the figure, if there
+/// is one.
 fn unfounded(text: &str, value: Option<f64>, content: &FigureContent) -> Option<Written> {
     let known: Vec<Written> = says(content).into_iter().flat_map(numbers).collect();
     numbers(text).into_iter().find(|number| {
@@ -367,7 +370,7 @@ fn unfounded(text: &str, value: Option<f64>, content: &FigureContent) -> Option<
     })
 }
 
-/// Returns a chapter without findings, questions, exercises, code, headings and links.
+/// Returns a chapter's text without findings, questions, exercises, code, headings and links.
 fn prose(text: &str) -> String {
     let mut in_code = false;
     let mut in_finding = false;
@@ -445,7 +448,7 @@ fn every_number_is_measured_or_stands_in_a_figure() {
 }
 
 #[test]
-fn numbers_are_read_as_they_are_written() {
+fn numbers_are_read_with_half_a_unit_of_their_last_digit() {
     let text = "Section 4.1 and (4.12): 90° over 16 pixels, 4.2·10⁻⁴ or 12.5.";
     let [right, pixels, small, last] = &numbers(text)[..] else {
         panic!("{:?}", numbers(text))

@@ -1,8 +1,9 @@
-//! Writes `docs/findings.md` from what `docs/findings/run` measured, or checks that it is current; and checks the worst cases by
-//! drawing them. `docs/findings/page.rs` makes the page.
+//! Writes `docs/findings.md` from the measurements of `docs/findings/run`, or checks that the page
+//! is current. Also checks the worst cases by drawing them. `docs/findings/page.rs` makes the page.
 //!
-//! `FASTPHONG_BLESS=1 cargo test --test documents findings` writes: the blocks between `<!-- made: NAME -->` and `<!-- end -->`, and the charts
-//! and the picture in `docs/images/findings/`.
+//! `FASTPHONG_BLESS=1 cargo test --test documents findings` writes the blocks between
+//! `<!-- made: NAME -->` and `<!-- end -->`, and the charts and the picture in
+//! `docs/images/findings/`.
 
 #[path = "../../docs/findings/page.rs"]
 mod page;
@@ -51,7 +52,7 @@ fn findings_are_the_measured_figures() {
     }
 }
 
-/// Each worst case that was found is as bad as it says, on the methods as they are today.
+/// With today's methods each worst case has the error that it states.
 #[test]
 fn worst_cases_are_as_bad_as_stated() {
     let document = data("search");

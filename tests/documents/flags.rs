@@ -1,7 +1,8 @@
-//! `docs/flags.md` shows each flag of `fastphong render` with a picture without it and one with it.
+//! `docs/flags.md` shows for each flag of `fastphong render` a picture without the flag and one
+//! with it.
 //!
-//! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from
-//! the rows of `src/scene/file/schema.rs` and the tool's help. Look at each pair before committing it.
+//! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from the
+//! rows of `src/scene/file/schema.rs` and the tool's help. Look at each pair before you commit it.
 
 use crate::markdown::{files, read, root};
 use fastphong::picture::image_file::decode_picture;
@@ -10,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Flags of no key of scenes that change the picture: name, default if the help gives none, and arguments of `render` without and
-/// with the flag.
+/// Flags that change the picture but set no key of a scene. Each row has the name, the default if
+/// the help states none, and arguments of `render` without and with the flag.
 #[rustfmt::skip]
 const FLAGS: [[&str; 4]; 4] = [
     ["method", "", "coarse-sphere", "coarse-sphere --method gouraud"],
@@ -20,14 +21,14 @@ const FLAGS: [[&str; 4]; 4] = [
     ["square", "", "terrain --aov checkerboard", "terrain --aov checkerboard --square 0.25"],
 ];
 
-/// Returns all flags that change the picture: those of the scenes' keys, and [`FLAGS`].
+/// Returns all flags that change the picture: those that set keys of scenes, and [`FLAGS`].
 fn flags() -> impl Iterator<Item = [&'static str; 4]> {
     let keys = KEYS.iter().filter_map(|key| key.flag);
     let rows = keys.map(|flag| [flag.name, flag.default, flag.pictures[0], flag.pictures[1]]);
     rows.chain(FLAGS)
 }
 
-/// Flags that change no picture, except by rounding of single pixels.
+/// Flags that do not change the picture, except by rounding of single pixels.
 #[rustfmt::skip]
 const OTHERS: &[&str] = &[
     "output", "format", "input-format", "simd", "threads", "print-scene", "stats", "watch", "reference", "reference-threshold", "allow", "radius", "mask", "region", "force", "verbose", "quiet", "help",
@@ -35,7 +36,7 @@ const OTHERS: &[&str] = &[
 
 const PAGE: &str = "docs/flags.md";
 const PICTURES: &str = "docs/images/flags";
-/// Largest size of all pictures together, in bytes.
+/// The most bytes that all pictures may have together.
 const MOST_BYTES: usize = 410_000;
 
 const HEAD: &str = "# Flags and what they do to the picture
@@ -59,7 +60,7 @@ fn run(arguments: &str) -> Vec<u8> {
     output.stdout
 }
 
-/// Draws a picture and returns it as a PNG file.
+/// Draws a picture. Returns it as a PNG file.
 fn draw(command: &str) -> Vec<u8> {
     let mut full = format!("render {command} --quiet -o -");
     for (flag, fixed) in [
@@ -74,7 +75,7 @@ fn draw(command: &str) -> Vec<u8> {
     run(&full)
 }
 
-/// Returns for each flag in the help of `render` its first sentence and its default, which may be
+/// Returns, for each flag in the help of `render`, its first sentence and its default, which may be
 /// empty.
 fn help() -> BTreeMap<String, [String; 2]> {
     let text = String::from_utf8(run("render --help")).expect("text");
@@ -88,7 +89,7 @@ fn help() -> BTreeMap<String, [String; 2]> {
             name = flag[..end].to_owned();
             texts.insert(name.clone(), String::new());
         } else if !line.is_empty() && !line.starts_with(' ') {
-            // The heading of a group of flags ends the previous flag's text.
+            // A heading of a group of flags ends the text of the flag before it.
             name.clear();
         } else if let Some(text) = texts.get_mut(&name) {
             *text += &format!(" {trimmed}");
@@ -106,7 +107,7 @@ fn help() -> BTreeMap<String, [String; 2]> {
     texts.map(|(name, text)| (name, parts(text))).collect()
 }
 
-/// Returns the name of the picture that a command draws.
+/// Returns the path of the picture that a command draws.
 fn file(command: &str) -> String {
     let words = command.split(|c: char| !c.is_alphanumeric());
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();

@@ -6,13 +6,14 @@ use crate::markdown::{defines, places, quoted, read, root, rows};
 use fastphong::lectures::Figure;
 use std::collections::BTreeMap;
 
-/// The number of items in the lectures, in the order of their sections.
+/// The count of items in the lectures. The table lists them in the order of their sections.
 const ITEMS: usize = 110;
 
-/// The largest number of items that one test or figure may serve. Beyond it none is shown well.
+/// The most items that a test or a figure may serve. If it serves more, it shows none of them well.
 const MOST: usize = 3;
 
-/// Returns the rows of the table: number, item, code, shown by.
+/// Returns the rows of the table: the item's number, the item, its code, and the tests or figures
+/// that show it.
 fn items() -> Vec<[String; 4]> {
     let all = rows(&read("docs/lectures.md"));
     let numbered = all
@@ -52,7 +53,7 @@ fn every_item_is_found_where_listed() {
 }
 
 #[test]
-fn every_item_is_shown_by_a_test_or_a_figure_of_few_others() {
+fn every_item_is_shown_by_a_test_or_a_figure_that_shows_few_others() {
     let mut served: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for [number, _, _, shown] in items() {
         for part in shown.split("; ") {

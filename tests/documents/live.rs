@@ -1,11 +1,12 @@
-//! The page's live view is compiled from the sources as they are.
+//! Checks that the page's live view was compiled from the current sources.
 
 use std::process::Command;
 
-/// A module of other sources draws other pictures than the program. Who has no target for WebAssembly can work all the same: the test
-/// fails only where `CI` is set, and says elsewhere what to do.
+/// A module made from other sources would draw other pictures than the program. Contributors
+/// without a WebAssembly target can still work: the test fails only if `CI` is set, and otherwise
+/// prints what to do.
 #[test]
-fn the_module_is_of_these_sources() {
+fn the_module_was_made_from_the_current_sources() {
     let check = Command::new("bash")
         .args(["live/build", "--check"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
@@ -19,9 +20,10 @@ fn the_module_is_of_these_sources() {
     eprintln!("{said}");
 }
 
-/// The page holds the module packed, so that everybody loads it: its size stands in `docs/performance.md`, to two digits.
+/// The page contains the packed module, so every reader loads it. `docs/performance.md` states its
+/// size, to two digits.
 #[test]
-fn the_size_of_the_module_is_the_one_that_is_documented() {
+fn the_size_of_the_module_is_documented() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let module = std::fs::read(root.join("report/live.wasm")).expect("the module");
     let text = std::fs::read_to_string(root.join("docs/performance.md")).expect("the page");
@@ -32,7 +34,8 @@ fn the_size_of_the_module_is_the_one_that_is_documented() {
         .and_then(|n| n.parse().ok())
         .expect("a number");
     let found = module.len() as f64 / 1e6;
-    // Rounded to a digit after the point, and as much again for what another compiler makes of the same sources.
+    // The stated size is rounded to one decimal. Another compiler may change the module by as much
+    // again.
     assert!(
         (stated - found).abs() <= 0.1,
         "{stated} MB are stated, {found} MB found"

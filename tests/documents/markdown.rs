@@ -14,7 +14,7 @@ pub fn read(path: impl AsRef<Path>) -> String {
         .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Returns all files under `folder` with this ending, as paths from the root.
+/// Returns the paths, from the root, of all files under `folder` with this ending.
 pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![root().join(folder)];
@@ -52,7 +52,7 @@ pub fn quoted(text: &str) -> Vec<&str> {
     found
 }
 
-/// Returns the rows of all tables of a document as cells. `\|` is a bar within a cell.
+/// Returns the cells of each row of all tables in a document. `\|` is a bar inside a cell.
 pub fn rows(text: &str) -> Vec<Vec<String>> {
     let cells = |line: &str| {
         let line = line.replace("\\|", "\u{0}");
@@ -86,7 +86,7 @@ pub fn defines(source: &str, name: &str) -> bool {
     })
 }
 
-/// Splits a cell such as "`file`: `item`, `item`; `file`: `item`".
+/// Splits a cell such as "`file`: `item`, `item`; `file`: `item`" into files with their items.
 pub fn places(cell: &str) -> Vec<(String, Vec<String>)> {
     let place = |part: &str| {
         let (file, items) = part

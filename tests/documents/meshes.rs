@@ -1,4 +1,5 @@
-//! `docs/meshes.md` says what happens to mesh files: its examples are read, its lists are compared with the code.
+//! `docs/meshes.md` says how the tool answers mesh files. The tests read its examples, and compare
+//! its lists with the code.
 
 use crate::markdown::{quoted, read, root, rows};
 use fastphong::mesh::read::{mesh_endings, parse_mesh};
@@ -9,7 +10,7 @@ const PAGE: &str = "docs/meshes.md";
 const POINTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
 const FACE: &str = "f 1 2 3\n";
 
-/// The rows of a table: statement, example and answer.
+/// Returns the rows of the table under a heading: statement, example and answer.
 fn table(heading: &str) -> Vec<[String; 3]> {
     let page = read(PAGE);
     let (_, part) = page
@@ -21,7 +22,7 @@ fn table(heading: &str) -> Vec<[String; 3]> {
     rows.collect()
 }
 
-/// Reads an OBJ file with a library; returns what was told, or the error.
+/// Reads an OBJ file with a library. Returns the messages, or the error.
 fn answer(obj: &str, mtl: Option<&str>) -> Result<Vec<String>, String> {
     let library = |_: &str| mtl.map(|text| text.as_bytes().to_vec());
     let loaded = parse_mesh("t.obj", obj.as_bytes(), |name| {
@@ -31,10 +32,10 @@ fn answer(obj: &str, mtl: Option<&str>) -> Result<Vec<String>, String> {
     Ok(loaded.warnings)
 }
 
-/// Checks that a file is answered as the page says.
+/// Checks that the tool answers a file as the page says.
 fn check(example: &str, said: &str, found: Result<Vec<String>, String>) {
     let text = quoted(said).pop().unwrap_or_default();
-    // Names within an answer are not quoted on the page.
+    // The page does not quote names inside an answer.
     let holds = |line: &String| line.replace('`', "").contains(text);
     let is_so = match (said.split([':', ',', ';', ' ', '.']).next(), &found) {
         (Some("read" | "passed"), Ok(told)) => told.is_empty(),
@@ -63,7 +64,8 @@ fn every_example_is_answered_as_the_page_says() {
     }
 }
 
-/// Every example of a format whose files are in the corpora, and every format of the code in the first table.
+/// Checks the examples of every format whose files are in the corpora, and that the first table
+/// lists every format of the code.
 #[test]
 fn every_file_is_answered_as_the_page_says() {
     let mut formats = vec!["STL", "PLY", "OFF"];
@@ -76,7 +78,7 @@ fn every_file_is_answered_as_the_page_says() {
             for file in quoted(&files) {
                 let bytes = fs::read(root().join("fuzz/corpus").join(file));
                 let bytes = bytes.unwrap_or_else(|error| panic!("{file}: {error}"));
-                // The ending counts where bytes do not tell.
+                // The ending decides if the bytes do not identify the format.
                 let name = format!("t.{}", format.to_lowercase());
                 let none = |_: &str| Err(io::ErrorKind::NotFound.into());
                 let loaded = parse_mesh(name, &bytes, none);

@@ -1,7 +1,10 @@
-//! Writes what the code says of methods into `docs/methods.md`, or checks that it stands there.
+//! Writes the methods' descriptions from the code into `docs/methods.md`, or checks that they are
+//! current.
 //!
-//! `FASTPHONG_BLESS=1 cargo test --test documents methods` writes. Between the heading of a method and the line `<!-- by hand -->` stands
-//! what `Info` and the constants of its `Shader` say; what follows that line is nobody else's.
+//! `FASTPHONG_BLESS=1 cargo test --test documents methods` writes them. The description stands
+//! between a method's heading and the line `<!-- by hand -->`. It comes from `Info` and the
+//! constants of the method's `Shader`. The text after that line is written by hand, and this test
+//! leaves it alone.
 
 use crate::markdown::read;
 use fastphong::number::Counts;
@@ -11,7 +14,8 @@ use std::fmt::Write;
 const FILE: &str = "docs/methods.md";
 const BY_HAND: &str = "<!-- by hand -->\n";
 
-/// Formats a method's operations with one and with four lights: one number if both agree, without rates that have no operations.
+/// Formats a method's operations with one and with four lights. Equal counts are written once, and
+/// rates without operations are left out.
 fn operations(entry: &'static MethodRow) -> String {
     let (one, four) = (entry.variant().operations(1), entry.variant().operations(4));
     let cells = |a: Counts, b: Counts| {
@@ -53,14 +57,14 @@ fn operations(entry: &'static MethodRow) -> String {
     table
 }
 
-/// Returns what the code says of a method.
+/// Returns the description of a method from the code.
 fn described(entry: &'static MethodRow) -> String {
     let info = entry.info;
     let mut text = format!("\n{}.\n\n```text\n{}\n```\n\n", info.title, info.formula);
     let mut say = |head: &str, what: &str| {
         writeln!(text, "**{head}:** {}.\n", what.trim_end_matches('.')).expect("a string");
     };
-    let words = [info.family.name(), info.standing.name()];
+    let words = [info.family.name(), info.tier.name()];
     let family: Vec<_> = words.iter().chain(info.ids).copied().collect();
     say("Family", &family.join(", "));
     say("Source", info.source);
@@ -100,7 +104,7 @@ fn described(entry: &'static MethodRow) -> String {
 }
 
 #[test]
-fn methods_are_described_as_the_code_does() {
+fn methods_are_described_as_in_the_code() {
     let old = read(FILE);
     let mut new = old.clone();
     for entry in METHODS {
@@ -136,14 +140,14 @@ fn methods_are_described_as_the_code_does() {
     }
 }
 
-/// The numbers of the published methods.
+/// The keys of the published methods in the catalogue.
 const CATALOGUE: [&str; 35] = [
     "M01", "M02", "M03", "M03b", "M04", "M05", "M05h", "M06", "M07", "M07b", "M08", "M09", "M10",
     "M11", "M11v", "M12", "M12h", "M13", "M14", "M15", "M16", "M17", "M18", "M19", "M20", "M21",
     "M22", "M23", "M24", "M25", "M26", "M27", "M28", "M29", "M30",
 ];
 
-/// Every published method is drawn by one of the table, or left out with a reason.
+/// Every published method is drawn by a method of the table, or is left out with a reason.
 #[test]
 fn every_published_method_is_drawn_or_left_out_with_the_reason() {
     let text = read(FILE);

@@ -1,8 +1,10 @@
-//! Writes which shipped scenes show which mistakes, or checks that it is still so.
+//! Writes the table of how much each mistake changes each shipped scene, or checks that it is
+//! current.
 //!
-//! `FASTPHONG_BLESS=1 cargo test --test documents mistakes` draws every mistake that `fastphong diagnose` knows on
-//! every shipped scene, but for `million`, and writes `src/diagnose/shown_by_table.rs` and `docs/mistakes.md`. The
-//! document shows what the program has compiled in: bless twice.
+//! `FASTPHONG_BLESS=1 cargo test --test documents mistakes` draws every mistake that
+//! `fastphong diagnose` knows on every shipped scene except `million`. It writes
+//! `src/diagnose/shown_by_table.rs` and `docs/mistakes.md`. The document is made from the compiled
+//! table, so bless twice.
 
 use crate::markdown::{read, root};
 use fastphong::diagnose::{MISTAKES, Part, scenes_that_show, shown};
@@ -13,7 +15,7 @@ use std::thread;
 const TABLE: &str = "src/diagnose/shown_by_table.rs";
 const DOCUMENT: &str = "docs/mistakes.md";
 
-/// Returns by how many hundredths of a grey level each mistake changes the picture of a scene.
+/// Returns, for each mistake, by how many hundredths of a grey level it changes a scene's picture.
 fn levels(shipped: &ShippedScene) -> Vec<u16> {
     let file = shipped.load().expect("a shipped scene");
     let mut scene = resolve(&file).expect("a shipped scene").scene;
@@ -42,7 +44,7 @@ fn table() -> String {
             .collect()
     });
     let mut text = String::from(
-        "//! How far each mistake changes each shipped scene: written by `FASTPHONG_BLESS=1 cargo test --test documents mistakes`.\n\n/// The scenes, in the order of columns.\n#[rustfmt::skip]\npub const SHOWING: &[&str] = &[",
+        "//! How far each mistake changes each shipped scene: written by\n//! `FASTPHONG_BLESS=1 cargo test --test documents mistakes`.\n\n/// The scenes, in the order of columns.\n#[rustfmt::skip]\npub const SHOWING: &[&str] = &[",
     );
     scenes
         .iter()
@@ -119,7 +121,7 @@ fn scenes_show_mistakes_as_the_table_says() {
         read("README.md").contains(&count),
         "README.md does not say {count}"
     );
-    // A mistake that no scene shows cannot be named, unless its scene is only the user's.
+    // `diagnose` cannot name a mistake that no scene shows, unless the user's own scene shows it.
     let unseen = MISTAKES
         .iter()
         .filter(|mistake| scenes_that_show(&mistake.id).is_empty());
@@ -127,8 +129,9 @@ fn scenes_show_mistakes_as_the_table_says() {
     assert_eq!(unseen, UNSEEN, "mistakes that no shipped scene shows");
 }
 
-/// Mistakes that no shipped scene shows: no light is over 1 alone, Phong shading is right by default, no scene
-/// is two-sided, square, or shows a back face or a polygon in front of the near plane; and few pixels tie.
+/// Mistakes that no shipped scene shows. In these scenes no single light is over 1, and Phong
+/// shading is right by default. No scene is two-sided, square, or shows a back face or a polygon in
+/// front of the near plane, and few pixels tie.
 const UNSEEN: &[&str] = &[
     "clamped-per-light",
     "per-pixel",

@@ -1,25 +1,28 @@
-//! The rooms of `src`, a folder each. Imports point one way, between rooms and between files.
+//! Checks the rooms of `src`, one folder each. Imports point one way, between rooms and between
+//! files.
 //!
-//! Paths are read without parsing Rust: whatever follows `crate::`, `super::` or `fastphong::` outside of comments.
+//! It finds paths without parsing Rust: a path follows `crate::`, `super::` or `fastphong::`
+//! outside comments.
 
 use crate::markdown::{files, is_word, read, root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-/// The rooms in order, with the rooms that each may import. These stand before it.
+/// The rooms in order, each with the rooms that it may import. Those must stand before it.
 const ROOMS: &[(&str, &str)] = &[
-    // It stands alone: all that a machine without an allocator has.
+    // `integer` imports nothing: it is everything that a machine without an allocator has.
     ("integer", ""),
     ("picture", ""),
     ("number", "picture"),
     ("mesh", "picture number"),
     ("scene", "picture number mesh"),
     ("frame", "picture number mesh scene"),
-    // `number`, `shading` and `raster` must stay out: the reference shares no arithmetic with the
-    // engines.
+    // `number`, `shading` and `raster` must stay out, because the reference shares no arithmetic
+    // with the engines.
     ("reference", "picture scene frame"),
     ("shading", "integer number mesh scene frame reference"),
-    // `painter_conflicts.rs` needs the reference's exact spans. The engines need nothing of it.
+    // `painter_conflicts.rs` needs the reference's exact spans. The engines need nothing from the
+    // reference.
     ("raster", "picture number scene frame reference shading"),
     (
         "compare",
@@ -41,10 +44,10 @@ const ROOMS: &[(&str, &str)] = &[
     ),
 ];
 
-/// Modules that only tests have.
+/// Modules that only tests compile.
 const FOR_TESTS: [&str; 3] = ["tests", "test_random", "fixtures"];
 
-/// Adds the paths of a `use` tree, behind the path `before` it. Returns what follows the tree.
+/// Adds the paths of a `use` tree behind the path `before`. Returns the text after the tree.
 fn add_paths<'a>(before: &str, tree: &'a str, found: &mut Vec<String>) -> &'a str {
     let end = tree.find(|c| !is_word(c) && c != ':' && c != '*');
     let (path, mut rest) = tree.split_at(end.unwrap_or(tree.len()));
@@ -63,7 +66,7 @@ fn add_paths<'a>(before: &str, tree: &'a str, found: &mut Vec<String>) -> &'a st
     }
 }
 
-/// Returns the paths of a file, without comments and the tests at its end.
+/// Returns the paths in a file, without comments and without the tests at its end.
 fn paths(source: &str) -> Vec<String> {
     let (code, _) = source
         .split_once("#[cfg(test)]\nmod tests {")
@@ -75,7 +78,7 @@ fn paths(source: &str) -> Vec<String> {
     let mut found = Vec::new();
     for start in ["crate::", "super::", "fastphong::"] {
         for (at, _) in code.match_indices(start) {
-            // The second word of `super::super::` starts no path.
+            // The second word of `super::super::` does not start a path.
             if !code[..at].ends_with(|c| is_word(c) || c == ':') {
                 add_paths("", &code[at..], &mut found);
             }
@@ -99,7 +102,7 @@ fn target(module: &str, path: &str, modules: &BTreeSet<&str>) -> Option<String> 
         .find(|prefix| modules.contains(&**prefix))
 }
 
-/// Returns the imports of each file, by modules: `frame/builder`.
+/// Returns the imports of each file. Files are named by their modules, as in `frame/builder`.
 fn imports() -> BTreeMap<String, BTreeSet<String>> {
     let mut sources = BTreeMap::new();
     for file in files("src", "rs") {
@@ -165,8 +168,8 @@ fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
     );
 }
 
-/// No file imports itself through others, at any distance. Only a parent and its child may import
-/// each other.
+/// No file imports itself through other files, at any distance. Only a parent and its child may
+/// import each other.
 #[test]
 fn no_file_imports_itself_through_others() {
     let is_within = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.starts_with('/'));
@@ -174,7 +177,8 @@ fn no_file_imports_itself_through_others() {
     for (module, targets) in &mut imports {
         targets.retain(|target| !is_within(module, target) && !is_within(target, module));
     }
-    // Leaves out files that import none of the others, or that none of the others imports, until only rings are left.
+    // Leave out files that import no other file, or that no other file imports, until only rings
+    // remain.
     loop {
         let imported: BTreeSet<String> = imports.values().flatten().cloned().collect();
         let files: BTreeSet<String> = imports.keys().cloned().collect();

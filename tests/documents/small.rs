@@ -1,9 +1,10 @@
-//! The tables of `docs/small.md` are those of `docs/small.json`, which `examples/small/run` writes.
+//! Compares the tables of `docs/small.md` with `docs/small.json`, which `examples/small/run`
+//! writes.
 
 use crate::markdown::read;
 use serde_json::Value;
 
-/// Returns numbers with so many decimals, between commas.
+/// Returns numbers with this many decimals, separated by commas.
 fn numbers(value: &Value, decimals: usize) -> String {
     let all = value.as_array().expect("a list").iter();
     let all = all.map(|x| format!("{:.decimals$}", x.as_f64().expect("a number")));
@@ -15,7 +16,7 @@ fn number(value: &Value) -> f64 {
 }
 
 #[test]
-fn tables_are_the_measured_figures() {
+fn the_tables_hold_the_measured_figures() {
     let page = read("docs/small.md");
     let data: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
     let list = |key: &str| data[key].as_array().expect("a list").clone();
@@ -31,7 +32,7 @@ fn tables_are_the_measured_figures() {
                 numbers(&span["worst_error"], 2),
             )
         };
-        // The JSON has one decimal: a half may have been rounded either way from more of them.
+        // The JSON has one decimal, so it may have been rounded to a half from either side.
         let in_loop = number(&span["m0p_cycles_in_loop"]);
         if in_loop.fract() != 0.5 || !page.contains(&row(in_loop.floor())) {
             has(row(in_loop.round()));
@@ -56,7 +57,7 @@ fn tables_are_the_measured_figures() {
             error("rms_error"),
         ));
     }
-    // What the first paragraph answers.
+    // The first paragraph states these figures.
     let fast = list("spans")
         .into_iter()
         .find(|span| span["method"] == "fast");

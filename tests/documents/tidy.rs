@@ -1,4 +1,4 @@
-//! Keeps the documentation and the source consistent.
+//! Keeps the documentation consistent with the source.
 
 use crate::markdown::{defines, files, is_word, places, quoted, read, root, rows};
 use fastphong::shading::METHODS;
@@ -7,19 +7,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Files under `src` that may be longer than [`MOST_LINES`], with the reason.
+/// Files under `src` that may be longer than [`MOST_LINES`], each with the reason.
 const LONG_FILES: &[(&str, &str)] = &[];
 
-/// The one file that talks to a bare machine: the rules of the crate's own code do not reach it.
+/// The one file that talks to a bare machine. The rules for the crate's own code do not apply to
+/// it.
 const MACHINE: &str = "examples/small/src/machine.rs";
 
-/// The most lines of code, without comments and tests. A longer file should be split by concept.
+/// The most lines of code in a file, without comments and tests. A longer file should be split by
+/// concept.
 const MOST_LINES: usize = 700;
 
-/// Names of modules that do not describe their content.
+/// Names of modules that do not describe the module's content.
 const ATTICS: [&str; 3] = ["utils", "common", "helpers"];
 
-/// The numbered equations per section of the lecture: section, count.
+/// The count of numbered equations in each section of the lecture: section, count.
 const NUMBERED: [(u32, u32); 4] = [(1, 1), (2, 1), (3, 6), (4, 12)];
 
 /// Returns the documents for readers.
@@ -58,7 +60,7 @@ fn numbers(comment: &str) -> Vec<(u32, u32)> {
     found
 }
 
-/// Returns the comments at ends of lines of code, before the tests.
+/// Returns the comments at the ends of code lines, before the tests.
 fn line_comments(source: &str) -> Vec<&str> {
     let code = source
         .split("#[cfg(test)]\nmod tests {")
@@ -118,7 +120,8 @@ fn every_equation_leads_to_its_line_and_its_test() {
     );
 }
 
-/// The figure that one can stop, and what readers write themselves, show equations with their numbers in brackets.
+/// The figure that readers can stop, and the exercises that they program, print equation numbers in
+/// brackets. Each of them stands in the table.
 #[test]
 fn equations_of_the_page_stand_in_the_table() {
     let table = read("docs/equations.md");
@@ -171,27 +174,68 @@ fn every_numbered_line_stands_in_the_table() {
     }
 }
 
-/// Every text that introduces the program gives the right number of methods.
+/// Comments end at column 100. Tables, code, formulas and addresses may be wider.
+#[test]
+fn comments_end_at_column_100() {
+    let folders = [
+        "src",
+        "tests",
+        "benches",
+        "examples",
+        "live/src",
+        "python/src",
+    ];
+    let mut wide = Vec::new();
+    for file in folders.iter().flat_map(|folder| files(folder, "rs")) {
+        let mut is_code = false;
+        for (i, line) in read(&file).lines().enumerate() {
+            let Some(text) = line.trim_start().strip_prefix("//") else {
+                is_code = false;
+                continue;
+            };
+            let text = text.trim_start_matches(['/', '!']);
+            is_code ^= text.trim_start().starts_with("```");
+            let may_be_wide = is_code
+                || text.starts_with(" |")
+                || text.starts_with("     ")
+                || text.contains("://");
+            if line.chars().count() > 100 && !may_be_wide {
+                wide.push(format!("{}:{}", file.display(), i + 1));
+            }
+        }
+    }
+    assert!(wide.is_empty(), "wrap these comments: {wide:#?}");
+}
+
+/// Every text that introduces the program states the right number of methods.
 #[test]
 fn the_number_of_methods_is_right_everywhere() {
     let number = METHODS.len().to_string();
-    for name in ["Cargo.toml", "README.md", "src/lib.rs", "src/cli/mod.rs"] {
+    let to_run = " methods to run, time, look at";
+    for (name, after) in [
+        ("Cargo.toml", to_run),
+        ("README.md", to_run),
+        ("src/lib.rs", to_run),
+        ("src/cli/mod.rs", to_run),
+    ] {
         let text = read(name);
-        for (place, _) in text.match_indices(" methods to run, time, look at") {
+        for (place, _) in text.match_indices(after) {
             let word = text[..place].rsplit(' ').next();
             assert_eq!(word, Some(&*number), "{name}");
         }
-        let is_said = text.contains(" methods to run, time, look at");
-        assert!(is_said || name == "README.md", "{name} does not say it");
+        assert!(
+            text.contains(after) || name == "README.md",
+            "{name} does not say it"
+        );
     }
 }
 
-/// Documents that count the lectures' figures give their right number.
+/// Documents that count the lectures' figures state the right number.
 #[test]
 fn the_number_of_figures_is_right_everywhere() {
     let number = fastphong::lectures::FIGURES.len().to_string();
     for (name, after) in [
-        ("README.md", " figures, each with"),
+        ("README.md", " figures of the lectures each say"),
         ("CHANGELOG.md", " figures with what each"),
     ] {
         let text = read(name);
@@ -200,7 +244,7 @@ fn the_number_of_figures_is_right_everywhere() {
     }
 }
 
-/// True if a quoted text is meant as a path of the repository.
+/// True if a quoted text is a path of the repository.
 fn is_path(text: &str) -> bool {
     let plain = !text.contains([' ', '*', '<', '$', '…', ':', '(', '{']) && !text.contains("NAME");
     let folder = [
@@ -252,7 +296,7 @@ fn named_files_exist() {
     );
 }
 
-/// The converse: every module in `src` is in the code map.
+/// Every module in `src` also stands in the code map.
 #[test]
 fn every_module_stands_in_the_code_map() {
     let map = read("docs/architecture.md");
@@ -299,7 +343,7 @@ fn source_files_are_short_and_keep_the_rules() {
             if folder == "src" && lines > MOST_LINES && !allowed {
                 too_long.push(format!("{name} has {lines} lines of code"));
             }
-            // These are written in two parts, so that this file passes the check too.
+            // These words are written in two parts, so that this file passes its own check.
             for (head, tail) in [
                 ("todo", "!("),
                 ("unimplemented", "!("),
@@ -393,7 +437,7 @@ fn commands_in_the_documents_exist() {
     assert!(checked > 8, "only {checked} commands were found");
 }
 
-/// Asks the program whether it knows a sub-command and its flags.
+/// Checks that the program knows a sub-command and its flags.
 #[track_caller]
 fn check_usage(document: &str, command: &str, words: &[&str]) {
     let Some(program) = option_env!("CARGO_BIN_EXE_fastphong") else {
@@ -457,8 +501,8 @@ fn check_usage(document: &str, command: &str, words: &[&str]) {
     }
 }
 
-/// Every source file belongs to a program: its parent declares it. A file without declaration is never compiled, and its tests
-/// never run.
+/// Every source file belongs to a program, because its parent declares it. A file without a
+/// declaration is never compiled, and its tests never run.
 #[test]
 fn every_file_is_compiled() {
     let mut lost = Vec::new();
@@ -489,7 +533,8 @@ fn every_file_is_compiled() {
     assert!(lost.is_empty(), "no parent declares {lost:?}");
 }
 
-/// Commands open files in `src/cli/files.rs` alone, which sees to it that none is read and written.
+/// Commands open files only in `src/cli/files.rs`, which makes sure that no file is both read and
+/// written.
 #[test]
 fn commands_open_files_in_one_module() {
     let opens = [
@@ -514,7 +559,7 @@ fn commands_open_files_in_one_module() {
     for path in files("src/cli", "rs") {
         let source = read(&path);
         let is_files = path.ends_with("files.rs");
-        // What the system says of the program is no file of the user.
+        // Files in which the system describes the program do not belong to the user.
         let code = source.lines().filter(|line| !line.contains("/proc/"));
         for line in code.filter(|line| !line.trim_start().starts_with("//")) {
             for open in opens.iter().filter(|open| line.contains(*open)) {

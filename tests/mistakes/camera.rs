@@ -1,4 +1,4 @@
-//! From world space to the screen.
+//! The way from world space to the screen.
 
 use crate::options::{
     Aspect, CameraRight, CameraUp, Division, FieldOfView, HalfHeight, Options, ScreenCorners,
@@ -43,7 +43,7 @@ impl Camera {
             right = -right;
         }
         let up = match options.camera_up {
-            // Of a left-handed camera too: its up vector is forward × right.
+            // This holds for a left-handed camera too: its up vector is forward × right.
             CameraUp::Perpendicular => unit(forward.cross(camera.up)).cross(forward),
             CameraUp::AsGiven => unit(camera.up),
         };
@@ -64,7 +64,7 @@ impl Camera {
         }
     }
 
-    /// Returns the unit vector that is `vector` along the camera's axes: right, up, and backward.
+    /// Returns the right, upward and backward parts of a vector of world space.
     pub fn turned(&self, vector: DVec3) -> DVec3 {
         let [right, up, forward] = self.axes;
         DVec3::new(right.dot(vector), up.dot(vector), -forward.dot(vector))
@@ -134,7 +134,7 @@ impl Camera {
     }
 }
 
-/// Returns what horizontal and vertical distances are multiplied by.
+/// Returns the factors for horizontal and vertical distances.
 fn scale(projection: Projection, aspect: f64, options: &Options) -> [f64; 2] {
     let mut scale = match projection {
         Projection::Orthographic { half_height } => match options.half_height {

@@ -10,11 +10,11 @@ use std::borrow::Cow;
 pub struct Vertex {
     pub seen: Seen,
     pub point: Point,
-    /// The light there, where it is computed at corners.
+    /// The light at the corner, if light is computed at corners.
     pub colour: DVec3,
 }
 
-/// True if the near and the far plane leave a point.
+/// True if a point is between the near and the far plane.
 pub fn is_inside(camera: &Camera, seen: &Seen) -> bool {
     seen.forward >= camera.near && seen.forward <= camera.far
 }

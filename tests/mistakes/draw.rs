@@ -18,9 +18,9 @@ use fastphong::mesh::Material;
 use fastphong::scene::{self, DepthBits, HiddenSurfaces, Object, Scene};
 use glam::DVec3;
 
-/// Draws `scene` as a student does who makes `mistakes`.
+/// Draws `scene` as a student with these `mistakes` would draw it.
 ///
-/// Two of them that change the same thing cannot be combined: see
+/// Two mistakes in one step cannot be combined: see
 /// [`crate::mistakes::can_be_combined`].
 pub fn draw(scene: &Scene, mistakes: &[&Mistake], variation: &Variation) -> Picture {
     let mut options = Options::default();
@@ -37,15 +37,15 @@ pub fn draw(scene: &Scene, mistakes: &[&Mistake], variation: &Variation) -> Pict
     picture(scene, &canvas.samples, side, &options, variation)
 }
 
-/// True if neither of two mistakes hides the other in `scene`: the picture of both is neither the
-/// picture of one of them nor the right one.
+/// True if neither of two mistakes hides the other in `scene`: the picture of both differs from
+/// each picture of one mistake and from the right picture.
 pub fn both_show(scene: &Scene, a: &Mistake, b: &Mistake) -> bool {
     let draw = |mistakes: &[&Mistake]| draw(scene, mistakes, &Variation::default());
     let both = draw(&[a, b]);
     both != draw(&[a]) && both != draw(&[b]) && both != draw(&[])
 }
 
-/// The samples, and what is needed to draw into them.
+/// The samples, and the data that drawing into them needs.
 struct Canvas<'a> {
     scene: &'a Scene,
     options: &'a Options,
@@ -121,7 +121,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Returns the materials of an object, the last of which is for polygons that have none.
+    /// Returns the materials of an object. The last one is for polygons without a material.
     fn materials(&self, object: &Object) -> Vec<Material> {
         let object = match self.options.materials {
             Materials::OfFirstObject => self.scene.objects.first().unwrap_or(object),
@@ -174,7 +174,7 @@ impl<'a> Canvas<'a> {
         self.cut = (points, triangles);
     }
 
-    /// Computes the light at the corners of a polygon, or its one colour, where light is not
+    /// Computes the light at the corners of a polygon, or its single colour, unless light is
     /// computed at pixels.
     fn light_corners(
         &self,
@@ -200,7 +200,8 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Returns a colour as a corner keeps it: no brighter than 1, unless that is left for later.
+    /// Returns a colour as a corner stores it: clamped to 1, unless the student clamps later or not
+    /// at all.
     fn clamped(&self, colour: DVec3) -> DVec3 {
         match self.options.overflow {
             Overflow::Clamped => colour.clamp(DVec3::ZERO, DVec3::ONE),
@@ -208,7 +209,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Returns the point with the normal that the student lights it by.
+    /// Returns the point with the normal that the student uses for light.
     fn faced(&self, point: Point, lighting: &Lighting) -> Point {
         let is_behind = || point.normal.dot(lighting.to_eye(&point)) < 0.0;
         match self.options.normal_sign {
@@ -281,7 +282,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Draws a pixel unless something nearer is there.
+    /// Draws a pixel unless a nearer one was drawn there.
     fn put(&mut self, fragment: Fragment, lighting: &Lighting, colour: Option<DVec3>) {
         let at = fragment.y * self.samples.width + fragment.x;
         let HiddenSurfaces::ZBuffer(buffer) = self.scene.hidden_surfaces else {
@@ -321,7 +322,7 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// Returns a depth as the depth buffer keeps it.
+/// Returns a depth as the depth buffer stores it.
 fn kept(bits: DepthBits, depth: f64) -> f64 {
     match bits {
         DepthBits::ThirtyTwo => depth,

@@ -18,7 +18,7 @@ pub struct Point {
     pub position: DVec3,
     /// Its normal in world space.
     pub normal: DVec3,
-    /// How long the normal was before it was normalised.
+    /// The length of the normal before it was normalised.
     pub length: f64,
 }
 
@@ -41,7 +41,7 @@ struct Material {
     n: f64,
 }
 
-/// A light of the scene, as the object under it sees it.
+/// A light of the scene, in the space where the student lights the object.
 struct Light {
     place: Place<DVec3>,
     colour: DVec3,
@@ -66,7 +66,7 @@ fn wide(colour: [f32; 3]) -> DVec3 {
 }
 
 impl<'a> Lighting<'a> {
-    /// Makes the light on `material` of an object that `transform` takes to world space.
+    /// Makes the light on `material` of an object. `transform` maps the object to world space.
     pub fn new(
         scene: &'a Scene,
         camera: &Camera,
@@ -195,7 +195,7 @@ impl<'a> Lighting<'a> {
         }
     }
 
-    /// Returns how much a light is weakened over `distance`.
+    /// Returns the factor by which a light weakens over `distance`.
     fn strength(&self, light: &Light, distance: f64) -> f64 {
         if !light.place.is_local() {
             return 1.0;
@@ -211,10 +211,11 @@ impl<'a> Lighting<'a> {
             (_, scene::Falloff::Attenuation(k)) => 1.0 / (1.0 + f64::from(k) * square),
             (_, scene::Falloff::InverseSquare) => 1.0 / square,
             (_, scene::Falloff::Inverse) => 1.0 / distance,
+            (_, falloff) => unreachable!("{falloff:?} is not known here"),
         }
     }
 
-    /// Returns what one light adds.
+    /// Returns the contribution of one light.
     fn of_light(&self, light: &Light, point: &Point, v: DVec3) -> DVec3 {
         let (l, distance) = self.to_light(light, point);
         let l_n = l.dot(point.normal);
@@ -250,7 +251,7 @@ impl<'a> Lighting<'a> {
         }
     }
 
-    /// Returns the highlight of one light whose colour times the material's is `colour`.
+    /// Returns the highlight of one light. `colour` is the light's colour times the material's.
     fn highlight(&self, colour: DVec3, point: &Point, l: DVec3, v: DVec3) -> DVec3 {
         let n = point.normal;
         let l_n = l.dot(n);
@@ -268,7 +269,7 @@ impl<'a> Lighting<'a> {
             SpecularClamp::NotClamped => cosine,
         };
         let exponent = self.material.n;
-        // The power of a negative number with an exponent that is no integer is no number: black.
+        // A negative number to the power of a fraction is a NaN, which is stored as black.
         let power = |x: f64| match x.powf(exponent) {
             power if power.is_nan() => 0.0,
             power => power,
@@ -281,7 +282,7 @@ impl<'a> Lighting<'a> {
     }
 
     fn highlight_cosine(&self, point: &Point, l: DVec3, v: DVec3) -> f64 {
-        // The normal is in R·V twice: N·N is what (4.6) of L21 divides by.
+        // R·V contains the normal twice, so (4.6) of L21 divides by N·N.
         let n = match (self.options.pixel_normal, self.scene.specular) {
             (PixelNormal::NotInHighlights, _) => point.normal * point.length,
             (PixelNormal::RootInHighlights, SpecularModel::Phong) => {
@@ -323,7 +324,7 @@ impl<'a> Lighting<'a> {
     }
 }
 
-/// Returns the coefficients that are used for a material's.
+/// Returns the coefficients that the student uses for a material.
 fn coefficients(scene: &Scene, options: &Options, material: &mesh::Material) -> Material {
     let [ka, kd, ks] = [material.ambient, material.diffuse, material.specular].map(wide);
     let decoded = |k: DVec3| DVec3::from_array(k.to_array().map(|c| c.powf(2.2)));
@@ -336,11 +337,11 @@ fn coefficients(scene: &Scene, options: &Options, material: &mesh::Material) -> 
     Material { ka, kd, ks, n }
 }
 
-/// Returns the exponent that is used for a material's.
+/// Returns the exponent that the student uses for a material.
 fn exponent(scene: &Scene, options: &Options, shininess: f64) -> f64 {
     let is_other_model = options.highlight_cosine == HighlightCosine::OtherModel;
     let ratio = match (scene.shininess_for, scene.specular) {
-        // Whoever takes the other model does not convert either.
+        // A student who uses the other model does not convert its exponent either.
         _ if is_other_model => 1.0,
         (SpecularModel::Phong, SpecularModel::Blinn) => 4.0,
         (SpecularModel::Blinn, SpecularModel::Phong) => 0.25,

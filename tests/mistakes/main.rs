@@ -1,14 +1,15 @@
-//! Pictures with mistakes, drawn by a renderer of their own.
+//! Pictures with mistakes, drawn by a separate renderer.
 //!
-//! A command that says which mistake a student's picture shows is to be tested with pictures that
-//! owe nothing to the code it is made of. So the renderer here takes only the data of a scene from
-//! the crate ([`fastphong::scene::Scene`]), and does everything else itself, in `f64`, the way
-//! students do: camera, normals, triangles, filling, light, grey levels. It shares no arithmetic
-//! with the engines and the reference.
+//! `fastphong diagnose` says which mistake a student's picture shows. Its tests need pictures that
+//! do not come from its own code. So the renderer here uses only the data of a scene from the crate
+//! ([`fastphong::scene::Scene`]). It does everything else itself, in `f64` and the way students do:
+//! camera, normals, triangles, filling, light, grey levels. It shares no arithmetic with the
+//! engines or the reference.
 //!
-//! [`draw::draw`] draws a scene with mistakes of the table [`mistakes::MISTAKES`], and with
-//! variations that are none ([`variation::Variation`]). The tests prove that it is right without
-//! mistakes, by the crate's reference, and that every mistake changes a shipped scene.
+//! [`draw::draw`] draws a scene with mistakes of the table [`mistakes::MISTAKES`] and with
+//! variations that are not mistakes ([`variation::Variation`]). The tests compare it with the
+//! crate's reference to prove that it is right without mistakes, and prove that every mistake
+//! changes a shipped scene.
 #![cfg(feature = "io")]
 
 mod camera;

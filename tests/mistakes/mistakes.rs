@@ -11,7 +11,7 @@ pub struct Mistake {
     pub id: &'static str,
     /// What the student did wrong.
     pub what: &'static str,
-    /// The step that is done wrong: a field of [`Options`].
+    /// The step that the student did wrong: a field of [`Options`].
     pub step: &'static str,
     /// Does that step wrong.
     pub make: fn(&mut Options),
@@ -43,10 +43,10 @@ mistakes! {
     // https://github.com/ggambetta/computer-graphics-from-scratch/issues/26
     // https://github.com/jian-ru/laugh_engine/issues/1
     "light-negated" light_direction = LightDirection::FromLight,
-        "Took the direction in which light travels for the vector toward the light: dot(n, -l).";
+        "Used the direction in which light travels instead of the vector toward the light: dot(n, -l).";
     // https://github.com/daniilidis-group/neural_renderer/issues/102
     "light-position-alone" light_direction = LightDirection::PositionAlone,
-        "Took a light's position for the vector toward it: l = normalize(light.position), without subtracting the point.";
+        "Used a light's position as the vector toward it: l = normalize(light.position), without subtracting the point.";
     "light-from-object-origin" light_direction = LightDirection::FromObjectOrigin,
         "Computed the vector toward a light once per object, from the object's origin.";
     // https://github.com/Azalea8/Games101_Homework/pull/1
@@ -57,7 +57,7 @@ mistakes! {
         "Multiplied the lights by the model matrix too, so they turn and move with each object.";
     // https://github.com/SaschaWillems/Vulkan/issues/1033
     "light-in-eye-space" light_space = LightSpace::Eye,
-        "Took the lights of the scene to be given in the camera's space, where they move with it.";
+        "Read the lights of the scene as if they were in the camera's space, where they move with it.";
 
     // --- Materials -------------------------------------------------------------------------
 
@@ -65,11 +65,11 @@ mistakes! {
         "Swapped kd and ks.";
     // https://medium.com/@Jacob_Bell/programmers-guide-to-gamma-correction-4c1d3a1724fb
     "coefficients-decoded" coefficients = Coefficients::Decoded,
-        "Took the materials' colours for sRGB and decoded them: pow(k, 2.2).";
+        "Read the materials' colours as sRGB and decoded them: pow(k, 2.2).";
     "materials-first-of-mesh" materials = Materials::FirstOfMesh,
         "Ignored usemtl: the whole mesh has the first material of its file.";
     "materials-of-first-object" materials = Materials::OfFirstObject,
-        "Set the material once, before the loop over objects: all have that of the first.";
+        "Set the material once, before the loop over objects: all have the first object's material.";
 
     // --- Light colours and sums ------------------------------------------------------------
 
@@ -80,9 +80,9 @@ mistakes! {
     "lights-first-only" lights = Lights::First,
         "Computed the first light only.";
     "lights-last-only" lights = Lights::Last,
-        "Wrote `colour =` for `colour +=` in the loop: the last light is left.";
+        "Wrote `colour =` instead of `colour +=` in the loop: only the last light is left.";
     "lights-mean" lights = Lights::Mean,
-        "Divided the sum over lights by their number, so that nothing gets too bright.";
+        "Divided the sum over lights by their count, so that nothing gets too bright.";
 
     // --- The ambient term ------------------------------------------------------------------
 
@@ -97,10 +97,10 @@ mistakes! {
     "ambient-without-ia" ambient = Ambient::WithoutIa,
         "Added ka without multiplying it by the ambient intensity.";
     "ambient-times-kd" ambient = Ambient::TimesKd,
-        "Multiplied the ambient intensity by the diffuse colour kd for ka.";
+        "Multiplied the ambient intensity by the diffuse colour kd instead of ka.";
     // https://github.com/sinisterchipmunk/jax/issues/35
     "ambient-attenuated" ambient = Ambient::Attenuated,
-        "Added the ambient term to each light's, and attenuated it with them.";
+        "Added the ambient term to each light's terms, and attenuated it with them.";
 
     // --- The diffuse term ------------------------------------------------------------------
 
@@ -112,7 +112,7 @@ mistakes! {
     "diffuse-half" diffuse_cosine = DiffuseCosine::Half,
         "Used half Lambert, dot(n, l) * 0.5 + 0.5, from a tutorial for games.";
     "diffuse-n-dot-v" diffuse_cosine = DiffuseCosine::NormalView,
-        "Took the view vector for the light's in the diffuse term: dot(n, v).";
+        "Used the view vector instead of the light vector in the diffuse term: dot(n, v).";
     "diffuse-missing" diffuse_term = DiffuseTerm::Missing,
         "Left out the diffuse term.";
     "diffuse-over-pi" diffuse_term = DiffuseTerm::OverPi,
@@ -128,25 +128,25 @@ mistakes! {
         "Multiplied the specular term by (n + 8) / (8 pi), which the scene's ks does not expect.";
     // https://github.com/ggambetta/computer-graphics-from-scratch/issues/17
     "specular-times-kd" specular_colour = SpecularColour::LightTimesKd,
-        "Multiplied the specular term by the diffuse colour kd for ks.";
+        "Multiplied the specular term by the diffuse colour kd instead of ks.";
     "specular-without-light-colour" specular_colour = SpecularColour::KsAlone,
-        "Left the light's colour out of the specular term: highlights are ks alone.";
+        "Left the light's colour out of the specular term: highlights have only the colour ks.";
     "highlight-n-dot-v" highlight_cosine = HighlightCosine::NormalView,
-        "Raised dot(n, v) to the exponent in place of dot(r, v).";
+        "Raised dot(n, v) to the exponent instead of dot(r, v).";
     "highlight-n-dot-l" highlight_cosine = HighlightCosine::NormalLight,
-        "Raised dot(n, l) to the exponent in place of dot(r, v).";
+        "Raised dot(n, l) to the exponent instead of dot(r, v).";
     // https://github.com/kateusz/GameEngine/pull/430
     // https://github.com/vispy/vispy/pull/2091
     "highlight-other-model" highlight_cosine = HighlightCosine::OtherModel,
         "Used dot(n, h) where the scene asks for dot(r, v), or the reverse, with the same exponent.";
     // https://github.com/KhronosGroup/glTF-Sample-Viewer/issues/77
     "reflection-negated" reflection = Reflection::Negated,
-        "Reflected l itself, reflect(l, n) for reflect(-l, n): r points into the surface.";
+        "Reflected l itself, with reflect(l, n) instead of reflect(-l, n): r points into the surface.";
     "reflection-without-two" reflection = Reflection::WithoutTwo,
         "Forgot the 2 in r = 2 (n . l) n - l.";
     // https://github.com/community-shaders/skyrim-community-shaders/pull/1517
     "reflection-of-view" reflection = Reflection::OfView,
-        "Took the wrong cosine into the reflection: r = 2 (n . v) n - l.";
+        "Used the wrong cosine in the reflection: r = 2 (n . v) n - l.";
     // https://github.com/gfxfundamentals/webgl-fundamentals/issues/78
     "half-vector-not-unit" half_vector = HalfVector::NotNormalised,
         "Did not normalise the half vector: h = l + v.";
@@ -154,7 +154,7 @@ mistakes! {
         "Took the half vector literally: h = (l + v) / 2.";
     // https://github.com/glslify/glsl-ggx/issues/1
     "half-vector-difference" half_vector = HalfVector::Difference,
-        "Subtracted for the half vector: h = normalize(l - v).";
+        "Subtracted instead of adding for the half vector: h = normalize(l - v).";
     // https://github.com/processing/processing/issues/5362
     // https://github.com/glslify/glsl-specular-phong/issues/3
     "gate-missing" gate = Gate::Missing,
@@ -171,7 +171,7 @@ mistakes! {
         "Forgot the exponent: the highlight is dot(r, v) itself.";
     // https://github.com/MicrosoftDocs/win32/pull/178
     "exponent-as-factor" exponent = Exponent::Factor,
-        "Multiplied by the shininess where it is an exponent.";
+        "Multiplied by the shininess, which is an exponent.";
     "exponent-128" exponent = Exponent::Times128,
         "Multiplied the shininess by 128, as for materials whose shininess is from 0 to 1.";
     "exponent-of-product" exponent = Exponent::OfProduct,
@@ -179,7 +179,7 @@ mistakes! {
     "exponent-not-converted" exponent = Exponent::NotConverted,
         "Used the exponent that is meant for dot(r, v) with dot(n, h), unconverted.";
     "exponent-divided" exponent = Exponent::DividedByFour,
-        "Converted the exponent in the wrong direction: a fourth for dot(n, h), not four times as much.";
+        "Converted the exponent in the wrong direction: a fourth for dot(n, h) instead of four times as much.";
 
     // --- The view vector -------------------------------------------------------------------
 
@@ -221,7 +221,7 @@ mistakes! {
 
     // https://github.com/PacktPublishing/Unity-2021-Shaders-and-Effects-Cookbook-Fourth-Edition/issues/1
     "gouraud" rate = Rate::Vertex,
-        "Computed light at vertices and interpolated colours: Gouraud shading for Phong shading.";
+        "Computed light at vertices and interpolated colours: Gouraud shading instead of Phong shading.";
     "flat" rate = Rate::Face,
         "Computed light once per polygon, with the polygon's normal.";
     "flat-first-vertex" rate = Rate::FirstVertex,
@@ -241,7 +241,7 @@ mistakes! {
         "Divided by |N| in the specular term of fast Phong shading, whose denominator is |N|^2.";
     // https://github.com/yfeng95/DECA/issues/198
     "weights-rotated" weights = Weights::Rotated,
-        "Gave the barycentric weights to the wrong corners: the area opposite a counted for b, and so on.";
+        "Assigned the barycentric weights to the wrong corners: the area opposite a counted for b, and so on.";
     // https://github.com/zesterer/euc/issues/5
     "interpolation-on-screen" interpolation = Interpolation::OnScreen,
         "Interpolated linearly on the screen where the scene asks for perspective-correct interpolation.";
@@ -270,14 +270,14 @@ mistakes! {
     "normals-angle-weighted" vertex_normal = VertexNormal::AngleWeighted,
         "Weighted polygon normals by their angles at the vertex, which the lecture's average does not.";
     "normals-last-polygon" vertex_normal = VertexNormal::LastPolygon,
-        "Wrote `normal[v] =` for `normal[v] +=`: each vertex has the normal of its last polygon.";
+        "Wrote `normal[v] =` instead of `normal[v] +=`: each vertex has the normal of its last polygon.";
     // https://github.com/mikedh/trimesh/issues/506
     "normals-each-triangle" vertex_normal = VertexNormal::EachTriangle,
         "Cut polygons into triangles first, and averaged the triangles' normals: a corner on a diagonal counts twice.";
     "normals-sum-kept" vertex_normal = VertexNormal::SumKept,
         "Added polygon normals up and did not normalise the sum: vertices of many polygons count for more between vertices.";
     "given-normals-ignored" normal_source = NormalSource::AlwaysAveraged,
-        "Averaged normals where the scene asks for those that the mesh has.";
+        "Averaged normals where the scene asks for the mesh's own.";
     "given-normals-used" normal_source = NormalSource::AlwaysGiven,
         "Used the mesh's own normals where the scene asks for averaged ones.";
     "crease-ignored" normal_source = NormalSource::WithoutCrease,
@@ -304,7 +304,7 @@ mistakes! {
     "model-matrix-transposed" model_matrix = ModelMatrix::Transposed,
         "Stored the model matrix by rows and read it by columns: objects turn the other way.";
     "model-matrix-missing" model_matrix = ModelMatrix::Missing,
-        "Drew objects in model space, where all of them are in the middle.";
+        "Drew objects in model space, where they all stand in the middle.";
 
     // --- The camera ------------------------------------------------------------------------
 
@@ -312,12 +312,12 @@ mistakes! {
     "fov-in-degrees" field_of_view = FieldOfView::Degrees,
         "Passed degrees to tan.";
     "fov-not-halved" field_of_view = FieldOfView::NotHalved,
-        "Forgot to halve the field of view: tan(fovy) for tan(fovy / 2).";
+        "Forgot to halve the field of view: tan(fovy) instead of tan(fovy / 2).";
     // https://github.com/openblack/openblack/pull/788
     "fov-horizontal" field_of_view = FieldOfView::Horizontal,
-        "Took the vertical field of view for the horizontal one.";
+        "Used the vertical field of view as the horizontal one.";
     "half-height-as-height" half_height = HalfHeight::TakenAsHeight,
-        "Took half_height for the whole height that an orthographic camera sees.";
+        "Used half_height as the whole height that an orthographic camera sees.";
     // https://github.com/lsalzman/tesseract/issues/24 (also width / height with integers)
     "aspect-missing" aspect = Aspect::Missing,
         "Left out the aspect ratio: the picture is stretched to its width.";
@@ -326,19 +326,19 @@ mistakes! {
         "Swapped width and height in the aspect ratio.";
     // https://github.com/NJU-3DV/Relightable3DGaussian/issues/23
     "aspect-on-height" aspect = Aspect::OnHeight,
-        "Divided the height by the aspect ratio in place of the width.";
+        "Divided the height by the aspect ratio instead of the width.";
     // https://github.com/recp/cglm/pull/243
     // https://github.com/cisc3620/review/issues/11
     "camera-left-handed" camera_right = CameraRight::UpTimesForward,
         "Swapped the factors of right = forward x up: the picture is mirrored, and culling leaves the insides.";
     "camera-up-as-given" camera_up = CameraUp::AsGiven,
-        "Used the given up vector as the camera's y axis, without making it perpendicular to the line of sight.";
+        "Used the scene's up vector as the camera's y axis, without making it perpendicular to the line of sight.";
     // https://github.com/Derydoca/derydocaengine/issues/1
     "view-matrix-transposed" view_matrix = ViewMatrix::Transposed,
         "Used the camera's axes as columns of the view matrix where they are rows: the rotation is not inverted.";
     // https://github.com/dotnet/runtime/issues/34859
     "view-matrix-translated-last" view_matrix = ViewMatrix::TranslatedLast,
-        "Rotated first and then subtracted the eye, R p - eye for R (p - eye).";
+        "Rotated first and then subtracted the eye: R p - eye instead of R (p - eye).";
     "division-missing" division = Division::Missing,
         "Forgot to divide by w.";
     // https://github.com/ssloy/tinyrenderer/issues/94
@@ -352,7 +352,7 @@ mistakes! {
 
     // https://github.com/nesbox/TIC-80/issues/776
     "half-pixel" sample_point = SamplePoint::Corner,
-        "Tested (x, y) for (x + 0.5, y + 0.5): the picture is half a pixel off.";
+        "Tested (x, y) instead of (x + 0.5, y + 0.5): the picture is half a pixel off.";
     // https://github.com/gonetz/GLideN64/issues/1731
     "corners-on-whole-pixels" screen_corners = ScreenCorners::WholePixels,
         "Rounded the corners of polygons to whole pixels.";
@@ -363,9 +363,9 @@ mistakes! {
         "Left out back-face culling.";
     // https://github.com/google/filament/issues/3638
     "mirrored-winding" mirrored_winding = MirroredWinding::Forgotten,
-        "Did not think of negative scales: mirrored objects are seen from inside.";
+        "Forgot about negative scales: mirrored objects are seen from inside.";
     "depth-reversed" depth = Depth::Farthest,
-        "Wrote > for < in the depth test: the farthest polygon is seen.";
+        "Wrote > instead of < in the depth test: the farthest polygon is seen.";
     // https://github.com/h0MER247/swGL/issues/4
     "depth-missing" depth = Depth::Missing,
         "Drew without a depth test: the last polygon is seen.";
@@ -375,7 +375,7 @@ mistakes! {
     "depth-of-triangle" depth = Depth::OfTriangle,
         "Used one depth per triangle, the mean of its corners.";
     "depth-ties-to-last" depth = Depth::TiesToLast,
-        "Wrote <= for < in the depth test: of equally near polygons the last is seen.";
+        "Wrote <= instead of < in the depth test: of equally near polygons the last is seen.";
     // https://github.com/kaisalmen/WWOBJLoader/pull/74
     "triangles-fan" triangles = Triangles::FanAlways,
         "Cut concave polygons into a fan about their first corner.";
@@ -411,7 +411,7 @@ mistakes! {
     // https://github.com/kidoman/rays/issues/17
     // https://github.com/RayTracing/TheNextWeek/issues/8
     "overflow-wraps" overflow = Overflow::Wraps,
-        "Did not clamp colours before storing them in bytes: what is brighter than white is dark again.";
+        "Did not clamp colours before storing them in bytes: colours brighter than white turn dark again.";
     "overflow-normalised" overflow = Overflow::DividedByBrightest,
         "Divided the picture by its brightest value.";
     // https://github.com/RayTracing/TheNextWeek/issues/7
@@ -437,5 +437,5 @@ mistakes! {
     "layout-columns" layout = Layout::Columns,
         "Stored pixels at x * height + y and read them as rows.";
     "layout-one-row-down" layout = Layout::OneRowDown,
-        "Flipped y as height - y, not height - 1 - y: the picture is one row too low.";
+        "Flipped y as height - y instead of height - 1 - y: the picture is one row too low.";
 }

@@ -1,6 +1,7 @@
 //! `fastphong diagnose` names the mistakes of these pictures.
 //!
-//! One of 120 pictures is looked at in a usual run, and none of `knot-100k`. All of them, with a line for each that is not named:
+//! A usual run tries one of 120 pictures, and none of `knot-100k`. This command tries all of them
+//! and prints a line for each picture whose mistake is not named:
 //!
 //! ```sh
 //! FASTPHONG_MISTAKES=1 cargo test --release --test mistakes named -- --nocapture
@@ -19,8 +20,8 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::thread;
 
-/// The names that `diagnose` may give a mistake of this table: one of them has to be among those that it
-/// names. Nothing stands here for mistakes that it does not know.
+/// Returns the names under which `diagnose` knows a mistake of this table. A diagnosis must contain
+/// one of them. The list is empty for a mistake that `diagnose` does not know.
 fn names(mistake: &str) -> &'static [&'static str] {
     match mistake {
         "light-negated" => &["light-reversed", "normals-reversed"],
@@ -84,7 +85,7 @@ fn names(mistake: &str) -> &'static [&'static str] {
         "fov-horizontal" => &["fov-horizontal"],
         "aspect-on-height" => &["aspect-on-height"],
         "normal-not-normalised-in-highlights" => &["normals-not-normalised-in-highlights"],
-        // What is wrong by a factor.
+        // Terms that are wrong by a factor.
         "diffuse-over-pi" | "specular-energy" => &["amounts"],
         "light-colour-of-first" => &["light-colour-of-first"],
         "ambient-times-kd" => &["ambient-diffuse-colour"],
@@ -161,7 +162,8 @@ fn diagnosed(scene: &Scene, picture: &Picture) -> Diagnosis {
     diagnose(&question, &mut |_| {}).expect("a scene that can be drawn")
 }
 
-/// True if the diagnosis names one of `names`, alone or among others that explain the picture as well.
+/// True if the diagnosis contains one of `names`, also among other causes that explain the picture
+/// equally well.
 fn is_named(found: &Diagnosis, names: &[&str]) -> bool {
     let made = found.causes.iter().flat_map(|cause| &cause.mistakes);
     let is_amount = found.verdict == Verdict::Amounts;
@@ -191,7 +193,7 @@ fn said(found: &Diagnosis) -> String {
     )
 }
 
-/// The counts of one kind of pictures.
+/// The counts for one kind of picture.
 #[derive(Default)]
 struct Count {
     named: usize,
@@ -205,7 +207,8 @@ impl Count {
     }
 }
 
-/// What all scenes showed: named and all pictures, by kind of picture, and a line for each that was not.
+/// The results of all scenes: the counts for each kind of picture, and a line for each picture
+/// whose mistake was not named.
 #[derive(Default)]
 struct Found {
     counts: BTreeMap<&'static str, Count>,
@@ -238,10 +241,10 @@ const DIRTY: Variation = Variation {
     opaque: false,
 };
 
-/// Pairs of mistakes that are looked at in each scene, of some thousand.
+/// How many pairs of mistakes are tried in each scene, out of some thousand.
 const PAIRS: u64 = 120;
 
-/// Numbers that are the same in each run.
+/// Random numbers that are equal in each run.
 struct Random(u64);
 
 impl Random {
@@ -254,7 +257,7 @@ impl Random {
     }
 }
 
-/// Looks at pictures of one scene: at one of `share`.
+/// Tries one in `share` of the pictures of a scene.
 fn look(name: &'static str, scene: &Scene, share: u64) -> Found {
     let mut found = Found::default();
     let mut random = Random(name.bytes().fold(7, |seed: u64, byte| {
@@ -270,7 +273,7 @@ fn look(name: &'static str, scene: &Scene, share: u64) -> Found {
             });
         }
     }
-    // Colours under alpha 0 do not count: another background cannot be seen in these pictures.
+    // Colours with alpha 0 do not count, so these pictures do not show a wrong background.
     for mistake in MISTAKES
         .iter()
         .filter(|mistake| mistake.step != "background")
@@ -298,7 +301,8 @@ fn look(name: &'static str, scene: &Scene, share: u64) -> Found {
     found
 }
 
-/// True if each of two mistakes changes the picture of the other, by more than a few levels at many pixels.
+/// True if each of two mistakes changes the picture of the other by more than a few levels at many
+/// pixels.
 fn both_are_far(scene: &Scene, first: &Mistake, second: &Mistake) -> bool {
     let draw = |mistakes: &[&Mistake]| draw(scene, mistakes, &Variation::default());
     let both = draw(&[first, second]);
@@ -307,7 +311,7 @@ fn both_are_far(scene: &Scene, first: &Mistake, second: &Mistake) -> bool {
         .all(|other| far(&both, other))
 }
 
-/// True if pictures are so far apart that noise of a level hides nothing.
+/// True if two pictures are so far apart that noise of one level cannot hide the difference.
 fn far(a: &Picture, b: &Picture) -> bool {
     let differ = |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
     a.pixels.iter().zip(&b.pixels).filter(differ).count() > 400
@@ -327,7 +331,7 @@ fn single(
     };
     let line = || format!("{name} {}: {}", mistake.id, said(diagnosis));
     match (names.is_empty(), seen) {
-        // It cannot be seen here, or not under noise.
+        // This picture does not show the mistake, or noise hides it.
         (_, false) => found.add(
             "unseen, said to be correct",
             is_correct || is_named(diagnosis, names),
@@ -353,7 +357,7 @@ fn pair(found: &mut Found, name: &str, scene: &Scene, pair: [&Mistake; 2]) {
     });
 }
 
-/// Variations that are no mistakes.
+/// Variations that are not mistakes.
 const RIGHT: [Variation; 6] = {
     let plain = Variation {
         dirty: false,
@@ -386,8 +390,8 @@ const RIGHT: [Variation; 6] = {
     ]
 };
 
-/// The least share of pictures whose mistakes are named: with all of them, and with a sample, which is too
-/// small for a share of its own.
+/// The smallest share of pictures whose mistakes must be named: for all pictures, and for a sample,
+/// which is too small for an exact share.
 const LEAST: [(&str, f64, f64); 5] = [
     ("clean", 0.95, 0.8),
     ("dirty", 0.9, 0.8),

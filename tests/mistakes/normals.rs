@@ -9,24 +9,24 @@ use std::collections::HashMap;
 
 /// The normals of a mesh, in model space.
 pub struct Normals {
-    /// A unit vector for each corner of the mesh, unless a mistake leaves it another length.
+    /// A vector for each corner of the mesh. It has length 1 unless a mistake changes that.
     pub corners: Vec<DVec3>,
-    /// A unit vector for each polygon, 0 for one without area.
+    /// A unit vector for each polygon; 0 for a polygon without area.
     pub polygons: Vec<DVec3>,
 }
 
 /// The corners that share an average.
 #[derive(Clone, Copy)]
 enum Smoothing {
-    /// Those on one surface and in one smoothing group.
+    /// The corners on one surface and in one smoothing group.
     Groups,
-    /// Those on one surface.
+    /// The corners on one surface.
     Surfaces,
-    /// Those on one surface whose polygons' normals have at least this cosine.
+    /// The corners on one surface whose polygons' normals have at least this cosine.
     Crease(f64),
 }
 
-/// Computes the normals of `mesh` as `source` says.
+/// Computes the normals of `mesh` from `source`.
 pub fn normals(mesh: &PolygonMesh, source: NormalSource, options: &Options) -> Normals {
     let mut points = Vec::new();
     let mut sums = Vec::with_capacity(mesh.polygon_count());
@@ -58,13 +58,14 @@ pub fn normals(mesh: &PolygonMesh, source: NormalSource, options: &Options) -> N
     Normals { corners, polygons }
 }
 
-/// Returns whether given normals are used, and what averages go over.
+/// Returns true if the mesh's own normals are used, and the corners that share an average.
 fn rule(source: NormalSource, wrong: Source) -> (bool, Smoothing) {
     let (takes_given, smoothing) = match source {
         NormalSource::Averaged => (false, Smoothing::Groups),
         NormalSource::Auto => (true, Smoothing::Groups),
         NormalSource::Given => (true, Smoothing::Surfaces),
         NormalSource::Crease(degrees) => (false, Smoothing::Crease(degrees.to_radians().cos())),
+        other => panic!("this rasterizer does not know {other:?}"),
     };
     match wrong {
         Source::OfScene => (takes_given, smoothing),
@@ -94,7 +95,7 @@ fn polygon_normal(points: &[DVec3], how: PolygonNormal) -> DVec3 {
     }
 }
 
-/// Returns the unit vector along `vector`; 0 for one that is 0 but for rounding.
+/// Returns the unit vector along `vector`; 0 if `vector` is 0 up to rounding.
 fn unit_or_zero(vector: DVec3) -> DVec3 {
     let length = vector.dot(vector).sqrt();
     match length > 1e-30 {
@@ -103,8 +104,8 @@ fn unit_or_zero(vector: DVec3) -> DVec3 {
     }
 }
 
-/// Returns what each corner adds to the sum at its vertex, where that is not its polygon's unit
-/// normal.
+/// Returns the vector that each corner adds to the sum at its vertex, if it is not its polygon's
+/// unit normal.
 fn contributions(
     mesh: &PolygonMesh,
     sums: &[DVec3],
@@ -153,13 +154,13 @@ fn angle(points: &[DVec3], i: usize) -> f64 {
         .acos()
 }
 
-/// Returns the vertex of each corner, and how many vertices there are: positions that are equal are
-/// one.
+/// Returns the vertex of each corner, and how many vertices there are. Equal positions are one
+/// vertex.
 fn vertices(mesh: &PolygonMesh) -> (Vec<u32>, usize) {
     let mut known = HashMap::with_capacity(mesh.positions().len());
     let mut number_of = |p: &Vec3| {
         let next = known.len() as u32;
-        // −0 and 0 are one. One number is hashed faster than three.
+        // −0 and 0 are equal. Hashing one word is faster than hashing three.
         let bits = |c: f32| u128::from((c + 0.0).to_bits());
         let key = bits(p.x) << 64 | bits(p.y) << 32 | bits(p.z);
         *known.entry(key).or_insert(next)
@@ -169,17 +170,17 @@ fn vertices(mesh: &PolygonMesh) -> (Vec<u32>, usize) {
     (of_corners.collect(), known.len())
 }
 
-/// A corner as its vertex sees it.
+/// A corner at a vertex.
 #[derive(Clone, Copy)]
 struct Spoke {
     corner: u32,
     polygon: u32,
-    /// The vertices after and before it in its polygon.
+    /// The vertices after and before the corner in its polygon.
     next: u32,
     last: u32,
 }
 
-/// Returns all corners, vertex after vertex, and where each vertex begins.
+/// Returns all corners, vertex after vertex, and the start of each vertex.
 fn spokes(mesh: &PolygonMesh, vertex: &[u32], count: usize) -> (Vec<Spoke>, Vec<usize>) {
     let mut starts = vec![0; count + 1];
     for &v in vertex {
@@ -213,8 +214,8 @@ fn spokes(mesh: &PolygonMesh, vertex: &[u32], count: usize) -> (Vec<Spoke>, Vec<
     (spokes, starts)
 }
 
-/// Writes to `surface` the surface of each corner at a vertex: corners are on one if edges link
-/// them that their polygons run in opposite directions.
+/// Writes the surface of each corner at a vertex to `surface`. Two corners are on one surface if
+/// edges link them along which their polygons run in opposite directions.
 fn find_surfaces(mesh: &PolygonMesh, around: &[Spoke], surface: &mut Vec<usize>) {
     surface.clear();
     surface.extend(0..around.len());
@@ -260,7 +261,7 @@ fn averages(
         known.clear();
         for (i, spoke) in around.iter().enumerate() {
             let own = polygons[spoke.polygon as usize];
-            // Corners that share an average, with corner i and with one another.
+            // The corners that share an average with corner i.
             let shares = |j: usize| {
                 surface[i] == surface[j]
                     && match smoothing {
@@ -290,8 +291,8 @@ fn averages(
     normals
 }
 
-/// Returns the normal at a corner: the direction of the sum at its vertex; where that vanishes, the
-/// polygon's own normal.
+/// Returns the normal at a corner: the direction of the sum at its vertex, or the polygon's own
+/// normal if the sum vanishes.
 fn direction(sum: DVec3, own: DVec3, how: VertexNormal) -> DVec3 {
     let length = sum.dot(sum).sqrt();
     match (length > 1e-12, own != DVec3::ZERO) {
@@ -302,7 +303,7 @@ fn direction(sum: DVec3, own: DVec3, how: VertexNormal) -> DVec3 {
     }
 }
 
-/// Adds up what the corners of a vertex contribute, each polygon once.
+/// Adds up the contributions of the corners at a vertex. Each polygon counts once.
 fn sum(
     around: &[Spoke],
     added: impl Fn(&Spoke) -> DVec3,

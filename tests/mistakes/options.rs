@@ -17,9 +17,9 @@ macro_rules! ways {
 ways! {
     /// The vector L at a point.
     LightDirection: TowardLight | FromLight | PositionAlone | FromObjectOrigin;
-    /// The length of L, where a light has a position.
+    /// The length of L, if a light has a position.
     LightLength: Unit | NotNormalised;
-    /// The space that the lights of the scene are taken to be given in.
+    /// The space that the scene's lights are assumed to be in.
     LightSpace: World | Object | Eye;
     /// The coefficients ka, kd and ks.
     Coefficients: Right | Swapped | Decoded;
@@ -29,7 +29,7 @@ ways! {
     LightColour: Own | White | OfFirstLight;
     /// The lights that count.
     Lights: Sum | First | Last | Mean;
-    /// What stands for L·N.
+    /// The value used for L·N.
     DiffuseCosine: Clamped | NotClamped | Absolute | Half | NormalView;
     /// The diffuse term.
     DiffuseTerm: Whole | Missing | OverPi;
@@ -45,7 +45,7 @@ ways! {
     Reflection: Right | Negated | WithoutTwo | OfView;
     /// The vector H halfway between L and V.
     HalfVector: Unit | NotNormalised | Mean | Difference;
-    /// The cosine of a highlight where it is below 0.
+    /// The cosine of a highlight if it is below 0.
     SpecularClamp: Clamped | NotClamped;
     /// Highlights of lights behind the surface.
     Gate: OfScene | Missing | TimesDiffuse;
@@ -53,26 +53,26 @@ ways! {
     Exponent: Right | Missing | Factor | Times128 | OfProduct | NotConverted | DividedByFour;
     /// The vector V.
     View: OfScene | Negated | AlongZ | AlwaysAtEye | AlwaysFarAway | TowardOrigin;
-    /// The length of V, where the eye has a position.
+    /// The length of V, if the eye has a position.
     ViewLength: Unit | NotNormalised;
     /// The falloff of lights at positions.
     Falloff: OfScene | Missing | NotSquared | Multiplied | InverseSquare | DiffuseOnly;
-    /// Where light is computed.
+    /// The place where light is computed.
     Rate: Pixel | Vertex | Face | FirstVertex | MeanNormal;
-    /// The normal at a pixel, once it is interpolated.
+    /// The interpolated normal at a pixel.
     PixelNormal: Normalised | AsInterpolated | NotInHighlights | RootInHighlights;
     /// The side to which a normal points.
     NormalSign: Outside | TowardViewer;
 
-    /// From model space to world space.
+    /// The transform from model space to world space.
     ModelMatrix: Right | Transposed | Missing;
     /// The normal of a polygon.
     PolygonNormal: Newell | Reversed | FirstCorner;
-    /// What is added up at a vertex.
+    /// The vectors that are summed at a vertex.
     VertexNormal: UnitNormals | AreaWeighted | AngleWeighted | LastPolygon | EachTriangle | SumKept;
-    /// Where vertex normals come from.
+    /// The source of vertex normals.
     NormalSource: OfScene | AlwaysAveraged | AlwaysGiven | WithoutCrease;
-    /// What takes normals from model space to world space.
+    /// The transform of normals from model space to world space.
     NormalTransform: InverseTranspose | Matrix | Inverse | Missing | AsPoint;
     /// The space that normals are in when light is computed; lights are in world space.
     NormalSpace: World | Eye;
@@ -87,7 +87,7 @@ ways! {
     CameraRight: ForwardTimesUp | UpTimesForward;
     /// The vector upward of the camera.
     CameraUp: Perpendicular | AsGiven;
-    /// From world space to the camera's.
+    /// The transform from world space to the camera's space.
     ViewMatrix: Right | Transposed | TranslatedLast;
     /// The division by w.
     Division: ByW | Missing;
@@ -106,7 +106,7 @@ ways! {
     Depth: Nearest | Farthest | Missing | StartsAtZero | OfTriangle | TiesToLast;
     /// The triangles of a polygon.
     Triangles: Right | FanAlways | FirstThree | Strip;
-    /// The shares of the three corners of a triangle.
+    /// The weights of the three corners of a triangle.
     Weights: Right | Rotated;
     /// The variation of normals and positions over the screen.
     Interpolation: OfScene | OnScreen | TimesW;
@@ -115,19 +115,19 @@ ways! {
 
     /// The transfer function.
     Encoding: OfScene | Linear | Srgb | Gamma22 | SrgbTwice | Decoded;
-    /// From 0..=1 to 0..=255.
+    /// The conversion from 0..=1 to 0..=255.
     Rounding: Nearest | Down | Times256;
-    /// What is brighter than 1.
+    /// The treatment of colours brighter than 1.
     Overflow: Clamped | Wraps | DividedByBrightest | DividedByOwnLargest | ToneMapped;
     /// The order of channels.
     Channels: Rgb | Bgr | Grey;
-    /// Where nothing is drawn.
+    /// The colour where nothing is drawn.
     Background: OfScene | Black | White;
     /// The order of pixels in the file.
     Layout: Rows | RightToLeft | HalfTurn | Columns | OneRowDown;
 }
 
-/// How a renderer does each step; the default does all of them right.
+/// The way in which a renderer does each step. The default does all steps right.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     pub light_direction: LightDirection,

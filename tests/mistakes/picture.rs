@@ -1,4 +1,4 @@
-//! From light to grey levels.
+//! The way from light to grey levels.
 
 use crate::options::{Background, Channels, Encoding, Layout, Options, Overflow, Rounding};
 use crate::variation::Variation;
@@ -6,7 +6,8 @@ use fastphong::picture;
 use fastphong::scene::Scene;
 use glam::DVec3;
 
-/// A picture as a file holds it: red, green, blue and straight alpha, row by row from the top.
+/// A picture as it is stored in a file: red, green, blue and straight alpha, row by row from the
+/// top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     pub width: usize,
@@ -21,7 +22,7 @@ pub struct Samples {
     pub colours: Vec<Option<DVec3>>,
 }
 
-/// Returns the picture of `samples`, `side` × `side` of them to a pixel.
+/// Returns the picture of `samples`, with `side` × `side` samples per pixel.
 pub fn picture(
     scene: &Scene,
     samples: &Samples,
@@ -79,7 +80,7 @@ pub fn picture(
     picture
 }
 
-/// Returns the samples with what is brighter than 1 treated.
+/// Returns the samples after the treatment of colours brighter than 1.
 fn exposed(samples: &Samples, overflow: Overflow) -> Vec<Option<DVec3>> {
     let colours = samples.colours.iter().flatten();
     let brightest = colours.map(|c| c.max_element()).fold(1e-9, f64::max);
@@ -119,6 +120,7 @@ fn encode(c: f64, wrong: Encoding, of_scene: picture::Encoding) -> f64 {
     match (wrong, of_scene) {
         (Encoding::OfScene, picture::Encoding::Linear) | (Encoding::Linear, _) => c,
         (Encoding::OfScene, picture::Encoding::Srgb) | (Encoding::Srgb, _) => srgb(c),
+        (Encoding::OfScene, other) => unreachable!("{other:?} is not known here"),
         (Encoding::Gamma22, _) => c_or_0.powf(1.0 / 2.2),
         (Encoding::SrgbTwice, _) => srgb(srgb(c)),
         (Encoding::Decoded, _) => c_or_0.powf(2.2),
@@ -133,8 +135,8 @@ fn srgb(c: f64) -> f64 {
     }
 }
 
-/// Returns the grey level of a value. As in C, what does not fit into 8 bits loses its upper bits;
-/// only `Overflow::Wraps` and `Rounding::Times256` have such values.
+/// Returns the grey level of a value. As in C, a value that does not fit into 8 bits loses its
+/// upper bits; only `Overflow::Wraps` and `Rounding::Times256` cause that.
 fn round(value: f64, rounding: Rounding) -> u8 {
     let level = match rounding {
         Rounding::Nearest => (255.0 * value).round(),

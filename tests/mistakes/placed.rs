@@ -1,4 +1,4 @@
-//! An object in the world, as the camera sees it.
+//! An object in the world and in the camera's space.
 
 use crate::camera::{Camera, Seen, unit};
 use crate::clip::{Vertex, clipped, is_inside};
@@ -16,9 +16,9 @@ pub struct Placed<'a> {
     pub mesh: &'a PolygonMesh,
     camera: &'a Camera,
     normals: Normals,
-    /// The positions of the mesh in world space, and as the camera sees them.
+    /// The positions of the mesh in world space and in the camera's space.
     positions: Vec<(DVec3, Seen)>,
-    /// What is done to a normal: a matrix, and what is added.
+    /// The transform of a normal: a matrix, and a vector that is added.
     normal_matrix: DMat3,
     normal_offset: DVec3,
     /// True if vertex normals are unit vectors in the world.
@@ -88,7 +88,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// Returns a number over 0 for a polygon that is seen from outside, below 0 for one seen from
+    /// Returns a value over 0 for a polygon that is seen from outside, below 0 for one seen from
     /// inside, and 0 for one that is not seen.
     pub fn side(&self, p: usize) -> f64 {
         if self.normals.polygons[p] == DVec3::ZERO {
@@ -109,7 +109,7 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// Returns what takes points of an object from model space to world space.
+/// Returns the transform of an object's points from model space to world space.
 fn model_matrix(object: &Object, options: &Options) -> DAffine3 {
     let DAffine3 {
         matrix3,
@@ -125,7 +125,7 @@ fn model_matrix(object: &Object, options: &Options) -> DAffine3 {
     }
 }
 
-/// Returns twice the area of a polygon, over 0 if it runs counter-clockwise where y is upward.
+/// Returns twice the signed area of a polygon: over 0 if it runs counter-clockwise, with y upward.
 fn area(mut places: impl Iterator<Item = [f64; 2]>) -> f64 {
     let Some([x, y]) = places.next() else {
         return 0.0;

@@ -11,7 +11,8 @@ use fastphong::scene::Scene;
 use std::collections::HashSet;
 use std::thread;
 
-/// The pictures as two programs draw them that both make no mistake and no other choice.
+/// The variation that matches the reference: two programs with these choices and no mistakes draw
+/// equal pictures.
 const AS_LECTURE: Variation = Variation {
     dirty: false,
     filling: Filling::ScanLines,
@@ -20,7 +21,7 @@ const AS_LECTURE: Variation = Variation {
     opaque: false,
 };
 
-/// Returns the reference as it is stored.
+/// Returns the reference as it is stored in a file.
 fn stored(reference: &ReferencePicture, scene: &Scene) -> Vec<[u8; 4]> {
     let level = |value: f64| (255.0 * value).round() as u8;
     let pixels = reference.picture.pixels().iter();
@@ -46,10 +47,10 @@ fn differing(a: &Picture, b: &Picture, levels: u8) -> usize {
         .count()
 }
 
-/// Scan lines across corners that are rounded to 1/256 pixel are what the reference draws, so the
-/// same pixels are covered, by the same polygons. The frame of the reference keeps normals and
-/// directions in `f32`, which moves a colour by some 2⁻²⁴ of what it is, times the exponent: far
-/// less than a level, which is therefore the next one at most, where a value is near a half.
+/// The reference fills polygons by scan lines, with corners rounded to 1/256 pixel. So equal pixels
+/// are covered, by equal polygons. The reference's frame stores normals and directions in `f32`,
+/// which moves a colour by about 2⁻²⁴ of its value times the exponent. That is far less than a
+/// level, so levels differ by at most one, where a value is close to the middle between two.
 #[test]
 fn scan_lines_draw_the_reference() {
     for (name, scene) in scenes(320, 240) {
@@ -68,12 +69,12 @@ fn scan_lines_draw_the_reference() {
 
 /// The default draws triangles and does not round corners. Rounding moves an edge by up to √2/512
 /// pixel. So a pixel may have another polygon, or none, if its centre is within 0.0028 pixels of an
-/// edge: its own polygon or a neighbour's is another one then, and of such pixels 1 in 180 is that
-/// near to an edge. All others have the same triangle, whose colour moves by less than a level
-/// unless it changes by 350 levels from pixel to pixel.
+/// edge. These pixels lie beside another polygon, and 1 in 180 of all pixels there is that near to
+/// an edge. All other pixels have the same triangle in both pictures, and its colour moves by less
+/// than a level unless it changes by 350 levels from pixel to pixel.
 ///
-/// The reference cuts a mirrored polygon into a fan about its last corner, which has the other
-/// diagonal in a quadrangle. So colours may be those of either.
+/// The reference cuts a mirrored polygon into a fan about its last corner, which uses the other
+/// diagonal of a quadrangle. So a colour may come from either diagonal.
 #[test]
 fn triangles_draw_the_triangulated_reference() {
     for (name, scene) in scenes(320, 240) {
@@ -104,7 +105,7 @@ fn triangles_draw_the_triangulated_reference() {
     }
 }
 
-/// True if a pixel or one of those around it shows another polygon than one of the others.
+/// True if a pixel and its neighbours do not all show one polygon.
 fn is_beside_another(reference: &ReferencePicture, at: usize) -> bool {
     let polygons = &reference.polygons;
     let (x, y) = (at % polygons.width(), at / polygons.width());
@@ -116,7 +117,7 @@ fn is_beside_another(reference: &ReferencePicture, at: usize) -> bool {
 }
 
 #[test]
-fn mistakes_have_names_of_their_own() {
+fn mistakes_have_unique_names() {
     let names: HashSet<&str> = MISTAKES.iter().map(|mistake| mistake.id).collect();
     assert_eq!(names.len(), MISTAKES.len());
     let sentences: HashSet<&str> = MISTAKES.iter().map(|mistake| mistake.what).collect();
@@ -154,12 +155,13 @@ fn pictures_of_mistakes(scenes: &[(&str, Scene)]) -> Vec<Vec<Picture>> {
     })
 }
 
-/// Each mistake changes at least 20 pixels of a scene, and no two draw the same pictures of all
-/// scenes.
+/// Each mistake changes at least 20 pixels of a scene, and no two mistakes draw equal pictures of
+/// all scenes.
 #[test]
 fn every_mistake_shows() {
     let mut scenes = scenes(96, 72);
-    // Two spheres and a knot of smaller polygons show nothing that others do not.
+    // Two spheres and a knot with smaller polygons are left out: they show nothing that other
+    // scenes do not.
     scenes.retain(|(name, _)| !["knot-100k", "fine-sphere", "ellipsoid"].contains(name));
     let variation = Variation {
         opaque: true,
@@ -231,12 +233,14 @@ fn variations_are_small() {
             ..Variation::default()
         });
         assert!(opaque.pixels.iter().all(|pixel| pixel[3] == 255), "{name}");
-        // Rounded to 16 bits, nearly equal depths fall on other levels if a corner moves at all.
+        // Depths are rounded to 16 bits, so nearly equal ones may land on other levels if a corner
+        // moves at all.
         if name == "z-fighting" {
             continue;
         }
-        // Edges move by at most 0.02 pixels, and 3 pixels of 100 around an edge change hands: no
-        // scene has more than a tenth of its pixels at edges where colours differ by 32 levels.
+        // Edges move by at most 0.02 pixels, and 3 of 100 pixels at an edge change to the other
+        // polygon. No scene has more than a tenth of its pixels at edges where colours differ by 32
+        // levels.
         for edges in [Edges::Moved, Edges::Snapped, Edges::BottomRight] {
             let moved = vary(Variation {
                 edges,

@@ -1,23 +1,23 @@
-//! Filling: the pixels of triangles and polygons, and what they carry there.
+//! Filling: the pixels of triangles and polygons, and the varyings at each pixel.
 
 use crate::options::{BoxEnd, SamplePoint, Weights};
 use crate::variation::Edges;
 use std::array::from_fn;
 
-/// What a corner carries: position, normal and colour.
+/// The varyings of a corner: position, normal and colour.
 pub const CARRIED: usize = 9;
 
 /// A corner of a polygon on the screen.
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
-    /// Pixels from the left and from the top.
+    /// The distance from the left and from the top, in pixels.
     pub x: f64,
     pub y: f64,
     /// The depth, 0 at the near plane and 1 at the far one.
     pub depth: f64,
-    /// The weight of what is carried: 1/w under perspective interpolation.
+    /// The weight of the varyings: 1/w under perspective interpolation.
     pub weight: f64,
-    /// What is carried.
+    /// The varyings.
     pub carried: [f64; CARRIED],
 }
 
@@ -29,7 +29,7 @@ pub struct Fragment {
     pub carried: [f64; CARRIED],
 }
 
-/// What the filling of polygons depends on.
+/// The settings for filling polygons.
 #[derive(Clone, Copy)]
 pub struct Filler {
     pub width: usize,
@@ -41,7 +41,7 @@ pub struct Filler {
 }
 
 impl Filler {
-    /// Returns how far the point that is tested lies from the upper left corner of its pixel.
+    /// Returns the offset of the tested point from the upper left corner of its pixel.
     fn offset(&self) -> f64 {
         match self.sample_point {
             SamplePoint::Centre => 0.5,
@@ -61,7 +61,7 @@ impl Filler {
         (first, (end.max(0.0) as usize).min(size))
     }
 
-    /// Calls `draw` for each pixel of a triangle, whichever way it runs.
+    /// Calls `draw` for each pixel of a triangle of either winding.
     pub fn triangle(&self, corners: [&Corner; 3], draw: &mut impl FnMut(Fragment)) {
         let [a, mut b, mut c] = corners;
         let area = cross(a, b, c.x, c.y);
@@ -126,8 +126,8 @@ impl Filler {
         }
     }
 
-    /// Calls `draw` for each pixel of a polygon of any shape, scan line by scan line (L21 3): what
-    /// corners carry is interpolated along edges, then between them.
+    /// Calls `draw` for each pixel of a polygon of any shape, scan line by scan line (L21 3).
+    /// Varyings are interpolated along edges, then between them.
     pub fn polygon(&self, corners: &[Corner], draw: &mut impl FnMut(Fragment)) {
         let low = corners.iter().map(|c| c.y).fold(f64::INFINITY, f64::min);
         let high = corners

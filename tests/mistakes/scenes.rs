@@ -5,8 +5,8 @@ use fastphong::scene::input::{SCENES, resolve};
 
 /// Returns the shipped scenes with their names, for pictures of `width` × `height` pixels.
 ///
-/// `million` is left out: its normals alone take a second, and it is another sphere of small
-/// polygons.
+/// `million` is left out, because it is only another sphere of small polygons and its normals take
+/// a second.
 pub fn scenes(width: u32, height: u32) -> Vec<(&'static str, Scene)> {
     let shipped = SCENES.iter().filter(|scene| scene.name != "million");
     shipped

@@ -1,9 +1,9 @@
-//! Polygons into triangles, in model space.
+//! Cuts polygons into triangles, in model space.
 
 use crate::options::Triangles;
 use glam::DVec3;
 
-/// Returns a vector perpendicular to a polygon, twice as long as its area is large (L21 1.1).
+/// Returns a vector perpendicular to a polygon. Its length is twice the polygon's area (L21 1.1).
 pub fn newell(points: &[DVec3]) -> DVec3 {
     let first = points[0];
     let next = points.iter().skip(1).chain(points.first());
@@ -14,8 +14,8 @@ pub fn newell(points: &[DVec3]) -> DVec3 {
 
 /// Writes the triangles of a polygon to `out`: each as three indices into `points`.
 ///
-/// A convex polygon becomes a fan about its corner `start`, a concave one loses one ear after the
-/// other.
+/// A convex polygon becomes a fan about its corner `start`. From a concave one, ears are cut off
+/// one after the other.
 pub fn triangulate(points: &[DVec3], start: usize, how: Triangles, out: &mut Vec<[usize; 3]>) {
     let count = points.len();
     out.clear();
@@ -41,12 +41,12 @@ fn fan(count: usize, start: usize, out: &mut Vec<[usize; 3]>) {
     out.extend((2..count).map(|i| [corner(0), corner(i - 1), corner(i)]));
 }
 
-/// Returns a number over 0 where the path over three corners turns left, seen from outside.
+/// Returns a value over 0 if the path over three corners turns left, seen from outside.
 fn turn(points: &[DVec3], normal: DVec3, [a, b, c]: [usize; 3]) -> f64 {
     let product = (points[b] - points[a])
         .cross(points[c] - points[b])
         .dot(normal);
-    // What is left of corners in a line is rounding.
+    // For corners on one line only rounding is left.
     let scale = (points[b] - points[a]).length_squared() + (points[c] - points[b]).length_squared();
     match product.abs() <= 1e-12 * scale * normal.length() {
         true => 0.0,
@@ -72,7 +72,7 @@ fn cut_ears(points: &[DVec3], normal: DVec3, start: usize, out: &mut Vec<[usize;
             };
             turn(points, normal, [a, b, c]) > 0.0 && !left.iter().any(is_inside)
         };
-        // Every simple polygon has an ear; of another one any corner is cut off.
+        // Every simple polygon has an ear. If a polygon crosses itself, any corner is cut off.
         let ear = (0..size).find(is_ear).unwrap_or(0);
         out.push(around(ear));
         left.remove(ear);

@@ -1,4 +1,4 @@
-/* Uses every control of the report's page, as `tests/page/run` opens it in a frame, and tells the page around it the result. */
+/* Uses every control of the report's page. `tests/page/run` opens the page in a frame; this script reports the result to the page around the frame. */
 (async () => {
   const failed = [], wait = ms => new Promise(r => setTimeout(r, ms));
   addEventListener("error", e => failed.push("error: " + e.message));
@@ -9,7 +9,7 @@
   const key = (k, o = {}) => document.body.dispatchEvent(new KeyboardEvent("keydown", { key: k, code: /^\d$/.test(k) ? "Digit" + k : "", bubbles: true, cancelable: true, ...o }));
   const visit = async h => { location.hash = h; await wait(120); };
   const shown = v => v.root.dataset.shown ?? "";
-  /* Labels of charts that overlap, and what is wider than the window. */
+  /* Checks that no labels of charts overlap, and that nothing is cut off or wider than the window. */
   const labels = where => {
     for (const svg of document.querySelectorAll(".view.on .chartbox svg")) {
       const boxes = [...svg.querySelectorAll("text.label")].map(t => [t.textContent, t.getBoundingClientRect()]);
@@ -29,15 +29,15 @@
     }
     const nav = document.querySelector(".top nav"), tools = document.querySelector(".tools").getBoundingClientRect();
     check(`${where}: the navigation is cut off`, nav.scrollWidth <= nav.clientWidth + 1 && [...nav.children].every(a => a.hidden || a.getBoundingClientRect().right <= tools.left + 1));
-    // The first screen of the overview are its spheres.
+    // The spheres of the overview, or the viewer with its buttons, fit into the first screen.
     const stage = document.querySelector(".view.on :is(#overview .spheres, .viewer .vfoot)"), below = stage && stage.getBoundingClientRect().bottom + scrollY;
     if (below && innerWidth >= 1400) check(`${where}: buttons of the viewer end at ${Math.round(below)} of ${innerHeight}`, below <= innerHeight);
     const jargon = /\bkernels?\b|four corners|one pixel at a time|avx512/i.exec(document.querySelector(".view.on:not(#lectures)")?.innerText);
-    check(`${where}: a word that nobody explains: ${jargon?.[0]}`, !jargon);
+    check(`${where}: a word that the page does not explain: ${jargon?.[0]}`, !jargon);
     check(`${where}: wider than the window`, document.documentElement.scrollWidth <= innerWidth + 1);
-    check(`${where}: a picture without an alternative`, ![...document.images].some(i => !i.hasAttribute("alt")));
+    check(`${where}: a picture without an alternative text`, ![...document.images].some(i => !i.hasAttribute("alt")));
   };
-  /* Accessibility of what is seen: contrast of texts, order of headings, names of controls and pictures, focus that shows. */
+  /* Checks the accessibility of everything visible: contrast of texts, order of headings, names of controls and pictures, and a focus that shows. */
   const pen = document.createElement("canvas").getContext("2d", { willReadFrequently: true }), colours = new Map();
   const rgba = colour => {
     if (!colours.has(colour)) {
@@ -58,7 +58,7 @@
   };
   const opacity = el => el ? +getComputedStyle(el).opacity * opacity(el.parentElement) : 1;
   const seen = el => el.checkVisibility({ visibilityProperty: true }) && el.getClientRects().length;
-  /* Drags from one point of an element to another, in parts of its size. */
+  /* Drags from one point of an element to another. Points are shares of the element's size. */
   const drag = async (el, from, to) => {
     const box = el.getBoundingClientRect();
     const fire = (type, [u, v]) => el.dispatchEvent(new PointerEvent(type, { pointerId: 1, clientX: box.left + u * box.width, clientY: box.top + v * box.height, bubbles: true, cancelable: true }));
@@ -71,41 +71,41 @@
     input.value = value;
     input.dispatchEvent(new Event("input", { bubbles: true }));
   };
-  /* The bytes that a viewer shows on its left. */
+  /* Returns the bytes of a viewer's left picture, as text. */
   const bytes = async v => (await picture(v.source, v.a)).px.join();
   const rested = v => () => v.hand.live && !v.hand.moves && !v.hand.waits && v.source === v.hand.live && v.hand.live.exact === "reference";
-  /* The scenes that are drawn in the page: every handle moves the picture, and links bring it back to the byte. */
+  /* Checks the scenes that are drawn in the page: every handle changes the picture, and a link restores it to the byte. */
   const live = async () => {
     if (!CAN_DRAW) return;
     const turned = SCENES.filter(s => s.drawn && canTurn(s));
-    check("live: scenes that can be turned", turned.length > 0);
+    check("live: some scenes can be turned", turned.length > 0);
     for (const s of innerWidth < 800 ? turned.slice(0, 1) : turned.slice(0, 6)) {
       await visit(`scenes/${s.id}?left=${s.list[1]}&right=${s.list[2]}`);
       await until(`${s.id}: shown`, () => shown(v2).startsWith(s.id + "|"));
-      // A zoomed picture is moved by a drag, and not turned.
+      // A drag moves a zoomed picture instead of turning the model, so zoom out first.
       v2.zoom(0);
       v2.root.dispatchEvent(new Event("pointerenter"));
       await v2.hand.ready();
-      check(`${s.id}: handles`, !v2.hand.panel.hidden && v2.hand.panel.querySelectorAll("input").length >= 2);
+      check(`${s.id}: there are handles`, !v2.hand.panel.hidden && v2.hand.panel.querySelectorAll("input").length >= 2);
       const stored = await bytes(v2);
       await drag(v2.stage, [.15, .3], [.3, .4]);
       await until(`${s.id}: a drag turns`, rested(v2));
-      check(`${s.id}: by an angle`, v2.view.azimuth && v2.view.elevation);
+      check(`${s.id}: the drag turns by an angle`, v2.view.azimuth && v2.view.elevation);
       await until(`${s.id}: the view stands in the link`, () => new URLSearchParams(location.hash.split("?")[1]).get("turn") === viewQuery(v2.view).turn);
       const there = await bytes(v2), hash = location.hash;
       const text = v2.hand.live.studio.scene();
-      check(`${s.id}: a scene file`, text.includes("[camera]") && text.includes("eye"));
+      check(`${s.id}: the view can be saved as a scene file`, text.includes("[camera]") && text.includes("eye"));
       check(`${s.id}: the picture turns`, there !== stored);
       const q = v2.source.rows[v2.a];
-      check(`${s.id}: errors are said against the reference`, document.querySelector("#v2 .tag.a").textContent.includes(`max ${num(q.max)} levels`) && !document.querySelector("#v2 .tag.a").textContent.includes("from"));
+      check(`${s.id}: errors are stated against the reference`, document.querySelector("#v2 .tag.a").textContent.includes(`max ${num(q.max)} levels`) && !document.querySelector("#v2 .tag.a").textContent.includes("from"));
       accessible(`${s.id}, turned`);
       await link(`${s.id}: a turned view is restored`, hash.slice(1), () => rested(v2)());
-      check(`${s.id}: to the byte`, await bytes(v2) === there);
+      check(`${s.id}: the link restores the picture to the byte`, await bytes(v2) === there);
       if (!v2.hand.sun.hidden) {
         v2.hand.sun.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowDown", shiftKey: true, bubbles: true }));
         await wait(40);
         await until(`${s.id}: the light moves`, () => rested(v2)() && v2.view.light);
-        check(`${s.id}: and changes the picture`, await bytes(v2) !== there);
+        check(`${s.id}: the light changes the picture`, await bytes(v2) !== there);
       }
       const tab = new KeyboardEvent("keydown", { key: "Tab", bubbles: true, cancelable: true });
       check(`${s.id}: Tab leaves the divider`, v2.divider.dispatchEvent(tab));
@@ -122,26 +122,26 @@
         const slider = held();
         slider.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
         v2.hand.controls();
-        check(`${s.id}: ${handle} stays while it is held`, slider === held());
+        check(`${s.id}: ${handle} is not replaced while it is held`, slider === held());
         slider.dispatchEvent(new PointerEvent("pointerup", { bubbles: true }));
       }
       v2.stage.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
       await wait(40);
       await until(`${s.id}: by keys`, rested(v2));
-      // Its address is kept a moment later.
+      // The page writes the address a moment later.
       await wait(100);
       v2.hand.turnBy(50, 0);
       const { azimuth } = v2.view;
       dispatchEvent(new Event("resize"));
       await wait(700);
-      check(`${s.id}: a new size of the window lets the model where it is`, Math.abs(v2.view.azimuth - azimuth) < 1e-3);
+      check(`${s.id}: a new size of the window does not turn the model`, Math.abs(v2.view.azimuth - azimuth) < 1e-3);
       for (const mode of ["side", "error", "flip", "slide"]) { await v2.set({ mode }); await until(`${s.id}: ${mode}`, () => shown(v2).endsWith("|" + mode)); }
       v2.hand.panel.querySelector(".still").click();
       await until(`${s.id}: as stored`, () => isStill(v2.view) && v2.source === v2.scene);
-      check(`${s.id}: the stored picture`, await bytes(v2) === stored);
+      check(`${s.id}: the stored picture comes back`, await bytes(v2) === stored);
       labels(`${s.id}, live`);
     }
-    // The chart has all methods in each view, not in the first alone.
+    // In every view the chart has all methods, not only in the first view.
     if (canTurn(SCENES[0])) {
       const [, left, right] = SCENES[0].list;
       await visit(`overview?left=${left}&right=${right}&turn=20,0`);
@@ -152,7 +152,7 @@
       await until("live: all methods are drawn of the next view", () => rested(v1)() && v1.source.list.every(m => m in v1.source.rows));
       await visit("scenes/" + turned[0].id);
     }
-    // A mesh file that is dropped, and what is none.
+    // Drop mesh files, and a file that is not a mesh.
     const drop = (name, text) => {
       const bytes = new TextEncoder().encode(text);
       return v2.hand.drop({ preventDefault() {}, dataTransfer: { files: [{ name, size: bytes.length, arrayBuffer: async () => bytes.buffer }] } });
@@ -161,23 +161,23 @@
     await drop("bad.obj", "v 0 0\nf 1 2 3\n");
     check(`live: a bad file is refused: ${document.getElementById("toast").textContent}`, v2.scene === before && document.getElementById("toast").textContent.includes("bad.obj"));
     await drop("picture.png", "x");
-    check("live: what is no mesh is refused", v2.scene === before);
+    check("live: a file that is not a mesh is refused", v2.scene === before);
     await drop("own.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n");
     await until("live: a dropped mesh is drawn", () => v2.scene.title === "own.obj" && shown(v2).startsWith("own|"));
-    check("live: with its pixels", new Set(await bytes(v2).then(text => text.split(","))).size > 2);
-    check("live: and its name", document.getElementById("t-scenes").textContent === "own.obj");
+    check("live: the dropped mesh has pixels", new Set(await bytes(v2).then(text => text.split(","))).size > 2);
+    check("live: the dropped mesh's name is the title", document.getElementById("t-scenes").textContent === "own.obj");
     go(location.hash.slice(1));
     await until("live: the address leads back", () => v2.scene === before && v2.source === before);
-    // What a link asks for, and no method has.
+    // The link has values out of range and parameters that do not exist.
     await visit(`scenes/${before.id}?turn=1e999,x&size=-5&sun=9e9,90&with=${BASE}:nosuch=1;${BASE};nosuch:x=1;constructor:x=1`);
     await until("live: a link that asks for too much", () => rested(v2)() && v2.view.size === 0.1 && !Object.keys(v2.view.given).length);
     const sun = v2.hand.sun.getBoundingClientRect(), stage = v2.stage.getBoundingClientRect();
-    check("live: the light can be taken, wherever it is", v2.hand.sun.hidden || sun.top >= stage.top && sun.bottom <= stage.bottom);
+    check("live: the light can be reached, wherever it is", v2.hand.sun.hidden || sun.top >= stage.top && sun.bottom <= stage.bottom);
     for (const odd of ["%", "constructor", "scenes/constructor", "lectures/constructor"]) {
       await visit(odd);
       check(`live: #${odd} shows a view`, document.querySelectorAll(".view.on").length === 1);
     }
-    // A scene that is chosen while another one is loaded.
+    // Choose a scene while another one is still loading.
     const [first, second] = turned;
     if (second) {
       await visit("scenes/" + second.id);
@@ -188,7 +188,7 @@
     }
     await v2.set({ scene: SCENES[0] });
   };
-  /* The figures that follow the hand. */
+  /* Checks the figures whose parameters the reader moves. */
   const handles = async () => {
     if (!CAN_DRAW) return;
     const moving = FIGURES.filter(f => f.live && !isTraced(f) && f !== SPHERES);
@@ -197,12 +197,12 @@
       const el = document.querySelector(".hands");
       await until(`${f.name}: drawn`, () => el.dataset.shown);
       const body = () => [...el.querySelectorAll(".live-body canvas")].map(c => c.toDataURL()).join() + el.querySelector(".live-body").textContent + el.querySelector(".verdicts").textContent + [...el.querySelectorAll("path")].map(p => p.getAttribute("d"));
-      check(`${f.name}: a verdict`, el.querySelectorAll(".verdict .chip").length > 0);
+      check(`${f.name}: there is a verdict`, el.querySelectorAll(".verdict .chip").length > 0);
       for (const input of el.querySelectorAll("input")) {
         const before = body(), values = el.dataset.shown, to = +input.value === +input.max ? input.min : input.max;
         slide(input, to);
         await until(`${f.name}: ${input.dataset.handle} is moved`, () => el.dataset.shown !== values);
-        check(`${f.name}: ${input.dataset.handle} changes what is seen`, body() !== before);
+        check(`${f.name}: ${input.dataset.handle} changes the figure`, body() !== before);
       }
       const point = el.querySelector("[data-point]");
       if (point) {
@@ -220,7 +220,7 @@
       await visit(hash);
       await until(`${f.name}: restored`, () => document.querySelector(".hands")?.dataset.shown);
       const { textContent } = document.querySelector(".hands .verdicts");
-      check(`${f.name}: to what it said`, there.includes(textContent));
+      check(`${f.name}: the verdict is restored`, there.includes(textContent));
       document.querySelector(".hands .still").click();
       labels(`${f.name}, live`);
       accessible(`${f.name}, live`);
@@ -238,7 +238,7 @@
       if (ratio < 4.5) failed.push(`${where}: contrast ${ratio.toFixed(2)} of "${node.data.trim().slice(0, 30)}" (${el.tagName}.${el.getAttribute("class") ?? ""})`);
     }
   };
-  /* Marks in charts stand out from their ground. */
+  /* Checks that marks in charts stand out from their background. */
   const marks = where => {
     for (const el of document.querySelectorAll(".view.on .chartbox .mark")) {
       const under = background(el), ink = over(rgba(getComputedStyle(el).color), under, opacity(el)), [low, high] = [luminance(ink), luminance(under)].sort((a, b) => a - b);
@@ -246,7 +246,7 @@
       if ((high + .05) / (low + .05) < 3) failed.push(`${where}: contrast ${((high + .05) / (low + .05)).toFixed(2)} of a mark of ${getComputedStyle(el).color}`);
     }
   };
-  /* The label of a point is nearest to its own mark, or tied to it; it lies over no other. */
+  /* Checks that a point's label is nearest to its own mark or has a line to it, and covers no other mark. */
   const owned = where => {
     const points = [...document.querySelectorAll("#pareto .hit")].map(g => ({ g, mark: g.querySelector(".mark").getBoundingClientRect(), label: g.querySelector(".label")?.getBoundingClientRect() }));
     const far = ({ left, right, top, bottom }, { mark: m }) => Math.hypot(Math.max(0, left - (m.left + m.right) / 2, (m.left + m.right) / 2 - right), Math.max(0, top - (m.top + m.bottom) / 2, (m.top + m.bottom) / 2 - bottom));
@@ -283,17 +283,16 @@
     await wait(300);
     return `${failed.length ? "FAILED" : "PASSED"} ${count} checks\n${[...new Set(failed)].join("\n")}`.trim();
   };
-  // Workers take real time: exercises are tried in a window of their own.
+  // Workers need real time, so exercises are tried in a separate window.
   if (location.search === "?hands") {
     await checkHands({ check, until, visit, wait, seen, accessible, contrasts }).catch(e => failed.push("stopped: " + e.stack));
     return console.log("HANDS " + (await tell()).replaceAll("\n", "; "));
   }
   try {
     const scenes = SCENES.length, drawn = scenes && PICTURES;
-    // The course is one scroll.
+    // The course may be long, because it is read in one scroll.
     if (IDS.length <= 11) for (const v in FILLED) if (FILLED[v] && v !== "course") {
       await visit(v);
-      // The course is one scroll.
       if (v !== "course") check(`${v}: ${document.documentElement.scrollHeight / innerHeight} screens`, document.documentElement.scrollHeight <= 6 * innerHeight);
     }
     if (scenes) {
@@ -301,7 +300,7 @@
       if (drawn) {
         await until("overview: the viewer shows", () => shown(v1));
         const marks = [...document.querySelectorAll("#pareto .hit")];
-        check("overview: a mark a method", marks.length === IDS.length);
+        check("overview: a mark for each method", marks.length === IDS.length);
         for (const m of [...IDS].slice(-3)) {
           document.querySelector(`#pareto .hit[data-key="${CSS.escape(m)}"]`).dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
           await until(`overview: ${m} is shown when its mark is chosen`, () => shown(v1).split("|")[1] === m);
@@ -318,12 +317,12 @@
       }
       accessible("overview");
       const words = [...document.querySelectorAll("#overview p")].filter(p => p.offsetParent).map(p => p.textContent.trim()).join(" ").split(/\s+/).length;
-      // What the spheres say takes forty of them.
+      // The spheres' sentences take forty of these words.
       check(`overview: ${words} words of running text`, words < 160);
       for (const s of [SCENES[0], SCENES[scenes - 1]]) {
         await visit(`scenes/${s.id}`);
         check(`${s.id}: title`, document.querySelector("#t-scenes").textContent === s.title);
-        check(`${s.id}: a row a method`, document.querySelectorAll("#table tbody tr").length >= Math.min(15, s.list.length));
+        check(`${s.id}: a row for each method`, document.querySelectorAll("#table tbody tr").length >= Math.min(15, s.list.length));
         for (const b of ["cols", "bary"]) document.getElementById(b).click();
         check(`${s.id}: more columns and rows`, document.querySelectorAll("#table thead th").length === 14 && (document.querySelector("#table .bary") || !s.barycentric.length || document.querySelector("#table .fold")));
         accessible(`${s.id}: table`);
@@ -356,11 +355,11 @@
         for (const k of ["+", "-", "z", " ", " ", "x", "x", "ArrowLeft", "ArrowRight", "p"]) key(k);
         for (const b of document.querySelectorAll("#v2 .zoom button")) b.click();
         const { px } = await picture(s, s.list[0]), there = (await picture(s, "reference")).px;
-        check(`${s.id}: a colour a pixel`, px.length === 4 * s.w * s.h);
-        // Maps do not depend on the width.
+        check(`${s.id}: a colour for each pixel`, px.length === 4 * s.w * s.h);
+        // Maps do not depend on the window's width, so try them at one width.
         if (innerWidth < 800) for (const m of s.list) {
           const map = await errors(s, m), most = map.reduce((a, e) => Math.max(a, e), 0);
-          check(`${s.id}: an error a pixel of ${m}`, map.length === s.w * s.h);
+          check(`${s.id}: an error for each pixel of ${m}`, map.length === s.w * s.h);
           // Rounding moves each of two linear pictures by half a level.
           if (s.encoding !== "srgb" && !s.rows[m].other) check(`${s.id}: the map of ${m} reaches its largest error, ${most} against ${s.rows[m].max}`, Math.abs(most - s.rows[m].max) <= 1.001);
           if (s.encoding !== "srgb" && m === s.list[0]) check(`${s.id}: errors are differences`, map.every((e, i) => e === Math.max(...[0, 1, 2].map(c => Math.abs(px[4 * i + c] - there[4 * i + c])))));
@@ -375,12 +374,12 @@
       await live();
       await visit("methods");
       const most = innerWidth < 1200 ? 6 : 12, articles = IDS.length < 1.2 * most ? IDS.length : most;
-      check("methods: an article a method", document.querySelectorAll(".method").length === articles);
+      check("methods: an article for each method", document.querySelectorAll(".method").length === articles);
       check("methods: formulas are mathematics", document.querySelectorAll("#methodlist math").length >= articles - 1);
       labels("methods");
       accessible("methods");
       document.querySelector("#methodlist .fold")?.click();
-      check("methods: all of them", document.querySelectorAll(".method").length === IDS.length);
+      check("methods: all methods are listed", document.querySelectorAll(".method").length === IDS.length);
     }
     if (STUDY || D.scaling || DOCS.length > 1) {
       await visit("speed");
@@ -424,7 +423,7 @@
     contrasts("keys");
     document.getElementById("keys").close();
     dispatchEvent(new Event("beforeprint"));
-    check("print: the views that show something", [...document.querySelectorAll(".view")].every(s => s.classList.contains("on") === !!FILLED[s.id]));
+    check("print: exactly the views with content are printed", [...document.querySelectorAll(".view")].every(s => s.classList.contains("on") === !!FILLED[s.id]));
     check("print: all chapters have their figures", [...document.querySelectorAll("#course :is(.live, .found)")].every(el => el.querySelector(".chip, .more, .verdicts, .stop") || !figureNamed(el.dataset.figure)));
     dispatchEvent(new Event("afterprint"));
   } catch (e) { failed.push("stopped: " + e.stack); }

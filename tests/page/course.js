@@ -1,10 +1,10 @@
 /* Reads the course as a student does: scrolls, answers, reaches goals and follows links. `check.js` calls it with its tools. */
 async function checkCourse({ check, until, wait, visit, seen, slide, labels, accessible }) {
   const top = el => el.getBoundingClientRect().top;
-  /* What has come to its place at the top, below the bars. */
+  /* True if an element has come to its place at the top, below the bars. */
   const starts = el => top(el) > 0 && top(el) < 200;
   const marked = () => document.querySelector("#course .list [aria-current]")?.hash;
-  /* Frames do not come in a browser without a window, and events of scrolling come with them. */
+  /* Browsers fire scroll events with frames. A browser without a window draws no frames, so fire the events by hand. */
   const scroll = async by => {
     scrollBy(0, by);
     dispatchEvent(new Event("scroll"));
@@ -12,13 +12,13 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
   };
   const onPaper = [...document.styleSheets].flatMap(s => [...s.cssRules]).filter(r => r.media?.mediaText === "print").flatMap(r => [...r.cssRules]);
   const parts = CHAPTERS.map(c => c.dataset.part);
-  check("course: its chapters", parts.join() === "0,1,2,3,4.1,4.2,4.3,4.4,5,teaching");
-  check("course: the list has them all", [...document.querySelectorAll("#course .list a")].map(a => a.hash).join() === parts.map(p => "#course/" + p).join());
+  check("course: it has all chapters in order", parts.join() === "0,1,2,3,4.1,4.2,4.3,4.4,5,teaching");
+  check("course: the list has all chapters", [...document.querySelectorAll("#course .list a")].map(a => a.hash).join() === parts.map(p => "#course/" + p).join());
   await visit("course");
   check("course: it starts at the top", scrollY === 0 && marked() === "#course/0");
   await scroll(0);
-  check("course: what is near is filled", !farAway.has(chapterOf("0")) && farAway.has(chapterOf("4.4")));
-  check("course: what is far away is not filled", !chapterOf("4.4").querySelector("[data-filled]") && chapterOf("4.4").querySelectorAll(".live canvas, .live svg, .live img").length === 0);
+  check("course: a near chapter is filled", !farAway.has(chapterOf("0")) && farAway.has(chapterOf("4.4")));
+  check("course: a far chapter is not filled", !chapterOf("4.4").querySelector("[data-filled]") && chapterOf("4.4").querySelectorAll(".live canvas, .live svg, .live img").length === 0);
   for (const [i, c] of CHAPTERS.entries()) {
     const { part } = c.dataset, where = `course ${part}`;
     await visit("course/" + part);
@@ -39,7 +39,7 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
     for (const a of c.querySelectorAll(".go-stop")) check(`${where}: ${a.hash}`, a.hash.startsWith("#course/stop?") && a.textContent.trim());
     labels(where);
     if (["1", "4.2", "teaching"].includes(part)) {
-      // What other tests look at is put aside.
+      // Hide the parts that other tests check.
       const others = [...document.querySelectorAll("#course :is(.spheres, .stop, .own)")];
       for (const el of others) el.hidden = true;
       accessible(where);
@@ -55,12 +55,12 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
   await teaching();
   if (CAN_DRAW) await goals();
 
-  /* Answers the question of a chapter, rightly or not: a finding decides. */
+  /* Answers a chapter's question, once wrong and once right. A finding decides. */
   async function ask(c, where, rightly) {
     const el = c.querySelector(".ask"), measured = c.querySelector(".measured");
     if (!el) return check(`${where}: a question`, ["0", "teaching"].includes(c.dataset.part));
-    check(`${where}: what was measured is folded`, !seen(measured));
-    check(`${where}: but on paper it is not`, onPaper.some(r => r.style.display === "block" && measured.matches(r.selectorText)));
+    check(`${where}: the measurements are folded`, !seen(measured));
+    check(`${where}: on paper the measurements are not folded`, onPaper.some(r => r.style.display === "block" && measured.matches(r.selectorText)));
     const q = questionOf(el.dataset.question), best = q.all.map(x => x.value).indexOf(Math.max(...q.all.map(x => x.value)));
     if (q.kind === "largest") el.querySelectorAll("[data-choice]")[rightly ? best : (best + 1) % q.all.length].click();
     else {
@@ -72,11 +72,11 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
     const said = el.querySelector(".said");
     check(`${where}: the focus stays in the question`, document.activeElement === said);
     check(`${where}: ${rightly ? "right" : "wrong"}: ${said.textContent}`, said.querySelector(rightly ? ".confirms" : ".contradicts"));
-    check(`${where}: the measured value is said`, said.innerHTML.includes(String(findingValue({ ...q.all[best], unit: "" })).trim()) && said.textContent.includes(q.all[best].verdict));
-    check(`${where}: what was measured unfolds`, seen(measured));
+    check(`${where}: the measured value is stated`, said.innerHTML.includes(String(findingValue({ ...q.all[best], unit: "" })).trim()) && said.textContent.includes(q.all[best].verdict));
+    check(`${where}: the measurements unfold`, seen(measured));
   }
 
-  /* Compares the bars of naive Phong with the trace: a root at each pixel that is drawn. */
+  /* Compares the bars of naive Phong with the trace: it takes a root at each drawn pixel. */
   async function costs() {
     if (typeof tracesOf !== "function" || !hasTraces() || !M.flat) return;
     await visit("course/4.1");
@@ -91,7 +91,7 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
     await until("course: the bars grow", () => !el.querySelector("[data-width]"));
   }
 
-  /* Scrolls by hand: list and address follow, and Back leads to where one was. */
+  /* Scrolls by hand. The list and the address follow, and Back returns to the place before. */
   async function scrolling() {
     const [first, then] = [chapterOf("3"), chapterOf("4.3")];
     const entries = history.length;
@@ -99,23 +99,23 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
     for (const c of [then, first]) {
       await scroll(top(c) + c.offsetHeight / 2 - 200);
       await until(`course: the list follows to ${c.dataset.part}`, () => marked() === "#course/" + c.dataset.part);
-      await until("course: and the address", () => location.hash === "#course/" + c.dataset.part);
+      await until("course: the address follows, too", () => location.hash === "#course/" + c.dataset.part);
     }
-    check("course: without entries of the history", history.length === entries);
+    check("course: scrolling adds no entries to the history", history.length === entries);
     const link = first.querySelector(".go-stop"), y = top(link);
     link.click();
     await until("course: a link leads into the figure", () => location.hash.startsWith("#course/stop?") && (starts(chapterOf("0").querySelector(".live"))));
     history.back();
     const isBack = () => Math.abs(top(link) - y) < 4 && location.hash === "#course/3" && !document.querySelector(".go-back");
-    await until(`course: Back leads to where one was, from ${y} to ${top(link)}`, isBack);
+    await until(`course: Back returns to the place before, from ${y} to ${top(link)}`, isBack);
     link.click();
     await until("course: a way back stands above the figure", () => starts(document.querySelector(".go-back") ?? document.body));
-    check("course: it names the chapter", document.querySelector(".go-back").textContent.includes("3 Gouraud shading"));
+    check("course: the way back names the chapter", document.querySelector(".go-back").textContent.includes("3 Gouraud shading"));
     document.querySelector(".go-back").click();
-    await until(`course: it leads to where one was, from ${y} to ${top(link)}`, isBack);
+    await until(`course: the way back returns to the place before, from ${y} to ${top(link)}`, isBack);
   }
 
-  /* Opens what teachers are told to open. */
+  /* Opens every address that the page for teachers names. */
   async function teaching() {
     await visit("course/teaching");
     const hashes = [...chapterOf("teaching").querySelectorAll("a:has(code)")].map(a => a.hash);
@@ -133,7 +133,7 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
     }
   }
 
-  /* Moves handles until the goals are reached. */
+  /* Moves handles until the goals of the chapters are reached. */
   async function goals() {
     const newton = chapterOf("4.2"), chip = kind => newton.querySelector(".verdicts .chip")?.matches("." + kind);
     await visit("course/4.2?angle=95");
@@ -146,7 +146,7 @@ async function checkCourse({ check, until, wait, visit, seen, slide, labels, acc
     await until(`course 4.2: the goal is reached: ${state(newton)}`, () => done(newton) && newton.querySelector(".toy .state .confirms") && seen(newton.querySelector(".learnt")));
     dispatchEvent(new Event("resize"));
     await wait(200);
-    check("course 4.2: what was moved stays", newton.querySelector(".live [data-handle]") === angle);
+    check("course 4.2: a moved handle stays", newton.querySelector(".live [data-handle]") === angle);
     location.hash = "course/4.2";
     await until("course 4.2: its link restores it", () => newton.querySelector(".live [data-handle]").value === "60");
     const square = chapterOf("3");

@@ -1,5 +1,5 @@
-/* Draws scenes in the page, from two sides and by every method, and writes what `tests/page/drawn` compares: the scene file of each
-   view, and of each picture the method and the hash of its colours. */
+/* Draws scenes in the page, from two sides and by every method. For `tests/page/drawn` it writes the scene file of each view, and for
+   each picture the method and the hash of its colours. */
 (async () => {
   const lines = [];
   try {

@@ -1,4 +1,4 @@
-/* Turns a scene of the page for 180 frames, two pictures and their errors, and tells the console what a frame took. */
+/* Turns a scene of the page for 180 frames, each of two pictures and their errors, and prints to the console how long a frame took. */
 (async () => {
   const wait = ms => new Promise(r => setTimeout(r, ms));
   await wait(1500);
@@ -25,7 +25,7 @@
   const [frames, before] = [v1.turn, v1.hand.rounds];
   await wait(1000);
   console.log(`FRAMES at rest: ${v1.turn - frames} pictures and ${v1.hand.rounds - before} rounds in a second`, rounds);
-  // A step of the figure that can be stopped, with the layout that it asks for.
+  // Time a step of the figure that can be stopped, including the layout.
   if (FIGURES.some(isTraced)) {
     location.hash = "lectures/stop";
     while (!stopFigures.get("lectures")?.width) await wait(50);

@@ -1,9 +1,9 @@
-/* Checks of a page of pairs, behind its own script: opens each pair in each mode, and looks at what is drawn. */
+/* Checks a page of pairs. It runs after the page's own script, opens each pair in each mode, and checks the drawn pictures. */
 (async () => {
 	const problems = [];
 	const check = (holds, text) => holds || problems.push(text);
 	const soon = ms => new Promise(done => setTimeout(done, ms));
-	/* The clock of the page runs ahead of the threads that unpack pictures: each turn takes real time, too. */
+	/* Spends real time, because the page's virtual clock runs ahead of the threads that unpack pictures. */
 	const spin = () => {
 		let x = 1;
 		for (let i = 0; i < 2e6; i++) x = (x * 48271) % 2147483647;
@@ -49,7 +49,7 @@
 			drawn++;
 		}
 		check(seenIn.f !== seenIn[" "], `${card.id}: both sides look alike`);
-		check(seenIn.e !== seenIn.d, `${card.id}: the map is a picture`);
+		check(seenIn.e !== seenIn.d, `${card.id}: the map equals a picture`);
 		press("Escape");
 		check(!$(".viewer", card), `${card.id} is not closed`);
 	}

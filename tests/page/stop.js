@@ -1,5 +1,5 @@
-/* Checks of the figure that can be stopped, behind the page's own script, as `tests/page/run` opens it in a frame: every step of every
-   method, numbers against the trace, questions, corners, keys, addresses. Tells the page around it the result. */
+/* Checks the figure that can be stopped: every step of every method, its numbers against the trace, questions, corners, keys and
+   addresses. It runs after the page's own script, in a frame that `tests/page/run` opens, and reports to the page around the frame. */
 (async () => {
   const failed = [], wait = ms => new Promise(r => setTimeout(r, ms));
   addEventListener("error", e => failed.push("error: " + e.message));
@@ -13,7 +13,7 @@
   const query = () => Object.fromEntries(new URLSearchParams(location.hash.split("?")[1]));
   const $in = (selector, root = figure().root) => root.querySelector(selector);
 
-  /* All numbers that the trace has at a step, and the differences and ratios of two that the step may show. */
+  /* Returns all numbers that the trace has at a step, and the differences and ratios of two of them that the step may show. */
   const allowed = (s, e) => {
     const pool = [1, e.row, e.row + .5];
     const add = v => { if (typeof v === "number") pool.push(v); else if (v && typeof v === "object") Object.values(v).forEach(add); };
@@ -51,7 +51,7 @@
     const pool = allowed(s, e);
     for (const v of s.root.querySelectorAll(".s-eq .s-v")) {
       const text = v.innerHTML.replace(/<br>/g, " ").replace(/<[^>]*>/g, "");
-      for (const { all, value, within } of numbers(text)) check(`${s.variant}, step ${e.i}, ${e.k}: ${all} is no number of the trace: ${text}`, pool.some(p => Math.abs(p - value) <= within + 1e-9));
+      for (const { all, value, within } of numbers(text)) check(`${s.variant}, step ${e.i}, ${e.k}: ${all} is not a number of the trace: ${text}`, pool.some(p => Math.abs(p - value) <= within + 1e-9));
     }
   };
 
@@ -64,7 +64,7 @@
         s.go(i);
         const e = s.now, odd = /NaN|undefined|null|Infinity|\[object/.exec(s.root.innerHTML);
         check(`${v}, step ${i}: ${odd?.[0]}: ${odd && s.root.innerHTML.slice(odd.index - 60, odd.index + 30)}`, !odd);
-        check(`${v}, step ${i}: it is said`, $in(".s-say").textContent.length > 20);
+        check(`${v}, step ${i}: the step is described`, $in(".s-say").textContent.length > 20);
         kinds.add(e.k);
         checkNumbers(s, e);
       }
@@ -77,7 +77,7 @@
     }
   };
 
-  /* Each question answered right and wrong. */
+  /* Answers each question right and wrong. */
   const questions = async s => {
     s.chooseMethod("gouraud");
     for (const isRight of [true, false]) {
@@ -105,10 +105,10 @@
           check("ask=next: the strip follows", $in(".s-guess"));
         }
         box.querySelector("[data-do=check]").click();
-        check(`ask=${ask}: ${isRight ? "right" : "wrong"} is called so: ${box.textContent}`, !!box.querySelector(".s-verdict .good") === isRight && !!box.querySelector(".s-verdict .bad") === !isRight);
+        check(`ask=${ask}: ${isRight ? "right" : "wrong"} is answered as such: ${box.textContent}`, !!box.querySelector(".s-verdict .good") === isRight && !!box.querySelector(".s-verdict .bad") === !isRight);
         check(`ask=${ask}: the focus goes on`, document.activeElement.dataset.do === "on");
-        check(`ask=${ask}: its mark`, $in(`[data-ask=${ask}]`).textContent === (isRight ? "✓" : "✗"));
-        check(`ask=${ask}: its verdict is told`, $in(".s-say").textContent.includes(isRight ? "Right" : "Not quite"));
+        check(`ask=${ask}: the list shows its mark`, $in(`[data-ask=${ask}]`).textContent === (isRight ? "✓" : "✗"));
+        check(`ask=${ask}: its verdict is announced`, $in(".s-say").textContent.includes(isRight ? "Right" : "Not quite"));
         const { at } = s;
         document.activeElement.click();
         check(`ask=${ask}: go on`, s.at === at + 1);
@@ -118,10 +118,10 @@
     s.answers = {};
     await visit("lectures/stop?ask=shared&n=shown");
     $in("[data-do=show]").click();
-    check("ask: what is shown is no failure", !$in(".s-ask .bad, .s-ask .s-wrong") && $in("[data-ask=shared]").textContent === "·");
+    check("ask: showing an answer does not count as a failure", !$in(".s-ask .bad, .s-ask .s-wrong") && $in("[data-ask=shared]").textContent === "·");
   };
 
-  /* Corners by key and by pointer: the traces follow, also those of the other methods. */
+  /* Moves corners by key and by pointer. The traces follow, also those of the other methods. */
   const corners = async s => {
     await visit("lectures/stop?method=fast-phong&steps=1&line=6&x=9");
     if (!s.canMove) return check("no WebAssembly: the page says so", $in(".s-hint").textContent.includes("cannot"));
@@ -129,9 +129,9 @@
     hand.focus();
     key("ArrowRight", hand);
     await until("a corner is moved by a key", () => s.corners[2][0] === x + .125);
-    check("it keeps the focus", document.activeElement === hand);
+    check("a moved corner keeps the focus", document.activeElement === hand);
     await until("all methods are traced again", () => s.variants.every(v => s.traces[v] && s.traces[v] !== s.stored[v]));
-    check("the place is kept", s.now.row === 6 && s.now.p?.x === 9);
+    check("moving a corner keeps the step", s.now.row === 6 && s.now.p?.x === 9);
     checkNumbers(s, s.now);
     const box = hand.querySelector(".s-dot").getBoundingClientRect();
     const fire = (type, dx, dy) => hand.dispatchEvent(new PointerEvent(type, { pointerId: 1, clientX: box.x + 4.5 + dx, clientY: box.y + 4.5 + dy, bubbles: true, cancelable: true }));
@@ -176,9 +176,9 @@
     $in("[data-do=play]").click();
     const said = $in(".s-say").textContent;
     await until("it plays", () => s.at > 3);
-    check("nobody is told each step meanwhile", $in(".s-say").textContent === said);
+    check("steps are not announced while it plays", $in(".s-say").textContent === said);
     await until("and stops at a question", () => !s.timer);
-    check("which waits", s.now.k === "ask");
+    check("playing stops at a question", s.now.k === "ask");
     $in("[data-do=line-forth]").focus();
     key("End", document.activeElement);
     check("Next line keeps the focus at the end", document.activeElement.ariaDisabled === "true");
@@ -201,7 +201,7 @@
       await visit("lectures/stop?" + hash);
       check(`#lectures/stop?${hash} leads to ${s.variant}, ${s.now.k} of line ${s.now.row}`, is(s.now));
       await wait(300);
-      check(`${hash}: is put right: ${location.hash}`, !location.hash.includes("nosuch"));
+      check(`${hash}: the address is corrected: ${location.hash}`, !location.hash.includes("nosuch"));
       const [kept, variant] = [s.now, s.variant];
       s.address = "";
       s.follow(new URLSearchParams(location.hash.split("?")[1]));
@@ -214,7 +214,7 @@
     await wait(300);
     check("a new size of the window keeps the step", s.now === x && s.root.isConnected);
     await visit("lectures/stop?method=gouraud&bare");
-    check("bare: the figure alone", s.isBare && !document.querySelector(".top").checkVisibility({ visibilityProperty: true }) && $in(".s-stage").checkVisibility({ visibilityProperty: true }));
+    check("bare: only the figure is shown", s.isBare && !document.querySelector(".top").checkVisibility({ visibilityProperty: true }) && $in(".s-stage").checkVisibility({ visibilityProperty: true }));
     check("bare: it fits", s.root.scrollWidth <= s.root.clientWidth + 1);
     check("bare: Play is on the screen", $in(".s-keys").getBoundingClientRect().bottom <= innerHeight);
     key("Escape");
@@ -224,10 +224,10 @@
     check("bare: another figure shows the page", document.querySelector(".top").checkVisibility({ visibilityProperty: true }));
     const { now } = s;
     await visit("lectures/stop");
-    check("the figure is found as it was left", s.now === now && s.root.isConnected && !s.isBare);
+    check("the figure is found unchanged after a visit elsewhere", s.now === now && s.root.isConnected && !s.isBare);
   };
 
-  /* Names, sizes, contrast, and terms that light up together. */
+  /* Checks names, sizes and contrast, and that equal terms light up together. */
   const looks = async s => {
     const boxes = [...s.root.querySelectorAll("button, input, [tabindex]")].filter(el => el.checkVisibility());
     for (const el of boxes) check(`a control without a name: ${el.outerHTML.slice(0, 90)}`, el.ariaLabel || el.textContent.trim() || el.title);
@@ -243,7 +243,7 @@
     const lit = [...s.root.querySelectorAll("[data-term=I]")].filter(el => getComputedStyle(el).backgroundColor !== "rgba(0, 0, 0, 0)" || el.ownerSVGElement);
     check("a term lights up in the card, too", lit.some(el => el.closest(".s-eq")));
     document.body.dispatchEvent(new PointerEvent("pointerover", { bubbles: true }));
-    check("and goes out", !document.querySelector("[data-lit]"));
+    check("the term goes out again", !document.querySelector("[data-lit]"));
     const text = document.createElement("p");
     text.textContent = "So I_next = I_current + ΔI, d/D, in and I_p k_d; don’t: N·N, N_vertex, J₁, t₀, sin tφ.";
     markTerms(text);

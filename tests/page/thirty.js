@@ -1,8 +1,8 @@
-/* Adds made-up methods to a page's data until there are 30, so that charts, lists and keys are tried with many. */
+/* Adds made-up methods to a page's data until there are 30, to try charts, lists and keys with many methods. */
 {
   const element = document.getElementById("fastphong-data"), data = JSON.parse(element.textContent);
   const families = ["alpha", "bishop", "cubic", "delta", "eigen", "fourier", "hermite", "weimer"], sources = ["gouraud", "fast-phong", "duff-phong", "slerp-phong"];
-  // Multiples of the golden ratio: scattered, and the same on every run.
+  // Multiples of the golden ratio are scattered, but equal in every run.
   const chance = n => (n * 0.6180339887) % 1;
   const added = Array.from({ length: Math.max(0, 30 - data.methods.length) }, (_, n) => ({ name: `${families[n % 8]}-phong-${n}`, source: sources[n % 4], factor: 0.3 + 2.5 * chance(n + 1) }));
   const copy = (list, key, { name, source }) => {

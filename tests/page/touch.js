@@ -1,5 +1,5 @@
-/* Drives a page by touch and reads its accessibility tree, through the DevTools protocol. Opened by `tests/page/run` in the browser
-   that it drives, with the address of that and of the page behind `#`; the result is a line on the console. */
+/* Drives a page by touch and reads its accessibility tree, through the DevTools protocol. `tests/page/run` opens this script in the
+   same browser, with the addresses of the browser and of the page behind `#`. The result is a line on the console. */
 (async () => {
   const [devtools, page] = location.hash.slice(1).split(",").map(decodeURIComponent), socket = new WebSocket(devtools), waiting = new Map();
   const failed = [];
@@ -90,7 +90,7 @@
       await until("one finger drags a corner up", `stopFigures.get('lectures').corners[2][1] < ${corner} - 2`);
       check("and the page stays", await run("scrollY") === from);
     }
-    // The accessibility tree, as a screen reader gets it.
+    // Read the accessibility tree as a screen reader does.
     for (const view of ["overview", "scenes", "methods", "speed", "lectures", "measured"]) {
       await run(`location.hash = "${view}"`);
       await wait(400);

@@ -1,5 +1,5 @@
-//! Both doors to a picture: a scene file, which is read and checked as the program reads it, and a scene whose fields a program sets.
-//! They refuse and draw the same scenes.
+//! The two doors to a picture: a scene file, which the program reads and checks, and a scene whose
+//! fields a caller sets. Both must refuse and draw the same scenes.
 
 use super::scene;
 use super::wild::{Change, changed, changes};
@@ -17,21 +17,22 @@ use proptest::prelude::*;
 use std::fmt::Write;
 use std::path::Path;
 
-/// What the two doors did with a scene.
+/// The result of the two doors for a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// Both refuse it.
     Refused,
     /// Both draw it.
     Drawn,
-    /// Both draw it from the same unit vectors: the pictures are equal to the bit.
+    /// Both draw it from equal unit vectors, so their pictures are equal to the bit.
     Equal,
 }
 
-/// A scene that a program makes: a world, changes of some of its numbers, and a length for each direction.
+/// A scene that a caller makes: a world, changes of some of its numbers, and a length for each
+/// direction.
 pub type Made = (World, Vec<Change>, Vec<f64>);
 
-/// Returns worlds whose directions have any length, some with numbers that nobody should give.
+/// Returns worlds whose directions have any length. Some have numbers that no caller should set.
 pub fn made() -> BoxedStrategy<Made> {
     let length = prop_oneof![
         3 => Just(1.0),
@@ -50,7 +51,7 @@ pub fn made() -> BoxedStrategy<Made> {
 /// Draws a scene through both doors.
 ///
 /// # Errors
-/// How they differ.
+/// The difference between the two, in words.
 pub fn check(scene: Scene, numbers: &[Change], lengths: &[f64]) -> Result<Outcome, String> {
     let mut scene = changed(scene, numbers);
     stretch(&mut scene, lengths);
@@ -66,7 +67,8 @@ pub fn check(scene: Scene, numbers: &[Change], lengths: &[f64]) -> Result<Outcom
         (Ok(_), Err(error)) => Err(format!("only the file is refused: {error}\n{text}")),
         (Ok(ours), Ok((read, theirs))) => {
             let is_same = has_same_directions(&scene, &read);
-            // Where the eye is as near to its target as coordinates are rounded, the last bit of a direction turns the picture.
+            // If the eye is so near to its target that rounding of coordinates matters, the last
+            // bit of a direction turns the picture.
             let camera = &scene.camera;
             let is_coarse = (camera.eye - camera.target).length() < 1e-9 * camera.eye.length();
             if is_coarse && !is_same {
@@ -92,8 +94,8 @@ fn stretch(scene: &mut Scene, lengths: &[f64]) {
     }
 }
 
-/// True if both doors have the same unit vectors: the library leaves those as they are that are unit vectors but for rounding, and
-/// reading rounds these once more.
+/// True if both doors have equal unit vectors. The library does not change vectors whose length is
+/// 1 up to rounding, but reading a file rounds them once more.
 fn has_same_directions(scene: &Scene, read: &Scene) -> bool {
     let directions = |scene: &Scene| {
         let lights = scene.lights.iter().filter_map(|light| match light.place {
@@ -106,7 +108,7 @@ fn has_same_directions(scene: &Scene, read: &Scene) -> bool {
     pairs.all(|(ours, theirs)| ours == theirs || (ours.length() - 1.0).abs() > 1e-6)
 }
 
-/// Compares pictures of the same scene by two methods, one lit at vertices.
+/// Compares the two pictures of a scene by two methods, one of which computes light at vertices.
 fn compare(ours: &Frame, theirs: &Frame, is_same: bool) -> Result<Outcome, String> {
     for method in ["gouraud", "naive-phong"] {
         let variant = Variant::parse(method).expect("a method");
@@ -118,7 +120,8 @@ fn compare(ours: &Frame, theirs: &Frame, is_same: bool) -> Result<Outcome, Strin
         if is_same && apart(0.0) > 0 {
             return Err(format!("{method}: {} pixels differ", apart(0.0)));
         }
-        // Directions that differ in their last bits move edges and ends of highlights over the centres of few pixels.
+        // Directions that differ in their last bits move edges, and the borders of highlights,
+        // across the centres of a few pixels.
         let (pixels, found) = (ours.pixels().len(), apart(1.0 / 255.0));
         if found > 8 + pixels / 50 {
             return Err(format!("{method}: {found} of {pixels} pixels differ"));
@@ -140,7 +143,7 @@ fn count_apart(a: &LinearPicture, b: &LinearPicture, level: f32) -> usize {
     pairs.filter(differ).count()
 }
 
-/// Reads a scene as the program does. Its meshes are those of `scene`, under their numbers.
+/// Reads a scene as the program does. Each mesh is named by its index in `scene`.
 fn read(text: &str, scene: &Scene) -> Result<Scene, String> {
     let file = SceneFile::parse(text, "made.toml").map_err(|error| error.render(false))?;
     let load = |name: &str, _: &Path| {
@@ -154,7 +157,7 @@ fn read(text: &str, scene: &Scene) -> Result<Scene, String> {
 /// Writes a scene with all its numbers as a scene file.
 fn text(scene: &Scene) -> String {
     let mut text = String::new();
-    // An `f32` is written with the digits of the `f64` that it is.
+    // An `f32` is converted to `f64` and written with all its digits.
     let three = |v: [f32; 3]| format!("{:?}", v.map(f64::from));
     settings(scene, &mut text);
     let _ = write!(
@@ -199,6 +202,7 @@ fn text(scene: &Scene) -> String {
             Falloff::Attenuation(k) => writeln!(text, "attenuation = {:?}", f64::from(k)),
             Falloff::InverseSquare => writeln!(text, "falloff = 'inverse-square'"),
             Falloff::Inverse => writeln!(text, "falloff = 'inverse'"),
+            falloff => unreachable!("{falloff:?} has no word here"),
         };
     }
     for (number, object) in scene.objects.iter().enumerate() {
@@ -211,12 +215,14 @@ fn text(scene: &Scene) -> String {
             NormalSource::Averaged => writeln!(text, "normals = 'averaged'"),
             NormalSource::Given => writeln!(text, "normals = 'given'"),
             NormalSource::Crease(degrees) => writeln!(text, "crease = {degrees:?}"),
+            other => panic!("{other:?} has no text here yet"),
         };
         let weight = match object.normals.weight {
             NormalWeight::Uniform => "uniform",
             NormalWeight::Area => "area",
             NormalWeight::Angle => "angle",
             NormalWeight::Max => "max",
+            other => panic!("{other:?} has no text here yet"),
         };
         let _ = writeln!(text, "normals_weight = '{weight}'");
         if let Some(material) = object.material {
@@ -233,7 +239,7 @@ fn text(scene: &Scene) -> String {
     text
 }
 
-/// Writes the settings that are one of a few words.
+/// Writes the settings whose values are words.
 fn settings(scene: &Scene, text: &mut String) {
     let mut line = |key: &str, value: &str| {
         let _ = writeln!(text, "{key} = '{value}'");
@@ -283,6 +289,7 @@ fn settings(scene: &Scene, text: &mut String) {
                 line("depth", "per-sample");
             }
         }
+        other => unreachable!("{other:?} has no word here"),
     }
     if bits < 32 {
         let _ = writeln!(text, "depth_bits = {bits}");

@@ -1,11 +1,11 @@
-//! Mesh files on their own: neither their winding nor stray bytes change what is seen.
+//! Mesh files drawn on their own: neither winding nor stray bytes change the picture.
 
 use super::mesh::obj;
 use super::{WORLDS, assert_none, setting, try_all};
 use fastphong::mesh::read::{LoadedMesh, ReadError, parse_mesh};
 use fastphong::picture::Picture8;
 use fastphong::scene::file::SceneFile;
-use fastphong::scene::file::value::SceneTable;
+use fastphong::scene::file::SceneTable;
 use fastphong::shading::Variant;
 use proptest::prelude::*;
 use std::cell::Cell;
@@ -20,7 +20,7 @@ struct Sheet {
     heights: Vec<f64>,
     /// True for each quad that is wound the other way.
     reversed: Vec<bool>,
-    /// 1 or -1 for upward or downward normals of its own, else none.
+    /// 1 or -1 if the file has normals that point up or down; `None` if it has no normals.
     normals: Option<i32>,
     view: [f64; 2],
 }
@@ -47,7 +47,7 @@ fn sheets() -> BoxedStrategy<Sheet> {
 }
 
 impl Sheet {
-    /// Writes the sheet as an OBJ file, as it is or with all quads wound upward.
+    /// Writes the sheet as an OBJ file, unchanged or with all quads wound upward.
     fn obj(&self, is_reversed: bool) -> String {
         let (mut text, row) = (String::new(), self.side + 1);
         for k in 0..row * row {
@@ -83,7 +83,7 @@ impl Sheet {
         let resolved = file.resolve(|_, _| Ok((mesh.clone(), Vec::new())));
         let scene = resolved.map_err(|error| error.render(false))?.scene;
         let frame = scene.frame().map_err(|error| error.to_string())?;
-        // Averages would not go over an edge between quads that are wound differently.
+        // An average would stop at an edge between quads that are wound differently.
         let method = self.normals.map_or("flat", |_| "naive-phong");
         let variant = Variant::parse(method).map_err(|error| error.to_string())?;
         variant.render(&frame).map_err(|error| error.to_string())
@@ -104,7 +104,7 @@ fn an_open_mesh_alone_looks_the_same_however_its_polygons_are_wound() {
         let [right, wrong] = [false, true].map(|is_reversed| sheet.draw(&sheet.obj(is_reversed)));
         let (right, wrong) = (right?, wrong?);
         for (p, q) in right.pixels().iter().zip(wrong.pixels()) {
-            // Newell's sum is taken from another corner, so that a colour may round the other way.
+            // Newell's sum starts from another corner, so a colour may round the other way.
             if (0..4).any(|c| p[c].abs_diff(q[c]) > 1) {
                 return Err(format!("{p:?} or {q:?}\n{}", sheet.obj(true)));
             }
@@ -116,7 +116,8 @@ fn an_open_mesh_alone_looks_the_same_however_its_polygons_are_wound() {
     assert!(covered.get() > 100 * worlds as usize, "{}", covered.get());
 }
 
-/// Stray bytes between or around the lines of a file, by a number for each line.
+/// Returns a file with stray bytes between or around its lines. `kinds` selects the bytes for each
+/// line.
 fn with_stray_bytes(obj: &str, kinds: &[u8]) -> String {
     let mut text = String::new();
     for (line, kind) in obj.lines().zip(kinds.iter().cycle()) {

@@ -1,13 +1,16 @@
-//! Random worlds: scenes that nobody thought of, and what must hold in all of them (`properties.rs`).
+//! Random worlds: scenes that nobody thought of, and the properties that must hold in all of them
+//! (`properties.rs`).
 //!
-//! `cargo test --test worlds` tries a few hundred worlds, always the same ones. More are tried by
+//! `cargo test --test worlds` tries a few hundred worlds, always the same ones. This command tries
+//! more:
 //!
 //! ```sh
 //! FASTPHONG_WORLDS=100000 cargo test --release --test worlds -- --nocapture
 //! ```
 //!
-//! and others by `FASTPHONG_WORLDS_SEED=2`. A world in which something does not hold is made as small as it gets and printed
-//! as the files of a scene: make a test of these, whose name says the situation.
+//! and `FASTPHONG_WORLDS_SEED=2` tries others. If a property does not hold in a world, the test
+//! makes the world as small as possible and prints it as the files of a scene. Make a test from
+//! these files, and let its name say the situation.
 
 mod doors;
 mod files;
@@ -30,13 +33,13 @@ use std::cell::{Cell, RefCell};
 use std::fmt::Debug;
 use world::World;
 
-/// The worlds of a test run, unless the environment asks for more.
+/// How many worlds a test run tries, unless the environment asks for more.
 const WORLDS: u32 = 600;
 
-/// The worlds that are drawn from one seed. After a failure the next block goes on.
+/// How many worlds come from one seed. After a failure the test goes on with the next block.
 const BLOCK: u32 = 100;
 
-/// Returns a number of the environment.
+/// Returns a number from an environment variable.
 fn setting(name: &str, default: u32) -> u32 {
     match std::env::var(name) {
         Ok(text) => text
@@ -46,8 +49,8 @@ fn setting(name: &str, default: u32) -> u32 {
     }
 }
 
-/// Tries worlds in blocks, each from a seed of its own. Returns a message for each block that fails: the smallest input found
-/// for which `test` fails, and why.
+/// Tries worlds in blocks, each with its own seed. Returns a message for each block that fails,
+/// with the smallest input found for which `test` fails, and the reason.
 fn try_all<S: Strategy>(
     inputs: &S,
     count: u32,
@@ -105,7 +108,7 @@ fn everything_holds_in_random_worlds() {
     let tally = tally.into_inner();
     println!("{worlds} worlds: {tally:?}");
     assert_none(&failures);
-    // Worlds that are mostly refused or empty would hold whatever the code does.
+    // If most worlds were refused or empty, the properties would hold whatever the code does.
     let worlds = worlds as usize;
     assert!(tally.refused * 5 < worlds, "{tally:?}");
     assert!(tally.seen * 2 > worlds, "{tally:?}");
@@ -113,7 +116,7 @@ fn everything_holds_in_random_worlds() {
     assert!(tally.simple_polygons > worlds, "{tally:?}");
 }
 
-/// Numbers that are not finite, that overflow or vanish end in an error or a picture.
+/// Numbers that are not finite, overflow or vanish must lead to an error or a picture.
 #[test]
 fn no_number_in_a_scene_makes_it_panic() {
     let worlds = setting("FASTPHONG_WORLDS", WORLDS);
@@ -129,7 +132,8 @@ fn no_number_in_a_scene_makes_it_panic() {
     assert!(drawn.get() * 5 > worlds, "{} are drawn", drawn.get());
 }
 
-/// What a scene file or a flag may not say, no program can set, and what both say is drawn alike.
+/// A caller cannot set anything that a scene file or a flag may not say, and both draw equal scenes
+/// alike.
 #[test]
 fn both_doors_refuse_and_draw_the_same_scenes() {
     let worlds = setting("FASTPHONG_WORLDS", WORLDS);

@@ -9,7 +9,8 @@ use std::fmt::Write;
 /// The most cells along one direction of a built-in shape.
 const MOST_CELLS: f64 = 12.0;
 
-/// Returns names of built-in shapes with some of their parameters set, `builtin:knot?p=3&radius=0.2`.
+/// Returns names of built-in shapes with some of their parameters set,
+/// `builtin:knot?p=3&radius=0.2`.
 pub fn builtin_name() -> BoxedStrategy<String> {
     let most = BUILTINS.iter().map(|shape| shape.parameters.len()).max();
     let settings = prop::collection::vec(prop::option::of(0.0..=1.0), most.unwrap_or(0) + 1);
@@ -29,7 +30,7 @@ pub fn builtin_name() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// Returns the text of a value at `part` of the parameter's range, `None` to leave it out.
+/// Returns the text of a value at `part` of the parameter's range; `None` leaves the parameter out.
 fn parameter_value(parameter: &ShapeParameter, part: Option<f64>) -> Option<String> {
     let ShapeParameter {
         kind,
@@ -38,8 +39,8 @@ fn parameter_value(parameter: &ShapeParameter, part: Option<f64>) -> Option<Stri
         max,
         ..
     } = *parameter;
-    // Numbers of cells are set always, and kept small: a shape of its own size may have thousands of polygons. `polygons`
-    // excludes them.
+    // Cell counts are always set, and to small values, because a default shape may have thousands
+    // of polygons. `polygons` cannot be set with them.
     let is_count = kind == ParameterKind::Integer && max > 100.0 && parameter.name != "seed";
     if parameter.name == POLYGONS || (part.is_none() && !is_count) {
         return None;
@@ -51,7 +52,7 @@ fn parameter_value(parameter: &ShapeParameter, part: Option<f64>) -> Option<Stri
             format!("{}", within(min, min + MOST_CELLS).round())
         }
         ParameterKind::Integer => format!("{}", within(min, max).round()),
-        // Half of the values are near the usual one, which is small in a wide range.
+        // Half of the values are near the default, which lies at the lower end of a wide range.
         ParameterKind::Real if part < 0.5 => {
             format!("{:?}", (4.0 * part * default.max(1.0)).clamp(min, max))
         }
@@ -63,18 +64,18 @@ fn parameter_value(parameter: &ShapeParameter, part: Option<f64>) -> Option<Stri
 /// A polygon of a random mesh.
 #[derive(Clone, Debug)]
 struct Face {
-    /// Positions, modulo their number.
+    /// Indices of positions, modulo their count.
     corners: Vec<u16>,
-    /// Normals, modulo their number; none if the mesh has none.
+    /// Indices of normals, modulo their count. They are not used if the mesh has no normals.
     normal: u16,
-    /// One of [`MATERIALS`], or none.
+    /// An index into [`MATERIALS`], or none.
     material: Option<u8>,
     smoothing: Option<u8>,
-    /// The polygon once more, from this corner on.
+    /// A copy of the polygon that begins with this corner.
     again: Option<(u16, Again)>,
 }
 
-/// How a polygon is there once more.
+/// The way in which a polygon is repeated.
 #[derive(Clone, Copy, Debug)]
 enum Again {
     /// Whole, in the same direction.
@@ -108,7 +109,8 @@ fn face(corners: std::ops::Range<usize>) -> BoxedStrategy<Face> {
         .boxed()
 }
 
-/// Returns positions: anywhere, of any size, on a grid, in a plane, on a line; then scaled and moved as a whole.
+/// Returns positions anywhere, of any size, on a grid, in a plane, or on a line. They are then
+/// scaled and moved as a whole.
 fn positions() -> BoxedStrategy<Vec<[f64; 3]>> {
     let flat = |point: [f64; 3]| [point[0], point[1], 0.5 * point[0] - 0.25 * point[1]];
     let coarse = |point: [f64; 3]| point.map(|c: f64| (2.0 * c).round() / 2.0);
@@ -139,7 +141,8 @@ fn positions() -> BoxedStrategy<Vec<[f64; 3]>> {
         .boxed()
 }
 
-/// Returns OBJ files of polygons that share corners, cross themselves and each other, repeat, or have no area.
+/// Returns OBJ files of polygons that share corners, cross themselves and each other, repeat, or
+/// have no area.
 fn soup() -> BoxedStrategy<String> {
     let faces = prop_oneof![
         4 => prop::collection::vec(face(3..6), 1..24),
@@ -158,7 +161,8 @@ fn soup() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// Returns OBJ files of one polygon that does not cross itself, around a point: a star of any radii.
+/// Returns OBJ files of one polygon that does not cross itself: a star around a point, with any
+/// radii.
 fn star() -> BoxedStrategy<String> {
     let radii = prop::collection::vec(prop_oneof![Just(1.0), 0.05..2.0], 3..30);
     (radii, triple(number()))
@@ -196,9 +200,9 @@ fn write_obj(
     if faces.iter().any(|face| face.material.is_some()) {
         text.push_str("mtllib world.mtl\n");
     }
-    for (number, [x, y, z]) in positions.iter().enumerate() {
+    for (index, [x, y, z]) in positions.iter().enumerate() {
         let _ = write!(text, "v {x:?} {y:?} {z:?}");
-        if let Some([r, g, b]) = colours.and_then(|colours| colours.get(number)) {
+        if let Some([r, g, b]) = colours.and_then(|colours| colours.get(index)) {
             let _ = write!(text, " {r:?} {g:?} {b:?}");
         }
         text.push('\n');
@@ -253,7 +257,7 @@ fn write_face(
     text.push('\n');
 }
 
-/// Returns libraries of all materials that a mesh may name.
+/// Returns material libraries that define all materials a mesh may name.
 pub fn mtl() -> BoxedStrategy<String> {
     let material = || (colour(), colour(), colour(), super::scene::shininess());
     [material(), material(), material()]
@@ -269,7 +273,7 @@ pub fn mtl() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// Returns the materials of a library that a mesh uses.
+/// Returns the materials of a library that the mesh uses.
 pub fn used_materials(library: &str, mesh: &str) -> String {
     let used = library.split("newmtl ").filter(|part| {
         let name = part.lines().next().unwrap_or_default();

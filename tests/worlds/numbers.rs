@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 
-/// Returns numbers around 1: halves, of which many are equal, and any between -2 and 2.
+/// Returns numbers around 1: multiples of a half, many of which are equal, and any numbers between
+/// -2 and 2.
 pub fn number() -> BoxedStrategy<f64> {
     prop_oneof![
         2 => (-4..=4).prop_map(|halves| f64::from(halves) / 2.0),
@@ -11,7 +12,7 @@ pub fn number() -> BoxedStrategy<f64> {
     .boxed()
 }
 
-/// Returns numbers over 0, each power of ten between two exponents as likely as any other.
+/// Returns numbers over 0. Each power of ten between the two exponents is equally likely.
 pub fn size(exponents: std::ops::Range<f64>) -> BoxedStrategy<f64> {
     exponents
         .prop_map(|exponent| 10.0f64.powf(exponent))
@@ -32,7 +33,7 @@ pub fn triple(number: BoxedStrategy<f64>) -> BoxedStrategy<[f64; 3]> {
     [number.clone(), number.clone(), number].boxed()
 }
 
-/// Returns colours and coefficients: grey or not, mostly of at most 1.
+/// Returns colours and coefficients. Some are grey, and most are at most 1.
 pub fn colour() -> BoxedStrategy<[f64; 3]> {
     prop_oneof![
         2 => prop::sample::select(vec![0.0, 0.5, 1.0]).prop_map(|grey| [grey; 3]),

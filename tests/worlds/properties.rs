@@ -1,11 +1,11 @@
-//! What must hold in every world.
+//! The properties that must hold in every world.
 
 use super::renderers::{depth_rounding, distinct, name, renderers};
 use fastphong::frame::{DepthRange, Frame, FrameBuilder, FrameError};
 use fastphong::mesh::Material;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
-use fastphong::raster::trace::TraceActive;
-use fastphong::raster::{self, DrawOptions, Edges, NOTHING, Renderer};
+use fastphong::raster::trace::parts::TraceActive;
+use fastphong::raster::{self, DrawOptions, Edges, NO_POLYGON, Renderer};
 use fastphong::reference::{self, Model, Visibility};
 use fastphong::scene::{Clipping, DepthBuffer, HiddenSurfaces, Lighting, Place, Scene};
 use fastphong::shading::{METHODS, Variant};
@@ -19,13 +19,15 @@ use std::sync::OnceLock;
 pub struct Tally {
     /// Worlds that the program refuses with a message.
     pub refused: usize,
-    /// Worlds of which a polygon is seen.
+    /// Worlds in which a polygon is visible.
     pub seen: usize,
-    /// Pictures by engines and instruction sets that were compared with the span engine's visible polygons.
+    /// Pictures by engines and instruction sets that were compared with the span engine's visible
+    /// polygons.
     pub other_engines: usize,
-    /// Polygons that were drawn by the barycentric renderer too.
+    /// Polygons that the barycentric renderer drew as well.
     pub simple_polygons: usize,
-    /// Pixels of methods that were compared with the reference, under a bound of less than a grey level.
+    /// Pixels of methods that were compared with the reference under a bound of less than a grey
+    /// level.
     pub pixels_in_bound: usize,
     /// Pictures that were drawn on one thread and on three.
     pub threads: usize,
@@ -42,7 +44,7 @@ impl AddAssign for Tally {
     }
 }
 
-/// Checks everything that must hold of a scene.
+/// Checks every property of a scene.
 ///
 /// # Errors
 /// One sentence about the first thing that does not hold.
@@ -58,9 +60,9 @@ pub fn check(scene: &Scene) -> Result<Tally, String> {
     };
     check_coverage(&frame)?;
     tally.simple_polygons = check_simple_polygons(&frame)?;
-    let world = Seen::new(scene, &frame)?;
+    let world = SeenLight::new(scene, &frame)?;
     let truly = &world.visibility.polygons;
-    tally.seen = usize::from(truly.pixels().iter().any(|&p| p != NOTHING));
+    tally.seen = usize::from(truly.pixels().iter().any(|&p| p != NO_POLYGON));
     for renderer in renderers() {
         world.check_visibility(renderer)?;
     }
@@ -77,8 +79,8 @@ pub fn check(scene: &Scene) -> Result<Tally, String> {
     Ok(tally)
 }
 
-/// Copies polygons of `frame`, those whose numbers `is_taken` holds for, such that the colour of a sample tells which of them
-/// is seen.
+/// Copies polygons of `frame`, those whose numbers `is_taken` holds for, such that the colour of a
+/// sample tells which of them is seen.
 fn numbered(
     frame: &Frame,
     hidden_surfaces: HiddenSurfaces,
@@ -119,8 +121,8 @@ fn numbered(
 
 /// Returns the number of the polygon seen at each sample of a frame that [`numbered`] made.
 ///
-/// The row engine has depth from plane equations, but from edges where it walks along runs, for slerp Phong alone:
-/// `walks` says which.
+/// The row engine has depth from plane equations, but from edges where it walks along runs, for
+/// slerp Phong alone: `walks` says which.
 fn numbers(numbered: &Frame, renderer: Renderer, walks: bool) -> Picture<u32> {
     let method = Variant::parse(if walks { "slerp-phong" } else { "flat" });
     let method = method.expect("a method");
@@ -128,12 +130,13 @@ fn numbers(numbered: &Frame, renderer: Renderer, walks: bool) -> Picture<u32> {
         .render_linear_with(numbered, renderer)
         .expect("a method for the frame");
     picture.map(|[red, _, _, alpha]| match alpha {
-        0.0 => NOTHING,
+        0.0 => NO_POLYGON,
         _ => (red * (1 << 24) as f32) as u32 - 1,
     })
 }
 
-/// Returns a message about the first sample in which two pictures differ and for which `counts` holds.
+/// Returns a message about the first sample in which two pictures differ and for which `counts`
+/// holds.
 fn difference<T: Copy + PartialEq + std::fmt::Debug>(
     expected: &Picture<T>,
     actual: &Picture<T>,
@@ -150,15 +153,16 @@ fn difference<T: Copy + PartialEq + std::fmt::Debug>(
     None
 }
 
-/// Every polygon covers the same samples in all engines and in the reference: in the order of drawing the last one is seen.
+/// Every polygon covers the same samples in all engines and in the reference. In draw order, the
+/// last polygon at a sample is visible.
 fn check_coverage(frame: &Frame) -> Result<(), String> {
     if frame.clipping() == Clipping::NdcCube {
-        // A sample's depth decides whether it is drawn, and depth is rounded.
+        // The depth of a sample decides if it is drawn, and depth is rounded.
         return Ok(());
     }
     let ordered = numbered(frame, HiddenSurfaces::DrawOrder, |_| true)?;
     let truth = reference::visibility(&ordered).polygons;
-    let ours = raster::polygon_numbers(&ordered);
+    let ours = raster::polygon_indices(&ordered);
     if let Some(where_) = difference(&truth, &ours, |_, _| true) {
         return Err(format!(
             "reference and span engine cover other pixels: polygon {where_}"
@@ -178,13 +182,14 @@ fn check_coverage(frame: &Frame) -> Result<(), String> {
     Ok(())
 }
 
-/// A trace tells of each edge from its first line to its last, of edges in pairs, and of each pixel once.
+/// A trace has each edge from its first line to its last, edges come in pairs, and each pixel comes
+/// once.
 fn check_trace(frame: &Frame) -> Result<(), String> {
     let naive = Variant::parse("naive-phong").expect("a method");
     let trace = naive
         .trace(frame, None)
         .map_err(|error| error.to_string())?;
-    let numbers = raster::polygon_numbers(frame);
+    let numbers = raster::polygon_indices(frame);
     for line in &trace.lines {
         let at = |what: &str| Err(format!("line {} of the trace: {what}", line.y));
         let y = line.y as i32;
@@ -203,10 +208,10 @@ fn check_trace(frame: &Frame) -> Result<(), String> {
         if polygons.any(|edges| !edges.len().is_multiple_of(2)) {
             return at("a polygon has an odd number of edges");
         }
-        let mut seen = vec![NOTHING; frame.width()];
+        let mut seen = vec![NO_POLYGON; frame.width()];
         for run in &line.runs {
             let pixels = run.x as usize..run.x as usize + run.pixels;
-            if seen[pixels.clone()].iter().any(|&p| p != NOTHING) {
+            if seen[pixels.clone()].iter().any(|&p| p != NO_POLYGON) {
                 return at("a pixel is in two runs");
             }
             seen[pixels].fill(line.spans[run.span].polygon as u32);
@@ -218,7 +223,8 @@ fn check_trace(frame: &Frame) -> Result<(), String> {
     Ok(())
 }
 
-/// Polygons that do not cross themselves cover the same samples when they are cut into triangles. Returns their number.
+/// Polygons that do not cross themselves cover the same samples after they are cut into triangles.
+/// Returns how many there are.
 fn check_simple_polygons(frame: &Frame) -> Result<usize, String> {
     if frame.clipping() == Clipping::NdcCube {
         return Ok(0);
@@ -240,13 +246,13 @@ fn check_simple_polygons(frame: &Frame) -> Result<usize, String> {
     let ordered = numbered(frame, HiddenSurfaces::DrawOrder, is_simple)?;
     let sources: Vec<u32> = ordered.polygons().iter().map(|p| p.source).collect();
     let cut = fastphong::frame::triangulate::triangulated(&ordered);
-    let triangles = raster::barycentric_polygon_numbers(&cut.frame, Edges::TopLeft);
+    let triangles = raster::barycentric_polygon_indices(&cut.frame, Edges::TopLeft);
     let from = |number: u32| match number {
-        NOTHING => NOTHING,
+        NO_POLYGON => NO_POLYGON,
         triangle => sources[cut.origins[triangle as usize] as usize],
     };
-    let whole = raster::polygon_numbers(&ordered).map(|number| match number {
-        NOTHING => NOTHING,
+    let whole = raster::polygon_indices(&ordered).map(|number| match number {
+        NO_POLYGON => NO_POLYGON,
         polygon => sources[polygon as usize],
     });
     match difference(&whole, &triangles.map(from), |_, _| true) {
@@ -257,7 +263,7 @@ fn check_simple_polygons(frame: &Frame) -> Result<usize, String> {
     }
 }
 
-/// True if no two edges of a polygon have a point in common but the corner between neighbours.
+/// True if no two edges of a polygon have a common point, except for the corner between neighbours.
 fn is_surely_simple(places: &[[i64; 2]]) -> bool {
     let side = |[ax, ay]: [i64; 2], [bx, by]: [i64; 2], [x, y]: [i64; 2]| {
         ((bx - ax) * (y - ay) - (by - ay) * (x - ax)).signum()
@@ -275,7 +281,8 @@ fn is_surely_simple(places: &[[i64; 2]]) -> bool {
     (0..n).all(|i| {
         let [a, b] = edge(i);
         let [_, c] = edge(i + 1);
-        // Neighbours share one corner: three different ones, and no way straight back.
+        // Neighbours share one corner. Their three corners must differ, and the path must not go
+        // straight back.
         let goes_on = a != b
             && b != c
             && c != a
@@ -288,27 +295,27 @@ fn is_surely_simple(places: &[[i64; 2]]) -> bool {
     })
 }
 
-/// A frame, and the polygons that are seen of it.
-struct Seen<'a> {
+/// A frame, and the polygons that are visible in it.
+struct SeenLight<'a> {
     scene: &'a Scene,
     frame: &'a Frame,
     numbered: Frame,
     visibility: Visibility,
-    /// Samples whose visible polygon rounding cannot change.
+    /// The samples whose visible polygon rounding cannot change.
     decided: Picture<bool>,
     truths: [OnceLock<LinearPicture>; Model::ALL.len()],
 }
 
-impl<'a> Seen<'a> {
-    fn new(scene: &'a Scene, frame: &'a Frame) -> Result<Seen<'a>, String> {
-        // The painter's order is that of the polygons already.
+impl<'a> SeenLight<'a> {
+    fn new(scene: &'a Scene, frame: &'a Frame) -> Result<SeenLight<'a>, String> {
+        // The polygons are in the painter's order already.
         let hidden_surfaces = match frame.hidden_surfaces() {
             HiddenSurfaces::Painter(_) => HiddenSurfaces::DrawOrder,
             other => other,
         };
         let visibility = reference::visibility(frame);
         let margin = depth_margin(frame);
-        Ok(Seen {
+        Ok(SeenLight {
             scene,
             frame,
             numbered: numbered(frame, hidden_surfaces, |_| true)?,
@@ -318,7 +325,8 @@ impl<'a> Seen<'a> {
         })
     }
 
-    /// Checks that `renderer` sees the reference's polygon at each sample, unless another one is as near but for rounding.
+    /// Checks that `renderer` shows the reference's polygon at each sample, unless another polygon
+    /// is equally near up to rounding.
     fn check_visibility(&self, renderer: Renderer) -> Result<(), String> {
         let is_cube = self.frame.clipping() == Clipping::NdcCube;
         let counts = |x, y| !is_cube && self.decided.get(x, y);
@@ -338,8 +346,8 @@ impl<'a> Seen<'a> {
             .get_or_init(|| reference::shade(self.frame, &self.visibility, model).to_linear())
     }
 
-    /// Checks a method's picture by `renderer` on one thread and on three. Returns the number of pixels that a bound of less
-    /// than a grey level was kept at.
+    /// Checks a method's picture by `renderer` on one thread and on three. Returns how many pixels
+    /// kept a bound of less than a grey level.
     fn check_method(&self, variant: &Variant, renderer: Renderer) -> Result<usize, String> {
         let frame = self.frame;
         let who = || format!("{} by {}", variant.info().name, name(renderer));
@@ -400,13 +408,14 @@ impl<'a> Seen<'a> {
         Ok(count)
     }
 
-    /// Returns the changes of the reference's pixels when the lights turn by a small angle, and by one that is 16 times as large:
-    /// see [`is_jump`].
+    /// Returns the changes of the reference's pixels if the lights turn by a small angle, and by an
+    /// angle 16 times as large: see [`is_jump`].
     fn changes(&self, model: Model) -> [Picture<f64>; 2] {
         [ANGLE, 16.0 * ANGLE].map(|angle| self.change(model, angle))
     }
 
-    /// Returns the largest change of each pixel of the reference when the lights turn by an angle around an axis of the world.
+    /// Returns the largest change of each pixel of the reference when the lights turn by an angle
+    /// around an axis of the world.
     fn change(&self, model: Model, angle: f64) -> Picture<f64> {
         let truth = self.truth(model);
         let mut changes = truth.map(|_| 0.0);
@@ -434,7 +443,8 @@ impl<'a> Seen<'a> {
         changes
     }
 
-    /// Returns the bound at each pixel at all of whose samples `renderer` sees the reference's polygon, from those of polygons.
+    /// Returns the bound at each pixel, from the bounds of polygons. A pixel has a bound only if
+    /// `renderer` shows the reference's polygon at all its samples.
     fn pixel_bounds(
         &self,
         variant: &Variant,
@@ -442,7 +452,7 @@ impl<'a> Seen<'a> {
         bounds: &[f64],
     ) -> Picture<Option<f64>> {
         let frame = self.frame;
-        let seen = variant.polygon_numbers(frame, renderer);
+        let seen = variant.polygon_indices(frame, renderer);
         let n = frame.samples();
         let mut all = Picture::new(frame.picture_width(), frame.picture_height(), Some(0.0));
         for y in 0..frame.height() {
@@ -462,11 +472,11 @@ impl<'a> Seen<'a> {
 /// An angle above all errors of a cosine.
 const ANGLE: f64 = 1e-4;
 
-/// True if the reference jumps by more than `bound` at a pixel: light from behind has no highlight, so that where L·N is 0 but for
-/// rounding the last bit decides, and no bound holds.
+/// True if the reference jumps by more than `bound` at a pixel. Light from behind has no highlight,
+/// so where L·N is 0 up to rounding, the last bit decides and no bound holds.
 ///
-/// There a light that turns by [`ANGLE`] changes the picture as much as one that turns 16 times as far. Where the picture is
-/// smooth the latter changes it about 16 times as much.
+/// At a jump, a light that turns by [`ANGLE`] changes the picture as much as one that turns 16
+/// times as far. Where the picture is smooth, the second one changes it about 16 times as much.
 fn is_jump([near, far]: &[Picture<f64>; 2], (x, y): (usize, usize), bound: f64) -> bool {
     let (near, far) = (near.get(x, y), far.get(x, y));
     near > bound && far < 4.0 * near
@@ -477,7 +487,7 @@ fn is_colour(pixel: [f32; 4]) -> bool {
     pixel.iter().all(|channel| (0.0..=1.0).contains(channel))
 }
 
-/// Returns pools of one thread and of three.
+/// Returns two thread pools, of one thread and of three.
 fn pools() -> &'static [rayon::ThreadPool; 2] {
     static POOLS: OnceLock<[rayon::ThreadPool; 2]> = OnceLock::new();
     POOLS.get_or_init(|| {
@@ -488,12 +498,14 @@ fn pools() -> &'static [rayon::ThreadPool; 2] {
     })
 }
 
-/// Returns by how much two stored depths may differ and still be seen in another order: twice the error of one.
+/// Returns the largest difference of two stored depths that may still be in the wrong order: twice
+/// the error of one depth.
 ///
-/// Rounding is derived at [`depth_rounding`] for depths in 0..=1, two of them; it is in proportion to the largest depth of a
-/// corner. Under perspective −1/w is rounded, and z is `f/(f − n) (1 − n/w)`, which is rounded itself where it is stored as levels.
-/// An orthographic depth that is computed at each sample is that of a distance of up to f, over f − n. In a narrow buffer
-/// each depth may be stored one level away.
+/// [`depth_rounding`] derives the rounding of two depths in 0..=1; it is proportional to the
+/// largest depth of a corner. Under perspective −1/w is rounded, and z is `f/(f − n) (1 − n/w)`,
+/// which is itself rounded if it is stored as levels. An orthographic depth that is computed at
+/// each sample comes from a distance of up to f, divided by f − n. In a narrow buffer each depth
+/// may be stored one level away.
 fn depth_margin(frame: &Frame) -> f64 {
     let HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) = frame.hidden_surfaces() else {
         return 0.0;
@@ -508,7 +520,7 @@ fn depth_margin(frame: &Frame) -> f64 {
     let (near, far) = range.ends();
     let largest = match range {
         DepthRange::Orthographic { .. } => (2.0 + (far / (far - near)).abs()) * largest_z,
-        // From −1/w to z it is multiplied by this.
+        // The factor from −1/w to z.
         DepthRange::Perspective { .. } => {
             let slope = near * (far / (far - near));
             let of_depth = slope * depths().map(f64::abs).fold(0.0, f64::max);
@@ -518,7 +530,8 @@ fn depth_margin(frame: &Frame) -> f64 {
     depth_rounding(frame) * largest + level
 }
 
-/// Draws all that is drawn beside shaded colours, and the method that is chosen: none of it may panic.
+/// Draws every picture other than shaded colours, and the picture of the automatic method. None may
+/// panic.
 fn check_views(frame: &Frame) -> Result<(), String> {
     let views = [
         raster::normals(frame),

@@ -6,10 +6,10 @@ use super::world::World;
 use proptest::prelude::*;
 use std::fmt::Write;
 
-/// The longest sides of a picture.
+/// The largest width and height of a picture.
 const SIDES: [u32; 2] = [64, 48];
 
-/// Keys of a scene file and the values that they take besides being absent.
+/// Keys of a scene file and their possible values. A key may also be absent.
 const CHOICES: &[(&str, &[&str])] = &[
     ("interpolation", &["'perspective'"]),
     ("viewer", &["'local'"]),
@@ -23,7 +23,7 @@ const CHOICES: &[(&str, &[&str])] = &[
     ("two_sided", &["true"]),
 ];
 
-/// Returns exponents: those of the fast path, which are powers of two, and any up to 10⁴.
+/// Returns exponents: powers of two, which have a fast path, and any others up to 10⁴.
 pub fn shininess() -> BoxedStrategy<f64> {
     prop_oneof![
         3 => (0..=7).prop_map(|n| 2.0f64.powi(n)),
@@ -33,20 +33,20 @@ pub fn shininess() -> BoxedStrategy<f64> {
     .boxed()
 }
 
-/// Returns the lines of all settings that are one of a few words.
+/// Returns the lines of all settings whose values are words.
 fn choices() -> BoxedStrategy<String> {
     let each: Vec<_> = CHOICES
         .iter()
         .map(|(_, values)| prop_oneof![2 => Just(0), 1 => 1..=values.len()])
         .collect();
-    // Half of all polygons are seen from behind.
+    // Half of all polygons face away.
     let cull =
         prop_oneof![4 => Just(""), 5 => Just("cull = 'none'\n"), 1 => Just("cull = 'front'\n")];
     (each, prop::bool::weighted(0.1), cull)
         .prop_map(|(numbers, is_cube, cull)| {
             let mut text = String::from(cull);
             for ((key, values), number) in CHOICES.iter().zip(numbers) {
-                // The two exclude each other.
+                // These two settings exclude each other.
                 let is_taken = number > 0 && !(is_cube && *key == "interpolation");
                 if is_taken {
                     let _ = writeln!(text, "{key} = {}", values[number - 1]);
@@ -65,7 +65,7 @@ fn image() -> BoxedStrategy<String> {
     let words = (any::<bool>(), prop::option::weighted(0.3, colour()));
     (1..=SIDES[0], 1..=SIDES[1], samples, words)
         .prop_map(|(width, height, samples, (is_srgb, background))| {
-            // Samples, not pixels, are what takes time.
+            // The time depends on samples, not on pixels.
             let [width, height] = [width, height].map(|side| side.div_ceil(samples));
             let mut text = format!("[image]\nwidth = {width}\nheight = {height}\n");
             if samples > 1 {
@@ -82,7 +82,8 @@ fn image() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// Returns cameras: fitted around the objects, or standing anywhere, inside an object or looking away from it.
+/// Returns cameras. Some are fitted around the objects, others stand anywhere, also inside an
+/// object or looking away from it.
 fn camera() -> BoxedStrategy<String> {
     let projection = prop_oneof![
         2 => (20.0..100.0).prop_map(|fovy| format!("fovy = {fovy:?}\n")),

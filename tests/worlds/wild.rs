@@ -1,4 +1,5 @@
-//! Scenes whose fields hold any number at all: the fields are public, and no file was checked before.
+//! Scenes whose fields hold any number at all. The fields are public, so a caller may set them
+//! without any check.
 
 use super::renderers::distinct;
 use super::scene;
@@ -29,11 +30,11 @@ const WILD: [f64; 16] = [
     16_384.5,
 ];
 
-/// A number that replaces one of a scene's own: which of them, modulo their count, and the new value.
+/// A replacement of one number of a scene: its index, modulo their count, and the new value.
 pub type Change = (u16, f64);
 
 /// Returns worlds and changes of some of their numbers.
-#[allow(dead_code)] // a fuzzer has changes of its own
+#[allow(dead_code)] // a fuzzer makes its own changes
 pub fn changed_worlds() -> BoxedStrategy<(World, Vec<Change>)> {
     (scene::worlds(), changes()).boxed()
 }
@@ -44,7 +45,7 @@ pub fn changes() -> BoxedStrategy<Vec<Change>> {
     prop::collection::vec(change, 1..4).boxed()
 }
 
-/// Calls `visit` with every number of a scene but those of its meshes.
+/// Calls `visit` with every number of a scene except for the numbers of its meshes.
 fn visit(scene: &mut Scene, visit: &mut dyn FnMut(&mut f64)) {
     let camera = &mut scene.camera;
     for vector in [&mut camera.eye, &mut camera.target, &mut camera.up] {
@@ -110,7 +111,8 @@ pub fn changed(mut scene: Scene, changes: &[Change]) -> Scene {
     scene
 }
 
-/// Draws a scene with some of its numbers replaced, if it is not refused: nothing may panic. Returns true if it was drawn.
+/// Draws a scene with some of its numbers replaced, unless it is refused. Nothing may panic.
+/// Returns true if it was drawn.
 pub fn draw(scene: Scene, changes: &[Change]) -> bool {
     let Ok(frame) = changed(scene, changes).frame() else {
         return false;

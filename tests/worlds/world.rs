@@ -3,7 +3,7 @@
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::read::parse_mesh;
 use fastphong::scene::Scene;
-use fastphong::scene::file::SceneFile;
+use fastphong::scene::file::{SceneFile, UnusableMesh};
 use std::fmt;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// A scene file, and the mesh with its materials that the scene file may name.
 ///
-/// `Debug` prints the files. They can be drawn by the program, and stand in a test as they are.
+/// `Debug` prints the files. The program can draw them, and a test can contain them unchanged.
 #[derive(Clone, PartialEq)]
 pub struct World {
     /// `world.toml`.
@@ -26,19 +26,19 @@ impl World {
     /// Returns the scene, read as the program reads files.
     ///
     /// # Errors
-    /// The reader's message: a world may be one that the program refuses.
+    /// The reader's message, as the program may refuse a world.
     pub fn scene(&self) -> Result<Scene, String> {
         let file = SceneFile::parse(&self.scene, "world.toml").map_err(|e| e.render(false))?;
         let load = |name: &str, _: &Path| match name.strip_prefix("builtin:") {
             Some(spec) => builtin(spec)
                 .map(|mesh| (Arc::new(mesh), Vec::new()))
-                .map_err(|error| error.to_string()),
+                .map_err(|error| UnusableMesh::new(error.to_string())),
             None => parse_mesh(name, self.mesh.as_bytes(), |library| match library {
                 "world.mtl" => Ok(self.materials.clone().into_bytes()),
                 _ => Err(ErrorKind::NotFound.into()),
             })
             .map(|loaded| (Arc::new(loaded.mesh), loaded.warnings))
-            .map_err(|error| error.to_string()),
+            .map_err(|error| UnusableMesh::new(error.to_string())),
         };
         let resolved = file.resolve(load).map_err(|error| error.render(false))?;
         Ok(resolved.scene)

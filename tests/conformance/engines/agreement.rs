@@ -8,8 +8,8 @@ use crate::support::floats_on;
 use crate::support::renderers::renderers;
 use fastphong::picture::Encoding;
 
-/// Compares a drawing with the scalar span engine's. Returns the difference in grey levels, and a message if it is over what
-/// rounding explains.
+/// Compares a drawing with the scalar span engine's. Returns the difference in grey levels, and a
+/// message if rounding does not explain it.
 fn compare(drawing: &Drawing) -> (u8, Option<String>) {
     if drawing.is_by_spans() {
         return (0, None);
@@ -22,7 +22,7 @@ fn compare(drawing: &Drawing) -> (u8, Option<String>) {
     } else {
         1.0
     };
-    // Both pictures are within their bounds of one closed form.
+    // Both pictures are within the bound of the same closed form.
     let bound = 2.0 * variant.bound(frame);
     let counts = |x, y| decided.get(x, y);
     let (max, uncovered) = largest_difference(
@@ -48,8 +48,8 @@ fn compare(drawing: &Drawing) -> (u8, Option<String>) {
     (levels, message)
 }
 
-/// Engines draw the same picture for every kind of frame, also where one draws in place of another. Pixels where rounding
-/// decides visibility are left out.
+/// Engines draw the same picture for every kind of frame, even where one stands in for another.
+/// Pixels where rounding decides visibility are left out.
 #[test]
 fn engines_agree_on_every_kind_of_frame() {
     for (kind, frame) in kinds(117, 83) {
@@ -65,8 +65,8 @@ fn engines_agree_on_every_kind_of_frame() {
     }
 }
 
-/// No engine's picture is more than one level from the scalar span engine's, on every scene at a
-/// third of its size.
+/// On every scene at a third of its size, no engine's picture is more than one level from the
+/// scalar span engine's.
 #[test]
 fn engines_agree_on_every_scene() {
     assert_none(for_each_drawing(cases(Some((213, 160))), |drawing| {

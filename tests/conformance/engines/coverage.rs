@@ -1,4 +1,4 @@
-//! All engines cover the same pixels as the scalar span engine, bit for bit.
+//! All engines cover the same pixels as the scalar span engine, to the bit.
 
 use crate::support::cases::cases;
 use crate::support::differences::covered;
@@ -10,7 +10,7 @@ use fastphong::scene::{HiddenSurfaces, Lighting};
 use fastphong::shading::Variant;
 use glam::DVec3;
 
-/// Heights around those of bands: 4, 8, 16 and 32 scanlines.
+/// Picture heights at and beside the heights of bands: 4, 8, 16 and 32 scanlines.
 const HEIGHTS: [u32; 16] = [1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 48, 65];
 
 /// Returns a triangle along a line, a few sub-pixels wide.
@@ -34,8 +34,8 @@ fn sliver(random: &mut Random, width: i32, height: i32) -> Vec<Corner> {
         .to_vec()
 }
 
-/// Returns a triangle with corners far outside the picture. It covers all of it, a part, or
-/// nothing.
+/// Returns a triangle with corners far outside the picture. It covers all of the picture, a part,
+/// or nothing.
 fn far(random: &mut Random) -> Vec<Corner> {
     let reach = [300, 2000, 16_000][random.below(3) as usize];
     let mut corner = || {
@@ -51,7 +51,7 @@ fn far(random: &mut Random) -> Vec<Corner> {
     vec![corner(), corner(), corner()]
 }
 
-/// Returns polygons of all kinds: small triangles, slivers, triangles that reach far out,
+/// Returns polygons of all kinds: small triangles, slivers, triangles that reach far out, and
 /// self-intersecting polygons.
 fn soup(random: &mut Random, width: i32, height: i32) -> Vec<Vec<Corner>> {
     let count = 1 + random.below(90);
@@ -69,7 +69,7 @@ fn soup(random: &mut Random, width: i32, height: i32) -> Vec<Vec<Corner>> {
 }
 
 /// Builds a frame whose polygons have different colours, so that the picture identifies the visible
-/// one. This is the last one, because there is no depth test.
+/// polygon at each pixel. That is the last one, because there is no depth test.
 fn numbered(width: u32, height: u32, polygons: &[Vec<Corner>]) -> Frame {
     let mut builder = FrameBuilder::new(width, height);
     builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
@@ -106,9 +106,9 @@ fn variant(name: &str) -> Variant {
     Variant::parse(name).expect("a method")
 }
 
-/// Engines see the same polygon at every pixel of random soups. Widths of 1 to 40 pixels are mostly
-/// not whole blocks, heights are around those of bands. Flat shading uses plane equations of
-/// triangles, slerp follows their edges.
+/// Engines see the same polygon at every pixel of random soups. Most widths of 1 to 40 pixels are
+/// not whole blocks, and heights are at or beside those of bands. Flat shading uses plane equations
+/// of triangles; slerp follows their edges.
 #[test]
 fn random_polygons_are_covered_as_in_the_lecture() {
     let mut random = Random::new(29);
@@ -158,8 +158,8 @@ fn random_polygons_are_covered_as_in_the_lecture() {
     }
 }
 
-/// Shipped scenes are covered alike on one, two and three threads. The width is not a whole number
-/// of blocks.
+/// Shipped scenes have the same coverage on one, two and three threads. The width is not a multiple
+/// of a block's.
 #[test]
 fn shipped_scenes_are_covered_as_in_the_lecture() {
     for case in cases(Some((157, 115))) {

@@ -1,4 +1,4 @@
-//! Frames of every kind for which engines have a path of their own.
+//! Frames of every kind for which engines have a separate path.
 
 use fastphong::frame::Frame;
 use fastphong::mesh::Material;
@@ -10,8 +10,8 @@ use fastphong::scene::{
 };
 use glam::{DAffine3, DVec3};
 
-/// Builds a near view of two balls, `width` × `height` pixels. They differ in material, one is of
-/// n-gons, one of triangles, and one is partly behind the other.
+/// Builds a near view of two balls, `width` × `height` pixels. They have different materials, one
+/// is of n-gons and one of triangles, and one is partly behind the other.
 fn scene(width: u32, height: u32) -> Scene {
     let mut scene =
         Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
@@ -34,7 +34,7 @@ fn scene(width: u32, height: u32) -> Scene {
     scene
 }
 
-/// Returns lights from different directions whose total brightness is that of one.
+/// Returns lights from different directions whose total brightness is that of a single light.
 fn lights(count: usize) -> Vec<Light> {
     let light = |i: usize| {
         let angle = 2.399963 * i as f64; // the golden angle
@@ -46,10 +46,7 @@ fn lights(count: usize) -> Vec<Light> {
 
 fn near_light(scene: &mut Scene, falloff: Falloff) {
     let place = scene.camera.eye + DVec3::new(2.0, 1.5, 0.5);
-    scene.lights = vec![Light {
-        falloff,
-        ..Light::positional(place, [0.8, 0.7, 0.6])
-    }];
+    scene.lights = vec![Light::positional(place, [0.8, 0.7, 0.6]).with_falloff(falloff)];
     scene.local_viewer = true;
 }
 
@@ -57,7 +54,7 @@ fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
     HiddenSurfaces::ZBuffer(DepthBuffer { bits, source })
 }
 
-/// A kind of frame: its name and the change of the scene that makes it.
+/// A kind of frame: its name, and the change that makes the scene one.
 type Kind = (&'static str, fn(&mut Scene));
 
 const KINDS: [Kind; 21] = [
@@ -124,8 +121,8 @@ pub fn kinds(width: u32, height: u32) -> impl Iterator<Item = (&'static str, Fra
     })
 }
 
-/// Returns a frame of each kind that has both balls, and those of the first and of the second one alone, as the same camera sees
-/// them.
+/// Returns three frames of each kind, seen by the same camera: with both balls, with only the
+/// first, and with only the second.
 pub fn parts(width: u32, height: u32) -> impl Iterator<Item = (&'static str, Frame, [Frame; 2])> {
     KINDS.into_iter().filter_map(move |(name, change)| {
         let mut both = scene(width, height);

@@ -1,4 +1,4 @@
-//! Drawing into memory of the caller: formats, strides, backgrounds that are kept, and depth buffers.
+//! Drawing into the caller's memory: formats, strides, kept backgrounds, and depth buffers.
 
 use super::frames::{kinds, parts};
 use crate::support::renderers::{depth_rounding, distinct, name, on_threads};
@@ -11,7 +11,8 @@ use fastphong::shading::Variant;
 
 const SIZE: [usize; 2] = [48, 36];
 
-/// Calls `check` with a name, a frame of each kind, a method, and each renderer that draws it in a way of its own.
+/// Calls `check` with a name, a frame of each kind, a method, and each renderer that draws it in a
+/// different way.
 fn each_way(mut check: impl FnMut(&str, &Frame, &Variant, Renderer)) {
     for (kind, frame) in kinds(SIZE[0] as u32, SIZE[1] as u32) {
         for method in ["gouraud", "phong-rsqrt", "fast-phong", "slerp-phong"] {
@@ -35,14 +36,11 @@ fn draw<'p>(
 }
 
 fn kept(renderer: Renderer) -> DrawOptions<'static> {
-    DrawOptions {
-        background: Background::Kept,
-        ..DrawOptions::by(renderer)
-    }
+    DrawOptions::by(renderer).background(Background::Kept)
 }
 
 #[test]
-fn all_formats_hold_the_same_picture_and_leave_what_lies_between_rows() {
+fn all_formats_hold_the_same_picture_and_keep_the_memory_between_rows() {
     const STRIDE: usize = 61;
     each_way(|who, frame, variant, renderer| {
         let [width, height] = [frame.picture_width(), frame.picture_height()];
@@ -82,9 +80,10 @@ fn all_formats_hold_the_same_picture_and_leave_what_lies_between_rows() {
     });
 }
 
-/// A part of a picture holds the picture of its size, and nothing else is written; a part that reaches beyond is refused.
+/// Drawing into a part of a picture draws the picture of its size and writes nothing else. A part
+/// that reaches beyond is refused.
 #[test]
-fn a_part_of_a_picture_is_drawn_alone() {
+fn drawing_into_a_part_writes_only_the_part() {
     const SIZE: [usize; 2] = [70, 50];
     each_way(|who, frame, variant, renderer| {
         let [width, height] = [frame.picture_width(), frame.picture_height()];
@@ -98,7 +97,7 @@ fn a_part_of_a_picture_is_drawn_alone() {
             );
             let part = PictureMut::from(&mut picture).part([left, top], [width, height]);
             draw(variant, frame, part, DrawOptions::by(renderer));
-            // A part of a part, in rows that are 80 pixels apart.
+            // Draw into a part of a part, in rows that are 80 pixels apart.
             let part = PictureMut::argb(&mut argb, SIZE[0], SIZE[1]).stride(80);
             let part = part
                 .part([left, 0], [width, SIZE[1]])
@@ -138,7 +137,7 @@ fn a_part_of_a_picture_is_drawn_alone() {
 }
 
 #[test]
-fn a_kept_background_shows_where_nothing_is() {
+fn a_kept_background_shows_where_no_polygon_is() {
     each_way(|who, frame, variant, renderer| {
         if frame.samples() > 1 {
             return;
@@ -158,9 +157,10 @@ fn a_kept_background_shows_where_nothing_is() {
     });
 }
 
-/// Over a picture that is the frame's background everywhere, the frame is what it is over its background.
+/// Over a picture that has the frame's background everywhere, a frame draws the same picture as
+/// over its own background.
 #[test]
-fn the_covered_share_of_a_pixel_lies_over_what_was_there() {
+fn a_partly_covered_pixel_is_blended_over_the_kept_picture() {
     let (_, mut frame) = kinds(48, 36)
         .find(|(kind, _)| *kind == "four samples per pixel")
         .expect("a kind");
@@ -183,7 +183,7 @@ fn the_covered_share_of_a_pixel_lies_over_what_was_there() {
                 "{alpha:?}"
             );
         }
-        // Over nothing, straight alpha is straight alpha.
+        // Over nothing, straight alpha does not change.
         frame.set_alpha(Alpha::Straight);
         let mut picture = LinearPicture::new(48, 36, [0.25, 0.5, 0.75, 0.0]);
         draw(&variant, &frame, &mut picture, kept(renderer));
@@ -199,7 +199,8 @@ fn the_covered_share_of_a_pixel_lies_over_what_was_there() {
     }
 }
 
-/// The two balls drawn one after the other with one depth buffer, in either order, are the picture of both.
+/// Two balls that are drawn one after the other with one depth buffer, in either order, make the
+/// picture of both.
 #[test]
 fn two_frames_compose_as_one() {
     let mut compared = 0;
@@ -212,7 +213,7 @@ fn two_frames_compose_as_one() {
             continue;
         };
         if both.samples() > 1 {
-            continue; // a pixel that shows both is filtered twice
+            continue; // a pixel that shows both balls is filtered twice
         }
         for method in ["gouraud", "phong-rsqrt", "fast-phong", "slerp-phong"] {
             let variant = Variant::parse(method).expect("a method");
@@ -224,12 +225,9 @@ fn two_frames_compose_as_one() {
                     let mut depths = vec![f32::INFINITY; both.width() * both.height()];
                     let mut picture = Picture8::new(both.width(), both.height(), [7; 4]);
                     for (number, frame) in frames.into_iter().enumerate() {
-                        let options = DrawOptions {
-                            renderer,
-                            background: [Background::Drawn, Background::Kept][number],
-                            depth: Some(&mut depths),
-                            ..DrawOptions::default()
-                        };
+                        let options = DrawOptions::by(renderer)
+                            .background([Background::Drawn, Background::Kept][number])
+                            .depth(&mut depths);
                         on_threads(threads, || draw(&variant, frame, &mut picture, options));
                     }
                     let who = format!("{kind}, {method} by {}", name(renderer));
@@ -258,7 +256,7 @@ fn is_reversed(test: DepthTest) -> bool {
     matches!(test, DepthTest::Greater | DepthTest::GreaterOrEqual)
 }
 
-/// Returns a depth buffer that holds nothing yet.
+/// Returns an empty depth buffer.
 fn no_depths(test: DepthTest, frame: &Frame) -> Vec<f32> {
     let nothing = match is_reversed(test) {
         true => f32::NEG_INFINITY,
@@ -267,7 +265,8 @@ fn no_depths(test: DepthTest, frame: &Frame) -> Vec<f32> {
     vec![nothing; frame.width() * frame.height()]
 }
 
-/// Calls `check` with a name, two balls, each a frame of its own, with depth buffers of floats, a method and a renderer.
+/// Calls `check` with a name, a frame for each of two balls with depth buffers of floats, a method
+/// and a renderer.
 fn each_pair(mut check: impl FnMut(&str, [&Frame; 2], &Variant, Renderer)) {
     let pairs = parts(48, 36).filter(|(_, both, _)| {
         let floats = HiddenSurfaces::ZBuffer(DepthBuffer::default());
@@ -284,10 +283,10 @@ fn each_pair(mut check: impl FnMut(&str, [&Frame; 2], &Variant, Renderer)) {
     }
 }
 
-/// Each test shows at each sample the ball that is nearer by the reference's depths in `f64`, and stores its depth; reversed buffers
-/// hold 1/w, or 1 − z.
+/// At each sample each depth test shows the ball that is nearer by the reference's depths in `f64`,
+/// and stores its depth. Reversed buffers hold 1/w or 1 − z.
 #[test]
-fn each_depth_test_shows_what_is_nearer_by_the_reference() {
+fn each_depth_test_shows_the_ball_that_the_reference_finds_nearer() {
     let mut decided = [0; 2];
     each_pair(|who, [first, second], variant, renderer| {
         let seen = [first, second].map(visibility);
@@ -295,11 +294,7 @@ fn each_depth_test_shows_what_is_nearer_by_the_reference() {
             let mut depths = no_depths(test, first);
             let [first_picture, second_picture] = [first, second].map(|frame| {
                 let mut picture = Picture8::new(48, 36, [7; 4]);
-                let options = DrawOptions {
-                    depth: Some(&mut depths),
-                    depth_test: test,
-                    ..kept(renderer)
-                };
+                let options = kept(renderer).depth(&mut depths).depth_test(test);
                 draw(variant, frame, &mut picture, options);
                 picture
             });
@@ -337,26 +332,23 @@ fn each_depth_test_shows_what_is_nearer_by_the_reference() {
     assert!(decided.iter().all(|count| *count > 100), "{decided:?}");
 }
 
-/// A frame drawn again has equal depths everywhere: the strict tests show nothing of it, the others all.
+/// A frame that is drawn again has equal depths everywhere: strict depth tests show nothing of it,
+/// and the others everything.
 #[test]
-fn equal_depths_pass_the_tests_that_say_so() {
+fn equal_depths_pass_only_tests_that_include_equality() {
     each_pair(|who, [frame, _], variant, renderer| {
         for test in DEPTH_TESTS {
             let mut depths = no_depths(test, frame);
             let mut drawn = || {
                 let mut picture = Picture8::new(48, 36, [7; 4]);
-                let options = DrawOptions {
-                    depth: Some(&mut depths),
-                    depth_test: test,
-                    ..kept(renderer)
-                };
+                let options = kept(renderer).depth(&mut depths).depth_test(test);
                 draw(variant, frame, &mut picture, options);
                 (picture, depths.clone())
             };
             let ((first, before), (second, after)) = (drawn(), drawn());
             let expected = match test {
                 DepthTest::Less | DepthTest::Greater => Picture8::new(48, 36, [7; 4]),
-                DepthTest::LessOrEqual | DepthTest::GreaterOrEqual => first,
+                _ => first,
             };
             assert!(second == expected, "{who}, {test:?}");
             assert_eq!(before, after, "{who}, {test:?}");
@@ -364,9 +356,10 @@ fn equal_depths_pass_the_tests_that_say_so() {
     });
 }
 
-/// What the caller has drawn hides what is behind it, sample by sample, and nothing is written there.
+/// The caller's own drawing hides everything behind it, sample by sample, and nothing is written
+/// there.
 #[test]
-fn what_lies_in_front_stays() {
+fn pixels_behind_the_callers_depths_are_not_written() {
     each_way(|who, frame, variant, renderer| {
         let HiddenSurfaces::ZBuffer(DepthBuffer {
             bits: DepthBits::ThirtyTwo,
@@ -375,7 +368,7 @@ fn what_lies_in_front_stays() {
         else {
             return;
         };
-        // In front of everything left of the middle.
+        // The caller drew in front of everything, left of the middle.
         let middle = frame.width() / 2;
         let is_hidden = |place: usize| place % frame.width() < middle;
         let samples = 0..frame.width() * frame.height();
@@ -389,10 +382,7 @@ fn what_lies_in_front_stays() {
             })
             .collect();
         let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [7; 4]);
-        let options = DrawOptions {
-            depth: Some(&mut depths),
-            ..kept(renderer)
-        };
+        let options = kept(renderer).depth(&mut depths);
         draw(variant, frame, &mut picture, options);
         let whole = variant
             .render_with(frame, renderer)
@@ -401,7 +391,7 @@ fn what_lies_in_front_stays() {
         for (y, x) in (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (y, x)))
         {
             match whole.get(x, y)[3] {
-                // A run that begins elsewhere is rounded elsewhere.
+                // A run that begins at another pixel rounds differently.
                 255 if x >= left => {
                     let [found, whole] = [picture.get(x, y), whole.get(x, y)];
                     let is_near = |c: usize| found[c].abs_diff(whole[c]) <= 1;
@@ -422,7 +412,7 @@ fn what_lies_in_front_stays() {
 }
 
 #[test]
-fn what_does_not_go_together_is_an_error_and_draws_nothing() {
+fn arguments_that_do_not_match_are_errors_and_nothing_is_drawn() {
     let variant = Variant::parse("gouraud").expect("a method");
     let frame = |kind: &str| {
         kinds(48, 36)
@@ -435,10 +425,8 @@ fn what_does_not_go_together_is_an_error_and_draws_nothing() {
     let mut found =
         |width: usize, height: usize, stride: usize, frame: &Frame, depth: Option<usize>| {
             let mut depths = vec![0.5; depth.unwrap_or(0)];
-            let options = DrawOptions {
-                depth: depth.map(|_| &mut depths[..]),
-                ..DrawOptions::by(Renderer::fastest())
-            };
+            let mut options = DrawOptions::by(Renderer::fastest());
+            options.depth = depth.map(|_| &mut depths[..]);
             let picture = PictureMut::rgba8(&mut pixels, width, height).stride(stride);
             let result = variant.draw(frame, picture, options);
             if result.is_err() {
@@ -487,16 +475,16 @@ fn what_does_not_go_together_is_an_error_and_draws_nothing() {
                 found: 48 * 35,
                 expected: 48 * 36,
             },
-            "the depth buffer has 1680 numbers: the frame has 1728 samples",
+            "the depth buffer has 1680 values: the frame has 1728 samples",
         ),
-        // One a sample, not one a pixel.
+        // It has one entry per sample, not per pixel.
         (
             found(48, 36, 48, &frame("four samples per pixel"), Some(48 * 36)),
             DrawError::Depth {
                 found: 48 * 36,
                 expected: 96 * 72,
             },
-            "the depth buffer has 1728 numbers: the frame has 6912 samples",
+            "the depth buffer has 1728 values: the frame has 6912 samples",
         ),
         (
             found(48, 36, 48, &frame("painter"), Some(48 * 36)),
@@ -524,7 +512,7 @@ fn what_does_not_go_together_is_an_error_and_draws_nothing() {
         assert_eq!(found, Err(error));
         assert_eq!(error.to_string(), text);
     }
-    // More memory than is needed is none.
+    // Without a depth buffer, samples need no memory of the caller.
     assert_eq!(
         found(48, 36, 48, &frame("four samples per pixel"), None),
         Ok(())

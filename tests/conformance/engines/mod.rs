@@ -1,5 +1,5 @@
 //! Every engine on every instruction set of this machine, compared with the scalar span engine, on
-//! any number of threads.
+//! any count of threads.
 
 mod agreement;
 mod coverage;

@@ -1,4 +1,4 @@
-//! Streaming finished rows while others are still being drawn gives the same picture.
+//! Handing out finished rows while other rows are still being drawn gives the same picture.
 
 use super::frames::kinds;
 use crate::support::renderers::{name, on_threads, renderers};
@@ -12,7 +12,7 @@ use std::convert::Infallible;
 /// A height at which every engine streams in parts, on one thread and on two.
 const HEIGHT: u32 = 270;
 
-/// Returns the picture assembled from streamed rows, and the number of parts.
+/// Returns the picture assembled from streamed rows, and the count of parts.
 fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, usize) {
     let (mut pixels, mut parts) = (Vec::new(), 0);
     let drawn = variant.render_rows(frame, renderer, |rows| {
@@ -48,7 +48,7 @@ fn streamed_rows_make_the_picture() {
                         name(renderer)
                     );
                     assert!(picture == whole, "{who}: the rows make another picture");
-                    // Whatever the encoding: only the span engine has the picture in memory as a whole.
+                    // For any encoding, only the span engine has the whole picture in memory.
                     let plan = variant.plan(&frame, renderer).renderer();
                     let by_rows = matches!(plan, Some(Renderer::Row(_)));
                     assert_eq!(parts > 1, by_rows, "{who}: {parts} parts");
@@ -57,7 +57,7 @@ fn streamed_rows_make_the_picture() {
             }
         }
     }
-    assert!(in_parts > 0, "every picture was given away as a whole");
+    assert!(in_parts > 0, "every picture came in one part");
 }
 
 #[test]

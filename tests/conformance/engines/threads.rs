@@ -1,4 +1,4 @@
-//! Threads and repetition change no byte, wherever bands end.
+//! Neither threads nor repetition change a byte, wherever bands end.
 
 use super::frames::kinds;
 use crate::support::differences::covered;
@@ -54,8 +54,8 @@ fn threads_change_no_byte() {
     }
 }
 
-/// Pictures around a band's end, one line more or less, have the span engine's coverage. Their
-/// bytes do not depend on the number of threads.
+/// Pictures that end one line before or after a band have the span engine's coverage. Their bytes
+/// do not depend on the count of threads.
 #[test]
 fn bands_leave_no_seams() {
     for height in [1, 15, 16, 17, 31, 32, 33] {

@@ -9,7 +9,7 @@ fn illumination_adds_its_terms_and_obeys_the_cosine() {
     // Each of the four pictures is within the bound of naive Phong shading, some 10⁻⁵ of 1: far
     // below 0.01 levels.
     assert!(value(&content, "sum") < 0.01);
-    // The turned face's normal is rounded to f32 once, its product with the light a few times.
+    // The turned face's normal is rounded to f32 once, and its product with the light a few times.
     assert!((value(&content, "cube") - 0.5).abs() < 4.0 * f64::from(f32::EPSILON));
     assert!(
         value(&content, "cosine") < 4.0 * f64::from(f32::EPSILON) && value(&content, "kd") < 1e-6
@@ -27,7 +27,7 @@ fn exponents_narrow_the_highlight() {
     assert_eq!(agreement(&content, "shiny"), Agreement::Contradicts);
     // Light and eye are along z, so R turns by twice the normal's angle and H stays. R·V falls to a
     // half at half(20) / 2, N·H at half(p). A pixel is a quarter of a degree wide in the middle,
-    // and the value is interpolated between two.
+    // and the value is interpolated between two pixels.
     assert!((value(&content, "half-width") - half(20.0) / 2.0).abs() < 0.05);
     assert!((value(&content, "same-exponent") - 2.0).abs() < 0.02);
     assert!((value(&content, "converted") - 2.0 * half(80.0) / half(20.0)).abs() < 0.01);
@@ -56,8 +56,8 @@ fn constant_vectors_are_less_exact_than_six_products() {
     assert!(
         value(&content, "coarse") > 1.0 && agreement(&content, "coarse") == Agreement::Contradicts
     );
-    // The vectors are off by at most half a polygon. The error is of first order in its size, and a
-    // smooth surface cancels none of it in the mean square.
+    // The vectors are off by at most half a polygon. This error is of first order in the polygon's
+    // size, and on a smooth surface errors do not cancel in the mean square.
     let order = value(&content, "order");
     assert!((0.7..1.6).contains(&order), "{order}");
     assert!(value(&content, "duff-naive") < 0.1);
@@ -69,7 +69,8 @@ fn gates_keep_light_from_behind_out() {
     let content = made("gates");
     assert!(value(&content, "behind") > 1.0 && value(&content, "behind-gated") == 0.0);
     assert_eq!(agreement(&content, "behind"), Agreement::Contradicts);
-    // A highlight of up to 0.8 · 255 levels ends abruptly while it is over a tenth of its height.
+    // A highlight of up to 0.8 · 255 levels ends abruptly where it is still over a tenth of its
+    // height.
     assert!(value(&content, "line") > 20.0);
     assert!(value(&content, "clamped") > 1.0);
 }

@@ -5,10 +5,10 @@ use fastphong::lectures::{Agreement, FigureBlock};
 use fastphong::raster::trace::Trace;
 
 #[test]
-fn exercises() {
+fn exercises_have_the_results_of_theory() {
     let content = made("exercises");
     // 0.40674 + 0.3 (0.42262 − 0.40674) = 0.411504. The engine adds three steps of an f32, each off
-    // by at most 2⁻²⁵, to a start whose normal is off by as much: below 2⁻²².
+    // by at most 2⁻²⁵, to a start whose normal is off by the same amount: below 2⁻²².
     let f32_error = 1.0 / f64::from(1 << 22);
     assert!((value(&content, "sine") - 0.411504).abs() < f32_error);
     // The chord of one degree lies below the sine by at most sin 25° (1°)²/8 = 1.6e-5. The table is
@@ -16,8 +16,7 @@ fn exercises() {
     let error = value(&content, "sine-error");
     assert!(error > 0.0 && error < 1.6e-5 + 5e-6, "{error}");
     assert_eq!(value(&content, "multiplications"), 1.0);
-    // Each pixel adds two roundings of 2⁻²⁴ over 1023 steps. They do add up: a walk in f32 has
-    // drift.
+    // Each pixel adds two roundings of 2⁻²⁴ over 1023 steps. They add up: a walk in f32 drifts.
     let drift = value(&content, "drift");
     assert!(
         drift > 1e-7 && drift < 2.0 * 1023.0 / f64::from(1 << 24),
@@ -36,10 +35,11 @@ fn exercises() {
 }
 
 #[test]
-fn highlight() {
+fn gouraud_keeps_the_predicted_share_of_a_highlight() {
     let content = made("highlight");
-    // The corners of a cell 2a wide, whose middle faces the eye, lean by θ with cos θ = cos² a; light from the eye is reflected
-    // at 2θ. Gouraud has the mean of the four in the middle: k_s cosⁿ 2θ + k_d (cos θ − 1) of naive Phong's k_s.
+    // The corners of a cell 2a wide, whose middle faces the eye, lean by θ with cos θ = cos² a.
+    // There light from the eye is reflected at 2θ. In the middle Gouraud has the mean of the four:
+    // k_s cosⁿ 2θ + k_d (cos θ − 1) of naive Phong's k_s.
     for (key, cells, n) in [
         ("coarse", 16.0, 64.0),
         ("fine", 96.0, 64.0),
@@ -48,7 +48,8 @@ fn highlight() {
         let cosine = (std::f64::consts::PI / cells).cos().powi(2);
         let twice = 2.0 * cosine * cosine - 1.0;
         let kept = (twice.powf(n) + 0.3 / 0.6 * (cosine - 1.0)).max(0.0);
-        // The pixel's centre lies half a pixel of 76 from the middle: 2 · 0.53° off, cos⁶⁴ of that is 0.989.
+        // The pixel's centre lies half a pixel of 76 from the middle: 2 · 0.53° off, and cos⁶⁴ of
+        // that is 0.989.
         let found = value(&content, key);
         assert!((found - 100.0 * kept).abs() < 1.5, "{key}: {found} {kept}");
     }
@@ -56,10 +57,10 @@ fn highlight() {
     assert_eq!(agreement(&content, "dull"), Agreement::Adds);
 }
 
-/// What is said of the mesh to be stopped is what its traces show: colours, an edge through pixel centres, two normals that nearly
-/// oppose each other.
+/// The traces of the figure that stops show what its text says: colours, an edge through pixel
+/// centres, and two normals that nearly oppose each other.
 #[test]
-fn stop() {
+fn findings_of_the_stopped_mesh_follow_from_its_traces() {
     let content = made("stop");
     let trace = |name: &str| -> &Trace {
         let mut traces = content.blocks.iter().filter_map(|block| match block {
@@ -85,7 +86,7 @@ fn stop() {
         let apart = pixels(name).into_iter().zip(&naive);
         let most = apart.fold(0.0f64, |most, (a, b)| most.max(f64::from(a - b).abs()));
         let found = value(&content, key);
-        // Both colours are rounded once more where they are subtracted.
+        // Subtracting the colours rounds once more.
         assert!(
             (found - 255.0 * most).abs() < 1e-4,
             "{key}: {found}, {}",
@@ -99,7 +100,8 @@ fn stop() {
     let active = trace("gouraud").lines.iter().flat_map(|line| &line.active);
     let ties = active.filter(|edge| edge.rest[0] == 0).count();
     assert!(ties > 10, "{ties} crossings in pixel centres");
-    // The lecture's way takes a true root a run and none at the pixels after it; the rule takes true roots on some.
+    // The lecture's method takes one true root per run and none at later pixels. The rule takes
+    // true roots on some runs.
     let runs = |name: &str| {
         let runs = trace(name).lines.iter().flat_map(|line| &line.runs);
         let rooted = runs.clone().filter(|run| !run.inside.contains_key("guess"));
@@ -111,14 +113,15 @@ fn stop() {
 }
 
 #[test]
-fn spheres() {
+fn gouraud_loses_highlights_inside_triangles_and_not_at_corners() {
     let content = made("spheres");
-    // Half of the light at the highlight is specular, 127.5 levels. Inside a triangle with sides of 22°
-    // the corners are at least 10° away, where R turns by 20°: cos²⁸ 20° = 0.18 is left of it.
+    // Half of the light at the highlight is specular, 127.5 levels. Inside a triangle with sides of
+    // 22° the corners are at least 10° away. There R turns by 20°, and cos²⁸ 20° = 0.18 of the
+    // highlight is left.
     let inside = value(&content, "inside");
     assert!((0.7 * 127.5..130.0).contains(&inside), "{inside}");
-    // The corner is at most √½ pixels away from a centre. Gouraud loses no more than all of the highlight
-    // over the 40 pixels to the next corner.
+    // The corner is at most √½ pixels away from a pixel centre. Gouraud loses at most the whole
+    // highlight over the 40 pixels to the next corner.
     let corner = value(&content, "corner");
     assert!(corner.abs() < 130.0 * 0.71 / 40.0 + 0.5, "{corner}");
     for key in ["inside-fast", "corner-fast", "fast"] {
@@ -129,14 +132,14 @@ fn spheres() {
 }
 
 #[test]
-fn square() {
+fn turning_changes_the_shading_of_squares_and_not_of_triangles() {
     let content = made("square");
     for method in ["gouraud", "naive-phong", "fast-phong", "slerp-phong"] {
         // The middle of the square lies on the diagonal between two white corners at 0°, and
-        // between a white and the black one at 90°. Half-way Gouraud's intensity is ½, and that of
-        // a normal at 45° is √½: the picture changes by half of white, or by 0.29 of it. Both
-        // triangulations differ there equally. Pixels beside the diagonal are half a pixel away,
-        // which is less than 3 %.
+        // between a white and the black one at 90°. Half-way Gouraud's intensity is ½, and the
+        // intensity of a normal at 45° is √½: the picture changes by half of white, or by 0.29 of
+        // it. Both triangulations differ there equally. Pixels beside the diagonal are half a pixel
+        // away, which is less than 3 %.
         let least = 255.0
             * (if method == "gouraud" {
                 0.5
@@ -155,9 +158,9 @@ fn square() {
             // T24: great circles are not barycentric.
             "slerp-phong" => assert!(triangles > 1.0, "{triangles}"),
             // Both orientations round an affine function over 120 rows and 120 pixels, so N, J and
-            // K are each off by 240 · 2⁻²⁴. A normal is at least as long as its z, 0.4 here, so the
-            // intensity is off by √3 / 0.4 times that in each. Fast Phong adds e²/2 of the second
-            // Newton step after a change of d by at most 2 %: 2e-8.
+            // K are each off by 240 · 2⁻²⁴. A normal is at least as long as its z, 0.4 here, so
+            // each of these makes the intensity off by √3 / 0.4 times that. Fast Phong adds e²/2 of
+            // the second Newton step after a change of d by at most 2 %: 2e-8.
             _ => assert!(
                 triangles < 255.0 * 2.0 * 4.4 * 240.0 / f64::from(1 << 24),
                 "{method}: {triangles}"
@@ -179,7 +182,7 @@ fn square() {
 }
 
 #[test]
-fn mach_bands() {
+fn interpolated_slopes_jump_at_edges_and_values_do_not() {
     let content = made("mach-bands");
     let control = value(&content, "slope-cylinder");
     for method in ["gouraud", "naive-phong", "slerp-phong"] {
@@ -210,7 +213,7 @@ fn mach_bands() {
 }
 
 #[test]
-fn duff() {
+fn bends_at_an_edge_equal_the_closed_forms() {
     let content = made("duff");
     let [gouraud, naive, slerp] =
         ["gouraud", "naive-phong", "slerp-phong"].map(|key| value(&content, key));
@@ -235,14 +238,14 @@ fn duff() {
         "{gouraud} instead of {chords}"
     );
     assert!(naive > 10.0 * gouraud.abs(), "Duff's surprise");
-    // The circle itself does not bend. There remain these roundings and a cosine's third derivative
-    // at two pixels per degree.
+    // The circle itself does not bend. Only these roundings and a cosine's third derivative at two
+    // pixels per degree remain.
     assert!(slerp.abs() < 0.003, "{slerp}");
     assert_eq!(agreement(&content, "naive-phong"), Agreement::Contradicts);
 }
 
 #[test]
-fn newton() {
+fn errors_of_newtons_roots_are_within_theory() {
     let content = made("newton");
     // The root is rounded once. N · N has four roundings, which the root halves: 3 · 2⁻²⁴.
     assert!(value(&content, "first-pixel") < 3.0 / f64::from(1 << 24));
@@ -253,7 +256,7 @@ fn newton() {
     let rounding = 5.0 / f64::from(1 << 24);
     assert!(one > 1e-4 && one < 0.036f64.powi(2) / 2.0, "{one}");
     assert!(two < 2.4e-7 + rounding && three < rounding, "{two} {three}");
-    // Rounding of x and of N over 16 pixels.
+    // The rest is the rounding of x and of N over 16 pixels.
     assert!(value(&content, "theory") < 16.0 / f64::from(1 << 24));
     // T26: more steps are better everywhere, but one to three never suffice where normals nearly
     // cancel.
@@ -268,7 +271,7 @@ fn newton() {
 }
 
 #[test]
-fn slerp() {
+fn slerp_turns_at_a_constant_speed_within_rounding() {
     let content = made("slerp");
     // A pixel turns by 1.9°. Each normal is off by at most about 130 roundings of 2⁻²⁴: 8e-6 of
     // 0.033.
@@ -279,7 +282,8 @@ fn slerp() {
     assert!((3.8..4.0).contains(&ratio), "{ratio}");
     assert_eq!(value(&content, "step"), 12.0);
     assert_eq!(agreement(&content, "step"), Agreement::Confirms);
-    // Goldman's rotation: the amplitude drifts by 2⁻²³ per step. There are two, over sin 30°.
+    // Goldman's rotation: the amplitude drifts by 2⁻²³ per step. There are two rotations, over sin
+    // 30°.
     let goldman = value(&content, "drift-goldman");
     assert!(goldman < 4.0 * 1024.0 / f64::from(1 << 23), "{goldman}");
     // Chebyshev's recurrence turns a rounding ε of 2 cos δ into an angle ε / (2 δ) at each step.
@@ -299,7 +303,7 @@ fn slerp() {
 }
 
 #[test]
-fn fast_vs_naive() {
+fn fast_phong_is_within_a_level_of_naive_phong() {
     let content = made("fast-vs-naive");
     assert!(
         value(&content, "default") <= 1.0,
@@ -329,7 +333,7 @@ fn fast_vs_naive() {
 }
 
 #[test]
-fn frequency() {
+fn errors_fall_with_lighting_frequency_and_mesh_size() {
     let content = made("frequency");
     for end in ["coarsest", "finest"] {
         let [face, vertex, pixel] =
@@ -342,8 +346,8 @@ fn frequency() {
     for frequency in ["face", "vertex", "pixel"] {
         let [coarse, fine] =
             ["coarsest", "finest"].map(|end| value(&content, &format!("{frequency}-{end}")));
-        // There are sixteen times as many bands. One colour per face has an error at least
-        // proportional to the face's size.
+        // There are sixteen times as many bands, and the error of one colour per face grows at
+        // least in proportion to the face's size.
         assert!(coarse > 8.0 * fine, "{frequency}: {coarse} {fine}");
     }
 }

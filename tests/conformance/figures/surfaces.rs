@@ -4,10 +4,9 @@ use super::{agreement, made, value};
 use fastphong::lectures::Agreement;
 
 #[test]
-fn newell() {
+fn newells_normals_are_within_rounding_where_edges_fail() {
     let content = made("newell");
-    // Corners are off by at most 2⁻²⁵ along each axis. The polygon's radius is 1, or more than half
-    // of it.
+    // Corners are off by at most 2⁻²⁵ along each axis. The polygon's radius is 1, or more than ½.
     let bound = (3f64.sqrt() * 4.0 / f64::from(1 << 25)).to_degrees();
     assert!(
         value(&content, "newell") < bound,
@@ -39,8 +38,8 @@ fn normals_are_averages_and_shorten_in_between() {
     assert!(value(&content, "finer") > 4.0);
     // Polygons around a torus vertex lie in pairs, whose errors cancel except for a higher order.
     assert!(value(&content, "regular") < 0.05 * value(&content, "averaged"));
-    // 32 steps of 3 half units, and as much from the rounded ends. The root of at least 1/4 doubles
-    // it.
+    // 32 steps round by 3 half units each, and the rounded ends add as much. The root of at least
+    // 1/4 doubles it.
     assert!(value(&content, "half-way") < 2.0 * (3.0 * 32.0 + 8.0) / f64::from(1 << 24));
     // Cells are 45° by 30°: the middle of one loses at most 1 − cos 22.5° cos 15°, and most of it
     // next to the equator.
@@ -55,7 +54,8 @@ fn normals_are_averages_and_shorten_in_between() {
 #[test]
 fn diagonals_move_normals_but_not_by_angle() {
     let content = made("diagonal");
-    // Two triangles of one face at a corner, and one of each other: (2, 1, 1) in place of (1, 1, 1). Normals are rounded to f32.
+    // At a corner, one face has two triangles and each other face has one: (2, 1, 1) in place of
+    // (1, 1, 1). Normals are rounded to f32.
     let moved = (4.0 / 18f64.sqrt()).acos().to_degrees();
     let rounding = f64::from(f32::EPSILON).to_degrees();
     for (key, expected) in [
@@ -69,19 +69,19 @@ fn diagonals_move_normals_but_not_by_angle() {
         let seen = value(&content, &format!("{key}-levels"));
         assert_eq!(seen > 1.0, expected > 0.0, "{key}: {seen}");
     }
-    // π/2 (x + (x + y)/√2 + (x + z)/√2) + π/3 (x + y + z)/√3, against x.
+    // The sum π/2 (x + (x + y)/√2 + (x + z)/√2) + π/3 (x + y + z)/√3 is compared with x.
     let (half, third) = (std::f64::consts::FRAC_PI_2, std::f64::consts::PI / 3.0);
     let across = half / 2f64.sqrt() + third / 3f64.sqrt();
     let along = half + 2.0 * half / 2f64.sqrt() + third / 3f64.sqrt();
     let expected = (2f64.sqrt() * across / along).atan().to_degrees();
-    // Positions of one digit are rounded to f32, and edges are 0.2 long.
+    // Positions have one decimal digit and are rounded to f32. Edges are 0.2 long.
     let bound = (8.0 / f64::from(1 << 24) / 0.2).to_degrees();
     assert!((value(&content, "bevelled") - expected).abs() < bound);
     assert!(value(&content, "smooth-angle") < value(&content, "smooth"));
 }
 
 #[test]
-fn normals_want_the_inverse_transpose() {
+fn normals_need_the_inverse_transpose() {
     let content = made("inverse-transpose");
     // The error is largest at 45° of the circle: tan⁻¹ s − tan⁻¹ 1/s.
     let s = 2.5f64;
@@ -93,7 +93,7 @@ fn normals_want_the_inverse_transpose() {
 }
 
 #[test]
-fn painter() {
+fn no_order_draws_rings_and_cutting_polygons_right() {
     let content = made("painter");
     for key in ["ring-wrong", "ring-best-order", "cutting-wrong"] {
         assert!(
@@ -113,7 +113,7 @@ fn painter() {
 }
 
 #[test]
-fn depth() {
+fn depth_levels_and_values_are_those_of_theory() {
     let content = made("depth");
     assert!(
         value(&content, "fighting-16") > 100.0,
@@ -134,7 +134,7 @@ fn depth() {
 }
 
 #[test]
-fn supersampling() {
+fn supersampling_approaches_the_covered_share() {
     let content = made("supersampling");
     // One sample gives 0 or 1 for evenly spread shares: an error of at least √(1/12) = 0.29. With
     // n × n samples only the edge within a row of samples is off, by less than 1/n of it.

@@ -10,10 +10,10 @@ use fastphong::reference::{self, Model, Visibility};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 
-/// Width and height of a picture; `None` stands for the scene's own.
+/// The width and height of a picture; `None` stands for the scene's size.
 pub type Size = Option<(i64, i64)>;
 
-/// A frame and the reference pictures of it.
+/// A frame and the reference's pictures of it.
 pub struct Case {
     pub name: String,
     pub frame: Frame,
@@ -35,19 +35,19 @@ impl Case {
         }
     }
 
-    /// Returns the visible polygon at each sample, by the reference.
+    /// Returns the polygon that the reference sees at each sample.
     pub fn visibility(&self) -> &Visibility {
         self.visibility
             .get_or_init(|| reference::visibility(&self.frame))
     }
 
-    /// Returns the visible polygon at each sample, by the span engine.
+    /// Returns the polygon that the span engine sees at each sample.
     pub fn seen(&self) -> &Picture<u32> {
         self.seen
-            .get_or_init(|| raster::polygon_numbers(&self.frame))
+            .get_or_init(|| raster::polygon_indices(&self.frame))
     }
 
-    /// Returns the pixels whose visible polygon rounding cannot change.
+    /// Returns true at the pixels whose visible polygon rounding cannot change.
     pub fn decided(&self) -> &Picture<bool> {
         self.decided
             .get_or_init(|| renderers::decided(&self.frame, self.visibility()))
@@ -74,7 +74,7 @@ pub fn case(name: &str, size: Size) -> &'static Case {
     cell.get_or_init(|| Case::new(name, scene(name, size).frame().expect("a frame")))
 }
 
-/// Returns the cases of all shipped scenes at a size. Each is made when its turn comes.
+/// Returns the cases of all shipped scenes at a size. Each is made when the iterator reaches it.
 pub fn cases(size: Size) -> impl Iterator<Item = &'static Case> {
     shipped().into_iter().map(move |name| case(&name, size))
 }

@@ -1,11 +1,11 @@
-//! Fast differences of two pictures for tests: no mean and no similarity, which would take longer
-//! than drawing.
+//! Fast differences of two pictures for tests. They compute neither mean nor similarity, which
+//! would take longer than drawing.
 
 use fastphong::picture::{LinearPicture, Picture, Picture8};
 
-/// Returns the largest difference of a channel where `counts` holds, and the number of all pixels
-/// whose alpha differs, which only one of the pictures covers. Differences that are not finite
-/// count as infinite.
+/// Returns the largest difference of a channel where `counts` holds, and the count of all pixels
+/// whose alpha differs because only one of the pictures covers them. Differences that are not
+/// finite count as infinite.
 pub fn largest_difference(
     truth: &LinearPicture,
     ours: &LinearPicture,
@@ -31,7 +31,7 @@ pub fn largest_difference(
     (most, uncovered)
 }
 
-/// Returns the largest difference of a colour where `counts` holds, in grey levels, and the number
+/// Returns the largest difference of a colour where `counts` holds, in grey levels, and the count
 /// of all pixels whose alpha differs.
 pub fn levels_apart(
     expected: &Picture8,
@@ -57,7 +57,7 @@ fn assert_equal_sizes<T: Copy>(a: &Picture<T>, b: &Picture<T>) {
     assert_eq!(size(a), size(b), "pictures of different sizes");
 }
 
-/// Returns the covered pixels.
+/// Returns true at the covered pixels.
 pub fn covered(picture: &LinearPicture) -> Picture<bool> {
     picture.map(|pixel| pixel[3] > 0.0)
 }

@@ -1,4 +1,5 @@
-//! One sweep over frames, methods and renderers for all tests that ask something of every drawing.
+//! One sweep over frames, methods and renderers for all tests that check something on every
+//! drawing.
 
 use super::cases::Case;
 use super::renderers::{self, distinct};
@@ -16,14 +17,14 @@ pub struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// Draws it before rounding.
+    /// Draws it in linear colours, before rounding.
     pub fn linear(&self) -> LinearPicture {
         self.variant
             .render_linear_with(&self.case.frame, self.renderer)
             .expect("a method for the frame")
     }
 
-    /// Draws it as it is stored.
+    /// Draws it in stored levels.
     pub fn stored(&self) -> Picture8 {
         let picture = self.variant.render_with(&self.case.frame, self.renderer);
         picture.expect("a method for the frame")
@@ -43,15 +44,17 @@ impl fmt::Display for Drawing<'_> {
     }
 }
 
-/// Calls `look` for every method that is for a case, and every renderer of this machine that draws a case in a way of its own, the scalar span engine
-/// first. Returns what `look` returned, in order; methods are drawn in parallel.
+/// Calls `look` for every method that can draw a case, and every renderer of this machine that
+/// draws the case differently, the scalar span engine first. Returns the results in order. Methods
+/// are drawn in parallel.
 pub fn for_each_drawing<'a, T: Send>(
     cases: impl IntoIterator<Item = &'a Case>,
     look: impl Fn(&Drawing<'a>) -> T + Sync,
 ) -> Vec<T> {
     let mut found = Vec::new();
     for case in cases {
-        // Made before the threads below start: engines draw it on them, and none of them may wait for it.
+        // Make it before the threads below start: engines draw it on these threads, and none of
+        // them may wait for it.
         case.seen();
         let drawn = METHODS.par_iter().map(|entry| {
             let variant = entry.variant();
@@ -76,7 +79,7 @@ pub fn for_each_drawing<'a, T: Send>(
     found
 }
 
-/// Fails with the messages of all drawings that have one.
+/// Fails with the messages of all drawings that returned one.
 #[track_caller]
 pub fn assert_none(failures: impl IntoIterator<Item = Option<String>>) {
     let failures: Vec<String> = failures.into_iter().flatten().collect();

@@ -1,4 +1,4 @@
-//! Shared by the tests: reproducible random numbers, the shipped scenes, and frames of random
+//! Shared by the tests: reproducible random values, the shipped scenes, and frames of random
 //! shapes.
 
 pub mod cases;
@@ -16,7 +16,7 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::read::load_mesh;
 use fastphong::picture::LinearPicture;
 use fastphong::raster::{Plan, Renderer};
-use fastphong::scene::file::SceneFile;
+use fastphong::scene::file::{SceneFile, UnusableMesh};
 use fastphong::scene::{HiddenSurfaces, Light, Lighting, Scene};
 use fastphong::shading::{METHODS, MethodRow};
 use glam::DVec3;
@@ -24,13 +24,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 pub(crate) use test_random::Random;
 
-/// Returns the methods that compute in floats; those in integers err by design.
+/// Returns the methods that compute in floats. Methods in integers have errors by design.
 pub fn floats() -> &'static [MethodRow] {
     let all = METHODS.iter().position(|entry| entry.is_integer);
     &METHODS[..all.unwrap_or(METHODS.len())]
 }
 
-/// Returns those of them that are for a frame.
+/// Returns the float methods that can draw a frame.
 pub fn floats_on(frame: &Frame) -> impl Iterator<Item = &'static MethodRow> + use<'_> {
     let is_for = move |entry: &&'static MethodRow| {
         let plan = entry.variant().plan(frame, Renderer::LECTURE);
@@ -39,7 +39,8 @@ pub fn floats_on(frame: &Frame) -> impl Iterator<Item = &'static MethodRow> + us
     floats().iter().filter(is_for)
 }
 
-/// Returns those of them whose errors by design on a frame are below a grey level, so that their bounds hide no fault.
+/// Returns the float methods whose errors by design on a frame are below a grey level, so that
+/// their bounds hide no fault.
 pub fn exact_on(frame: &Frame) -> impl Iterator<Item = &'static MethodRow> + use<'_> {
     floats_on(frame).filter(|entry| entry.variant().approximation(frame) < 1.0 / 255.0)
 }
@@ -71,7 +72,7 @@ fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
 }
 
-/// Loads a shipped scene at its own size or another one.
+/// Loads a shipped scene at its own size, or at `size`.
 pub fn scene(name: &str, size: Size) -> Scene {
     let path = scenes().join(format!("{name}.toml"));
     let mut file = SceneFile::load(path).unwrap_or_else(|e| panic!("{e}"));
@@ -83,10 +84,10 @@ pub fn scene(name: &str, size: Size) -> Scene {
     let load = |spec: &str, folder: &Path| match spec.strip_prefix("builtin:") {
         Some(spec) => builtin(spec)
             .map(|mesh| (Arc::new(mesh), vec![]))
-            .map_err(|e| e.to_string()),
+            .map_err(|e| UnusableMesh::new(e.to_string())),
         None => load_mesh(&folder.join(spec))
             .map(|l| (Arc::new(l.mesh), l.warnings))
-            .map_err(|e| e.to_string()),
+            .map_err(|e| UnusableMesh::new(e.to_string())),
     };
     file.resolve(load).unwrap_or_else(|e| panic!("{e}")).scene
 }
@@ -117,7 +118,7 @@ pub fn normal_of(intensity: f32) -> [f32; 3] {
     ]
 }
 
-/// A corner at sub-pixel (x, y) with a depth and an intensity under [`plain_lighting`].
+/// Returns a corner at sub-pixel (x, y) with a depth and an intensity under [`plain_lighting`].
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
     pub x: i32,
@@ -144,7 +145,7 @@ pub fn add(builder: &mut FrameBuilder, material: u32, source: u32, corners: &[Co
     builder.polygon(&vertices, [0.0, 0.0, 1.0], source);
 }
 
-/// Builds a frame of polygons given by their corners.
+/// Builds a frame of polygons, each a list of its corners.
 pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]) -> Frame {
     let mut builder = FrameBuilder::new(width, height);
     builder.hidden_surfaces(if depth_test {
@@ -159,8 +160,8 @@ pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]
     builder.finish().expect("corners inside the guard band")
 }
 
-/// Returns a polygon of random corners, which mostly crosses itself. One case in three lies on the
-/// grid of pixel centres, where ties are common.
+/// Returns a polygon of random corners, which mostly crosses itself. One polygon in three has its
+/// corners on the grid of pixel centres, where ties are common.
 pub fn random_polygon(random: &mut Random, width: i32, height: i32, corners: usize) -> Vec<Corner> {
     let grid = random.below(3) == 0;
     let reach = [40, 200, 2000][random.below(3) as usize];

@@ -1,5 +1,5 @@
 //! Every way in which this machine can draw a frame: the span engine, the row engine on each
-//! instruction set, threads.
+//! instruction set, and threads.
 
 use fastphong::frame::{DepthRange, Frame};
 use fastphong::picture::Picture;
@@ -16,7 +16,7 @@ pub fn renderers() -> Vec<Renderer> {
 }
 
 /// Returns the renderers that draw `frame` in different ways, the scalar span engine first. Of
-/// those with equal plans the first one stands.
+/// renderers with equal plans only the first one is returned.
 pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
     let mut plans = Vec::new();
     let mut all = renderers();
@@ -31,7 +31,7 @@ pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
     all
 }
 
-/// Returns the name of a renderer as on the command line.
+/// Returns the name of a renderer as the command line has it.
 pub fn name(renderer: Renderer) -> String {
     format!("{} on {}", renderer.engine().name(), renderer.level())
 }
@@ -45,7 +45,7 @@ pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     pool.install(work)
 }
 
-/// Returns the pixels with [`is_decided`] true at all samples.
+/// Returns true at the pixels where [`is_decided`] holds for all samples.
 pub fn decided(frame: &Frame, visibility: &Visibility) -> Picture<bool> {
     let n = frame.samples();
     let mut decided = Picture::new(frame.picture_width(), frame.picture_height(), true);
@@ -55,15 +55,16 @@ pub fn decided(frame: &Frame, visibility: &Visibility) -> Picture<bool> {
     decided
 }
 
-/// True if rounding cannot change the visible polygon: the next one is farther behind than the
-/// error of depths in any engine.
+/// True if rounding cannot change the visible polygon, because the next one is farther behind than
+/// the error of depths in any engine.
 pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) -> bool {
-    // Storing moves a depth by half a level at most, here and in the reference: that is one level for each of the two.
+    // Storing moves a depth by at most half a level, in the engine and in the reference: one level
+    // for each of the two surfaces.
     let levels = match frame.hidden_surfaces() {
         HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) => {
             bits.most().map_or(0.0, |most| 2.0 / f64::from(most))
         }
-        HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => 0.0,
+        _ => 0.0,
     };
     // Under perspective 1/w is rounded, and z is f/(f − n) (1 − n/w).
     let gain = match frame.depth_range() {
@@ -75,9 +76,9 @@ pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) ->
 
 /// Returns the error bound of the difference of two depths in 0..=1.
 ///
-/// By edges, as derived in `coverage`: each depth is rounded twice at each of width + height
+/// Along edges, as derived in `coverage`, each depth is rounded twice at each of width + height
 /// steps, by half a unit in the last place, at most 2⁻²⁴ of 1, and 32 times at the starts of its
-/// walks. By barycentric coordinates there are fewer roundings. An integer, the area, its inverse
+/// walks. By barycentric coordinates there are fewer roundings: an integer, the area, its inverse
 /// and their product are rounded, 4 · 2⁻²⁴ of a coordinate in 0..=1, and so are two differences,
 /// two products and two sums. A step of eight pixels is rounded once, not eight times.
 pub fn depth_rounding(frame: &Frame) -> f64 {
