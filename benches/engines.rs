@@ -1,21 +1,20 @@
 //! Whole frames from a prepared scene to the stored picture, on one thread: the scalar span engine,
 //! and the row engine on every instruction set of this machine.
 //!
-//! The floor is a lower bound: it clears, tests and writes every pixel once. Few triangles are
-//! also timed at 1920 × 1080. Four lights and a million triangles are timed by the span engine and
-//! by the fastest engine.
+//! The floor is a lower bound: it clears, tests and writes every pixel once. The scene of few
+//! triangles is also timed at 1920 × 1080. Scenes with four lights and with a million triangles are
+//! timed with the span engine and the fastest engine.
 
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
 use fastphong::picture::Picture;
 use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::scene::Scene;
 use fastphong::shading::Variant;
 use std::hint::black_box;
 use std::time::Duration;
 
-/// The compared methods, including those with the hardware's reciprocal root.
+/// The methods to compare, including those that use the hardware's reciprocal root.
 const METHODS: [&str; 5] = [
     "gouraud",
     "naive-phong",
@@ -24,7 +23,7 @@ const METHODS: [&str; 5] = [
     "phong-rsqrt",
 ];
 
-/// Scanlines per band of the floor.
+/// How many scanlines a band of the floor has.
 const BAND: usize = 32;
 
 fn engines(c: &mut Criterion) {
@@ -37,8 +36,8 @@ fn engines(c: &mut Criterion) {
         let prepared = scenes::scene(mesh).prepare().expect("a valid scene");
         let mut frame = prepared.frame().expect("a valid view");
         let mut group = c.benchmark_group(format!("engines/{name}"));
-        // Take the same number of calls for every sample. Frames take milliseconds, and a growing
-        // number would take minutes.
+        // Every sample makes an equal count of calls. A frame takes milliseconds, so growing counts
+        // would take minutes.
         group.sampling_mode(SamplingMode::Flat);
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         group.bench_function("projection", |b| {
@@ -63,7 +62,8 @@ fn engines(c: &mut Criterion) {
     }
 }
 
-/// Times four lights and a million triangles, by the scalar span engine and by the fastest engine.
+/// Times scenes with four lights and with a million triangles, with the scalar span engine and the
+/// fastest engine.
 fn large(c: &mut Criterion) {
     for &(name, mesh, lights) in scenes::LARGE {
         let prepared = scenes::lit(mesh, lights).prepare().expect("a valid scene");
@@ -91,11 +91,8 @@ fn large(c: &mut Criterion) {
 /// Times a 1920 × 1080 frame of few triangles, including projection, next to the floor.
 fn over_floor(c: &mut Criterion) {
     let (name, mesh) = scenes::SCENES[0];
-    let scene = Scene {
-        width: 1920,
-        height: 1080,
-        ..scenes::scene(mesh)
-    };
+    let mut scene = scenes::scene(mesh);
+    (scene.width, scene.height) = (1920, 1080);
     let prepared = scene.prepare().expect("a valid scene");
     let mut frame = prepared.frame().expect("a valid view");
     let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);

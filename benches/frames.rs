@@ -1,9 +1,9 @@
-//! Whole pictures: every method by the scalar span engine, the fastest engine and, if possible, the
-//! barycentric renderer.
+//! Whole pictures: every method with the scalar span engine, the fastest engine and, if possible,
+//! the barycentric renderer.
 //!
-//! Times run from the projected frame to the stored picture, per covered pixel. `fastphong bench`
-//! times the same in interleaved rounds; quote its figures. This benchmark tells whether a change
-//! made the code faster.
+//! A time is from the projected frame to the stored picture, per covered pixel. This benchmark
+//! shows if a change made the code faster. `fastphong bench` times such frames in interleaved
+//! rounds: quote its figures, not these.
 
 mod scenes;
 
@@ -12,7 +12,7 @@ use criterion::{
 };
 use fastphong::frame::triangulate::triangulated;
 use fastphong::picture::Picture;
-use fastphong::raster::{DrawOptions, Edges, NOTHING, Renderer, polygon_numbers};
+use fastphong::raster::{DrawOptions, Edges, NO_POLYGON, Renderer, polygon_indices};
 use fastphong::shading::{METHODS, Variant};
 use std::hint::black_box;
 use std::time::Duration;
@@ -21,15 +21,15 @@ fn frames(c: &mut Criterion) {
     for (name, mesh) in scenes::SCENES {
         let frame = scenes::scene(mesh).frame().expect("a valid scene");
         let triangles = triangulated(&frame).frame;
-        let covered = polygon_numbers(&frame)
+        let covered = polygon_indices(&frame)
             .pixels()
             .iter()
-            .filter(|number| **number != NOTHING)
+            .filter(|number| **number != NO_POLYGON)
             .count();
         let mut group = c.benchmark_group(format!("frames/{name}"));
         group.throughput(Throughput::Elements(covered as u64));
-        // Take the same number of calls for every sample. Frames take milliseconds, and a growing
-        // number would take minutes.
+        // Every sample makes an equal count of calls. A frame takes milliseconds, so growing counts
+        // would take minutes.
         group.sampling_mode(SamplingMode::Flat);
         let is_for =
             |variant: &Variant| variant.plan(&frame, Renderer::LECTURE).renderer().is_some();

@@ -1,5 +1,5 @@
-//! A method compiled outside the crate beside the same one inside: naive Phong shading, by every engine and instruction set. What
-//! crosses the crate's border must not cost a pixel anything.
+//! Naive Phong shading compiled outside the crate and inside it, with every engine and instruction
+//! set. Both must be equally fast: crossing the crate's border must cost nothing per pixel.
 //!
 //! ```text
 //! cargo bench --bench own_shader
@@ -11,7 +11,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion
 use fastphong::number::{Num, Vec3};
 use fastphong::picture::Picture;
 use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::shading::{Info, Linear, Lit, MethodRow, Normal, Shader, Span};
+use fastphong::shading::{Info, LightAt, Linear, MethodRow, Normal, Shader, Span};
 use std::hint::black_box;
 
 /// A copy of `src/shading/methods/roots/naive_phong.rs`.
@@ -29,11 +29,11 @@ impl Shader for Outside {
     type Walk<F: Num> = Linear<Vec3<F>>;
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, n: Vec3<F>) -> Vec3<F> {
         lit.shade(n.unit())
     }
 }

@@ -3,12 +3,12 @@
 //! A span of n pixels takes set-up + n · slope. At n = 1 the time is nearly all set-up, which
 //! here includes the material uniforms and two vertices per span. At n = 1024 the time per element
 //! is nearly the slope. Methods that step scalars instead of vectors pay more set-up for a smaller
-//! slope. Their lines cross at the break-even length.
+//! slope. The lines of two methods cross at their break-even length.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fastphong::compare::timing::SpanRow;
 use fastphong::mesh::Material;
-use fastphong::number::Level;
+use fastphong::number::SimdLevel;
 use fastphong::scene::{Interpolation, Light, Lighting};
 use fastphong::shading::{METHODS, SpanBench, SpanShader, SpanVertex, Variant};
 use glam::DVec3;
@@ -30,11 +30,11 @@ fn spans(c: &mut Criterion) {
                 b.iter(|| variant.shade_span(black_box(&bench), black_box(&mut out)));
             });
         }
-        // Call the kernels of each instruction set as the row engine does: the longest span, one
-        // and four lights.
+        // Call the kernels of each instruction set as the row engine does, on the longest span,
+        // with one light and with four.
         const LONG: usize = 1024;
         group.throughput(Throughput::Elements(LONG as u64));
-        for level in Level::available().skip(1) {
+        for level in SimdLevel::available().skip(1) {
             for (lights, bench) in [(1, &bench), (4, &four)] {
                 let mut row = SpanRow::new(&variant, bench, LONG);
                 group.bench_function(
@@ -51,7 +51,8 @@ fn spans(c: &mut Criterion) {
     }
 }
 
-/// Times lines of a rasterizer outside the crate, both vertices included: scalar and on the best instruction set.
+/// Times lines of a rasterizer outside the crate, both vertices included, in scalar code and with
+/// the best instruction set.
 fn own_lines(c: &mut Criterion) {
     let light = Light::directional(DVec3::new(0.3, 0.4, 0.9), [1.0; 3]);
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
@@ -60,9 +61,9 @@ fn own_lines(c: &mut Criterion) {
         let mut group = c.benchmark_group(format!("own lines/{variant}"));
         for length in [16usize, 64, 512] {
             group.throughput(Throughput::Elements(length as u64));
-            for level in [Level::Scalar, Level::best()] {
+            for level in [SimdLevel::Scalar, SimdLevel::best()] {
                 let shader = SpanShader::new(&variant, &lighting, Interpolation::Screen);
-                let mut shader = shader.expect("a method for any light").on(level);
+                let mut shader = shader.expect("a method for any light").with_simd(level);
                 let (mut colours, count) = (vec![[0.0; 3]; length], shader.varyings());
                 let mut ends = vec![0.0; 2 * count];
                 group.bench_function(BenchmarkId::new(level.to_string(), length), |b| {

@@ -6,13 +6,12 @@ use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_
 use fastphong::frame::triangulate::triangulated;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
-use fastphong::raster::{coverage, polygon_numbers};
-use fastphong::scene::Object;
+use fastphong::raster::{coverage, polygon_indices};
 use glam::{DAffine3, DVec3};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// Crease angle that keeps the edges of a prism and smooths a sphere, in degrees.
+/// A crease angle in degrees that keeps the edges of a prism and smooths a sphere.
 const CREASE: f64 = 30.0;
 
 fn stages(c: &mut Criterion) {
@@ -48,14 +47,14 @@ fn stages(c: &mut Criterion) {
             });
         });
         group.bench_function("visibility", |b| {
-            b.iter(|| polygon_numbers(black_box(&frame)))
+            b.iter(|| polygon_indices(black_box(&frame)))
         });
         group.finish();
     }
 }
 
-/// Times projection of scenes of triangles, about half of them culled, into frames. Set
-/// RAYON_NUM_THREADS to choose the number of threads.
+/// Times the projection of scenes into frames. The meshes are triangles, and about half of them are
+/// culled. RAYON_NUM_THREADS sets how many threads project.
 fn projection(c: &mut Criterion) {
     for (name, mesh) in scenes::TRIANGLES {
         let scene = scenes::scene(mesh);
@@ -78,15 +77,15 @@ fn projection(c: &mut Criterion) {
     }
 }
 
-/// Times a spinning part among others: from its next transform to the frame, moved in a prepared scene and with all prepared anew.
+/// Times a scene of 40 parts of which one spins, from its next transform to the frame: once by
+/// moving it in a prepared scene, once by preparing the whole scene again.
 fn moving(c: &mut Criterion) {
     let mut scene = scenes::scene("sphere?polygons=5000&triangles=true");
     for part in 1..40 {
         let place = DVec3::new(f64::from(part % 8) - 3.5, f64::from(part / 8) - 2.0, 0.0);
-        scene.objects.push(Object {
-            transform: DAffine3::from_translation(3.0 * place),
-            ..scene.objects[0].clone()
-        });
+        let mut object = scene.objects[0].clone();
+        object.transform = DAffine3::from_translation(3.0 * place);
+        scene.objects.push(object);
     }
     let still = scene.objects[7].transform;
     let mut spins = (0..).map(|step| still * DAffine3::from_rotation_y(0.01 * f64::from(step)));

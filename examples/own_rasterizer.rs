@@ -1,11 +1,12 @@
-//! A rasterizer of your own with our shading: triangles, edges, spans and a depth buffer are in this file, and every span is
-//! shaded by a method of the library.
+//! Your own rasterizer with our shading: this file has triangles, edges, spans and a depth buffer,
+//! and the library shades each span.
 //!
 //! ```text
 //! cargo run --release --example own_rasterizer > own_rasterizer.ppm
 //! ```
 //!
-//! Needs no feature of the crate: it also runs with `--no-default-features`.
+//! It needs only the feature `alloc`, so it also runs with
+//! `--no-default-features --features alloc`.
 
 use fastphong::glam::{DVec3, Vec3};
 use fastphong::mesh::Material;
@@ -17,13 +18,13 @@ use std::io::Write;
 const WIDTH: usize = 480;
 const HEIGHT: usize = 160;
 
-/// A picture and its depth buffer: depth grows away from the eye.
+/// A picture and its depth buffer. Depth grows away from the eye.
 struct Canvas {
     pixels: Vec<[u8; 4]>,
     depth: Vec<f32>,
 }
 
-/// A point on the screen, in pixels, downward, and all that is interpolated.
+/// A point on the screen, in pixels with y downward, and the values that are interpolated.
 #[derive(Clone)]
 struct Point {
     x: f32,
@@ -33,9 +34,11 @@ struct Point {
 }
 
 impl Point {
-    /// Returns the point of the line from `self` to `other` at row `y`, which is between them.
+    /// Returns the point on the line from `self` to `other` at the height `y`, which must be
+    /// between them.
     fn at_row(&self, other: &Point, y: f32) -> Point {
-        // From the upper end, so that triangles that share an edge agree on its points.
+        // Always interpolate from the upper end, so that two triangles get equal points on a shared
+        // edge.
         let [a, b] = if self.y <= other.y {
             [self, other]
         } else {
@@ -54,13 +57,14 @@ impl Point {
 }
 
 impl Canvas {
-    /// Draws a triangle: of each scanline the span between two edges.
+    /// Draws a triangle: on each scanline the span between two edges.
     fn triangle(&mut self, shader: &mut SpanShader, [a, b, c]: [&Point; 3]) {
         let top = a.y.min(b.y).min(c.y).max(0.0) as usize;
         let bottom = (a.y.max(b.y).max(c.y).max(0.0) as usize + 1).min(HEIGHT);
         let (mut colours, mut bytes) = ([[0.0; 3]; WIDTH], [[0; 4]; WIDTH]);
         for row in top..bottom {
-            // Pixels have their centres at ½. Each end of an edge counts as above or below, never both.
+            // Pixels have their centres at ½. An end that lies exactly on the row counts as above
+            // it, so a row crosses either two edges or none.
             let y = row as f32 + 0.5;
             let crossed = [(a, b), (b, c), (c, a)].into_iter();
             let crossed = crossed.filter(|(p, q)| (p.y <= y) != (q.y <= y));

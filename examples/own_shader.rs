@@ -1,19 +1,19 @@
-//! A shading method outside the crate: cel shading, drawn next to naive Phong shading.
+//! Your own shading method, outside the crate: cel shading, drawn next to naive Phong shading.
 //!
 //! ```text
 //! cargo run --release --example own_shader > own_shader.ppm
 //! ```
 //!
-//! `Toon` defines what a vertex carries, how it is stepped along a span, and how a pixel is
-//! shaded, once for all arithmetic backends. `TOON` compiles it: every engine and instruction set
-//! then draws it like a built-in method.
+//! `Toon` defines what a vertex carries, how this is stepped along a span, and how a pixel is
+//! shaded, once for all arithmetic backends. `TOON` compiles it, and every engine and instruction
+//! set then draws it like a built-in method.
 //!
-//! Every function of a shader is `#[inline(always)]`. One that is not costs a call per pixel.
+//! Every function of a shader is `#[inline(always)]`. Without it a function costs a call per pixel.
 
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;
 use fastphong::shading::{
-    Info, LightModel, Linear, Lit, MethodParameter, MethodRow, Normal, Shader, Span, Value,
+    Info, LightAt, LightModel, Linear, MethodParameter, MethodRow, Normal, Shader, Span, Value,
 };
 use std::io::Write;
 
@@ -21,7 +21,7 @@ use std::io::Write;
 ///
 /// ```text
 /// I = I_a k_a + Σ I_p k_d b/bands + Σ I_p k_s [R·V > 0.9 and L·N > 0]
-/// R·V = 2 (L·N)(V·N) − L·V,   b = number of (i − ½) / bands, i = 1, 2, …, below L·N
+/// R·V = 2 (L·N)(V·N) − L·V,   b = how many of (i − ½) / bands, i = 1, 2, …, are below L·N
 /// ```
 #[derive(Clone, Copy, Default)]
 struct Toon {
@@ -34,11 +34,11 @@ impl Shader for Toon {
     const INFO: Info = Info {
         name: "toon",
         title: "bands of light, and a highlight with a hard edge",
-        // The default, the least and the most.
+        // Three bands by default, at least 1 and at most 8.
         parameters: &[MethodParameter::whole("bands", "bands of light", 3, [1, 8])],
         ..Info::OF_PIXELS
     };
-    // A vertex carries its normal and nothing else, so it need not be visited.
+    // A vertex carries only its normal, so engines need not call the method for vertices.
     type Constants<F: Num> = (); // nothing is set up per polygon
     type Carries = Normal;
     type Walk<F: Num> = Linear<Vec3<F>>; // three additions per pixel
@@ -50,18 +50,19 @@ impl Shader for Toon {
         }
     }
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Linear<Vec3<F>> {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, n: Vec3<F>) -> Vec3<F> {
         let (n, width) = (n.unit(), 1.0 / self.bands as f32);
         let mut colour = lit.ambient();
         for light in lit.lights() {
             let l_n = n.dot(light.to);
             let mut diffuse = l_n.broadcast(0.0);
             for band in 0..self.bands {
-                // `gate`: the number where the condition is above a value, 0 elsewhere.
+                // `x.gate(y, limit)` is x where y is above the limit, and 0 elsewhere. With SIMD
+                // there can be no branch here, because the pixels of a block may differ.
                 diffuse = diffuse + l_n.broadcast(width).gate(l_n, (band as f32 + 0.5) * width);
             }
             let highlight = lit.highlight(&light, l_n, n.dot(lit.view())).gate(l_n, 0.0);
@@ -82,10 +83,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         eprintln!("{variant} shades a pixel by {counts:?}");
         variant.render(&frame)
     };
-    let pictures = [draw(&TOON)?, draw(built_in)?];
+    let [toon, naive] = [draw(&TOON)?, draw(built_in)?];
     let mut file = b"P6\n640 240\n255\n".to_vec();
-    for pixels in (0..240).flat_map(|y| pictures.each_ref().map(|picture| picture.row(y))) {
-        file.extend(pixels.iter().flat_map(|pixel| &pixel[..3]));
+    for (left, right) in toon.rows().zip(naive.rows()) {
+        let pixels = left.iter().chain(right);
+        file.extend(pixels.flat_map(|pixel| &pixel[..3]));
     }
     Ok(std::io::stdout().write_all(&file)?)
 }

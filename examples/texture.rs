@@ -1,11 +1,13 @@
-//! A texture: texture coordinates as attributes of vertices, and a shader of your own that looks its picture up at each pixel.
+//! A texture: texture coordinates as attributes of vertices, and your own shader that looks up a
+//! picture at each pixel.
 //!
 //! ```text
 //! cargo run --release --example texture > texture.ppm
 //! ```
 //!
-//! `Textured` carries (u, v) beside the normal. Engines interpolate both, in perspective and through corners that clipping made,
-//! and `shade` gets them at each pixel: of one pixel in scalar code, of 8 or 16 on SIMD. The floor reaches behind the eye.
+//! `Textured` carries (u, v) beside the normal. Engines interpolate both, also in perspective and
+//! to corners that clipping made, and pass them to `shade`: for one pixel at a time in scalar code,
+//! for 8 or 16 with SIMD. The floor reaches behind the eye, so that it is clipped.
 
 use fastphong::glam::{DVec3, Vec3 as Vector};
 use fastphong::mesh::vertex_normals::NormalSource;
@@ -15,7 +17,7 @@ use fastphong::picture::PictureMut;
 use fastphong::raster::{DrawOptions, Renderer};
 use fastphong::scene::{Camera, Interpolation, Light, Projection, Scene};
 use fastphong::shading::{
-    Carried, Carries, Info, Linear, Lit, MethodRow, Needs, Perspective, Shader, Span,
+    Carried, Carries, Info, LightAt, Linear, MethodRow, Needs, Perspective, Shader, Span,
 };
 use std::error::Error;
 use std::io::Write;
@@ -24,8 +26,9 @@ use std::sync::LazyLock;
 /// Columns and rows of the picture.
 const SIDE: usize = 64;
 
-/// Red, green and blue of the picture, row by row. It repeats: each row ends with its first column, and the first two rows follow
-/// the last.
+/// Red, green and blue of the picture, row by row. Each row ends with a copy of its first column,
+/// and copies of the first two rows follow the last, so that interpolation needs no case for the
+/// border.
 pub static BRICKS: LazyLock<[Vec<f32>; 3]> = LazyLock::new(|| {
     let places = (0..SIDE + 2).flat_map(|v| (0..=SIDE).map(move |u| [u % SIDE, v % SIDE]));
     let colour = |[u, v]: [usize; 2]| {
@@ -40,7 +43,7 @@ pub static BRICKS: LazyLock<[Vec<f32>; 3]> = LazyLock::new(|| {
     [0, 1, 2].map(|channel| colours.iter().map(|colour| colour[channel]).collect())
 });
 
-/// Phong shading whose ambient and diffuse light has the colour of the picture.
+/// Phong shading whose ambient and diffuse light is multiplied by the picture's colour.
 #[derive(Clone, Copy, Default)]
 struct Textured;
 
@@ -52,7 +55,9 @@ impl Shader for Textured {
         title: "normals and texture coordinates, interpolated",
         ..Info::OF_PIXELS
     };
-    // In perspective the coordinates are divided by their weight.
+    // Under perspective engines interpolate all values times a weight, 1/w. A normal does not mind,
+    // because it is normalised, but coordinates do. `Divides` tells engines to divide by the weight
+    // at each pixel.
     const NEEDS: Needs = Needs {
         perspective: Perspective::Divides,
         ..Needs::PIXELS
@@ -62,11 +67,11 @@ impl Shader for Textured {
     type Walk<F: Num> = Linear<(Vec3<F>, [F; 2])>;
 
     #[inline(always)]
-    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
         span.linear()
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (n, [u, v]): (Vec3<F>, [F; 2])) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, (n, [u, v]): (Vec3<F>, [F; 2])) -> Vec3<F> {
         let (dull, bright) = lit.shade_apart(n.unit());
         let [r, g, b] = looked_up(&BRICKS, u, v);
         vec3([dull.x * r, dull.y * g, dull.z * b]) + bright
@@ -78,20 +83,22 @@ impl Carries for Textured {
     type Varying<F: Num> = (Vec3<F>, [F; 2]); // N and (u, v)
 
     #[inline(always)]
-    fn vertex<F: Num>(lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, [F; 2]) {
+    fn vertex<F: Num>(lit: &LightAt<'_, F>, n: Vec3<F>) -> (Vec3<F>, [F; 2]) {
         let [u, v, ..] = lit.attributes();
         (n, [u, v])
     }
 }
 
-/// Returns the colour at (u, v), linear between the four pixels around it. The picture goes from 0 to 1 and repeats.
+/// Returns the colour at (u, v), interpolated linearly between the four pixels around it. The
+/// picture covers 0 to 1 and repeats.
 #[inline(always)]
 fn looked_up<F: Num>(picture: &[Vec<f32>; 3], u: F, v: F) -> [F; 3] {
     let (u, v) = ((u - floor(u)) * SIDE as f32, (v - floor(v)) * SIDE as f32);
     let row = floor(v);
     let below = v - row;
     let place = row * (SIDE + 1) as f32 + u;
-    // `Num::lookup` is linear between the entries of a table: between the columns of a row.
+    // `Num::lookup` interpolates linearly between two entries of a table, which are neighbouring
+    // columns here. The table that starts one row later has the row below.
     let channel = |all: &[f32]| {
         let (upper, lower) = (place.lookup(all), place.lookup(&all[SIDE + 1..]));
         upper + below * (lower - upper)
@@ -100,14 +107,17 @@ fn looked_up<F: Num>(picture: &[Vec<f32>; 3], u: F, v: F) -> [F; 3] {
     [channel(r), channel(g), channel(b)]
 }
 
-/// Returns the largest whole number up to `x`, or the one below if `x` is whole; for |x| < 2²². A sum with 1.5 · 2²³ has no fraction.
+/// Returns the largest whole number up to `x`, or perhaps the one below if `x` is whole. Holds for
+/// |x| < 2²²: adding 1.5 · 2²³ leaves no bits for a fraction, so the sum is rounded to a whole
+/// number.
 #[inline(always)]
 fn floor<F: Num>(x: F) -> F {
     const WHOLE: f32 = 12_582_912.0;
     (x - 0.5 + WHOLE) - WHOLE
 }
 
-/// A floor with a box on it. Each side has corners of its own, with its normal and its coordinates.
+/// Returns a floor with a box on it. No two sides share a corner, because their normals and
+/// coordinates differ.
 fn room() -> Result<PolygonMesh, Box<dyn Error>> {
     let (mut positions, mut normals, mut attributes) = (Vec::new(), Vec::new(), Vec::new());
     let mut side = |middle: Vector, across: Vector, up: Vector, repeats: f32| {
@@ -132,25 +142,19 @@ fn room() -> Result<PolygonMesh, Box<dyn Error>> {
     for first in (0..24).step_by(4) {
         builder.polygon(&[first, first + 1, first + 2, first + 3]);
     }
-    builder.attributes(attributes).normals(GivenNormals {
-        values: normals,
-        corners: None,
-    });
+    builder
+        .attributes(attributes)
+        .normals(GivenNormals::by_vertex(normals));
     Ok(builder.finish()?)
 }
 
-/// Returns the scene.
+/// Returns a scene of the room, seen in perspective.
 pub fn scene() -> Result<Scene, Box<dyn Error>> {
     let mut scene = Scene::of_mesh(room()?);
     (scene.width, scene.height) = (320, 240);
-    scene.camera = Camera {
-        eye: DVec3::new(2.2, 2.6, 4.2),
-        target: DVec3::new(0.0, 0.8, 0.0),
-        up: DVec3::Y,
-        projection: Projection::Perspective { fovy: 50.0 },
-        near: 0.1,
-        far: 40.0,
-    };
+    let (eye, target) = (DVec3::new(2.2, 2.6, 4.2), DVec3::new(0.0, 0.8, 0.0));
+    scene.camera = Camera::looking_at(eye, target, Projection::Perspective { fovy: 50.0 });
+    (scene.camera.near, scene.camera.far) = (0.1, 40.0);
     scene.interpolation = Interpolation::Perspective;
     scene.objects[0].normals = NormalSource::Given.into();
     scene.objects[0].material = Some(Material {
@@ -164,7 +168,7 @@ pub fn scene() -> Result<Scene, Box<dyn Error>> {
     Ok(scene)
 }
 
-/// Draws the scene.
+/// Draws the scene into 320 × 240 pixels.
 pub fn picture(renderer: Renderer) -> Result<Vec<[u8; 4]>, Box<dyn Error>> {
     let frame = scene()?.frame()?;
     let mut pixels = vec![[0; 4]; 320 * 240];

@@ -1,19 +1,20 @@
-//! A window of your own: `Variant::draw` straight into its memory, one frame after the other, while one part of the scene spins.
+//! Your own window: `Variant::draw` draws straight into its memory, frame after frame, while one
+//! part of the scene spins.
 //!
 //! ```text
 //! cargo run --release --features view --example window
 //! cargo run --release --features view --example window gouraud
 //! ```
 //!
-//! Takes `winit` for the window and `softbuffer` for its memory; any other pair does that hands out rows of pixels.
-//! `fastphong view` is the viewer with all its keys.
+//! This example uses `winit` for the window and `softbuffer` for its memory. Any other libraries
+//! that give access to rows of pixels will do. `fastphong view` is a complete viewer.
 
 use fastphong::frame::{Frame, PreparedScene};
 use fastphong::glam::{DAffine3, DVec3};
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::PictureMut;
 use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::scene::{Object, Scene};
+use fastphong::scene::Scene;
 use fastphong::shading::Variant;
 use softbuffer::{Context, Surface};
 use std::error::Error;
@@ -28,12 +29,12 @@ use winit::window::{Window, WindowId};
 /// The scene, and the window that shows it.
 struct Spinning {
     scene: PreparedScene,
-    /// The frame, whose memory the next one takes.
+    /// The current frame. The next frame reuses its memory.
     frame: Frame,
     method: Variant,
     start: Instant,
     context: Context<OwnedDisplayHandle>,
-    /// There from the first event on.
+    /// The window's surface, which exists from the first event on.
     surface: Option<Surface<OwnedDisplayHandle, Rc<Window>>>,
     failure: Option<Box<dyn Error>>,
 }
@@ -101,11 +102,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let method = std::env::args().nth(1);
     let mut scene = Scene::of_mesh(builtin("sphere")?);
     scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(0.5));
-    scene.objects.push(Object {
-        mesh: builtin("torus")?.into(),
-        transform: DAffine3::IDENTITY,
-        ..scene.objects[0].clone()
-    });
+    let mut torus = scene.objects[0].clone();
+    torus.mesh = builtin("torus")?.into();
+    torus.transform = DAffine3::IDENTITY;
+    scene.objects.push(torus);
     let scene = scene.prepare()?;
     let no_display = |error| format!("no window can be opened: {error}");
     let events = EventLoop::new().map_err(no_display)?;

@@ -1,10 +1,10 @@
-//! The timed scenes: built-in meshes of few and many polygons, of triangles and of n-gons.
+//! The scenes to time: built-in meshes of few and of many polygons, of triangles and of n-gons.
 
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::scene::{Camera, Fit, Light, Object, Scene};
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
 
 /// Name and mesh of each scene.
 pub const SCENES: &[(&str, &str)] = &[
@@ -15,16 +15,16 @@ pub const SCENES: &[(&str, &str)] = &[
 ];
 
 /// Name and mesh of the scenes whose projection is timed.
-#[allow(dead_code)] // not by every benchmark
+#[allow(dead_code)] // not every benchmark uses it
 pub const TRIANGLES: &[(&str, &str)] = &[
     ("sphere-5k", "sphere?polygons=5000&triangles=true"),
     ("sphere-100k", "sphere?polygons=100000&triangles=true"),
     ("sphere-1m", "sphere?polygons=1000000&triangles=true"),
 ];
 
-/// Name, mesh and number of lights of scenes timed in whole frames only: four lights, a million
-/// triangles.
-#[allow(dead_code)] // not by every benchmark
+/// Name, mesh and count of lights of large scenes, of which only whole frames are timed: with four
+/// lights, or with a million triangles.
+#[allow(dead_code)] // not every benchmark uses it
 pub const LARGE: &[(&str, &str, usize)] = &[
     (
         "sphere-5k-4-lights",
@@ -44,28 +44,24 @@ pub const LARGE: &[(&str, &str, usize)] = &[
     ),
 ];
 
-/// Returns a camera in front of and above a mesh that fills 90 % of the picture.
+/// Returns a camera that looks at a mesh from the front and above, so that it fills 90 % of the
+/// picture.
 pub fn camera(mesh: &PolygonMesh, fovy: Option<f64>) -> Camera {
     let direction = DVec3::new(0.3, 0.5, 1.0);
-    let fit = Fit {
-        direction,
-        up: DVec3::Y,
-        fraction: 0.9,
-        fovy,
-        aspect: 640.0 / 480.0,
-    };
+    let mut fit = Fit::new(direction, 640.0 / 480.0);
+    (fit.fraction, fit.fovy) = (0.9, fovy);
     Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).expect("a mesh with vertices")
 }
 
 /// Returns the scene of a mesh under one light.
-#[allow(dead_code)] // not by every benchmark
+#[allow(dead_code)] // not every benchmark uses it
 pub fn scene(mesh: &str) -> Scene {
     lit(mesh, 1)
 }
 
-/// Returns the scene of a mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and
-/// above, with up to four lights. Vertex normals are averaged, so they vary over every polygon,
-/// even the prism's.
+/// Returns the scene of a mesh under up to four lights. The mesh fills 90 % of 640 × 480 pixels,
+/// and is seen and lit from the front and above. Vertex normals are averaged, so they vary over
+/// every polygon, even the prism's.
 pub fn lit(mesh: &str, lights: usize) -> Scene {
     let directions = [
         (1.0, 1.0, 2.0),
@@ -78,14 +74,10 @@ pub fn lit(mesh: &str, lights: usize) -> Scene {
     };
     let mesh = builtin(mesh).expect("a built-in mesh");
     let camera = camera(&mesh, None);
-    Scene {
-        lights: directions[..lights].iter().copied().map(light).collect(),
-        objects: vec![Object {
-            mesh: mesh.into(),
-            transform: DAffine3::IDENTITY,
-            material: None,
-            normals: NormalSource::Averaged.into(),
-        }],
-        ..Scene::new(camera)
-    }
+    let mut object = Object::new(mesh);
+    object.normals = NormalSource::Averaged.into();
+    let mut scene = Scene::new(camera);
+    scene.lights = directions[..lights].iter().copied().map(light).collect();
+    scene.objects = vec![object];
+    scene
 }

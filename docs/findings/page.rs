@@ -1,6 +1,7 @@
-//! Makes what `docs/findings.md` shows of what `docs/findings/run` measured: tables, sentences, charts and a picture of the worst cases.
+//! Makes the generated parts of `docs/findings.md` from the measurements of `docs/findings/run`:
+//! tables, sentences, charts and a picture of the worst cases.
 //!
-//! `tests/documents/findings.rs` writes it, and checks that it stands there.
+//! `tests/documents/findings.rs` writes them into the page, or checks that the page has them.
 
 use crate::markdown::read;
 use fastphong::compare::experiments::WorstCase;
@@ -9,7 +10,7 @@ use fastphong::picture::Picture8;
 use fastphong::picture::image_file::encode_png;
 use fastphong::raster::Renderer;
 use fastphong::reference::{self, Model};
-use fastphong::shading::{Family, METHODS, MethodRow, Standing, Variant};
+use fastphong::shading::{Family, METHODS, MethodRow, Tier, Variant};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -35,7 +36,7 @@ pub fn text(of: &Value) -> &str {
     of.as_str().expect("a text")
 }
 
-/// The numbers of methods, one for each mesh.
+/// Values by the name of a method, one for each mesh.
 type ByMethod = BTreeMap<String, [f64; 4]>;
 
 /// The files of `bench` that `docs/findings/run` leaves in `target/findings`.
@@ -49,8 +50,10 @@ const TIMES: [&str; 7] = [
     "positions-4",
 ];
 
-/// Takes from them what the page says, to be kept: times of frames as multiples of naive Phong's, medians of rounds in which methods take
-/// turns, naive Phong's own in milliseconds, and the largest errors of the frames in levels, one for each mesh.
+/// Extracts from the files of [`TIMES`] what the page needs, which is stored in
+/// `docs/findings/times.json`. For each mesh: times of frames as multiples of naive Phong's
+/// (medians of rounds in which methods take turns), naive Phong's time in milliseconds, and the
+/// largest errors of the frames in levels.
 pub fn condensed() -> Value {
     let of_file = |name: &str| {
         let document: Value =
@@ -93,18 +96,21 @@ fn times(name: &str) -> ByMethod {
     measured(name, "times")
 }
 
-/// Returns what was measured on frames.
-fn measured(name: &str, what: &str) -> ByMethod {
+/// Returns the measurement `key` of the frames of the file `name`: "times" or "levels".
+fn measured(name: &str, key: &str) -> ByMethod {
     let document = data("times");
-    let all = document[name][what].as_object().expect("an object");
+    let all = document[name][key].as_object().expect("an object");
     let row = |(method, all): (&String, &Value)| {
         let all: Vec<f64> = all.as_array().expect("a list").iter().map(number).collect();
-        (method.clone(), all.try_into().expect("a number a mesh"))
+        (
+            method.clone(),
+            all.try_into().expect("a value for each mesh"),
+        )
     };
     all.iter().map(row).collect()
 }
 
-/// Returns the milliseconds of naive Phong's frames, medians.
+/// Returns the median times of naive Phong's frames in milliseconds, one for each mesh.
 fn naive(name: &str) -> Vec<f64> {
     list(&data("times")[name], "naive_ms")
         .iter()
@@ -112,7 +118,7 @@ fn naive(name: &str) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the largest errors that were found with so many lights, in levels.
+/// Returns the largest errors that the search found with this many lights, in levels.
 fn errors(lights: u64) -> ByMethod {
     let document = data("search");
     let mut all = ByMethod::new();
@@ -125,7 +131,8 @@ fn errors(lights: u64) -> ByMethod {
                 number(&case["levels"]);
         }
     }
-    // Normals are *up to* so many degrees apart: a case of fewer is one of more.
+    // Normals are *up to* this many degrees apart, so a case that was found for a smaller angle
+    // counts for the larger ones too.
     for errors in all.values_mut() {
         for i in 1..errors.len() {
             errors[i] = errors[i].max(errors[i - 1]);
@@ -134,7 +141,7 @@ fn errors(lights: u64) -> ByMethod {
     all
 }
 
-/// Returns the times on the four meshes of the fastest method that shades nothing at a pixel.
+/// Returns, for each mesh, the least time of the methods that shade nothing at a pixel.
 fn cheapest(times: &ByMethod) -> [f64; 4] {
     let infos = METHODS.iter().map(|entry| entry.info);
     let colours = infos.filter(|info| info.family == Family::Colours);
@@ -150,18 +157,20 @@ fn mean(ratios: impl Iterator<Item = f64>) -> f64 {
     (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
 }
 
-/// Returns the geometric mean of a method's speed over the four meshes, as a multiple of another's.
+/// Returns how many times as fast a method is as the method `over`: the geometric mean over the
+/// four meshes.
 fn speed(times: &ByMethod, method: &str, over: &str) -> f64 {
     let pairs = times[over].iter().zip(times[method]);
     mean(pairs.map(|(base, own)| base / own))
 }
 
-/// True for methods that are for use.
+/// True if the method is meant for use, not only as an exhibit.
 fn is_for_use(name: &str) -> bool {
-    MethodRow::named(name).is_some_and(|entry| entry.info.standing != Standing::Exhibit)
+    MethodRow::named(name).is_some_and(|entry| entry.info.tier != Tier::Exhibit)
 }
 
-/// Returns the methods for use that no other beats in both time and error on a mesh, the fastest first.
+/// Returns the methods for use that no other beats in both time and error on a mesh, the fastest
+/// first.
 fn front(times: &ByMethod, errors: &ByMethod, mesh: usize) -> Vec<String> {
     let points = times
         .keys()
@@ -181,7 +190,7 @@ fn front(times: &ByMethod, errors: &ByMethod, mesh: usize) -> Vec<String> {
     points.into_iter().map(|(name, ..)| name).collect()
 }
 
-/// Writes three figures of a number.
+/// Formats a value for a table: two decimals below 10, none above.
 fn short(x: f64) -> String {
     match x {
         x if x < 0.01 => "< 0.01".into(),
@@ -190,7 +199,8 @@ fn short(x: f64) -> String {
     }
 }
 
-/// Returns the best method by time among those whose errors are below a half level up to 30 degrees.
+/// Returns the fastest method for use among those whose errors stay below half a level up to 30
+/// degrees.
 fn best(times: &ByMethod, errors: &ByMethod) -> String {
     let names = times.keys().filter(|m| is_for_use(m));
     let same = names.filter(|m| {
@@ -205,7 +215,8 @@ fn best(times: &ByMethod, errors: &ByMethod) -> String {
     fastest.expect("some method").clone()
 }
 
-/// Returns cycles a pixel of spans of 32 pixels on a Cortex-M0+, over those of naive Phong in the same integers, and the worst errors.
+/// Returns times and worst errors of the methods in integers. Times are cycles per pixel on a
+/// Cortex-M0+, in spans of 32 pixels, as multiples of naive Phong's in the same integers.
 fn small() -> [ByMethod; 2] {
     let document: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
     let spans = list(&document, "spans");
@@ -214,7 +225,7 @@ fn small() -> [ByMethod; 2] {
         .iter()
         .find(|span| span["method"] == "naive")
         .map(cycles);
-    let naive = naive.expect("it is measured");
+    let naive = naive.expect("naive Phong is measured");
     let [mut times, mut errors] = [ByMethod::new(), ByMethod::new()];
     for span in spans {
         let name = format!("integer-{}", text(&span["method"])).replace("-as-printed", "-printed");
@@ -227,14 +238,14 @@ fn small() -> [ByMethod; 2] {
     [times, errors]
 }
 
-/// Returns the methods, the fastest first.
+/// Returns the names of the methods, the fastest first.
 fn fastest(times: &ByMethod) -> Vec<&str> {
     let mut names: Vec<_> = times.keys().map(String::as_str).collect();
     names.sort_by(|a, b| mean(times[*a].into_iter()).total_cmp(&mean(times[*b].into_iter())));
     names
 }
 
-/// Writes a table.
+/// Returns a table of a head and rows.
 fn rows(head: &str, rows: impl IntoIterator<Item = String>) -> String {
     let rows = rows.into_iter().map(|row| format!("| {row} |\n"));
     format!("{head}\n{}", rows.collect::<String>())
@@ -244,7 +255,7 @@ fn cells(errors: [f64; 4]) -> String {
     errors.map(short).join(" | ")
 }
 
-/// A row a method in integers.
+/// Returns the table of methods in integers.
 fn small_table() -> String {
     let [times, errors] = small();
     let row = |name| {
@@ -257,7 +268,7 @@ fn small_table() -> String {
     )
 }
 
-/// The three sentences.
+/// Returns the three answers at the top of the page.
 pub fn answer() -> String {
     let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
     let (one, four) = (errors(1), errors(4));
@@ -281,8 +292,8 @@ pub fn answer() -> String {
         false => format!("and `{of_four}`"),
     };
     format!(
-        "- **A CPU renderer with SIMD: `{of_simd}`**, {:.2} times as fast as naive Phong with one light and {:.2} with four. The \
-         cheapest frame without any shading at pixels is {least:.2} to {most:.2} times as fast as that, by mesh: no method with Phong's \
+        "- **A CPU renderer with SIMD: `{of_simd}`**, {:.2} times as fast as naive Phong with one light and {:.2} with four. Even \
+         a frame without shading at pixels is only {least:.2} to {most:.2} times as fast as this, depending on the mesh, so no method with Phong's \
          picture can gain more.\n\
          - **Scalar code with a floating-point unit: `{of_one}`** where normals turn by at most 30° over a polygon ({} levels off there, {} at \
          60°), {:.2} times as fast as naive Phong with one light, {four_lights} {:.2} times with \
@@ -304,7 +315,8 @@ pub fn answer() -> String {
     )
 }
 
-/// A row a method: its worst errors, and its speeds with one light and with four.
+/// Returns the table of methods on a machine, "simd" or "scalar": worst errors, and speeds with one
+/// light and with four.
 fn table(machine: &str) -> String {
     let (one, four) = (
         times(&format!("{machine}-1")),
@@ -340,7 +352,7 @@ fn table(machine: &str) -> String {
     )
 }
 
-/// A row a method on frames with highlights of N·H: those that are for no other, and two that are.
+/// Returns the table of methods on frames with N·H highlights.
 fn halfway_table() -> String {
     let (times, errors) = (times("halfway-1"), errors(1));
     let row = |name| {
@@ -353,7 +365,8 @@ fn halfway_table() -> String {
     )
 }
 
-/// A row a method on frames with lights and eye at positions: errors of these frames, and speeds mesh by mesh.
+/// Returns the table of methods on frames with lights and eye at positions: errors of these frames,
+/// and speeds mesh by mesh.
 fn positions_table() -> String {
     let [one, four] = ["positions-1", "positions-4"].map(times);
     let levels = measured("positions-1", "levels");
@@ -370,7 +383,8 @@ fn positions_table() -> String {
     )
 }
 
-/// The length from which each method of the scalar front is faster than each other, with so many lights.
+/// Returns the table of break-even lengths: from how many pixels on each method of the scalar front
+/// is faster than each other one, with this many lights.
 fn break_even(lights: u64) -> String {
     let (times, errors) = (times(&format!("scalar-{lights}")), errors(lights));
     let document = data("spans");
@@ -400,13 +414,14 @@ fn break_even(lights: u64) -> String {
     for row in &names {
         let cells = names.iter().map(|column| {
             let pairs: Vec<(f64, f64)> = ns(row).into_iter().zip(ns(column)).collect();
-            // From the last length at which it is slower on.
+            // Break-even comes after the last measured length at which the row's method is slower.
             match pairs.iter().rposition(|(own, other)| own >= other) {
                 _ if row == column => String::new(),
                 None => "always".into(),
                 Some(last) if last + 1 == lengths.len() => "never".into(),
                 Some(last) => {
-                    // Linear between the two lengths.
+                    // The difference of the times is taken as linear between two measured lengths:
+                    // this is where it vanishes.
                     let [(a0, b0), (a1, b1)] = [pairs[last], pairs[last + 1]];
                     let [before, after] = [a0 - b0, b1 - a1];
                     let t = before / (before + after);
@@ -425,7 +440,7 @@ fn break_even(lights: u64) -> String {
     text + "\n"
 }
 
-/// What a frame costs without shading, and what a method can gain at most.
+/// Returns the table of what a frame costs without shading, and what a method can gain at most.
 fn floor() -> String {
     let machines = [("SIMD", "simd-1"), ("scalar", "scalar-1")].map(|(machine, file)| {
         let (times, naive) = (times(file), naive(file));
@@ -446,19 +461,18 @@ fn floor() -> String {
     )
 }
 
-/// What was claimed, and what was measured.
 /// Makes the figure *the diagonal moves the normal*, which measures vertex normals by weight.
 fn diagonal() -> FigureContent {
     let figure = Figure::named("diagonal").expect("a figure");
-    figure.make().expect("what it draws can be drawn")
+    figure.make().expect("the figure can be drawn")
 }
 
-/// Returns a finding of a figure.
+/// Returns the value of a figure's finding.
 fn finding(content: &FigureContent, key: &str) -> f64 {
     content.finding(key).expect("a finding").value
 }
 
-/// Writes the table of vertex normals by weight.
+/// Returns the table of vertex normals by weight, and a paragraph on what it shows.
 fn normals_table() -> String {
     let content = diagonal();
     let mut tables = content.blocks.iter().filter_map(|block| match block {
@@ -471,15 +485,16 @@ fn normals_table() -> String {
     rows.iter().for_each(|row| text += &line(row));
     let [uniform, angle] = ["smooth", "smooth-angle"].map(|key| finding(&content, key));
     text += &format!(
-        "\nA cube, cut into triangles in all 64 ways: uniform averages and those by area are up to {:.1}° off, {:.0} levels with the \
-         diagonal of one face turned; by angle and by Max's weights they are exact. Pictures of the nine smooth surfaces at 15° are {uniform:.2} levels off \
-         on average with uniform weights (RMS), {angle:.2} by angle.\n",
+        "\nA cube can be cut into triangles in 64 ways. Over all of them, uniform averages and averages by area are up to {:.1}° off, which is {:.0} levels with the \
+         diagonal of one face turned; averages by angle and by Max's weights are exact. Pictures of the nine smooth surfaces at 15° are {uniform:.2} levels off \
+         on average with uniform weights (RMS), and {angle:.2} by angle.\n",
         finding(&content, "uniform"),
         finding(&content, "uniform-levels"),
     );
     text
 }
 
+/// Returns the table of claims from the literature, each with what was measured and a verdict.
 fn claims() -> String {
     let scalar = times("scalar-1");
     let over = |method: &str, other: &str| speed(&scalar, method, other);
@@ -529,7 +544,7 @@ fn claims() -> String {
     );
     let seams = errors["bishop-weimer"][1];
     row(
-        "their error is not seen",
+        "the error of these quadratics is not seen",
         "Bishop, Weimer 1986",
         format!("{} levels at 15°", short(seams)),
         seams < 1.0,
@@ -552,7 +567,7 @@ fn claims() -> String {
         "midpoints without roots make their set-up cheap",
         "Barrera, Hast, Bengtsson 2006",
         format!(
-            "{} roots a triangle in place of {}",
+            "{} roots per triangle in place of {}",
             polygon("six-point:midpoints=barrera"),
             polygon("six-point")
         ),
@@ -567,7 +582,7 @@ fn claims() -> String {
     );
     let series = errors["series-phong"];
     row(
-        "a series of N·N stands for its root",
+        "a series of N·N can replace its root",
         "US patent 5,369,737",
         format!(
             "second order: {} levels at 15°, {} at 30°",
@@ -589,7 +604,7 @@ fn claims() -> String {
     );
     let h_test = over("h-test", "naive-phong");
     row(
-        "Phong's highlights only where there are some are cheaper",
+        "it is cheaper to compute highlights only where there are some",
         "Harrison, Mitchell, Watt 1988",
         format!("{} as fast as naive Phong, scalar", times_of(h_test)),
         h_test > 1.0,
@@ -613,7 +628,7 @@ fn claims() -> String {
         "four additions and eight multiplications a pixel step the sines",
         "L21 4.9-4.12",
         format!(
-            "{} and {}, of which J and K are 2 and 4",
+            "{} and {}, including 2 and 4 for J and K",
             walk.additions, walk.multiplications
         ),
         (walk.additions, walk.multiplications) == (4 + 2, 8 + 4),
@@ -633,7 +648,7 @@ fn claims() -> String {
         "two additions a pixel for L.N, two for the highlight's cosine, a fifth that sums them, and a table's entry",
         "Bishop, Weimer 1986",
         format!(
-            "{} additions for both cosines; sums, clamps, power and three channels take {} additions and {} multiplications without a table",
+            "{} additions for both cosines; without a table the sums, clamps, power and three channels take {} additions and {} multiplications",
             walk.additions, shade.additions, shade.multiplications
         ),
         walk.additions == 4,
@@ -643,7 +658,7 @@ fn claims() -> String {
         "two additions a pixel, for angles",
         "Kuijk, Blake 1989",
         format!(
-            "{} additions; {} entry of a table, and {} additions and {} multiplications for parabolas and three channels",
+            "{} additions; parabolas and three channels take {} read from a table, {} additions and {} multiplications",
             walk.additions, shade.lookups, shade.additions, shade.multiplications
         ),
         (walk.additions, walk.multiplications) == (2, 0),
@@ -673,7 +688,7 @@ fn claims() -> String {
             claim,
             source,
             format!(
-                "{} roots a pixel; {} levels at 15°, {} at 30°",
+                "{} roots per pixel; {} levels at 15°, {} at 30°",
                 walk.roots + shade.roots,
                 short(error[1]),
                 short(error[2])
@@ -687,7 +702,7 @@ fn claims() -> String {
         "weights by angle do not depend on how a surface is cut into polygons",
         "Thürmer, Wüthrich 1998",
         format!(
-            "{moved:.1}° off on a cube cut in 64 ways; uniform ones {:.1}°",
+            "{moved:.1}° off on a cube cut in 64 ways; uniform weights {:.1}°",
             finding(&cut, "uniform")
         ),
         moved < 1e-4,
@@ -716,7 +731,8 @@ fn claims() -> String {
     )
 }
 
-/// Returns the places of labels, in the order of their height: none above another, and none below `bottom`.
+/// Moves labels apart vertically, so that none covers another and none lies below `bottom`. Takes
+/// pairs of a height and a label's index, and returns the new height of each label.
 fn apart(mut places: Vec<(f64, usize)>, bottom: f64) -> BTreeMap<usize, f64> {
     const LEAST: f64 = 10.0;
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -734,7 +750,7 @@ fn apart(mut places: Vec<(f64, usize)>, bottom: f64) -> BTreeMap<usize, f64> {
         .collect()
 }
 
-/// Draws error against time on the four meshes, with the front.
+/// Draws error against time on the four meshes, with the front, as SVG.
 fn chart(title: &str, baseline: &str, times: &ByMethod, errors: &ByMethod) -> String {
     const PANEL: [f64; 2] = [330.0, 320.0];
     const INNER: [f64; 4] = [44.0, 36.0, 318.0, 284.0]; // left, top, right, bottom
@@ -837,11 +853,11 @@ fn chart(title: &str, baseline: &str, times: &ByMethod, errors: &ByMethod) -> St
             }
         }
     }
-    writeln!(svg, "<text x=\"{}\" y=\"315\" fill=\"#555\">time over naive Phong's: left is faster, what takes longer than shown stands at the edge; upward: largest error found, grey levels (dashed: half a level); blue: the front, nothing is both faster and nearer</text>\n</svg>", INNER[0]).expect("a text");
+    writeln!(svg, "<text x=\"{}\" y=\"315\" fill=\"#555\">across: time as a multiple of naive Phong's, left is faster, slower methods than shown are at the right edge; upward: largest error found, in grey levels (dashed: half a level); blue: the front, where no method is both faster and nearer</text>\n</svg>", INNER[0]).expect("a text");
     svg
 }
 
-/// Reads the case of a method.
+/// Reads the worst case of a method with one light, or returns `None` if the search found none.
 fn case(method: &str, degrees: u32) -> Option<WorstCase> {
     let document = data("search");
     let mut cases = list(&document, "cases").iter();
@@ -853,7 +869,8 @@ fn case(method: &str, degrees: u32) -> Option<WorstCase> {
     Some(serde_json::from_value(found?.clone()).expect("a case"))
 }
 
-/// The methods whose worst cases are shown.
+/// Returns the methods whose worst cases are shown: those that are over half a level off at 30
+/// degrees.
 fn shown() -> Vec<&'static str> {
     let names = METHODS.iter().filter(|entry| !entry.is_integer);
     let names = names.map(|entry| entry.info.name);
@@ -862,15 +879,16 @@ fn shown() -> Vec<&'static str> {
         .collect()
 }
 
-/// Draws the worst cases at 30 degrees: the reference above, the method below, six to a row.
+/// Draws the worst cases at 30 degrees as PNG: the reference above, the method below, six pairs to
+/// a row.
 fn pictures() -> Vec<u8> {
     const SCALE: usize = 5;
     const CELL: usize = 24 * SCALE + 8;
     let names = shown();
     let rows = names.len().div_ceil(6);
     let mut sheet = Picture8::new(6 * CELL, rows * 2 * CELL, [255; 4]);
-    for (number, name) in names.iter().enumerate() {
-        let case = case(name, 30).expect("it is shown");
+    for (index, name) in names.iter().enumerate() {
+        let case = case(name, 30).expect("a shown method has a case");
         let frame = case.frame();
         let truth = reference::render(&frame, Model::Phong).to_picture8();
         let ours = Variant::parse(name)
@@ -878,7 +896,7 @@ fn pictures() -> Vec<u8> {
             .render_with(&frame, Renderer::LECTURE)
             .expect("a method for the frame");
         for (row, picture) in [truth, ours].iter().enumerate() {
-            let (left, top) = (number % 6 * CELL, (number / 6 * 2 + row) * CELL);
+            let (left, top) = (index % 6 * CELL, (index / 6 * 2 + row) * CELL);
             for y in 0..24 * SCALE {
                 for x in 0..24 * SCALE {
                     let pixel = picture.get(x / SCALE, y / SCALE);
@@ -892,8 +910,8 @@ fn pictures() -> Vec<u8> {
     encode_png(&sheet).expect("a picture")
 }
 
-/// Draws the pictures of the figure of vertex normals side by side: a cube by its polygons and by weights above, one whose edges are
-/// cut off below.
+/// Draws the pictures of the figure of vertex normals side by side, as PNG. The upper row is a cube
+/// by its polygons and by each weight, the lower row a cube whose edges are cut off.
 fn pictures_of_normals() -> Vec<u8> {
     let content = diagonal();
     let rows: Vec<&Vec<Panel>> = content
@@ -919,7 +937,8 @@ fn pictures_of_normals() -> Vec<u8> {
     encode_png(&sheet).expect("a picture")
 }
 
-/// A row a method: its worst errors with one light and with four.
+/// Returns the table of all methods' worst errors with one light and with four, and the caption of
+/// their picture.
 fn worst() -> String {
     let (one, four) = (errors(1), errors(4));
     let row = |entry: &MethodRow| {
@@ -932,17 +951,20 @@ fn worst() -> String {
         METHODS.iter().filter_map(row),
     );
     let shown = shown().join("`, `");
-    format!("{table}\nBelow, 30°, one light; in each pair the reference is above: `{shown}`.\n")
+    format!(
+        "{table}\nThe picture below shows the worst triangles at 30° with one light, the reference above and the method below, in this order: `{shown}`.\n"
+    )
 }
 
+/// Returns the sentences that say where and how everything was measured.
 fn machine() -> String {
     let document = data("times");
     let machine = &document["scalar-1"]["machine"];
     let level = &document["simd-1"]["level"];
     format!(
-        "Measured by `docs/findings/run` on {} ({} in SIMD), {}; frames of spheres at 640 × 480 on one thread, from projected frame to \
-         stored picture, medians of rounds in which methods take turns; errors by `fastphong \
-         search`, {} restarts.\n",
+        "Measured by `docs/findings/run` on {} ({} in SIMD), {}. Frames are spheres at 640 × 480 pixels on one thread, timed from the projected frame to the \
+         stored picture; times are medians of rounds in which methods take turns. Errors are by `fastphong \
+         search` with {} restarts.\n",
         text(&machine["cpu"]),
         text(level),
         text(&machine["rustc"]),
@@ -950,7 +972,7 @@ fn machine() -> String {
     )
 }
 
-/// Returns the page, with what stands between `<!-- made: NAME -->` and `<!-- end -->` made anew.
+/// Returns the page with everything between `<!-- made: NAME -->` and `<!-- end -->` made anew.
 pub fn page(mut page: String) -> String {
     let blocks: [(&str, &dyn Fn() -> String); 13] = [
         ("answer", &answer),
@@ -976,7 +998,7 @@ pub fn page(mut page: String) -> String {
     page
 }
 
-/// Returns the charts and the picture by the names of their files.
+/// Returns the charts and the pictures with the names of their files.
 pub fn images() -> Vec<(String, Vec<u8>)> {
     let mut images = Vec::new();
     for (machine, lights, title) in [

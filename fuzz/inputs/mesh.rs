@@ -1,4 +1,5 @@
-//! Mesh files of every format: any bytes give a mesh or one error, the same one each time, and the mesh can be drawn.
+//! Mesh files of every format: any bytes give a mesh or one error, reading them again gives an
+//! equal result, and the mesh can be drawn.
 
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::read::{ReadError, parse_mesh};
@@ -8,14 +9,14 @@ use fastphong::scene::Scene;
 use fastphong::shading::METHODS;
 use std::io::ErrorKind;
 
-/// Longer files only repeat what shorter ones have.
+/// Longer files are skipped, because they only repeat what shorter ones have.
 pub const MOST_BYTES: usize = 1 << 14;
 
-/// Meshes of more corners are read, and not drawn.
+/// Meshes with more corners are read but not drawn.
 const MOST_CORNERS: usize = 2000;
 
-/// Reads `bytes` as a file that ends in `ending`, twice, and draws what is in it.
-#[allow(dead_code)] // The target `obj` has its own.
+/// Reads `bytes` twice, as a file that ends in `ending`, and draws the mesh.
+#[allow(dead_code)] // the target `obj` has its own
 pub fn run(ending: &str, bytes: &[u8]) {
     if bytes.len() > MOST_BYTES {
         return;
@@ -40,7 +41,7 @@ pub fn run(ending: &str, bytes: &[u8]) {
     }
 }
 
-/// Draws a mesh by all methods that can.
+/// Draws a mesh by all methods that can draw its frame.
 pub fn draw(mesh: PolygonMesh) {
     assert!(
         mesh.polygon_count() > 0,
@@ -71,7 +72,8 @@ pub fn draw(mesh: PolygonMesh) {
     }
 }
 
-/// A message is one line, and the parser behind the checks never gives up.
+/// Checks that a message is one line, and that it comes from our own checks. The parser behind them
+/// should find nothing more to refuse.
 pub fn check_message(error: &ReadError) {
     let text = error.to_string();
     assert!(is_one_line(&text), "{text:?}");

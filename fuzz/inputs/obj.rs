@@ -1,6 +1,7 @@
 //! OBJ files with their materials: any bytes give a mesh or one error, and the mesh can be drawn.
 //!
-//! The input is the OBJ file and, behind the line [`NEXT`], the library that it is given for every name.
+//! The input is the OBJ file and, behind the line [`NEXT`], the material library that it gets for
+//! every name.
 
 use super::mesh::{MOST_BYTES, check_message, draw, is_one_line};
 use fastphong::mesh::read::parse_mesh;
@@ -25,7 +26,7 @@ pub fn run(bytes: &[u8]) {
         assert!(is_one_line(warning), "{warning:?}");
         assert!(!warning.contains("gave up"), "{warning:?}");
     }
-    // A C string that was written whole.
+    // Some programs write a C string with its NUL.
     let with_nul = [obj, b"\n\0"].concat();
     let again = parse_mesh("fuzz.obj", &with_nul, |_| Ok(mtl.to_vec()));
     let again = again.expect("a NUL at the end refuses nothing");

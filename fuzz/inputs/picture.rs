@@ -1,4 +1,4 @@
-//! Picture files: the difference of any two files is an error or numbers and maps.
+//! Picture files: comparing any two files returns an error, or metrics and maps.
 //!
 //! The first two bytes are the length of the first file.
 
@@ -7,8 +7,8 @@ use fastphong::compare::metrics::{
 };
 use fastphong::picture::image_file::{FilePicture, Format, Pair, decode_picture};
 
-/// A header may announce 2²⁶ pixels in a few bytes, which a reader takes memory for: larger pictures than this are read, and
-/// not compared.
+/// Larger pictures are read but not compared. A header may announce 2²⁶ pixels in a few bytes, for
+/// which a reader allocates memory.
 const MOST_PIXELS: usize = 64 * 48;
 
 pub fn run(bytes: &[u8]) {
@@ -18,7 +18,7 @@ pub fn run(bytes: &[u8]) {
     let first = usize::from(u16::from_le_bytes([low, high])).min(files.len());
     let (first, second) = files.split_at(first);
     let first = decode_picture(first);
-    // An empty second file stands for the first one again.
+    // If the second file is empty, the first one is compared with itself.
     let second = match second {
         [] => first.clone(),
         second => decode_picture(second),
@@ -66,7 +66,7 @@ fn check_pair(first: &FilePicture, second: &FilePicture) {
     flip_colours(&flip);
 }
 
-/// What is written is read as the same picture, in every format.
+/// Checks, in every format, that a picture that was written is read unchanged.
 fn check_round_trip(picture: &FilePicture) {
     for format in Format::ALL {
         let bytes = picture.encode(format).expect("a picture with pixels");

@@ -1,8 +1,9 @@
-//! The whole path from random numbers to pixels, through every method and engine.
+//! The whole path from random values to pixels, through every method and engine.
 //!
-//! The first eight bytes choose a random world (`tests/worlds`). Each ten bytes behind them replace one of its numbers: which, and
-//! the bits of the new one, whatever they are. A world as it is must have all that `tests/worlds/properties.rs` asks for; one with
-//! changes, whose numbers no file was checked for, must not panic.
+//! The first eight bytes choose a random world (`tests/worlds`). Each ten bytes behind them replace
+//! one of its values: two bytes say which one, and eight are the bits of the new value, which may
+//! be anything. An unchanged world must have all properties of `tests/worlds/properties.rs`. A
+//! changed world has values that no reader of files has checked, and must only not panic.
 
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -24,7 +25,7 @@ mod wild;
 #[path = "../../tests/worlds/world.rs"]
 mod world;
 
-/// The most numbers that are replaced.
+/// The most values that an input replaces. The rest of its bytes is ignored.
 const MOST_CHANGES: usize = 64;
 
 pub fn run(bytes: &[u8]) {

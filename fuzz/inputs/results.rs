@@ -1,8 +1,9 @@
-//! Results in JSON: any text is refused with a message, or shown as page, Markdown and tables.
+//! Results in JSON: any text is refused with a message, or shown as a page, as Markdown and as
+//! tables.
 
 use fastphong::report::Report;
 
-/// Longer texts only repeat what shorter ones have.
+/// Longer texts are skipped, because they only repeat what shorter ones have.
 const MOST_BYTES: usize = 1 << 16;
 
 pub fn run(bytes: &[u8]) {

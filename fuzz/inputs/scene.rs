@@ -1,18 +1,19 @@
-//! Scene files: any text gives a scene or one error, what is printed reads the same, and the scene can be drawn.
+//! Scene files: any text gives a scene or one error, a printed scene is read unchanged, and the
+//! scene can be drawn.
 //!
-//! Meshes are built-in ones of a few cells, whatever the file asks for.
+//! Whatever mesh a file asks for, it gets a built-in one of a few cells.
 
 use fastphong::mesh::builtin::builtin;
 use fastphong::raster::Renderer;
-use fastphong::scene::file::SceneFile;
+use fastphong::scene::file::{SceneFile, UnusableMesh};
 use fastphong::shading::METHODS;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Longer files only repeat what shorter ones have.
+/// Longer files are skipped, because they only repeat what shorter ones have.
 const MOST_BYTES: usize = 1 << 13;
 
-/// Built-in meshes of more polygons take the time of many others.
+/// Built-in meshes with more polygons would take as long as many other inputs.
 const MOST_POLYGONS: usize = 2000;
 
 pub fn run(bytes: &[u8]) {
@@ -39,9 +40,10 @@ pub fn run(bytes: &[u8]) {
             .split(|c: char| !c.is_ascii_digit())
             .any(|n| n.len() > 2);
         let name = name.strip_prefix("builtin:").filter(|_| !is_large);
-        let mesh = builtin(name.unwrap_or("cube")).map_err(|error| error.to_string())?;
+        let mesh = builtin(name.unwrap_or("cube"));
+        let mesh = mesh.map_err(|error| UnusableMesh::new(error.to_string()))?;
         match mesh.polygon_count() > MOST_POLYGONS {
-            true => Err("more polygons than are drawn here".to_owned()),
+            true => Err(UnusableMesh::new("more polygons than are drawn here")),
             false => Ok((Arc::new(mesh), Vec::new())),
         }
     };

@@ -1,9 +1,9 @@
-/* A plugin of QEMU that counts instructions of the guest between marks, models cycles of a Cortex-M0+, and
- * writes a line of counts at each third kind of mark. Debian's QEMU 7.2 loads plugins and ships none; what is
- * declared here is the part of its interface that is used.
+/* A QEMU plugin that counts the guest's instructions between marks, models the cycles of a Cortex-M0+, and writes
+ * a line of counts at each mark of the third kind. Debian's QEMU 7.2 loads plugins but ships none. This file declares
+ * the part of the plugin interface that it uses.
  *
- * Cycles are from ARM's table for the Cortex-M0+: load and store 2, several registers 1 more each, a taken branch
- * 2, bl 3, muls 1, all else 1. Waits of flash and buses are not in it. */
+ * Cycles are from ARM's table for the Cortex-M0+: load and store 2, each further register 1 more, a taken branch 2,
+ * bl 3, muls 1, everything else 1. The model leaves out waits for flash and buses. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -37,7 +37,7 @@ static instruction *before;
 
 static void execute(unsigned cpu, void *data) {
     instruction *this = data;
-    /* The one before was a taken branch if this one does not follow it. */
+    /* The previous instruction was a taken branch if this one does not follow it in memory. */
     if (before && this->at != before->at + before->size)
         cycles += before->taken;
     before = 0;

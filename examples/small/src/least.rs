@@ -1,4 +1,4 @@
-//! Fast Phong and Gouraud shading alone: what a program needs in flash.
+//! A program with only fast Phong and Gouraud shading, to see how much flash it needs.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 mod machine;

@@ -1,6 +1,7 @@
-//! The machine: how it starts, prints and ends, and marks for the counter of instructions.
+//! The machine: how it starts, prints and ends, and the marks between which instructions are
+//! counted.
 //!
-//! On a machine with an operating system the same functions print and end as programs do, so that
+//! On a machine with an operating system these functions print and end as usual, so that
 //! checksums can be compared.
 
 use core::cell::UnsafeCell;
@@ -51,14 +52,14 @@ impl Line {
     }
 }
 
-/// Memory that the program takes once and keeps.
+/// Static memory that the program takes once and then keeps.
 pub struct Memory<T> {
     is_taken: AtomicBool,
     value: UnsafeCell<T>,
 }
 
-// SAFETY: whoever finds `is_taken` unset has the only reference. The bare machine has one thread and no
-// interrupts, so that a load and a store are enough.
+// SAFETY: only the caller that finds `is_taken` unset gets a reference. The bare machine has one
+// thread and no interrupts, so a load and a store are enough.
 unsafe impl<T: Send> Sync for Memory<T> {}
 
 impl<T> Memory<T> {
@@ -68,7 +69,7 @@ impl<T> Memory<T> {
             value: UnsafeCell::new(value),
         }
     }
-    /// Returns the memory, if nobody has it.
+    /// Returns the memory, or `None` if it was taken before.
     #[expect(clippy::mut_from_ref, reason = "only the first call returns it")]
     pub fn take(&'static self) -> Option<&'static mut T> {
         if self.is_taken.load(Ordering::Relaxed) {
@@ -80,11 +81,11 @@ impl<T> Memory<T> {
     }
 }
 
-/// Adds a number to a checksum (FNV-1a).
+/// Adds a value to a checksum (FNV-1a).
 pub fn checksum(sum: u32, x: u32) -> u32 {
     (sum ^ x).wrapping_mul(16_777_619)
 }
-/// The checksum of nothing.
+/// The checksum of no values.
 pub const NOTHING: u32 = 2_166_136_261;
 
 #[cfg(target_os = "none")]
@@ -124,10 +125,10 @@ mod bare {
         "1: call stop_at_fault",
     );
 
-    /// Calls the debugger that the machine hangs on, here QEMU.
+    /// Calls the debugger of the machine, which is QEMU here.
     #[inline(never)]
     fn semihosting(operation: u32, argument: *const u32) {
-        // SAFETY: the debugger reads what the argument points to, and no more.
+        // SAFETY: the debugger only reads what the argument points to.
         unsafe {
             #[cfg(target_arch = "arm")]
             asm!("bkpt 0xab", inout("r0") operation => _, in("r1") argument);
@@ -176,7 +177,7 @@ mod bare {
 
     macro_rules! marks {
         ($($name:ident $arm:literal $riscv:literal),*) => { $(
-            /// An instruction without an effect that the counter knows.
+            /// An instruction without effect that the counter recognises.
             #[inline(always)]
             pub fn $name() {
                 // SAFETY: the instruction changes nothing.

@@ -1,4 +1,5 @@
-//! Shades spans and draws frames on a bare machine, and prints a checksum for each: what `run` counts.
+//! Shades spans and draws frames on a bare machine, and prints a checksum for each. `run` counts
+//! its instructions.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 mod machine;
@@ -23,7 +24,7 @@ static MORE_888: Material<Rgb888> = more();
 type Lights<P> = [Light<'static, P>; 4];
 type Shade<P> = fn(Case, &mut [P], &Lights<P>);
 
-/// A span, and the normals and colours of its ends.
+/// A span, with the normals and colours of its ends.
 #[derive(Clone, Copy)]
 pub struct Case {
     span: Span,
@@ -32,7 +33,7 @@ pub struct Case {
     colours: [u32; 2],
 }
 
-/// A method's name, and its loop as a function of its own.
+/// Lists methods, each with its name and its loop, which is compiled as a separate function.
 macro_rules! methods {
     ($pixel:ty: $($name:literal $function:ident |$span:ident, $line:ident, $lights:ident| $body:expr;)*) => {{
         $(
@@ -54,7 +55,7 @@ fn two<P: Pixel>(lights: &Lights<P>) -> [Light<'static, P>; 2] {
     [a, b]
 }
 
-/// Shades the spans of all lengths and angles by a method, and prints a line for each.
+/// Shades spans of all lengths and angles by a method, and prints a line for each length and angle.
 fn measure<P: Pixel>(
     name: &str,
     shade: Shade<P>,
@@ -69,7 +70,7 @@ fn measure<P: Pixel>(
             let mut sum = NOTHING;
             for round in 0..16 {
                 let (span, ends) = random.span(angle, round % 2 == 0);
-                // Lighting two vertices is no part of a span.
+                // Lighting the two vertices does not count as part of a span.
                 let colours = ends.map(|n| colour::<_, Reflection, 1>(first(lights), n));
                 let case = Case {
                     span,
@@ -98,7 +99,8 @@ fn measure<P: Pixel>(
     }
 }
 
-/// Shades lines that are cut into pieces, between any vectors, by a method, and prints a line for each length.
+/// Shades long lines between arbitrary vectors by a method, and prints a line of text for each
+/// length. The lines are so long that spans are cut into pieces.
 fn long_lines(name: &str, shade: Shade<Rgb565>, lights: &Lights<Rgb565>, memory: &mut [Rgb565]) {
     for pixels in [257, 1000, 57_600] {
         let mut random = Random(pixels);
@@ -238,7 +240,7 @@ fn all() {
         "fast-be" fast |s, p, l| s.span.fast::<_, Reflection, false, 1>(p, first(l));
     };
     for (name, shade) in methods {
-        // The bytes, whatever the processor's order is.
+        // The value must not depend on the processor's byte order.
         let value = |p: Rgb565Be| u32::from(u16::from_be_bytes(p.0.to_ne_bytes()));
         measure(name, shade, &lights(&CLAY_BE, &MORE_BE), Rgb565Be(0), value);
     }

@@ -1,5 +1,5 @@
-# Joins the errors of the tests with what the guests printed and the plugin counted: as JSON, or with
-# `as=tables` as the tables of docs/small.md.
+# Joins the errors of the tests with the lines of the guests and the counts of the plugin. Prints JSON, or with `as=tables` the tables
+# of docs/small.md.
 #
 # Lines: "span-error METHOD 5° 15° 30° 60°", "frame-error METHOD TRIANGLES WORST RMS",
 # "long METHOD PIXELS SUM …", which is left out here,

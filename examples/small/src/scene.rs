@@ -1,4 +1,5 @@
-//! The light, the material, spans and globes: all in integers, so that every machine has the same.
+//! The light, the material, spans and globes. All are in integers, so that they are equal on every
+//! machine.
 
 use fastphong::fixed::types::{I17F15, I24F8, U16F16};
 use fastphong::integer::{Light, Material, Pixel, Span, Vector, Vertex, unit};
@@ -11,7 +12,7 @@ pub const fn clay<P: Pixel>() -> Material<P> {
     let (ambient, diffuse) = (colour("0.1", "0.06", "0.04"), colour("0.5", "0.3", "0.2"));
     Material::new(ambient, diffuse, colour("0.4", "0.4", "0.4"), 32)
 }
-/// The light that lights after the first add.
+/// What further lights add to the first one.
 pub const fn more<P: Pixel>() -> Material<P> {
     let none = colour("0", "0", "0");
     Material::new(
@@ -25,7 +26,7 @@ pub const fn more<P: Pixel>() -> Material<P> {
 pub const EYE: [i16; 3] = [0, 0, 1];
 pub const TOWARD: [i16; 3] = [2, 3, 6];
 
-/// Returns four lights, of which the first is the one of all other figures.
+/// Returns four lights. Figures with one light use the first.
 pub fn lights<'a, P: Pixel>(first: &'a Material<P>, more: &'a Material<P>) -> [Light<'a, P>; 4] {
     let eye = unit(EYE);
     [
@@ -36,7 +37,8 @@ pub fn lights<'a, P: Pixel>(first: &'a Material<P>, more: &'a Material<P>) -> [L
     ]
 }
 
-/// The angles between the normals of a span, with 2¹⁴ cos and sin of their halves.
+/// The angles between the normals of a span in degrees, with cosine and sine of half the angle,
+/// times 2¹⁴.
 pub const ANGLES: [(u32, i32, i32); 4] = [
     (5, 16368, 715),
     (15, 16244, 2139),
@@ -44,7 +46,7 @@ pub const ANGLES: [(u32, i32, i32); 4] = [
     (60, 14189, 8192),
 ];
 
-/// A sequence of numbers from −2¹² to 2¹², always the same one.
+/// A fixed sequence of pseudo-random values from −2¹² to 2¹².
 pub struct Random(pub u32);
 
 impl Random {
@@ -53,13 +55,13 @@ impl Random {
         (self.0 >> 19) as i32 - 4096
     }
 
-    /// Returns a vector of any bits, mostly longer than 1.
+    /// Returns a vector of arbitrary bits, which is mostly longer than 1.
     pub fn vector(&mut self) -> Vector {
         let shift = self.next() & 15;
         Vector::new([0; 3].map(|_| I17F15::from_bits(self.next() << shift)))
     }
 
-    /// Returns a span of an angle, and its normals. Bright ones lie about the highlight.
+    /// Returns a span of an angle, and its normals. A bright span passes near the highlight.
     pub fn span(&mut self, (_, cos, sin): (u32, i32, i32), is_bright: bool) -> (Span, [Vector; 2]) {
         let middle = if is_bright {
             // Halfway between light and eye is (2, 3, 13).
@@ -95,10 +97,10 @@ fn bits(v: Vector) -> [i32; 3] {
 /// The side of frames in pixels.
 pub const SIDE: usize = 240;
 
-/// The most vertices of a globe: of 48 columns and 32 rows.
+/// The most vertices of a globe, which has at most 48 columns and 32 rows.
 const MOST: usize = 48 * 31 + 2;
 
-/// A globe that fills a frame: vertices, and corners of the triangles that face the eye.
+/// A globe that fills a frame: its vertices, and the corners of the triangles that face the eye.
 pub struct Globe {
     pub vertices: [Vertex; MOST],
     pub corners: [[u16; 3]; 1488],
@@ -144,7 +146,7 @@ impl Globe {
                 at += 1;
             }
         }
-        // The number of a vertex in a row: poles have one.
+        // The index of a vertex. Each pole is a single vertex.
         let index = |i: usize, j: usize| match j {
             0 => 0,
             _ if j == down => 1 + around * (down - 1),
@@ -195,7 +197,7 @@ impl Globe {
 
 /// Returns sine and cosine of `part`/`whole` of a turn, with 28 fractional bits.
 fn sine_cosine(part: i64, whole: i64) -> (i64, i64) {
-    // An angle of at most ⅛ turn, from the quarter that it lies in.
+    // Reduce the angle to at most ⅛ turn from the nearest quarter.
     let eighths = (part * 8 / whole.max(1)) & 7;
     let quarter = (eighths + 1) >> 1;
     let rest = part * 4 - quarter * whole;

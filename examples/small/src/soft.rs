@@ -1,4 +1,4 @@
-//! The same loops in `f32`, which a machine without a floating-point unit emulates: to compare with.
+//! The loops in `f32`, for comparison. A machine without a floating-point unit emulates these.
 
 use crate::{Case, Lights, Shade};
 use fastphong::integer::{Rgb565, Vector};
@@ -24,7 +24,7 @@ fn dot(a: V, b: V) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// A quantity that grows by one addition a pixel.
+/// A quantity that is stepped by one addition per pixel.
 #[derive(Clone, Copy)]
 struct Ramp {
     at: f32,
