@@ -1,6 +1,6 @@
-"""Tests of the Python package: `python3 tests.py`, with the package importable. Wants numpy alone.
+"""Tests of the Python package: `python3 tests.py`, with the package importable. They need only numpy.
 
-Where trimesh, pyvista and meshio are installed, their own meshes are drawn too.
+If trimesh, pyvista and meshio are installed, the tests draw their meshes, too.
 """
 
 import ast
@@ -23,7 +23,7 @@ import warnings
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
-# The package beside this file may not be built: what is tested is the one that is installed, or on PYTHONPATH.
+# The package beside this file may not be built. The tests use the installed one, or the one on PYTHONPATH.
 if pathlib.Path(sys.path[0]).resolve() == HERE:
     del sys.path[0]
 
@@ -32,7 +32,7 @@ import fastphong as fp  # noqa: E402
 ROOT = HERE.parent
 SIZE = (96, 72)
 
-#: A cube of quads, counter-clockwise seen from outside.
+#: A cube of quads, counter-clockwise as seen from outside.
 CUBE = (
     np.array([(x, y, z) for x in (-1.0, 1) for y in (-1.0, 1) for z in (-1.0, 1)]),
     np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]),
@@ -45,7 +45,7 @@ def triangles(faces):
 
 
 def sphere(rings=12, segments=24):
-    """Return vertices and triangles of a sphere around the z axis; no vertex is there twice."""
+    """Return the vertices and triangles of a sphere around the z axis. No two vertices coincide."""
     polar = np.pi * np.arange(1, rings) / rings
     azimuth = 2 * np.pi * np.arange(segments) / segments
     p, a = np.meshgrid(polar, azimuth, indexing="ij")
@@ -79,7 +79,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(tuple(picture[0, 0]), (0, 0, 0, 0))
         picture[:] = 7
         self.assertTrue((picture == 7).all())
-        # What numpy looks at is what was drawn into.
+        # The numpy array shares its memory with the bytes that were drawn into.
         base = picture
         while isinstance(base, np.ndarray):
             base = base.base
@@ -92,7 +92,7 @@ class Pictures(unittest.TestCase):
         for part in (picture[..., 0], picture[:0], picture.astype(float), picture[..., :3]):
             self.assertIsNone(part._repr_png_())
 
-    def test_what_numpy_makes_of_pictures(self):
+    def test_numpy_results_are_pictures_only_if_they_have_their_shape(self):
         picture = fp.render("builtin:sphere", size=SIZE)
         for result in (picture[10:40], picture.copy(), np.hstack([picture, picture]), picture // 2,
                        np.concatenate([picture, np.zeros_like(picture)]), np.where(picture > 9, picture, 0)):
@@ -102,7 +102,7 @@ class Pictures(unittest.TestCase):
         self.assertIs(type(picture.max()), np.uint8)
         self.assertIs(type(picture.mean()), np.float64)
 
-    def test_a_picture_goes_into_a_file_and_back(self):
+    def test_a_saved_picture_is_read_unchanged(self):
         picture = fp.render("builtin:sphere", size=SIZE, samples=2)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "a picture.png")
@@ -120,7 +120,7 @@ class Pictures(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "not a picture that can be read"):
                 fp.read_picture(path)
 
-    def test_a_background_is_seen(self):
+    def test_a_background_makes_pictures_opaque(self):
         plain = fp.render("builtin:sphere", size=SIZE)
         white = fp.render("builtin:sphere", size=SIZE, background=1)
         blue = fp.render("builtin:sphere", size=SIZE, background=(0, 0, 1), samples=2)
@@ -129,20 +129,20 @@ class Pictures(unittest.TestCase):
         covered = plain[..., 3] == 255
         self.assertTrue((white[covered] == plain[covered]).all() and (white[~covered] == 255).all())
 
-    def test_pictures_are_those_that_the_project_keeps(self):
+    def test_pictures_equal_those_that_the_project_stores(self):
         kept = ROOT / "tests" / "references"
         if not kept.is_dir():
             self.skipTest("the project's pictures are not here")
         for scene in ("teapot", "football", "perspective", "local-lights"):
             reference = fp.read_picture(kept / scene / "reference-phong.png")
             size = reference.shape[1::-1]
-            # A stored picture may differ from one that is drawn by a level: both are rounded.
+            # A stored picture may differ from a drawn one by a level, because both are rounded.
             fp.diff(reference, fp.render(scene, "reference", size=size)).assert_below(1.5)
             fp.diff(reference, fp.render(scene, "naive-phong", size=size)).assert_below(2.5)
 
 
 class Meshes(unittest.TestCase):
-    def test_all_ways_to_give_a_mesh_give_one_picture(self):
+    def test_a_mesh_draws_the_same_picture_in_every_form(self):
         vertices, quads = CUBE
         drawn = fp.render(CUBE, size=SIZE)
         self.assertGreater(int((drawn[..., 3] == 255).sum()), 1000)
@@ -156,7 +156,7 @@ class Meshes(unittest.TestCase):
         ):
             same(self, fp.render(mesh, size=SIZE), drawn)
 
-    def test_any_kind_of_numbers_will_do(self):
+    def test_any_kind_of_numbers_is_accepted(self):
         vertices, quads = CUBE
         drawn = fp.render(CUBE, size=SIZE)
         padded = np.zeros((16, 6))
@@ -176,13 +176,13 @@ class Meshes(unittest.TestCase):
         mesh = fp.Mesh(vertices, mixed)
         self.assertEqual([len(face) for face in mesh.faces], [4, 4, 4, 3, 3, 3, 3, 3, 3])
         self.assertEqual(repr(mesh), "<Mesh: 8 vertices, 9 faces>")
-        # A cube of flat faces looks the same however it is cut.
+        # A cube with flat faces looks the same however its faces are cut.
         flat = fp.render(mesh, "flat", size=SIZE)
         same(self, flat, fp.render(CUBE, "flat", size=SIZE))
         self.assertTrue((fp.Mesh(CUBE).faces == quads).all())
         self.assertTrue((fp.Mesh(CUBE).vertices == vertices).all())
 
-    def test_what_is_wrong_with_arrays_is_told_with_its_row(self):
+    def test_errors_in_arrays_name_the_row(self):
         vertices, quads = CUBE
         nan = vertices.copy()
         nan[5, 1] = np.nan
@@ -219,7 +219,7 @@ class Meshes(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "no polygons"):
                 fp.render(mesh, size=SIZE)
 
-    def test_normals_may_come_with_vertices_or_corners(self):
+    def test_normals_may_belong_to_vertices_or_corners(self):
         vertices, faces = sphere()
         own = fp.render((vertices, faces, vertices), size=SIZE)
         same(self, own, fp.render((vertices, faces, 1e-200 * vertices), size=SIZE))
@@ -236,19 +236,19 @@ class Meshes(unittest.TestCase):
         lit = fp.render(red, size=SIZE, scene=matt)
         self.assertTrue(lit[..., 0].any())
         self.assertFalse(lit[..., 1:3].any())
-        # Without an alpha and with one, by vertex and by face, as bytes and as floats: one picture.
+        # With and without alpha, by vertex and by face, as bytes and as floats: all draw the same picture.
         for colours in (np.tile((255, 0, 0), (8, 1)), np.tile((1.0, 0, 0, 0.5), (6, 1)),
                         np.tile(np.array((255, 0, 0, 7), np.uint8), (8, 1))):
             same(self, fp.render(fp.Mesh(vertices, quads, colours=colours), size=SIZE, scene=matt), lit)
         same(self, fp.render(red, size=SIZE, colours=True, scene=matt), lit)
         same(self, fp.render(red, size=SIZE, colours=False), fp.render(CUBE, size=SIZE))
-        # The same shades, in grey.
+        # In grey the shades are the same.
         white = fp.render(fp.Mesh(vertices, quads, colours=np.ones((8, 3))), size=SIZE, scene=matt)
         self.assertTrue((white[..., 0] == lit[..., 0]).all() and (white[..., 1] == lit[..., 0]).all())
 
-    def test_colours_are_those_of_the_mesh(self):
+    def test_a_coloured_mesh_shows_its_own_colours(self):
         vertices, quads = CUBE
-        # On the brown of meshes without colours, white would be brown.
+        # On the brown of meshes without colours, a white mesh would look brown.
         white = fp.render(fp.Mesh(vertices, quads, colours=np.ones((8, 3))), size=SIZE)
         self.assertTrue((white[..., 0] == white[..., 1]).all() and (white[..., 1] == white[..., 2]).all())
         self.assertGreater(int(white[..., 0].max()), 100)
@@ -299,7 +299,7 @@ class Meshes(unittest.TestCase):
         self.assertFalse(only.any())
         self.assertEqual(fp.Scene(CUBE).notes, [])
 
-    def test_an_odd_mesh_is_warned_about_where_it_is_drawn(self):
+    def test_warnings_about_a_mesh_point_to_the_line_that_draws_it(self):
         vertices, quads = CUBE
         for draw in (lambda mesh: fp.render(mesh, size=SIZE), fp.Scene):
             with warnings.catch_warnings(record=True) as found:
@@ -314,10 +314,10 @@ class Meshes(unittest.TestCase):
                 with warnings.catch_warnings(record=True) as found:
                     warnings.simplefilter("always")
                     read()
-                self.assertRegex(str(found[0].message), "`hello` is no OBJ statement")
+                self.assertRegex(str(found[0].message), "`hello` is not an OBJ statement")
                 self.assertEqual(pathlib.Path(found[0].filename).resolve(), pathlib.Path(__file__).resolve())
 
-    def test_files_that_cannot_be_used_are_errors_of_their_kind(self):
+    def test_unusable_files_raise_errors_of_the_right_type(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "broken.obj")
             path.write_text("v 0 0 0\nf 1 2 3\n")
@@ -340,7 +340,7 @@ class Meshes(unittest.TestCase):
 
 
 class OtherLibraries(unittest.TestCase):
-    """What objects of other libraries look like, without the libraries."""
+    """Objects that look like those of other libraries, which need not be installed."""
 
     def trimesh(self, kind=None, **colours):
         vertices, quads = CUBE
@@ -364,7 +364,7 @@ class OtherLibraries(unittest.TestCase):
             mesh = fp.Mesh(mesh)
             self.assertTrue(mesh._mesh.has_colours)
             self.assertEqual(len(mesh.vertices), expected)
-        # Vertices at one place share their normal.
+        # Vertices at the same position share their normal.
         corners = fp.vertex_normals(mesh, per="corner")
         self.assertTrue(np.allclose(abs(corners), 3 ** -0.5, atol=1e-6))
 
@@ -380,7 +380,7 @@ class OtherLibraries(unittest.TestCase):
             (flat, None, quads),
             (np.insert(threes, 0, 3, axis=1).ravel(), empty, threes),
             (mixed, empty, [*quads[:3], *triangles(quads[3:])]),
-            # The last face as a strip: 1 5 3 7 zigzags over it.
+            # The last face is a strip: 1 5 3 7 zigzags over it.
             (np.insert(quads[:5], 0, 4, axis=1).ravel(), np.array([4, 1, 5, 3, 7]),
              [*quads[:5], (1, 5, 3), (7, 3, 5)]),
         ):
@@ -417,8 +417,8 @@ class OtherLibraries(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "a mesh of line: expected triangles"):
             fp.render(self.meshio(("line", quads[:, :2])))
 
-    def test_solids_of_meshio_show_their_surface(self):
-        # Two cubes side by side share a face, which is inside.
+    def test_meshio_solids_show_their_surface(self):
+        # Two cubes side by side share a face, which lies inside.
         points = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], float)
         cell = np.array([0, 1, 4, 3, 6, 7, 10, 9])
         mesh = fp.Mesh(self.meshio(("hexahedron", np.array([cell, cell + 1])), points=points))
@@ -429,7 +429,7 @@ class OtherLibraries(unittest.TestCase):
         pyramid = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)])
         for kind, points, count in (("tetra", corners, 4), ("wedge", wedge, 5), ("pyramid", pyramid, 5)):
             with warnings.catch_warnings():
-                # One that is inside out would be warned about.
+                # A cell that is inside out would cause a warning.
                 warnings.simplefilter("error")
                 mesh = fp.Mesh(self.meshio((kind, np.arange(len(points))[None]), points=points))
                 self.assertEqual(len(mesh.faces), count)
@@ -442,7 +442,7 @@ class OtherLibraries(unittest.TestCase):
         mesh = fp.Mesh(self.meshio(("triangle", faces), points=vertices, **n, **c))
         self.assertTrue(mesh._mesh.has_normals and mesh._mesh.has_colours)
 
-    def test_colours_that_are_none(self):
+    def test_arrays_that_are_not_colours_are_refused(self):
         vertices, quads = CUBE
         for colours, text in (
             (np.full((8, 3), 1.5), r"colours: row 0 is \(1.5, 1.5, 1.5\): expected 0 to 1"),
@@ -492,7 +492,7 @@ class Arguments(unittest.TestCase):
                 self.assertRegex(str(refused), "the method is not for this frame")
                 continue
             self.assertTrue((picture[..., 3] == truth[..., 3]).all(), name)
-        # The default draws Phong's picture: rounding is all that differs.
+        # The default draws Phong's picture, up to rounding.
         fp.diff(truth, fp.render("builtin:sphere", size=SIZE)).assert_below(2)
         for name in ("reference:gouraud", "reference:model=gouraud"):
             fp.diff(fp.render("builtin:sphere", name, size=SIZE),
@@ -509,7 +509,7 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(MemoryError, "the reference would take 80 bytes for each of 268435456 samples"):
             fp.render("builtin:sphere", "reference", size=(16384, 16384))
 
-    def test_wrong_arguments_are_called_by_their_names(self):
+    def test_errors_name_the_wrong_argument(self):
         for arguments, kind, text in (
             ({"size": (0, 5)}, ValueError, "`size` is 0"),
             ({"size": 640}, TypeError, r"`size` is 640: expected \(width, height\)"),
@@ -543,7 +543,7 @@ class Arguments(unittest.TestCase):
             with self.subTest(str(arguments)), self.assertRaisesRegex(kind, text):
                 fp.render("builtin:cube", **{"size": SIZE, **arguments})
 
-    def test_arguments_say_what_keys_of_a_scene_say(self):
+    def test_arguments_equal_the_keys_of_a_scene(self):
         draw = lambda **arguments: fp.render("builtin:teapot?res=4", size=SIZE, **arguments)
         plain = draw()
         for a, b in (
@@ -563,7 +563,7 @@ class Arguments(unittest.TestCase):
                 same(self, draw(**a), draw(**b))
                 self.assertFalse(fp.diff(plain, draw(**a)).equal)
 
-    def test_scene_files_are_scenes(self):
+    def test_scene_files_are_drawn(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "scene.toml")
             path.write_text('image = { width = 40, height = 30 }\n[[object]]\nmesh = "builtin:sphere"\n')
@@ -588,7 +588,7 @@ class KeptScenes(unittest.TestCase):
                          fp.render(mesh, "phong-rsqrt", **{"size": SIZE, **arguments}))
 
     def test_a_turntable_keeps_its_scale(self):
-        # A cube is wider over its diagonal: fitted, both views are as wide.
+        # A cube is wider over its diagonal. Fitted, both views have the same width.
         scene = fp.Scene(CUBE, view=(0, 0), size=SIZE)
         width = lambda picture: int((picture[..., 3] > 0).any(axis=0).sum())
         front, fitted = scene.render(), scene.render(view=(45, 0))
@@ -597,7 +597,7 @@ class KeptScenes(unittest.TestCase):
         self.assertLess(width(fitted), width(kept))
         same(self, scene.render(view=(0, 0), keep_scale=True), front)
 
-    def test_wrong_arguments_leave_the_scene_as_it_was(self):
+    def test_wrong_arguments_leave_the_scene_unchanged(self):
         scene = fp.Scene(CUBE, size=SIZE)
         before = scene.render()
         with self.assertRaisesRegex(ValueError, "`fovy` is 999"):
@@ -634,7 +634,7 @@ class KeptScenes(unittest.TestCase):
             done.append(True)
 
         interval = sys.getswitchinterval()
-        # No thread is interrupted: the other one runs only if this one lets go of the lock.
+        # Threads are not interrupted here, so the other thread runs only if this one releases the lock.
         sys.setswitchinterval(1000)
         try:
             thread = threading.Thread(target=draw)
@@ -696,7 +696,7 @@ class Differences(unittest.TestCase):
         self.assertTrue(found._repr_png_().startswith(b"\x89PNG"))
         self.assertIn("1 of", repr(found))
 
-    def test_what_is_no_picture(self):
+    def test_arrays_that_are_not_pictures_are_refused(self):
         picture = fp.render("builtin:sphere", size=SIZE)
         self.assertTrue(fp.diff(picture[..., :3], picture[..., :3]).equal)
         for a, b, kind, text in (
@@ -711,11 +711,11 @@ class Differences(unittest.TestCase):
 
 
 class Normals(unittest.TestCase):
-    def test_a_cube_by_symmetry(self):
+    def test_normals_of_a_cube_are_symmetric(self):
         vertices, quads = CUBE
         faces = triangles(quads)
         exact = vertices / 3 ** 0.5
-        # Rounded to f32: half a unit in the last place of numbers below 1.
+        # Normals are rounded to f32, by half a unit in the last place of values below 1.
         self.assertLess(abs(fp.vertex_normals((vertices, faces)) - exact).max(), 2 ** -24)
         self.assertGreater(abs(fp.vertex_normals((vertices, faces), weight="uniform") - exact).max(), 0.1)
 
@@ -735,7 +735,7 @@ class Normals(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, text):
                 fp.vertex_normals(CUBE, **arguments)
 
-    def test_vertices_that_no_face_uses_have_none(self):
+    def test_vertices_that_no_face_uses_have_no_normal(self):
         vertices, quads = CUBE
         more = np.concatenate([vertices, [(9, 9, 9)]])
         self.assertEqual(fp.vertex_normals((more, quads)).shape, (9, 3))
@@ -743,7 +743,7 @@ class Normals(unittest.TestCase):
 
 
 def run_cells(cells):
-    """Run pieces of code one after the other in one module, as a notebook does, and return it."""
+    """Run pieces of code in order in one module, as a notebook does, and return the module."""
     module = {"__name__": "__main__", "display": lambda *shown: None}
     for number, cell in enumerate(cells, 1):
         tree = ast.parse(cell, f"<cell {number}>")
@@ -761,14 +761,14 @@ class Documents(unittest.TestCase):
             cells = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
             self.in_a_new_folder(cells)
 
-    def test_the_page_runs(self):
+    def test_the_code_of_the_page_runs(self):
         page = ROOT / "docs" / "python.md"
         if not page.is_file():
             self.skipTest("docs/python.md is not here")
         blocks = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.S | re.M)
         self.assertGreater(len(blocks), 3)
         shown = fp.read_picture(ROOT / "docs" / "images" / "python" / "knot.png")
-        # What the page shows is what its first lines draw: where machines differ, they round differently.
+        # The page shows what its first lines draw. Other machines may round differently.
         self.in_a_new_folder(blocks, lambda: fp.diff("knot.png", shown).assert_below(1.5))
 
     def in_a_new_folder(self, cells, check=lambda: None):
@@ -781,12 +781,12 @@ class Documents(unittest.TestCase):
             finally:
                 os.chdir(before)
 
-    def test_the_stubs_name_what_is_there(self):
+    def test_the_stubs_name_every_item_of_the_module(self):
         package = pathlib.Path(fp.__file__).parent
         for name, module in [("_fastphong", fp._fastphong)]:
             tree = ast.parse((package / f"{name}.pyi").read_text(encoding="utf-8"))
             stubs = {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-            # A type of its results is no name of the module.
+            # A type that begins with an underscore exists only in the stubs.
             stubs = {stub: node for stub, node in stubs.items() if not stub.startswith("_")}
             self.assertEqual(set(stubs), {n for n in dir(module) if not n.startswith("__")})
             for stub, node in stubs.items():

@@ -1,9 +1,12 @@
-//! The boundary of the page's live view: a scene, its frame, a picture of it, and figures, behind functions of numbers.
+//! The interface between the page and its live view. The page reaches a scene, its frame, pictures
+//! of the frame and figures through functions that accept and return only numbers.
 //!
-//! Texts (scenes, names of methods, messages) pass through one buffer, [`text`]. One instance of the module is one studio: a page
-//! that shows several scenes makes several instances, so nothing here needs a handle. There is no unsafe block: the page reads
-//! the module's memory at the addresses that functions return. A function that may fail returns a number below 0 then: minus the
-//! length of a message, which the text is.
+//! Texts (scenes, names of methods, messages) pass through one buffer, which is called *the text*
+//! below. The page writes it at the address that [`text`] returns, and reads it at [`said`]. One
+//! instance of the module is one studio. A page that shows several scenes makes several instances,
+//! so no function needs a handle. The module needs no unsafe block, because the page reads its
+//! memory at the addresses that functions return. A function that fails returns a negative value:
+//! minus the length of a message, which it leaves in the text.
 
 mod figures;
 mod parameters;
@@ -19,7 +22,7 @@ fn with<R>(what: impl FnOnce(&mut Studio) -> R) -> R {
     STUDIO.with_borrow_mut(what)
 }
 
-/// Makes room for a text of `length` bytes, and returns where.
+/// Makes room for a text of `length` bytes, and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn text(length: usize) -> *mut u8 {
     with(|studio| {
@@ -28,36 +31,43 @@ pub extern "C" fn text(length: usize) -> *mut u8 {
     })
 }
 
-/// Returns where the text is.
+/// Returns the address of the text.
 #[unsafe(no_mangle)]
 pub extern "C" fn said() -> *const u8 {
     with(|studio| studio.text.as_ptr())
 }
 
-/// Takes the text as a file: its first line is the name, all else what is in it.
+/// Stores the text as a file: its first line is the name, and the rest is the content.
 #[unsafe(no_mangle)]
 pub extern "C" fn file() {
     with(Studio::file);
 }
 
-/// Takes the text as a scene, as TOML, or as the name of a mesh file that was taken before. Returns the number of its polygons.
+/// Loads the text as a scene in TOML, or as the name of a mesh file that was stored by [`file`].
+/// Returns how many polygons the scene has.
 #[unsafe(no_mangle)]
 pub extern "C" fn load() -> isize {
     with(|studio| studio.answer(Studio::load))
 }
 
-/// Returns where the direction to the scene's first light is, three `f64`: to the right, upward, toward the eye. All are 0 if
-/// there is no light.
+/// Returns the address of the direction to the scene's first light, three `f64`: to the right,
+/// upward, toward the eye. All are 0 if there is no light.
 #[unsafe(no_mangle)]
 pub extern "C" fn light() -> *const f64 {
     with(Studio::light)
 }
 
-/// Makes the frame: its size, the camera turned by an azimuth and an elevation in radians, the zoom, the direction to the first light
-/// (0, 0, 0: where the eye has it in the scene), the exponent of all materials (0: their own), and the samples per pixel along each
-/// side (0: the scene's). Returns the polygons in view.
+/// Makes the frame of a view. Returns how many polygons are in view.
+///
+/// - `width`, `height`: the size of the picture in pixels.
+/// - `azimuth`, `elevation`: the angles in radians that the camera is turned by.
+/// - `zoom`: the zoom.
+/// - `lx`, `ly`, `lz`: the direction to the first light. (0, 0, 0) leaves it where the eye sees it
+///   in the scene.
+/// - `shininess`: the exponent of all materials. 0 keeps their own.
+/// - `samples`: the samples per pixel along each side. 0 keeps the scene's.
 #[unsafe(no_mangle)]
-#[allow(clippy::too_many_arguments)] // the boundary takes numbers, and each call makes a whole frame
+#[allow(clippy::too_many_arguments)] // the boundary passes only numbers
 pub extern "C" fn frame(
     width: u32,
     height: u32,
@@ -82,71 +92,77 @@ pub extern "C" fn frame(
     with(|studio| studio.answer(|studio| studio.look(&view)))
 }
 
-/// Returns where the angles are that the frame was turned by, two `f64`, azimuth and elevation: no camera turns beyond the poles.
+/// Returns the address of the azimuth and the elevation of the frame, two `f64`. They may differ
+/// from those that the page asked for, because no camera turns beyond the poles.
 #[unsafe(no_mangle)]
 pub extern "C" fn turned() -> *const f64 {
     with(|studio| studio.turned.as_ptr())
 }
 
-/// Makes what was odd about the scene the text, a line each, and returns its length.
+/// Writes the warnings about the scene into the text, one per line, and returns its length.
 #[unsafe(no_mangle)]
 pub extern "C" fn warnings() -> usize {
     with(|studio| studio.say(studio.warnings.join("\n")))
 }
 
-/// Writes the scene as it is looked at, as TOML: the text then, whose length is returned.
+/// Writes the scene in its current view into the text, as TOML, and returns its length.
 #[unsafe(no_mangle)]
 pub extern "C" fn scene() -> isize {
     with(|studio| studio.answer(Studio::scene))
 }
 
-/// Draws the frame by the method that the text names, or `reference`, as the picture, or as the exact one if `is_exact`. Returns 0.
+/// Draws the frame by the method that the text names, or by the reference if it is `reference`.
+/// Stores the result as the exact picture if `is_exact` is not 0, else as the picture. Returns 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn draw(is_exact: u32) -> isize {
     with(|studio| studio.answer(|studio| studio.draw(is_exact != 0)))
 }
 
-/// Stores the picture in bytes, RGBA, as the scene encodes it, and returns where.
+/// Stores the picture as RGBA bytes in the scene's encoding, and returns their address.
 #[unsafe(no_mangle)]
 pub extern "C" fn picture() -> *const u8 {
     with(Studio::stored)
 }
 
-/// Compares the picture with the exact one, but for pixels where the reference shows another polygon. Returns where `f64` numbers are: the largest error in grey levels, its column and row,
-/// the root of the mean square, the pixels compared.
+/// Compares the picture with the exact one. Pixels where the reference shows a different polygon
+/// count as equal. Returns the address of five `f64`: the largest error in grey levels, its column
+/// and row, the root mean square error, and the count of pixels.
 #[unsafe(no_mangle)]
 pub extern "C" fn compare() -> *const f64 {
     with(Studio::compare)
 }
 
-/// Returns where the errors of all pixels are that were compared last, `f32`, in grey levels.
+/// Returns the address of the errors of all pixels from the last comparison: `f32` in grey levels.
 #[unsafe(no_mangle)]
 pub extern "C" fn errors() -> *const f32 {
     with(|studio| studio.errors.as_ptr())
 }
 
-/// Lists the parameters of the method that the text names, as JSON: the text then, whose length is returned.
+/// Lists the parameters of the method that the text names. Writes them into the text as JSON, and
+/// returns its length.
 #[unsafe(no_mangle)]
 pub extern "C" fn parameters() -> isize {
     with(|studio| studio.answer(Studio::parameters))
 }
 
-/// Makes the figure that the first line of the text names, with a value of each handle in the second. The text is then its content
-/// as JSON, and the length of that is returned.
+/// Makes the figure that the first line of the text names, with the values of its handles in the
+/// second line. Writes its content into the text as JSON, and returns its length.
 #[unsafe(no_mangle)]
 pub extern "C" fn figure() -> isize {
     with(|studio| studio.answer(Studio::figure))
 }
 
-/// Traces the method that the first line of the text names on the mesh of the figure `stop`, with columns and lines of its corners in
-/// the second. The text is then the trace as JSON, and the length of that is returned.
+/// Traces how the method in the first line of the text draws the mesh of the figure `stop`. The
+/// second line has x and y of its corners, in pixels. Writes the trace into the text as JSON, and
+/// returns its length.
 #[unsafe(no_mangle)]
 pub extern "C" fn trace() -> isize {
     with(|studio| studio.answer(Studio::trace))
 }
 
-/// Returns where three numbers (`u32`) of the figure's picture `number` are: its width, its height, and where its bytes are.
+/// Returns the address of three `u32` about the figure's picture at `index`: its width, its height,
+/// and the address of its bytes.
 #[unsafe(no_mangle)]
-pub extern "C" fn panel(number: usize) -> *const u32 {
-    with(|studio| studio.panel(number))
+pub extern "C" fn panel(index: usize) -> *const u32 {
+    with(|studio| studio.panel(index))
 }

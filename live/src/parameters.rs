@@ -1,4 +1,4 @@
-//! The parameters of a method, from which the page makes handles.
+//! Lists the parameters of a method, from which the page makes handles.
 
 use crate::studio::Studio;
 use fastphong::scene::Power;
@@ -14,6 +14,7 @@ impl Studio {
                 Range::Whole(least, most) => json!({ "range": [least, most], "whole": true }),
                 Range::Decimal(least, most) => json!({ "range": [least, most] }),
                 Range::Words(words) => json!({ "words": words }),
+                _ => json!({}),
             };
             json!({
                 "name": parameter.name, "meaning": parameter.meaning, "value": parameter.text(*value),

@@ -1,4 +1,4 @@
-//! The scene as it is looked at, as a file that the program draws too.
+//! Writes the scene in its current view as a scene file, which the program can draw.
 
 use crate::studio::{Loaded, Studio};
 use fastphong::glam::DVec3;
@@ -40,7 +40,7 @@ fn looked_at(loaded: &Loaded) -> Result<SceneFile, String> {
     for (key, value) in [(key, value), ("near", camera.near), ("far", camera.far)] {
         set(table, key, Data::Number(value));
     }
-    // A scene without lights of its own has one.
+    // A scene that states no light has a default one, which must be written to be turned.
     let mut lights = file.table().tables("light").to_vec();
     if lights.is_empty() && !loaded.shown_lights.is_empty() {
         lights.push(SceneTable::default());

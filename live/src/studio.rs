@@ -1,9 +1,9 @@
-//! A scene, a frame of it, and two pictures of the frame: that of a method, and the exact one.
+//! A scene, a frame of it, and two pictures of the frame: one by a method, and the exact one.
 
 use fastphong::frame::{Frame, PreparedScene};
 use fastphong::picture::encoding::store;
 use fastphong::picture::{LinearPicture, Picture, Picture8};
-use fastphong::raster::{DrawError, polygon_numbers};
+use fastphong::raster::{DrawError, polygon_indices};
 use fastphong::reference::{self, Model};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::resolve_by;
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::PathBuf;
 
-/// What the page asks to see.
+/// A view that the page asks for. See [`crate::frame`] for its fields.
 pub struct View {
     pub size: [u32; 2],
     pub azimuth: f64,
@@ -25,24 +25,24 @@ pub struct View {
     pub samples: u32,
 }
 
-/// A scene that can be looked at from anywhere.
+/// A scene that can be seen from any direction.
 pub struct Loaded {
     pub file: SceneFile,
     prepared: PreparedScene,
     start: Start,
     lights: Vec<Light>,
-    /// As they were turned for the frame.
+    /// The lights of the current frame, turned as its view asks.
     pub shown_lights: Vec<Light>,
     exponents: Vec<f32>,
     samples: u32,
-    /// The size and the exponent that were asked for last; 0 for the materials' own.
+    /// The size and the exponent of the last view. An exponent of 0 keeps the materials' own.
     pub size: [u32; 2],
     pub exponent: f32,
 }
 
-/// All that one instance of the module remembers.
+/// The state of one instance of the module.
 pub struct Studio {
-    /// What the page wrote, or what it is told.
+    /// The text that the page wrote, or that a function left for the page.
     pub text: Vec<u8>,
     files: BTreeMap<PathBuf, Vec<u8>>,
     pub loaded: Option<Loaded>,
@@ -50,14 +50,16 @@ pub struct Studio {
     picture: LinearPicture,
     exact: LinearPicture,
     bytes: Picture8,
-    /// True at pixels where the reference shows another polygon than the engine: they differ in depth, not in shading.
+    /// True at pixels where the reference shows a different polygon than the engine. Such pixels
+    /// differ in depth, not in shading.
     others: Vec<bool>,
-    /// Grey levels, a pixel each; 0 where nothing is compared.
+    /// The error of each pixel in grey levels, 0 where pixels are not compared.
     pub errors: Vec<f32>,
     pub turned: [f64; 2],
     pub warnings: Vec<String>,
-    numbers: Vec<f64>,
-    /// The pictures of the figure, and what the page reads of the last one that it asked for.
+    values: Vec<f64>,
+    /// The pictures of the figure, and width, height and address of the one that the page asked for
+    /// last.
     pub panels: Vec<Picture8>,
     pub panel: [u32; 3],
 }
@@ -76,7 +78,7 @@ impl Default for Studio {
             errors: Vec::new(),
             turned: [0.0; 2],
             warnings: Vec::new(),
-            numbers: Vec::new(),
+            values: Vec::new(),
             panels: Vec::new(),
             panel: [0; 3],
         }
@@ -84,21 +86,22 @@ impl Default for Studio {
 }
 
 impl Studio {
-    /// Makes `message` the text, and returns its length.
+    /// Writes `message` into the text, and returns its length.
     pub fn say(&mut self, message: String) -> usize {
         self.text = message.into_bytes();
         self.text.len()
     }
 
-    /// Takes the text.
+    /// Returns the text and clears it.
     pub fn told(&mut self) -> String {
         String::from_utf8_lossy(&std::mem::take(&mut self.text)).into_owned()
     }
 
-    /// Returns what `ask` returns, or minus the length of the message that the text then is.
+    /// Returns the value that `ask` returns, or minus the length of its error message, which it
+    /// leaves in the text.
     pub fn answer(&mut self, ask: impl FnOnce(&mut Studio) -> Result<usize, String>) -> isize {
         match ask(self) {
-            Ok(number) => number as isize,
+            Ok(value) => value as isize,
             Err(message) => -(self.say(message) as isize),
         }
     }
@@ -123,7 +126,8 @@ impl Studio {
         };
         let files = &self.files;
         let mut read = |path: &std::path::Path| {
-            // Material libraries are asked for beside their mesh, whose folder the page does not have.
+            // A scene asks for material libraries in the folder of their mesh. The page has no
+            // folders, so the name decides.
             let known = files
                 .get(path)
                 .or_else(|| files.get(&PathBuf::from(path.file_name()?)));
@@ -151,8 +155,8 @@ impl Studio {
             .loaded
             .as_ref()
             .and_then(|loaded| loaded.start.toward_light(&loaded.lights));
-        self.numbers = toward.unwrap_or_default().to_vec();
-        self.numbers.as_ptr()
+        self.values = toward.unwrap_or_default().to_vec();
+        self.values.as_ptr()
     }
 
     pub fn look(&mut self, view: &View) -> Result<usize, String> {
@@ -177,7 +181,7 @@ impl Studio {
         scene.set_camera(orbit.camera(&loaded.start, f64::from(width) / f64::from(height)));
         let is_lit_anew = view.light != [0.0; 3];
         loaded.shown_lights = match (is_lit_anew, orbit == Orbit::default()) {
-            // The scene's own, to the bit.
+            // Turning by 0 would round: an unturned view keeps the scene's lights to the bit.
             (false, true) => loaded.lights.clone(),
             (false, false) => orbit.carry(&loaded.start, &loaded.lights),
             (true, _) => orbit.carry_toward(&loaded.start, &loaded.lights, view.light),
@@ -255,14 +259,15 @@ impl Studio {
         let (count, width) = (self.errors.len().max(1), self.picture.width().max(1));
         let root = (squares / (3 * count) as f64).sqrt();
         let [column, row] = [place % width, place / width].map(|v| v as f64);
-        self.numbers = vec![f64::from(most), column, row, root, count as f64];
-        self.numbers.as_ptr()
+        self.values = vec![f64::from(most), column, row, root, count as f64];
+        self.values.as_ptr()
     }
 }
 
-/// Returns the pixels where the engine shows other polygons than `seen`, which has a number a sample.
+/// Returns true at the pixels where the engine shows other polygons than `seen`, which holds the
+/// index of a polygon for each sample.
 fn other_polygons(frame: &Frame, seen: &Picture<u32>) -> Vec<bool> {
-    let (drawn, samples) = (polygon_numbers(frame), frame.samples());
+    let (drawn, samples) = (polygon_indices(frame), frame.samples());
     let mut others = vec![false; frame.picture_width() * frame.picture_height()];
     for y in 0..frame.height() {
         for (x, (a, b)) in drawn.row(y).iter().zip(seen.row(y)).enumerate() {
@@ -294,7 +299,7 @@ impl Loaded {
         })
     }
 
-    /// The camera of the frame.
+    /// Returns the camera of the frame.
     pub fn camera(&self) -> Camera {
         *self.prepared.camera()
     }

@@ -37,9 +37,9 @@ def _warn(texts: Iterable[str], level: int) -> None:
 
 
 class Scene:
-    """A mesh, or a scene file, that is prepared once and drawn as often as you like.
+    """A mesh or a scene file that is prepared once and drawn many times.
 
-    Takes the arguments of `render`. Several threads may draw one scene, one picture at a time.
+    It accepts the arguments of `render`. Several threads may draw a scene, which draws one picture at a time.
     """
 
     def __init__(
@@ -70,17 +70,17 @@ class Scene:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height of its pictures."""
+        """The width and the height of the scene's pictures."""
         return self._scene.size
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings to read before trusting a picture, a list of sentences."""
+        """Warnings to read before you trust a picture, a list of sentences."""
         return self._scene.warnings
 
     @property
     def notes(self) -> list[str]:
-        """Notes on what the scene leaves unused, or decided itself, a list of sentences."""
+        """Notes on what the scene leaves unused and on what it chose automatically, a list of sentences."""
         return self._scene.notes
 
     def render(
@@ -95,9 +95,9 @@ class Scene:
         samples: int | None = None,
         keep_scale: bool = False,
     ) -> Picture:
-        """Return a picture; what is not given is as the scene was made.
+        """Return a picture. Arguments that you leave out keep the scene's values.
 
-        The camera is fitted anew, unless `keep_scale` turns it around the point that it looks at: for turntables.
+        The camera is fitted again, unless `keep_scale` is true: then it turns around its target, as for turntables.
         """
         settings = _keys.settings(size=size, view=view, up=up, fovy=fovy, light=light, samples=samples)
         return _picture(*self._scene.render(method, settings, bool(keep_scale)))
@@ -121,22 +121,22 @@ def render(
     samples: int | None = None,
     scene: Keys | None = None,
 ) -> Picture:
-    """Return a picture of a mesh: an array of (height, width, 4) bytes that nothing else refers to.
+    """Return a picture of a mesh: a new array of (height, width, 4) bytes.
 
     mesh: the path of a mesh file or a scene file, "builtin:teapot", the name of a shipped scene, a
         trimesh.Trimesh, pyvista.PolyData or meshio.Mesh, a tuple (vertices, faces) or (vertices, faces, normals),
         or a Mesh.
     method: a name of `methods()`, "auto", or "reference".
-    size: (width, height) in pixels, (640, 480) for meshes.
-    view: from where to look: (azimuth, elevation) in degrees, or a vector (x, y, z) toward the eye.
-    up: "y", "z", "-x" ... turns view and light with it; a vector turns only the picture.
-    fovy: the vertical field of view in degrees, for a perspective picture.
-    light: a vector toward a light, a mapping with keys of a light, or a list of these.
-    background: a colour, linear, 0 to 1, which makes the picture opaque; without it, it is transparent.
+    size: (width, height) in pixels. Meshes have (640, 480) by default.
+    view: the direction to look from: (azimuth, elevation) in degrees, or a vector (x, y, z) toward the eye.
+    up: "y", "z", "-x" ... turns the view and the light with the mesh; a vector turns only the picture.
+    fovy: the vertical field of view in degrees. It makes the picture perspective.
+    light: a vector toward a light, a mapping with the keys of a light, or a list of these.
+    background: a linear colour, 0 to 1, which makes the picture opaque. Without it the background is transparent.
     normals: "auto", "averaged", "given", or an angle in degrees up to which edges are smooth.
-    weight: the weight of averages: "uniform", "area", "angle" or "max".
-    colours: whether colours at vertices are lit.
-    samples: 1, 2, 4 or 8: samples of a pixel along each side.
+    weight: the weight of averaged normals: "uniform", "area", "angle" or "max".
+    colours: true to light vertex colours, false to ignore them.
+    samples: the samples per pixel along each side: 1, 2, 4 or 8.
     scene: a mapping with further keys of a scene file.
     """
     kept = Scene(mesh, size=size, view=view, up=up, fovy=fovy, light=light, background=background, normals=normals,
@@ -154,8 +154,8 @@ def vertex_normals(
 ) -> NDArray[np.float32]:
     """Return unit normals, (n, 3) floats: one for each vertex, or one for each corner of each face in order.
 
-    `normals` and `weight` are as in `render`. Where the corners at a vertex differ, as at a crease, `per="vertex"` is a
-    `ValueError`.
+    `normals` and `weight` are as in `render`. If the corners at a vertex have different normals, as at a crease,
+    `per="vertex"` raises a `ValueError`.
     """
     if per not in ("vertex", "corner"):
         raise ValueError(f"`per` is {per!r}: expected 'vertex' or 'corner'")
@@ -176,5 +176,5 @@ def vertex_normals(
 
 
 def methods(all: bool = False) -> dict[str, str]:
-    """Return the methods: what each does, by its name. With `all`, those too that are shown only where asked for."""
+    """Return what each method does, by its name. With `all`, include methods that are hidden by default."""
     return dict(_fastphong.methods(bool(all)))

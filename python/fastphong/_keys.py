@@ -1,4 +1,4 @@
-"""Keys of a scene, written as TOML: the crate reads and checks them."""
+"""Writes the keys of a scene as TOML, which the crate reads and checks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def toml(value: object) -> str:
-    """Return `value` as it stands on the right of an equals sign."""
+    """Return `value` in the notation of TOML."""
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, numbers.Integral):
@@ -41,7 +41,7 @@ def _pair(key: object, value: object) -> str:
 
 
 def _lights(light: Any) -> list[Any]:
-    """Return the lights as tables: `light` is a direction, a table of a light, or a list of these."""
+    """Return the lights as tables. `light` is a direction, the table of a light, or a list of these."""
     def table(one: Any) -> Any:
         return one if isinstance(one, Mapping) else {"direction": _numbers("light", one, 3)}
 
@@ -81,7 +81,7 @@ def whole(name: str, value: object) -> int:
 
 
 def source(normals: Normals | None) -> tuple[str | None, float | None]:
-    """Return the source of vertex normals and the angle of creases, one of which is None."""
+    """Return the source of vertex normals and the crease angle; at least one of them is None."""
     if normals is None:
         return None, None
     if isinstance(normals, str):
@@ -144,7 +144,7 @@ def settings(
     if background is not None:
         plain = isinstance(background, numbers.Real)
         put("image", "background", background if plain else _numbers("background", background, 3))
-        # Who asks for a background wants to see it.
+        # Whoever sets a background wants to see it.
         keys["image"].setdefault("alpha", "opaque")
     if samples is not None:
         put("image", "samples", whole("samples", samples))

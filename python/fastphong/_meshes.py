@@ -1,6 +1,6 @@
-"""Meshes of other libraries, and of arrays, as the crate takes them.
+"""Turns meshes of other libraries, and arrays, into the crate's meshes.
 
-No library is imported: what an object has says what it is.
+This file imports no other library: it recognises an object by its attributes.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 class Mesh:
     """A mesh of polygons, checked once.
 
-    `Mesh(mesh)` takes whatever `render` takes but scene files; `Mesh(vertices, faces)` takes arrays.
-    `faces` are rows of indices, (n, k), or a list of rows whose lengths differ; polygons are never cut
-    into triangles. `normals` are those of the vertices, (n, 3), or of the corners of all faces in order.
-    `colours` are those of the vertices or of the faces, (n, 3) or (n, 4): bytes, or floats from 0 to 1,
-    linear; alpha is left out.
+    `Mesh(mesh)` accepts whatever `render` accepts except scene files; `Mesh(vertices, faces)` accepts arrays.
+    `faces` are rows of indices, (n, k), or a list of rows whose lengths differ. Polygons are never cut into
+    triangles. `normals` are (n, 3), one for each vertex or one for each corner of all faces in order.
+    `colours` are (n, 3) or (n, 4), one for each vertex or one for each face. They are bytes, or linear floats
+    from 0 to 1; alpha is ignored.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class Mesh:
 
     @property
     def faces(self) -> NDArray[np.uint32] | list[NDArray[np.uint32]]:
-        """The faces: an array (n, k) where all have as many corners, else a list of arrays."""
+        """The faces: an array (n, k) if all have the same number of corners, else a list of arrays."""
         corners, ends = self._corners, np.frombuffer(self._mesh.ends, "<u4")
         counts = np.diff(ends, prepend=np.uint32(0))
         if len(counts) and (counts == counts[0]).all():
@@ -75,7 +75,7 @@ class Mesh:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about its file, a list of sentences."""
+        """Warnings about the mesh's file, a list of sentences."""
         return self._mesh.warnings
 
     @property
@@ -88,7 +88,7 @@ class Mesh:
 
 
 def _arrays(mesh: Any) -> tuple[str, Sequence[Any]]:
-    """Return what to call a mesh, and its vertices, faces, normals and colours."""
+    """Return a name for a mesh, and its vertices, faces, normals and colours."""
     kind = f"{type(mesh).__module__.split('.')[0]}.{type(mesh).__name__}"
     if isinstance(mesh, (tuple, list)):
         if len(mesh) not in (2, 3):
@@ -102,7 +102,7 @@ def _arrays(mesh: Any) -> tuple[str, Sequence[Any]]:
         return kind, _poly_data(mesh)
     if hasattr(mesh, "points") and hasattr(mesh, "extract_surface"):
         with warnings.catch_warnings():
-            # It announces another default, which changes no surface.
+            # pyvista announces a new default, which changes no surface.
             warnings.filterwarnings("ignore", message="The default value of `algorithm`")
             surface = mesh.extract_surface()
         return kind, _poly_data(surface)
@@ -116,7 +116,7 @@ def _arrays(mesh: Any) -> tuple[str, Sequence[Any]]:
 def _trimesh(mesh: Any) -> tuple[Any, ...]:
     """Return the arrays of a `trimesh.Trimesh`.
 
-    Its normals are left out: it computes them when it is asked, and does not say so.
+    Its normals are left out: it computes them on demand, and does not say if they are the mesh's own.
     """
     visual: Any = getattr(mesh, "visual", None)
     colours = None
@@ -135,7 +135,7 @@ def _poly_data(mesh: Any) -> tuple[Any, ...]:
         faces = list(faces)
         for strip in _prefixed("strips", strips):
             rows = np.stack([strip[:-2], strip[1:-1], strip[2:]], axis=1)
-            # Every other triangle of a strip runs the other way.
+            # Every other triangle of a strip is wound the other way.
             rows[1::2] = rows[1::2, ::-1]
             faces.extend(rows)
     data = getattr(mesh, "point_data", {})
@@ -144,7 +144,7 @@ def _poly_data(mesh: Any) -> tuple[Any, ...]:
 
 
 def _prefixed(name: str, flat: Any) -> Any:
-    """Return the polygons of an array of VTK: the number of corners of each stands before them."""
+    """Return the polygons of a VTK array, in which the corner count of each polygon stands before its corners."""
     flat = np.asarray(flat)
     width = int(flat[0]) + 1 if len(flat) else 1
     if width > 1 and len(flat) % width == 0 and (flat[::width] == width - 1).all():
@@ -168,7 +168,7 @@ def _named(data: Any, *names: str) -> _Array | None:
 
 
 def _colours_of(data: Any, active: str | None = None) -> _Array | None:
-    """Return colours among arrays at points: those by one of their usual names, or bytes that are shown as colours."""
+    """Return the point colours: an array with a usual name for colours, or bytes that are shown as colours."""
     found = _named(data, "RGBA", "RGB", "rgba", "rgb", "colors", "Colors")
     if found is None and active is not None:
         found = np.asarray(data[active])
@@ -179,7 +179,7 @@ def _colours_of(data: Any, active: str | None = None) -> _Array | None:
     return found if found is not None and found.ndim == 2 and found.shape[1] in (3, 4) else None
 
 
-#: The corners of each face of a solid, and the corners of a flat cell, by the names of meshio.
+#: By meshio's names of cells: the corners of a flat cell, without points on its edges, and the faces of a solid cell.
 _FLAT = {"triangle": 3, "triangle6": 3, "triangle7": 3, "quad": 4, "quad8": 4, "quad9": 4}
 _SOLID: dict[str, list[tuple[int, ...]]] = {
     "tetra": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)],
@@ -211,7 +211,7 @@ def _meshio(mesh: Any) -> tuple[Any, ...]:
                 sides.setdefault(side.shape[1], []).append(side)
     for parts in sides.values():
         faces = np.concatenate(parts)
-        # What two solids share is inside.
+        # A side that two solids share is inside.
         _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
         blocks.append(faces[np.sort(first[count == 1])])
     if not blocks and len(mesh.cells):
@@ -228,20 +228,20 @@ def _meshio(mesh: Any) -> tuple[Any, ...]:
 def _outward(points: _Array, cells: _Array, sides: list[tuple[int, ...]]) -> Iterator[_Array]:
     """Yield each side of all solids, counter-clockwise seen from outside.
 
-    Libraries do not agree about the order of corners.
+    Libraries do not agree on the order of corners.
     """
     middle = points[cells].mean(axis=1)
     for side in sides:
         faces = cells[:, side]
         a, b, c, d = (points[faces[:, corner]] for corner in (0, 1, 2, -1))
-        # The diagonals of four corners, two edges of three.
+        # This is the cross product of the two diagonals of a quad, or of two edges of a triangle.
         normal = np.cross(c - a, d - b)
         inward = ((points[faces].mean(axis=1) - middle) * normal).sum(axis=1) < 0
         yield np.where(inward[:, None], faces[:, ::-1], faces)
 
 
 def _pack(name: str, vertices: Any, faces: Any, normals: Any, colours: Any) -> _fastphong.Mesh:
-    """Check the arrays of a mesh, and hand them to the crate."""
+    """Check the arrays of a mesh, and make the crate's mesh from them."""
     vertices = _vectors("vertices", vertices, 3)
     corners, ends = _corners(faces, len(vertices))
     if normals is not None:
@@ -260,7 +260,7 @@ def _pack(name: str, vertices: Any, faces: Any, normals: Any, colours: Any) -> _
 
 
 def _vectors(name: str, array: Any, width: int) -> _Array:
-    """Return an array of finite vectors, `width` numbers a row."""
+    """Return an array of finite vectors with `width` numbers per row."""
     array = np.asarray(array)
     if array.size == 0 and array.ndim <= 1:
         array = array.reshape(0, width)
@@ -281,7 +281,7 @@ def _row(values: Any) -> str:
 
 
 def _units(vectors: _Array) -> _Array:
-    """Return the vectors with length one; those without a length stay zero."""
+    """Return the vectors scaled to length one. Zero vectors stay zero."""
     largest = np.abs(vectors).max(axis=1, keepdims=True)
     scaled = vectors / np.where(largest > 0, largest, 1)
     lengths = np.linalg.norm(scaled, axis=1, keepdims=True)
@@ -290,7 +290,7 @@ def _units(vectors: _Array) -> _Array:
 
 
 def _corners(faces: Any, count: int) -> tuple[_Array, _Array]:
-    """Return the corners of all faces, and the end of each face among them."""
+    """Return the corners of all faces, and for each face the index behind its last corner."""
     if isinstance(faces, np.ndarray) and faces.dtype != object:
         corners, ends = _rectangle(faces)
     else:
@@ -317,7 +317,7 @@ def _corners(faces: Any, count: int) -> tuple[_Array, _Array]:
 
 
 def _rectangle(faces: _Array) -> tuple[_Array, _Array]:
-    """Return corners and ends of faces that all have as many corners."""
+    """Return the corners and ends of faces that all have the same number of corners."""
     if faces.size == 0:
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
     if faces.ndim != 2 or faces.shape[1] < 3:
@@ -337,7 +337,7 @@ def _coloured(
 ) -> tuple[_Array, _Array, _Array | None, _Array]:
     """Return the arrays with a colour for each vertex.
 
-    For colours of faces each corner becomes a vertex: those at one place still share their normal.
+    For colours of faces each corner becomes a vertex. Corners at one position still share their normal.
     """
     colours = np.asarray(colours)
     if colours.ndim != 2 or colours.shape[1] not in (3, 4):

@@ -1,4 +1,4 @@
-"""Pictures, and the difference of two of them."""
+"""Pictures and their differences."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ else:
 
 
 class Picture(_Array):
-    """A picture: an array of (height, width, 4) bytes, red, green, blue and alpha, which a notebook shows.
+    """A picture: an array of (height, width, 4) bytes, red, green, blue and alpha. Notebooks show it as a picture.
 
-    It is an array like any other, and may be written to. Alpha is the covered share of a pixel, and straight.
+    It is a normal numpy array, and you may write to it. Alpha is the covered share of a pixel, and straight.
     """
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
-        # Of numpy's results those that are pictures show themselves, and no number is an array.
+        # A result of numpy that is a picture shows itself as one. A scalar result stays a scalar.
         return array[()] if array.shape == () else _shown(np.asarray(array))
 
     def __array_function__(self, function: Any, types: Any, arguments: Any, keywords: Any) -> Any:
@@ -36,7 +36,7 @@ class Picture(_Array):
         return _fastphong.encode_png(self.tobytes(), (self.shape[1], self.shape[0]))
 
     def save(self, path: PathLike) -> None:
-        """Write the picture to a file: PNG, PPM or PFM, as the path ends."""
+        """Write the picture to a file. The ending of the path names the format: PNG, PPM or PFM."""
         pixels = _pixels("picture", self)
         _fastphong.write_picture(os.fsdecode(path), pixels.tobytes(), (pixels.shape[1], pixels.shape[0]))
 
@@ -46,17 +46,17 @@ def _is_picture(array: _Array) -> bool:
 
 
 def _shown(result: Any) -> Any:
-    """Return a result of numpy: as a picture, if it is one."""
+    """Return a result of numpy, as a `Picture` if it has the shape of one."""
     return result.view(Picture) if isinstance(result, np.ndarray) and _is_picture(result) else result
 
 
 def picture(pixels: bytearray, width: int, height: int) -> Picture:
-    """Return the bytes of `pixels` as a picture, without a copy."""
+    """Return the bytes of `pixels` as a picture, without copying them."""
     return np.frombuffer(pixels, np.uint8).reshape(height, width, 4).view(Picture)
 
 
 def read(path: PathLike) -> Picture:
-    """Return the picture in a file."""
+    """Read a picture file."""
     return picture(*_fastphong.read_picture(os.fsdecode(path)))
 
 
@@ -75,7 +75,7 @@ def _pixels(name: str, image: Any) -> _Array:
 
 
 class Difference:
-    """How far picture `b` is off picture `a`, in grey levels of 255."""
+    """The difference of picture `b` from picture `a`, in grey levels of 255."""
 
     def __init__(self, a: Image, b: Image) -> None:
         self._a, self._b = _pixels("a", a), _pixels("b", b)
@@ -99,14 +99,14 @@ class Difference:
     def draw(self, scale: float = 4.0) -> Picture:
         """Return a picture of the difference, from purple to yellow at `scale` grey levels.
 
-        Black is equal, magenta beyond the scale, white covered by one picture only.
+        Black pixels are equal, magenta ones are beyond the scale, and white ones are covered by only one picture.
         """
         pixels = _fastphong.difference_map(self._a.tobytes(), self._b.tobytes(), self._size, float(scale))
         return picture(pixels, *self._size)
 
     @property
     def map(self) -> Picture:
-        """The picture of the difference, on a scale of four grey levels."""
+        """A picture of the difference, on a scale of four grey levels."""
         return self.draw()
 
     def assert_below(self, levels: float) -> None:

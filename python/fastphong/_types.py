@@ -1,4 +1,4 @@
-"""The types of arguments, for who checks them: nothing here is imported when pictures are drawn."""
+"""The types of arguments, for type checkers. Nothing here is imported at run time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-//! The crate's errors as Python's.
+//! Turns the crate's errors into Python's.
 
 use pyo3::PyErr;
 use pyo3::exceptions::{
@@ -13,8 +13,8 @@ pub fn value_error(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// Returns the error about the input `path`: an `OSError` of its kind where the system does not let
-/// the file be opened, else a `ValueError`. The message is the crate's.
+/// Returns an error about the input `path` with the crate's message: an `OSError` if the system
+/// cannot open the file, else a `ValueError`.
 pub fn input_error(error: impl Display, path: &Path) -> PyErr {
     if path.to_string_lossy().starts_with("builtin:") {
         return value_error(error);
@@ -29,9 +29,9 @@ pub fn input_error(error: impl Display, path: &Path) -> PyErr {
     }
 }
 
-/// Returns the `OSError` of the kind of `cause`, with a message of the crate.
+/// Returns an `OSError` of the kind of `cause`, with the crate's message.
 pub fn os_error(cause: &std::io::Error, message: String, path: &Path) -> PyErr {
-    // The crate's own errors have a kind only.
+    // The crate's own errors have a kind but no code of the system.
     let code = cause.raw_os_error().unwrap_or(match cause.kind() {
         ErrorKind::NotFound => 2,
         ErrorKind::PermissionDenied => 13,
@@ -47,7 +47,7 @@ pub fn os_error(cause: &std::io::Error, message: String, path: &Path) -> PyErr {
     }
 }
 
-/// Returns the number of an error that has no cause to ask.
+/// Returns the code of an error that has no system error behind it.
 fn libc_code(kind: ErrorKind) -> i32 {
     std::io::Error::from(kind).raw_os_error().unwrap_or(21)
 }

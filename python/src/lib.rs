@@ -1,9 +1,9 @@
-//! fastphong for Python: what `fastphong/__init__.py` asks of the crate.
+//! fastphong for Python: the extension module behind `fastphong/__init__.py`.
 //!
-//! Arrays come as bytes, checked and packed by `fastphong/_meshes.py`; pictures are drawn into byte
-//! arrays that numpy then looks at, so that no pixel is copied. Keys of a scene come as TOML, as a
-//! scene file has them, and are checked by the crate. Whatever takes time runs without Python's
-//! lock.
+//! `fastphong/_meshes.py` checks and packs arrays, which arrive here as bytes. Pictures are drawn
+//! into byte arrays that numpy then wraps, so no pixel is copied. The keys of a scene arrive as
+//! TOML, as in a scene file, and the crate checks them. Python's lock is released for everything
+//! that takes time.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![cfg_attr(clippy, deny(warnings))]

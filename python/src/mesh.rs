@@ -1,4 +1,4 @@
-//! Meshes: from arrays, which come as bytes, or from files.
+//! Meshes from arrays, which arrive as bytes, or from files.
 
 use crate::errors::{input_error, value_error};
 use crate::pool::install;
@@ -11,16 +11,16 @@ use pyo3::types::PyBytes;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A mesh, checked once.
+/// A mesh whose arrays are checked.
 #[pyclass(frozen, module = "fastphong._fastphong")]
 pub struct Mesh {
     pub mesh: Arc<PolygonMesh>,
-    /// The name in messages.
+    /// The name of the mesh in messages.
     pub name: String,
     warnings: Vec<String>,
 }
 
-/// Returns the numbers that `bytes` hold.
+/// Returns the values that `bytes` hold, of `N` bytes each.
 fn numbers<const N: usize, T>(
     bytes: &[u8],
     of: fn([u8; N]) -> T,
@@ -39,22 +39,22 @@ fn vectors(bytes: &[u8]) -> Vec<DVec3> {
         .collect()
 }
 
-/// Returns the vectors that `bytes` hold, rounded.
+/// Returns the vectors that `bytes` hold, three `f64` each, rounded to `f32`.
 fn singles(bytes: &[u8]) -> Vec<Vec3> {
     vectors(bytes).iter().map(|v| v.as_vec3()).collect()
 }
 
-/// The arrays of a mesh, as bytes of little-endian numbers.
+/// The arrays of a mesh, as little-endian bytes.
 struct Arrays<'a> {
-    /// Three `f64` a vertex.
+    /// Three `f64` per vertex.
     vertices: &'a [u8],
-    /// A `u32` a corner.
+    /// A `u32` per corner.
     corners: &'a [u8],
-    /// The end of each polygon among the corners, `u32`.
+    /// For each polygon the index behind its last corner, `u32`.
     ends: &'a [u8],
-    /// Three `f64` a vertex, or a corner.
+    /// Three `f64` per vertex, or per corner.
     normals: Option<&'a [u8]>,
-    /// Three `f64` a vertex.
+    /// Three `f64` per vertex.
     colours: Option<&'a [u8]>,
 }
 
@@ -62,7 +62,7 @@ impl Arrays<'_> {
     fn mesh(&self) -> Result<PolygonMesh, MeshError> {
         let vertices = vectors(self.vertices);
         let mut builder = MeshBuilder::from_f64(&vertices);
-        // Nobody vouches for arrays more than for a file: sides and normals are chosen alike.
+        // Arrays are no more reliable than a file, so sides and normals are chosen as for a file.
         builder.read_from_file();
         let corners: Vec<u32> = numbers(self.corners, u32::from_le_bytes).collect();
         let ends = numbers(self.ends, u32::from_le_bytes);
@@ -87,7 +87,7 @@ impl Arrays<'_> {
 
 #[pymethods]
 impl Mesh {
-    /// Makes a mesh of arrays.
+    /// Makes a mesh from arrays.
     #[new]
     #[pyo3(signature = (name, vertices, corners, ends, normals, colours))]
     fn new(
@@ -126,13 +126,13 @@ impl Mesh {
         })
     }
 
-    /// Returns the warnings about its file.
+    /// Returns the warnings about the mesh's file.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
 
-    /// Returns its vertices, three `f64` each.
+    /// Returns the vertices, three `f64` each.
     #[getter]
     fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let positions = self.mesh.positions().iter();
@@ -141,7 +141,7 @@ impl Mesh {
         PyBytes::new(py, &bytes)
     }
 
-    /// Returns the vertex of each corner, `u32`.
+    /// Returns the vertex index of each corner, `u32`.
     #[getter]
     fn corners<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let corners = self.mesh.corners().iter();
@@ -149,7 +149,7 @@ impl Mesh {
         PyBytes::new(py, &bytes)
     }
 
-    /// Returns the end of each polygon among the corners, `u32`.
+    /// Returns for each polygon the index behind its last corner, `u32`.
     #[getter]
     fn ends<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let ends = (0..self.mesh.polygon_count()).map(|p| self.mesh.corner_range(p).end as u32);
@@ -157,20 +157,20 @@ impl Mesh {
         PyBytes::new(py, &bytes)
     }
 
-    /// True if it has colours at its vertices.
+    /// True if the mesh has vertex colours.
     #[getter]
     fn has_colours(&self) -> bool {
         !self.mesh.colours().is_empty()
     }
 
-    /// True if it has normals of its own.
+    /// True if the mesh has its own normals.
     #[getter]
     fn has_normals(&self) -> bool {
         self.mesh.given_normals().is_some()
     }
 }
 
-/// Returns the weight that Python names.
+/// Returns the normal weight that `name` names.
 fn weight(name: &str) -> PyResult<NormalWeight> {
     match name {
         "uniform" => Ok(NormalWeight::Uniform),
@@ -184,7 +184,7 @@ fn weight(name: &str) -> PyResult<NormalWeight> {
     }
 }
 
-/// Returns the source that Python names, or an angle in degrees.
+/// Returns the normal source that `name` names.
 fn source(name: &str) -> PyResult<NormalSource> {
     match name {
         "auto" => Ok(NormalSource::Auto),
@@ -197,7 +197,8 @@ fn source(name: &str) -> PyResult<NormalSource> {
     }
 }
 
-/// Returns the rule that Python names, what is left out as `of_mesh` has it.
+/// Returns the rule from Python's arguments. Missing ones have the values that `Scene.of_mesh`
+/// uses.
 fn rule(
     of_mesh: NormalRule,
     name: Option<&str>,
@@ -217,7 +218,7 @@ fn rule(
     Ok(NormalRule { source, weight })
 }
 
-/// Returns unit normals, three `f32` each, and the entry of each corner among them, `u32`.
+/// Returns the unit normals, three `f32` each, and for each corner the index of its normal, `u32`.
 #[pyfunction]
 pub fn vertex_normals<'py>(
     py: Python<'py>,

@@ -1,18 +1,18 @@
-//! The ways of drawing, by the names that Python gives them.
+//! Methods by their names in Python.
 
 use crate::errors::value_error;
 use fastphong::frame::Frame;
 use fastphong::raster::Renderer;
 use fastphong::reference::Model;
-use fastphong::shading::{METHODS, Standing, Variant};
+use fastphong::shading::{METHODS, Tier, Variant};
 use pyo3::prelude::*;
 
-/// The method that draws naive Phong's picture fastest.
+/// The name of the method that is chosen automatically: it draws naive Phong's picture fastest.
 const AUTO: &str = "auto";
-/// The name of the `f64` reference; a model may follow after a colon.
+/// The name of the `f64` reference. A model may follow after a colon.
 const REFERENCE: &str = "reference";
 
-/// How a frame becomes a picture.
+/// A way to draw a picture of a frame.
 pub enum Method {
     Auto,
     Reference(Model),
@@ -20,7 +20,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Returns the method that `name` names.
+    /// Returns the method called `name`.
     pub fn parse(name: &str) -> PyResult<Method> {
         match name.split_once(':').unwrap_or((name, "")) {
             (AUTO, "") => Ok(Method::Auto),
@@ -38,7 +38,7 @@ impl Method {
         }
     }
 
-    /// Returns the method that an engine draws `frame` with; `None` for the reference.
+    /// Returns the method that an engine draws `frame` by, or `None` for the reference.
     pub fn variant(&self, frame: &Frame) -> Option<Variant> {
         match self {
             Method::Auto => Some(Variant::auto(frame, Renderer::fastest()).0),
@@ -48,10 +48,11 @@ impl Method {
     }
 }
 
-/// Returns name and sentence of each method; all of them, or those that comparisons show.
+/// Returns the name and a sentence of each method, for all methods or only for those that
+/// comparisons show by default.
 #[pyfunction]
 pub fn methods(all: bool) -> Vec<(&'static str, &'static str)> {
     let infos = METHODS.iter().map(|method| method.info);
-    let shown = infos.filter(|info| all || info.standing == Standing::Default);
+    let shown = infos.filter(|info| all || info.tier == Tier::Default);
     shown.map(|info| (info.name, info.title)).collect()
 }

@@ -1,4 +1,4 @@
-//! Pictures: compared, and read from and written to files.
+//! Compares pictures, and reads and writes picture files.
 
 use crate::errors::{input_error, os_error, value_error};
 use crate::pool::install;
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyBytes, PyDict};
 use std::path::{Path, PathBuf};
 
-/// Returns the picture that `bytes` hold, four a pixel.
+/// Returns the picture that `bytes` hold, four per pixel.
 fn picture(bytes: &[u8], (width, height): (usize, usize)) -> PyResult<Picture8> {
     let pixels = bytes.as_chunks().0.to_vec();
     let found = Picture8::from_pixels(width, height, pixels);
@@ -43,8 +43,8 @@ pub fn difference<'py>(
     Ok(dict)
 }
 
-/// Returns the map of the difference: yellow is `scale` grey levels, magenta more, white covered by
-/// one picture only.
+/// Returns a map of the difference. A pixel is yellow at `scale` grey levels, magenta beyond, and
+/// white where only one picture covers it.
 #[pyfunction]
 pub fn difference_map<'py>(
     py: Python<'py>,
@@ -59,7 +59,7 @@ pub fn difference_map<'py>(
     Ok(PyByteArray::new(py, drawn.pixels().as_flattened()))
 }
 
-/// Returns the bytes of a PNG file.
+/// Returns a picture as the bytes of a PNG file.
 #[pyfunction]
 pub fn encode_png<'py>(
     py: Python<'py>,
@@ -71,7 +71,7 @@ pub fn encode_png<'py>(
     Ok(PyBytes::new(py, &encoded.map_err(value_error)?))
 }
 
-/// Writes a picture file; the ending of `path` is its format.
+/// Writes a picture file in the format that the ending of `path` names.
 #[pyfunction]
 pub fn write_picture(
     py: Python<'_>,
@@ -87,7 +87,7 @@ pub fn write_picture(
         })
 }
 
-/// Reads a picture file: returns pixels of four bytes, width and height.
+/// Reads a picture file. Returns the pixels, four bytes each, and width and height.
 #[pyfunction]
 pub fn read_picture<'py>(
     py: Python<'py>,

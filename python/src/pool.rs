@@ -1,4 +1,4 @@
-//! The threads that draw.
+//! The threads that draw pictures.
 
 use pyo3::PyResult;
 use pyo3::exceptions::PyOSError;
@@ -6,11 +6,10 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::process;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Runs `work` on threads of this process.
+/// Runs `work` on this process's pool of threads.
 ///
-/// A process that was forked, as `multiprocessing` does on Linux, has none of the threads of its
-/// parent: rayon's own pool would wait for them for ever. So each process makes a pool for itself
-/// when it draws first.
+/// A forked process, as `multiprocessing` makes on Linux, has none of its parent's threads. Rayon's
+/// own pool would wait for them for ever. So each process makes its own pool when it first draws.
 pub fn install<R: Send>(work: impl FnOnce() -> R + Send) -> PyResult<R> {
     Ok(pool()?.install(work))
 }
@@ -26,7 +25,7 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
     let made = ThreadPoolBuilder::new().build();
     let made = made.map_err(|error| PyOSError::new_err(error.to_string()))?;
     let made = Arc::new(made);
-    // The parent's pool would wait for its threads if it were dropped.
+    // Dropping the parent's pool would wait for threads that do not exist here.
     std::mem::forget(pool.replace((process::id(), made.clone())));
     Ok(made)
 }

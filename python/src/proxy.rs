@@ -1,26 +1,26 @@
-//! A scene's meshes without their polygons, for cameras: they are fitted around vertices.
+//! A stand-in for a scene whose meshes have only vertices. Cameras are fitted around vertices, so
+//! they need no polygons.
 
 use fastphong::glam::{DVec3, Vec3};
 use fastphong::mesh::{MeshBuilder, MeshError, PolygonMesh};
 use fastphong::scene::Scene;
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::file::diagnostics::{Origin, SceneError};
-use fastphong::scene::file::resolve::Resolved;
+use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::Data;
+use fastphong::scene::file::{Resolved, SceneError, SceneFile, UnusableMesh};
 use std::sync::Arc;
 
-/// A scene file whose meshes are clouds of the vertices that are drawn.
+/// A scene file whose meshes are replaced by clouds of their drawn vertices.
 pub struct Proxy {
     pub file: SceneFile,
     clouds: Vec<Arc<PolygonMesh>>,
 }
 
-/// The start of the names of clouds: what begins like this is made by the program, and nothing is
-/// said about it.
+/// The prefix of the clouds' names. The resolver treats a name with this prefix as a built-in mesh,
+/// and says nothing about it.
 const NAME: &str = "builtin:";
 
 impl Proxy {
-    /// Makes the proxy of `file`, which was resolved as `scene`.
+    /// Makes the proxy of `file`, which resolves to `scene`.
     ///
     /// # Errors
     /// None for a scene that was resolved.
@@ -44,8 +44,8 @@ impl Proxy {
         Ok(Proxy { file, clouds })
     }
 
-    /// Returns the scene that `file` describes, a proxy with other settings: with the right camera,
-    /// lights and size.
+    /// Returns the scene of `file`, which is the proxy's file with other settings. Its camera,
+    /// lights and size are right; its meshes are clouds.
     pub fn resolve(&self, file: &SceneFile) -> Result<Resolved, SceneError> {
         file.resolve(|name, _| {
             let index = name
@@ -54,12 +54,13 @@ impl Proxy {
             let cloud = index.and_then(|index| self.clouds.get(index));
             cloud
                 .map(|cloud| (cloud.clone(), Vec::new()))
-                .ok_or_else(|| name.to_owned())
+                .ok_or_else(|| UnusableMesh::new(name))
         })
     }
 }
 
-/// Returns a mesh of one polygon, whose corners are the vertices of `mesh` that polygons use.
+/// Returns a mesh with a single polygon, whose corners are the vertices that polygons of `mesh`
+/// use.
 ///
 /// # Errors
 /// None for a mesh that was checked.
@@ -73,7 +74,7 @@ fn cloud(mesh: &PolygonMesh) -> Result<PolygonMesh, MeshError> {
     let vertices: Vec<Vec3> = vertices.collect();
     let mut corners: Vec<u32> = (0..vertices.len() as u32).collect();
     if !corners.is_empty() {
-        // All corners of a polygon may be one vertex: it has three all the same.
+        // A polygon needs three corners. They may all be the same vertex.
         corners.resize(corners.len().max(3), 0);
     }
     let mut builder = match mesh.origin() {

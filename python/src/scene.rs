@@ -1,4 +1,4 @@
-//! A scene that is prepared once and drawn as often as one likes.
+//! A scene that is prepared once and drawn many times.
 
 use crate::errors::{input_error, value_error};
 use crate::mesh::Mesh;
@@ -11,8 +11,8 @@ use fastphong::picture::encoding::store;
 use fastphong::picture::{Alpha, Encoding, PictureMut};
 use fastphong::raster::{DrawOptions, Renderer};
 use fastphong::reference;
+use fastphong::scene::file::Resolved;
 use fastphong::scene::file::SceneFile;
-use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::{Camera, Light, Object, input};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -20,7 +20,7 @@ use pyo3::types::PyByteArray;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// The most samples that the reference draws, which takes 80 bytes for each: 5 GB.
+/// The most samples that the reference draws. It needs 80 bytes for each, 5 GB in all.
 const MOST_REFERENCE: usize = 1 << 26;
 
 /// A scene: meshes, lights and a camera.
@@ -44,7 +44,7 @@ struct View {
     samples: u32,
 }
 
-/// The memory that pictures of one scene share: they are drawn one at a time.
+/// The memory that all pictures of a scene share, so only one picture is drawn at a time.
 struct Kept {
     prepared: PreparedScene,
     frame: Option<Frame>,
@@ -74,7 +74,7 @@ impl Kept {
             Some(frame) => self.prepared.frame_into(frame).map_err(value_error)?,
             none => *none = Some(self.prepared.frame().map_err(value_error)?),
         }
-        // There is one now.
+        // The match has just made a frame, so this error never occurs.
         self.frame.as_mut().ok_or_else(|| value_error("no frame"))
     }
 }
@@ -101,7 +101,7 @@ fn draw(
             let drawn = reference::render(frame, *model);
             let stored = match frame.encoding() {
                 Encoding::Linear => drawn.to_picture8(),
-                Encoding::Srgb => store(&drawn.to_linear(), Encoding::Srgb),
+                encoding => store(&drawn.to_linear(), encoding),
             };
             pixels.copy_from_slice(stored.pixels());
         }
@@ -114,7 +114,7 @@ fn draw(
 }
 
 impl Scene {
-    /// Makes the scene of what was resolved.
+    /// Makes a scene from a file and the scene that it resolves to.
     fn new(file: SceneFile, resolved: Resolved) -> PyResult<Scene> {
         let Resolved {
             scene,
@@ -138,8 +138,8 @@ impl Scene {
         })
     }
 
-    /// Returns the view with other settings. With `keeps_scale` the camera turns around what it
-    /// looked at.
+    /// Returns the view with other settings. With `keeps_scale` the camera turns around the point
+    /// that it looked at.
     fn view(&self, settings: Settings, keeps_scale: bool) -> PyResult<View> {
         let mut file = self.proxy.file.clone();
         settings.lay_over(&mut file);
@@ -152,15 +152,13 @@ impl Scene {
     }
 }
 
-/// Returns `own` turned around the point that it looks at, toward where `other` stands: nothing
-/// grows or shrinks. Its planes keep the vertices of `clouds` between them.
+/// Returns `own`, turned around its target toward the direction of `other`. Nothing grows or
+/// shrinks. The near and the far plane keep the vertices of `clouds` between them.
 fn turned(own: &Camera, other: &Camera, clouds: &[Object]) -> Camera {
     let distance = (own.eye - own.target).length();
-    let mut camera = Camera {
-        eye: own.target + distance * other.view(),
-        up: other.up,
-        ..*own
-    };
+    let mut camera = *own;
+    camera.eye = own.target + distance * other.view();
+    camera.up = other.up;
     let vertices = clouds.iter().flat_map(|object| {
         let to_world = object.positions_to_world();
         let vertices = object.mesh.positions().iter();
@@ -187,8 +185,7 @@ impl Scene {
         py.detach(|| install(made))?
     }
 
-    /// Makes the scene that an input names: a scene file, a mesh file, a built-in mesh or a shipped
-    /// scene.
+    /// Makes a scene from an input: a scene file, a mesh file, a built-in mesh or a shipped scene.
     #[staticmethod]
     fn load(py: Python<'_>, name: &str, settings: &str) -> PyResult<Scene> {
         let settings = Settings::parse(settings)?;
@@ -202,7 +199,7 @@ impl Scene {
         py.detach(|| install(made))?
     }
 
-    /// Draws the scene: returns pixels of four bytes, width and height.
+    /// Draws the scene. Returns the pixels, four bytes each, and width and height.
     fn render<'py>(
         &self,
         py: Python<'py>,
@@ -226,8 +223,8 @@ impl Scene {
         }
         let pixels = PyByteArray::new_with(py, 4 * width * height, |bytes| {
             py.detach(|| {
-                // Locked here and not on a thread of the pool: one that waits for others takes up
-                // other pictures.
+                // Lock here, not on a thread of the pool. A pool thread that waits for others takes
+                // up other pictures, and would wait for its own lock.
                 let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
                 let kept = &mut *kept;
                 install(|| {
@@ -245,13 +242,13 @@ impl Scene {
         self.warnings.clone()
     }
 
-    /// Returns notes on what the scene leaves unused, or decided itself.
+    /// Returns notes on what the scene leaves unused and on what it chose automatically.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
     }
 
-    /// Returns width and height of its pictures.
+    /// Returns the width and the height of the scene's pictures.
     #[getter]
     fn size(&self) -> (u32, u32) {
         (self.view.width, self.view.height)

@@ -1,4 +1,4 @@
-//! Keys of a scene that Python gives, under the names of Python's arguments.
+//! The keys of a scene that Python passes, under the names of Python's arguments.
 
 use crate::errors::value_error;
 use fastphong::scene::file::SceneFile;
@@ -6,7 +6,7 @@ use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
 use pyo3::PyResult;
 
-/// The arguments that stand for keys: messages call keys by them.
+/// Keys and the arguments that set them. Messages name a key by its argument.
 const ARGUMENTS: &[(&str, &str)] = &[
     ("camera.azimuth", "view"),
     ("camera.direction", "view"),
@@ -23,7 +23,7 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("object.normals_weight", "weight"),
 ];
 
-/// Keys to be laid over a scene.
+/// Keys that override those of a scene.
 #[derive(Default)]
 pub struct Settings {
     over: SceneTable,
@@ -32,7 +32,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Reads keys as a scene file has them. An object among them stands for all.
+    /// Reads keys as they stand in a scene file. An object among them stands for all objects.
     pub fn parse(text: &str) -> PyResult<Settings> {
         let mut over = SceneTable::parse(text).map_err(value_error)?;
         name_arguments(&mut over, "");
@@ -46,12 +46,12 @@ impl Settings {
         Ok(Settings { over, every_object })
     }
 
-    /// True if nothing is given.
+    /// True if there is no key.
     pub fn is_empty(&self) -> bool {
         self.over.entries.is_empty() && self.every_object.entries.is_empty()
     }
 
-    /// Lays the keys over a scene.
+    /// Overrides the keys of a scene.
     pub fn lay_over(self, file: &mut SceneFile) {
         file.overlay(self.over);
         let is_source = |key: &&str| matches!(*key, "normals" | "crease");
@@ -65,7 +65,7 @@ impl Settings {
     }
 }
 
-/// Names each value of `table` after the argument that gives it, else by its path.
+/// Sets the origin of each value in `table` to the argument that sets it, or else to its path.
 fn name_arguments(table: &mut SceneTable, path: &str) {
     for (key, value) in &mut table.entries {
         let path = match path {
