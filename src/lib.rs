@@ -156,7 +156,7 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod shading;
-// Its tests need no display: they run with all others.
+// Its tests need no display, so they run with all others. Without the window nothing else calls it.
 #[cfg(any(feature = "view", all(test, feature = "cli")))]
 #[cfg_attr(not(feature = "view"), allow(dead_code, unused_imports))]
 mod view;

@@ -37,7 +37,8 @@
 //! depth buffer. An engine itself keeps nothing: each drawing allocates its working memory (the
 //! varyings of the vertices, edge tables or bins, the G-buffer's bands) and frees it.
 //!
-//! [`coverage`], [`depth()`], [`normals`] and [`polygon_indices`] return other things than colours.
+//! [`coverage`], [`depth()`], [`normals`] and [`polygon_indices`] draw the other pictures of a
+//! frame: covered pixels, depths, normals, and the polygon at each pixel.
 //!
 //! # Inside
 //!
