@@ -6,10 +6,10 @@
 //! slope. The lines of two methods cross at their break-even length.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use fastphong::compare::timing::SpanRow;
 use fastphong::mesh::Material;
 use fastphong::number::SimdLevel;
 use fastphong::scene::{Interpolation, Light, Lighting};
+use fastphong::shading::SpanRow;
 use fastphong::shading::{METHODS, SpanBench, SpanShader, SpanVertex, Variant};
 use glam::DVec3;
 use std::hint::black_box;

@@ -7,7 +7,7 @@
 //! [`frame::Frame`] through the same engine, so two pictures differ by shading and nothing else.
 //! The [`mod@reference`] defines the correct picture. It shares no arithmetic with the methods.
 //!
-//! To use the library without the command-line tool, turn its features off:
+//! The command-line tool is the package `fastphong-cli`. To leave out files and threads, turn features off:
 //!
 //! ```toml
 //! [dependencies]
@@ -107,14 +107,9 @@
 //! | `gltf` | glTF and GLB meshes |
 //! | `threads` | rayon's current thread pool; pictures do not change |
 //! | `simd` | AVX2, AVX-512 or NEON, chosen at run time |
-//! | `lectures` | the lectures' figures, for the command-line tool and the report |
-//! | `cli` (default) | the command-line tool |
-//! | `view` | its window |
 //!
 //! The crate needs Rust 1.95 or later. Only a minor release (0.x) raises this version.
-// Only the command-line tool (`cli`) relies on the prelude of `std`. All other rooms import from
-// `core` and `alloc`.
-#![cfg_attr(not(feature = "cli"), no_std)]
+#![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #[cfg(feature = "alloc")]
 extern crate alloc;
@@ -125,20 +120,11 @@ pub use fixed;
 #[cfg(feature = "alloc")]
 pub use glam;
 
-#[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod cli;
 #[cfg(feature = "alloc")]
 pub mod compare;
-#[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod diagnose;
 #[cfg(feature = "alloc")]
 pub mod frame;
 pub mod integer;
-#[cfg(feature = "lectures")]
-#[doc(hidden)]
-pub mod lectures;
 #[cfg(feature = "alloc")]
 pub mod mesh;
 #[cfg(feature = "alloc")]
@@ -149,17 +135,10 @@ pub mod picture;
 pub mod raster;
 #[cfg(feature = "alloc")]
 pub mod reference;
-#[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod report;
 #[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod shading;
-// Its tests need no display, so they run with all others. Without the window nothing else calls it.
-#[cfg(any(feature = "view", all(test, feature = "cli")))]
-#[cfg_attr(not(feature = "view"), allow(dead_code, unused_imports))]
-mod view;
 
 /// Shared ownership and atomics, also on processors without compare-and-swap.
 #[cfg(feature = "alloc")]

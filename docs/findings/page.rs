@@ -4,13 +4,13 @@
 //! `tests/documents/findings.rs` writes them into the page, or checks that the page has them.
 
 use crate::markdown::read;
-use fastphong::compare::experiments::WorstCase;
-use fastphong::lectures::{Figure, FigureBlock, FigureContent, Panel};
 use fastphong::picture::Picture8;
 use fastphong::picture::image_file::encode_png;
 use fastphong::raster::Renderer;
 use fastphong::reference::{self, Model};
 use fastphong::shading::{Family, METHODS, MethodRow, Tier, Variant};
+use fastphong_cli::compare::experiments::WorstCase;
+use fastphong_cli::lectures::{Figure, FigureBlock, FigureContent, Panel};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -1,7 +1,7 @@
 //! Results in JSON: any text is refused with a message, or shown as a page, as Markdown and as
 //! tables.
 
-use fastphong::report::Report;
+use fastphong_cli::report::Report;
 
 /// Longer texts are skipped, because they only repeat what shorter ones have.
 const MOST_BYTES: usize = 1 << 16;

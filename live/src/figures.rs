@@ -1,7 +1,7 @@
 //! Makes figures of the lectures for new values of their handles.
 
 use crate::studio::Studio;
-use fastphong::lectures::{FigureBlock, LIVE, trace_of_stop};
+use fastphong_cli::lectures::{FigureBlock, LIVE, trace_of_stop};
 
 impl Studio {
     /// Makes the figure that the text names, writes its content into the text, and returns the

@@ -1,4 +1,4 @@
-/* The views, and which of them have something to show. A new view needs a file that `src/report/page.rs` lists, a section and a link in the
+/* The views, and which of them have something to show. A new view needs a file that `program/src/report/page.rs` lists, a section and a link in the
    template, and a name in both lists here. */
 
 /* The functions that draw the views, in the order of the navigation. Each gets the parts of the view's address. */

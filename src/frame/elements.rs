@@ -114,12 +114,14 @@ pub struct Polygon {
     pub source: u32,
     /// The index of its normal in the frame's geometry, plus [`Polygon::FLIPPED`] if the normal is
     /// negated: see [`Frame::polygon_normal`].
-    pub(crate) face: u32,
+    #[doc(hidden)]
+    pub face: u32,
 }
 
 impl Polygon {
     /// Marks the index of a normal that is negated, because the polygon is lit from behind.
-    pub(crate) const FLIPPED: u32 = 1 << 31;
+    #[doc(hidden)]
+    pub const FLIPPED: u32 = 1 << 31;
 }
 
 /// Counts of the scene's polygons, by what became of them on the way into the frame.

@@ -6,7 +6,8 @@ use glam::{DAffine3, DVec3};
 
 /// The attributes of vertices, and the corner lists and normals of polygons.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Geometry {
+#[doc(hidden)]
+pub struct Geometry {
     /// Unit vertex normals in world space.
     pub normals: Vec<[f32; 3]>,
     /// The lighting of each vertex, an index.
@@ -31,7 +32,8 @@ pub(crate) struct Geometry {
 
 /// Positions in model space, object after object. Each coordinate has its own array.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Models {
+#[doc(hidden)]
+pub struct Models {
     pub x: Vec<f32>,
     pub y: Vec<f32>,
     pub z: Vec<f32>,
@@ -41,7 +43,8 @@ pub(crate) struct Models {
 /// An object's vertices, which follow the vertices of the object before, and its place in the
 /// world.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlacedModel {
+#[doc(hidden)]
+pub struct PlacedModel {
     /// The vertex after its last one.
     pub end: usize,
     /// The transform from model space to world space.

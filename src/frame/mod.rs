@@ -50,7 +50,8 @@ mod error;
 mod geometry;
 pub(crate) mod guard;
 mod painter_order;
-pub(crate) mod perspective;
+#[doc(hidden)]
+pub mod perspective;
 mod projection;
 pub(crate) mod row_tiles;
 #[doc(hidden)]
@@ -60,7 +61,8 @@ pub use builder::FrameBuilder;
 pub use depth_range::DepthRange;
 pub use elements::{ClipCorner, FrameStats, Mean, Polygon, ScreenVertex, Vertex};
 pub use error::{FrameError, FrameItem};
-pub(crate) use geometry::{Geometry, Models, PlacedModel};
+#[doc(hidden)]
+pub use geometry::{Geometry, Models, PlacedModel};
 pub use projection::PreparedScene;
 
 use crate::picture::{Alpha, Encoding, Rgb};
@@ -97,9 +99,12 @@ pub fn sub_pixel(pixels: impl Into<f64>) -> SubPixel {
 /// polygons.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    pub(crate) width: u32,
-    pub(crate) height: u32,
-    pub(crate) samples: u32,
+    #[doc(hidden)]
+    pub width: u32,
+    #[doc(hidden)]
+    pub height: u32,
+    #[doc(hidden)]
+    pub samples: u32,
     pub(crate) background: Rgb,
     pub(crate) interpolation: Interpolation,
     pub(crate) hidden_surfaces: HiddenSurfaces,
@@ -110,9 +115,11 @@ pub struct Frame {
     pub(crate) encoding: Encoding,
     pub(crate) alpha: Alpha,
     pub(crate) origin: [f64; 3],
-    pub(crate) geometry: Arc<Geometry>,
+    #[doc(hidden)]
+    pub geometry: Arc<Geometry>,
     /// The vertices of the geometry, and behind them the vertices that clipping made.
-    pub(crate) vertices: Vec<ScreenVertex>,
+    #[doc(hidden)]
+    pub vertices: Vec<ScreenVertex>,
     /// The materials of the vertices that clipping made.
     pub(crate) cut_materials: Vec<u32>,
     /// The means of cut polygons, by the index of their first corner, in ascending order.
@@ -121,7 +128,8 @@ pub struct Frame {
     /// The corner lists of cut polygons. Their indices continue the indices of the geometry's
     /// lists.
     pub(crate) cut_corners: Vec<u32>,
-    pub(crate) polygons: Vec<Polygon>,
+    #[doc(hidden)]
+    pub polygons: Vec<Polygon>,
     pub(crate) lightings: Vec<Lighting>,
     /// True if any lighting is local. Stored, because methods ask for each polygon and there may be
     /// many materials.
@@ -444,10 +452,8 @@ impl Frame {
 
     /// Returns a copy with other polygons over the same vertices. `pieces` calls its second
     /// argument with each corner list that replaces a polygon.
-    pub(crate) fn with_pieces(
-        &self,
-        mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32])),
-    ) -> Frame {
+    #[doc(hidden)]
+    pub fn with_pieces(&self, mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32]))) -> Frame {
         let shared = self.geometry.corners.len();
         let mut cut_corners = Vec::new();
         let mut polygons = Vec::new();

@@ -5,8 +5,6 @@
 //! [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix) is the same matrix, turned to where
 //! the camera looks, with depths from 0 to 1.
 
-#![cfg_attr(not(feature = "cli"), allow(dead_code))] // the lectures' figures draw by them
-
 #[cfg(test)]
 use glam::{DMat4, DVec4};
 

@@ -201,8 +201,8 @@ pub fn builtin(spec: &str) -> Result<PolygonMesh, BuiltinError> {
 ///
 /// # Errors
 /// As [`builtin`].
-#[cfg(feature = "cli")]
-pub(crate) fn polygon_count(spec: &str) -> Result<u64, BuiltinError> {
+#[doc(hidden)]
+pub fn polygon_count(spec: &str) -> Result<u64, BuiltinError> {
     Ok(within_limit(spec)?.polygon_count())
 }
 

@@ -1,13 +1,10 @@
 //! The edges of a mesh and the polygons along each.
 
 use super::PolygonMesh;
-#[cfg(any(feature = "cli", test))]
 use super::newell::{polygon_normals, unit_normal};
-#[cfg(any(feature = "cli", test))]
 use super::weld::weld;
 use alloc::vec;
 use alloc::vec::Vec;
-#[cfg(any(feature = "cli", test))]
 use glam::DVec3;
 
 /// One polygon's use of an edge.
@@ -82,7 +79,6 @@ impl Edges {
 }
 
 /// Counts of edges where a mesh may not look as its author meant.
-#[cfg(any(feature = "cli", test))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EdgeCounts {
     /// Edges within one part whose two polygons meet at more than the requested angle.
@@ -94,7 +90,6 @@ pub struct EdgeCounts {
     pub closing: usize,
 }
 
-#[cfg(any(feature = "cli", test))]
 impl EdgeCounts {
     /// Counts the edges of `mesh`. `degrees` is the angle that tells sharp edges, and positions
     /// closer than `part` of the mesh's size count as one for closing edges.
@@ -133,7 +128,6 @@ impl EdgeCounts {
 
 /// Counts the `open` edges that close if positions closer than `part` of the mesh's size count as
 /// one.
-#[cfg(any(feature = "cli", test))]
 fn closing(mesh: &PolygonMesh, vertex: &[u32], open: &[EdgeUse], part: f64) -> usize {
     if open.len() < 2 {
         return 0;

@@ -23,16 +23,20 @@ mod material;
 pub use material::Material;
 pub mod builtin;
 mod cap_sums;
-pub(crate) mod edges;
+#[doc(hidden)]
+pub mod edges;
 mod fans;
-pub(crate) mod newell;
-pub(crate) mod orientation;
+#[doc(hidden)]
+pub mod newell;
+#[doc(hidden)]
+pub mod orientation;
 mod origin;
 #[cfg(feature = "io")]
 pub mod read;
 mod shapes;
 pub mod vertex_normals;
-pub(crate) mod weld;
+#[doc(hidden)]
+pub mod weld;
 pub(crate) mod winding;
 
 use self::vertex_normals::NormalRule;
@@ -177,8 +181,8 @@ impl PolygonMesh {
     }
 
     /// True if the mesh has smoothing groups, or its file puts all polygons into one of them.
-    #[cfg(feature = "cli")]
-    pub(crate) fn states_smoothing(&self) -> bool {
+    #[doc(hidden)]
+    pub fn states_smoothing(&self) -> bool {
         self.states_smoothing || self.has_smoothing_groups()
     }
 
@@ -227,8 +231,8 @@ impl PolygonMesh {
 
     /// Returns the axis that points up in files of this format, if the format has a custom: `z` for
     /// STL, `y` for glTF.
-    #[cfg(any(feature = "cli", all(test, feature = "gltf")))]
-    pub(crate) fn up_by_custom(&self) -> Option<char> {
+    #[doc(hidden)]
+    pub fn up_by_custom(&self) -> Option<char> {
         self.up_by_custom
     }
 
@@ -240,8 +244,8 @@ impl PolygonMesh {
     }
 
     /// Returns the name of a material in the mesh's file, if it has one.
-    #[cfg(any(feature = "cli", all(test, feature = "gltf")))]
-    pub(crate) fn material_name(&self, material: usize) -> Option<&str> {
+    #[doc(hidden)]
+    pub fn material_name(&self, material: usize) -> Option<&str> {
         self.material_names.get(material).map(String::as_str)
     }
 
@@ -513,7 +517,8 @@ impl MeshBuilder {
 
     /// Sets the axis that points up in files of this format.
     #[cfg(feature = "io")]
-    pub(crate) fn up_by_custom(&mut self, axis: char) -> &mut Self {
+    #[doc(hidden)]
+    pub fn up_by_custom(&mut self, axis: char) -> &mut Self {
         self.mesh.up_by_custom = Some(axis);
         self
     }
@@ -541,7 +546,8 @@ impl MeshBuilder {
 
     /// Sets the names of the materials, in the order of the materials.
     #[cfg(feature = "io")]
-    pub(crate) fn material_names(&mut self, names: Vec<String>) -> &mut Self {
+    #[doc(hidden)]
+    pub fn material_names(&mut self, names: Vec<String>) -> &mut Self {
         self.mesh.material_names = names;
         self
     }

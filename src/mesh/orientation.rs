@@ -58,7 +58,6 @@ pub fn inside_out(mesh: &PolygonMesh) -> InsideOut {
 }
 
 /// True if `point`, relative to the origin of `mesh`, lies inside one of its closed surfaces.
-#[cfg(any(feature = "cli", test))]
 pub fn is_inside_closed_surface(mesh: &PolygonMesh, point: DVec3) -> bool {
     let is_within = |[low, high]: [DVec3; 2]| low.cmplt(point).all() && point.cmplt(high).all();
     let of_mesh = mesh.bounds();

@@ -36,7 +36,6 @@ use weight::{Sum, Term, Weights};
 
 /// The source of vertex normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
 pub enum NormalSource {
     /// The normalised sum of the unit normals of all polygons around a position (L21 3.1) that are
     /// on one surface and, if the mesh has smoothing groups, in one group.
@@ -168,8 +167,8 @@ pub(crate) fn corner_normals(
 /// leaves unused.
 #[cfg(any(feature = "io", test))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(not(feature = "cli"), allow(dead_code))] // Some fields are reported by the program only.
-pub(crate) struct NormalUse {
+#[doc(hidden)]
+pub struct NormalUse {
     /// How many corners use a normal that came with the mesh.
     pub given: usize,
     /// How many corners use an average.

@@ -1,13 +1,10 @@
 //! Finds positions that coincide, exactly or nearly, as along the seams of meshes whose files
 //! repeat positions.
 
-#[cfg(any(feature = "io", test))]
 use super::PolygonMesh;
-#[cfg(any(feature = "io", test))]
 use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
-#[cfg(any(feature = "io", test))]
 use glam::DVec3;
 use glam::Vec3;
 
@@ -22,7 +19,6 @@ pub fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
 }
 
 /// Returns the longest side of the box around the polygons of `mesh`; 0 without polygons.
-#[cfg(any(feature = "io", test))]
 pub(super) fn size(mesh: &PolygonMesh) -> f64 {
     mesh.bounds()
         .map_or(0.0, |(low, high)| (high - low).max_element())
@@ -32,7 +28,8 @@ pub(super) fn size(mesh: &PolygonMesh) -> f64 {
 impl PolygonMesh {
     /// Moves each position onto the first one that is nearer than `part` of the mesh's size, so
     /// that both become one vertex.
-    pub(crate) fn weld(&mut self, part: f64) {
+    #[doc(hidden)]
+    pub fn weld(&mut self, part: f64) {
         let distance = part * size(self);
         let wide: Vec<DVec3> = self.positions.iter().map(|p| p.as_dvec3()).collect();
         let first = weld_near(&wide, distance);
@@ -42,7 +39,6 @@ impl PolygonMesh {
 
 /// Returns for each position the index of the first earlier one that is at most `distance` away and
 /// has not moved itself; the position's own index if there is none.
-#[cfg(any(feature = "io", test))]
 pub(super) fn weld_near(positions: &[DVec3], distance: f64) -> Vec<u32> {
     if distance <= 0.0 || positions.is_empty() {
         return (0..positions.len() as u32).collect();
@@ -85,7 +81,8 @@ fn key(p: &Vec3) -> [u32; 3] {
 
 /// Returns for each of `len` keys its index among the distinct keys, by first occurrence, and how
 /// many distinct keys there are. It is as fast as [`weld`].
-pub(crate) fn number_distinct(len: usize, key: impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
+#[doc(hidden)]
+pub fn number_distinct(len: usize, key: impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
     by_hash(len, &key).unwrap_or_else(|| by_sorting(len, &key))
 }
 

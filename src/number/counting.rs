@@ -28,7 +28,8 @@ pub struct Counts {
 
 /// The counter to which [`Counted`] values report.
 #[derive(Debug, Default)]
-pub(crate) struct Counter(Cell<Counts>);
+#[doc(hidden)]
+pub struct Counter(Cell<Counts>);
 
 impl Counter {
     /// Returns the counts since the last call, and starts again from zero.
@@ -47,7 +48,8 @@ impl Counter {
 
 /// An `f32` that reports every operation to its counter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Counted<'a> {
+#[doc(hidden)]
+pub struct Counted<'a> {
     value: f32,
     counter: &'a Counter,
 }

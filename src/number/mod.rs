@@ -26,15 +26,18 @@ mod counting;
 #[cfg(feature = "simd")]
 pub(crate) mod lanes;
 mod name_error;
-pub(crate) mod parallel;
+#[doc(hidden)]
+pub mod parallel;
 #[cfg(feature = "simd")]
 mod powf;
 mod scalar;
 #[cfg(feature = "simd")]
 pub(crate) mod simd;
 mod simd_level;
-pub(crate) mod split_mix;
-pub(crate) mod suggest;
+#[doc(hidden)]
+pub mod split_mix;
+#[doc(hidden)]
+pub mod suggest;
 #[cfg(test)]
 pub(crate) mod test_random;
 mod vec3;
@@ -42,7 +45,8 @@ pub(crate) mod vectorized;
 mod written;
 
 pub use counting::Counts;
-pub(crate) use counting::{Counted, Counter};
+#[doc(hidden)]
+pub use counting::{Counted, Counter};
 pub use name_error::NameError;
 pub use simd_level::SimdLevel;
 pub use vec3::{Vec3, vec3};

@@ -1,6 +1,5 @@
 //! Transfer functions: from computed intensities to stored grey levels, and back.
 
-#[cfg(feature = "cli")]
 use super::{LevelRows, Levels};
 use super::{LinearPicture, Picture8};
 
@@ -8,7 +7,6 @@ use super::{LinearPicture, Picture8};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
 #[cfg_attr(feature = "io", serde(rename_all = "lowercase"))]
-#[non_exhaustive]
 pub enum Encoding {
     /// No transfer function: round(255 c).
     #[default]
@@ -246,16 +244,15 @@ pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
 }
 
 /// A stored picture as a screen shows it: in sRGB levels, without rounding again. Alpha is ignored.
-#[cfg(feature = "cli")]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Displayed<'a> {
+#[doc(hidden)]
+pub struct Displayed<'a> {
     /// The picture.
     pub picture: &'a Picture8,
     /// Its encoding.
     pub encoding: Encoding,
 }
 
-#[cfg(feature = "cli")]
 impl LevelRows for Displayed<'_> {
     fn size(&self) -> [usize; 2] {
         [self.picture.width(), self.picture.height()]

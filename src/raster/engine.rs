@@ -27,7 +27,6 @@ impl Engine {
 /// An engine with its instruction set. The current pool of `rayon` decides how many threads it uses
 /// (feature `threads`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Renderer {
     /// The span engine, one pixel at a time.
     #[default]

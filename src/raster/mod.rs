@@ -94,8 +94,8 @@ mod target;
 #[cfg(feature = "io")]
 pub mod trace;
 
-#[cfg(feature = "cli")]
-pub(crate) use aov::for_each_polygon_row;
+#[doc(hidden)]
+pub use aov::for_each_polygon_row;
 #[doc(hidden)]
 pub use aov::{checkerboard, vertex_colours};
 pub use aov::{coverage, depth, normals, polygon_indices};

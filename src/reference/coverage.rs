@@ -38,8 +38,8 @@ pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Ran
 }
 
 /// True if any polygon of `frame` covers the centre of a sample.
-#[cfg(any(feature = "cli", test))]
-pub(crate) fn is_anything_covered(frame: &Frame) -> bool {
+#[doc(hidden)]
+pub fn is_anything_covered(frame: &Frame) -> bool {
     let mut line = Scanline::new(frame);
     frame.polygons().iter().any(|polygon| {
         let corners = frame.corners(polygon);
@@ -53,7 +53,8 @@ pub(crate) fn is_anything_covered(frame: &Frame) -> bool {
 
 /// The crossing of a scanline and an edge of a polygon, at the exact column `x_height / height`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Crossing {
+#[doc(hidden)]
+pub struct Crossing {
     /// The vertex at the upper end of the edge.
     pub top: u32,
     /// The vertex at the lower end.
@@ -119,7 +120,8 @@ impl Crossing {
 
 /// A pixel between two edges of its polygon.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SpanPlace {
+#[doc(hidden)]
+pub struct SpanPlace {
     /// The edge to its left, or through its centre.
     pub left: Crossing,
     /// The edge to its right.
@@ -142,7 +144,8 @@ impl SpanPlace {
 
 /// The weights of vertices in a pixel's attributes. Their sum is 1.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct VertexWeights([(u32, f64); 4]);
+#[doc(hidden)]
+pub struct VertexWeights([(u32, f64); 4]);
 
 impl VertexWeights {
     /// Returns the barycentric coordinates of (`xc`, `yc`) in a triangle, as quotients of areas:
@@ -184,7 +187,6 @@ impl VertexWeights {
 
     /// Returns the vertices and their weights. The last corner of a triangle appears twice, the
     /// second time with weight 0.
-    #[cfg(feature = "cli")]
     pub fn all(&self) -> [(u32, f64); 4] {
         self.0
     }
@@ -202,7 +204,8 @@ impl VertexWeights {
 
 /// A polygon on one row of pixel centres.
 #[derive(Clone, Debug)]
-pub(crate) struct Scanline<'a> {
+#[doc(hidden)]
+pub struct Scanline<'a> {
     frame: &'a Frame,
     corners: &'a [u32],
     yc: i64,
@@ -249,7 +252,6 @@ impl<'a> Scanline<'a> {
     }
 
     /// True if the polygon covers any pixel of `columns`.
-    #[cfg(any(feature = "cli", test))]
     fn covers_any(&self, columns: &Range<usize>) -> bool {
         // The first pixel centre at or right of each left edge.
         let mut firsts = self.crossings.iter().step_by(2).map(|crossing| {

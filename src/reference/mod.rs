@@ -24,7 +24,8 @@
 
 pub(crate) mod attributes;
 mod clamping;
-pub(crate) mod coverage;
+#[doc(hidden)]
+pub mod coverage;
 #[doc(hidden)]
 pub mod cs171;
 pub(crate) mod illumination;
@@ -38,8 +39,8 @@ mod tests;
 
 #[doc(hidden)]
 pub use clamping::{Clamping, clamping};
-#[cfg(feature = "cli")]
-pub(crate) use coverage::is_anything_covered;
+#[doc(hidden)]
+pub use coverage::is_anything_covered;
 pub use visibility::{Visibility, visibility};
 
 use crate::frame::{Frame, Polygon};
@@ -51,7 +52,6 @@ use glam::DVec3;
 
 /// A closed form of shading: which attributes vary over a polygon, and how they are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Model {
     /// One colour per polygon, lit by the polygon's normal (L21 2). Light and eye at positions are
     /// seen from the mean of its corners.
@@ -202,7 +202,8 @@ pub fn shade(
 }
 
 /// Shades `frame` as [`shade`] does, and counts the samples whose light is clamped.
-pub(crate) fn shade_and_count(
+#[doc(hidden)]
+pub fn shade_and_count(
     frame: &Frame,
     visibility: &Visibility,
     form: ClosedForm,

@@ -78,7 +78,8 @@ const SHIPPED: &str = "shipped:";
 /// The format of an input whose name does not tell it: standard input, or a file with another
 /// ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum InputFormat {
+#[doc(hidden)]
+pub enum InputFormat {
     /// A mesh file of any format.
     Mesh,
     /// A scene file.
@@ -120,7 +121,8 @@ const MOST_PIPED: u64 = 1 << 30;
 ///
 /// # Errors
 /// Errors of the operating system, and if a pipe holds more.
-pub(crate) fn read_input(path: &Path) -> io::Result<Vec<u8>> {
+#[doc(hidden)]
+pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
     static READ: Mutex<BTreeMap<PathBuf, Result<Vec<u8>, String>>> = Mutex::new(BTreeMap::new());
     let is_input = path.as_os_str() == STANDARD_INPUT;
     if !is_input {
@@ -287,7 +289,8 @@ fn pipe_name(path: &Path) -> String {
 ///
 /// # Errors
 /// If it cannot be read, and the errors of [`SceneFile::load`].
-pub(crate) fn load_standard_input(
+#[doc(hidden)]
+pub fn load_standard_input(
     format: Option<InputFormat>,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<SceneFile, SceneError> {
@@ -342,18 +345,20 @@ fn is_builtin(name: &str) -> bool {
 
 /// True if the mesh name `mesh` in a scene is a file, and neither compiled into the program nor
 /// standard input.
-#[cfg(any(feature = "cli", test))]
-pub(crate) fn is_mesh_file(mesh: &str) -> bool {
+#[doc(hidden)]
+pub fn is_mesh_file(mesh: &str) -> bool {
     !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED) && mesh != STANDARD_INPUT
 }
 
 /// True if `path` has the ending of a scene file or a mesh file.
-pub(crate) fn has_known_ending(path: &Path) -> bool {
+#[doc(hidden)]
+pub fn has_known_ending(path: &Path) -> bool {
     has_ending(path, "toml") || mesh_endings().any(|ending| has_ending(path, ending))
 }
 
 /// True if `path` ends in a dot and `ending`, in any case.
-pub(crate) fn has_ending(path: &Path, ending: &str) -> bool {
+#[doc(hidden)]
+pub fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension()
         .is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
@@ -441,8 +446,8 @@ fn load_named(
 
 /// Rewrites the mesh paths of `file` relative to the current folder, so that the scene can be
 /// written down there.
-#[cfg(any(feature = "cli", test))]
-pub(crate) fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
+#[doc(hidden)]
+pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
     let Some(folder) = file.path().and_then(Path::parent).map(Path::to_owned) else {
         return;
     };

@@ -34,7 +34,6 @@ impl<V: Copy> Place<V> {
 
 /// How a light at a position weakens with its distance r.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
 pub enum Falloff {
     /// It does not weaken.
     #[default]

@@ -27,7 +27,6 @@ pub enum Culling {
 
 /// How hidden polygons are kept out of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum HiddenSurfaces {
     /// A depth buffer: the nearest polygon at each sample is seen (CS171 4, L5 *Z-Buffer*). The
     /// order of drawing decides only ties: the first of equally near polygons is seen, because only
@@ -106,7 +105,6 @@ pub enum PainterKey {
 
 /// How polygons are limited to the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Clipping {
     /// The near and the far plane cut polygons before anything is divided by w.
     #[default]

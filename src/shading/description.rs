@@ -69,7 +69,6 @@ impl Value {
 
 /// The values that a parameter may have.
 #[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
 pub enum Range {
     /// Whole numbers from the first to the second, both included.
     Whole(u32, u32),

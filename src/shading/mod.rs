@@ -101,6 +101,9 @@ pub use kernels::runs::{Corner, Corners, Span};
 pub(crate) use kernels::runs::{PolygonConstants, Run, RunList, SpanPlace, Starts, ramp};
 #[doc(hidden)] // for tests and benchmarks
 pub use kernels::sample_span::SpanBench;
+#[cfg(feature = "simd")]
+#[doc(hidden)]
+pub use kernels::timed_span::SpanRow;
 #[cfg(feature = "io")]
 pub(crate) use kernels::walked::{Walked, WalkedRun};
 pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices};

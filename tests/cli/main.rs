@@ -222,4 +222,4 @@ fn covered(picture: &Picture8) -> usize {
 }
 
 /// A scene of a small sphere, 64 × 48 pixels, which renders quickly.
-const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/sphere.toml");
+const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/cli/sphere.toml");

@@ -2,12 +2,12 @@
 
 use super::Folder;
 use fastphong::compare::metrics::METRICS;
-use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::BUILTINS;
 use fastphong::number::SimdLevel;
 use fastphong::raster::Engine;
 use fastphong::scene::input::SCENES;
 use fastphong::shading::{Family, METHODS, MethodRow, Tier};
+use fastphong_cli::lectures::FIGURES;
 
 #[test]
 fn lists_have_an_entry_for_everything_in_their_table() {

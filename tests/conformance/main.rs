@@ -15,7 +15,6 @@ mod coverage;
 mod cs171;
 mod edges;
 mod engines;
-mod figures;
 mod guard;
 mod hidden_surfaces;
 mod lecture;

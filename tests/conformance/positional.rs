@@ -69,7 +69,6 @@ impl Triangle {
                 Falloff::Attenuation(k) => 1.0 / (1.0 + f64::from(k) * r * r),
                 Falloff::InverseSquare => 1.0 / (r * r),
                 Falloff::Inverse => 1.0 / r,
-                falloff => unreachable!("{falloff:?} is not known here"),
             };
             all.extend([l.dot(n), l.dot(view), strength]);
         }

@@ -1,8 +1,6 @@
 //! Replays the corpora of the fuzz targets, so that inputs that once failed are tried on every
 //! machine without a fuzzer.
 
-#![cfg(feature = "cli")]
-
 #[path = "../../fuzz/inputs/mesh.rs"]
 mod mesh;
 #[path = "../../fuzz/inputs/obj.rs"]
@@ -22,9 +20,7 @@ use std::path::Path;
 /// Runs each file of a target's corpus, and also its first half, because most readers stumble at an
 /// end.
 fn replay(target: &str, run: fn(&[u8])) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("fuzz/corpus")
-        .join(target);
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus")).join(target);
     let files = fs::read_dir(&folder).expect("the corpus");
     let mut count = 0;
     for path in files.map(|entry| entry.expect("an entry").path()) {

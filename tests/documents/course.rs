@@ -3,8 +3,8 @@
 #![cfg(feature = "cli")]
 
 use crate::markdown::{files, quoted, read, root, rows};
-use fastphong::lectures::{Agreement, Figure, FigureBlock, FigureContent, Finding};
 use fastphong::shading::Variant;
+use fastphong_cli::lectures::{Agreement, Figure, FigureBlock, FigureContent, Finding};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -66,7 +66,7 @@ fn figure_of(text: &str) -> &str {
 #[test]
 fn every_section_has_a_chapter_that_leads_to_the_next() {
     let chapters = chapters();
-    let source = read("src/report/course.rs");
+    let source = read("program/src/report/course.rs");
     let title = |text: &str| text.lines().next().unwrap()[2..].to_string();
     assert_eq!(chapters.len(), SECTIONS.len());
     let teaching = (PathBuf::from(TEACHING), teaching());
@@ -77,7 +77,10 @@ fn every_section_has_a_chapter_that_leads_to_the_next() {
         let is_section = title(text).starts_with(&format!("{part} "));
         assert!(is_section || file == TEACHING, "{file}");
         let listed = format!("\"{part}\" in \"{file}\"");
-        assert!(source.contains(&listed), "src/report/course.rs: {listed}");
+        assert!(
+            source.contains(&listed),
+            "program/src/report/course.rs: {listed}"
+        );
         let link = |arrow: fn(String) -> String, to: Option<&&(PathBuf, String)>| {
             to.map(|(path, text)| format!("[{}]({})", arrow(title(text)), name(path)))
         };

@@ -9,8 +9,8 @@
 mod page;
 
 use crate::markdown::{read, root};
-use fastphong::compare::experiments::WorstCase;
 use fastphong::shading::{METHODS, Variant};
+use fastphong_cli::compare::experiments::WorstCase;
 use page::{DEGREES, data, list, text};
 use std::fs;
 

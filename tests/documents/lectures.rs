@@ -3,7 +3,7 @@
 #![cfg(feature = "cli")]
 
 use crate::markdown::{defines, places, quoted, read, root, rows};
-use fastphong::lectures::Figure;
+use fastphong_cli::lectures::Figure;
 use std::collections::BTreeMap;
 
 /// The count of items in the lectures. The table lists them in the order of their sections.

@@ -3,16 +3,16 @@
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test documents mistakes` draws every mistake that
 //! `fastphong diagnose` knows on every shipped scene except `million`. It writes
-//! `src/diagnose/shown_by_table.rs` and `docs/mistakes.md`. The document is made from the compiled
+//! `program/src/diagnose/shown_by_table.rs` and `docs/mistakes.md`. The document is made from the compiled
 //! table, so bless twice.
 
 use crate::markdown::{read, root};
-use fastphong::diagnose::{MISTAKES, Part, scenes_that_show, shown};
 use fastphong::scene::input::{SCENES, ShippedScene, resolve};
+use fastphong_cli::diagnose::{MISTAKES, Part, scenes_that_show, shown};
 use std::fmt::Write;
 use std::thread;
 
-const TABLE: &str = "src/diagnose/shown_by_table.rs";
+const TABLE: &str = "program/src/diagnose/shown_by_table.rs";
 const DOCUMENT: &str = "docs/mistakes.md";
 
 /// Returns, for each mistake, by how many hundredths of a grey level it changes a scene's picture.

@@ -216,7 +216,7 @@ fn the_number_of_methods_is_right_everywhere() {
         ("Cargo.toml", to_run),
         ("README.md", to_run),
         ("src/lib.rs", to_run),
-        ("src/cli/mod.rs", to_run),
+        ("program/src/cli/mod.rs", to_run),
     ] {
         let text = read(name);
         for (place, _) in text.match_indices(after) {
@@ -233,7 +233,7 @@ fn the_number_of_methods_is_right_everywhere() {
 /// Documents that count the lectures' figures state the right number.
 #[test]
 fn the_number_of_figures_is_right_everywhere() {
-    let number = fastphong::lectures::FIGURES.len().to_string();
+    let number = fastphong_cli::lectures::FIGURES.len().to_string();
     for (name, after) in [
         ("README.md", " figures of the lectures each say"),
         ("CHANGELOG.md", " figures with what each"),
@@ -533,7 +533,7 @@ fn every_file_is_compiled() {
     assert!(lost.is_empty(), "no parent declares {lost:?}");
 }
 
-/// Commands open files only in `src/cli/files.rs`, which makes sure that no file is both read and
+/// Commands open files only in `program/src/cli/files.rs`, which makes sure that no file is both read and
 /// written.
 #[test]
 fn commands_open_files_in_one_module() {
@@ -556,7 +556,7 @@ fn commands_open_files_in_one_module() {
         "load_mesh",
     ];
     let mut found = 0;
-    for path in files("src/cli", "rs") {
+    for path in files("program/src/cli", "rs") {
         let source = read(&path);
         let is_files = path.ends_with("files.rs");
         // Files in which the system describes the program do not belong to the user.
@@ -565,12 +565,12 @@ fn commands_open_files_in_one_module() {
             for open in opens.iter().filter(|open| line.contains(*open)) {
                 assert!(
                     is_files,
-                    "{}: `{open}`: use src/cli/files.rs",
+                    "{}: `{open}`: use program/src/cli/files.rs",
                     path.display()
                 );
                 found += 1;
             }
         }
     }
-    assert!(found > 3, "src/cli/files.rs opens them");
+    assert!(found > 3, "program/src/cli/files.rs opens them");
 }

@@ -10,7 +10,6 @@
 //! variations that are not mistakes ([`variation::Variation`]). The tests compare it with the
 //! crate's reference to prove that it is right without mistakes, and prove that every mistake
 //! changes a shipped scene.
-#![cfg(feature = "io")]
 
 mod camera;
 mod clip;

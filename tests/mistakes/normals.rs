@@ -65,7 +65,6 @@ fn rule(source: NormalSource, wrong: Source) -> (bool, Smoothing) {
         NormalSource::Auto => (true, Smoothing::Groups),
         NormalSource::Given => (true, Smoothing::Surfaces),
         NormalSource::Crease(degrees) => (false, Smoothing::Crease(degrees.to_radians().cos())),
-        other => panic!("this rasterizer does not know {other:?}"),
     };
     match wrong {
         Source::OfScene => (takes_given, smoothing),

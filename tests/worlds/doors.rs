@@ -202,7 +202,6 @@ fn text(scene: &Scene) -> String {
             Falloff::Attenuation(k) => writeln!(text, "attenuation = {:?}", f64::from(k)),
             Falloff::InverseSquare => writeln!(text, "falloff = 'inverse-square'"),
             Falloff::Inverse => writeln!(text, "falloff = 'inverse'"),
-            falloff => unreachable!("{falloff:?} has no word here"),
         };
     }
     for (number, object) in scene.objects.iter().enumerate() {
@@ -215,14 +214,12 @@ fn text(scene: &Scene) -> String {
             NormalSource::Averaged => writeln!(text, "normals = 'averaged'"),
             NormalSource::Given => writeln!(text, "normals = 'given'"),
             NormalSource::Crease(degrees) => writeln!(text, "crease = {degrees:?}"),
-            other => panic!("{other:?} has no text here yet"),
         };
         let weight = match object.normals.weight {
             NormalWeight::Uniform => "uniform",
             NormalWeight::Area => "area",
             NormalWeight::Angle => "angle",
             NormalWeight::Max => "max",
-            other => panic!("{other:?} has no text here yet"),
         };
         let _ = writeln!(text, "normals_weight = '{weight}'");
         if let Some(material) = object.material {
@@ -289,7 +286,6 @@ fn settings(scene: &Scene, text: &mut String) {
                 line("depth", "per-sample");
             }
         }
-        other => unreachable!("{other:?} has no word here"),
     }
     if bits < 32 {
         let _ = writeln!(text, "depth_bits = {bits}");

@@ -1,9 +1,7 @@
 //! SSIM: the structural similarity of two pictures.
 
 use super::MAX_PERCEIVED;
-#[cfg(feature = "cli")]
 use super::{SizeMismatch, for_each_row};
-#[cfg(feature = "cli")]
 use crate::picture::LevelRows;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -39,7 +37,6 @@ fn weights() -> [f64; WINDOW] {
 ///
 /// # Errors
 /// If the sizes differ.
-#[cfg(feature = "cli")]
 pub fn ssim(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,
@@ -52,7 +49,6 @@ pub fn ssim(
 ///
 /// # Errors
 /// If the sizes differ.
-#[cfg(feature = "cli")]
 pub fn ssim_where(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,

@@ -179,7 +179,8 @@ impl PreparedScene {
     }
 
     /// True if vertex colours multiply a material.
-    pub(crate) fn is_coloured(&self, material: u32) -> bool {
+    #[doc(hidden)]
+    pub fn is_coloured(&self, material: u32) -> bool {
         self.settings.colours && self.coloured[material as usize]
     }
 
@@ -337,32 +338,36 @@ impl PreparedScene {
 }
 
 /// Access for `diagnose`, which looks at more than frames.
-#[cfg(feature = "cli")]
 impl PreparedScene {
     /// Returns the settings of the next frame, so that they can be changed, except
     /// [`Scene::two_sided`]. Objects are not among them.
-    pub(crate) fn settings_mut(&mut self) -> &mut Scene {
+    #[doc(hidden)]
+    pub fn settings_mut(&mut self) -> &mut Scene {
         &mut self.settings
     }
 
     /// Returns the vertices, corner lists and normals of the whole scene, independent of the
     /// camera.
-    pub(crate) fn geometry(&self) -> &Geometry {
+    #[doc(hidden)]
+    pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
     /// Returns the materials, indexed by [`Polygon::material`].
-    pub(crate) fn materials(&self) -> &[Material] {
+    #[doc(hidden)]
+    pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
     /// Returns how many polygons the scene has.
-    pub(crate) fn polygon_count(&self) -> usize {
+    #[doc(hidden)]
+    pub fn polygon_count(&self) -> usize {
         self.table.count
     }
 
     /// Returns the vertices at the corners of a polygon of the scene, independent of the camera.
-    pub(crate) fn corners(&self, polygon: usize) -> &[u32] {
+    #[doc(hidden)]
+    pub fn corners(&self, polygon: usize) -> &[u32] {
         let (first, count) = self.table.corners(polygon);
         &self.geometry.corners[first as usize..][..count as usize]
     }

@@ -16,7 +16,6 @@ use glam::{DVec3, Vec3};
 /// normal, perpendicular to `e₁` and `e₂`; only the uniform weight uses the polygon's normal at all
 /// corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum NormalWeight {
     /// 1: every polygon counts equally, with Newell's normal (L21 3.1).
     #[default]

@@ -42,22 +42,22 @@ mod error;
 mod netpbm;
 mod pair;
 mod png;
-#[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program writes several files at once
 mod replace;
 
 use bitmap::Bitmap;
 pub use error::{DecodeError, EncodeError, ImageFileError};
-#[cfg(feature = "cli")]
-pub(crate) use netpbm::PpmWriter;
+#[doc(hidden)]
+pub use netpbm::PpmWriter;
 pub use pair::Pair;
-#[cfg(feature = "cli")]
-pub(crate) use pair::{AlphaUse, LevelView};
+#[doc(hidden)]
+pub use pair::{AlphaUse, LevelView};
 pub use png::encode_png;
 #[doc(hidden)]
 pub use replace::write_file;
-pub(crate) use replace::write_file_by;
-#[cfg(feature = "cli")]
-pub(crate) use replace::{place, remove_drafts, write_files_by};
+#[doc(hidden)]
+pub use replace::write_file_by;
+#[doc(hidden)]
+pub use replace::{place, remove_drafts, write_files_by};
 
 /// How many pixels the largest readable picture has: 16384 × 16384, the largest that is drawn. A
 /// larger file is more likely broken or hostile than intended.
@@ -72,7 +72,6 @@ const MAX_BYTES: u64 = 2 * 12 * MAX_PIXELS;
 
 /// A format of picture files that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Format {
     /// Portable Network Graphics: 8 bits per channel, with alpha.
     Png,
@@ -110,7 +109,6 @@ impl Format {
 
 /// The pixels of a file.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum FilePixels {
     /// Grey levels.
     Stored(Picture8),
@@ -305,10 +303,8 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
 ///
 /// # Errors
 /// As for [`read_picture`].
-pub(crate) fn read_picture_from(
-    input: impl Read,
-    path: &Path,
-) -> Result<FilePicture, ImageFileError> {
+#[doc(hidden)]
+pub fn read_picture_from(input: impl Read, path: &Path) -> Result<FilePicture, ImageFileError> {
     let ending = path.extension().unwrap_or_default();
     let is_targa = ending.eq_ignore_ascii_case("tga");
     let path = path.to_owned();

@@ -5,7 +5,8 @@ use crate::picture::{Encoding, LevelRows, Levels, over};
 
 /// The encoding in which a picture is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct UsedEncoding {
+#[doc(hidden)]
+pub struct UsedEncoding {
     /// The encoding.
     pub encoding: Encoding,
     /// True if the file states it, false if it was assumed.
@@ -29,7 +30,8 @@ impl UsedEncoding {
 
 /// What alpha does in a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum AlphaUse {
+#[doc(hidden)]
+pub enum AlphaUse {
     /// Neither file has alpha.
     Absent,
     /// Both files have alpha. It is compared like a channel, and colours under alpha 0 are ignored.
@@ -89,8 +91,8 @@ impl<'a> Pair<'a> {
     }
 
     /// Returns the encodings of the reference and of the actual picture.
-    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program says how it compares
-    pub(crate) fn encodings(&self) -> [UsedEncoding; 2] {
+    #[doc(hidden)]
+    pub fn encodings(&self) -> [UsedEncoding; 2] {
         self.encodings
     }
 
@@ -103,8 +105,8 @@ impl<'a> Pair<'a> {
     }
 
     /// Returns what alpha does in the comparison.
-    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program says how it compares
-    pub(crate) fn alpha(&self) -> AlphaUse {
+    #[doc(hidden)]
+    pub fn alpha(&self) -> AlphaUse {
         self.alpha
     }
 
@@ -144,7 +146,8 @@ impl<'a> Pair<'a> {
     }
 
     /// Returns both pictures as [`Pair::displayed`] does, with the name of their type.
-    pub(crate) fn displayed_views(&self) -> [LevelView<'a>; 2] {
+    #[doc(hidden)]
+    pub fn displayed_views(&self) -> [LevelView<'a>; 2] {
         let [reference, actual] = self.pictures;
         let stating = if reference.background.is_some() {
             reference
@@ -210,7 +213,8 @@ fn converted(level: f64, from: Encoding, to: Encoding) -> f64 {
 
 /// A picture of a file, read row by row in the grey levels in which it is compared or shown.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LevelView<'a> {
+#[doc(hidden)]
+pub struct LevelView<'a> {
     picture: &'a FilePicture,
     size: [usize; 2],
     /// The encoding of the file.

@@ -42,7 +42,8 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
 ///
 /// # Errors
 /// As for [`write_file`], and if `write` fails.
-pub(crate) fn write_file_by(
+#[doc(hidden)]
+pub fn write_file_by(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), ImageFileError> {
@@ -60,7 +61,8 @@ pub(crate) fn write_file_by(
 ///
 /// # Errors
 /// As for [`write_file_by`], with the path of the file.
-pub(crate) fn write_files_by(
+#[doc(hidden)]
+pub fn write_files_by(
     paths: &[&Path],
     mut write: impl FnMut(usize, &mut dyn Write) -> io::Result<()>,
 ) -> Result<(), ImageFileError> {
@@ -168,7 +170,8 @@ impl Drop for MadeFolders {
 
 /// Removes the drafts of all files that are being written. Call it when a signal is about to end
 /// the program. While the result lives, every thread that wants to write a file waits.
-pub(crate) fn remove_drafts() -> NoDrafts {
+#[doc(hidden)]
+pub fn remove_drafts() -> NoDrafts {
     let drafts = drafts();
     for draft in drafts.iter() {
         // A draft that has just been renamed is not there any more.
@@ -179,7 +182,8 @@ pub(crate) fn remove_drafts() -> NoDrafts {
 
 /// A guard during which no file is written: see [`remove_drafts`].
 #[derive(Debug)]
-pub(crate) struct NoDrafts {
+#[doc(hidden)]
+pub struct NoDrafts {
     _held: MutexGuard<'static, Vec<PathBuf>>,
 }
 
@@ -217,7 +221,8 @@ fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(ListedDraft, Name
 }
 
 /// Returns the real path of a file. Links are followed, even to files that do not exist yet.
-pub(crate) fn place(path: &Path) -> PathBuf {
+#[doc(hidden)]
+pub fn place(path: &Path) -> PathBuf {
     if let Ok(place) = fs::canonicalize(path) {
         return place;
     }

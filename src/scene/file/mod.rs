@@ -59,10 +59,12 @@ use value::{Data, Value};
 pub(super) const BUILTIN: &str = "builtin:";
 
 /// The name of standard input, both as an input and as the mesh of a scene.
-pub(crate) const STANDARD_INPUT: &str = "-";
+#[doc(hidden)]
+pub const STANDARD_INPUT: &str = "-";
 
 /// Returns the name of an input or a mesh for messages.
-pub(crate) fn shown(name: &str) -> &str {
+#[doc(hidden)]
+pub fn shown(name: &str) -> &str {
     match name {
         STANDARD_INPUT => "standard input",
         name => name,

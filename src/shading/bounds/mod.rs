@@ -41,7 +41,6 @@ impl Roundings {
 
 /// The values that a method steps along edges and spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Stepped {
     /// Colours of at most 1: the picture has the same error.
     Colours,

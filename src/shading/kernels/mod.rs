@@ -26,6 +26,8 @@ pub(crate) mod gbuffer_cell;
 pub(crate) mod operation_counts;
 pub(crate) mod runs;
 pub(crate) mod sample_span;
+#[cfg(feature = "simd")]
+pub(crate) mod timed_span;
 #[cfg(feature = "io")]
 pub(crate) mod walked;
 

@@ -15,7 +15,6 @@ use glam::DVec3;
 pub struct SpanBench {
     pub(crate) lighting: Lighting,
     /// The uniforms of most methods, and those of methods that turn normals into the eye's frame.
-    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
     uniforms: [Uniforms; 2],
     /// The unit normals and positions of a triangle whose first two corners are the ends of the
     /// span.
@@ -135,7 +134,6 @@ impl SpanBench {
 
     /// Returns the uniforms of a method with its default power function, at scale 1. They were made
     /// with the span, because a timing repeats what happens once per span, not once per material.
-    #[cfg_attr(not(feature = "cli"), allow(dead_code))] // only timings read them
     pub(crate) fn prepared(&self, variant: &Variant) -> &Uniforms {
         let carries = variant.row().kernels(1, false).carries;
         &self.uniforms[usize::from(carries == Carried::Turned)]

@@ -90,7 +90,8 @@ mod newton;
 mod products;
 mod quadratic;
 mod rsqrt;
-pub(crate) mod sines;
+#[doc(hidden)]
+pub mod sines;
 pub(crate) mod values;
 pub(crate) mod vertices;
 

@@ -75,11 +75,14 @@ impl<F: Num> Walk<F> for Sines<F> {
 #[derive(Clone, Copy, Debug)]
 pub struct GreatCircle<F, V = Vec3<F>> {
     /// N_1 / sin φ.
-    pub(crate) from: V,
+    #[doc(hidden)]
+    pub from: V,
     /// N_2 / sin φ.
-    pub(crate) to: V,
+    #[doc(hidden)]
+    pub to: V,
     /// The weights of both.
-    pub(crate) sines: Sines<F>,
+    #[doc(hidden)]
+    pub sines: Sines<F>,
 }
 
 /// The angle in radians below which the circle is replaced by its chord. The weights are then

@@ -1,0 +1,88 @@
+//! Notes about depth: polygons whose depths rounding cannot tell apart, and polygons that
+//! interpolation on the screen distorts.
+
+use super::Log;
+use super::text::{counted, grouped};
+use fastphong::frame::{DepthRange, Frame};
+use fastphong::raster::depth_ties::{DepthTies, depth_ties};
+use fastphong::scene::{HiddenSurfaces, Interpolation};
+
+/// The share of covered samples decided by rounding from which on the user is warned.
+const SHARE: f64 = 0.001;
+
+/// Warns of polygons whose depths rounding cannot tell apart, and notes polygons that are drawn
+/// twice.
+pub fn note_depth_ties(frame: &Frame, log: Log) {
+    let ties = depth_ties(frame);
+    if ties.samples as f64 > SHARE * ties.covered as f64 {
+        log.warning(&ties_text(frame, ties));
+    }
+    if ties.doubled > 0 {
+        let one = "polygon has the corners of an earlier one, which hides it";
+        let more = "polygons have the corners of earlier ones, which hide them";
+        log.note(&counted(ties.doubled, one, more));
+    }
+}
+
+fn ties_text(frame: &Frame, ties: DepthTies) -> String {
+    let polygons = counted(ties.polygons, "polygon meets", "polygons meet");
+    let share = 100.0 * ties.samples as f64 / ties.covered as f64;
+    let samples = grouped(ties.samples);
+    let bits = match frame.hidden_surfaces() {
+        HiddenSurfaces::ZBuffer(buffer) => buffer.bits.most().map(|most| most.ilog2() + 1),
+        HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => None,
+    };
+    match bits {
+        Some(bits) => format!(
+            "{polygons} others at equal depth in {bits} bits, at {samples} samples ({share:.2} % of those covered): the one \
+             drawn first is visible there; --depth-bits 32 tells more of them apart"
+        ),
+        None => format!(
+            "{polygons} others at the same depth up to rounding, at {samples} samples ({share:.2} % of those covered): which one \
+             is visible there differs between engines; move one of them, or leave it out"
+        ),
+    }
+}
+
+/// The ratio of a polygon's farthest to its nearest depth from which on the user is told of
+/// interpolation on the screen. At 2, half-way on the screen is 1/3 of the way in space.
+const RATIO: f64 = 2.0;
+
+/// Returns the normal of a vertex. A vertex made by clipping has none: this returns the normal at
+/// one end of its edge.
+fn normal_at(frame: &Frame, vertex: u32) -> [f32; 3] {
+    match frame.clip_corner(vertex) {
+        Some(cut) => normal_at(frame, cut.a),
+        None => frame.normal(vertex),
+    }
+}
+
+/// Tells the user if perspective makes much of a difference to attributes interpolated on the
+/// screen, and which flag helps.
+pub fn note_screen_interpolation(frame: &Frame, log: Log) {
+    let is_perspective = matches!(frame.depth_range(), DepthRange::Perspective { .. });
+    if !is_perspective || frame.interpolation() == Interpolation::Perspective {
+        return;
+    }
+    let is_bent = |corners: &[u32]| {
+        let inv_w = |v: &u32| -frame.vertices()[*v as usize].depth;
+        let least = corners.iter().map(inv_w).fold(f64::INFINITY, f64::min);
+        let largest = corners.iter().map(inv_w).fold(0.0, f64::max);
+        let normal = normal_at(frame, corners[0]);
+        let varies = || corners.iter().any(|&v| normal_at(frame, v) != normal);
+        largest > RATIO * least && (frame.is_local() || varies())
+    };
+    let polygons = frame.polygons().iter();
+    let bent = polygons
+        .filter(|polygon| is_bent(frame.corners(polygon)))
+        .count();
+    if bent > 0 {
+        let one = "polygon is more than twice as far away at one corner as at another";
+        let more = "polygons are more than twice as far away at one corner as at another";
+        log.note(&format!(
+            "{}: values interpolated over them are linear on the screen, as in the lecture, and so not in space; \
+             --interpolation perspective makes them right",
+            counted(bent, one, more)
+        ));
+    }
+}

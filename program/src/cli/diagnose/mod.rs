@@ -1,0 +1,185 @@
+//! `fastphong diagnose`: why a picture of a scene is wrong.
+
+mod json;
+mod strip;
+mod text;
+
+use super::output::{self, Output, print_beside};
+use super::progress::Progress;
+use super::scene_flags::SceneFlags;
+use super::{CliError, Log, Outcome, files, input_name, memory};
+use crate::diagnose::{DiagnoseError, Question, diagnose};
+use fastphong::glam::DVec3;
+use fastphong::picture::image_file::FilePicture;
+use fastphong::raster::{Plan, Renderer};
+use fastphong::scene::Scene;
+use fastphong::scene::file::Resolved;
+use fastphong::scene::file::SceneFile;
+use fastphong::scene::file::diagnostics::Origin;
+use fastphong::scene::file::value::{Data, SceneTable};
+use fastphong::shading::Variant;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Find the mistake that makes your picture of a scene wrong
+#[derive(clap::Args, Debug)]
+#[command(after_help = AFTER)]
+pub struct DiagnoseArgs {
+    /// Your picture: PNG, PBM, PGM, PPM, PAM, PFM, BMP or Targa. The scene is drawn at its size
+    picture: PathBuf,
+    /// Scene that the picture shows: scene file, mesh file, builtin:NAME?key=value, name of a
+    /// shipped scene, or `-`
+    #[arg(value_parser = input_name::parser())]
+    input: String,
+    /// Method that the picture should show: `flat`, `gouraud`, `phong`, or one of
+    /// `fastphong list methods --all` [default: phong]
+    #[arg(long = "as", value_name = "METHOD", value_parser = method)]
+    method: Option<Variant>,
+    /// Write three pictures side by side: yours, the reference, and the reference with your
+    /// mistake; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Print everything as JSON, including the error that each mistake would leave
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    scene: SceneFlags,
+}
+
+const AFTER: &str = "Exit codes: 0 the picture is right, 1 it is not, 2 wrong usage or input.\n\
+    `fastphong list mistakes` lists the mistakes that it looks for.";
+
+impl DiagnoseArgs {
+    /// Reads the picture, looks for mistakes and prints what it found.
+    pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        let started = Instant::now();
+        let output = self
+            .output
+            .as_deref()
+            .map(|path| Output::of_picture(path, None))
+            .transpose()?;
+        let outputs: Vec<&Output> = output.iter().collect();
+        let file = self.scene.load(&self.input)?;
+        files::will_read(&self.picture, "the picture");
+        output::check(&outputs)?;
+        let picture = files::picture(&self.picture, "the picture")?;
+        for note in &picture.notes {
+            log.warning(&format!("{}: {note}", self.picture.display()));
+        }
+        let progress = Progress::watched(log);
+        progress.at(0.0, "loading the scene");
+        let (file, resolved, own_size) = self.sized(file, &picture)?;
+        let mut scene = resolved.scene.clone();
+        scene.samples = 1;
+        progress.aside(|| self.scene.warn_without_hints(&file, &resolved, log));
+        memory::check_frame(&scene)?;
+        self.check_method(&scene)?;
+        let question = Question {
+            scene: &scene,
+            method: self.method.as_ref(),
+            picture: &picture,
+            light_lengths: &light_lengths(&file),
+        };
+        let found = diagnose(&question, &mut |share| {
+            progress.at(share, "drawing mistakes");
+        });
+        let found = found.map_err(|error| self.error(&error, picture.size()))?;
+        let text = match self.json {
+            true => format!(
+                "{:#}\n",
+                json::json(self, &scene, &found, started.elapsed())
+            ),
+            false => {
+                let own = [own_size, [scene.width, scene.height]];
+                text::text(self, &found, own)
+            }
+        };
+        if let Some(output) = &output {
+            progress.at(1.0, "drawing the pictures");
+            let strip = strip::strip(&question, &found)
+                .map_err(|error| self.error(&error, picture.size()))?;
+            let strip = FilePicture::stored(strip).encoded(scene.encoding);
+            output.write_encoded(&strip)?;
+        }
+        drop(progress);
+        print_beside(&outputs, &text)?;
+        Ok(match found.is_correct() {
+            true => Outcome::Done,
+            false => Outcome::Differs,
+        })
+    }
+
+    /// Returns the scene, resized to the picture, and the scene's own size. A picture of the
+    /// scene's own size with columns and rows exchanged leaves the scene as it was. Meshes are read
+    /// again only if the size changes, because a fitted camera depends on it.
+    fn sized(
+        &self,
+        mut file: SceneFile,
+        picture: &FilePicture,
+    ) -> Result<(SceneFile, Resolved, [u32; 2]), CliError> {
+        let [width, height] = picture.size();
+        let most = Scene::MAX_SIDE as usize;
+        if width.max(height) > most {
+            let found = format!("{}: has {width}x{height} pixels", self.picture.display());
+            return Err(format!("{found}: expected at most {most} a side").into());
+        }
+        let resolved = files::resolve(&file)?;
+        let own_size = [resolved.scene.width, resolved.scene.height];
+        let [own_width, own_height] = own_size;
+        let own = [own_width, own_height].map(|side| side as usize);
+        if own == [width, height] || own == [height, width] {
+            return Ok((file, resolved, own_size));
+        }
+        if self.scene.gives(Some("image"), "width") {
+            let found = format!("{}: has {width}x{height} pixels", self.picture.display());
+            let expected = format!("expected {own_width}x{own_height}, as --resolution says");
+            return Err(format!("{found}: {expected}").into());
+        }
+        let mut size = SceneTable::default();
+        let image = size.table_mut("image");
+        image.set("width", Data::Whole(width as i64), Origin::Program);
+        image.set("height", Data::Whole(height as i64), Origin::Program);
+        file.overlay(size);
+        let resolved = files::resolve(&file)?;
+        Ok((file, resolved, own_size))
+    }
+
+    /// Checks that the method asked for can draw the scene.
+    fn check_method(&self, scene: &Scene) -> Result<(), CliError> {
+        let Some(method) = &self.method else {
+            return Ok(());
+        };
+        match method.plan(&scene.frame()?, Renderer::LECTURE) {
+            Plan::Refused(reason) => Err(format!("--as {method}: {reason}").into()),
+            _ => Ok(()),
+        }
+    }
+
+    fn error(&self, error: &DiagnoseError, size: [usize; 2]) -> CliError {
+        match error {
+            DiagnoseError::Frame(error) => CliError::from(error.to_string()),
+            DiagnoseError::NothingToCompare => {
+                let [width, height] = size.map(|side| side.to_string());
+                let problem = format!(
+                    "{}: too little of it is visible at {width}x{height} pixels",
+                    self.input
+                );
+                CliError::from(format!("{problem}: expected at least 30 covered pixels"))
+            }
+        }
+    }
+}
+
+/// Reads the method of an exercise. `phong` stands for naive Phong.
+fn method(text: &str) -> Result<Variant, String> {
+    let name = if text == "phong" { "naive-phong" } else { text };
+    Variant::parse(name).map_err(|error| error.to_string())
+}
+
+/// Returns the length of each light's direction as the scene file states it; 1 for a light at a
+/// position.
+fn light_lengths(file: &SceneFile) -> Vec<f64> {
+    let lights = file.table().tables("light").iter();
+    let length = |light: &SceneTable| light.triple("direction").map_or(1.0, DVec3::length);
+    lights.map(length).collect()
+}

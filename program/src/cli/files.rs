@@ -1,0 +1,434 @@
+//! The files that a command reads and writes. No file is both.
+//!
+//! Every file is registered before it is read. Every path to be written is checked against these
+//! files: before anything is drawn if the path is known by then ([`check`]), and always when it is
+//! written ([`write`]). No other module of the commands opens files (`tests/documents/tidy.rs`).
+//! Files are compared by their canonical paths, so that a symbolic link cannot hide one. A hard
+//! link can, but does no harm: files are replaced, not overwritten, so the file that was read keeps
+//! its contents under its other name.
+//!
+//! `--watch` watches the same list ([`wait_for_change`]), which includes files that do not exist
+//! yet or no longer.
+
+use super::input_name::{is_stand_in, path_behind};
+use super::{CliError, memory, signals};
+use fastphong::mesh::read::mesh_endings;
+use fastphong::picture::image_file::{
+    FilePicture, ImageFileError, place, read_picture, write_file_by, write_files_by,
+};
+use fastphong::scene::file::Resolved;
+use fastphong::scene::file::SceneError;
+use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
+use fastphong::scene::input::{self, InputFormat, has_ending, read_input};
+use std::collections::BTreeSet;
+use std::fmt;
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+/// A file that a command reads, with its state before reading.
+#[derive(Clone, Debug)]
+struct FileRead {
+    path: PathBuf,
+    /// Its role in the command, for messages: `the scene`.
+    part: &'static str,
+    state: Option<State>,
+}
+
+/// The state of a file on disk. It changes when the file is written to, or when another file takes
+/// its name.
+#[derive(Clone, Debug, PartialEq)]
+struct State {
+    place: PathBuf,
+    size: u64,
+    written: Option<SystemTime>,
+}
+
+/// A path that a command writes to.
+#[derive(Clone, Copy, Debug)]
+pub struct Destination<'a> {
+    /// The flag that sets it: `--output`.
+    pub name: &'a str,
+    pub path: &'a Path,
+}
+
+/// Standard output. It may lead to a file, even to one that the command reads, if a shell appends
+/// to it.
+pub const STDOUT: &str = "/dev/stdout";
+
+/// Standard input, which may come from a file.
+const STDIN: &str = "/dev/stdin";
+
+/// The error of a command that would write a file that it reads, or write one file twice.
+#[derive(Debug)]
+pub struct OneFileError(String);
+
+impl fmt::Display for OneFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for OneFileError {}
+
+/// The files of a command.
+#[derive(Debug)]
+struct Files {
+    read: Vec<FileRead>,
+    /// The paths of the files in `read`.
+    paths: BTreeSet<PathBuf>,
+    written: Vec<PathBuf>,
+}
+
+const NONE: Files = Files {
+    read: Vec::new(),
+    paths: BTreeSet::new(),
+    written: Vec::new(),
+};
+
+/// All files since [`forget`].
+static FILES: Mutex<Files> = Mutex::new(NONE);
+
+fn files() -> MutexGuard<'static, Files> {
+    FILES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Forgets all files, before a command starts again.
+pub fn forget() {
+    *files() = NONE;
+}
+
+/// Registers a file that is going to be read. `part` is its role in the command, for messages.
+pub fn will_read(path: &Path, part: &'static str) {
+    if is_read(path) {
+        return;
+    }
+    let file = FileRead {
+        path: path.to_owned(),
+        part,
+        state: State::of(path),
+    };
+    let mut files = files();
+    files.paths.insert(path.to_owned());
+    files.read.push(file);
+}
+
+/// True if this path is registered.
+fn is_read(path: &Path) -> bool {
+    files().paths.contains(path)
+}
+
+/// Registers standard input, which is going to be read. `part` is its role in the command, for
+/// messages.
+pub fn will_read_stdin(part: &'static str) {
+    will_read(Path::new(STDIN), part);
+}
+
+/// Registers a file of a scene that is going to be read.
+pub fn will_read_of_scene(path: &Path) {
+    let part = match path {
+        path if has_ending(path, "toml") => "the scene",
+        path if mesh_endings().any(|ending| has_ending(path, ending)) => "the mesh",
+        path if has_ending(path, "mtl") => "the material library",
+        // Its bytes will tell if it is a scene, a mesh or a library.
+        _ => "a file of the scene",
+    };
+    will_read(path, part);
+}
+
+/// Reads a file of a scene, by its name in the scene.
+fn read_of_scene(name: &Path) -> io::Result<Vec<u8>> {
+    let path = path_behind(name);
+    match name.as_os_str() == STANDARD_INPUT {
+        true => will_read_stdin("the input"),
+        false => will_read_of_scene(&path),
+    }
+    read_input(&path)
+}
+
+/// Loads the scene that `input` names, as [`input::load`] does. `format` is the format of standard
+/// input. Registers the mesh files of the scene without reading them.
+///
+/// # Errors
+/// As [`input::load`].
+pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, SceneError> {
+    let file = match input {
+        STANDARD_INPUT => input::load_standard_input(format, &mut read_of_scene)?,
+        // A stand-in is not the name of a file, so only its ending can tell what the file holds.
+        name if is_stand_in(name) && has_ending(Path::new(name), "toml") => {
+            SceneFile::load_by(Path::new(name), &mut read_of_scene)?
+        }
+        name if is_stand_in(name) => SceneFile::for_mesh(name),
+        input => input::load_by(input, &mut read_of_scene)?,
+    };
+    let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    for mesh in file.meshes().filter(|mesh| input::is_mesh_file(mesh)) {
+        will_read_of_scene(&path_behind(&folder.join(mesh)));
+    }
+    Ok(file)
+}
+
+/// Returns the scene that `file` describes, as [`input::resolve`] does.
+///
+/// # Errors
+/// As [`input::resolve`], and if there is too little memory for its meshes.
+pub fn resolve(file: &SceneFile) -> Result<Resolved, CliError> {
+    memory::check_meshes(file)?;
+    Ok(input::resolve_by(file, &mut read_of_scene)?)
+}
+
+/// Returns the mesh files and material libraries of `file`, with names relative to the folder of
+/// the scene. Returns `None` if a mesh has more than `most` bytes, came from standard input or a
+/// pipe, or cannot be read again.
+pub fn of_scene(file: &SceneFile, most: u64) -> Option<Vec<(String, Vec<u8>)>> {
+    if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {
+        return None;
+    }
+    let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    let mut meshes = file
+        .meshes()
+        .filter(|mesh| input::is_mesh_file(mesh))
+        .peekable();
+    if meshes.peek().is_none() {
+        return Some(Vec::new());
+    }
+    // Check before reading: a pipe cannot be read a second time.
+    let is_small = |mesh: &str| {
+        let path = path_behind(&folder.join(mesh));
+        fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() <= most)
+    };
+    if !meshes.all(is_small) {
+        return None;
+    }
+    let mut read = Vec::new();
+    let resolved = input::resolve_by(file, &mut |path| {
+        let bytes = read_input(&path_behind(path))?;
+        let name = path.strip_prefix(folder).unwrap_or(path);
+        read.push((name.to_string_lossy().into_owned(), bytes.clone()));
+        Ok(bytes)
+    });
+    resolved.is_ok().then_some(read)
+}
+
+/// The endings of picture files, without the dot.
+const PICTURES: [&str; 8] = ["png", "pbm", "pgm", "ppm", "pam", "pfm", "bmp", "tga"];
+
+/// The picture files in a folder.
+#[derive(Debug, Default)]
+pub struct PictureNames {
+    /// Paths within the folder, sorted.
+    pub names: Vec<PathBuf>,
+    /// How many other files there are.
+    pub others: usize,
+}
+
+/// Lists the picture files in a folder and its sub-folders, by their endings. Leaves out hidden
+/// files (drafts among them), pipes and devices. Does not follow links to folders, because they may
+/// lead anywhere.
+///
+/// # Errors
+/// If a folder cannot be read.
+pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
+    let mut found = PictureNames::default();
+    let mut open = vec![PathBuf::new()];
+    while let Some(inner) = open.pop() {
+        let path = folder.join(&inner);
+        let refused = |error| format!("{}: cannot be read: {error}", path.display());
+        for entry in fs::read_dir(&path).map_err(refused)? {
+            let entry = entry.map_err(refused)?;
+            let name = inner.join(entry.file_name());
+            if entry.file_name().as_encoded_bytes().starts_with(b".") {
+                continue;
+            }
+            let is_picture = PICTURES.iter().any(|ending| has_ending(&name, ending));
+            let kind = entry.file_type().map_err(refused)?;
+            // A broken link counts as a picture, so that reading it reports an error. Reading a
+            // pipe would block.
+            let target = fs::metadata(entry.path());
+            let is_file = target.as_ref().map_or(true, fs::Metadata::is_file);
+            match (kind.is_dir(), target.is_ok_and(|target| target.is_dir())) {
+                (true, _) => open.push(name),
+                (_, true) => {}
+                _ if is_picture && is_file => found.names.push(name),
+                _ => found.others += 1,
+            }
+        }
+    }
+    found.names.sort();
+    Ok(found)
+}
+
+/// A file to copy, and the path to copy it to, whether or not a file is there.
+#[derive(Clone, Copy, Debug)]
+pub struct Copy<'a> {
+    pub from: &'a Path,
+    pub to: &'a Path,
+}
+
+/// Copies files, all of them or none. This is the only way to write files that were read: the user
+/// asked to replace references.
+///
+/// # Errors
+/// If a copy would replace a file that is itself to be copied, two copies would replace the same
+/// file, or a file cannot be read or written.
+pub fn copy_all(copies: &[Copy<'_>]) -> Result<(), CliError> {
+    let sources: BTreeSet<PathBuf> = copies.iter().map(|copy| place(copy.from)).collect();
+    let mut places = BTreeSet::new();
+    for copy in copies {
+        let (to, end) = (copy.to.display(), place(copy.to));
+        if sources.contains(&end) {
+            let problem = format!("{to} leads to a picture that is to be approved");
+            return Err(OneFileError(format!("{problem}: expected a separate reference")).into());
+        }
+        if !places.insert(end) {
+            let problem = format!("{to} leads to the same file as another reference");
+            return Err(OneFileError(format!("{problem}: expected a file for each")).into());
+        }
+    }
+    signals::remove_drafts_at_the_end();
+    let places: Vec<&Path> = copies.iter().map(|copy| copy.to).collect();
+    write_files_by(&places, |i, out| {
+        let mut from = fs::File::open(copies[i].from)?;
+        io::copy(&mut from, out).map(|_| ())
+    })?;
+    Ok(())
+}
+
+/// Reads a picture. `part` is its role in the command, for messages.
+///
+/// # Errors
+/// As [`read_picture`].
+pub fn picture(path: &Path, part: &'static str) -> Result<FilePicture, ImageFileError> {
+    will_read(path, part);
+    read_picture(path)
+}
+
+/// The largest document that is read, in bytes. One of all shipped scenes has about 1 MB.
+const LARGEST: u64 = 1 << 28;
+
+/// Reads a document of at most [`LARGEST`] bytes, from standard input if the path is `-`. The limit
+/// also protects from devices that never end.
+///
+/// # Errors
+/// If the document cannot be read, has more bytes, or is not text in UTF-8.
+pub fn document(path: &Path) -> io::Result<String> {
+    const PART: &str = "the document";
+    let mut bytes = Vec::new();
+    let mut limited = |input: &mut dyn Read| input.take(LARGEST + 1).read_to_end(&mut bytes);
+    if path.as_os_str() == STANDARD_INPUT {
+        if is_read(Path::new(STDIN)) {
+            return Err(io::Error::other("standard input holds one document"));
+        }
+        will_read_stdin(PART);
+        limited(&mut io::stdin().lock())?;
+    } else {
+        will_read(path, PART);
+        limited(&mut fs::File::open(path)?)?;
+    }
+    if bytes.len() as u64 > LARGEST {
+        let problem = format!("it has more than {LARGEST} bytes: expected a file of `--json`");
+        return Err(io::Error::other(problem));
+    }
+    // ASCII letters in UTF-16 are valid UTF-8 with zeros between them, so a text with zeros is
+    // refused.
+    let text = String::from_utf8(bytes)
+        .ok()
+        .filter(|text| !text.contains('\0'));
+    text.ok_or_else(|| io::Error::other("it is not text in UTF-8: expected a file of `--json`"))
+}
+
+/// Returns up to `most` bytes from the beginning of the plain file at `path`, or nothing if it
+/// cannot be read. Returns `None` if there is no plain file.
+pub fn beginning(path: &Path, most: u64) -> Option<Vec<u8>> {
+    if !fs::metadata(path).ok()?.is_file() {
+        return None;
+    }
+    let mut bytes = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes));
+    Some(read.map(|_| bytes).unwrap_or_default())
+}
+
+/// Checks that no destination is a file that the command reads, and that no two are the same file.
+///
+/// # Errors
+/// If one is, even under another name.
+pub fn check(destinations: &[Destination<'_>]) -> Result<(), CliError> {
+    let read = &files().read;
+    for (index, to) in destinations.iter().enumerate() {
+        let is_it = |file: &&FileRead| is_one_file(&file.path, to.path);
+        if let Some(FileRead { path, part, .. }) = read.iter().find(is_it) {
+            let mut problem = format!("`{}` is {part} itself, {}", to.name, path.display());
+            if *path != to.path {
+                problem += &format!(", by the name {}", to.path.display());
+            }
+            return Err(OneFileError(format!("{problem}: expected another file")).into());
+        }
+        let before = &destinations[..index];
+        if let Some(other) = before.iter().find(|other| is_one_file(other.path, to.path)) {
+            let (one, two, path) = (other.name, to.name, to.path.display());
+            let problem = format!("`{one}` and `{two}` name one file, {path}");
+            return Err(OneFileError(format!("{problem}: expected a file for each")).into());
+        }
+    }
+    Ok(())
+}
+
+/// Writes a file with `write`, either whole or not at all. A signal that ends the program leaves no
+/// draft behind.
+///
+/// # Errors
+/// If the file was read or written by this command already, or cannot be written.
+pub fn write(
+    to: Destination<'_>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), CliError> {
+    check(&[to])?;
+    if files()
+        .written
+        .iter()
+        .any(|path| is_one_file(path, to.path))
+    {
+        let (name, path) = (to.name, to.path.display());
+        let problem = format!("`{name}` names {path}, which was written just now");
+        return Err(OneFileError(format!("{problem}: expected a file for each")).into());
+    }
+    signals::remove_drafts_at_the_end();
+    write_file_by(to.path, write)?;
+    files().written.push(to.path.to_owned());
+    Ok(())
+}
+
+/// True if both paths lead to the same plain file, or would if it existed.
+fn is_one_file(a: &Path, b: &Path) -> bool {
+    place(a) == place(b) && fs::metadata(a).map_or(true, |found| found.is_file())
+}
+
+impl State {
+    /// Returns the state of a file, or `None` if it does not exist.
+    fn of(path: &Path) -> Option<State> {
+        let found = fs::metadata(path).ok()?;
+        Some(State {
+            place: place(path),
+            size: found.len(),
+            written: found.modified().ok(),
+        })
+    }
+}
+
+/// The time between two checks of the files.
+const PAUSE: Duration = Duration::from_millis(150);
+
+/// Waits until one of the registered files changes, disappears or comes back. Calls `waits` first,
+/// with the number of files.
+pub fn wait_for_change(waits: impl FnOnce(usize)) {
+    let read = files().read.clone();
+    waits(read.len());
+    while read.iter().all(|file| State::of(&file.path) == file.state) {
+        sleep(PAUSE);
+    }
+    // An editor may still be writing, if it saves several files or one file in several steps.
+    sleep(PAUSE);
+}

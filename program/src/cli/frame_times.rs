@@ -1,0 +1,169 @@
+//! `fastphong bench --frame-times`: times whole frames, from the prepared scene to the stored
+//! picture, as a program that shows frame after frame would draw them.
+
+use super::measured::{Measurement, command_line};
+use super::values::number;
+use super::{CliError, Log, memory};
+use crate::compare::timing::{Machine, Timing};
+use fastphong::frame::PreparedScene;
+use fastphong::picture::Picture8;
+use fastphong::raster::{DrawOptions, Plan, Renderer};
+use fastphong::shading::Variant;
+use serde::Serialize;
+use serde_json::json;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// The schema of the data: see `docs/bench-json.md`.
+const SCHEMA: &str = "fastphong.frame-times/1";
+
+/// The definition of a frame's time.
+const WHAT_IS_TIMED: &str = "from the prepared scene to the stored picture in RGBA8, in the memory of the frame before: \
+                             projection, culling, clipping, vertex lighting, rasterization, shading and storing; not \
+                             loading, vertex normals or writing";
+
+/// The largest number of frames per method.
+const MOST_FRAMES: usize = 1_000_000;
+
+/// The flags for how many frames to draw.
+#[derive(clap::Args, Clone, Copy, Debug, Serialize)]
+pub struct FrameCount {
+    /// Number of frames to time for each method, 1 to 1000000
+    #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times")]
+    frames: usize,
+    /// Number of frames to draw first for each method, 0 to 1000000, until caches and the clock
+    /// frequency have settled
+    #[arg(long, value_name = "N", default_value = "5", value_parser = |text: &str| frames(text, 0), allow_hyphen_values = true, requires = "frame_times")]
+    warmup: usize,
+}
+
+/// Reads a number of frames, at least `least`.
+fn frames(text: &str, least: usize) -> Result<usize, String> {
+    let expected = format!("a number of frames from {least} to {MOST_FRAMES}");
+    number(text, expected, |n| (least..=MOST_FRAMES).contains(n))
+}
+
+/// The frames of one method.
+#[derive(Serialize)]
+struct FrameTime {
+    input: String,
+    width: usize,
+    height: usize,
+    method: String,
+    engine: &'static str,
+    level: &'static str,
+    threads: usize,
+    reason: Option<&'static str>,
+    #[serde(flatten)]
+    count: FrameCount,
+    ms_median: f64,
+    ms_min: f64,
+}
+
+/// Times the frames of each method by each renderer, one after the other. Returns the times as text
+/// and as JSON.
+///
+/// # Errors
+/// If an input cannot be loaded or drawn.
+pub fn frame_times(
+    of: &Measurement<'_>,
+    methods: &[Variant],
+    count: FrameCount,
+) -> Result<(String, String), CliError> {
+    let turns = of.inputs.len() * of.renderers.len() * methods.len();
+    let mut times: Vec<FrameTime> = Vec::with_capacity(turns);
+    of.each_scene(|name, _, scene, progress| {
+        let prepared = scene.prepare()?;
+        drop(scene);
+        for renderer in of.renderers {
+            for variant in methods {
+                let done = times.len() as f32 / turns as f32;
+                progress.at(done, &format!("{name}: {variant}"));
+                let draw = || FrameTime::take(name, &prepared, variant, *renderer, (count, of.log));
+                let Some(time) = of.threads.install_for(*renderer, draw)?? else {
+                    continue;
+                };
+                if let Some(reason) = time.reason {
+                    let drawn_by = format!("the {} engine, {}", time.engine, time.level);
+                    let text = format!("{name}: {variant} is drawn by {drawn_by}: {reason}");
+                    progress.aside(|| of.log.note(&text));
+                }
+                times.push(time);
+            }
+        }
+        Ok(())
+    })?;
+    Ok((times.iter().map(FrameTime::line).collect(), json(&times)))
+}
+
+impl FrameTime {
+    /// Draws frame after frame into one picture, and reads the clock before and after each. Returns
+    /// `None`, with a warning, if the method refuses the frame.
+    fn take(
+        input: &str,
+        scene: &PreparedScene,
+        variant: &Variant,
+        renderer: Renderer,
+        (count, log): (FrameCount, Log),
+    ) -> Result<Option<FrameTime>, CliError> {
+        let mut frame = scene.frame()?;
+        let plan = variant.plan(&frame, renderer);
+        if let Plan::Refused(reason) = plan {
+            log.warning(&format!("{input}: {variant} is left out: {reason}"));
+            return Ok(None);
+        }
+        let drawn_by = plan.renderer().unwrap_or(renderer);
+        memory::check_stored(&frame, &variant.to_string())?;
+        let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
+        let mut samples = Vec::with_capacity(count.frames);
+        for index in 0..count.warmup + count.frames {
+            let started = Instant::now();
+            black_box(scene).frame_into(&mut frame)?;
+            let drawn = variant.draw(&frame, &mut picture, DrawOptions::by(renderer));
+            let spent = started.elapsed();
+            black_box(&mut picture);
+            drawn?;
+            if index >= count.warmup {
+                samples.push(spent.as_nanos() as f64);
+            }
+        }
+        let timing = Timing::of(samples, 1).expect("one frame or more, each of a finite time");
+        Ok(Some(FrameTime {
+            input: input.to_owned(),
+            width: picture.width(),
+            height: picture.height(),
+            method: variant.to_string(),
+            engine: drawn_by.engine().name(),
+            level: drawn_by.level().name(),
+            threads: rayon::current_num_threads(),
+            reason: plan.reason(),
+            count,
+            ms_median: timing.median_ns / 1e6,
+            ms_min: timing.min_ns / 1e6,
+        }))
+    }
+
+    /// Returns the line of a method.
+    fn line(&self) -> String {
+        let (input, method, engine, level) = (&self.input, &self.method, self.engine, self.level);
+        let (width, height, threads) = (self.width, self.height, self.threads);
+        let (frames, median, least) = (self.count.frames, self.ms_median, self.ms_min);
+        let drawn = format!("{input} {width}x{height} {method} engine {engine} level {level}");
+        let times = format!("ms_median {median:.4} ms_min {least:.4}");
+        format!("{drawn} threads {threads} frames {frames} {times}\n")
+    }
+}
+
+/// Returns the times as JSON, with each method on its own line.
+fn json(times: &[FrameTime]) -> String {
+    let head = [
+        ("schema", json!(SCHEMA)),
+        ("command_line", json!(command_line())),
+        ("machine", json!(Machine::this())),
+        ("timed", json!(WHAT_IS_TIMED)),
+    ];
+    let head = head.map(|(name, value)| format!("  \"{name}\": {value},\n"));
+    let lines = times.iter().map(|time| format!("    {}", json!(time)));
+    let (head, lines) = (head.concat(), lines.collect::<Vec<_>>().join(",\n"));
+    format!("{{\n{head}  \"frame_times\": [\n{lines}\n  ]\n}}\n")
+}
