@@ -128,6 +128,8 @@ pub mod integer;
 #[cfg(feature = "alloc")]
 pub mod mesh;
 #[cfg(feature = "alloc")]
+pub mod note;
+#[cfg(feature = "alloc")]
 pub mod number;
 #[cfg(feature = "alloc")]
 pub mod picture;
