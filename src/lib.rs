@@ -123,12 +123,16 @@ pub use glam;
 #[cfg(feature = "alloc")]
 pub mod compare;
 #[cfg(feature = "alloc")]
+pub mod drawing;
+#[cfg(feature = "alloc")]
 pub mod frame;
 pub mod integer;
 #[cfg(feature = "alloc")]
 pub mod mesh;
 #[cfg(feature = "alloc")]
 pub mod note;
+#[cfg(feature = "alloc")]
+pub mod notes;
 #[cfg(feature = "alloc")]
 pub mod number;
 #[cfg(feature = "alloc")]
