@@ -117,7 +117,7 @@ mod tests {
             let mesh = builtin(spec).unwrap();
             let from_file = SceneFile::for_mesh(std::format!("builtin:{spec}"));
             let from_file = from_file
-                .resolve(|_, _| Ok((Arc::new(mesh.clone()), Default::default())))
+                .resolve(|_, _| Ok((mesh.clone().into(), Default::default())))
                 .unwrap();
             let (a, b) = (
                 Scene::of_mesh(mesh).frame().unwrap(),
@@ -149,7 +149,7 @@ mod tests {
         let mesh = builder.finish().unwrap();
         let from_file = SceneFile::for_mesh("builtin:gear");
         let from_file = from_file
-            .resolve(|_, _| Ok((Arc::new(mesh.clone()), Default::default())))
+            .resolve(|_, _| Ok((mesh.clone().into(), Default::default())))
             .unwrap();
         let (a, b) = (
             Scene::of_mesh(mesh).frame().unwrap(),
@@ -183,7 +183,7 @@ mod tests {
             let mesh = parse_mesh("t.obj", text.as_bytes(), none).unwrap().mesh;
             let mut file = SceneFile::for_mesh("t.obj");
             let load = |file: &SceneFile| {
-                file.resolve(|_, _| Ok((Arc::new(mesh.clone()), Default::default())))
+                file.resolve(|_, _| Ok((mesh.clone().into(), Default::default())))
                     .unwrap()
             };
             let resolved = load(&file);
