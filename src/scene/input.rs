@@ -435,13 +435,15 @@ fn load_named(
     };
     let loaded = loaded.map_err(|error| UnusableMesh {
         reason: error.to_string(),
-        warnings: error.warnings,
+        warnings: error.notes.iter().map(ToString::to_string).collect(),
     })?;
-    let name = shown(name);
-    let is_told = |i: &usize| draws_materials || !loaded.material_warnings.contains(i);
-    let warnings = (0..loaded.warnings.len()).filter(is_told);
-    let warnings = warnings.map(|i| format!("{name}: {}", loaded.warnings[i]));
-    Ok((Arc::new(loaded.mesh), warnings.collect()))
+    let mut notes = loaded.notes;
+    if !draws_materials {
+        notes.remove("material/");
+    }
+    let notes = notes.about(shown(name));
+    let warnings = notes.iter().map(ToString::to_string).collect();
+    Ok((Arc::new(loaded.mesh), warnings))
 }
 
 /// Rewrites the mesh paths of `file` relative to the current folder, so that the scene can be

@@ -37,7 +37,10 @@ impl World {
                 "world.mtl" => Ok(self.materials.clone().into_bytes()),
                 _ => Err(ErrorKind::NotFound.into()),
             })
-            .map(|loaded| (Arc::new(loaded.mesh), loaded.warnings))
+            .map(|loaded| {
+                let notes = loaded.notes.iter().map(ToString::to_string);
+                (Arc::new(loaded.mesh), notes.collect())
+            })
             .map_err(|error| UnusableMesh::new(error.to_string())),
         };
         let resolved = file.resolve(load).map_err(|error| error.render(false))?;

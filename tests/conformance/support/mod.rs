@@ -86,7 +86,10 @@ pub fn scene(name: &str, size: Size) -> Scene {
             .map(|mesh| (Arc::new(mesh), vec![]))
             .map_err(|e| UnusableMesh::new(e.to_string())),
         None => load_mesh(&folder.join(spec))
-            .map(|l| (Arc::new(l.mesh), l.warnings))
+            .map(|l| {
+                let notes = l.notes.iter().map(ToString::to_string);
+                (Arc::new(l.mesh), notes.collect())
+            })
             .map_err(|e| UnusableMesh::new(e.to_string())),
     };
     file.resolve(load).unwrap_or_else(|e| panic!("{e}")).scene
