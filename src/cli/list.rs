@@ -281,7 +281,7 @@ fn level_json(level: SimdLevel) -> Value {
 
 fn mistake_text(mistake: &Mistake) -> String {
     let shown = scenes_that_show(&mistake.id);
-    let by = |(scene, levels): &(&str, f64)| format!("{scene} {levels:.1}");
+    let by = |(scene, levels): &(&str, f32)| format!("{scene} {levels:.1}");
     let scenes: Vec<String> = shown.iter().take(4).map(by).collect();
     let shown = if scenes.is_empty() {
         "shown by no shipped scene".to_owned()
