@@ -1,5 +1,5 @@
-//! `docs/flags.md` has a row for each key of a scene file and each flag of `fastphong render`, with a
-//! picture without the flag and one with it.
+//! `docs/flags.md` has a row for each key of a scene file and each flag of `fastphong render`, with
+//! a picture without the flag and one with it.
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from the
 //! rows of `src/scene/file/schema.rs` and the tool's help. Look at each pair before you commit it.
@@ -145,8 +145,8 @@ fn arguments() -> BTreeMap<String, String> {
     pairs.map(|pair| pair.map(str::to_owned).into()).collect()
 }
 
-/// Returns the argument of Python that sets a key, or nothing if it goes into `scene`. A key without
-/// a line in `arguments` has one if its first name is an argument of `settings`.
+/// Returns the argument of Python that sets a key, or nothing if it goes into `scene`. A key that
+/// `arguments` lacks has one if its first name is an argument of `settings`.
 fn argument(arguments: &BTreeMap<String, String>, key: &str) -> String {
     let first = key.split('.').next().unwrap_or_default();
     let keys = read("python/fastphong/_keys.py");
@@ -179,8 +179,8 @@ fn values(kind: ValueKind) -> String {
     }
 }
 
-/// Returns the pictures of a row, with the commands that draw them. The first command is left out if
-/// the second begins with it.
+/// Returns the pictures of a row, with the commands that draw them. The first command is left out
+/// if the second begins with it.
 fn pictures([without, with]: [&str; 2]) -> String {
     let picture =
         |text: &str, command| format!("![{text}]({})", file(command).replace("docs/", ""));
