@@ -195,8 +195,8 @@ words! {
 /// The scene itself: a table of the keys outside all tables.
 pub const SCENE: ValueKind = ValueKind::Table("");
 
-/// All keys, in the order in which flags are listed and tables are written. `docs/flags.md` has
-/// their defaults.
+/// All keys, in the order in which flags are listed and tables are written. `scenes/README.md` has
+/// ranges and defaults.
 #[rustfmt::skip]
 pub static KEYS: &[Key] = &[
     // A name for captions, and what the scene shows.
