@@ -61,7 +61,8 @@ const MOST_BYTES: usize = 410_000;
 const HEAD: &str = "# Keys, flags and Python arguments
 
 Each setting of a picture, with its key in a [scene file](../scenes/README.md), its flag of `fastphong render`, and its argument
-in [Python](python.md). A key without an argument goes into `scene`, as in `fp.render(mesh, scene={\"specular\": \"blinn\"})`.
+in [Python](python.md). A key without an argument goes into `scene`, as in `fp.render(mesh, scene={\"specular\": \"blinn\"})`;
+not so keys of `object`, because the mesh is the object.
 The pictures are without the flag and with it; below them is what follows `fastphong render`. All are drawn with
 `--size 160x120 --method naive-phong --simd scalar` as well, unless the row says otherwise.
 
