@@ -1,7 +1,7 @@
-//! Makes the generated parts of `docs/findings.md` from the measurements of `docs/findings/run`:
-//! tables, sentences, charts and a picture of the worst cases.
+//! Makes the generated parts of `docs/findings.md` and `report/README.md` from the measurements of
+//! `docs/findings/run`: tables, sentences, charts and a picture of the worst cases.
 //!
-//! `tests/documents/findings.rs` writes them into the page, or checks that the page has them.
+//! `tests/documents/findings.rs` writes them into the pages, or checks that the pages have them.
 
 use crate::markdown::read;
 use fastphong::picture::Picture8;
@@ -12,7 +12,7 @@ use fastphong::shading::{Family, METHODS, MethodRow, Tier, Variant};
 use fastphong_cli::compare::experiments::WorstCase;
 use fastphong_cli::lectures::{Figure, FigureBlock, FigureContent, Panel};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// Degrees between neighbouring normals of the meshes.
@@ -315,36 +315,33 @@ pub fn answer() -> String {
     )
 }
 
-/// Returns the table of methods on a machine, "simd" or "scalar": worst errors, and speeds with one
-/// light and with four.
-fn table(machine: &str) -> String {
-    let (one, four) = (
-        times(&format!("{machine}-1")),
-        times(&format!("{machine}-4")),
-    );
+/// Returns the table of methods: worst errors, then speeds with one light and with four, with SIMD
+/// and in scalar code. The fastest in scalar code come first.
+fn methods() -> String {
     let errors = errors(1);
-    let on_front: Vec<String> = (0..DEGREES.len())
-        .flat_map(|mesh| front(&one, &errors, mesh))
-        .collect();
-    let row = |name: &&str| {
-        let mark = if on_front.iter().any(|n| n == name) {
-            "●"
-        } else {
-            ""
-        };
-        let [speed, four] = [&one, &four].map(|times| speed(times, name, "naive-phong"));
-        let is_scalar = MethodRow::named(name).is_some_and(|entry| entry.scalar_only().is_some());
-        let how = if is_scalar && machine == "simd" {
-            ", scalar"
-        } else {
-            ""
-        };
-        let cells = cells(errors[*name]);
-        format!("`{name}`{how} | {mark} | {cells} | {speed:.2} | {four:.2}")
+    let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
+    let front_of = |times| -> BTreeSet<String> {
+        (0..DEGREES.len())
+            .flat_map(|mesh| front(times, &errors, mesh))
+            .collect()
     };
-    let names = fastest(&one);
+    let (simd_front, scalar_front) = (front_of(&simd), front_of(&scalar));
+    let row = |name: &&str| {
+        let speed = |times: &ByMethod| format!("{:.2}", speed(times, name, "naive-phong"));
+        let mark = |front: &BTreeSet<String>| if front.contains(*name) { " ●" } else { "" };
+        let is_scalar = MethodRow::named(name).is_some_and(|entry| entry.scalar_only().is_some());
+        let with_simd = if is_scalar {
+            "– | –".to_owned()
+        } else {
+            format!("{}{} | {}", speed(&simd), mark(&simd_front), speed(&simd4))
+        };
+        let mark = mark(&scalar_front);
+        let (one, four, cells) = (speed(&scalar), speed(&scalar4), cells(errors[*name]));
+        format!("`{name}` | {cells} | {with_simd} | {one}{mark} | {four}")
+    };
+    let names = fastest(&scalar);
     rows(
-        "| method | front | error at 5° | 15° | 30° | 60° | speed, 1 light | speed, 4 lights |\n|---|:---:|---:|---:|---:|---:|---:|---:|",
+        "| method | error at 5° | 15° | 30° | 60° | SIMD, 1 light | 4 lights | scalar, 1 light | 4 lights |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|",
         names
             .iter()
             .filter(|name| errors.contains_key(**name))
@@ -482,7 +479,10 @@ fn normals_table() -> String {
     let (head, rows) = tables.next_back().expect("the table of surfaces");
     let line = |cells: &Vec<String>| format!("| {} |\n", cells.join(" | "));
     let mut text = line(head) + "|---:|---|---:|---:|---:|---:|\n";
-    rows.iter().for_each(|row| text += &line(row));
+    // The figure has the rows for other angles.
+    let shown = |row: &&Vec<String>| ["15", "90"].contains(&&*row[0]);
+    let shown = rows.iter().filter(shown);
+    shown.for_each(|row| text += &line(row));
     let [uniform, angle] = ["smooth", "smooth-angle"].map(|key| finding(&content, key));
     text += &format!(
         "\nA cube can be cut into triangles in 64 ways. Over all of them, uniform averages and averages by area are up to {:.1}° off, which is {:.0} levels with the \
@@ -937,22 +937,72 @@ fn pictures_of_normals() -> Vec<u8> {
     encode_png(&sheet).expect("a picture")
 }
 
-/// Returns the table of all methods' worst errors with one light and with four, and the caption of
-/// their picture.
+/// Returns the caption of the picture of the worst cases.
 fn worst() -> String {
-    let (one, four) = (errors(1), errors(4));
-    let row = |entry: &MethodRow| {
-        let name = entry.info.name;
-        let (one, four) = (cells(*one.get(name)?), cells(*four.get(name)?));
-        Some(format!("`{name}` | {one} | {four}"))
-    };
-    let table = rows(
-        "| method | 5° | 15° | 30° | 60° | 5°, 4 lights | 15° | 30° | 60° |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|",
-        METHODS.iter().filter_map(row),
-    );
     let shown = shown().join("`, `");
     format!(
-        "{table}\nThe picture below shows the worst triangles at 30° with one light, the reference above and the method below, in this order: `{shown}`.\n"
+        "The picture below shows the worst triangles at 30° with one light, the reference above and the method below, in this order: `{shown}`.\n"
+    )
+}
+
+/// Extracts what `report/README.md` needs from the report that `docs/findings/run` leaves in
+/// `target/findings`: for each method drawn by scanlines its largest error in levels, the scene of
+/// this error, and the geometric mean of its speeds as multiples of naive Phong's.
+pub fn condensed_scenes() -> Value {
+    let document: Value = serde_json::from_str(&read("target/findings/report.json")).expect("JSON");
+    let comparisons = list(&document, "comparisons");
+    let mut methods = Vec::new();
+    for row in list(&comparisons[0], "rows") {
+        let variant = &row["variant"];
+        // A method may refuse a scene.
+        let of_scenes = comparisons.iter().filter_map(|comparison| {
+            let mut rows = list(comparison, "rows").iter();
+            Some((comparison, rows.find(|row| row["variant"] == *variant)?))
+        });
+        let levels = |row: &Value| 255.0 * number(&row["error"]["max"]);
+        let worst = of_scenes
+            .clone()
+            .max_by(|a, b| levels(a.1).total_cmp(&levels(b.1)));
+        let (scene, row) = worst.expect("some scene");
+        let speeds = of_scenes.map(|(_, row)| {
+            let ratio = &row["speed"]["ratio_to_naive"]["median"];
+            ratio.as_f64().unwrap_or(1.0)
+        });
+        methods.push(serde_json::json!({
+            "variant": variant, "levels": levels(row), "scene": scene["title"],
+            "speed": mean(speeds),
+        }));
+    }
+    serde_json::json!({
+        "command_line": document["command_line"], "date": document["date"],
+        "machine": document["machine"], "scenes": comparisons.len(), "methods": methods,
+    })
+}
+
+/// Returns the table of all scenes, and where, when and how it was measured.
+fn scenes() -> String {
+    let document = data("scenes");
+    let machine = &document["machine"];
+    let words: Vec<&str> = list(&document, "command_line").iter().map(text).collect();
+    let row = |method: &Value| {
+        let (levels, speed) = (number(&method["levels"]), number(&method["speed"]));
+        let (name, scene) = (text(&method["variant"]), text(&method["scene"]));
+        format!("`{name}` | {} | {scene} | {speed:.2}", short(levels))
+    };
+    let table = rows(
+        "| method | largest error, levels | in | speed, × naive Phong |\n|---|---:|---|---:|",
+        list(&document, "methods").iter().map(row),
+    );
+    format!(
+        "{table}\nLargest error in {} scenes, in grey levels of 255; geometric mean of speeds, from the projected frame to the stored picture. Measured by \
+         `{}` on {} ({} {}), {}, on {}.\n",
+        document["scenes"],
+        words.join(" "),
+        text(&machine["cpu"]),
+        text(&machine["os"]),
+        text(&machine["arch"]),
+        text(&machine["rustc"]),
+        text(&document["date"]),
     )
 }
 
@@ -972,13 +1022,12 @@ fn machine() -> String {
     )
 }
 
-/// Returns the page with everything between `<!-- made: NAME -->` and `<!-- end -->` made anew.
+/// Returns a page with everything between its `<!-- made: NAME -->` and `<!-- end -->` made anew.
 pub fn page(mut page: String) -> String {
     let blocks: [(&str, &dyn Fn() -> String); 13] = [
         ("answer", &answer),
         ("machine", &machine),
-        ("simd", &|| table("simd")),
-        ("scalar", &|| table("scalar")),
+        ("methods", &methods),
         ("halfway", &halfway_table),
         ("positions", &positions_table),
         ("break-even", &|| break_even(1)),
@@ -988,13 +1037,21 @@ pub fn page(mut page: String) -> String {
         ("worst", &worst),
         ("claims", &claims),
         ("normals", &normals_table),
+        ("scenes", &scenes),
     ];
+    let marks = page.matches("<!-- made: ").count();
+    let mut made = 0;
     for (name, make) in blocks {
         let mark = format!("<!-- made: {name} -->\n");
-        let from = page.find(&mark).unwrap_or_else(|| panic!("no {mark}")) + mark.len();
+        let Some(place) = page.find(&mark) else {
+            continue;
+        };
+        let from = place + mark.len();
+        made += 1;
         let length = page[from..].find("<!-- end -->").expect("an end");
         page.replace_range(from..from + length, &format!("\n{}\n", make()));
     }
+    assert_eq!(made, marks, "a name that nothing makes");
     page
 }
 

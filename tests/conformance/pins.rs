@@ -3,8 +3,8 @@
 //!
 //! `tests/pins.txt` holds the checksums. The regression tests beside this file let a channel differ
 //! by one level. Here no bit may differ. If a change is intended, look at the pictures, bless the
-//! pins with `FASTPHONG_BLESS=1 cargo test --test conformance pins`, and name the change in
-//! CHANGELOG.md under *Pixels changed*.
+//! pins with `FASTPHONG_BLESS=1 cargo test --test conformance pins`, and name the change as
+//! CONTRIBUTING.md says.
 //!
 //! Every engine draws the same bits on every machine, and the row engine on every instruction set
 //! that it supports. A machine without one of these sets does not change the pins of the row

@@ -1,5 +1,6 @@
-//! Writes `docs/findings.md` from the measurements of `docs/findings/run`, or checks that the page
-//! is current. Also checks the worst cases by drawing them. `docs/findings/page.rs` makes the page.
+//! Writes `docs/findings.md` and `report/README.md` from the measurements of `docs/findings/run`,
+//! or checks that they are current. Also checks the worst cases by drawing them.
+//! `docs/findings/page.rs` makes the pages.
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test documents findings` writes the blocks between
 //! `<!-- made: NAME -->` and `<!-- end -->`, and the charts and the picture in
@@ -14,7 +15,7 @@ use fastphong_cli::compare::experiments::WorstCase;
 use page::{DEGREES, data, list, text};
 use std::fs;
 
-const FILE: &str = "docs/findings.md";
+const FILES: [&str; 2] = ["docs/findings.md", "report/README.md"];
 const IMAGES: &str = "docs/images/findings";
 
 #[test]
@@ -24,10 +25,15 @@ fn findings_are_the_measured_figures() {
         let times = format!("{:#}\n", page::condensed());
         fs::write(root().join("docs/findings/times.json"), times).expect("a file to write");
     }
-    let old = read(FILE);
-    let (new, images) = (page::page(old.clone()), page::images());
+    if blesses && root().join("target/findings/report.json").exists() {
+        let scenes = format!("{:#}\n", page::condensed_scenes());
+        fs::write(root().join("docs/findings/scenes.json"), scenes).expect("a file to write");
+    }
+    let images = page::images();
     if blesses {
-        fs::write(root().join(FILE), &new).expect("a file to write");
+        for file in FILES {
+            fs::write(root().join(file), page::page(read(file))).expect("a file to write");
+        }
         fs::create_dir_all(root().join(IMAGES)).expect("a folder");
         for (name, bytes) in images {
             fs::write(root().join(IMAGES).join(name), bytes).expect("a file to write");
@@ -42,7 +48,11 @@ fn findings_are_the_measured_figures() {
         );
     }
     let how = "write it by FASTPHONG_BLESS=1 cargo test --test documents findings";
-    assert!(old == new, "{FILE} differs from what was measured: {how}");
+    for file in FILES {
+        let old = read(file);
+        let new = page::page(old.clone());
+        assert!(old == new, "{file} differs from what was measured: {how}");
+    }
     for (name, bytes) in images.iter().filter(|(name, _)| name.ends_with(".svg")) {
         let stored = fs::read(root().join(IMAGES).join(name)).expect("a chart");
         assert!(

@@ -1,12 +1,12 @@
-//! `docs/flags.md` shows for each flag of `fastphong render` a picture without the flag and one
-//! with it.
+//! `docs/flags.md` has a row for each key of a scene file and each flag of `fastphong render`, with
+//! a picture without the flag and one with it.
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from the
 //! rows of `src/scene/file/schema.rs` and the tool's help. Look at each pair before you commit it.
 
 use crate::markdown::{files, read, root};
 use fastphong::picture::image_file::decode_picture;
-use fastphong::scene::file::schema::KEYS;
+use fastphong::scene::file::schema::{KEYS, Key, ValueKind};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::process::Command;
@@ -28,6 +28,25 @@ fn flags() -> impl Iterator<Item = [&'static str; 4]> {
     rows.chain(FLAGS)
 }
 
+/// Keys without a flag of their own: path, default, and what the key does.
+#[rustfmt::skip]
+const WITHOUT_FLAG: &[[&str; 3]] = &[
+    ["title", "none", "Title for captions"],
+    ["description", "none", "What the scene shows"],
+    ["image.height", "480", "Height of the picture; `--resolution` sets it with the width"],
+    ["camera.elevation", "from `direction`", "Degrees above the horizon; `--view` sets it with the azimuth"],
+    ["camera.direction", "`[0.5, 0.3, 1]`", "Toward the eye, in place of `azimuth` and `elevation`"],
+    ["light.colour", "1", "Colour of the light"],
+    ["light.intensity", "1", "Factor on the colour"],
+    ["object.mesh", "needed", "A mesh file relative to the scene file, `builtin:NAME?key=value&key=value`, or `-` for standard input"],
+    ["object.crease", "none", "In place of `normals`: the largest angle in degrees between polygons that are averaged, regardless of smoothing groups"],
+    ["object.scale", "1", "Scale the object, before it is rotated; negative mirrors"],
+    ["object.rotate", "none", "Rotate it: `{ axis = [x, y, z], angle = degrees }` or a list, the first one first"],
+    ["object.translate", "0", "Move it, last"],
+    ["object.matrix", "none", "Three rows of four numbers, in place of `scale`, `rotate` and `translate`"],
+    ["object.material", "none", "A table like `material`, which replaces the materials of the mesh; missing keys come from `material`"],
+];
+
 /// Flags that do not change the picture, except by rounding of single pixels.
 #[rustfmt::skip]
 const OTHERS: &[&str] = &[
@@ -39,16 +58,19 @@ const PICTURES: &str = "docs/images/flags";
 /// The most bytes that all pictures may have together.
 const MOST_BYTES: usize = 410_000;
 
-const HEAD: &str = "# Flags and what they do to the picture
+const HEAD: &str = "# Keys, flags and Python arguments
 
-Each flag of `fastphong render` with a picture without it and one with it. Under each picture is what follows `fastphong render`.
-All are drawn with `--size 160x120 --method naive-phong --simd scalar` as well, unless the row says otherwise.
+Each setting of a picture, with its key in a [scene file](../scenes/README.md), its flag of `fastphong render`, and its argument
+in [Python](python.md). A key without an argument goes into `scene`, as in `fp.render(mesh, scene={\"specular\": \"blinn\"})`;
+not so keys of `object`, because the mesh is the object.
+The pictures are without the flag and with it; below them is what follows `fastphong render`. All are drawn with
+`--size 160x120 --method naive-phong --simd scalar` as well, unless the row says otherwise.
 
 `FASTPHONG_BLESS=1 cargo test --test documents flags` makes this page; `cargo test --test documents flags` checks that it and its
 pictures are up to date.
 
-| flag | default | meaning | without | with |
-|---|---|---|---|---|
+| key | flag | Python | value | default | what it does | without, with |
+|---|---|---|---|---|---|---|
 ";
 
 fn run(arguments: &str) -> Vec<u8> {
@@ -114,27 +136,125 @@ fn file(command: &str) -> String {
     format!("{PICTURES}/{}.png", words.join("-"))
 }
 
+/// Returns the arguments of Python that set keys: pairs of a key and its argument.
+fn arguments() -> BTreeMap<String, String> {
+    let source = read("python/src/settings.rs");
+    let (_, list) = source.split_once("const ARGUMENTS").expect("the list");
+    let (list, _) = list.split_once("];").expect("its end");
+    let words: Vec<&str> = list.split('"').skip(1).step_by(2).collect();
+    let pairs = words.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+    pairs.map(|pair| pair.map(str::to_owned).into()).collect()
+}
+
+/// Returns the argument of Python that sets a key, or nothing if it goes into `scene`. A key that
+/// `arguments` lacks has one if its first name is an argument of `settings`.
+fn argument(arguments: &BTreeMap<String, String>, key: &str) -> String {
+    let first = key.split('.').next().unwrap_or_default();
+    let keys = read("python/fastphong/_keys.py");
+    let (_, settings) = keys.split_once("\ndef settings(").expect("a function");
+    let (settings, _) = settings.split_once(") -> str").expect("its end");
+    let is_argument = settings.contains(&format!("\n    {first}: "));
+    let found = arguments.get(key).map(String::as_str);
+    let found = found.or(is_argument.then_some(first));
+    found.map_or(String::new(), |name| format!("`{name}`"))
+}
+
+/// Describes the values of a key.
+fn values(kind: ValueKind) -> String {
+    match kind {
+        ValueKind::Text => "text".into(),
+        ValueKind::Switch => "`true`, `false`".into(),
+        ValueKind::Whole => "whole number".into(),
+        ValueKind::Number => "number".into(),
+        ValueKind::Triple => "`[x, y, z]`".into(),
+        ValueKind::OneOrThree => "number or `[r, g, b]`".into(),
+        ValueKind::Axis => "`[x, y, z]` or an axis".into(),
+        ValueKind::Matrix => "3 × 4 numbers".into(),
+        ValueKind::Word(words) => {
+            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+            words.join(", ")
+        }
+        ValueKind::Table(_) => "table".into(),
+        ValueKind::Tables(_) => "tables".into(),
+        ValueKind::Turns => "table or list".into(),
+    }
+}
+
+/// Returns the pictures of a row, with the commands that draw them. The first command is left out
+/// if the second begins with it.
+fn pictures([without, with]: [&str; 2]) -> String {
+    let picture =
+        |text: &str, command| format!("![{text}]({})", file(command).replace("docs/", ""));
+    let before = if with.starts_with(without) {
+        String::new()
+    } else {
+        format!("`{without}`, ")
+    };
+    let (a, b) = (picture("without", without), picture("with", with));
+    format!("{a} {b}<br>{before}`{with}`")
+}
+
 fn page(help: &BTreeMap<String, [String; 2]>) -> String {
     let mut page = HEAD.to_owned();
-    for [flag, default, without, with] in flags() {
-        let [sentence, in_help] = &help[flag];
-        let default = if in_help.is_empty() {
-            default
+    let arguments = arguments();
+    let default = |flag: &str, default: &'static str| {
+        let in_help = help[flag][1].clone();
+        if in_help.is_empty() {
+            default.to_owned()
         } else {
-            in_help.as_str()
+            in_help
+        }
+    };
+    for Key {
+        path, kind, flag, ..
+    } in KEYS
+    {
+        let python = argument(&arguments, path);
+        let own = WITHOUT_FLAG.iter().find(|[key, ..]| key == path);
+        let cells = match (flag, own) {
+            (Some(flag), _) => {
+                let (default, meaning) = (default(flag.name, flag.default), &help[flag.name][0]);
+                let pictures = pictures(flag.pictures);
+                format!(
+                    "`--{}` | {python} | {} | {default} | {meaning} | {pictures}",
+                    flag.name,
+                    values(*kind)
+                )
+            }
+            (None, Some([_, default, meaning])) => {
+                format!("| {python} | {} | {default} | {meaning} |", values(*kind))
+            }
+            // Tables hold other keys, and an axis and an angle stand in a rotation.
+            (None, None) => continue,
         };
-        let picture = |command| {
-            let file = file(command).replace("docs/", "");
-            format!("![{command}]({file})<br>`{command}`")
-        };
-        let (without, with) = (picture(without), picture(with));
-        page += &format!("| `--{flag}` | {default} | {sentence} | {without} | {with} |\n");
+        page += &format!("| `{path}` | {cells} |\n");
     }
-    page += "\n## Flags that leave the picture as it is\n\n";
-    for flag in OTHERS {
-        page += &format!("- `--{flag}`: {}\n", help[*flag][0]);
+    for [flag, in_row, without, with] in FLAGS {
+        let python = if flag == "method" { "`method`" } else { "" };
+        let (default, meaning) = (default(flag, in_row), &help[flag][0]);
+        let pictures = pictures([without, with]);
+        page += &format!("| | `--{flag}` | {python} | | {default} | {meaning} | {pictures} |\n");
     }
-    page
+    let others: Vec<String> = OTHERS.iter().map(|flag| format!("`--{flag}`")).collect();
+    page + &format!(
+        "\nThese flags leave the picture as it is, and `fastphong render --help` says what they do: {}.\n",
+        others.join(", ")
+    )
+}
+
+/// Every key has a row, except tables, whose keys have rows.
+#[test]
+fn every_key_has_a_row() {
+    let is_table = |kind| matches!(kind, ValueKind::Table(_) | ValueKind::Tables(_));
+    for key in KEYS.iter().filter(|key| !key.path.starts_with("turn.")) {
+        let own = WITHOUT_FLAG.iter().any(|[path, ..]| *path == key.path);
+        let is_shown = key.flag.is_some() != own;
+        assert!(is_shown || is_table(key.kind), "{}", key.path);
+    }
+    let known = |path: &str| KEYS.iter().any(|key| key.path == path);
+    for [path, ..] in WITHOUT_FLAG {
+        assert!(known(path), "there is no key `{path}`");
+    }
 }
 
 #[test]

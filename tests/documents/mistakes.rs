@@ -3,17 +3,15 @@
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test documents mistakes` draws every mistake that
 //! `fastphong diagnose` knows on every shipped scene except `million`. It writes
-//! `program/src/diagnose/shown_by_table.rs` and `docs/mistakes.md`. The document is made from the compiled
-//! table, so bless twice.
+//! `program/src/diagnose/shown_by_table.rs`.
 
 use crate::markdown::{read, root};
 use fastphong::scene::input::{SCENES, ShippedScene, resolve};
-use fastphong_cli::diagnose::{MISTAKES, Part, scenes_that_show, shown};
+use fastphong_cli::diagnose::{MISTAKES, scenes_that_show, shown};
 use std::fmt::Write;
 use std::thread;
 
 const TABLE: &str = "program/src/diagnose/shown_by_table.rs";
-const DOCUMENT: &str = "docs/mistakes.md";
 
 /// Returns, for each mistake, by how many hundredths of a grey level it changes a scene's picture.
 fn levels(shipped: &ShippedScene) -> Vec<u16> {
@@ -57,65 +55,17 @@ fn table() -> String {
     text + "];\n"
 }
 
-/// Returns the document of all mistakes.
-fn document() -> String {
-    let mut text = read(DOCUMENT);
-    let end = text
-        .find("<!-- generated -->")
-        .expect("the place of the tables");
-    text.truncate(end);
-    text += "<!-- generated -->\n";
-    let parts = [
-        (Part::Light, "Light"),
-        (Part::Rate, "Rate and interpolation"),
-        (Part::Normals, "Normals"),
-        (Part::Camera, "Camera and place"),
-        (Part::Geometry, "Polygons and what hides them"),
-        (Part::Picture, "The picture"),
-    ];
-    for (part, title) in parts {
-        write!(text, "\n## {title}\n\n| id | mistake | what to do | read on | shown by (grey levels) |\n|---|---|---|---|---|\n").unwrap();
-        for mistake in MISTAKES.iter().filter(|mistake| mistake.part == part) {
-            let shown = scenes_that_show(&mistake.id);
-            let shown: Vec<String> = shown
-                .iter()
-                .take(3)
-                .map(|(scene, levels)| format!("{scene} {levels:.1}"))
-                .collect();
-            let shown = if shown.is_empty() {
-                "none".to_owned()
-            } else {
-                shown.join(", ")
-            };
-            let cells = [&*mistake.text, &*mistake.fix, &mistake.read_on(), &shown]
-                .map(|cell| cell.replace('|', "\\|"));
-            writeln!(text, "| `{}` | {} |", mistake.id, cells.join(" | ")).unwrap();
-        }
-    }
-    text
-}
-
 #[test]
 fn scenes_show_mistakes_as_the_table_says() {
-    let (table, document) = (table(), document());
+    let table = table();
     if std::env::var_os("FASTPHONG_BLESS").is_some() {
         std::fs::write(root().join(TABLE), table).unwrap();
-        std::fs::write(root().join(DOCUMENT), document).unwrap();
         return;
     }
     let bless = "FASTPHONG_BLESS=1 cargo test --test documents mistakes";
-    let same = |old: &str, new: &str| {
-        old.lines()
-            .zip(new.lines())
-            .find(|(a, b)| a != b)
-            .map(|(a, b)| format!("{a}\n{b}"))
-    };
-    assert_eq!(same(&read(TABLE), &table), None, "{TABLE}: {bless}");
-    assert_eq!(
-        same(&read(DOCUMENT), &document),
-        None,
-        "{DOCUMENT}: {bless}"
-    );
+    let old = read(TABLE);
+    let differing = old.lines().zip(table.lines()).find(|(old, new)| old != new);
+    assert_eq!(differing, None, "{TABLE}: {bless}");
     let count = format!("{} mistakes", MISTAKES.len());
     assert!(
         read("README.md").contains(&count),

@@ -1,7 +1,7 @@
 //! `fastphong explain`: describes a method by its formula, cost, tolerance and weaknesses.
 
 use super::engines::engines_with;
-use super::list::{exactness, method_json};
+use super::list::{exactness, family, method_json};
 use super::text::wrapped;
 use super::{CliError, Outcome, done};
 use crate::compare::comparison::parameter_json;
@@ -53,6 +53,7 @@ impl ExplainArgs {
         // Formulas keep their lines.
         let formula = info.formula.lines().map(|line| format!("  {line}\n"));
         section("formula", &formula.collect::<String>());
+        section("family", &wrapped(&family(info), 2));
         section("source", &wrapped(info.source, 2));
         let all = if self.all { CASES.len() } else { 1 };
         for (lights, at_positions) in self.cases().take(all) {
@@ -82,8 +83,14 @@ impl ExplainArgs {
             "lights at positions",
             &wrapped(self.method.row().needs.local.sentence(), 2),
         );
-        let engines = engines_with(self.method.row());
-        section("engines", &format!("  {engines}\n"));
+        let row = self.method.row();
+        section("engines", &format!("  {}\n", engines_with(row)));
+        if let Some(why) = row.scalar_only() {
+            section("scalar only", &wrapped(why, 2));
+        }
+        if !row.kinds().is_empty() {
+            section("kinds of polygons", &wrapped(&row.kinds().join(", "), 2));
+        }
         let mut parameters = String::new();
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
             let (value, default) = (p.text(*value), p.text(p.default));

@@ -281,14 +281,17 @@ fn level_json(level: SimdLevel) -> Value {
 
 fn mistake_text(mistake: &Mistake) -> String {
     let shown = scenes_that_show(&mistake.id);
-    let scenes: Vec<&str> = shown.iter().take(4).map(|(scene, _)| *scene).collect();
-    let shown = match scenes.is_empty() {
-        true => "shown by no shipped scene".to_owned(),
-        false => format!("shown by {}", scenes.join(", ")),
+    let by = |(scene, levels): &(&str, f32)| format!("{scene} {levels:.1}");
+    let scenes: Vec<String> = shown.iter().take(4).map(by).collect();
+    let shown = if scenes.is_empty() {
+        "shown by no shipped scene".to_owned()
+    } else {
+        format!("shown by, in grey levels: {}", scenes.join(", "))
     };
+    let part = format!("part: {}", word(mistake.part));
     let fix = format!("what to do: {}", mistake.fix);
     let read = format!("read on: {}", mistake.read_on());
-    entry(&mistake.id, &[&mistake.text, &fix, &read, &shown])
+    entry(&mistake.id, &[&mistake.text, &part, &fix, &read, &shown])
 }
 
 fn mistake_json(mistake: &Mistake) -> Value {
