@@ -1,7 +1,12 @@
 /* Compares documents of several machines or commits side by side. */
 
+import { D, DOCS } from "./data.js";
+import { named } from "./marks.js";
+import { $, html, table } from "./markup.js";
+import { mean, num, TIMES } from "./numbers.js";
+
 /* Draws the table of all documents: a column for each, headed by its processor. */
-function beside() {
+export function beside() {
 	const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))];
 	const pick = $("#beside-scene");
 	const rowsOf = (d, name) => d.comparisons.find(c => c.name === name)?.rows;

@@ -1,32 +1,36 @@
 /* Charts: axes, curves and labels, as SVG. */
 
+import { hue, shape } from "./marks.js";
+import { create, html, ROOT } from "./markup.js";
+import { by, clamp, round, sum } from "./numbers.js";
+
 /* The size of type as a multiple of the default: charts are laid out in default type, then scaled by this. */
-const zoomOf = () => parseFloat(getComputedStyle(ROOT).fontSize) / 16;
+export const zoomOf = () => parseFloat(getComputedStyle(ROOT).fontSize) / 16;
 
 /* The width of a chart in pixels, before it is scaled. */
-const widthOf = el => Math.round(el.clientWidth / zoomOf());
+export const widthOf = el => Math.round(el.clientWidth / zoomOf());
 
 /* The SVG of a chart: a group of controls if one can choose its marks, else an image. */
-const svg = (w, h, label, body, controls) =>
+export const svg = (w, h, label, body, controls) =>
 	html`
 		<svg viewBox="0 0 ${w} ${h}" role="${controls ? "group" : "img"}" aria-label="${label}">
 			${body}
 		</svg>`;
 
 /* Parts of charts, in pixels. */
-const text = (x, y, t, kind = "") =>
+export const text = (x, y, t, kind = "") =>
 	html`<text x="${round(x)}" y="${round(y)}" class="${kind}">${t}</text>`;
 
-const line = (x1, y1, x2, y2, kind = "grid") =>
+export const line = (x1, y1, x2, y2, kind = "grid") =>
 	html`
 		<line x1="${round(x1)}" y1="${round(y1)}" x2="${round(x2)}" y2="${round(y2)}"
 			class="${kind}"/>`;
 
-const curve = (points, kind = "") =>
+export const curve = (points, kind = "") =>
 	html`<path class="curve ${kind}" d="M${points.map(p => p.map(round).join(" ")).join("L")}"/>`;
 
 /* The width of a text in a chart. */
-const textWidth = (() => {
+export const textWidth = (() => {
 	const pen = create("canvas").getContext("2d");
 	let family;
 	return (t, bold) => {
@@ -37,7 +41,7 @@ const textWidth = (() => {
 })();
 
 /* The scale of an axis: from values `low` to `high` to pixels `from` to `to`. */
-function scale(log, low, high, from, to) {
+export function scale(log, low, high, from, to) {
 	const f = log ? Math.log : v => v;
 	const k = (to - from) / (f(high) - f(low) || 1);
 	const at = v => from + (f(v) - f(low)) * k;
@@ -51,7 +55,7 @@ function scale(log, low, high, from, to) {
 }
 
 /* A logarithmic scale of some values, with a margin. */
-const logScale = (values, margin, from, to) =>
+export const logScale = (values, margin, from, to) =>
 	scale(true, Math.min(...values) / margin, Math.max(...values) * margin, from, to);
 
 /* Round numbers on a scale, at least `gap` pixels apart. */
@@ -94,13 +98,13 @@ function tickText(v) {
 }
 
 /* The numbers of the axis on the left, with grid lines, and of the axis below. */
-const axisY = (y, left, right, ticks, unit = "") =>
+export const axisY = (y, left, right, ticks, unit = "") =>
 	ticks.map(t => [
 		line(left, y(t), right, y(t)),
 		text(left - 6, y(t) + 4, [tickText(t), unit], "tick end"),
 	]);
 
-const axisX = (x, bottom, ticks) =>
+export const axisX = (x, bottom, ticks) =>
 	ticks.map(t => text(x(t), bottom + 17, tickText(t), "tick mid"));
 
 /* Moves positions apart, until they are at least `gap` apart if there is room. */
@@ -117,7 +121,7 @@ function spread(wished, gap, low, high) {
 /* Draws curves with marks and whiskers at their points, and names at their ends.
    A series has points [x, y, low, high], a method or a colour, and a name. It may have a value, a link
    and a tip. */
-function curves(x, y, series, { gap = 16, out = 9 } = {}) {
+export function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 	const end = s => s.points[s.points.length - 1];
 	const labels = spread(
 		series.map(s => y(end(s)[1])),
@@ -151,7 +155,7 @@ function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 
 /* Places the labels of points so that they do not overlap. Tries positions on growing rings around each point and takes the
    cheapest. A label that is far from its point gets a leader, and one without room is left out. */
-function place(points, box, bars) {
+export function place(points, box, bars) {
 	const done = [];
 	const squares = points.map(o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9]);
 	const overlap = (a, b) =>

@@ -1,18 +1,9 @@
-/* Controls: buttons of which one is chosen, lists that fold, and fades where a list scrolls on. */
+/* Controls: buttons of which one is chosen, and lists that fold. */
 
-/* Fades the end of a list or table that scrolls on. */
-function fadeEnd(el) {
-	el.classList.toggle("more-right", el.scrollLeft + el.clientWidth < el.scrollWidth - 2);
-	el.classList.toggle("more-below", el.scrollTop + el.clientHeight < el.scrollHeight - 2);
-}
-
-const SCROLLED = ".scroll, .rail, .list, .choices";
-const fadeEnds = () => $$(SCROLLED).forEach(fadeEnd);
-
-addEventListener("scroll", e => e.target.matches?.(SCROLLED) && fadeEnd(e.target), true);
+import { $$, html } from "./markup.js";
 
 /* Calls `choose` with the key of the button, mark or row that is chosen. */
-function onChoose(el, choose) {
+export function onChoose(el, choose) {
 	el.onclick = e => {
 		const chosen = e.target.closest("[data-key]");
 		if (chosen) choose(chosen.dataset.key, e);
@@ -24,11 +15,14 @@ function onChoose(el, choose) {
 	};
 }
 
+/* Asks for the view to be drawn again. `link.js`, which knows the views, listens. */
+export const redraw = () => dispatchEvent(new Event("redraw"));
+
 /* The lists that the reader has unfolded. */
-const unfolded = new Set();
+export const unfolded = new Set();
 
 /* Returns the first entries of a long list, and the button that shows the rest. */
-function folded(list, most, what) {
+export function folded(list, most, what) {
 	const all = unfolded.has(what) || list.length < 1.2 * most;
 	return [
 		all ? list : list.slice(0, most),
@@ -37,14 +31,16 @@ function folded(list, most, what) {
 }
 
 addEventListener("click", e => {
-	const what = e.target.dataset?.fold;
+	/** @type {any} */
+	const on = e.target;
+	const what = on.dataset?.fold;
 	if (!what) return;
 	unfolded.add(what);
-	route();
+	redraw();
 });
 
 /* Wires buttons of which one is pressed. Returns the function that marks the pressed one. */
-function segments(el, pressed, choose) {
+export function segments(el, pressed, choose) {
 	const update = () =>
 		$$("button", el).forEach(b => {
 			b.ariaPressed = b.dataset.key === pressed();
@@ -58,15 +54,27 @@ function segments(el, pressed, choose) {
 }
 
 /* A slider with its name and its value as text. Listeners know it by its `key`. */
-const slider = ({ key, label, title, min, max, step = 1, value, text }) =>
+export const slider = ({ key, label, title = label, min, max, step = 1, value, text }) =>
 	html`
-		<label class="handle" title="${title ?? label}">
+		<label class="handle" title="${title}">
 			<span>${label}<b>${text}</b></span>
 			<input type="range" data-handle="${key}" min="${min}" max="${max}" step="${step}" value="${value}">
 		</label>`;
 
+/* True if a key is part of a command to the browser. */
+export const isCommand = e => e.ctrlKey || e.metaKey || e.altKey;
+
 /* Which way the arrow keys lead, as [to the right, downward]. */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
+/* Takes an arrow key: returns its way times `near`, or `far` with shift. Leaves other keys alone. */
+export function arrow(e, near, far) {
+	const way = ARROWS[e.key];
+	if (!way) return null;
+	e.preventDefault();
+	e.stopPropagation();
+	return way.map(v => v * (e.shiftKey ? far : near));
+}
+
 /* Scrolls a chosen entry into view. */
-const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });
+export const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });

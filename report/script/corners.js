@@ -1,18 +1,24 @@
 /* Charts of the study of speed. */
 
-/* What the study timed: the shading loop and whole pictures, in scalar code and in SIMD. */
-const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [];
-const oneLight = CORNERS.filter(c => c.lights === 1);
+import { axisY, curves, line, logScale, scale, svg, text, textWidth, widthOf } from "./charts.js";
+import { levelName, M, STUDY } from "./data.js";
+import { MARKED, nameOf, shortName } from "./marks.js";
+import { $, html } from "./markup.js";
+import { by, num, plural } from "./numbers.js";
 
-let cornerMode = "same";
+/* What the study timed: the shading loop and whole pictures, in scalar code and in SIMD. */
+export const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [];
+export const oneLight = CORNERS.filter(c => c.lights === 1);
+
+export let cornerMode = "same";
 
 /* True if a method draws naive Phong's picture in all scenes; without scenes, on the sphere. */
 const isSame = m => (M[m.method]?.max ?? m.levels_off) <= 1;
-const WORKS = { kernel: "loop", frame: "picture" };
-const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
+export const WORKS = { kernel: "loop", frame: "picture" };
+export const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 
 /* The fastest method of a corner that draws naive Phong's picture. */
-const fastest = c =>
+export const fastest = c =>
 	STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
 
 /* Draws a line for each method over some places. A place has a name, a note and a function `values` that returns [v, low, high]. */
@@ -69,7 +75,7 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 }
 
 /* Draws both charts, with all methods or only those that draw naive Phong's picture. */
-function corners(mode) {
+export function corners(mode) {
 	cornerMode = mode;
 	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]);
 	const list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));

@@ -1,5 +1,12 @@
 /* Costs: how many operations each method needs for the picture of chapter 0, from the document's counts and the picture's trace. */
 
+import { M } from "./data.js";
+import { named, nameOf } from "./marks.js";
+import { $$, fadeEnds, html, scrolling, table } from "./markup.js";
+import { OPERATIONS } from "./methods.js";
+import { grouped, sum } from "./numbers.js";
+import { hasTraces, tracesOf } from "./traces.js";
+
 /* The methods in the order of the course, and the kinds of operations in which they differ. */
 const COURSE_METHODS = ["flat", "gouraud", "naive-phong", "fast-phong", "slerp-phong"];
 const COST_KINDS = ["additions", "multiplications", "divisions", "roots", "sines, arctangents"];
@@ -8,7 +15,7 @@ let coursePicture;
 
 /* Counts the vertices, edges, runs and pixels of the picture. Returns nothing if the page has no trace. */
 async function pictureCounts() {
-	if (typeof tracesOf !== "function" || !hasTraces()) return null;
+	if (!hasTraces()) return null;
 	const [trace] = Object.values(await tracesOf());
 	const count = of => sum(trace.lines.map(of));
 	const pixels = count(l => sum(l.runs.map(r => r.pixels)));
@@ -51,8 +58,8 @@ function costBars(costs, at) {
 	return html`<div class="bill">${COST_KINDS.map(row)}</div>`;
 }
 
-/* Adds what a picture costs to the sentence about it. */
-async function costInto(el, method) {
+/* Adds what a picture costs to the sentence about it, and then calls `settled`. */
+export async function costInto(el, method, settled) {
 	if (el.dataset.filled || COURSE_METHODS.some(m => !M[m])) return;
 	el.dataset.filled = "yes";
 	const picture = await (coursePicture ??= pictureCounts());
@@ -68,12 +75,11 @@ async function costInto(el, method) {
 		html`${at < 0 ? costTable(costs) : costBars(costs, at)}<p class="sub">${what}</p>`,
 	);
 	fadeEnds();
-	settle();
-	look();
+	settled();
 }
 
 /* Lets bars grow or shrink from the previous method's length to their own when the reader sees them. */
-function growCosts() {
+export function growCosts() {
 	for (const b of $$("#course [data-width]")) {
 		if (b.getBoundingClientRect().bottom > innerHeight) continue;
 		b.style.width = `${b.dataset.width}%`;

@@ -1,6 +1,17 @@
 /* View: course. Shows the chapters that Rust made from docs/course, one below the other, and fills in figures and findings when they come near. */
 
-const CHAPTERS = $$("#course article");
+import { address } from "./address.js";
+import { widthOf } from "./charts.js";
+import { costInto, growCosts } from "./costs.js";
+import { chip, figureNamed, findingOf, findingValue } from "./findings.js";
+import { goalInto } from "./goals.js";
+import { handsInto } from "./hands.js";
+import { figureInto } from "./lectures.js";
+import { $, $$, atNextFrame, delay, html, sentence } from "./markup.js";
+import { askInto } from "./questions.js";
+import { markTerms } from "./terms.js";
+
+export const CHAPTERS = $$("#course article");
 const chapterOf = part => CHAPTERS.find(c => c.dataset.part === (part === "stop" ? "0" : part));
 
 /* The state of each chapter's handles that were moved, as the query of an address. */
@@ -19,7 +30,7 @@ let reading;
 /* Makes the address name the chapter that is being read, without a new entry in the history. */
 function keepChapter() {
 	const to = addressOf(reading);
-	if (view === "course" && location.hash !== to) history.replaceState(null, "", to);
+	if (address.view === "course" && location.hash !== to) history.replaceState(null, "", to);
 }
 
 /* Marks a chapter in the list. Only the list scrolls to it, not the page. */
@@ -36,15 +47,16 @@ function follow(chapter) {
 }
 
 /* Shows a finding: its value, and what follows from it. */
+/**
+ * @param {any} el
+ * @param {any} finding
+ */
 function findingInto(el, { agreement, verdict, label, ...measured }) {
 	el.classList.add(agreement);
 	el.innerHTML = html`
 		<p>${sentence(label)}: <b>${findingValue(measured)}</b></p>
 		<p class="sub">${chip(agreement, agreement)} ${verdict}</p>`;
 }
-
-const figureNamed = name => FIGURES.find(f => f.name === name);
-const findingOf = (name, key) => figureNamed(name)?.findings.find(x => x.key === key);
 
 /* Fills a figure's place, unless it is filled for this width already. On paper figures have no handles. */
 function fillFigure(el, onPaper) {
@@ -72,7 +84,7 @@ function fillPlace(el, onPaper = false) {
 	const found = finding && findingOf(figure, finding);
 	if (found) findingInto(el, found);
 	else if (figure && !finding) fillFigure(el, onPaper);
-	else if (cost) costInto(el, cost);
+	else if (cost) costInto(el, cost, grown);
 	else if (hands && !onPaper) handsInto(el, hands);
 }
 
@@ -100,11 +112,11 @@ let looks = false;
 /* Fills, at the next frame, what has come near. The chapter at a third of the window's height counts as the one that is being
    read. */
 function look() {
-	if (looks || view !== "course") return;
+	if (looks || address.view !== "course") return;
 	looks = true;
 	atNextFrame(() => {
 		looks = false;
-		if (view !== "course") return;
+		if (address.view !== "course") return;
 		fillNear();
 		growCosts();
 		const at = CHAPTERS.findLast(c => c.getBoundingClientRect().top <= innerHeight / 3) ?? CHAPTERS[0];
@@ -120,7 +132,7 @@ addEventListener("scroll", look, { passive: true });
 let held = null;
 
 function settle() {
-	if (view !== "course" || !held) return;
+	if (address.view !== "course" || !held) return;
 	const { el, top } = held;
 	if (top == null) el.scrollIntoView();
 	else scrollBy(0, el.getBoundingClientRect().top - top);
@@ -129,10 +141,13 @@ function settle() {
 /* The places where the reader followed links. The history holds indices into this list. */
 const followed = [];
 
-const holding = new ResizeObserver(() => {
+/* Keeps the reader's place when something above it has grown, and fills what has come near. */
+function grown() {
 	settle();
 	look();
-});
+}
+
+const holding = new ResizeObserver(grown);
 
 addEventListener("drawn", settle);
 
@@ -143,7 +158,7 @@ for (const type of ["wheel", "touchmove", "keydown", "pointerdown"])
 function startCourse() {
 	if (reading) return;
 	reading = CHAPTERS[0];
-	for (const el of $$("#course .ask")) askInto(el);
+	for (const el of $$("#course .ask")) askInto(el, fillPlace);
 	for (const el of $$("#course .toy")) goalInto(el);
 	for (const el of $$("#course :is(article, [data-figure], [data-cost], [data-hands])")) farAway.add(el);
 	holding.observe(CHAPTERS[0].parentElement);
@@ -176,7 +191,7 @@ function offerBack(chapter) {
 }
 
 /* #course, #course/4.1, #course/4.2?angle=95, #course/stop?line=6. Returns the element to scroll to. */
-function course([part], query) {
+export function course([part], query) {
 	startCourse();
 	const chapter = chapterOf(part);
 	const place = chapter && $(".live", chapter);
@@ -196,7 +211,7 @@ function course([part], query) {
 }
 
 /* Scrolls to the link that the reader followed, if the reader comes back to it, else to a chapter, else to the top. */
-function startReading(chapter) {
+export function startReading(chapter) {
 	held = followed[history.state?.at] ?? (chapter && { el: chapter });
 	if (held) settle();
 	else scrollTo(0, 0);

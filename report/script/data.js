@@ -1,23 +1,31 @@
 /* The document that `fastphong report` wrote, in the form that the views need. */
 
+import { $, ROOT } from "./markup.js";
+import { TIMES } from "./numbers.js";
+
 const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
 
 /* The name of an instruction set, as readers know it. */
-const levelName = ({ level }) =>
+export const levelName = ({ level }) =>
 	level === "scalar" ? level : (LEVELS[level] ?? level.toUpperCase());
 
 /* A ratio of speeds as text, with = before it if it may be a tie. */
-const ratioText = q =>
+export const ratioText = q =>
 	q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
 
 /* The document, and the documents to compare it with. */
-const D = JSON.parse($("#fastphong-data").textContent);
-const DOCS = [D, ...(D.beside ?? [])];
+/** @type {ReportDocument} */
+export const D = JSON.parse($("#fastphong-data").textContent);
+export const DOCS = [D, ...(D.beside ?? [])];
 
-const BASE = D.baseline ?? "naive-phong";
+export const BASE = D.baseline ?? "naive-phong";
 const BARY = "barycentric";
 
 /* A row of a comparison: errors in grey levels, times in ms. */
+/**
+ * @param {string} scene
+ * @param {MethodRow} row
+ */
 function rowOf(
 	scene,
 	{
@@ -61,9 +69,9 @@ function rowOf(
 }
 
 /* The scenes by their ids, which are parts of addresses, and in the order of the document. */
-const S = Object.create(null);
+export const S = Object.create(null);
 
-const SCENES = (D.comparisons ?? []).map((c, number) => {
+export const SCENES = (D.comparisons ?? []).map((c, number) => {
 	const plain = c.name.replace(/[^A-Za-z0-9]+/g, "-").replace(/^-|-$/g, "");
 	const id = plain && !S[plain] ? plain : `scene-${number + 1}`;
 	const rows = Object.fromEntries(
@@ -85,20 +93,20 @@ const SCENES = (D.comparisons ?? []).map((c, number) => {
 	});
 });
 
-const ROWS = SCENES.flatMap(s => Object.values(s.rows));
+export const ROWS = SCENES.flatMap(s => Object.values(s.rows));
 
 /* The methods, their names, and the methods by name. */
-const METHODS = D.methods ?? [];
-const IDS = METHODS.map(m => m.name);
-const M = Object.fromEntries(METHODS.map(m => [m.name, m]));
+export const METHODS = D.methods ?? [];
+export const IDS = METHODS.map(m => m.name);
+export const M = Object.fromEntries(METHODS.map(m => [m.name, m]));
 
 /* What the document has: times, several scenes, figures, a study of speed, pictures. */
-const TIMED = ROWS.some(q => q.ratio);
-const MANY = SCENES.length > 1;
+export const TIMED = ROWS.some(q => q.ratio);
+export const MANY = SCENES.length > 1;
 
-const FIGURES = D.figures ?? [];
-const FINDINGS = FIGURES.flatMap(f => f.findings.map(x => ({ ...x, figure: f })));
+export const FIGURES = D.figures ?? [];
+export const FINDINGS = FIGURES.flatMap(f => f.findings.map(x => ({ ...x, figure: f })));
 
-const STUDY = D.speedups;
-const PICTURES = SCENES.some(s => s.drawn);
+export const STUDY = D.speedups;
+export const PICTURES = SCENES.some(s => s.drawn);
 ROOT.classList.toggle("nopictures", !PICTURES);

@@ -1,10 +1,14 @@
 /* Error maps: differences from the reference, in colours. */
 
+import { create } from "./markup.js";
+import { memo } from "./numbers.js";
+import { canvasOf, picture } from "./pictures.js";
+
 /* Turns a stored sRGB value in 0..=1 into linear light (IEC 61966-2-1). */
 const fromSrgb = c => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
 
 /* The error of each pixel: the largest difference of a channel from the reference, in linear levels. */
-const errors = (s, m) =>
+export const errors = (s, m) =>
 	s.one?.(m).errors ??
 	memo(`errors ${s.id} ${m}`, async () => {
 		const [{ px: here }, { px: there }] = await Promise.all([
@@ -21,7 +25,7 @@ const errors = (s, m) =>
 	});
 
 /* The colours of the error map. Its scale is logarithmic if `top` is 0, else linear up to `top`. */
-const STOPS = [
+export const STOPS = [
 	"#000004",
 	"#1c1044",
 	"#4f127b",
@@ -44,11 +48,11 @@ const HEAT = (() => {
 })();
 
 /* Where an error lies on the scale, in 0..=1. */
-const heat = (error, top) => (top ? Math.min(1, error / top) : Math.log2(1 + error) / 8);
+export const heat = (error, top) => (top ? Math.min(1, error / top) : Math.log2(1 + error) / 8);
 
 /* The colours of errors in equal steps up to the end of the scale. A look-up is faster than a logarithm per pixel. */
-const HEAT_STEPS = 16384;
-const heatTable = top =>
+export const HEAT_STEPS = 16384;
+export const heatTable = top =>
 	memo(`heat ${top}`, () =>
 		Uint32Array.from({ length: HEAT_STEPS + 1 }, (_, i) => {
 			const error = (i / HEAT_STEPS) * (top || 255);
@@ -56,7 +60,7 @@ const heatTable = top =>
 		}),
 	);
 
-const errorMap = (s, m, top) =>
+export const errorMap = (s, m, top) =>
 	s.map?.(m, top) ??
 	memo(`map ${s.id} ${m} ${top}`, async () => {
 		const map = await errors(s, m);

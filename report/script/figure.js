@@ -1,27 +1,18 @@
 /* Figures with handles: a claim, handles, and pictures and findings that follow them. The code that made the stored figures makes these, too. */
 
-let figureStudio;
+import { arrow, slider } from "./controls.js";
+import { verdictLine } from "./findings.js";
+import { $, $$, atNextFrame, delay, fill, focusOn, html, paint } from "./markup.js";
+import { by, clamp } from "./numbers.js";
+import { plotsInto } from "./plot.js";
+import { SPHERES, spheresWithVerdicts } from "./spheres.js";
+import { CAN_DRAW, figureStudio, valuesOf } from "./studio.js";
 
-/* Reads the values of a figure's handles from an address. */
-const valuesOf = ({ handles }, query) =>
-	handles.map(({ name, range: [low, high], step, start }) => {
-		const given = query?.get(name);
-		const value = given && isFinite(given) ? +given : start;
-		return clamp(Math.round(value / step) * step, low, high);
-	});
-
-const shownValue = (v, { unit }) => `${+v.toFixed(4)}${unit}`;
-
-/* A finding in one line: what was measured, and what follows from it. */
-const verdictLine = x => html`
-	<p class="verdict">
-		${chip(x.agreement, x.agreement)}
-		<span>${sentence(x.label)}: <b>${findingValue(x)}</b>. ${x.verdict}</span>
-	</p>`;
+export const shownValue = (v, { unit }) => `${+v.toFixed(4)}${unit}`;
 
 /* Puts a figure with handles into an element. Calls `remember` with the values whenever they come to rest. Returns false if the
    figure cannot be drawn here. */
-function handlesInto(el, f, query, remember) {
+export function handlesInto(el, f, query, remember) {
 	if (!CAN_DRAW || !f.live) return false;
 	if (f === SPHERES) return spheresWithVerdicts(el, query, remember);
 	const { claim, handles } = f.live;
@@ -57,7 +48,7 @@ function handlesInto(el, f, query, remember) {
 	const draw = async () => {
 		waits = false;
 		try {
-			const studio = await (figureStudio ??= Studio.make());
+			const studio = await figureStudio();
 			if (!el.isConnected) return;
 			showContent(body, studio.figure(f.name, values));
 			fill(said, html`${body.content.findings.map(verdictLine)}`);
@@ -125,26 +116,19 @@ function showContent(body, { content, pictures }) {
 			${plots.map(() => html`<figure class="plot"></figure>`)}`;
 	}
 	$$(".shown figure", body).forEach((figure, i) => {
-		const canvas = $("canvas", figure);
-		const image = pictures[i];
-		[canvas.width, canvas.height] = [image.width, image.height];
-		canvas.getContext("2d").putImageData(image, 0, 0);
+		const canvas = paint($("canvas", figure), pictures[i]);
 		canvas.ariaLabel = shown[i].alt;
 		$("figcaption", figure).textContent = shown[i].caption;
 	});
-	$$(".plot", body).forEach((box, i) => {
-		const p = plots[i];
-		box.innerHTML = html`
-			<b>${p.title}</b>
-			<div class="chartbox">${plot(p, widthOf(box) || 460, 260)}</div>
-			${legend(p.series)}`;
-	});
+	plotsInto($$(".plot", body), plots, 260);
 }
 
 /* Draws the polygon whose corners the reader can drag. */
 function drawPad(pad, values, points, handles) {
 	const at = points.map(i => [values[i], -values[i + 1]]);
-	const focus = pad.contains(document.activeElement) && document.activeElement.dataset.point;
+	/** @type {any} */
+	const on = document.activeElement;
+	const focus = pad.contains(on) && on.dataset.point;
 	pad.innerHTML = html`
 		<title>The polygon, whose corners are dragged</title>
 		<polygon points="${at.map(p => p.join()).join(" ")}"/>
@@ -155,7 +139,7 @@ function drawPad(pad, values, points, handles) {
 					aria-valuetext="${x.toFixed(2)} to the right, ${(-y).toFixed(2)} up"/>
 				<text x="${x}" y="${y + 0.032}">${n + 1}</text>`,
 		)}`;
-	if (focus) $(`[data-point="${focus}"]`, pad)?.focus({ preventScroll: true });
+	if (focus) focusOn($(`[data-point="${focus}"]`, pad));
 }
 
 /* Lets the reader drag the points of a pad, or move them by arrow keys. */
@@ -183,12 +167,10 @@ function dragPoints(pad, to, of) {
 		held = null;
 	};
 	pad.onkeydown = e => {
-		const [dx, dy] = ARROWS[e.key] ?? [];
-		if (dx == null) return;
-		e.preventDefault();
-		e.stopPropagation();
+		const way = arrow(e, 1 / 16, 1 / 16);
+		if (!way) return;
 		const i = +e.target.dataset.point;
 		const [x, y] = of(i);
-		to(i, x + dx / 16, y - dy / 16);
+		to(i, x + way[0], y - way[1]);
 	};
 }

@@ -1,5 +1,7 @@
 /* Turns formulas that `fastphong explain` prints into MathML. */
 
+import { html } from "./markup.js";
+
 const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" };
 const FUNCTIONS = ["sin", "cos", "sqrt", "min", "max"];
 
@@ -94,7 +96,7 @@ function mathematics(tokens, close) {
 }
 
 /* Sets a formula that `fastphong explain` prints. Parts without an operator stay words. */
-const formula = source =>
+export const formula = source =>
 	source
 		.split(/[;\n]|,(?![^(]*\))/)
 		.map(part => part.trim())

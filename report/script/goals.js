@@ -1,5 +1,11 @@
 /* Goals of the course: the reader moves a figure's handles until something fails. The figure's findings decide when. */
 
+import { shownValue } from "./figure.js";
+import { chip, figureNamed, findingOf } from "./findings.js";
+import { $, html } from "./markup.js";
+import { num } from "./numbers.js";
+import { CAN_DRAW } from "./studio.js";
+
 /* Reads a goal: `FIGURE RULE KEY [HANDLE] [times N UNIT]`. */
 function goalOf(text) {
 	const [figure, rule, key, ...rest] = text.split(" ");
@@ -30,7 +36,7 @@ const RULES = {
 };
 
 /* Follows the handles of a figure until its goal is reached. If the figure has no handles here, the goal is hidden and what it teaches stays visible. */
-function goalInto(el) {
+export function goalInto(el) {
 	const goal = goalOf(el.dataset.toy);
 	const f = figureNamed(goal.figure);
 	const stored = findingOf(goal.figure, goal.key);

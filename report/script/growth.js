@@ -1,10 +1,16 @@
 /* Charts of the growth of cost, and the table of costs fitted to it. */
 
+import { axisX, axisY, curves, logScale, svg, text, widthOf } from "./charts.js";
+import { BASE, D } from "./data.js";
+import { hue, nameOf } from "./marks.js";
+import { $, bar, html, table, write } from "./markup.js";
+import { by, num } from "./numbers.js";
+
 const curveName = c => (c.engine === "span" ? "lecture’s form" : nameOf(c.method));
 const curveHue = c => (c.engine === "span" ? "var(--ink3)" : hue(c.method));
 
 /* Draws times of whole frames against a count, of triangles or of pixels. */
-function grow(id, keep, count, label) {
+export function grow(id, keep, count, label) {
 	const el = $(id);
 	const W = widthOf(el);
 	const { points, curves: all } = D.scaling;
@@ -54,7 +60,7 @@ const COSTS = [
 const MISFIT = 0.5;
 
 /* Draws the table of fitted costs. */
-function costs() {
+export function costs() {
 	const all = D.scaling.curves.filter(c => c.costs);
 	const list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT);
 	const most = k => Math.max(...list.map(c => c.costs[k])) || 1;

@@ -1,5 +1,12 @@
 /* Your own hands: exercises that the reader programs. The reader's code runs in a worker, and its values are compared with the engine's. */
 
+import { line, svg, text } from "./charts.js";
+import { FIGURES } from "./data.js";
+import { $, fill, html } from "./markup.js";
+import { clamp } from "./numbers.js";
+import { tracesOf } from "./traces.js";
+import { DEGREES } from "./turn.js";
+
 /* How many milliseconds the reader's code may run, and how many a worker may take to start. */
 const HANDS_LIMIT = 500;
 const HANDS_START = 5000;
@@ -274,7 +281,7 @@ function handsKept(name, text) {
 }
 
 /* Puts an exercise into an element, once. Where it cannot run, the element keeps its text. */
-async function handsInto(el, name) {
+export async function handsInto(el, name) {
 	if (!EXERCISES[name] || !("Worker" in window) || el.dataset.made) return;
 	el.dataset.made = name;
 	const own = await EXERCISES[name]().catch(() => null);

@@ -1,9 +1,15 @@
 /* Keys, and the buttons of the bar on top. */
 
+import { isCommand } from "./controls.js";
+import { route, seenViewer } from "./link.js";
+import { $, ROOT } from "./markup.js";
+import { stepScene, v2 } from "./scenes.js";
+
 addEventListener("keydown", e => {
 	const v = seenViewer();
+	/** @type {any} */
 	const on = e.target;
-	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select,input,textarea") || $("#keys").open) return;
+	if (isCommand(e) || on.matches("select,input,textarea") || $("#keys").open) return;
 	if (e.key === "?") return $("#keys").showModal();
 	if (!v || (e.key === " " && on.closest("button,a,.hit"))) return;
 	const step =
@@ -20,19 +26,6 @@ addEventListener("keydown", e => {
 });
 
 $("#help").onclick = () => $("#keys").showModal();
-
-$("#theme").onclick = () => {
-	const { dataset } = ROOT;
-	const dark = dataset.theme
-		? dataset.theme === "dark"
-		: matchMedia("(prefers-color-scheme:dark)").matches;
-	dataset.theme = dark ? "light" : "dark";
-	try {
-		localStorage.setItem("fastphong-theme", dataset.theme);
-	} catch {
-		/* a file opened from disk may have no storage */
-	}
-};
 
 $("#big").onclick = e => {
 	e.currentTarget.ariaPressed = ROOT.toggleAttribute("data-big");

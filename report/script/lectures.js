@@ -1,17 +1,23 @@
 /* View: lectures. Shows the figures and their findings. */
 
-/* The pictures of a figure, as addresses of images. */
-const figurePictures = f =>
-	memo("figures", () => JSON.parse($("#figure-pictures").textContent))[FIGURES.indexOf(f)] ?? [];
+import { go } from "./address.js";
+import { widthOf } from "./charts.js";
+import { folded, reveal, segments } from "./controls.js";
+import { FIGURES, FINDINGS } from "./data.js";
+import { handlesInto } from "./figure.js";
+import { chip, counts, findingTable, topic } from "./findings.js";
+import { $, $$, html, scrolling, table } from "./markup.js";
+import { clamp } from "./numbers.js";
+import { figurePictures } from "./pictures.js";
+import { legend, plot, plotsInto } from "./plot.js";
+import { stopInto } from "./stop.js";
+import { CAN_DRAW } from "./studio.js";
 
 /* Chips that count a figure's findings by verdict. */
 function chips(f, named) {
 	const all = counts(f.findings).map(([k, n]) => chip(k, n + (named ? " " + k : "")));
 	return html`<span class="chips">${all}</span>`;
 }
-
-/* The short title of a figure: the part before the colon. */
-const topic = f => f.title.split(":")[0];
 
 /* Returns a function that writes one block of pictures of a figure, and with each call the next. */
 function pictureRows(f) {
@@ -56,7 +62,7 @@ function drawPlots(f) {
 
 /* Puts a figure into an element: with handles if there is a query and the page can draw it, else its first pictures and plots.
    A link leads to the whole figure. */
-function figureInto(el, f, query, remember) {
+export function figureInto(el, f, query, remember) {
 	const isSeen = b => b.pictures ?? b.plot;
 	const from = f.blocks.findIndex(isSeen);
 	const end = f.blocks.findIndex((b, i) => i > from && b.text);
@@ -72,14 +78,7 @@ function figureInto(el, f, query, remember) {
 	body.innerHTML = html`
 		${blocks.map(b => (b.pictures ? row(b.pictures) : html`<figure class="plot"></figure>`))}`;
 	const plots = blocks.flatMap(b => b.plot ?? []);
-	$$(".plot", body).forEach((box, i) => {
-		const p = plots[i];
-		box.innerHTML = html`
-			<b>${p.title}</b>
-			<div class="chartbox">${plot(p, widthOf(box) || 460, 300)}</div>
-			${legend(p.series)}
-			<figcaption>${p.caption}</figcaption>`;
-	});
+	plotsInto($$(".plot", body), plots, 300, true);
 }
 
 /* A figure's first pictures, or its first plot. */
@@ -121,7 +120,7 @@ const rememberFigure = f => query => {
 };
 
 /* #lectures, #lectures/wrong, #lectures/all, #lectures/FIGURE */
-function lectures([part = ""], query) {
+export function lectures([part = ""], query) {
 	const body = $("#lecture-body");
 	const lists = { __proto__: null, wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS };
 	const list = lists[part];

@@ -1,22 +1,19 @@
 /* Scenes that the page draws itself, from any direction: the second source of pictures beside the stored ones. */
 
-/* The view of a scene before anything is moved. */
-const STILL = { azimuth: 0, elevation: 0, size: 1, light: null, exponent: 0, given: {} };
-
-/* True if a view is the view of the stored pictures. */
-const isStill = view =>
-	!view.azimuth &&
-	!view.elevation &&
-	view.size === 1 &&
-	!view.light &&
-	!view.exponent &&
-	!Object.keys(view.given).length;
+import { BASE, IDS, SCENES } from "./data.js";
+import { HEAT_STEPS, heatTable } from "./errors.js";
+import { nameOf } from "./marks.js";
+import { $, create, paint } from "./markup.js";
+import { sum } from "./numbers.js";
+import { canvasOf } from "./pictures.js";
+import { CAN_DRAW, inflate, jsonOf, Studio } from "./studio.js";
+import { STILL } from "./viewer.js";
 
 /* True if the page has the scene's files, and can draw them. */
-const canTurn = s => CAN_DRAW && (!!s.own || !!$(`#live-${s.number}`));
+export const canTurn = s => CAN_DRAW && (!!s.own || !!$(`#live-${s.number}`));
 
 /* The name of a method with its chosen parameters. */
-const variantOf = (m, given = {}) =>
+export const variantOf = (m, given = {}) =>
 	[m, ...Object.entries(given).map(([k, v]) => `${k}=${v}`)].join(":");
 
 /* How many of the latest drawings decide a method's time, and how many of the first do not count because they are slower. */
@@ -25,10 +22,22 @@ const WARM_UP = 2;
 
 /* A scene that `picture` and `errors` accept in place of a stored one. It has the facts of the scene, but pictures and rows of the
    current view. */
-class LiveScene {
+export class LiveScene {
+	w;
+	h;
+	list;
+	polygons;
+	firstLight;
+
+	constructor(s, studio) {
+		Object.assign(this, s);
+		this.scene = s;
+		this.studio = studio;
+		this.times = {};
+	}
+
 	static async make(s) {
-		const live = Object.assign(new LiveScene(), s, { scene: s, times: {} });
-		live.studio = await Studio.make();
+		const live = new LiveScene(s, await Studio.make());
 		const { scene, files } = s.own ?? jsonOf(`live-${s.number}`);
 		for (const [name, bytes] of files)
 			live.studio.file(name, typeof bytes === "string" ? await inflate(bytes) : bytes);
@@ -82,9 +91,7 @@ class LiveScene {
 		const bytes = studio.bytes(w, h);
 		// A picture that is kept must not lie in the module's memory, which the next drawing overwrites.
 		const image = new ImageData(this.moves ? bytes : bytes.slice(), w, h);
-		const canvas = create("canvas");
-		[canvas.width, canvas.height] = [w, h];
-		canvas.getContext("2d").putImageData(image, 0, 0);
+		const canvas = paint(create("canvas"), image);
 		return (this.drawn[m] = { canvas, px: image.data, errors: this.errors[m] });
 	}
 
@@ -109,7 +116,7 @@ class LiveScene {
 }
 
 /* Makes a scene of a mesh file of the reader, with the material libraries that come with it. */
-async function ownScene(list, s) {
+export async function ownScene(list, s) {
 	const file = list.find(f => /\.(obj|stl|ply|off)$/i.test(f.name));
 	if (!file) throw Error(`${list[0].name}: expected a mesh file that ends in .obj, .stl, .ply or .off`);
 	if (sum(list.map(f => f.size)) > 5e7) throw Error(`${file.name}: over 50 MB`);

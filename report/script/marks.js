@@ -1,5 +1,9 @@
 /* Each method's name, key, colour and mark. */
 
+import { BASE, IDS, M, METHODS, SCENES } from "./data.js";
+import { $$, html } from "./markup.js";
+import { by, mean, round } from "./numbers.js";
+
 /* Each family of methods has a hue and a shape, and each member a filling. Naive Phong's family is drawn in ink. */
 const FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
 const SHAPES = $$("[id^=mark-]:not(#mark-diamond)").map(path => path.id.slice(5));
@@ -32,19 +36,19 @@ const order = m => IDS.indexOf(m.name);
 	});
 
 /* A method's name, short name, colour and key. */
-const nameOf = m => M[m]?.label ?? m;
-const shortName = m => nameOf(m).replace(" Phong", "");
-const hue = m => M[m]?.hue ?? "var(--ink3)";
+export const nameOf = m => M[m]?.label ?? m;
+export const shortName = m => nameOf(m).replace(" Phong", "");
+export const hue = m => M[m]?.hue ?? "var(--ink3)";
 
-const keyOf = m => (m === "reference" ? "0" : M[m].key);
+export const keyOf = m => (m === "reference" ? "0" : M[m].key);
 
 /* The methods that the answer names, the best of these, and the methods that charts emphasise. */
 const NAMED = $$(".answer .m").map(a => a.dataset.m);
-const BEST = NAMED[0] ?? IDS[IDS.length - 1];
-const MARKED = new Set([BASE, BEST, ...NAMED]);
+export const BEST = NAMED[0] ?? IDS[IDS.length - 1];
+export const MARKED = new Set([BASE, BEST, ...NAMED]);
 
 /* A few methods: those that the answer names, then the fastest. */
-const chosen = n =>
+export const chosen = n =>
 	IDS.filter(m => m !== BASE && M[m].speed)
 		.sort(by(m => -M[m].speed))
 		.sort(by(m => Math.max(1, M[m].max)))
@@ -52,7 +56,7 @@ const chosen = n =>
 		.slice(0, n);
 
 /* A method's mark around a point of an SVG. */
-function shape(m, x, y, size = 5) {
+export function shape(m, x, y, size = 5) {
 	const { shape = "circle", filling = 1 } = M[m] ?? {};
 	return html`
 		<use href="#mark-${shape}" class="mark fill${filling}" style="color:${hue(m)}"
@@ -60,10 +64,10 @@ function shape(m, x, y, size = 5) {
 }
 
 /* A method's mark in a text. */
-const mark = m => html`
+export const mark = m => html`
 	<svg width="13" height="13" viewBox="-7 -7 14 14" aria-hidden="true">
 		${shape(m, 0, 0)}
 	</svg>`;
 
 /* A method's mark and name. */
-const named = m => html`${mark(m)}${nameOf(m)}`;
+export const named = m => html`${mark(m)}${nameOf(m)}`;

@@ -1,10 +1,15 @@
 /* View: how it was measured. */
 
+import { BASE, D, DOCS, FINDINGS, levelName, ROWS, SCENES } from "./data.js";
+import { BEST } from "./marks.js";
+import { $, html, save, write } from "./markup.js";
+import { by, csv, num, plural } from "./numbers.js";
+
 /* Quotes a word for a shell if it needs quotes. */
 const quoted = w => (/^[\w\-./:=,+@%]+$/.test(w) ? w : `'${w.replace(/'/g, "'\\''")}'`);
 
 /* #measured */
-function measured() {
+export function measured() {
 	const command = D.command_line.map(quoted).join(" ");
 	const { machine } = D;
 	const [scene] = SCENES;

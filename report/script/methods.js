@@ -1,7 +1,16 @@
 /* View: methods. */
 
+import { folded, unfolded } from "./controls.js";
+import { CORNERS, ratioIn } from "./corners.js";
+import { IDS, levelName, MANY, METHODS, SCENES, STUDY } from "./data.js";
+import { formula } from "./formulas.js";
+import { mark, nameOf } from "./marks.js";
+import { $, $$, html, write } from "./markup.js";
+import { num, plural, sum, TIMES } from "./numbers.js";
+import { crop } from "./pictures.js";
+
 /* Kinds of operations, in the order of the document. */
-const OPERATIONS = [
+export const OPERATIONS = [
 	"additions",
 	"multiplications",
 	"comparisons",
@@ -13,6 +22,7 @@ const OPERATIONS = [
 ];
 
 /* How often a method does operations, with a function that returns them. */
+/** @type {[string, (operations: any) => number[]][]} */
 const RATES = [
 	["pixel", o => o.walk.map((n, i) => n + o.shade[i])],
 	["span", o => o.span],
@@ -101,7 +111,7 @@ function article(m, most) {
 }
 
 /* #methods/METHOD */
-function methods([id]) {
+export function methods([id]) {
 	if (id) unfolded.add("methods");
 	const el = $("#methodlist");
 	const [shown, more] = folded(METHODS, innerWidth < 1200 ? 6 : 12, "methods");

@@ -1,15 +1,15 @@
 /* Numbers, and their texts. */
 
-const TIMES = "\u2009×";
-const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
+export const TIMES = "\u2009×";
+export const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
 /* Compares by a number, for `sort`. */
-const by = f => (a, b) => f(a) - f(b);
-const grouped = n => n.toLocaleString("en");
-const sum = list => list.reduce((x, y) => x + y, 0);
-const mean = list => Math.exp(sum(list.map(Math.log)) / list.length); // geometric
+export const by = f => (a, b) => f(a) - f(b);
+export const grouped = n => n.toLocaleString("en");
+export const sum = list => list.reduce((x, y) => x + y, 0);
+export const mean = list => Math.exp(sum(list.map(Math.log)) / list.length); // geometric
 
 /* A number with `digits` significant digits, never in scientific notation. */
-function num(v, digits = 3) {
+export function num(v, digits = 3) {
 	if (v == null || !isFinite(v)) return "–";
 	const size = Math.abs(v);
 	if (size === 0) return "0";
@@ -19,11 +19,11 @@ function num(v, digits = 3) {
 }
 
 /* A count of things. */
-const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
+export const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
 const csvCell = c => (/[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : (c ?? ""));
 
 /* Comma-separated values: a line for each object, below a line with the names of their fields. */
-const csv = list =>
+export const csv = list =>
 	[Object.keys(list[0]), ...list.map(Object.values)]
 		.map(row => row.map(csvCell).join(",") + "\r\n")
 		.join("");
@@ -32,7 +32,7 @@ const csv = list =>
 const memory = new Map();
 
 /* Returns the value of a key, which `make` makes the first time. Forgets values that were not used for long. */
-function memo(key, make) {
+export function memo(key, make) {
 	const kept = memory.get(key) ?? make();
 	memory.delete(key);
 	memory.set(key, kept);
@@ -41,4 +41,4 @@ function memo(key, make) {
 }
 
 /* A coordinate of a chart, to a tenth of a pixel. */
-const round = v => Math.round(v * 10) / 10;
+export const round = v => Math.round(v * 10) / 10;

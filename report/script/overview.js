@@ -1,5 +1,17 @@
 /* View: overview. */
 
+import { fromRoute, remember } from "./address.js";
+import { line, logScale, svg, text, widthOf } from "./charts.js";
+import { folded, onChoose, segments } from "./controls.js";
+import { FIGURES, FINDINGS, M, MANY, SCENES } from "./data.js";
+import { counts } from "./findings.js";
+import { BEST, chosen, named, nameOf, shape } from "./marks.js";
+import { $, $$, delay, html, timers, write } from "./markup.js";
+import { by, num, plural, TIMES } from "./numbers.js";
+import { pareto } from "./pareto.js";
+import { crop } from "./pictures.js";
+import { SceneViewer } from "./scene-viewer.js";
+
 /* Draws the speeds of a few methods in each scene as a strip of marks. */
 function strip() {
 	const el = $("#strip");
@@ -72,7 +84,10 @@ function breakPair() {
 }
 
 /* The viewer of this view. */
-let v1;
+export let v1;
+
+/* Which scenes the chart covers: all, or only the viewer's. */
+let basis = MANY ? "all" : "scene";
 
 /* Makes the viewer, and lets the chart choose what it shows. */
 function startOverview() {
@@ -84,10 +99,10 @@ function startOverview() {
 			basis = "scene";
 			markBasis();
 		}
-		if (!changed.moved) pareto(v);
+		if (!changed.moved) pareto(v, basis);
 		remember(v);
 	};
-	v1 = new Viewer($("#v1"), {
+	v1 = new SceneViewer($("#v1"), {
 		scene: SCENES[0],
 		a: "gouraud",
 		b: BEST,
@@ -99,7 +114,7 @@ function startOverview() {
 		() => basis,
 		key => {
 			basis = key;
-			pareto(v1);
+			pareto(v1, basis);
 		},
 	);
 	// Hovering over a mark shows its method for a moment, and choosing it keeps it.
@@ -125,7 +140,7 @@ function startOverview() {
 }
 
 /* #overview */
-function overview(_, query) {
+export function overview(_, query) {
 	if (FINDINGS.length) waffle();
 	if (!SCENES.length) return;
 	if (!v1) startOverview();

@@ -1,5 +1,13 @@
 /* Starts the page. */
 
+import { SCENES } from "./data.js";
+import "./keys.js";
+import { route } from "./link.js";
+import { hue } from "./marks.js";
+import { $$ } from "./markup.js";
+import "./theme.js";
+import { FILLED } from "./views.js";
+
 /* Colours the methods in the answer, whose words Rust writes. */
 $$(".answer .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
 
@@ -10,18 +18,6 @@ $$("[data-scene]").forEach(a => {
 
 $$("[data-if]").forEach(el => {
 	el.hidden = !FILLED[el.dataset.if];
-});
-
-addEventListener("beforeprint", () => {
-	// Drawing all views for print must not change the address.
-	restoring = true;
-	$$(".view").forEach(s => s.classList.toggle("on", !!FILLED[s.id]));
-	for (const name in VIEWS) if (FILLED[name]) VIEWS[name]([], new URLSearchParams());
-});
-
-addEventListener("afterprint", () => {
-	view = "";
-	route();
 });
 
 route();

@@ -1,10 +1,16 @@
 /* The chart of the overview: error against time. */
 
-/* Which scenes the chart covers: all, or only the viewer's. */
-let basis = MANY ? "all" : "scene";
+import {
+	axisX, axisY, curve, line, logScale, place, scale, svg, text, textWidth, widthOf, zoomOf,
+} from "./charts.js";
+import { BASE, IDS, M, SCENES } from "./data.js";
+import { hue, MARKED, nameOf, shape } from "./marks.js";
+import { $, fill, html, write } from "./markup.js";
+import { clamp, num, TIMES } from "./numbers.js";
 
-/* Draws the error of every method against its time, and a line through the methods that no other beats in both. */
-function pareto(v) {
+/* Draws the error of every method against its time, and a line through the methods that no other beats in both. It covers all scenes if
+   `basis` is "all", else only the viewer's. */
+export function pareto(v, basis) {
 	const el = $("#pareto");
 	const s = v.source;
 	const isLive = s !== v.scene;
@@ -22,6 +28,7 @@ function pareto(v) {
 	const b = H - 48;
 	if (!W) return;
 	const has = m => (all ? M[m].max != null : s.rows[m] && !(isLive && !s.rows[m].ms));
+	/** @type {any[]} */
 	const points = IDS.filter(has).map(m => {
 		const { max, speed } = M[m];
 		const q = s.rows[m];
@@ -93,7 +100,7 @@ function pareto(v) {
 	for (const p of points) {
 		[p.left, p.right] = [p.m === v.a, p.m === v.b];
 		p.value = p.ratio && (p.left || p.right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
-		p.priority = 3 * p.left + 2 * p.right + !!p.front + MARKED.has(p.m);
+		p.priority = 3 * p.left + 2 * p.right + +!!p.front + +MARKED.has(p.m);
 		p.w = textWidth(`${nameOf(p.m)}  ${p.value}`, p.left) + 6;
 	}
 	place(

@@ -1,5 +1,10 @@
 /* Pictures: each is stored as three deflated planes of its difference from the picture most like it. */
 
+import { FIGURES, S } from "./data.js";
+import { $, $$, create, paint } from "./markup.js";
+import { clamp, memo } from "./numbers.js";
+import { inflate } from "./studio.js";
+
 /* Unpacks three planes. Each byte is stored as its difference from the previous byte, modulo 256. */
 async function unpack(text, { w, h }) {
 	const bytes = await inflate(text);
@@ -31,18 +36,15 @@ const planes = (s, m) =>
 	});
 
 /* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green, red. */
-function canvasOf(s, word) {
-	const canvas = create("canvas");
+export function canvasOf(s, word) {
 	const image = new ImageData(s.w, s.h);
 	const words = new Uint32Array(image.data.buffer);
-	[canvas.width, canvas.height] = [s.w, s.h];
 	for (let i = 0; i < words.length; i++) words[i] = word(i);
-	canvas.getContext("2d").putImageData(image, 0, 0);
-	return { canvas, px: image.data };
+	return { canvas: paint(create("canvas"), image), px: image.data };
 }
 
 /* The picture in grey levels, linear or sRGB as the scene's encoding says. It is stored, or drawn in the page. */
-const picture = (s, m) =>
+export const picture = (s, m) =>
 	s.one?.(m) ??
 	memo(`picture ${s.id} ${m}`, async () => {
 		const [green, red, blue] = await planes(s, m);
@@ -78,7 +80,7 @@ async function drawPart(canvas, s, m, part, size, smooth) {
 }
 
 /* Draws the pictures on the buttons that choose a scene. */
-const thumbs = root =>
+export const thumbs = root =>
 	$$("button", root).forEach(b => {
 		const s = S[b.dataset.key];
 		if (s.drawn)
@@ -95,10 +97,14 @@ const thumbs = root =>
 	});
 
 /* Draws the part of a picture around a pixel, enlarged without smoothing. */
-function crop(canvas, s, m, worst, w, h) {
+export function crop(canvas, s, m, worst, w, h) {
 	[w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
 	const [cx, cy] = worst ?? [s.w / 2, s.h / 2];
 	const x = Math.round(clamp(cx - w / 2, 0, s.w - w));
 	const y = Math.round(clamp(cy - h / 2, 0, s.h - h));
 	later(() => drawPart(canvas, s, m, [x, y, w, h], [w * 2, h * 2], false));
 }
+
+/* The pictures of a figure, as addresses of images. */
+export const figurePictures = f =>
+	memo("figures", () => JSON.parse($("#figure-pictures").textContent))[FIGURES.indexOf(f)] ?? [];

@@ -1,9 +1,13 @@
 /* Plots of curves, for figures and for the rows of a picture. */
 
+import { axisX, axisY, curve, line, scale, svg, text, widthOf } from "./charts.js";
+import { html } from "./markup.js";
+import { clamp } from "./numbers.js";
+
 const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
 
 /* Draws several curves in one chart, with axes unless the chart is small. */
-function plot(p, W, H) {
+export function plot(p, W, H) {
 	const small = H < 150;
 	const series = p.series.map((s, i) => ({
 		...keyed(s, i),
@@ -47,7 +51,7 @@ function plot(p, W, H) {
 const keyed = (s, i) => ({ colour: `var(${PLOT_HUES[i % 6]})`, kind: `dash${i % 6}`, ...s });
 
 /* The legend: a piece of each curve, and its name. */
-function legend(series) {
+export function legend(series) {
 	const piece = [
 		[0, 4],
 		[26, 4],
@@ -60,4 +64,16 @@ function legend(series) {
 			</span>`,
 	);
 	return html`<div class="legend">${entries}</div>`;
+}
+
+/* Draws plots into boxes, each below its title and above its legend, with captions if asked. */
+export function plotsInto(boxes, plots, H, hasCaptions) {
+	boxes.forEach((box, i) => {
+		const p = plots[i];
+		box.innerHTML = html`
+			<b>${p.title}</b>
+			<div class="chartbox">${plot(p, widthOf(box) || 460, H)}</div>
+			${legend(p.series)}
+			${hasCaptions && html`<figcaption>${p.caption}</figcaption>`}`;
+	});
 }

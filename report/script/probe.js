@@ -1,10 +1,17 @@
 /* The probe: the pixel that the reader points at, by every method. */
 
+import { unfolded } from "./controls.js";
+import { errors } from "./errors.js";
+import { keyOf, mark, MARKED, nameOf } from "./marks.js";
+import { $, fill, html, write } from "./markup.js";
+import { num } from "./numbers.js";
+import { picture } from "./pictures.js";
+
 /* Counts the calls. If several wait for pictures, only the last one draws. */
 let probing = 0;
 
 /* Shows every method at one pixel: where the reader points, else the held one, else the worst one. */
-async function probe(v) {
+export async function probe(v) {
 	const s = v.source;
 	const turn = ++probing;
 	const of = v.a === "reference" ? v.b : v.a;

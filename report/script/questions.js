@@ -1,9 +1,15 @@
 /* Questions of the course: the reader answers, a measured value decides, and then the chapter's measurements are shown. */
 
+import { slider } from "./controls.js";
+import { chip, findingOf, findingValue } from "./findings.js";
+import { $, $$, focusOn, html, Markup } from "./markup.js";
+import { clamp } from "./numbers.js";
+
 /* Answers within this part of the slider's range count as close. */
 const CLOSE = 0.12;
 
 /* Reads a question: `FIGURE slider KEY LOW HIGH STEP UNIT`, or `FIGURE largest KEY KEY…`. */
+/** @returns {any} */
 function questionOf(text) {
 	const [figure, kind, ...rest] = text.split(" ");
 	if (kind === "largest") return { kind, all: rest.map(key => findingOf(figure, key)) };
@@ -41,7 +47,7 @@ const saysChoice = (i, best, all) => html`
 function askControl(q, choices) {
 	if (q.kind === "largest")
 		return html`<div class="choice">${choices.map((text, i) => html`<button data-choice="${i}">${text}</button>`)}</div>`;
-	const { low, high, step, unit } = q;
+	const { low, high, step } = q;
 	const value = low + step * Math.round((high - low) / step / 2);
 	return html`
 		<div class="guess">
@@ -51,13 +57,14 @@ function askControl(q, choices) {
 }
 
 /* Shows a chapter's measurements, and fills their places. */
-function unfold(chapter) {
+function unfold(chapter, fillPlace) {
 	chapter.classList.remove("folded");
 	$$(".measured :is([data-figure], [data-cost])", chapter).forEach(el => fillPlace(el));
 }
 
-/* Lets the reader answer a question. The chapter's measurements stay folded until then, or until the reader asks to see them. */
-function askInto(el) {
+/* Lets the reader answer a question. The chapter's measurements stay folded until then, or until the reader asks to see them.
+   `fillPlace` fills their places. */
+export function askInto(el, fillPlace) {
 	const q = questionOf(el.dataset.question);
 	if (q.all.some(x => !x)) return;
 	const chapter = el.closest("article");
@@ -73,7 +80,7 @@ function askInto(el) {
 	const [said, input, send] = [$(".said", el), $("input", el), $(".answer-it", el)];
 	const answer = text => {
 		$(".show-it", el).hidden = true;
-		unfold(chapter);
+		unfold(chapter, fillPlace);
 		if (input) {
 			const part = clamp((q.all[0].value - q.low) / (q.high - q.low), 0, 1);
 			input.insertAdjacentHTML("afterend", html`<i class="truth" style="--at:${part}"></i>`);
@@ -85,7 +92,7 @@ function askInto(el) {
 		}
 		said.innerHTML = text;
 		// The button that was pressed is gone, so the focus moves to the question.
-		said.focus({ preventScroll: true });
+		focusOn(said);
 	};
 	if (input)
 		input.oninput = () => {

@@ -1,12 +1,20 @@
 /* The plot of a row of the picture. */
 
+import { remember } from "./address.js";
+import { widthOf } from "./charts.js";
+import { hue, named, nameOf } from "./marks.js";
+import { $, fill, html, write } from "./markup.js";
+import { by, clamp } from "./numbers.js";
+import { picture } from "./pictures.js";
+import { plot } from "./plot.js";
+
 /* Opens or closes the plot of a row. */
-function toggleRow(v) {
+export function toggleRow(v) {
 	showRow(v, v.line == null ? (v.pin ?? v.rest ?? [0, v.scene.h >> 1])[1] : null);
 }
 
 /* Shows a row, or none for `null`. */
-function showRow(v, y) {
+export function showRow(v, y) {
 	v.line = y;
 	$("#rowplot").hidden = y == null;
 	$(".row", v.root).ariaPressed = y != null;
@@ -16,7 +24,7 @@ function showRow(v, y) {
 }
 
 /* Draws the intensity of a row by each method, and its slope below. */
-async function rowPlot(v) {
+export async function rowPlot(v) {
 	const el = $("#rowplot-chart");
 	const s = v.source;
 	if (v.line == null || (!s.drawn && !s.own)) return;

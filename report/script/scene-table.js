@@ -1,8 +1,15 @@
 /* The table of all methods on a scene. */
 
+import { line, scale } from "./charts.js";
+import { folded } from "./controls.js";
+import { IDS, ratioText, TIMED } from "./data.js";
+import { hue, named, shape } from "./marks.js";
+import { $, $$, bar, fill, html, save, table, toast } from "./markup.js";
+import { by, clamp, grouped, num } from "./numbers.js";
+
 /* How the table is sorted, and which optional parts it shows. */
 let sort = { key: TIMED ? "ratio" : "max", up: !TIMED };
-let options = { cols: false, bary: false };
+export let options = { cols: false, bary: false };
 
 /* The columns of the table: key, head, and a mark if the column is always shown. */
 const COLUMNS = [
@@ -41,13 +48,13 @@ function speedBar(r, m, x, width) {
 		</span>`;
 }
 
-/* Draws the table of a scene. */
-function sceneTable() {
+/* Draws the table of a viewer's scene. */
+export function sceneTable(v) {
 	const value = q =>
 		sort.key === "name"
 			? IDS.indexOf(q.variant)
 			: (q[sort.key]?.median ?? q[sort.key] ?? (sort.key === "psnr" ? 1e9 : -1));
-	const rows = Object.values(v2.scene.rows)
+	const rows = Object.values(v.scene.rows)
 		.filter(q => options.bary || !q.bary)
 		.sort(by(q => (sort.up ? 1 : -1) * value(q)));
 	const [shown, more] = folded(rows, 15, "rows");
@@ -101,19 +108,19 @@ function sceneTable() {
 	});
 	$$("#table tbody tr").forEach((tr, i) => {
 		tr.dataset.key = "row " + shown[i].variant;
-		tr.className = `${shown[i].bary ? "bary" : ""} ${shown[i].variant === v2.a ? "sel" : ""}`;
+		tr.className = `${shown[i].bary ? "bary" : ""} ${shown[i].variant === v.a ? "sel" : ""}`;
 	});
 }
 
 /* Sorts by a column, or shows the method of a row. */
-function chooseInTable(key, e) {
-	if (key.startsWith("row ")) return v2.show(key.slice(4), e.shiftKey);
+export function chooseInTable(v, key, e) {
+	if (key.startsWith("row ")) return v.show(key.slice(4), e.shiftKey);
 	sort = { key, up: sort.key === key ? !sort.up : !DESCENDING.includes(key) };
-	sceneTable();
+	sceneTable(v);
 }
 
 /* Copies the shown table, with intervals, as Markdown. */
-async function copyMarkdown() {
+export async function copyMarkdown() {
 	const cell = c => {
 		const title = $("[title]", c)?.title;
 		const words = c.textContent.replace(/[|\\`*_<]/g, "\\$&");

@@ -1,13 +1,25 @@
 /* View: scenes. Shows one scene at a time, with its pictures, pixels, rows and table. */
 
+import { fromRoute, go, remember } from "./address.js";
+import { onChoose, reveal } from "./controls.js";
+import { levelName, S, SCENES } from "./data.js";
+import { nameOf } from "./marks.js";
+import { $, $$, focusOn, html, write } from "./markup.js";
+import { grouped, num, plural } from "./numbers.js";
+import { thumbs } from "./pictures.js";
+import { probe } from "./probe.js";
+import { rowPlot, showRow, toggleRow } from "./row.js";
+import { chooseInTable, copyMarkdown, options, sceneTable } from "./scene-table.js";
+import { SceneViewer } from "./scene-viewer.js";
+
 /* The viewer of this view. */
-let v2;
+export let v2;
 
 /* Opens a scene in the viewer's current state. `stepScene` opens the next or the previous one. */
 const openScene = s =>
 	go(`scenes/${s.id}?left=${v2.a}&right=${v2.b}${v2.mode === "slide" ? "" : `&mode=${v2.mode}`}`);
 
-const stepScene = d => {
+export const stepScene = d => {
 	const { number = 0 } = v2.scene;
 	openScene(SCENES[(number + d + SCENES.length) % SCENES.length]);
 };
@@ -28,29 +40,29 @@ function startScenes(s) {
 		if (!changed.moved && !changed.round) {
 			sceneHead(v.scene);
 			probe(v);
-			sceneTable();
+			sceneTable(v);
 			if (!("pin" in changed)) rowPlot(v);
 		}
 		remember(v);
 	};
-	v2 = new Viewer($("#v2"), {
+	v2 = new SceneViewer($("#v2"), {
 		scene: s,
 		a: "gouraud",
 		b: "reference",
 		probe,
 		row: toggleRow,
+		plot: rowPlot,
 		change,
 	});
 	for (const id in options)
 		$("#" + id).onclick = e => {
 			e.target.ariaPressed = options[id] = !options[id];
-			sceneTable();
+			sceneTable(v2);
 		};
 	$("#copy").onclick = copyMarkdown;
 	$("#rowplot-close").onclick = () => toggleRow(v2);
-	onChoose($("#probe"), (m, e) => v2.show(m, e.shiftKey));
-	onChoose($("#rowplot-chart"), (m, e) => v2.show(m, e.shiftKey));
-	onChoose($("#table"), chooseInTable);
+	for (const id of ["#probe", "#rowplot-chart"]) onChoose($(id), (m, e) => v2.show(m, e.shiftKey));
+	onChoose($("#table"), (key, e) => chooseInTable(v2, key, e));
 }
 
 /* Shows the title, the description and the facts of a scene. */
@@ -64,7 +76,7 @@ function sceneHead(s) {
 }
 
 /* #scenes/SCENE */
-function scenes([id], query) {
+export function scenes([id], query) {
 	const s = S[id] ?? v2?.scene ?? SCENES[0];
 	const rail = $("#rail");
 	if (!v2) startScenes(s);
@@ -75,7 +87,7 @@ function scenes([id], query) {
 		b.ariaSelected = on;
 		b.tabIndex = on ? 0 : -1;
 		if (!on) continue;
-		if (held) b.focus({ preventScroll: true });
+		if (held) focusOn(b);
 		reveal(b);
 	}
 	const asked = { ...fromRoute(query, v2), scene: s };

@@ -1,5 +1,13 @@
 /* Charts of the loops in integers, for processors without a floating-point unit. */
 
+import {
+	axisX, axisY, line, logScale, place, scale, svg, text, textWidth, widthOf,
+} from "./charts.js";
+import { D, M } from "./data.js";
+import { hue, shape } from "./marks.js";
+import { $, html } from "./markup.js";
+import { num } from "./numbers.js";
+
 /* The method that a loop belongs to, for its mark and colour. The names of loops begin with their method's name. */
 function methodOfLoop(loop) {
 	const printed = loop.endsWith("-as-printed");
@@ -21,6 +29,7 @@ function costOfLoops(id, column, label) {
 	const el = $(id);
 	const W = widthOf(el);
 	if (!W) return;
+	/** @type {any[]} */
 	const points = D.small.spans
 		.filter(loop => loop.worst_error.length)
 		.map(loop => ({
@@ -61,7 +70,7 @@ function costOfLoops(id, column, label) {
 	]);
 }
 
-function small() {
+export function small() {
 	costOfLoops("#small-m0", 1, "cycles of a Cortex-M0+ a pixel");
 	costOfLoops("#small-rv", 2, "instructions of RV32IMC a pixel");
 	const cycles = name =>

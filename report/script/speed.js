@@ -1,7 +1,17 @@
 /* View: speed. */
 
+import { beside } from "./beside.js";
+import { segments } from "./controls.js";
+import { cornerMode, corners, fastest, oneLight, ratioIn, WORKS } from "./corners.js";
+import { D, DOCS, levelName, MANY, ratioText, SCENES, STUDY } from "./data.js";
+import { costs, grow } from "./growth.js";
+import { nameOf } from "./marks.js";
+import { $, html, table, write } from "./markup.js";
+import { grouped } from "./numbers.js";
+import { small } from "./small.js";
+
 /* #speed */
-function speed() {
+export function speed() {
 	if (STUDY) {
 		const lecture = STUDY.methods.find(m => m.method === "fast-phong");
 		const entry = (m, c) =>

@@ -1,6 +1,15 @@
 /* The first thing on the page: two spheres of equal triangles under one sun, which the reader moves. */
 
-const SPHERES = FIGURES.find(f => f.name === "spheres" && f.live);
+import { arrow, isCommand } from "./controls.js";
+import { FIGURES } from "./data.js";
+import { verdictLine } from "./findings.js";
+import { $, $$, atNextFrame, delay, html } from "./markup.js";
+import { num } from "./numbers.js";
+import { figurePictures } from "./pictures.js";
+import { CAN_DRAW, figureStudio, valuesOf } from "./studio.js";
+import { DEGREES } from "./turn.js";
+
+export const SPHERES = FIGURES.find(f => f.name === "spheres" && f.live);
 
 /* The radius of the circle on which the sun is drawn when it shines from the side, as a part of a picture's width. */
 const SUN_ORBIT = 0.455;
@@ -31,14 +40,18 @@ function inOrbit([x, y]) {
 class Spheres {
 	/* The sun first moves by itself, unless an address places it or the reader prefers reduced motion. */
 	constructor(el, query, remember, tell) {
-		Object.assign(this, { el, remember, tell });
+		this.el = el;
+		this.remember = remember;
+		this.tell = tell;
 		this.values = valuesOf(SPHERES.live, query);
 		this.isHeld = !!query || matchMedia("(prefers-reduced-motion:reduce)").matches;
 		el.classList.add("spheres");
 		el.innerHTML = this.markup();
 		this.balls = $$(".ball", el);
 		this.suns = $$(".sun", el);
-		[this.said, this.told, this.button] = [".says", ".unseen", ".moves"].map(s => $(s, el));
+		this.said = $(".says", el);
+		this.told = $(".unseen", el);
+		this.button = $(".moves", el);
 		this.show(SPHERES);
 		for (const ball of this.balls) this.prepare(ball);
 		if (!CAN_DRAW) return;
@@ -97,7 +110,7 @@ class Spheres {
 	/* Makes the engine, and lets the sun go around once, unless the reader has moved it or prefers reduced motion. */
 	async start() {
 		try {
-			this.studio = await (figureStudio ??= Studio.make());
+			this.studio = await figureStudio();
 			this.draw();
 			this.el.dataset.first = Math.round(performance.now());
 			if (!this.isHeld) this.go(true, 1);
@@ -181,12 +194,9 @@ class Spheres {
 	}
 
 	key(e) {
-		const [dx, dy] = ARROWS[e.key] ?? [];
-		if (dx == null || e.ctrlKey || e.metaKey || e.altKey) return;
-		e.preventDefault();
-		e.stopPropagation();
-		const step = e.shiftKey ? 0.15 : 0.03;
-		this.move([this.values[0] + dx * step, this.values[1] - dy * step]);
+		if (isCommand(e)) return;
+		const way = arrow(e, 0.03, 0.15);
+		if (way) this.move([this.values[0] + way[0], this.values[1] - way[1]]);
 	}
 
 	/* A mouse drags the sun from anywhere on the ball. A finger drags it from the sun itself or by moving sideways, and moves it by a tap.
@@ -200,8 +210,8 @@ class Spheres {
 		};
 		ball.onpointerdown = e => {
 			if (e.button) return;
-			held = { x: e.clientX, y: e.clientY };
-			held.drags = e.pointerType === "mouse" || e.target.matches(".sun");
+			const drags = e.pointerType === "mouse" || e.target.matches(".sun");
+			held = { x: e.clientX, y: e.clientY, drags };
 			ball.setPointerCapture(e.pointerId);
 			if (held.drags) to(e);
 		};
@@ -222,7 +232,7 @@ class Spheres {
 }
 
 /* Puts the spheres into an element, with the lecture's claim and all findings. */
-function spheresWithVerdicts(el, query, remember) {
+export function spheresWithVerdicts(el, query, remember) {
 	el.classList.add("live-figure");
 	el.innerHTML = html`
 		<p class="claim">${SPHERES.live.claim}</p>
@@ -236,6 +246,6 @@ function spheresWithVerdicts(el, query, remember) {
 }
 
 /* Fills the places of a view that are meant for the spheres. */
-function placeSpheres(view) {
+export function placeSpheres(view) {
 	for (const el of SPHERES ? $$("[data-spheres]:empty", view) : []) new Spheres(el);
 }

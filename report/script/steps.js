@@ -1,11 +1,14 @@
 /* Steps of a trace: turns the trace of a picture into the list of everything that happened, in order. Nothing is computed here: a
    step only says where its values are in the trace. */
 
+import { by } from "./numbers.js";
+import { crossingOf, edgesOf, pixelsOf } from "./traces.js";
+
 /* The state before anything has begun. */
 const NOTHING = { active: [], spans: [], depth: [], runs: [] };
 
 /* Lists the steps of a picture: first edges go into buckets, then lines follow one by one, with three questions on the way. */
-function stepsOf(trace) {
+export function stepsOf(trace) {
 	const edges = edgesOf(trace);
 	const events = edges.map(edge => ({ ...NOTHING, k: "bucket", row: -1, edge }));
 	let before = [];
@@ -163,3 +166,6 @@ function askNext(events) {
 	const i = events.findIndex(e => e.k === "run" && e.row >= 7 && e.run.pixels >= 6);
 	return i >= 0 && events[i].run.list[0].values.length > 0 && { ask: "next", before: i + 5 };
 }
+
+/* The polygon that a step is about. */
+export const polygonOf = e => (e.run ?? e.span ?? e.a?.edge ?? e.edge)?.polygon;

@@ -1,5 +1,10 @@
 /* The questions of the figure: the reader predicts, then looks. The answers come from the trace. */
 
+import { $, focusOn, html } from "./markup.js";
+import { fixed, listed, plus, polygonHue } from "./stop-words.js";
+import { formulaOf } from "./terms.js";
+import { letterOf } from "./traces.js";
+
 const verdictOf = ({ ok, shown }, why) => html`
 	<div class="s-verdict">
 		${!shown && html`<b class="${ok ? "good" : "bad"}">${ok ? "✓ Right." : "✗ Not quite."}</b> `}${why}
@@ -13,7 +18,6 @@ const askButtons = isOff => html`
 	</p>`;
 
 const EDGES_QUESTION = {
-	title: "Which edges are active?",
 	prepare(e, mine, figure) {
 		const sort = figure.events.find(v => v.k === "sort" && v.row === e.target.row);
 		mine.right = new Set(sort?.active.map(a => a.edge.id));
@@ -53,7 +57,6 @@ const EDGES_QUESTION = {
 };
 
 const SHARED_QUESTION = {
-	title: "Whose pixels are these?",
 	prepare(e, mine) {
 		mine.right = e.meet.owners.map(o => o.polygon);
 		mine.pair = [e.meet.a, e.meet.b].map(a => a.edge.polygon);
@@ -89,7 +92,6 @@ const SHARED_QUESTION = {
 };
 
 const NEXT_QUESTION = {
-	title: "What comes next?",
 	prepare(e, mine) {
 		const { p, run } = e.target;
 		mine.value ??= Math.round(run.list[p.i - 1].values[0] * 200) / 200;
@@ -116,10 +118,10 @@ const NEXT_QUESTION = {
 	},
 };
 
-const QUESTIONS = { edges: EDGES_QUESTION, shared: SHARED_QUESTION, next: NEXT_QUESTION };
+export const QUESTIONS = { edges: EDGES_QUESTION, shared: SHARED_QUESTION, next: NEXT_QUESTION };
 
 /* Makes the buttons of a question work. */
-function wireAsk(box, figure) {
+export function wireAsk(box, figure) {
 	const redraw = () => figure.draw();
 	box.onclick = ({ target }) => {
 		const button = target.closest("button");
@@ -129,12 +131,12 @@ function wireAsk(box, figure) {
 		const { choice, do: act } = button.dataset;
 		if (act === "on") {
 			figure.go(e.i + 1);
-			return figure.panel.drives.forth.focus({ preventScroll: true });
+			return focusOn(figure.panel.drives.forth);
 		}
 		if (choice) QUESTIONS[e.ask].choose(mine, choice);
 		else Object.assign(mine, { done: true, shown: act === "show" });
 		redraw();
-		$(choice ? `[data-choice="${choice}"]` : "[data-do=on]", box)?.focus({ preventScroll: true });
+		focusOn($(choice ? `[data-choice="${choice}"]` : "[data-do=on]", box));
 	};
 	box.oninput = ({ target }) => {
 		const mine = figure.answers.next;

@@ -1,5 +1,15 @@
 /* The panel beside the stage: what happens now, the active edges, the pixel by each method, and the program. */
 
+import { $, $$, html } from "./markup.js";
+import { plural, round } from "./numbers.js";
+import { QUESTIONS, wireAsk } from "./stop-ask.js";
+import { screenColour } from "./stop-stage.js";
+import { showsDepth, STRIP_TERMS } from "./stop-strip.js";
+import {
+	answerOf, ASKED, fixed, levels, plus, polygonHue, PROGRAM, REFERENCE, TELL, wordsOf,
+} from "./stop-words.js";
+import { formulaOf, term } from "./terms.js";
+
 /* The empty page of the figure. Icons are drawn, because not every machine has a font with them. */
 const ICON = {
 	"line-back": "M2 3h2v10H2zM14 3v10L8.7 8zM9 3v10L3.7 8z",
@@ -31,7 +41,7 @@ const speedButtons = ["slow", "brisk", "fast"].map(
 	(name, i) => html`<button data-speed="${i}">${name}</button>`,
 );
 
-const STOP_PAGE = html`
+export const STOP_PAGE = html`
 	<p class="s-answer"></p>
 	<div class="s-frame">
 		<div class="s-bar">
@@ -78,6 +88,13 @@ const STOP_PAGE = html`
 	<div class="s-tries">${TRIES.map(([key, title, text]) => html`<button data-try="${key}"><b>${title}</b> ${text}</button>`)}</div>
 	<p class="s-say" aria-live="polite"></p>`;
 
+const variantLabel = v =>
+	v
+		.split(":")
+		.slice(1)
+		.map(p => p.split("=")[1])
+		.join(", ") || "auto";
+
 /* Puts markup into an element if it is not there already, so that unchanged parts cost nothing. */
 function renew(el, markup) {
 	const text = String(markup ?? "");
@@ -86,28 +103,28 @@ function renew(el, markup) {
 	el.innerHTML = text;
 }
 
-class Panel {
+export class Panel {
+	/* The parts of the page, each with the end of its class as its name. */
+	answer;
+	methods;
+	variants;
+	what;
+	kicker;
+	text;
+	eqs;
+	ask;
+	active;
+	four;
+	track;
+	where;
+	say;
+	legend;
+	hint;
+	program;
+
 	constructor(figure, root) {
+		for (const name in this) this[name] = $(`.s-${name}`, root);
 		this.figure = figure;
-		for (const name of [
-			"answer",
-			"methods",
-			"variants",
-			"what",
-			"kicker",
-			"text",
-			"eqs",
-			"ask",
-			"active",
-			"four",
-			"track",
-			"where",
-			"say",
-			"legend",
-			"hint",
-			"program",
-		])
-			this[name] = $(`.s-${name}`, root);
 		this.head = $("h3", this.what);
 		this.count = $("h4 small", this.active.closest(".s-sec"));
 		this.range = $(".s-time input", root);
@@ -324,6 +341,6 @@ class Panel {
 		if (button.textContent === sign) return;
 		button.textContent = sign;
 		button.className = kind;
-		button.ariaLabel = `${QUESTIONS[ask].title}: the question ${text}`;
+		button.ariaLabel = `${ASKED[ask]}: the question ${text}`;
 	}
 }

@@ -1,5 +1,12 @@
 /* The stage of the figure: the edge table at the left, then pixels, polygons, active edges, and the scan line with its crossings. */
 
+import { arrow } from "./controls.js";
+import { focusOn, sentence } from "./markup.js";
+import { clamp, round, sum } from "./numbers.js";
+import { polygonOf } from "./steps.js";
+import { fixed, polygonHue } from "./stop-words.js";
+import { letterOf } from "./traces.js";
+
 function svgNode(tag, attributes = {}, parent) {
 	const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
 	for (const name in attributes) node.setAttribute(name, attributes[name]);
@@ -8,7 +15,7 @@ function svgNode(tag, attributes = {}, parent) {
 }
 
 /* A group whose shapes are kept from step to step. Only attributes that differ are changed, which makes a step fast. */
-class Layer {
+export class Layer {
 	constructor(parent) {
 		this.group = svgNode("g", { "aria-hidden": true }, parent);
 		this.shapes = [];
@@ -44,13 +51,27 @@ class Layer {
 }
 
 /* Turns a colour of the trace into a colour of the screen. */
-const screenColour = colour => `rgb(${colour.map(c => Math.round(255 * clamp(c, 0, 1))).join()})`;
+export const screenColour = colour => `rgb(${colour.map(c => Math.round(255 * clamp(c, 0, 1))).join()})`;
 
 const GROUPS = ["gutter", "polygons", "edges", "corners", "line", "marks"];
 
-class Stage {
+export class Stage {
+	width;
+	left;
+	unit;
+	isSmall;
+	fills;
+	/* Layers, from back to front. */
+	gutter;
+	polygons;
+	edges;
+	corners;
+	line;
+	marks;
+
 	constructor(figure, svg) {
-		Object.assign(this, { figure, svg });
+		this.figure = figure;
+		this.svg = svg;
 	}
 
 	/* Lays the stage out for its width, and draws the parts that no step changes. */
@@ -324,7 +345,7 @@ class Stage {
 }
 
 /* The corners as handles, which the reader drags or moves by arrow keys. They are kept from step to step, so that they keep the focus. */
-class CornerHands {
+export class CornerHands {
 	constructor(figure) {
 		this.figure = figure;
 	}
@@ -351,7 +372,7 @@ class CornerHands {
 			node.setPointerCapture(e.pointerId);
 			node.classList.add("s-held");
 			e.preventDefault();
-			node.focus({ preventScroll: true });
+			focusOn(node);
 		};
 		node.onpointermove = e => {
 			if (!node.classList.contains("s-held")) return;
@@ -366,14 +387,11 @@ class CornerHands {
 			node.classList.remove("s-held");
 		};
 		node.onkeydown = e => {
-			const [dx, dy] = ARROWS[e.key] ?? [];
-			if (dx == null) return;
-			e.preventDefault();
-			e.stopPropagation();
+			const way = arrow(e, 0.125, 1);
+			if (!way) return;
 			figure.halt();
 			const [x, y] = figure.corners[i];
-			const by = e.shiftKey ? 1 : 0.125;
-			figure.moveCorner(i, x + dx * by, y + dy * by);
+			figure.moveCorner(i, x + way[0], y + way[1]);
 		};
 	}
 

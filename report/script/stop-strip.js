@@ -1,10 +1,15 @@
 /* The strip below the stage, which shows the values that are stepped along the line, below their pixels; and the normals of a run in
    their plane. */
 
+import { $ } from "./markup.js";
+import { round, sum } from "./numbers.js";
+import { Layer, screenColour } from "./stop-stage.js";
+import { degreesOf, fixed, isLate, normalAt, phiOf, polygonHue } from "./stop-words.js";
+
 const STRIP_HEIGHT = 132;
 
 /* What the strip draws for each method: pairs of a term and its legend. */
-const STRIP_TERMS = {
+export const STRIP_TERMS = {
 	__proto__: null,
 	depth: [
 		["", "lines: how near"],
@@ -32,14 +37,21 @@ const STRIP_TERMS = {
 	],
 };
 
-const showsDepth = ({ k }) => k === "span" || k === "depth";
+export const showsDepth = ({ k }) => k === "span" || k === "depth";
 
 /* The style that gives a dot or line a polygon's colour in place of its term's. */
 const hueStyle = polygon => `--t:${polygonHue(polygon)}`;
 
-class Strip {
+export class Strip {
+	/* Layers, from back to front. */
+	axis;
+	bars;
+	lines;
+	dots;
+
 	constructor(figure, svg) {
-		Object.assign(this, { figure, svg });
+		this.figure = figure;
+		this.svg = svg;
 	}
 
 	lay() {
@@ -260,9 +272,12 @@ class Strip {
 
 const FAN = { radius: 112, x: 200, y: 128 };
 
-class Fan {
+export class Fan {
 	constructor(figure, box) {
-		Object.assign(this, { figure, box, note: $("small", box), layer: new Layer($("svg", box)) });
+		this.figure = figure;
+		this.box = box;
+		this.note = $("small", box);
+		this.layer = new Layer($("svg", box));
 	}
 
 	draw(e) {
@@ -275,6 +290,7 @@ class Fan {
 	}
 
 	/* Returns where a vector of the plane, [to the right, upward], is drawn. */
+	/** @returns {any} */
 	place([right, up], length = 1) {
 		return [round(FAN.x + FAN.radius * right * length), round(FAN.y - FAN.radius * up * length)];
 	}

@@ -1,12 +1,18 @@
 /* What each step of the figure says: a heading, a sentence, and equations with the values of the trace. */
 
+import { nameOf } from "./marks.js";
+import { html } from "./markup.js";
+import { plural, sum } from "./numbers.js";
+import { formulaOf } from "./terms.js";
+import { letterOf } from "./traces.js";
+
 /* Writes a value with fixed digits and a proper minus sign. */
-const fixed = (v, digits = 3) => {
+export const fixed = (v, digits = 3) => {
 	const text = v.toFixed(digits);
 	return (+text === 0 ? text.replace("-", "") : text).replace("-", "−");
 };
 /* Writes a value as a summand, with its sign. */
-const plus = (v, digits = 3) => (v < 0 ? "− " : "+ ") + fixed(Math.abs(v), digits);
+export const plus = (v, digits = 3) => (v < 0 ? "− " : "+ ") + fixed(Math.abs(v), digits);
 const vector = (v, digits = 2) => `(${v.map(c => fixed(c, digits)).join(", ")})`;
 
 /* Writes a share in per cent, and as a power of ten if it is small. */
@@ -18,15 +24,25 @@ function percent(share) {
 }
 
 /* The angle of a sine and a cosine, in degrees. */
-const degreesOf = ([sin, cos]) => (Math.atan2(sin, cos) * 180) / Math.PI;
+export const degreesOf = ([sin, cos]) => (Math.atan2(sin, cos) * 180) / Math.PI;
 /* The angle φ of a great circle: the sum of the angle behind and the angle ahead. */
-const phiOf = ({ t, rest }) => degreesOf(t) + degreesOf(rest);
+export const phiOf = ({ t, rest }) => degreesOf(t) + degreesOf(rest);
 
-const listed = items =>
+export const listed = items =>
 	items.length < 2 ? items.join("") : `${items.slice(0, -1).join(", ")} and ${items.at(-1)}`;
 
+/* The method with which all others are compared. */
+export const REFERENCE = "naive-phong";
+
+/* The titles of the questions. */
+export const ASKED = {
+	edges: "Which edges are active?",
+	shared: "Whose pixels are these?",
+	next: "What comes next?",
+};
+
 /* Each polygon's colour. */
-const polygonHue = p => `var(--h${[2, 3, 4, 1, 5, 6, 8, 9][p % 8]})`;
+export const polygonHue = p => `var(--h${[2, 3, 4, 1, 5, 6, 8, 9][p % 8]})`;
 
 /* An equation: the formula, its number in the lecture, and its values. */
 const equation = (formula, number, values, polygon) => html`
@@ -38,7 +54,7 @@ const equation = (formula, number, values, polygon) => html`
 const bold = (name, text) => html`<b data-term="${name}">${text}</b>`;
 
 /* The steps of the program beside the picture, and their equations. */
-const PROGRAM = [
+export const PROGRAM = [
 	["put edges in buckets", "by first line"],
 	["for each line:", ""],
 	["  drop edges that end", ""],
@@ -52,12 +68,12 @@ const PROGRAM = [
 ];
 
 /* A grey level is 1/255. */
-const levels = (a, b) => 255 * (a - b);
-const isLate = (d, root) => Math.abs(d / root - 1) > 2e-3;
+export const levels = (a, b) => 255 * (a - b);
+export const isLate = (d, root) => Math.abs(d / root - 1) > 2e-3;
 
 /* -- methods: the names of each one's values, and its equations: [formula, number in the lecture, values] */
 
-const normalAt = (s, at) => at.slice(s.names.varyings.indexOf("Nx"));
+export const normalAt = (s, at) => at.slice(s.names.varyings.indexOf("Nx"));
 const spaced = (values, digits = 2) => values.map(v => fixed(v, digits)).join(" ");
 
 /* Components of normals, short enough for a table. */
@@ -276,21 +292,21 @@ const ofOther = {
 	],
 };
 
-const KNOWN = {
+export const KNOWN = {
 	__proto__: null,
 	gouraud: ofGouraud,
 	"naive-phong": ofNaive,
 	"fast-phong": ofFast,
 	"slerp-phong": ofSlerp,
 };
-const wordsOf = method => KNOWN[method] ?? { ...ofOther, label: nameOf(method) };
+export const wordsOf = method => KNOWN[method] ?? { ...ofOther, label: nameOf(method) };
 
 /* -- steps: what each kind of step says */
 
 const rowsOf = (list, polygon) => html`${list.filter(Boolean).map(e => equation(...e, polygon))}`;
 const ceiling = v => html`⌈${fixed(v)} − ½⌉`;
 
-const TELL = {
+export const TELL = {
 	bucket({ edge }, s) {
 		const [[x1, y1], [x2, y2]] = [s.corners[edge.top], s.corners[edge.bottom]];
 		const first = s.crossing(edge);
@@ -489,12 +505,12 @@ const TELL = {
 		head:
 			e.ask === "edges"
 				? `Which edges are active on line ${e.target.row}?`
-				: QUESTIONS[e.ask].title,
+				: ASKED[e.ask],
 	}),
 };
 
 /* Says in a sentence what the whole picture costs, counted in the trace. */
-function answerOf(s) {
+export function answerOf(s) {
 	const pixels = s.events.filter(e => e.p).map(e => e.p);
 	if (!pixels.length)
 		return html`<b class="s-m">${s.words.label}</b> has nothing to fill: no pixel centre lies inside a polygon.`;

@@ -13,7 +13,19 @@
      bare                   only the figure, in the whole window, with larger type
 */
 
-const REFERENCE = "naive-phong";
+import { address } from "./address.js";
+import { isCommand } from "./controls.js";
+import { variantOf } from "./live.js";
+import { $, atNextFrame, create, focusOn, html, ROOT } from "./markup.js";
+import { by, clamp } from "./numbers.js";
+import { polygonOf, stepsOf } from "./steps.js";
+import { Panel, STOP_PAGE } from "./stop-panel.js";
+import { CornerHands, screenColour, Stage } from "./stop-stage.js";
+import { Fan, Strip } from "./stop-strip.js";
+import { KNOWN, levels, REFERENCE, wordsOf } from "./stop-words.js";
+import { CAN_DRAW, valuesOf } from "./studio.js";
+import { crossingOf, edgesOf, hasTraces, traceBy, tracesOf } from "./traces.js";
+
 const FIRST = { line: "6", x: "9" };
 const OWN_KEYS = ["method", "steps", "line", "x", "event", "polygon", "edge", "ask", "try"];
 /* For each speed, the milliseconds between two drawings, and how many steps each drawing advances. */
@@ -22,17 +34,8 @@ const SPEEDS = [
 	[90, 1],
 	[16, 2],
 ];
-const variantLabel = v =>
-	v
-		.split(":")
-		.slice(1)
-		.map(p => p.split("=")[1])
-		.join(", ") || "auto";
 const methodOf = variant => variant.split(":")[0];
 const isTraced = f => f.blocks.some(b => b.trace);
-
-/* The polygon that a step is about. */
-const polygonOf = e => (e.run ?? e.span ?? e.a?.edge ?? e.edge)?.polygon;
 
 /* What each experiment starts with. */
 const EXPERIMENTS = {
@@ -60,15 +63,17 @@ const EXPERIMENTS = {
 };
 
 class StopFigure {
+	/* The answers to the questions, and the steps of each trace. */
+	answers = {};
+	views = new WeakMap();
+	speed = 1;
+	width;
+	height;
+
 	constructor(f, stored, remember) {
-		Object.assign(this, {
-			stored,
-			traces: stored,
-			remember,
-			answers: {},
-			speed: 1,
-			views: new WeakMap(),
-		});
+		this.stored = stored;
+		this.traces = stored;
+		this.remember = remember;
 		// Methods with their own view come first, and a method's variants with parameters before the one without.
 		const known = Object.keys(KNOWN);
 		const place = v => known.indexOf(methodOf(v)) + 1 || 99;
@@ -112,7 +117,10 @@ class StopFigure {
 	/* Switches to a variant, at the step most like `like`, which is a step of another variant. */
 	useTrace(variant, like) {
 		const trace = this.traces[variant];
-		Object.assign(this, { trace, variant, method: methodOf(variant), names: trace.names });
+		this.trace = trace;
+		this.variant = variant;
+		this.method = methodOf(variant);
+		this.names = trace.names;
 		this.chosen[this.method] = variant;
 		this.words = wordsOf(this.method);
 		this.edges = edgesOf(trace);
@@ -397,7 +405,10 @@ class StopFigure {
 		const e = this.now;
 		const [, ...parameters] = this.variant.split(":");
 		const query = new URLSearchParams({ method: this.method });
-		for (const p of parameters) query.set(...p.split("="));
+		for (const p of parameters) {
+			const [name, value] = p.split("=");
+			query.set(name, value);
+		}
 		const isOfLine = !e.ask && e.row >= 0 && e.k !== "end";
 		const place = {
 			ask: e.ask,
@@ -409,7 +420,7 @@ class StopFigure {
 		};
 		for (const key in place) if (place[key] != null) query.set(key, place[key]);
 		this.moved?.forEach((v, i) => {
-			if (v !== this.handles[i].start) query.set(this.handles[i].name, +v.toFixed(4));
+			if (v !== this.handles[i].start) query.set(this.handles[i].name, String(+v.toFixed(4)));
 		});
 		if (this.isBare) query.set("bare", "");
 		return query;
@@ -477,7 +488,7 @@ class StopFigure {
 		this.restore();
 		this.answers = {};
 		this.show(this.variant, this.now);
-		this.panel.drives.play.focus({ preventScroll: true });
+		focusOn(this.panel.drives.play);
 	}
 
 	/* Switches to a talk, which shows only the figure, and back. Full screen is a talk, too. */
@@ -544,11 +555,10 @@ class StopFigure {
 const stopFigures = new Map();
 
 addEventListener("keydown", e => {
+	/** @type {any} */
 	const on = e.target;
 	if (
-		e.ctrlKey ||
-		e.metaKey ||
-		e.altKey ||
+		isCommand(e) ||
 		e.defaultPrevented ||
 		(on.matches?.("input,select,textarea,[contenteditable]") && e.key !== "Escape") ||
 		$("#keys")?.open
@@ -569,9 +579,9 @@ addEventListener("hashchange", () => ROOT.removeAttribute("data-bare"));
 
 /* Puts the figure into an element. Calls `remember` with the query of each step at which the figure rests. Returns false if the figure
    cannot be shown here. */
-function stopInto(el, f, query, remember) {
+export function stopInto(el, f, query, remember) {
 	if (!isTraced(f) || !hasTraces()) return false;
-	const place = view;
+	const place = address.view;
 	const kept = stopFigures.get(place);
 	const mount = figure => {
 		figure.remember = remember;

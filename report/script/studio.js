@@ -1,30 +1,37 @@
 /* The studio: fastphong itself, compiled to WebAssembly, which draws scenes and figures in the page. */
 
+import { $ } from "./markup.js";
+import { clamp, sum } from "./numbers.js";
+
 /* Inflates bytes that are encoded in base 64. */
-async function inflate(text) {
+export async function inflate(text) {
 	const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
 	const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /* The JSON of an element that may be missing. */
-const jsonOf = id => JSON.parse($("#" + id)?.textContent ?? "null");
+export const jsonOf = id => JSON.parse($("#" + id)?.textContent ?? "null");
 
 /* True if this page and this browser can draw. Drawing may still fail later, with a message. */
-const CAN_DRAW =
+export const CAN_DRAW =
 	!!$("#live-module") && "WebAssembly" in window && "DecompressionStream" in window;
 
+/** @type {Promise<WebAssembly.Module>} */
 let module;
 
 /* Compiles the module once. Each instance of it is one studio. */
 const compiled = () =>
 	(module ??= inflate(jsonOf("live-module")).then(bytes => WebAssembly.compile(bytes)));
 
-class Studio {
+export class Studio {
+	constructor({ exports }) {
+		/** @type {LiveModule} */
+		this.exports = exports;
+	}
+
 	static async make() {
-		const studio = new Studio();
-		const { exports } = await WebAssembly.instantiate(await compiled(), {});
-		return Object.assign(studio, { exports });
+		return new Studio(await WebAssembly.instantiate(await compiled(), {}));
 	}
 
 	/* Returns values in the module's memory. This memory moves when it grows, so a caller computes the address first. */
@@ -131,6 +138,7 @@ class Studio {
 	}
 
 	/* Makes a figure for these values of its handles. Returns its content and its pictures. */
+	/** @returns {{ content: FigureContent, pictures: ImageData[] }} */
 	figure(name, values) {
 		this.put(`${name}\n${values.join(" ")}`);
 		const content = JSON.parse(this.said(this.ask(this.exports.figure())));
@@ -142,3 +150,16 @@ class Studio {
 		return { content, pictures };
 	}
 }
+
+let ofFigures;
+
+/* The studio in which all figures are drawn, one after the other. It is made once. */
+export const figureStudio = () => (ofFigures ??= Studio.make());
+
+/* Reads the values of a figure's handles from an address. */
+export const valuesOf = ({ handles }, query) =>
+	handles.map(({ name, range: [low, high], step, start }) => {
+		const given = query?.get(name);
+		const value = given && isFinite(given) ? +given : start;
+		return clamp(Math.round(value / step) * step, low, high);
+	});

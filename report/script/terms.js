@@ -1,22 +1,25 @@
 /* Terms: each quantity of the course has one colour in texts, cards and strips. Pointing at a term lights it up everywhere. */
 
+import { create, html, Markup, put } from "./markup.js";
+
 /* Matches a term in a text, alone or with an index (I_next, J₁, t₀). */
 const TERM =
 	/(?<![\p{Nd}_'’]|(?!t(?=φ))\p{L})(Δ[INJKx]|[INJKdDφxt])(?![\p{Nd}'’]|(?!φ)\p{L}|_(?!next|current))/u;
 
 /* Marks a term. */
-const term = (name, text = name) => html`<span data-term="${name}">${text}</span>`;
+export const term = (name, text = name) => html`<span data-term="${name}">${text}</span>`;
 
 /* Sets a formula: marks its terms, and lowers what follows an underscore. */
-const formulaOf = text => {
+export const formulaOf = text => {
 	const low = part => new Markup(put(part).replace(/_(\w+)/g, "<sub>$1</sub>"));
 	return html`${text.split(TERM).map((part, i) => (i % 2 ? term(part) : low(part)))}`;
 };
 
 /* Marks the terms in the texts of an element. */
-function markTerms(el) {
+export function markTerms(el) {
 	const skipped = "a,button,summary,h2,h3,h4,svg,math,table,label,.stop,.live,.hands,[data-term]";
 	const walker = document.createTreeWalker(el, NodeFilter.SHOW_TEXT);
+	/** @type {any[]} */
 	const texts = [];
 	while (walker.nextNode())
 		if (!walker.currentNode.parentElement.closest(skipped)) texts.push(walker.currentNode);
@@ -48,5 +51,6 @@ function lightTerm(el) {
 	litRule.textContent = scope ? `[data-lit] [data-term="${el.dataset.term}"]{${look}}` : "";
 }
 
-for (const type of ["pointerover", "focusin"])
-	addEventListener(type, e => lightTerm(e.target.closest?.("[data-term]")));
+/** @param {any} e */
+const pointed = ({ target }) => lightTerm(target.closest?.("[data-term]"));
+for (const type of ["pointerover", "focusin"]) addEventListener(type, pointed);

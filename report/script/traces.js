@@ -1,26 +1,29 @@
 /* Traces: what the engine did on each line of a picture, by each method (schema fastphong.trace/1). The page stores the traces of the
    figure that can be stopped. When the reader moves a corner, the module makes new ones. */
 
+import { $ } from "./markup.js";
+import { figureStudio, inflate, jsonOf } from "./studio.js";
+
 let storedTraces;
 
 /* True if the page has traces, and this browser can unpack them. */
-const hasTraces = () => !!$("#figure-traces") && "DecompressionStream" in window;
+export const hasTraces = () => !!$("#figure-traces") && "DecompressionStream" in window;
 
 /* Unpacks the stored traces, once: a trace for each variant of a method. */
-const tracesOf = () =>
+export const tracesOf = () =>
 	(storedTraces ??= inflate(jsonOf("figure-traces")).then(bytes =>
 		JSON.parse(new TextDecoder().decode(bytes)),
 	));
 
 /* Traces the mesh with its corners at x1 y1 x2 y2 …, in pixels, by a variant of a method. */
-async function traceBy(variant, corners) {
-	const studio = await (figureStudio ??= Studio.make());
+export async function traceBy(variant, corners) {
+	const studio = await figureStudio();
 	return studio.trace(variant, corners);
 }
 
 /* Names edges for readers: by the letter of the polygon and the number of the edge. */
-const letterOf = polygon => String.fromCharCode(65 + (polygon % 26));
-const edgesOf = trace =>
+export const letterOf = polygon => String.fromCharCode(65 + (polygon % 26));
+export const edgesOf = trace =>
 	trace.edges.map((edge, id) => ({
 		...edge,
 		id,
@@ -28,13 +31,14 @@ const edgesOf = trace =>
 	}));
 
 /* Where a crossing is, in pixels, and how far it moves from line to line. In the trace both are fractions of whole numbers. */
-const crossingOf = ({ pixel, rest: [rest, whole], step: [pixels, more] }) => ({
+export const crossingOf = ({ pixel, rest: [rest, whole], step: [pixels, more] }) => ({
 	x: pixel + 0.5 - rest / whole,
 	dx: pixels + more / whole,
 });
 
 /* The pixels of a run, each with everything that the trace knows about it. */
-const pixelsOf = ({ x, pixels, values, colours, inside = {} }) =>
+/** @param {any} run */
+export const pixelsOf = ({ x, pixels, values, colours, inside = {} }) =>
 	Array.from({ length: pixels }, (_, i) => ({
 		x: x + i,
 		i,

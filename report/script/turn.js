@@ -1,6 +1,15 @@
 /* The handles of a viewer: they turn the model, move the light, and choose parameters. */
 
-const DEGREES = 180 / Math.PI;
+import { arrow, isCommand, slider } from "./controls.js";
+import { IDS, M, SCENES } from "./data.js";
+import { canTurn, LiveScene, ownScene, variantOf } from "./live.js";
+import { nameOf } from "./marks.js";
+import { $, atNextFrame, delay, fill, html, save, toast } from "./markup.js";
+import { clamp, memo, num, plural, TIMES } from "./numbers.js";
+import { CAN_DRAW } from "./studio.js";
+import { isStill, STILL } from "./viewer.js";
+
+export const DEGREES = 180 / Math.PI;
 
 /* The light's handle is at this part of the stage's short side from the middle (SUN_RING) when the light is at this angle from the
    line of sight (SUN_ANGLE). The light goes no further than SUN_MOST. */
@@ -9,7 +18,7 @@ const SUN_ANGLE = 90 / DEGREES;
 const SUN_MOST = 175 / DEGREES;
 
 /* Writes a view for a link, in degrees and with few digits. `viewOf` reads it back. */
-const viewQuery = ({ azimuth, elevation, size, light, exponent, given }) => {
+export const viewQuery = ({ azimuth, elevation, size, light, exponent, given }) => {
 	const fixed = (...list) => list.map(v => +v.toFixed(1)).join(",");
 	const [angle, toward] = light ? sunOf(light) : [];
 	const chosen = Object.entries(given).map(([m, all]) => variantOf(m, all));
@@ -22,7 +31,7 @@ const viewQuery = ({ azimuth, elevation, size, light, exponent, given }) => {
 	};
 };
 
-function viewOf({ turn, size, sun, exponent, with: chosen }) {
+export function viewOf({ turn, size, sun, exponent, with: chosen }) {
 	const numbers = text => (text ?? "").split(",").map(v => (isFinite(v) ? +v : 0));
 	const [azimuth, elevation = 0] = numbers(turn).map(v => v / DEGREES);
 	const [angle, toward = 0] = numbers(sun).map(v => v / DEGREES);
@@ -60,10 +69,17 @@ const logarithmic = (low, high, steps) => ({
 const SIZES = logarithmic(0.25, 8, 120);
 const EXPONENTS = logarithmic(1, 1000, 150);
 
-class Hand {
+export class Hand {
+	/** @type {LiveScene} */
+	live = null;
+	moves = false;
+	waits = false;
+	rounds = 0;
+
 	constructor(v) {
-		Object.assign(this, { v, live: null, moves: false, waits: false, rounds: 0 });
-		[this.sun, this.panel] = [$(".sun", v.root), $(".handles", v.root)];
+		this.v = v;
+		this.sun = $(".sun", v.root);
+		this.panel = $(".handles", v.root);
 		this.panel.oninput = e => this.handle(e.target);
 		this.panel.onchange = () => this.controls();
 		// A slider is held until the pointer is released anywhere. A list is not, because it opens and may swallow that event.
@@ -174,7 +190,7 @@ class Hand {
 		this.controls();
 		v.change?.(v, { moved: true });
 		v.probe?.(v);
-		if (v.line != null) rowPlot(v);
+		v.plot?.(v);
 		delay("rounds", 60, () => this.round());
 	}
 
@@ -311,12 +327,9 @@ class Hand {
 	}
 
 	key(e) {
-		const [dx, dy] = ARROWS[e.key] ?? [];
-		if (dx == null || !this.can || e.ctrlKey || e.metaKey || e.altKey) return;
-		e.preventDefault();
-		e.stopPropagation();
-		const pixels = e.shiftKey ? 40 : 10;
-		this.turnBy(dx * pixels, dy * pixels);
+		if (!this.can || isCommand(e)) return;
+		const way = arrow(e, 10, 40);
+		if (way) this.turnBy(...way);
 	}
 
 	get light() {
@@ -376,13 +389,10 @@ class Hand {
 			this.placeSun();
 		};
 		sun.onkeydown = e => {
-			const [dx, dy] = ARROWS[e.key] ?? [];
-			if (dx == null) return;
-			e.preventDefault();
-			e.stopPropagation();
-			const step = e.shiftKey ? 24 : 6;
+			const way = arrow(e, 6, 24);
+			if (!way) return;
 			const { x, y } = this.sunAt();
-			this.lightTo(x + dx * step, y + dy * step);
+			this.lightTo(x + way[0], y + way[1]);
 		};
 	}
 

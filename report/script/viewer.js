@@ -1,7 +1,11 @@
 /* The viewer: two pictures side by side, with a slider between them, or in turn, or their errors. */
 
+import { onChoose, segments } from "./controls.js";
+import { $, $$, atNextFrame, html, save, toast } from "./markup.js";
+import { clamp, num } from "./numbers.js";
+
 /* The ways to compare by their keys, and what other keys and buttons do. */
-const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
+export const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 
 const KEYS = {
 	" ": v => v.flip(),
@@ -20,43 +24,95 @@ const KEYS = {
 
 for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
 
-/* Compares the pictures of methods `a` and `b`. */
-class Viewer {
+/* The view of a scene before anything is moved. */
+export const STILL = { azimuth: 0, elevation: 0, size: 1, light: null, exponent: 0, given: {} };
+
+/* True if a view is the view of the stored pictures. */
+export const isStill = view =>
+	!view.azimuth &&
+	!view.elevation &&
+	view.size === 1 &&
+	!view.light &&
+	!view.exponent &&
+	!Object.keys(view.given).length;
+
+/* Compares the pictures of methods `a` and `b`. Each page has its own kind of viewer, which says what the pictures are, and may turn
+   them. */
+export class Viewer {
+	/* What is shown: a scene, two of its pictures, and how they are compared. */
+	/** @type {any} */
+	scene;
+	a;
+	b;
+	mode = "slide";
+	side = "a";
+	split = 0.5;
+	view = STILL;
+	/* How far it is zoomed, around which point, and the top of the scale of errors. */
+	z = 1;
+	cx = 0.5;
+	cy = 0.5;
+	top = 0;
+	turn = 0;
+	/* What the page does at a pixel, with a row, and when something changes. */
+	probe;
+	row;
+	plot;
+	change;
+	choices;
+	/* The row that is plotted, and the pixels that are pointed at, held, and worst. */
+	line;
+	hover;
+	pin;
+	rest;
+
 	constructor(root, options) {
-		Object.assign(
-			this,
-			{ root, mode: "slide", split: 0.5, z: 1, cx: 0.5, cy: 0.5, top: 0, side: "a", turn: 0 },
-			{ view: STILL },
-			options,
-		);
+		this.root = root;
+		Object.assign(this, options);
 		root.tabIndex = -1;
 		root.append($("#viewer-parts").content.cloneNode(true));
-		[this.canvas, this.stage, this.divider] = [".stage canvas", ".stage", ".divider"].map(
-			part => $(part, root),
-		);
+		this.canvas = $(".stage canvas", root);
+		this.stage = $(".stage", root);
+		this.divider = $(".divider", root);
 		this.markMode = segments(
 			$(".seg", root),
 			() => this.mode,
 			mode => this.set({ mode }),
 		);
 		root.onchange = ({ target }) => target.name && this.set({ [target.name]: target.value });
-		onChoose($(".vfoot", root), (key, e) =>
-			KEYS[key] ? KEYS[key](this, e) : this.set({ scene: S[key], pin: null }),
-		);
+		onChoose($(".vfoot", root), (key, e) => (KEYS[key] ? KEYS[key](this, e) : this.choose(key)));
 		$(".row", root).hidden = !this.row;
-		if (this.choices) {
-			$(".choices", root).innerHTML = html`${this.choices.map(
-				s => html`
-					<button data-key="${s.id}" title="${s.title}">
-						<canvas aria-hidden="true"></canvas>
-					</button>`,
-			)}`;
-			setTimeout(() => thumbs($(".choices", root)), 300);
-		}
-		this.hand = new Hand(this);
+		this.hand = this.handOf();
 		this.listen();
 		new ResizeObserver(() => atNextFrame(() => this.draw())).observe(this.stage);
 	}
+
+	/* What each kind has: the picture of a method or its error map, names and marks. */
+	/** @type {(s: any, m: string) => any} */
+	image(s, m) {}
+
+	/** @type {(m: string) => any} */
+	nameOf(m) {}
+
+	/** @type {(m: string) => any} */
+	mark(m) {}
+
+	/* What turns the pictures. Here nothing does. */
+	/** @returns {any} */
+	handOf() {
+		const panel = $(".handles", this.root);
+		return { panel, source: this.scene, can: false, controls() {}, placeSun() {} };
+	}
+
+	/* The method whose key is a digit. */
+	/** @returns {any} */
+	methodOf(digit) {}
+
+	/* Chooses another scene. */
+	choose(key) {}
+
+	/* Draws the scale of the error map. */
+	drawScale() {}
 
 	/* Where the shown pictures and rows come from: the stored scene, or the one that the page draws. */
 	get source() {
@@ -80,10 +136,10 @@ class Viewer {
 		for (const name of ["a", "b"]) {
 			const select = $(`[name=${name}]`, root);
 			select.innerHTML = html`${["reference", ...s.list].map(
-				m => html`<option value="${m}">${nameOf(m)}</option>`,
+				m => html`<option value="${m}">${this.nameOf(m)}</option>`,
 			)}`;
 			select.value = this[name];
-			select.previousElementSibling.innerHTML = mark(this[name]);
+			select.previousElementSibling.innerHTML = this.mark(this[name]);
 		}
 		this.markMode();
 		$$(".choices button", root).forEach(b => {
@@ -111,12 +167,11 @@ class Viewer {
 		const error = this.mode === "error";
 		if (!s.drawn && !s.own) return;
 		const turn = ++this.turn;
-		const image = m => (error ? errorMap(s, m, this.top) : picture(s, m));
 		const { root } = this;
 		try {
 			const [A, B] = await Promise.all([
-				image(this.a),
-				image(error && this.b === "reference" ? this.a : this.b),
+				this.image(s, this.a),
+				this.image(s, error && this.b === "reference" ? this.a : this.b),
 			]);
 			if (turn !== this.turn) return;
 			[this.A, this.B] = [A.canvas, B.canvas];
@@ -212,25 +267,17 @@ class Viewer {
 			const q = s.rows[m];
 			const isLive = s !== this.scene;
 			const time = q?.ms ? ` · ${num(q.ms)} ms${isLive ? " here" : ""}` : "";
-			const from = isLive && s.exact !== "reference" ? ` from ${nameOf(s.exact)}` : "";
+			const from = isLive && s.exact !== "reference" ? ` from ${this.nameOf(s.exact)}` : "";
 			const about = s.about?.(m) ?? (q ? `max ${num(q.max)} levels${from}${time}` : "f64, closed form");
-			el.innerHTML = html`<b>${nameOf(m)}${error && " · error"}</b>${about}`;
+			el.innerHTML = html`<b>${this.nameOf(m)}${error && " · error"}</b>${about}`;
 			el.classList.toggle("faint", !shown);
 		};
 		label(".tag.a", this.single && second ? this.b : this.a, !this.slides || this.split > 0.16);
 		label(".tag.b", this.b, side || (this.slides && this.split < 0.84));
-		const names = nameOf(this.a) + (this.single ? "" : ` left, ${nameOf(this.b)} right`);
+		const names =
+			this.nameOf(this.a) + (this.single ? "" : ` left, ${this.nameOf(this.b)} right`);
 		this.hand.placeSun();
 		canvas.ariaLabel = `${this.scene.title}: ${names}${error ? ", error map" : ""}`;
-	}
-
-	drawScale() {
-		const bar = $(".heat", this.root);
-		const ticks = this.top ? [0, this.top / 2, this.top] : [0, 1, 3, 10, 30, 100, 255];
-		bar.style.background = `linear-gradient(90deg, ${STOPS})`;
-		bar.innerHTML = html`${ticks.map(
-			t => html`<span style="left:${heat(t, this.top) * 100}%">${t}</span>`,
-		)}`;
 	}
 
 	/* Zooms by a factor, 0 for the whole picture, around a point of the stage. */
@@ -425,7 +472,7 @@ class Viewer {
 			hover: null,
 		});
 		this.hold([...q.worst]);
-		toast(`${nameOf(m)}: worst pixel ${q.worst.join(", ")}, ${num(q.max)} levels`);
+		toast(`${this.nameOf(m)}: worst pixel ${q.worst.join(", ")}, ${num(q.max)} levels`);
 	}
 
 	save() {
@@ -443,7 +490,7 @@ class Viewer {
 		const digit = /^Digit(\d)$/.exec(e.code)?.[1];
 		const action = KEYS[e.key.toLowerCase()];
 		if (!digit) return !!action && action(this, e) !== false;
-		const m = ["reference", ...IDS].find(i => keyOf(i) === digit);
+		const m = this.methodOf(digit);
 		if (m) this.show(m, e.shiftKey);
 		return true;
 	}

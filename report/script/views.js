@@ -1,11 +1,23 @@
 /* The views, and which of them have something to show. A new view needs a file that `program/src/report/page.rs` lists, a section and a link in the
    template, and a name in both lists here. */
 
+import { CHAPTERS, course } from "./course.js";
+import {
+	D, DOCS, FIGURES, FINDINGS, IDS, MANY, PICTURES, ROWS, SCENES, STUDY, TIMED,
+} from "./data.js";
+import { lectures } from "./lectures.js";
+import { chosen } from "./marks.js";
+import { measured } from "./measured.js";
+import { methods } from "./methods.js";
+import { overview } from "./overview.js";
+import { scenes } from "./scenes.js";
+import { speed } from "./speed.js";
+
 /* The functions that draw the views, in the order of the navigation. Each gets the parts of the view's address. */
-const VIEWS = { overview, scenes, methods, speed, lectures, course, measured };
+export const VIEWS = { overview, scenes, methods, speed, lectures, course, measured };
 
 /* Parts of the page that have something to show. */
-const FILLED = {
+export const FILLED = {
 	scenes: SCENES.length,
 	methods: IDS.length,
 	lectures: FIGURES.length,

@@ -48,6 +48,7 @@
 			seenIn[key] = sum;
 			drawn++;
 		}
+		check(!card.textContent.includes("undefined"), `${card.id}: a text is undefined`);
 		check(seenIn.f !== seenIn[" "], `${card.id}: both sides look alike`);
 		check(seenIn.e !== seenIn.d, `${card.id}: the map equals a picture`);
 		press("Escape");

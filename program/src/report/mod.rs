@@ -13,6 +13,7 @@ mod date;
 mod document;
 mod live;
 mod markdown;
+mod modules;
 mod page;
 pub(crate) mod pairs_page;
 mod pictures;

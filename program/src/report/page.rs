@@ -2,6 +2,7 @@
 //! without JavaScript.
 
 use super::document::{list, number, text};
+use super::modules::joined;
 use super::pictures::data_uri;
 use super::{Report, answer, course, live, tables};
 use crate::compare::table::{Table, html_text};
@@ -15,31 +16,26 @@ const TEMPLATE: &str = include_str!("../../../report/template.html");
 pub(super) const VIEWER: &str = include_str!("../../../report/viewer.html");
 pub(super) const STYLE: &str = include_str!("../../../report/app.css");
 
-/// Joins files of `report/script` in this order. At load time a file can use only definitions of
-/// files before it.
-macro_rules! script {
+/// Lists files of `report/script` with their texts, in any order.
+macro_rules! modules {
     ($($file:literal)*) => {
-        concat!($(include_str!(concat!("../../../report/script/", $file, ".js"))),*)
+        &[$((concat!($file, ".js"), include_str!(concat!("../../../report/script/", $file, ".js")))),*]
     };
 }
 
-const SCRIPT: &str = script!(
-    "markup" "controls" "numbers" "data" "marks" "studio" "pictures" "errors" "live" "turn" "viewer" "charts" "plot" "findings"
-    // Views, each with the files that only it uses.
-    "pareto" "overview"
-    "probe" "row" "scene-table" "scenes"
-    "formulas" "methods"
-    "corners" "growth" "small" "beside" "speed"
-    "terms" "traces" "steps" "stop-words" "stop-stage" "stop-strip" "stop-ask" "stop-panel" "stop"
-    "spheres" "figure" "lectures"
-    "hands" "questions" "goals" "costs" "course"
-    "measured"
-    // All views.
-    "views" "link" "keys" "page"
+const MODULES: &[(&str, &str)] = modules!(
+    "address" "beside" "charts" "controls" "corners" "costs" "course" "data" "errors" "figure"
+    "findings" "formulas" "goals" "growth" "hands" "keys" "lectures" "link" "live" "marks" "markup"
+    "measured" "methods" "numbers" "overview" "page" "pairs" "pareto" "pictures" "plot" "probe"
+    "questions" "row" "scene-table" "scene-viewer" "scenes" "small" "speed" "spheres" "steps"
+    "stop-ask" "stop-panel" "stop-stage" "stop-strip" "stop-words" "stop" "studio" "terms" "theme"
+    "traces" "turn" "viewer" "views"
 );
 
-/// The part of the script that a viewer needs on a page that brings its own pictures.
-pub(super) const VIEWER_SCRIPT: &str = script!("markup" "controls" "numbers" "viewer");
+/// Joins the script of a page, whose first module is `entry`.
+pub(super) fn script(entry: &str) -> String {
+    bare(&joined(MODULES, entry).expect("a test joins all modules"))
+}
 
 /// Fills the template.
 pub(super) fn page(report: &Report) -> String {
@@ -63,7 +59,7 @@ pub(super) fn page(report: &Report) -> String {
         ("data", script_text(&json(report))),
         ("pictures", pictures(report)),
         ("viewer", VIEWER.to_string()),
-        ("script", bare(SCRIPT)),
+        ("script", script("page.js")),
     ];
     filled(TEMPLATE, &parts)
 }
@@ -82,15 +78,19 @@ pub(super) fn filled(template: &str, parts: &[(&str, String)]) -> String {
     text
 }
 
-/// Removes everything from a script or a style that browsers ignore: indentation, empty lines, and
-/// comments that have their own lines. No string in the scripts has a line that looks like a
-/// comment.
+/// Removes everything from a script or a style that browsers ignore: indentation, empty lines,
+/// comments that have their own lines, and commas at the ends of lists. No string in the scripts
+/// has a line that looks like one of these.
 fn bare(script: &str) -> String {
     let mut text = String::new();
     let mut is_comment = false;
     for line in script.lines().map(|line| line.trim_start_matches('\t')) {
         let begins = line.starts_with("/*");
         if !(is_comment || begins || line.starts_with("//") || line.is_empty()) {
+            if text.ends_with(",\n") && line.starts_with([')', ']', '}']) {
+                text.truncate(text.len() - 2);
+                text.push('\n');
+            }
             text += line;
             text.push('\n');
         }
@@ -281,26 +281,29 @@ mod tests {
     }
 
     #[test]
-    fn every_file_of_the_script_is_joined() {
+    fn every_file_of_the_script_belongs_to_a_page() {
+        let pages = ["page.js", "pairs.js"].map(|entry| joined(MODULES, entry).unwrap());
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../report/script");
         let files = std::fs::read_dir(folder).expect("the folder of the script");
         for file in files.map(|entry| entry.expect("a readable folder").path()) {
             let text = std::fs::read_to_string(&file).expect("a file of text");
-            assert!(SCRIPT.contains(&text), "{} is not listed", file.display());
+            let about = text.lines().next().expect("a comment at the top");
+            let is_there = |page: &String| page.contains(about);
+            assert!(pages.iter().any(is_there), "{} is not used", file.display());
         }
     }
 
     #[test]
     fn the_page_has_the_script_without_comments() {
-        let script =
-            "/* A sum,\n   of two. */\n\tconst sum = a + b; // here\n\n// no\n/* no */\n\t\tsum;\n";
-        assert_eq!(bare(script), "const sum = a + b; // here\nsum;\n");
-        for text in [SCRIPT, STYLE] {
+        let script = "/* A sum,\n   of two. */\n\tconst sum = a + b; // here\n\n// no\n/* no */\n\t\tf(\n\tsum,\n);\n";
+        assert_eq!(bare(script), "const sum = a + b; // here\nf(\nsum\n);\n");
+        let joined = joined(MODULES, "page.js").unwrap();
+        for text in [&joined, STYLE] {
             let page = bare(text);
             assert!(!page.contains("\n\t") && !page.contains("\n/*") && page.len() < text.len());
         }
         // `bare` would drop all lines after a comment that ends in the middle of a line.
-        let comments = SCRIPT
+        let comments = joined
             .lines()
             .chain(STYLE.lines())
             .map(str::trim_start)

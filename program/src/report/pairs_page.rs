@@ -1,8 +1,9 @@
 //! The page of compared pictures: each pair with the map of its difference, failed pairs first.
 //!
-//! Its parts are in `report/pairs`. It shares style and viewer with the report.
+//! Its parts are in `report/pairs` and `report/script/pairs.js`. It shares style and viewer with
+//! the report.
 
-use super::page::{STYLE, VIEWER, VIEWER_SCRIPT, filled};
+use super::page::{STYLE, VIEWER, filled, script};
 use super::pictures::data_uri;
 use crate::compare::table::html_text;
 use alloc::format;
@@ -13,7 +14,6 @@ use serde_json::json;
 
 const TEMPLATE: &str = include_str!("../../../report/pairs/page.html");
 const OWN_STYLE: &str = include_str!("../../../report/pairs/style.css");
-const OWN_SCRIPT: &str = include_str!("../../../report/pairs/script.js");
 
 /// The contents of the page.
 #[derive(Clone, Debug, Default)]
@@ -77,7 +77,7 @@ impl PairsPage {
             ("pairs", html(false)),
             ("equal", html(true)),
             ("viewer", VIEWER.to_string()),
-            ("script", VIEWER_SCRIPT.to_string() + OWN_SCRIPT),
+            ("script", script("pairs.js")),
         ];
         filled(TEMPLATE, &parts)
     }

@@ -1,35 +1,13 @@
-/* Pairs of pictures: each is opened in a viewer of its own. */
+/* Pairs of pictures: each is opened in a viewer of its own. Starts the page of `fastphong diff`. */
 
-/* What the viewer asks of pages that draw: nothing is turned here, and there are no methods. */
-const STILL = {};
-const isStill = () => true;
-const IDS = [];
-const S = {};
-const keyOf = () => null;
-const mark = () => "";
-const nameOf = m => (m === "reference" ? "Reference" : "Picture");
-
-class Hand {
-	constructor(v) {
-		this.v = v;
-		this.panel = $(".handles", v.root);
-	}
-
-	get source() {
-		return this.v.scene;
-	}
-
-	get can() {
-		return false;
-	}
-
-	controls() {}
-
-	placeSun() {}
-}
+import { isCommand, segments } from "./controls.js";
+import { $, $$, create, html } from "./markup.js";
+import { memo, num } from "./numbers.js";
+import "./theme.js";
+import { Viewer } from "./viewer.js";
 
 /* A picture of the page as a canvas. */
-const picture = (s, m) =>
+const imageOf = (s, m) =>
 	memo(`${s.id} ${m}`, async () => {
 		const image = s.images[m];
 		image.loading = "eager";
@@ -40,15 +18,23 @@ const picture = (s, m) =>
 		return { canvas };
 	});
 
-const errorMap = s => picture(s, "map");
-
-/* A viewer of a pair; its map is of both pictures. */
+/* A viewer of a pair, in which nothing is turned. Its map is of both pictures. */
 class PairViewer extends Viewer {
+	image(s, m) {
+		return imageOf(s, this.mode === "error" ? "map" : m);
+	}
+
+	nameOf(m) {
+		return m === "reference" ? "Reference" : "Picture";
+	}
+
+	mark() {
+		return "";
+	}
+
 	get single() {
 		return this.mode === "flip" || this.mode === "error";
 	}
-
-	drawScale() {}
 }
 
 /* The viewer that keys are for. */
@@ -97,8 +83,10 @@ $$(".opens").forEach(button => {
 });
 
 addEventListener("keydown", e => {
-	if (e.ctrlKey || e.metaKey || e.altKey || e.target.matches("select,input")) return;
-	if (!seen || (e.key === " " && e.target.closest("button,a"))) return;
+	/** @type {any} */
+	const on = e.target;
+	if (isCommand(e) || on.matches("select,input")) return;
+	if (!seen || (e.key === " " && on.closest("button,a"))) return;
 	if (e.key === "Escape") return toggle(seen.root.closest(".pairing"), false);
 	if (seen.key(e)) e.preventDefault();
 });
@@ -112,19 +100,6 @@ segments(
 		$("main").dataset.filter = key;
 	},
 );
-
-$("#theme").onclick = () => {
-	const { dataset } = ROOT;
-	const dark = dataset.theme
-		? dataset.theme === "dark"
-		: matchMedia("(prefers-color-scheme:dark)").matches;
-	dataset.theme = dark ? "light" : "dark";
-	try {
-		localStorage.setItem("fastphong-theme", dataset.theme);
-	} catch {
-		/* a file opened from disk may have no storage */
-	}
-};
 
 /* A link to a pair opens it. */
 const linked = /^#pair-\d+$/.test(location.hash) && $(location.hash);
