@@ -311,14 +311,15 @@ impl ShapeParameter {
             expected: kind.name(),
             found: text.into(),
         })?;
-        match (min..=max).contains(&value) {
-            true => Ok(value),
-            false => Err(BuiltinError::OutOfRange {
+        if (min..=max).contains(&value) {
+            Ok(value)
+        } else {
+            Err(BuiltinError::OutOfRange {
                 parameter,
                 found: text.into(),
                 min,
                 max,
-            }),
+            })
         }
     }
 }

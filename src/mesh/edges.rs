@@ -113,9 +113,10 @@ impl EdgeCounts {
                     let groups = [p, q].map(|p| mesh.smoothing_group(p));
                     let is_smooth =
                         groups[0] == groups[1] && groups[0] != Some(PolygonMesh::FACETED);
-                    match mesh.part(p) == mesh.part(q) {
-                        true => counts.sharp += usize::from(is_sharp),
-                        false => counts.seams += usize::from(!is_sharp && is_smooth),
+                    if mesh.part(p) == mesh.part(q) {
+                        counts.sharp += usize::from(is_sharp);
+                    } else {
+                        counts.seams += usize::from(!is_sharp && is_smooth);
                     }
                 }
                 _ => {}

@@ -343,12 +343,11 @@ impl<'a> SurfaceFinder<'a> {
             let root = self.root(item);
             // A root comes before every other corner of its surface, so that its index is stored
             // already.
-            let index = match root == item {
-                true => {
-                    count += 1;
-                    count - 1
-                }
-                false => self.surfaces[root as usize],
+            let index = if root == item {
+                count += 1;
+                count - 1
+            } else {
+                self.surfaces[root as usize]
             };
             self.surfaces.push(index);
         }

@@ -94,9 +94,10 @@ pub fn areas_cancel(mesh: &PolygonMesh, p: usize) -> bool {
     while let [first, inner @ .., last] = path
         && (first == last || inner.last() == Some(first) || inner.first() == Some(last))
     {
-        path = match (first == last, inner.last() == Some(first)) {
-            (true, _) | (_, true) => &path[..path.len() - 1],
-            _ => &path[1..],
+        path = if first == last || inner.last() == Some(first) {
+            &path[..path.len() - 1]
+        } else {
+            &path[1..]
         };
     }
     let Some(&first) = path.first() else {

@@ -313,12 +313,13 @@ fn averaged(
         }
         of_run
     });
-    match runs.iter().all(|run| run.indices.is_empty()) {
-        true => CornerNormals::ByPosition {
+    if runs.iter().all(|run| run.indices.is_empty()) {
+        CornerNormals::ByPosition {
             values: runs.into_iter().flat_map(|run| run.values).collect(),
             positions: around.vertex,
-        },
-        false => CornerNormals::ByCorner(join_runs(mesh, fans, count, runs)),
+        }
+    } else {
+        CornerNormals::ByCorner(join_runs(mesh, fans, count, runs))
     }
 }
 
@@ -502,9 +503,10 @@ fn creased_surface(
     let around = terms(surface, weights);
     // If all corners have weight 0, they count equally.
     let weighs = around.iter().any(|term| term.weight > 0.0);
-    let (around, weights) = match weighs || around.is_empty() {
-        true => (around, *weights),
-        false => (terms(surface, &weights.uniform()), weights.uniform()),
+    let (around, weights) = if weighs || around.is_empty() {
+        (around, *weights)
+    } else {
+        (terms(surface, &weights.uniform()), weights.uniform())
     };
     let add = |mut sum: Sum, term: &Term| {
         sum.add_term(term);
@@ -736,9 +738,12 @@ mod tests {
             DVec3::new(sin, f64::from(k / 6), cos).as_vec3()
         };
         let quads = (0..4u32).flat_map(|row| (0..5).map(move |column| 6 * row + column));
-        let quads = quads.map(|k| match reversed {
-            false => [k, k + 1, k + 7, k + 6],
-            true => [k, k + 6, k + 7, k + 1],
+        let quads = quads.map(|k| {
+            if reversed {
+                [k, k + 6, k + 7, k + 1]
+            } else {
+                [k, k + 1, k + 7, k + 6]
+            }
         });
         ((0..30).map(position).collect(), quads.collect())
     }
@@ -786,9 +791,10 @@ mod tests {
                 let both = vertex_normals(&mesh, source);
                 let expected = [&front_alone, &back_alone].map(|mesh| vertex_normals(mesh, source));
                 for quad in 0..40 {
-                    let (side, own) = match front_first {
-                        true => (quad / 20, quad % 20),
-                        false => (1 - quad % 2, quad / 2),
+                    let (side, own) = if front_first {
+                        (quad / 20, quad % 20)
+                    } else {
+                        (1 - quad % 2, quad / 2)
                     };
                     for k in 0..4 {
                         let (found, expected) =
@@ -896,9 +902,10 @@ mod tests {
                 let normals = vertex_normals(&mesh, source);
                 for (wall, polygon) in walls.iter().enumerate() {
                     let k = 4 * wall;
-                    let expected = match *polygon == out {
-                        true => face_normal(&mesh, wall),
-                        false => both.as_vec3(),
+                    let expected = if *polygon == out {
+                        face_normal(&mesh, wall)
+                    } else {
+                        both.as_vec3()
                     };
                     // Two unit normals, added in either order, and rounded to f32.
                     let off = (at(&normals, k) - expected).length();
@@ -948,9 +955,12 @@ mod tests {
         };
         let positions: Vec<Vec3> = (0..2 * count).map(border).collect();
         let quads: Vec<[u32; 4]> = (0..count)
-            .map(|k| match k + 1 == count {
-                false => [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2],
-                true => [2 * k, 2 * k + 1, 0, 1],
+            .map(|k| {
+                if k + 1 == count {
+                    [2 * k, 2 * k + 1, 0, 1]
+                } else {
+                    [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2]
+                }
             })
             .collect();
         let mesh = mesh_of(positions, &quads, Vec::new());
@@ -985,12 +995,11 @@ mod tests {
                 assert_eq!(at(&faceted, k), face_normal(&mesh, k / 4));
                 // Along the border each group has its own normal: the normal of its column of
                 // quads.
-                match position % 6 == 2 {
-                    true => {
-                        let off = (at(&two, k) - face_normal(&mesh, k / 4)).length();
-                        assert!(off <= 2.0 * f32::EPSILON);
-                    }
-                    false => assert_eq!(at(&two, k), at(&smooth, k)),
+                if position % 6 == 2 {
+                    let off = (at(&two, k) - face_normal(&mesh, k / 4)).length();
+                    assert!(off <= 2.0 * f32::EPSILON);
+                } else {
+                    assert_eq!(at(&two, k), at(&smooth, k));
                 }
             }
         }

@@ -292,9 +292,10 @@ impl<'a> SetUp<'a> {
     /// Returns the index of a polygon's uniforms.
     #[inline(always)]
     pub fn uniforms_of(&self, polygon: u32) -> UniformsIndex {
-        match self.is_by_polygon {
-            true => UniformsIndex(polygon),
-            false => UniformsIndex(self.frame.polygons()[polygon as usize].material),
+        if self.is_by_polygon {
+            UniformsIndex(polygon)
+        } else {
+            UniformsIndex(self.frame.polygons()[polygon as usize].material)
         }
     }
 
@@ -306,9 +307,10 @@ impl<'a> SetUp<'a> {
             (material as usize) < self.frame.lightings().len(),
             "a material and not a polygon"
         );
-        let before = match self.is_by_polygon {
-            true => self.frame.polygons().len() as u32,
-            false => 0,
+        let before = if self.is_by_polygon {
+            self.frame.polygons().len() as u32
+        } else {
+            0
         };
         UniformsIndex(before + material)
     }
@@ -338,9 +340,10 @@ impl<'a> SetUp<'a> {
         let ready = alone.filter(|_| has_one_material && !is_local && !reads_attributes);
         let item = |i: usize| {
             let vertex = i as u32;
-            let point = match is_local {
-                true => frame.position(vertex),
-                false => [0.0; 3],
+            let point = if is_local {
+                frame.position(vertex)
+            } else {
+                [0.0; 3]
             };
             // With a single material its index need not be read.
             let material = (!has_one_material).then(|| frame.material(vertex));
@@ -371,9 +374,10 @@ impl<'a> SetUp<'a> {
     /// Returns a vertex's attributes, or zeros if nothing reads them.
     #[inline(always)]
     fn attributes(&self, vertex: u32) -> [f32; 4] {
-        match self.reads_attributes() {
-            true => self.frame.attributes(vertex),
-            false => [0.0; 4],
+        if self.reads_attributes() {
+            self.frame.attributes(vertex)
+        } else {
+            [0.0; 4]
         }
     }
 
@@ -400,12 +404,11 @@ impl<'a> SetUp<'a> {
                 uniforms: self.uniforms_of(index as u32),
                 normal,
                 position: [0.0; 3],
-                attributes: match frame.is_coloured() {
-                    true => {
-                        let [r, g, b] = frame.mean(polygon).colour;
-                        [r, g, b, 1.0]
-                    }
-                    false => [0.0; 4],
+                attributes: if frame.is_coloured() {
+                    let [r, g, b] = frame.mean(polygon).colour;
+                    [r, g, b, 1.0]
+                } else {
+                    [0.0; 4]
                 },
             }
         };

@@ -338,9 +338,10 @@ impl<F: Format> BoxFilter<'_, F> {
         for (pixel, (sum, covered)) in row.zip(&mut self.sums) {
             if *covered > 0 {
                 let share = f64::from(*covered);
-                let below = match keeps_background {
-                    true => format.linear(*pixel).map(f64::from),
-                    false => [r, g, b, 0.0],
+                let below = if keeps_background {
+                    format.linear(*pixel).map(f64::from)
+                } else {
+                    [r, g, b, 0.0]
                 };
                 let rest = (all - share) * below[3];
                 let mean = |c: usize| match frame.alpha() {

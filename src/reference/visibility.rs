@@ -76,9 +76,10 @@ fn depth(frame: &Frame, weights: &VertexWeights) -> f64 {
         (DepthSource::Interpolated, _) => weights.sum(|v| vertex(v).depth),
         (DepthSource::PerSample, DepthRange::Perspective { near, far }) => {
             let w = near / weights.sum(|v| vertex(v).inv_w);
-            match has_levels {
-                true => perspective_z(near, far, w),
-                false => -1.0 / w,
+            if has_levels {
+                perspective_z(near, far, w)
+            } else {
+                -1.0 / w
             }
         }
         (DepthSource::PerSample, DepthRange::Orthographic { near: n, far: f }) => {
@@ -144,9 +145,12 @@ pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
     }
     // Between the planes, z is linear in the compared value, whatever the planes' distances are.
     let range = farthest - nearest;
-    let z = |depth: f64| match depth.is_finite() {
-        true => (depth - nearest) / range,
-        false => depth,
+    let z = |depth: f64| {
+        if depth.is_finite() {
+            (depth - nearest) / range
+        } else {
+            depth
+        }
     };
     Visibility {
         depth: visibility.depth.map(z),

@@ -49,9 +49,10 @@ impl Cut {
         let t = (da / (da - db)).clamp(0.0, 1.0);
         // a + (b − a) is not always b in floats. Returning b itself leaves a corner on the plane
         // where it is.
-        let mut position = match t < 1.0 {
-            true => a.position + (b.position - a.position) * t,
-            false => b.position,
+        let mut position = if t < 1.0 {
+            a.position + (b.position - a.position) * t
+        } else {
+            b.position
         };
         // Where the near plane is very near, rounding could put the corner behind the eye.
         if let Some(w) = plane.w {
@@ -67,9 +68,10 @@ impl Cut {
     /// has no place on the screen, and keeps its parameter in space.
     pub fn t_on_screen(&self) -> f64 {
         let (wa, wb) = (self.a.position.w, self.b.position.w);
-        match wa > 0.0 && wb > 0.0 {
-            true => (self.t * wb / ((1.0 - self.t) * wa + self.t * wb)).clamp(0.0, 1.0),
-            false => self.t,
+        if wa > 0.0 && wb > 0.0 {
+            (self.t * wb / ((1.0 - self.t) * wa + self.t * wb)).clamp(0.0, 1.0)
+        } else {
+            self.t
         }
     }
 }

@@ -109,9 +109,10 @@ impl Cutter<'_> {
             self.frame.stats.unprojected += 1;
             return Vec::new();
         }
-        match pieces.is_empty() {
-            true => self.frame.stats.outside += 1,
-            false => self.frame.stats.clipped += 1,
+        if pieces.is_empty() {
+            self.frame.stats.outside += 1;
+        } else {
+            self.frame.stats.clipped += 1;
         }
         pieces.retain(|piece| {
             self.is_drawn(doubled_area(

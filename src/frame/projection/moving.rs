@@ -193,9 +193,10 @@ impl Moving {
         model.transform = object.positions_to_world();
         let map = NormalMap::new(&object.transform);
         if map.mirrored != was_mirrored {
-            let half = match geometry.two_sided {
-                true => geometry.corners.len() / 2,
-                false => geometry.corners.len(),
+            let half = if geometry.two_sided {
+                geometry.corners.len() / 2
+            } else {
+                geometry.corners.len()
             };
             for side in geometry.corners.chunks_exact_mut(half.max(1)) {
                 reverse_corners(&object.mesh, &mut side[place.corners.clone()]);

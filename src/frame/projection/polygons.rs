@@ -183,10 +183,12 @@ impl Sight<'_> {
         stats.edge_on += count_of(whole & !(clockwise | counter_clockwise));
         // y points downward on the picture. A polygon that runs clockwise there has an area over 0,
         // and is seen from behind.
-        let back = match self.scene.two_sided {
-            true if self.table.turned.is_empty() => clockwise,
-            true => clockwise ^ bits_of(&self.table.turned, first),
-            false => 0,
+        let back = if !self.scene.two_sided {
+            0
+        } else if self.table.turned.is_empty() {
+            clockwise
+        } else {
+            clockwise ^ bits_of(&self.table.turned, first)
         };
         VisibilityWord {
             drawn: whole & (clockwise | counter_clockwise) & !culled,
@@ -323,9 +325,10 @@ impl Filling<'_> {
                 continue;
             }
             let (here, rest) = out.split_at_mut(word.drawn.count_ones() as usize);
-            match is_plain && word.drawn & word.back == 0 {
-                true => fill_plain(first, word.drawn, here),
-                false => self.fill_whole(first, word, here),
+            if is_plain && word.drawn & word.back == 0 {
+                fill_plain(first, word.drawn, here);
+            } else {
+                self.fill_whole(first, word, here);
             }
             out = rest;
         }

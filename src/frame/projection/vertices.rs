@@ -296,10 +296,7 @@ impl<'a> Placing<'a> {
             out[i] = ScreenVertex {
                 x: nearest((over::<PERSPECTIVE>(x[i], w[i]) * 0.5 + 0.5) * self.size[0]),
                 y: nearest((0.5 - over::<PERSPECTIVE>(y[i], w[i]) * 0.5) * self.size[1]),
-                depth: match PERSPECTIVE {
-                    true => -1.0 / w[i],
-                    false => z[i],
-                },
+                depth: if PERSPECTIVE { -1.0 / w[i] } else { z[i] },
                 inv_w: weights[i],
             };
         }

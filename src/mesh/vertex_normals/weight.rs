@@ -149,9 +149,10 @@ impl<'a> Weights<'a> {
             NormalWeight::Angle => self.sum_by(NormalWeight::Angle, fan),
             NormalWeight::Max => self.sum_by(NormalWeight::Max, fan),
         };
-        match sum.is_without_weight() {
-            true => self.sum_by(NormalWeight::Uniform, fan),
-            false => sum,
+        if sum.is_without_weight() {
+            self.sum_by(NormalWeight::Uniform, fan)
+        } else {
+            sum
         }
     }
 
@@ -205,9 +206,10 @@ fn of_triangle([a, b, c]: [DVec3; 3], normal: DVec3, weight: NormalWeight) -> [f
 /// least 0.7 long.
 fn corner_normal(cross: DVec3, sine: f64, polygon: DVec3) -> DVec3 {
     let part = 2.0 * sine;
-    let mixed = match part < 1.0 {
-        true => 2.0 * cross + (1.0 - part) * polygon,
-        false => cross,
+    let mixed = if part < 1.0 {
+        2.0 * cross + (1.0 - part) * polygon
+    } else {
+        cross
     };
     mixed / libm::sqrt(mixed.length_squared())
 }

@@ -405,14 +405,15 @@ fn prism(is_cut: bool) -> PolygonMesh {
     let mut polygons: Vec<Vec<u32>> = (0..6)
         .map(|k| vec![k, 6 + k, 6 + (k + 1) % 6, (k + 1) % 6])
         .collect();
-    match is_cut {
-        false => polygons.extend([vec![0, 1, 2, 3, 4, 5], vec![11, 10, 9, 8, 7, 6]]),
-        true => polygons.extend([
+    if is_cut {
+        polygons.extend([
             vec![0, 1, 2, 3],
             vec![0, 3, 4, 5],
             vec![9, 8, 7, 6],
             vec![11, 10, 9, 6],
-        ]),
+        ]);
+    } else {
+        polygons.extend([vec![0, 1, 2, 3, 4, 5], vec![11, 10, 9, 8, 7, 6]]);
     }
     mesh_of(&positions, &polygons)
 }

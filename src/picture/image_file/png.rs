@@ -158,26 +158,23 @@ fn pixels<const BYTES: usize, S: Copy + Default>(
             }
         }));
     };
-    match reader.info().interlaced {
-        true => {
-            // Interlaced rows come in seven passes, so that all of them are complete only at the
-            // end.
-            let size = width * height * channels * BYTES;
-            if !has_room::<u8>(size) {
-                return Err(DecodeError::NoMemory { width, height });
-            }
-            // Zeroed memory costs nothing until a row is written to it, so a truncated file costs
-            // little.
-            let mut rows = vec![0; size];
-            reader.next_frame(&mut rows).map_err(broken)?;
-            add(&rows);
+    if reader.info().interlaced {
+        // Interlaced rows come in seven passes, so that all of them are complete only at the
+        // end.
+        let size = width * height * channels * BYTES;
+        if !has_room::<u8>(size) {
+            return Err(DecodeError::NoMemory { width, height });
         }
-        false => {
-            let mut row = vec![0; width * channels * BYTES];
-            // The call after the last row checks the end of the data.
-            while reader.read_row(&mut row).map_err(broken)?.is_some() {
-                add(&row);
-            }
+        // Zeroed memory costs nothing until a row is written to it, so a truncated file costs
+        // little.
+        let mut rows = vec![0; size];
+        reader.next_frame(&mut rows).map_err(broken)?;
+        add(&rows);
+    } else {
+        let mut row = vec![0; width * channels * BYTES];
+        // The call after the last row checks the end of the data.
+        while reader.read_row(&mut row).map_err(broken)?.is_some() {
+            add(&row);
         }
     }
     let picture = Picture::from_pixels(width, height, pixels);
@@ -298,9 +295,10 @@ fn exif_orientation(data: &[u8]) -> Option<u32> {
     let integer = |at: usize, size: usize| {
         let bytes = data.get(at..at.checked_add(size)?)?;
         let append = |value: u32, byte: &u8| value << 8 | u32::from(*byte);
-        Some(match is_little {
-            true => bytes.iter().rev().fold(0, append),
-            false => bytes.iter().fold(0, append),
+        Some(if is_little {
+            bytes.iter().rev().fold(0, append)
+        } else {
+            bytes.iter().fold(0, append)
         })
     };
     let directory = integer(4, 4)? as usize;

@@ -165,10 +165,7 @@ pub(super) fn draw(
     let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
-    let kept = match is_scaled {
-        true => rows.pack(packed),
-        false => packed,
-    };
+    let kept = if is_scaled { rows.pack(packed) } else { packed };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|index, band, target| {
         BUFFERS.with_borrow_mut(|buffers| {
@@ -179,9 +176,10 @@ pub(super) fn draw(
         });
     });
     if let Cow::Owned(values) = rows.setup.varyings.values {
-        let (varyings, packed) = match rows.is_packed {
-            true => (kept, values),
-            false => (values, kept),
+        let (varyings, packed) = if rows.is_packed {
+            (kept, values)
+        } else {
+            (values, kept)
         };
         BUFFERS.with_borrow_mut(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
     }

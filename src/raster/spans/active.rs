@@ -267,9 +267,10 @@ impl<'a> ActiveEdges<'a> {
         let [top, bottom] = [edge.top, edge.bottom].map(|v| &vertices[v as usize]);
         let place = |v: &ScreenVertex| [v.x, v.y];
         let [t0, dt] = parameter([top, bottom], row);
-        let (varyings, slot) = match self.is_walked {
-            true => self.start_varyings(edge, [t0, dt]),
-            false => (Group::default(), 0),
+        let (varyings, slot) = if self.is_walked {
+            self.start_varyings(edge, [t0, dt])
+        } else {
+            (Group::default(), 0)
         };
         let from = self.depth.of_corner(top);
         let to = self.depth.of_corner(bottom);
@@ -376,9 +377,10 @@ impl<'a> ActiveEdges<'a> {
                 state.by.extend(&edge.varyings.step[..extras]);
                 return state;
             }
-            let more = match self.has_slots {
-                true => self.more.groups(edge.slot),
-                false => &[],
+            let more = if self.has_slots {
+                self.more.groups(edge.slot)
+            } else {
+                &[]
             };
             for group in core::iter::once(&edge.varyings).chain(more) {
                 state.at.extend(group.at);
@@ -507,12 +509,13 @@ impl<'a> ActiveEdges<'a> {
     /// `dt`; or both ends.
     #[inline(always)]
     fn between(&self, [left, right]: [Group; 2], parameter: [f32; 2]) -> Group {
-        match self.varyings.keeps_ends {
-            true => Group {
+        if self.varyings.keeps_ends {
+            Group {
                 at: left.at,
                 step: right.at,
-            },
-            false => Group::new([left.at, right.at], parameter),
+            }
+        } else {
+            Group::new([left.at, right.at], parameter)
         }
     }
 }

@@ -81,9 +81,10 @@ pub(crate) fn for_each_edge(
         let ends = [from, to].map(|v| (vertices[v as usize].y, v));
         from = to;
         // Compiles to selections, not to a jump: it is hard to predict which end is the upper one.
-        let [(y, top), (end, bottom)] = match ends[0].0 <= ends[1].0 {
-            true => ends,
-            false => [ends[1], ends[0]],
+        let [(y, top), (end, bottom)] = if ends[0].0 <= ends[1].0 {
+            ends
+        } else {
+            [ends[1], ends[0]]
         };
         let first = first_centre(y).max(rows.start);
         if first < first_centre(end).min(rows.end) {

@@ -182,9 +182,10 @@ impl Ball {
             nearest,
             direction: toward.normalize_or_zero(),
             // From inside the ball the place is seen in any direction.
-            angle: match far > self.radius {
-                true => libm::asin(self.radius / far),
-                false => core::f64::consts::PI,
+            angle: if far > self.radius {
+                libm::asin(self.radius / far)
+            } else {
+                core::f64::consts::PI
             },
         }
     }

@@ -58,9 +58,10 @@ impl Extent {
     /// Returns the largest distance between the normals of two corners: 2 sin θ, as all are within
     /// θ of one direction.
     pub fn apart(&self) -> f64 {
-        match self.cosine > 0.0 {
-            true => 2.0 * libm::sqrt(f64::max(0.0, 1.0 - self.cosine * self.cosine)),
-            false => 2.0,
+        if self.cosine > 0.0 {
+            2.0 * libm::sqrt(f64::max(0.0, 1.0 - self.cosine * self.cosine))
+        } else {
+            2.0
         }
     }
 

@@ -178,9 +178,10 @@ impl Extras {
         if self.albedo {
             extra.albedo = extra.albedo * w;
         }
-        match self.divides {
-            true => (scaled(pixel, w), extra),
-            false => (pixel, extra),
+        if self.divides {
+            (scaled(pixel, w), extra)
+        } else {
+            (pixel, extra)
         }
     }
 }
@@ -198,9 +199,10 @@ impl<F: Num> ExtraWalk<F> {
     #[inline(always)]
     pub fn next(&mut self) -> Extra<F> {
         let (point, weight) = self.place.next();
-        let albedo = match self.has_albedo {
-            true => self.albedo.next(),
-            false => self.albedo.at,
+        let albedo = if self.has_albedo {
+            self.albedo.next()
+        } else {
+            self.albedo.at
         };
         Extra {
             point,
@@ -465,10 +467,12 @@ fn light<C: Carries, F: Num>(
 /// Shades runs one pixel at a time, with the lecture's loop.
 fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = match is_general::<M>(job, uniforms) {
-            true if job.extras.albedo => shade_coloured_runs::<M>(job, uniforms, runs, out),
-            true => shade_runs::<M>(job, uniforms, [true, false], runs, out),
-            false => shade_fast_runs::<M>(job, uniforms, runs, out),
+        out = if !is_general::<M>(job, uniforms) {
+            shade_fast_runs::<M>(job, uniforms, runs, out)
+        } else if job.extras.albedo {
+            shade_coloured_runs::<M>(job, uniforms, runs, out)
+        } else {
+            shade_runs::<M>(job, uniforms, [true, false], runs, out)
         };
     }
 }
@@ -609,9 +613,10 @@ impl SimdKernels {
                 ShadingRate::Pixel => None,
                 _ => Some(vertex_blocks::<M, T>),
             },
-            walk: match may_walk_along_runs::<M>() {
-                true => Some(walk::<M, T>),
-                false => None,
+            walk: if may_walk_along_runs::<M>() {
+                Some(walk::<M, T>)
+            } else {
+                None
             },
             shade: shade::<M, T, S>,
         }
@@ -625,11 +630,10 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
     vectorize(
         simd,
         #[inline(always)]
-        || match job.uniforms.model.is_fast && !M::NEEDS.general_only {
-            true => {
+        || {
+            if job.uniforms.model.is_fast && !M::NEEDS.general_only {
                 light::<M::Carries, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into())
-            }
-            false => {
+            } else {
                 light::<M::Carries, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into())
             }
         },
@@ -751,12 +755,13 @@ fn shade_blocks<M: Shader, S: Token>(
     let (simd, lights) = (S::get(), stored.lights.len());
     let extras = job.extras.known(general, coloured);
     let method = M::new(job.parameters, &stored.model);
-    // A constant unless the method's parameters decide, so only one of the two arms below is
+    // A constant unless the method's parameters decide, so only one of the two branches below is
     // compiled.
     let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();
-    let planes = match is_walked {
-        true => count::<Pixel<M, f32>>(lights),
-        false => count::<Varying<M, f32>>(lights),
+    let planes = if is_walked {
+        count::<Pixel<M, f32>>(lights)
+    } else {
+        count::<Varying<M, f32>>(lights)
     };
     // Equals the engine's layout, but with counts that are known at compile time: the offsets of
     // all loads below become constants.

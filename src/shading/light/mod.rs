@@ -522,13 +522,14 @@ impl<'a, F: Num> LightAt<'a, F> {
     /// Returns ambient or diffuse light times the vertex colour, if the material asks for it.
     #[inline(always)]
     pub(crate) fn times_albedo(&self, light: Vec3<F>) -> Vec3<F> {
-        match self.general && self.has_albedo {
-            true => vec3([
+        if self.general && self.has_albedo {
+            vec3([
                 light.x * self.albedo.x,
                 light.y * self.albedo.y,
                 light.z * self.albedo.z,
-            ]),
-            false => light,
+            ])
+        } else {
+            light
         }
     }
 
@@ -762,9 +763,10 @@ impl<'a, F: Num> LightAt<'a, F> {
     /// material asks for it.
     #[inline(always)]
     fn plus_diffuse(&self, colour: Vec3<F>, factor: F, light: &SeenLight<'a, F>) -> Vec3<F> {
-        match self.general && self.has_albedo {
-            true => colour + self.times_albedo(light.light.diffuse.broadcast(factor) * factor),
-            false => colour.plus(factor, light.light.diffuse),
+        if self.general && self.has_albedo {
+            colour + self.times_albedo(light.light.diffuse.broadcast(factor) * factor)
+        } else {
+            colour.plus(factor, light.light.diffuse)
         }
     }
 

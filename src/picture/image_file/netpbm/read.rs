@@ -441,9 +441,10 @@ impl Reader<'_> {
             let expected = "expected a negative or a positive number";
             return Err(self.broken(format!("the scale tells no order of bytes: {expected}")));
         }
-        let float = match scale < 0.0 {
-            true => f32::from_le_bytes,
-            false => f32::from_be_bytes,
+        let float = if scale < 0.0 {
+            f32::from_le_bytes
+        } else {
+            f32::from_be_bytes
         };
         let mut pixels = reserved(width, height)?;
         let mut bytes = Vec::new();

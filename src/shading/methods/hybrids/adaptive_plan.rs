@@ -393,13 +393,15 @@ impl Illumination {
             };
             if shines {
                 let l_v = light.l_v;
-                let of_cosine = match is_halfway {
-                    true => 1.0,
-                    false => 2.1 * f32::max(1.0 + l_v, -l_v),
+                let of_cosine = if is_halfway {
+                    1.0
+                } else {
+                    2.1 * f32::max(1.0 + l_v, -l_v)
                 };
-                all.gain += match n >= 1.0 {
-                    true => k_s * n * (1.0 + room / k_s) * of_cosine,
-                    false => f32::INFINITY, // infinitely steep at 0
+                all.gain += if n >= 1.0 {
+                    k_s * n * (1.0 + room / k_s) * of_cosine
+                } else {
+                    f32::INFINITY // infinitely steep at 0
                 };
             }
             all.in_front |= u64::from(!is_crossing) << i;

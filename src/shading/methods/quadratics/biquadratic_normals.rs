@@ -39,9 +39,10 @@ pub struct BiquadraticNormals;
 fn midway<R: Real>([n1, n2]: [Vec3<R>; 2], [p1, p2]: [Vec3<R>; 2]) -> Vec3<R> {
     let (sum, edge) = (n1 + n2, p2 - p1);
     let square = edge.dot(edge);
-    match square.value() > 0.0 {
-        true => (sum - edge * (edge.dot(sum) * 2.0 / square)).unit(),
-        false => sum.unit(), // a frame without positions
+    if square.value() > 0.0 {
+        (sum - edge * (edge.dot(sum) * 2.0 / square)).unit()
+    } else {
+        sum.unit() // a frame without positions
     }
 }
 

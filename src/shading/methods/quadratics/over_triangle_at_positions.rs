@@ -132,9 +132,10 @@ impl Triangle {
             Falloff::Inverse => most / length,
             _ => most / length * (most / length),
         };
-        match length > 0.0 {
-            true => [factor * change * change * change, strength],
-            false => [f32::INFINITY; 2],
+        if length > 0.0 {
+            [factor * change * change * change, strength]
+        } else {
+            [f32::INFINITY; 2]
         }
     }
 
