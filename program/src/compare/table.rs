@@ -68,9 +68,12 @@ impl Table {
 
     /// Returns the table as comma-separated values (RFC 4180).
     pub fn csv(&self) -> String {
-        let cell = |cell: &String| match cell.contains(['"', ',', '\n', '\r']) {
-            true => format!("\"{}\"", cell.replace('"', "\"\"")),
-            false => cell.clone(),
+        let cell = |cell: &String| {
+            if cell.contains(['"', ',', '\n', '\r']) {
+                format!("\"{}\"", cell.replace('"', "\"\""))
+            } else {
+                cell.clone()
+            }
         };
         let line = |cells: &Vec<String>| cells.iter().map(cell).collect::<Vec<_>>().join(",");
         self.lines().map(|cells| line(cells) + "\r\n").collect()
@@ -92,9 +95,12 @@ pub fn aligned(lines: &[impl AsRef<[String]>], left: &[usize]) -> String {
     let mut text = String::new();
     for line in lines {
         let cells = line.as_ref().iter().zip(&widths).enumerate();
-        let cells = cells.map(|(column, (cell, width))| match left.contains(&column) {
-            true => format!("{cell:width$}"),
-            false => format!("{cell:>width$}"),
+        let cells = cells.map(|(column, (cell, width))| {
+            if left.contains(&column) {
+                format!("{cell:width$}")
+            } else {
+                format!("{cell:>width$}")
+            }
         });
         text += cells.collect::<Vec<_>>().join("  ").trim_end();
         text.push('\n');

@@ -100,9 +100,12 @@ impl<'a> Drawer<'a> {
             levels.scale = self.stretched(&levels, light, hits);
         }
         let all = light.iter().enumerate();
-        let of = |(i, colour): (usize, &DVec3)| match hits.is_covered(i) {
-            true => levels.of(*colour),
-            false => self.background,
+        let of = |(i, colour): (usize, &DVec3)| {
+            if hits.is_covered(i) {
+                levels.of(*colour)
+            } else {
+                self.background
+            }
         };
         all.map(of).collect()
     }
@@ -119,12 +122,14 @@ impl<'a> Drawer<'a> {
             }
         }
         let most = light.iter().map(|c| c.max_element()).fold(0.0, f64::max);
-        match most > 0.0 {
+        if most <= 0.0 {
+            1.0
+        } else if own > 0.0 {
             // The picture's brightest pixel is brighter than the brightest sample, but not twice as
             // bright.
-            true if own > 0.0 => (both / own).clamp(0.5 / most, 1.02 / most),
-            true => 1.0 / most,
-            false => 1.0,
+            (both / own).clamp(0.5 / most, 1.02 / most)
+        } else {
+            1.0 / most
         }
     }
 

@@ -127,11 +127,12 @@ impl Geometry {
         // only ever stretched.
         let least = scale[0].min(scale[1]).min(1.0);
         half /= least;
-        let projection = match is_perspective {
-            true => Projection::Perspective {
+        let projection = if is_perspective {
+            Projection::Perspective {
                 fovy: 2.0 * libm::atan(half).to_degrees(),
-            },
-            false => Projection::Orthographic { half_height: half },
+            }
+        } else {
+            Projection::Orthographic { half_height: half }
         };
         (half.is_finite() && half > 0.0).then_some(Extent {
             projection,

@@ -228,10 +228,14 @@ impl<'a> Weights<'a> {
         };
         let vertices = self.frame.vertices();
         let is_weighted = self.frame.interpolation() == Interpolation::Perspective;
-        let factor = |v: u32| match (self.is_times_w, is_weighted) {
-            (true, _) => 1.0 / vertices[v as usize].inv_w,
-            (false, true) => vertices[v as usize].inv_w,
-            (false, false) => 1.0,
+        let factor = |v: u32| {
+            if self.is_times_w {
+                1.0 / vertices[v as usize].inv_w
+            } else if is_weighted {
+                vertices[v as usize].inv_w
+            } else {
+                1.0
+            }
         };
         let all = self.assigned(self.frame.corners(polygon), weights.all());
         let all = all.map(|(v, weight)| (v, weight * factor(v)));

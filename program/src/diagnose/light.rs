@@ -70,12 +70,12 @@ impl Illumination {
         let camera = &scene.camera;
         let count = scene.lights.len();
         let is_local = scene.local_viewer != (switches.viewer == Viewer::Other);
-        let viewer = match (switches.viewer, is_local) {
-            (Viewer::EyeAsDirection, _) => Place::Infinite(camera.eye.normalize_or_zero()),
-            (Viewer::AlongZ, _) => Place::Infinite(DVec3::Z),
-            (Viewer::AtOrigin, _) => Place::Local(-origin),
-            (_, true) => Place::Local(camera.eye - origin),
-            (_, false) => Place::Infinite(camera.view()),
+        let viewer = match switches.viewer {
+            Viewer::EyeAsDirection => Place::Infinite(camera.eye.normalize_or_zero()),
+            Viewer::AlongZ => Place::Infinite(DVec3::Z),
+            Viewer::AtOrigin => Place::Local(-origin),
+            _ if is_local => Place::Local(camera.eye - origin),
+            _ => Place::Infinite(camera.view()),
         };
         let (model, exponent) = highlight_model(scene, &switches);
         Illumination {

@@ -414,9 +414,10 @@ fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
             .as_ref()
             .map_or(0.0, |reference| outline(target, reference)),
         cracks,
-        verdict: match is_empty(target, reference.as_ref()) {
-            true => Verdict::Empty,
-            false => findings.verdict,
+        verdict: if is_empty(target, reference.as_ref()) {
+            Verdict::Empty
+        } else {
+            findings.verdict
         },
         reference: search.reference,
         cut: search.base.geometry.cut.name(),

@@ -168,10 +168,12 @@ fn curve(content: &mut FigureContent) -> Result {
         "preserved | depth half-way to the far plane: how far from the middle of the range, which is 2 long",
         (moved, "", true),
         Agreement::if_holds(moved < 1e-3),
-        match (moved < 1e-3, is_ordered) {
-            (true, _) => "Depth is preserved.",
-            (_, true) => "Depth preserves the order of distances and nothing else (\"preserved\", L5).",
-            (_, false) => "Depth does not even preserve the order.",
+        if moved < 1e-3 {
+            "Depth is preserved."
+        } else if is_ordered {
+            "Depth preserves the order of distances and nothing else (\"preserved\", L5)."
+        } else {
+            "Depth does not even preserve the order."
         },
     );
     Ok(())

@@ -160,18 +160,16 @@ fn concludes(content: &mut FigureContent, (key, name): (&str, &str), off: f64, l
     content.adds(
         &format!("{key} | normals of a cube that is cut, {name}: largest angle from its diagonals"),
         (off, "degrees", true),
-        match moves {
-            true => "The diagonals move the normals: the same solid is lit differently.",
-            false => "Here the diagonals do not matter.",
+        if moves {
+            "The diagonals move the normals: the same solid is lit differently."
+        } else {
+            "Here the diagonals do not matter."
         },
     );
     content.adds(
         &format!("{key}-levels | picture of a cube that is cut, {name}: largest difference from six squares"),
         (levels, "levels", true),
-        match levels > 0.5 {
-            true => "You can see it.",
-            false => "You cannot see it.",
-        },
+        if levels > 0.5 { "You can see it." } else { "You cannot see it." },
     );
 }
 

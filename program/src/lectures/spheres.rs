@@ -234,9 +234,10 @@ impl Lit {
 
     /// Adds the findings at the highlight, with these keys.
     fn conclude(&self, content: &mut FigureContent, [gouraud, fast]: [&str; 2]) {
-        let agreement = match self.dark > ALIKE {
-            true => Agreement::Confirms,
-            false => Agreement::Adds,
+        let agreement = if self.dark > ALIKE {
+            Agreement::Confirms
+        } else {
+            Agreement::Adds
         };
         content.found(
             &format!("{gouraud} | Gouraud where the highlight is brightest: too dark by"),
@@ -244,9 +245,10 @@ impl Lit {
             agreement,
             &self.says(),
         );
-        let says = match self.off <= 0.5 {
-            true => "The difference is invisible.",
-            false => "Here normals turn far from one end of a scan line to the other.",
+        let says = if self.off <= 0.5 {
+            "The difference is invisible."
+        } else {
+            "Here normals turn far from one end of a scan line to the other."
         };
         content.adds(
             &format!("{fast} | fast Phong at the same place: off by"),

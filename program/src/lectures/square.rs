@@ -217,9 +217,10 @@ fn depends_not(content: &mut FigureContent, method: &str, degrees: f64, change: 
         ),
         (change, "grey levels", true),
         Agreement::if_holds(agrees),
-        match agrees {
-            true => "Triangles do not depend on the orientation: only rounding is left.",
-            false => "Triangles depend on the orientation, too: great circles are not barycentric.",
+        if agrees {
+            "Triangles do not depend on the orientation: only rounding is left."
+        } else {
+            "Triangles depend on the orientation, too: great circles are not barycentric."
         },
     );
 }

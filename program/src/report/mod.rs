@@ -50,11 +50,12 @@ fn packed_traces(document: &Document) -> String {
         _ => None,
     });
     let traces: BTreeMap<&str, _> = traces.collect();
-    match traces.is_empty() {
-        true => String::new(),
+    if traces.is_empty() {
+        String::new()
+    } else {
         // Not through a `Value`: its floats have 64 bits and would be written with digits that the
         // engine's 32 do not have.
-        false => live::packed(&serde_json::to_vec(&traces).expect("numbers and texts")),
+        live::packed(&serde_json::to_vec(&traces).expect("numbers and texts"))
     }
 }
 
@@ -174,9 +175,10 @@ impl Report {
     /// if all can.
     fn limits(&self) -> String {
         let mut all = [&self.data].into_iter().chain(&self.beside);
-        match all.any(document::is_older) {
-            true => alloc::format!(" Of documents of schema {OLDER}: {NOT_COMPARABLE}."),
-            false => String::new(),
+        if all.any(document::is_older) {
+            alloc::format!(" Of documents of schema {OLDER}: {NOT_COMPARABLE}.")
+        } else {
+            String::new()
         }
     }
 

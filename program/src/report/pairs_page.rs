@@ -106,13 +106,15 @@ impl ShownPair {
             .map(|at| at.map(|place| place / self.step.max(1)));
         let data = json!({ "size": self.size, "largest": self.largest, "worst": worst });
         let data = html_text(&data.to_string());
-        let opens = match self.map.is_empty() {
-            true => "",
-            false => "<button class=\"opens\">Open</button>",
+        let opens = if self.map.is_empty() {
+            ""
+        } else {
+            "<button class=\"opens\">Open</button>"
         };
-        let chip = match self.fails {
-            true => "contradicts",
-            false => "confirms",
+        let chip = if self.fails {
+            "contradicts"
+        } else {
+            "confirms"
         };
         let hints = self.notes.iter().chain([&self.region_text]);
         let hints = hints.filter(|text| !text.is_empty());

@@ -189,9 +189,12 @@ fn growth(scaling: &Value) -> Table {
         let costs = ["vertex", "triangle", "span", "pixel", "background"];
         let misfit = number(curve, "/costs/worst").map(f64::abs);
         let fits = misfit.is_some_and(|misfit| misfit <= 0.5);
-        row.extend(costs.map(|of| match fits {
-            true => cell(curve, &format!("/costs/{of}_ns"), significant),
-            false => NONE.into(),
+        row.extend(costs.map(|of| {
+            if fits {
+                cell(curve, &format!("/costs/{of}_ns"), significant)
+            } else {
+                NONE.into()
+            }
         }));
         row.push(misfit.map_or(NONE.into(), |misfit| format!("{:.0}", 100.0 * misfit)));
         table.rows.push(row);

@@ -242,9 +242,10 @@ impl Viewer {
             let aspect = f64::from(width) / f64::from(height);
             prepared.set_size(width, height);
             prepared.set_camera(self.orbit.camera(start, aspect));
-            prepared.set_lights(match self.carries_lights {
-                true => self.orbit.carry(start, lights),
-                false => lights.clone(),
+            prepared.set_lights(if self.carries_lights {
+                self.orbit.carry(start, lights)
+            } else {
+                lights.clone()
             });
             self.generation += 1;
             self.is_stale = false;

@@ -88,9 +88,10 @@ fn folders(groups: &str, mounts: &str) -> Vec<Group> {
         // A line is `4:memory:/a/b`, or `0::/a/b` in the unified hierarchy.
         let own = groups.lines().find_map(|line| {
             let (controllers, path) = line.split_once(':')?.1.split_once(':')?;
-            let is_own = match is_unified {
-                true => controllers.is_empty(),
-                false => controllers.split(',').any(|name| name == "memory"),
+            let is_own = if is_unified {
+                controllers.is_empty()
+            } else {
+                controllers.split(',').any(|name| name == "memory")
             };
             is_own.then_some(path)
         });
@@ -135,9 +136,10 @@ impl Group {
         };
         // The kernel counts cached pages of files as used, but frees the inactive ones on demand.
         let reclaimable = || {
-            let key = match self.is_unified {
-                true => "inactive_file ",
-                false => "total_inactive_file ",
+            let key = if self.is_unified {
+                "inactive_file "
+            } else {
+                "total_inactive_file "
             };
             let stat = text(&self.folder.join("memory.stat"))?;
             let pages = stat.lines().find_map(|line| line.strip_prefix(key))?;
