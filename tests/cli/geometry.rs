@@ -200,12 +200,13 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
     let mut side = 0;
     let groups: String = without_normals()
         .lines()
-        .map(|line| match line.starts_with("f ") {
-            true => {
+        .map(|line| {
+            if line.starts_with("f ") {
                 side += 1;
                 format!("s {side}\n{line}\n")
+            } else {
+                format!("{line}\n")
             }
-            false => format!("{line}\n"),
         })
         .collect();
     // Only the first side lacks normals.

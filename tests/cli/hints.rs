@@ -357,9 +357,12 @@ fn up_turns_view_and_light_of_a_mesh_and_is_printed() {
     let written = |turned: bool| {
         let positions = mesh.positions().iter();
         let mut obj: String = positions
-            .map(|p| match turned {
-                false => format!("v {} {} {}\n", p.x, p.y, p.z),
-                true => format!("v {} {} {}\n", p.x, -p.z, p.y),
+            .map(|p| {
+                if turned {
+                    format!("v {} {} {}\n", p.x, -p.z, p.y)
+                } else {
+                    format!("v {} {} {}\n", p.x, p.y, p.z)
+                }
             })
             .collect();
         for polygon in mesh.polygons() {

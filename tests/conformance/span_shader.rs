@@ -166,9 +166,10 @@ fn span_colours_equal_the_engines() {
                         // If lights are at infinity, both vertices of a side are equal, so its edge
                         // steps by 0. On great circles normals are rounded.
                         let is_circle = variant.info().name.starts_with("slerp");
-                        let most = match rectangle.lighting.is_local() || is_circle {
-                            true => variant.bound(&frame) as f32,
-                            false => 0.0,
+                        let most = if rectangle.lighting.is_local() || is_circle {
+                            variant.bound(&frame) as f32
+                        } else {
+                            0.0
                         };
                         assert!(off <= most, "{who}: {off:e} at {i}");
                     }

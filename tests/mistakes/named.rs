@@ -330,18 +330,18 @@ fn single(
         _ => diagnosis.reference.beyond > 0.05,
     };
     let line = || format!("{name} {}: {}", mistake.id, said(diagnosis));
-    match (names.is_empty(), seen) {
+    if !seen {
         // This picture does not show the mistake, or noise hides it.
-        (_, false) => found.add(
+        found.add(
             "unseen, said to be correct",
             is_correct || is_named(diagnosis, names),
             line,
-        ),
-        (false, true) => found.add(kind, is_named(diagnosis, names), line),
-        (true, true) => {
-            let is_told = !matches!(diagnosis.verdict, Verdict::One);
-            found.add("not in the table, and no other named", is_told, line);
-        }
+        );
+    } else if names.is_empty() {
+        let is_told = !matches!(diagnosis.verdict, Verdict::One);
+        found.add("not in the table, and no other named", is_told, line);
+    } else {
+        found.add(kind, is_named(diagnosis, names), line);
     }
 }
 
