@@ -130,9 +130,11 @@ fn uncertainty(frame: &Frame, polygon: &Polygon, rule: SampleDepth) -> f32 {
 /// whichever way they run.
 fn are_equal(frame: &Frame, polygons: [u32; 2]) -> bool {
     let [a, b] = polygons.map(|index| {
-        let corners = frame.corners(&frame.polygons()[index as usize]).iter();
-        let mut corners: Vec<&ScreenVertex> =
-            corners.map(|&v| &frame.vertices()[v as usize]).collect();
+        let mut corners: Vec<&ScreenVertex> = frame
+            .corners(&frame.polygons()[index as usize])
+            .iter()
+            .map(|&v| &frame.vertices()[v as usize])
+            .collect();
         corners.sort_by(|p, q| p.compare(q));
         corners
     });
@@ -156,17 +158,19 @@ mod tests {
         let material = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
         let material = builder.lighting(material);
         for (index, corners) in (0..).zip(polygons) {
-            let corners = corners.iter().map(|&[x, y, depth]| {
-                builder.vertex(Vertex {
-                    x: SubPixel::from_num(x),
-                    y: SubPixel::from_num(y),
-                    depth,
-                    inv_w: 1.0,
-                    normal: [0.0, 0.0, 1.0],
-                    material,
+            let corners: Vec<u32> = corners
+                .iter()
+                .map(|&[x, y, depth]| {
+                    builder.vertex(Vertex {
+                        x: SubPixel::from_num(x),
+                        y: SubPixel::from_num(y),
+                        depth,
+                        inv_w: 1.0,
+                        normal: [0.0, 0.0, 1.0],
+                        material,
+                    })
                 })
-            });
-            let corners: Vec<u32> = corners.collect();
+                .collect();
             builder.polygon(&corners, [0.0, 0.0, 1.0], index);
         }
         depth_ties(&builder.finish().expect("corners inside the guard band"))

@@ -182,7 +182,7 @@ impl Variant {
             let is_levels = surface.format.is_levels();
             return super::rows::draw(self, frame, level, is_levels, &mut |height, draw| {
                 if let Some(rows) = rows.take() {
-                    draw_bands(surface, (height, 0), rows, draw);
+                    draw_bands(surface, height, 0, rows, draw);
                 }
             });
         }

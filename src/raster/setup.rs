@@ -277,6 +277,7 @@ impl<'a> SetUp<'a> {
     fn collect_whole(&self, corner: u32, whole: &mut Vec<Vec3<f32>>) {
         match self.frame.clip_corner(corner) {
             None => whole.push(vec3(self.frame.normal(corner))),
+            // An end of the edge may itself be a corner that another plane made.
             Some(cut) => {
                 self.collect_whole(cut.a, whole);
                 self.collect_whole(cut.b, whole);
@@ -356,7 +357,7 @@ impl<'a> SetUp<'a> {
         };
         let mut values = self.lit(memory, frame.vertices().len(), ready.unwrap_or(&[]), &item);
         let great_circle = self.varyings.great_circles;
-        finish(frame, &mut values, (count, great_circle), is_weighted);
+        finish(frame, &mut values, count, great_circle, is_weighted);
         (values.into(), Per::Vertex)
     }
 
@@ -501,6 +502,8 @@ impl<'a> SetUp<'a> {
                     }
                     next = item(first + k);
                 }
+                // The padding holds vertices of earlier batches, or zeros. What they are lit to is
+                // not copied.
                 let padded = k.next_multiple_of(BLOCK);
                 let to = &mut lit[..padded * own];
                 let vectors = [&normals[..padded], &points[..padded]];
@@ -544,6 +547,7 @@ fn by_polygon(frame: &Frame, materials: Vec<Uniforms>) -> Vec<Uniforms> {
     let Some(first) = materials.first() else {
         return materials;
     };
+    // Every element is overwritten below.
     let mut all = vec![first.bare(); polygons.len()];
     for_each_chunk(&mut all[..], CHUNK, &|first, part: &mut [Uniforms]| {
         for (polygon, to) in polygons[first..].iter().zip(part) {
@@ -601,12 +605,13 @@ fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &m
     }
 }
 
-/// Computes the `values` of the corners that clipping made, and multiplies all values by the
-/// weights of perspective if `is_weighted`.
+/// Computes the `values` of the corners that clipping made, `count` of them per vertex, and
+/// multiplies all values by the weights of perspective if `is_weighted`.
 pub(super) fn finish(
     frame: &Frame,
     values: &mut [f32],
-    (count, great_circle): (usize, bool),
+    count: usize,
+    great_circle: bool,
     is_weighted: bool,
 ) {
     for corner in frame.clip_corners() {

@@ -180,6 +180,7 @@ impl<S: Simd> Side<S> {
                 rest: m.int(0),
                 step_pixels: m.int(0),
                 step_rest: m.int(0),
+                // Not 0, because `offset` divides by it.
                 denominator: m.int(1),
             },
             at: [m.splat(0.0); MOST],
@@ -330,7 +331,8 @@ impl QuadBatch {
     pub fn read<const N: usize>(
         &mut self,
         setup: &SetUp<'_>,
-        (cell, test): (CellLayout, SampleDepth),
+        cell: CellLayout,
+        test: SampleDepth,
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
@@ -364,7 +366,8 @@ impl QuadBatch {
         &mut self,
         m: Lanes<S>,
         bounded: &Bounded<S>,
-        (width, rows): (usize, &Range<usize>),
+        width: usize,
+        rows: &Range<usize>,
         count: ValueCount<N>,
     ) {
         for edge in 0..CORNERS {
@@ -466,7 +469,8 @@ impl QuadBatch {
             };
             draw_run(
                 m,
-                (place, start as usize..end as usize),
+                place,
+                start as usize..end as usize,
                 writer,
                 #[inline(always)]
                 |i, x| m.ramp(run.at[i][k], x as i32, run.step[i][k]),
@@ -510,6 +514,7 @@ fn parameter<S: Simd>(
     let whole = wide(m, right.pixel - left.pixel);
     let before = wide(m, start - left.pixel);
     let one = f64x4::splat(m.0, 1.0);
+    // Lanes without a run may divide by 0. Their pixel range is empty, so nothing reads the result.
     let dt = [
         one / (whole[0] + (l[0] - r[0])),
         one / (whole[1] + (l[1] - r[1])),
@@ -531,6 +536,7 @@ fn wide<S: Simd>(m: Lanes<S>, x: i32x8<S>) -> [f64x4<S>; 2] {
 /// Returns first values and growth, as [`ramp`](crate::shading::ramp) computes them.
 #[inline(always)]
 fn ramp<S: Simd>(a: f32x8<S>, b: f32x8<S>, t0: f32x8<S>, dt: f32x8<S>) -> [f32x8<S>; 2] {
+    // Product and sum are rounded separately, as in the span engine: the bits must be equal.
     let difference = b - a;
     [a + difference * t0, difference * dt]
 }

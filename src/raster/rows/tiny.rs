@@ -37,7 +37,7 @@ impl Fragments {
     pub fn find<S: Simd>(&mut self, m: Lanes<S>, batch: &Batch, top: usize, tile: &Tile) -> u32 {
         let (mut drawn, mut first) = (0, 0);
         while first < batch.count {
-            drawn |= self.find_eight(m, batch, (first, top), tile) << first;
+            drawn |= self.find_eight(m, batch, first, top, tile) << first;
             first += BLOCK;
         }
         drawn
@@ -54,7 +54,8 @@ impl Fragments {
         &mut self,
         m: Lanes<S>,
         batch: &Batch,
-        (first, top): (usize, usize),
+        first: usize,
+        top: usize,
         tile: &Tile,
     ) -> u32 {
         let one = m.int(1);

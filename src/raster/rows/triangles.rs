@@ -297,6 +297,7 @@ impl Batch {
         let turned = area.less(zero);
         // Negates the lanes where `turned` is −1: −x = !x + 1.
         let area = (area ^ turned) - turned;
+        // Infinite where the area is 0. These lanes are not drawn.
         let over_area = m.splat(1.0) / m.float(area);
         let drawn = exact & zero.less(area);
         let tiny = drawn
@@ -322,6 +323,7 @@ impl Batch {
             m.store_int(columns[end], &mut self.columns[end][first..]);
             m.store_int(rows[end], &mut self.rows[end][first..]);
         }
+        // Clears the low three bits: the first column of the block.
         let block = columns[0] & m.int(-(BLOCK as i32));
         let bounded = Bounded {
             x,
@@ -389,7 +391,8 @@ impl Batch {
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        (cell, test): (CellLayout, SampleDepth),
+        cell: CellLayout,
+        test: SampleDepth,
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
