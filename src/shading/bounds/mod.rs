@@ -139,9 +139,11 @@ impl Variant {
     /// ([`super::Info::approximation`]) and by its power function ([`Power::error`]).
     pub fn approximation(&self, frame: &Frame) -> f64 {
         let spread = Spread::of(frame);
-        let materials = frame.lightings().iter().zip(&spread.materials);
         let albedo = largest_colour(frame);
-        let materials: Vec<MaterialBound<'_>> = materials
+        let materials: Vec<MaterialBound<'_>> = frame
+            .lightings()
+            .iter()
+            .zip(&spread.materials)
             .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let info = self.row().on(frame).info;
@@ -170,9 +172,11 @@ impl Variant {
     /// Returns [`Variant::bound`] of each polygon of `frame`, in order.
     pub fn polygon_bounds<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = f64> + 'a {
         let spread = Spread::of(frame);
-        let materials = frame.lightings().iter().zip(&spread.materials);
         let albedo = largest_colour(frame);
-        let materials: Vec<MaterialBound<'a>> = materials
+        let materials: Vec<MaterialBound<'a>> = frame
+            .lightings()
+            .iter()
+            .zip(&spread.materials)
             .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let polygons = frame.polygons().iter().enumerate();

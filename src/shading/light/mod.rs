@@ -142,18 +142,21 @@ pub(crate) struct LightUniforms {
 impl Uniforms {
     /// Prepares the light on a material. Colours are multiplied by `scale`.
     pub fn new(lighting: &Lighting, power: Power, scale: f32) -> Uniforms {
-        let lights = lighting.lights.iter().map(|light| LightUniforms {
-            place: light.place.map(vec3),
-            falloff: match light.place {
-                Place::Local(_) => light.falloff,
-                Place::Infinite(_) => Falloff::None,
-            },
-            diffuse: vec3(light.diffuse) * scale,
-            specular: vec3(light.specular) * scale,
-            l_v: 0.0,
-            half: 0.0,
-        });
-        let lights: Vec<LightUniforms> = lights.collect();
+        let lights: Vec<LightUniforms> = lighting
+            .lights
+            .iter()
+            .map(|light| LightUniforms {
+                place: light.place.map(vec3),
+                falloff: match light.place {
+                    Place::Local(_) => light.falloff,
+                    Place::Infinite(_) => Falloff::None,
+                },
+                diffuse: vec3(light.diffuse) * scale,
+                specular: vec3(light.specular) * scale,
+                l_v: 0.0,
+                half: 0.0,
+            })
+            .collect();
         let model = LightModel {
             scale,
             ambient: vec3(lighting.ambient) * scale,

@@ -61,8 +61,9 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
         let from = midway(n, p) - (n[0] + n[1]) * 0.5;
         libm::sqrt(from.dot(from).into())
     };
-    let most = [apart(0, 1), apart(1, 2), apart(2, 0)];
-    let most = most.into_iter().fold(0.0, f64::max);
+    let most = [apart(0, 1), apart(1, 2), apart(2, 0)]
+        .into_iter()
+        .fold(0.0, f64::max);
     let length = f64::from(least_length(normals.map(|n| (n, 1.0))));
     if width > WIDEST {
         return Approximation::NONE;

@@ -173,7 +173,8 @@ type Light = (Place<Vec3<f32>>, Falloff);
 pub(crate) fn approximation(
     frame: &Frame,
     polygon: &Polygon,
-    (across, share): (Across, f64),
+    across: Across,
+    share: f64,
 ) -> Approximation {
     let &[a, b, c] = frame.corners(polygon) else {
         return Approximation::NONE;

@@ -100,7 +100,7 @@ fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Appr
         0.0
     };
     let mut error = if frame.is_local() {
-        positional::approximation(frame, polygon, (longest, SHARE))
+        positional::approximation(frame, polygon, longest, SHARE)
     } else {
         Approximation {
             cosine: 0.102 * libm::pow(width(corners).into(), 3.0),
