@@ -145,11 +145,14 @@ fn closing(mesh: &PolygonMesh, vertex: &[u32], open: &[EdgeUse], part: f64) -> u
     }
     let near = super::weld::weld_near(&positions, part * super::weld::size(mesh));
     let place = |vertex: u32| ends.binary_search(&vertex).map_or(0, |place| near[place]);
-    let moved = open.iter().map(|edge| {
-        let [a, b] = edge.ends.map(place);
-        ([a.min(b), a.max(b)], edge.ascends == (a < b))
-    });
-    let mut moved: Vec<([u32; 2], bool)> = moved.filter(|([a, b], _)| a != b).collect();
+    let mut moved: Vec<([u32; 2], bool)> = open
+        .iter()
+        .map(|edge| {
+            let [a, b] = edge.ends.map(place);
+            ([a.min(b), a.max(b)], edge.ascends == (a < b))
+        })
+        .filter(|([a, b], _)| a != b)
+        .collect();
     moved.sort_unstable();
     let groups = moved.chunk_by(|a, b| a.0 == b.0);
     groups

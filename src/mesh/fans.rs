@@ -132,8 +132,10 @@ impl<'a> SurfaceFinder<'a> {
         if self.is_in_one_group(fan, smoothing) {
             return count;
         }
-        let keys = fan.iter().zip(&self.surfaces).enumerate();
-        let mut keys: Vec<_> = keys
+        let mut keys: Vec<_> = fan
+            .iter()
+            .zip(&self.surfaces)
+            .enumerate()
             .map(|(item, (corner, &surface))| (surface, self.smoothing_group(corner.polygon), item))
             .collect();
         keys.sort_unstable();

@@ -104,8 +104,7 @@ pub fn areas_cancel(mesh: &PolygonMesh, p: usize) -> bool {
         return false;
     };
     let largest = path.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
-    let far = path.iter().map(|p| *p - first);
-    let far = far.fold(DVec3::ZERO, |far, d| {
+    let far = path.iter().map(|p| *p - first).fold(DVec3::ZERO, |far, d| {
         if d.length_squared() > far.length_squared() {
             d
         } else {

@@ -347,9 +347,10 @@ mod tests {
             let all = polygons.iter().flatten();
             let own: Vec<Vec3> = all.map(|&c| positions[c as usize]).collect();
             let mut indices = 0..own.len() as u32;
-            let lists = polygons.iter();
-            let lists = lists.map(|list| indices.by_ref().take(list.len()).collect());
-            let lists = lists.collect();
+            let lists = polygons
+                .iter()
+                .map(|list| indices.by_ref().take(list.len()).collect())
+                .collect();
             (own, lists)
         };
         assert_eq!(count(&touching.each_ref().map(soup), false), 1);

@@ -340,8 +340,10 @@ fn join_runs(
         for v in vertices.clone() {
             for item in fans.of(v) {
                 // Without indices, each vertex of the run has one value, in the order of vertices.
-                let index = indices.next().copied();
-                let index = index.unwrap_or((v - vertices.start) as u32);
+                let index = indices
+                    .next()
+                    .copied()
+                    .unwrap_or((v - vertices.start) as u32);
                 corners[item.corner as usize] = first + index;
             }
         }
@@ -450,8 +452,8 @@ fn creased(
         let mut of_run = AveragedRun::default();
         for v in run * RUN..count.min(run * RUN + RUN) {
             let fan = fans.of(v);
-            let surfaces = finder.find(v, fan);
-            of_run.add_creased(fan, (&finder.surfaces, surfaces), &weights, least_cosine);
+            let count = finder.find(v, fan);
+            of_run.add_creased(fan, &finder.surfaces, count, &weights, least_cosine);
         }
         of_run
     });
@@ -459,11 +461,13 @@ fn creased(
 }
 
 impl AveragedRun {
-    /// Adds the normals of the corners in `fan`, which lie on `count` surfaces.
+    /// Adds the normals of the corners in `fan`, which lie on `count` surfaces. `surfaces` holds the
+    /// surface of each corner.
     fn add_creased(
         &mut self,
         fan: &[FanCorner],
-        (surfaces, count): (&[u32], usize),
+        surfaces: &[u32],
+        count: usize,
         weights: &Weights,
         least_cosine: f64,
     ) {
@@ -522,8 +526,9 @@ fn creased_surface(
             _ if !has_normal => all,
             Some(tree) => tree.within(own, least_cosine),
             None => {
-                let near = around.iter();
-                let near = near.filter(|term| own.dot(term.polygon) >= least_cosine);
+                let near = around
+                    .iter()
+                    .filter(|term| own.dot(term.polygon) >= least_cosine);
                 near.fold(none, add)
             }
         };
@@ -737,14 +742,15 @@ mod tests {
             let (sin, cos) = libm::sincos(angle(k % 6));
             DVec3::new(sin, f64::from(k / 6), cos).as_vec3()
         };
-        let quads = (0..4u32).flat_map(|row| (0..5).map(move |column| 6 * row + column));
-        let quads = quads.map(|k| {
-            if reversed {
-                [k, k + 6, k + 7, k + 1]
-            } else {
-                [k, k + 1, k + 7, k + 6]
-            }
-        });
+        let quads = (0..4u32)
+            .flat_map(|row| (0..5).map(move |column| 6 * row + column))
+            .map(|k| {
+                if reversed {
+                    [k, k + 6, k + 7, k + 1]
+                } else {
+                    [k, k + 1, k + 7, k + 6]
+                }
+            });
         ((0..30).map(position).collect(), quads.collect())
     }
 
