@@ -117,8 +117,9 @@ pub(crate) fn clip(
     let mut first = 0;
     // From the last outside corner before a run to the first one behind it.
     while let Some(before) = (first..count).find(|&step| is_inside(at(step + 1))) {
-        let behind = (before + 1..count).find(|&step| !is_inside(at(step)));
-        let behind = behind.unwrap_or(count);
+        let behind = (before + 1..count)
+            .find(|&step| !is_inside(at(step)))
+            .unwrap_or(count);
         first = behind;
         // A run that only touches the plane has no area inside.
         if (before + 1..behind).all(|step| distances[at(step)] == 0.0) {
@@ -204,8 +205,11 @@ fn flat(p: DVec4) -> glam::DVec3 {
 /// farthest from it. A polygon that is not flat has ends on no line; then starting at the least one
 /// makes pieces independent of where the polygon begins and how it runs.
 fn line_direction(runs: &[Vec<HomogeneousCorner>]) -> glam::DVec3 {
-    let ends = runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
-    let mut ends: Vec<DVec4> = ends.map(|end| end.position).collect();
+    let mut ends: Vec<DVec4> = runs
+        .iter()
+        .flat_map(|run| [run[0], run[run.len() - 1]])
+        .map(|end| end.position)
+        .collect();
     ends.sort_by(|&a, &b| canonical(a, b));
     let origin = flat(ends[0]);
     let differences = ends.iter().map(|&end| flat(end) - origin);

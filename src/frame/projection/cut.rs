@@ -48,8 +48,11 @@ impl Cutting<'_> {
             material: self.table.material(polygon),
             face,
         };
-        let ends = corners.iter().map(clip_position).zip(&whole);
-        let ends = ends.map(|(position, &vertex)| HomogeneousCorner { position, vertex });
+        let ends = corners
+            .iter()
+            .map(clip_position)
+            .zip(&whole)
+            .map(|(position, &vertex)| HomogeneousCorner { position, vertex });
         let mean = self.frame.mean_of(&whole);
         let mut cutter = Cutter {
             view: self.view,

@@ -119,8 +119,11 @@ impl PreparedScene {
             return;
         }
         let moving = &mut self.moving;
-        let transforms = moving.objects.iter().map(|object| object.transform);
-        let transforms: Vec<DAffine3> = transforms.collect();
+        let transforms: Vec<DAffine3> = moving
+            .objects
+            .iter()
+            .map(|object| object.transform)
+            .collect();
         let spare = moving.spare.take();
         let unshared = spare.and_then(|mut spare| {
             Arc::get_mut(&mut spare.geometry)?;

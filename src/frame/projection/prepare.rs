@@ -83,8 +83,9 @@ impl Preparation {
         let normals = polygon_normals(mesh);
         let first_polygon = self.geometry.faces.len();
         let cancels = |p: &usize| normals[*p] == DVec3::ZERO && areas_cancel(mesh, *p);
-        let cancelling = (0..mesh.polygon_count()).filter(cancels);
-        let cancelling = cancelling.map(|p| (first_polygon + p) as u32);
+        let cancelling = (0..mesh.polygon_count())
+            .filter(cancels)
+            .map(|p| (first_polygon + p) as u32);
         self.table.cancelling.extend(cancelling);
         self.geometry
             .faces
