@@ -191,8 +191,10 @@ fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>, has_gamma_of
         let note = "the file is an animation: this is its still picture";
         picture.notes.push(note.to_owned());
     }
-    let gamma = info.gama_chunk.map(ScaledFloat::into_scaled);
-    let gamma = gamma.or(has_gamma_of_zero.then_some(0));
+    let gamma = info
+        .gama_chunk
+        .map(ScaledFloat::into_scaled)
+        .or(has_gamma_of_zero.then_some(0));
     let by_gamma = gamma.and_then(|gamma| match gamma {
         _ if gamma.abs_diff(LINEAR_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Linear),
         _ if gamma.abs_diff(SRGB_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Srgb),
@@ -303,8 +305,9 @@ fn exif_orientation(data: &[u8]) -> Option<u32> {
     };
     let directory = integer(4, 4)? as usize;
     let count = integer(directory, 2)? as usize;
-    let entries = (0..count).map(|entry| directory.saturating_add(2 + 12 * entry));
-    let mut entries = entries.take_while(|entry| *entry < data.len());
+    let mut entries = (0..count)
+        .map(|entry| directory.saturating_add(2 + 12 * entry))
+        .take_while(|entry| *entry < data.len());
     let entry = entries.find(|entry| integer(*entry, 2) == Some(ORIENTATION))?;
     // The value is a SHORT, or a LONG from some writers. Either begins where a 4-byte value does.
     match integer(entry + 2, 2)? {

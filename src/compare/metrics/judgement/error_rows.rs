@@ -125,8 +125,9 @@ impl<'a> Window<'a> {
                 } else {
                     // Between its top and bottom row, a ring has two pixels in a row, or fewer at
                     // the border of the picture.
-                    let ends = [left, right].into_iter();
-                    let ends = ends.filter(|end| end.abs_diff(x) == distance);
+                    let ends = [left, right]
+                        .into_iter()
+                        .filter(|end| end.abs_diff(x) == distance);
                     least = ends.map(|end| error(&row[end])).fold(least, f64::min);
                 }
             }

@@ -189,8 +189,9 @@ impl Reader<'_> {
     fn number<N: str::FromStr>(&mut self, what: &str) -> Result<N, ReadProblem> {
         let word = self.word()?;
         let text = str::from_utf8(&word).ok();
-        let number = text.filter(|text| !text.starts_with('+'));
-        let number = number.and_then(|text| text.parse().ok());
+        let number = text
+            .filter(|text| !text.starts_with('+'))
+            .and_then(|text| text.parse().ok());
         number.ok_or_else(|| self.not_a_number(what, &word))
     }
 
