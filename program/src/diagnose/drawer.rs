@@ -225,8 +225,7 @@ impl<'a> Drawer<'a> {
     pub fn terms(&mut self, recipe: &Recipe, factor: f64) -> Option<Vec<Terms>> {
         let hits = self.hits(recipe.geometry, recipe.place)?;
         let shading = recipe.shading;
-        let illumination = self.illumination(shading);
-        let illumination = illumination.with_exponents(factor);
+        let illumination = self.illumination(shading).with_exponents(factor);
         let normals = self.normals(shading.normals);
         let shader = self.shader(&hits, &normals, shading, &illumination);
         Some((0..hits.len()).map(|i| shader.terms(i)).collect())
@@ -270,11 +269,12 @@ impl<'a> Drawer<'a> {
         let drawn = self.frame(geometry)?;
         let pixels = self.places(place, &drawn);
         let known = self.methods.entry((geometry, method));
-        let picture = known.or_insert_with(|| {
-            let method = METHODS.get(usize::from(method))?.variant();
-            drawn_by(&drawn.frame, &method).map(Rc::new)
-        });
-        let picture = picture.clone()?;
+        let picture = known
+            .or_insert_with(|| {
+                let method = METHODS.get(usize::from(method))?.variant();
+                drawn_by(&drawn.frame, &method).map(Rc::new)
+            })
+            .clone()?;
         let colour = |[x, y]: [usize; 2]| {
             let [r, g, b, _] = picture.get(x, y).map(f64::from);
             DVec3::new(r, g, b)

@@ -114,12 +114,12 @@ impl Illumination {
         let switches = &self.switches;
         let (kd, ks) = (wide(material.diffuse), wide(material.specular));
         let v = self.toward_viewer(at);
+        let raw = n;
+        let n = self.normal(raw, p);
         let shiny = match switches.highlight_normal {
-            Length::Unit => None,
-            Length::Raw => Some(n),
+            Length::Unit => n,
+            Length::Raw => raw,
         };
-        let n = self.normal(n, p);
-        let shiny = shiny.unwrap_or(n);
         let ambient = match switches.ambient {
             AmbientUse::WithoutMaterial => self.ambient,
             AmbientUse::TimesDiffuse => self.ambient * wide(material.ambient) * kd,

@@ -104,8 +104,11 @@ fn fights(content: &mut FigureContent, bits: u32, wrong: usize) {
 fn ways(content: &mut FigureContent) -> Result {
     let by = |source| far_away(DepthBits::ThirtyTwo, source, 1.0).map(|frame| depth(&frame));
     let (corners, samples) = (by(DepthSource::Interpolated)?, by(DepthSource::PerSample)?);
-    let both = corners.pixels().iter().zip(samples.pixels());
-    let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
+    let both = corners
+        .pixels()
+        .iter()
+        .zip(samples.pixels())
+        .filter(|(a, b)| a.is_finite() && b.is_finite());
     let difference = largest(both.map(|(a, b)| f64::from((a - b).abs())));
     // Either way rounds depths of up to 1 by 2⁻²⁵ at the corners and at each step along an edge and
     // a span. The second way scales 1/w by f/(f − n), which is close to 1.

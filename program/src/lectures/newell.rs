@@ -192,8 +192,8 @@ fn pictures(content: &mut FigureContent) -> Result {
     let panels = [
         (edges, &lit_by(&all, worst)?),
         (newell, &lit_by(&all, by_newell)?),
-    ];
-    let panels = panels.map(|(caption, picture)| (caption, stored(picture)));
+    ]
+    .map(|(caption, picture)| (caption, stored(picture)));
     content.pictures(1, "Five polygons of one plane", panels);
     Ok(())
 }

@@ -333,8 +333,8 @@ fn start(content: &mut FigureContent) -> Result {
 fn corners(content: &mut FigureContent) -> Result {
     // The corner of the icosahedron that faces the eye most.
     let frame = sphere(1)?.frame()?;
-    let normals = (0..frame.vertices().len() as u32).map(|i| frame.normal(i));
-    let normals = normals.map(|n| DVec3::from_array(n.map(f64::from)));
+    let normals = (0..frame.vertices().len() as u32)
+        .map(|i| DVec3::from_array(frame.normal(i).map(f64::from)));
     let nearest = normals
         .max_by(|a, b| a.z.total_cmp(&b.z))
         .unwrap_or(DVec3::Z);

@@ -45,11 +45,12 @@ const PROJECT: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "slerp-phong
 /// Packs the traces of all figures into one JSON object with a trace for each method.
 fn packed_traces(document: &Document) -> String {
     let blocks = document.figures.iter().flat_map(|f| &f.content.blocks);
-    let traces = blocks.filter_map(|block| match block {
-        FigureBlock::Trace { method, trace } => Some((&**method, &**trace)),
-        _ => None,
-    });
-    let traces: BTreeMap<&str, _> = traces.collect();
+    let traces: BTreeMap<&str, _> = blocks
+        .filter_map(|block| match block {
+            FigureBlock::Trace { method, trace } => Some((&**method, &**trace)),
+            _ => None,
+        })
+        .collect();
     if traces.is_empty() {
         String::new()
     } else {
@@ -201,10 +202,10 @@ impl Report {
     /// If a part is missing. Call [`check_whole`] first.
     pub(crate) fn joined(mut parts: Vec<Report>) -> Report {
         parts.sort_by_key(|part| part.part().map(|(_, shard)| shard.number));
-        let scenes = parts
+        let scenes: Vec<_> = parts
             .iter()
-            .map(|part| document::list(&part.data, "/comparisons"));
-        let scenes: Vec<_> = scenes.collect();
+            .map(|part| document::list(&part.data, "/comparisons"))
+            .collect();
         let most = scenes.iter().map(|scenes| scenes.len()).max();
         // Parts take scenes in turn: part 1 has the first, part 2 the second, and so on.
         let comparisons = (0..most.unwrap_or(0))

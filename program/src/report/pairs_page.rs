@@ -65,8 +65,11 @@ impl PairsPage {
     /// Writes the page.
     pub fn html(&self) -> String {
         let html = |is_equal: bool| {
-            let pairs = self.pairs.iter().enumerate();
-            let pairs = pairs.filter(|(_, pair)| (pair.status == "equal") == is_equal);
+            let pairs = self
+                .pairs
+                .iter()
+                .enumerate()
+                .filter(|(_, pair)| (pair.status == "equal") == is_equal);
             pairs.map(|(i, pair)| pair.html(i)).collect::<String>()
         };
         let parts = [
@@ -116,9 +119,11 @@ impl ShownPair {
         } else {
             "confirms"
         };
-        let hints = self.notes.iter().chain([&self.region_text]);
-        let hints = hints.filter(|text| !text.is_empty());
-        let hints: String = hints
+        let hints: String = self
+            .notes
+            .iter()
+            .chain([&self.region_text])
+            .filter(|text| !text.is_empty())
             .map(|text| format!("<p class=\"hint\">{}</p>", html_text(text)))
             .collect();
         format!(

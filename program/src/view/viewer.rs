@@ -383,8 +383,10 @@ mod tests {
                 .expect("a method")
                 .render(&frame)
                 .expect("a method for the frame");
-            let colours = picture.pixels().iter();
-            let colours = colours.map(|&[r, g, b, _]| u32::from_be_bytes([0, r, g, b]));
+            let colours = picture
+                .pixels()
+                .iter()
+                .map(|&[r, g, b, _]| u32::from_be_bytes([0, r, g, b]));
             assert!(alone.iter().map(|pixel| pixel & 0xff_ffff).eq(colours));
         }
     }

@@ -434,8 +434,11 @@ impl Comparison {
 /// Returns `variants`, with naive Phong in front if it is not among them.
 pub(crate) fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
     let is_missing = !variants.iter().any(is_baseline);
-    let baseline = METHODS.iter().filter(|e| e.info.name == BASELINE);
-    let baseline = baseline.filter(|_| is_missing).map(|e| e.variant());
+    let baseline = METHODS
+        .iter()
+        .filter(|e| e.info.name == BASELINE)
+        .filter(|_| is_missing)
+        .map(|e| e.variant());
     baseline.chain(variants.iter().cloned()).collect()
 }
 

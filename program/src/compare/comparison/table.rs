@@ -148,11 +148,11 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
         text += "! farther from its own closed form than rounding explains\n";
     }
     for row in comparison.rows.iter().filter(|row| !row.kinds.is_empty()) {
-        let kinds = row
+        let kinds: Vec<String> = row
             .kinds
             .iter()
-            .map(|kind| format!("{} {}", kind.polygons, kind.name));
-        let kinds: Vec<String> = kinds.collect();
+            .map(|kind| format!("{} {}", kind.polygons, kind.name))
+            .collect();
         text += &format!("{}: polygons by kind: {}\n", row.name(), kinds.join(", "));
     }
     for left_out in &comparison.left_out {

@@ -40,8 +40,13 @@ fn of_system(text: &str) -> Option<(u64, u64)> {
 
 /// Returns the value of a line such as `VmSize:  5 kB`, in bytes.
 fn kilobytes(text: &str, key: &str) -> Option<u64> {
-    let value = text.lines().find_map(|line| line.strip_prefix(key))?;
-    let value: u64 = value.split_whitespace().next()?.parse().ok()?;
+    let value: u64 = text
+        .lines()
+        .find_map(|line| line.strip_prefix(key))?
+        .split_whitespace()
+        .next()?
+        .parse()
+        .ok()?;
     Some(value.saturating_mul(1024))
 }
 
@@ -158,8 +163,8 @@ impl Group {
         let most = value("memory.limit_in_bytes")?;
         let free = left(most, value("memory.usage_in_bytes")).saturating_add(swap);
         // Version 1 may also limit memory and swap together.
-        let both = value("memory.memsw.limit_in_bytes");
-        let both = both.map(|most| left(most, value("memory.memsw.usage_in_bytes")));
+        let both = value("memory.memsw.limit_in_bytes")
+            .map(|most| left(most, value("memory.memsw.usage_in_bytes")));
         Some(free.min(both.unwrap_or(u64::MAX)))
     }
 }
