@@ -31,8 +31,8 @@ pub fn run(bytes: &[u8]) {
         }
     };
     let printed = file.to_toml();
-    let again = SceneFile::parse(&printed, "printed.toml");
-    let again = again.unwrap_or_else(|error| panic!("{}\n{printed}", error.render(false)));
+    let again = SceneFile::parse(&printed, "printed.toml")
+        .unwrap_or_else(|error| panic!("{}\n{printed}", error.render(false)));
     assert_eq!(file, again, "{printed}");
     let load = |name: &str, _: &Path| {
         // A name with a number of three digits asks for a large mesh.
@@ -40,8 +40,8 @@ pub fn run(bytes: &[u8]) {
             .split(|c: char| !c.is_ascii_digit())
             .any(|n| n.len() > 2);
         let name = name.strip_prefix("builtin:").filter(|_| !is_large);
-        let mesh = builtin(name.unwrap_or("cube"));
-        let mesh = mesh.map_err(|error| UnusableMesh::new(error.to_string()))?;
+        let mesh = builtin(name.unwrap_or("cube"))
+            .map_err(|error| UnusableMesh::new(error.to_string()))?;
         if mesh.polygon_count() > MOST_POLYGONS {
             Err(UnusableMesh::new("more polygons than are drawn here"))
         } else {

@@ -212,8 +212,11 @@ fn pictures_of_different_size_have_no_metrics_and_a_map_of_their_common_part() {
     let folder = pair();
     folder.write("small.ppm", [&b"P6 4 9 255\n"[..], &[100; 108]].concat());
     let sizes = "the sizes differ: the reference has 16x12 pixels, the picture 4x9";
-    let ended = folder.run("diff a.png small.ppm").differs();
-    let ended = ended.says("the pictures differ in size").prints(sizes);
+    let ended = folder
+        .run("diff a.png small.ppm")
+        .differs()
+        .says("the pictures differ in size")
+        .prints(sizes);
     assert_eq!(
         ended.out.lines().count(),
         2,

@@ -425,8 +425,7 @@ fn info_begins_with_the_mesh_and_says_if_it_lies_on_its_side() {
     let text = String::from_utf8(folder.read("a.obj")).expect("text");
     let lying = text
         .replace("v -1 0 -1", "v -1 -1 0")
-        .replace("v 1 0 -1", "v 1 -1 0");
-    let lying = lying
+        .replace("v 1 0 -1", "v 1 -1 0")
         .replace("v 1 0 1", "v 1 1 0")
         .replace("v -1 0 1", "v -1 1 0");
     folder.write("z.obj", lying.replace("v 0 1 0", "v 0 0 1"));

@@ -133,8 +133,9 @@ fn a_document_is_read_from_standard_input_once() {
 #[test]
 fn a_full_device_is_an_error_for_every_output_and_for_help() {
     let folder = Folder::new();
-    let outputs = cases(&folder).into_iter();
-    let outputs = outputs.map(|(command, flag, _)| format!("{command} {flag} -"));
+    let outputs = cases(&folder)
+        .into_iter()
+        .map(|(command, flag, _)| format!("{command} {flag} -"));
     let results = [
         "--help",
         "--version",
@@ -144,8 +145,9 @@ fn a_full_device_is_an_error_for_every_output_and_for_help() {
         "completions bash",
         "list scenes",
         "explain flat",
-    ];
-    let results = results.iter().map(|text| (*text).to_owned());
+    ]
+    .iter()
+    .map(|text| (*text).to_owned());
     for arguments in outputs.chain(results) {
         let full = std::fs::File::options().write(true).open("/dev/full");
         let mut command = folder.command(&arguments);

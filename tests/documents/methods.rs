@@ -113,8 +113,9 @@ fn methods_are_described_as_in_the_code() {
         let place = new.find(&heading);
         let from = place.unwrap_or_else(|| panic!("{FILE} has no heading for `{name}`"));
         let from = from + heading.len();
-        let length = new[from..].find(BY_HAND);
-        let length = length.unwrap_or_else(|| panic!("{FILE}: no `{BY_HAND}` after `{name}`"));
+        let length = new[from..]
+            .find(BY_HAND)
+            .unwrap_or_else(|| panic!("{FILE}: no `{BY_HAND}` after `{name}`"));
         assert!(
             !new[from..from + length].contains("\n## "),
             "{FILE}: no `{BY_HAND}` for `{name}`"
@@ -154,15 +155,19 @@ fn every_published_method_is_drawn_or_left_out_with_the_reason() {
     let (_, left_out) = text
         .split_once("\n# Left out, with the reason\n")
         .expect("a section");
-    let left_out = left_out.split("\n# ").next().expect("a section").lines();
-    let left_out = left_out.filter_map(|line| {
-        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        let is_row = cells.get(1).is_some_and(|cell| cell.starts_with('M'));
-        is_row.then(|| {
-            assert!(cells[3].len() > 20, "{line}: no reason");
-            cells[1]
-        })
-    });
+    let left_out = left_out
+        .split("\n# ")
+        .next()
+        .expect("a section")
+        .lines()
+        .filter_map(|line| {
+            let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+            let is_row = cells.get(1).is_some_and(|cell| cell.starts_with('M'));
+            is_row.then(|| {
+                assert!(cells[3].len() > 20, "{line}: no reason");
+                cells[1]
+            })
+        });
     let drawn = METHODS.iter().flat_map(|entry| entry.info.ids).copied();
     let mut all: Vec<&str> = drawn.chain(left_out).collect();
     all.sort_unstable();

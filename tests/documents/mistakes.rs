@@ -76,8 +76,7 @@ fn document() -> String {
     for (part, title) in parts {
         write!(text, "\n## {title}\n\n| id | mistake | what to do | read on | shown by (grey levels) |\n|---|---|---|---|---|\n").unwrap();
         for mistake in MISTAKES.iter().filter(|mistake| mistake.part == part) {
-            let shown = scenes_that_show(&mistake.id);
-            let shown: Vec<String> = shown
+            let shown: Vec<String> = scenes_that_show(&mistake.id)
                 .iter()
                 .take(3)
                 .map(|(scene, levels)| format!("{scene} {levels:.1}"))
@@ -122,10 +121,11 @@ fn scenes_show_mistakes_as_the_table_says() {
         "README.md does not say {count}"
     );
     // `diagnose` cannot name a mistake that no scene shows, unless the user's own scene shows it.
-    let unseen = MISTAKES
+    let unseen: Vec<&str> = MISTAKES
         .iter()
-        .filter(|mistake| scenes_that_show(&mistake.id).is_empty());
-    let unseen: Vec<&str> = unseen.map(|mistake| &*mistake.id).collect();
+        .filter(|mistake| scenes_that_show(&mistake.id).is_empty())
+        .map(|mistake| &*mistake.id)
+        .collect();
     assert_eq!(unseen, UNSEEN, "mistakes that no shipped scene shows");
 }
 

@@ -97,8 +97,8 @@ fn drawing_into_a_part_writes_only_the_part() {
             let part = PictureMut::from(&mut picture).part([left, top], [width, height]);
             draw(variant, frame, part, DrawOptions::by(renderer));
             // Draw into a part of a part, in rows that are 80 pixels apart.
-            let part = PictureMut::argb(&mut argb, SIZE[0], SIZE[1]).stride(80);
-            let part = part
+            let part = PictureMut::argb(&mut argb, SIZE[0], SIZE[1])
+                .stride(80)
                 .part([left, 0], [width, SIZE[1]])
                 .part([0, top], [width, height]);
             draw(variant, frame, part, DrawOptions::by(renderer));
