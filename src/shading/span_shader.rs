@@ -361,6 +361,7 @@ impl SimdSpans {
     /// Shades the only run of `job`, as a row of the G-buffer.
     fn shade(&mut self, job: &Pixels<'_>, colours: &mut [[f32; 3]]) {
         let length = colours.len().next_multiple_of(STEP);
+        // Depths stay 0, which counts as drawn.
         self.cells.resize(length * self.cell.count(), 0.0);
         match self.kernels.walk.filter(|_| self.is_walked) {
             Some(walk) => self.walk(walk, job, colours.len().next_multiple_of(BLOCK)),

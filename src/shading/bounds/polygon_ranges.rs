@@ -105,6 +105,7 @@ fn least_cosine(frame: &Frame, corners: &[u32]) -> f64 {
     let mut sum = DVec3::ZERO;
     for_each_end(frame, corners, &mut |v| sum += wide(frame.normal(v)));
     let Some(mean) = sum.try_normalize() else {
+        // Normals that cancel have no mean direction, so nothing is known about them.
         return -1.0;
     };
     let mut least = 1.0;

@@ -116,6 +116,7 @@ impl Extras {
             extra.albedo = vec3([value(first), value(first + 1), value(first + 2)]);
         }
         if self.weight {
+            // The weight comes last.
             extra.weight = value(self.count() - 1);
         }
         extra
@@ -133,6 +134,7 @@ impl Extras {
             rest = others;
         }
         if self.weight {
+            // Engines multiply every varying by the vertex's weight, and this 1 becomes the weight.
             rest[0] = 1.0;
         }
     }
@@ -435,10 +437,12 @@ fn light<C: Carries, F: Num>(
     );
     let points = job.points.chunks_exact(F::WIDTH);
     let vertices = job.normals.chunks_exact(F::WIDTH).zip(points);
+    // Without varyings `own` is 0, and chunks must not be empty.
     let out = out.chunks_exact_mut((F::WIDTH * own).max(1));
     for (block, ((normals, points), out)) in vertices.zip(out).enumerate() {
         let n = gather(normals);
         let mut lit = LightAt::new(stored, n.x, general);
+        // On the fast path everything is at infinity, so nothing reads the point.
         lit = lit.at(if general { gather(points) } else { n });
         let has_albedo = general && stored.model.has_albedo;
         if has_albedo || matches!(C::FROM, Carried::Attributes) {

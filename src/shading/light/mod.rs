@@ -281,6 +281,7 @@ const MOST_LEVELS: f32 = 1_073_741_824.0;
 /// `unit` is 1, or the factor by which the caller has multiplied all squared distances.
 #[inline(always)]
 pub(crate) fn strength<F: Num>(falloff: Falloff, square: F, unit: F) -> Option<F> {
+    // At the light itself 1/r² would be infinite.
     let square = square.max(LEAST_SQUARE);
     match falloff {
         Falloff::None => None,
@@ -328,6 +329,8 @@ fn faint(function: Power, shininess: f32, scale: f32, lights: &[LightUniforms]) 
     let power = (faint / strongest.fold(faint, f32::max)).max(LEAST_POWER);
     let n = shininess;
     let cosine = match function {
+        // Each line solves its function of t for t. Below 1 every function is tⁿ: see
+        // `Exponent::new`.
         Power::Squaring | Power::Table { .. } => libm::powf(power, 1.0 / n),
         _ if n < 1.0 => libm::powf(power, 1.0 / n),
         Power::Exp => 1.0 + libm::logf(power) / n,
@@ -595,8 +598,8 @@ impl<'a, F: Num> LightAt<'a, F> {
             light,
         };
         if self.general && is_positional {
-            // At the light itself the direction is 0/0: the clamps turn its cosines into 0, as for
-            // a normal of length 0.
+            // Until here `seen.to` is the position of the light. At the light itself the direction
+            // is 0/0: the clamps turn its cosines into 0, as for a normal of length 0.
             let to = seen.to - self.point;
             let square = to.dot(to);
             seen.to = to * (one / square.sqrt());
@@ -632,8 +635,10 @@ impl<'a, F: Num> LightAt<'a, F> {
     ) -> SeenLight<'a, F> {
         SeenLight {
             index,
+            // Any unit vector will do: the caller has its own, and `add` reads none.
             to: self.view,
             l_v,
+            // Read only where highlights are computed from N·H.
             half: if self.is_halfway() {
                 over_sum(l_v)
             } else {

@@ -66,6 +66,7 @@ const fn cosines() -> [f32; STEPS + 1] {
     while i < STEPS {
         let x = LARGEST_SQUARE * i as f64 / STEPS as f64;
         let (mut sum, mut k) = (1.0, 12);
+        // Horner's scheme for Σ (−x)ᵏ / (2k)!, from the last term on.
         while k > 0 {
             sum = 1.0 - sum * x / ((2 * k) * (2 * k - 1)) as f64;
             k -= 1;

@@ -449,6 +449,8 @@ impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
             self.restart();
         }
         self.left -= 1;
+        // Only a start for the array: the places of followed lights are overwritten, no other is
+        // read.
         let (mut j, k) = (self.first.0, self.products.at.1);
         self.products.at.1 = self.products.at.1 + self.products.step.1;
         let products = &mut self.products;

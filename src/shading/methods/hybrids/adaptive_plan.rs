@@ -183,6 +183,7 @@ pub(crate) fn squares(s: f32, [light, heavy]: [f32; 2]) -> [f32; 2] {
 pub(crate) fn line([low, high]: [f32; 2]) -> ([f32; 3], f32) {
     let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
     let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
+    // A line in u = D/middle − 1; `factors` are for D itself.
     let (at, slope) = (1.0 + 0.1875 * xx, -0.5 - 0.234_375 * xx);
     let factors = [scale * (at - slope), scale * slope / middle, 0.0];
     (factors, 0.1875 * xx * (1.0 + x + 2.0 * xx))
@@ -194,6 +195,7 @@ pub(crate) fn parabola([low, high]: [f32; 2]) -> ([f32; 3], f32) {
     let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
     let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
     let at = 1.0 - 0.034_179_7 * xx * xx;
+    // A parabola in u = D/middle − 1; `factors` are for D itself.
     let (slope, curve) = (-0.5 - 0.234_375 * xx, 0.375 + 0.273_437_5 * xx);
     let factors = [
         scale * (at - slope + curve),
@@ -250,6 +252,7 @@ pub(crate) fn plan<R: Real>(
     }
     let spread = spread(polygon.whole.iter().map(|n| plain(*n)));
     let s = rounded_up(spread);
+    // Written so that NaN is refused, too.
     if !(s < 5.0 && outline.weights[0] > 0.0) {
         return Plan::EXACT;
     }
@@ -404,6 +407,7 @@ impl Illumination {
                     f32::INFINITY // infinitely steep at 0
                 };
             }
+            // A material has at most 64 lights, so each has its bit.
             all.in_front |= u64::from(!is_crossing) << i;
             if is_crossing || shines {
                 if let Some(place) = all.followed.get_mut(all.count) {

@@ -61,6 +61,8 @@ fn may_shine<F: Num>(
             return false;
         }
         let n = lit.model.shininess;
+        // No bound is known: the power is not tⁿ, normals nearly cancel, or light and eye are
+        // opposite.
         if !exponent.is_power() || cosine.is_nan() || cosine <= 0.0 || light.half == 0.0 {
             return true;
         }

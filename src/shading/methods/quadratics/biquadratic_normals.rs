@@ -111,6 +111,7 @@ impl Method for BiquadraticNormals {
         if !polygon.is_whole || width > WIDEST {
             return OneOf::Second(());
         }
+        // N (Σ a_j w_j)² at a corner, and half-way along an edge, where both a_i are ½.
         let at_corner = |v: Corner<R>| v.normal * (v.weight * v.weight);
         let at_edge = |v: Corner<R>, w: Corner<R>| {
             let normal = midway([v.normal, w.normal], [v.position, w.position]);
