@@ -61,6 +61,7 @@ pub fn depth_ties(frame: &Frame) -> DepthTies {
         })
         .collect();
     let mut is_tied = vec![false; frame.width()];
+    // The last pair that was compared, because most samples meet the pair of the sample before.
     let mut equal = ((NO_POLYGON, NO_POLYGON), false);
     scan(frame, &Varyings::none(), &mut |_, line, _| {
         is_tied.fill(false);
@@ -121,6 +122,7 @@ fn uncertainty(frame: &Frame, polygon: &Polygon, rule: SampleDepth) -> f32 {
         (low, high, largest) = (low.min(p[2]), high.max(p[2]), largest.max(p[2].abs()));
     }
     let growth = (normal[0].abs() + normal[1].abs()) / normal[2].abs();
+    // A polygon that is seen edge-on divides by 0. Then the range of its depths is the smaller one.
     let snapped = f64::min(growth * SubPixel::DELTA.to_num::<f64>(), high - low);
     let rounded = f64::from(ROUNDINGS * f32::EPSILON / 2.0) * largest;
     (snapped + rounded) as f32

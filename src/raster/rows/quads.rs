@@ -320,6 +320,7 @@ impl QuadBatch {
             first,
             origin: [left >> 8, left & m.int(-256)],
             turned: lefts >> 31,
+            // The bits that are set are those where the inverted mask is 0.
             drawn: m.bits_not_negative(is_drawn ^ all),
             others: m.bits_not_negative((is_there ^ all) | is_drawn),
         }
@@ -418,6 +419,7 @@ impl QuadBatch {
         let [x, x_below] = [goes_down.select(xi, xj), goes_down.select(xj, xi)];
         let first = centre(m, top).max(m.int(rows.start as i32));
         let crosses = first.less(centre(m, bottom).min(m.int(rows.end as i32)));
+        // From the upper end down to the centre of the first row.
         let past = (first << 8) + m.int(128) - top;
         let height = m.float(bottom - top);
         // The height is over 0 for every edge that crosses a row. The others divide by 0, and their
