@@ -46,6 +46,7 @@ impl Cut {
         };
         let (da, db) = (plane.normal.dot(a.position), plane.normal.dot(b.position));
         debug_assert!((da < 0.0) != (db < 0.0), "the plane is between the ends");
+        // One distance is below 0 and the other is not, so their difference is not 0.
         let t = (da / (da - db)).clamp(0.0, 1.0);
         // a + (b − a) is not always b in floats. Returning b itself leaves a corner on the plane
         // where it is.
@@ -119,6 +120,7 @@ pub(crate) fn clip(
     while let Some(before) = (first..count).find(|&step| is_inside(at(step + 1))) {
         let behind = (before + 1..count)
             .find(|&step| !is_inside(at(step)))
+            // Step `count` is the outside corner again.
             .unwrap_or(count);
         first = behind;
         // A run that only touches the plane has no area inside.

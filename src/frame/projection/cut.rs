@@ -142,6 +142,7 @@ impl Cutter<'_> {
     fn piece(&mut self, corners: &[HomogeneousCorner], mean: Mean) -> (u32, u32) {
         debug_assert!(corners.len() >= 3, "clipping leaves polygons");
         let frame = &mut *self.frame;
+        // Corner lists of pieces are numbered behind the lists of the geometry.
         let first = (frame.geometry.corners.len() + frame.cut_corners.len()) as u32;
         frame.means.push((first, mean));
         frame

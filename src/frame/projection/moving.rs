@@ -80,6 +80,7 @@ impl PreparedScene {
         self.moving.objects[index].transform = transform;
         if let Some(geometry) = Arc::get_mut(&mut self.geometry) {
             let place = self.moving.place(index, geometry);
+            // The words at both ends may hold bits of other objects, which come out as before.
             let words = place.polygons.start / 64..place.polygons.end.div_ceil(64);
             self.moving.pose(index, &self.table.turned, geometry, place);
             for word in words {
@@ -201,6 +202,7 @@ impl Moving {
             } else {
                 geometry.corners.len()
             };
+            // Without corners `half` is 0, and chunks must not be empty.
             for side in geometry.corners.chunks_exact_mut(half.max(1)) {
                 reverse_corners(&object.mesh, &mut side[place.corners.clone()]);
             }

@@ -141,6 +141,7 @@ impl Sight<'_> {
         places: &mut Places,
         stats: &mut FrameStats,
     ) -> VisibilityWord {
+        // `count` is 1 or more: a shift by 64 would overflow.
         let all = u64::MAX >> (64 - count);
         let (clockwise, counter_clockwise) = if self.table.starts.is_empty() {
             winding::of_triangles(self.triangles(first, count), self.vertices, places)
@@ -211,6 +212,7 @@ impl Sight<'_> {
                 (all[k], any[k]) = (a & b & c, a | b | c);
             }
         } else {
+            // The minimum shows the compiler that `k` is in bounds.
             for k in 0..count.min(64) {
                 all[k] = Codes::MAX;
                 for &v in self.polygon(first + k) {
@@ -340,6 +342,7 @@ impl Filling<'_> {
     fn fill_whole(&self, first: usize, word: &VisibilityWord, out: &mut [Polygon]) {
         let mut left = word.drawn;
         for place in out {
+            // `out` has a place for each bit, so this is below 64. The mask below spares a check.
             let bit = left.trailing_zeros();
             left &= left.wrapping_sub(1);
             *place = self.whole(first + bit as usize, word.back >> (bit & 63) & 1 != 0);
