@@ -34,6 +34,7 @@ impl Visibility {
             // next behind it.
             let gap = &mut self.depth_gap.row_mut(y)[x];
             *gap = if is_visible {
+                // Infinite for the first polygon, as nothing is behind it.
                 *seen - depth
             } else {
                 gap.min(depth - *seen)
@@ -115,6 +116,7 @@ pub fn visibility(frame: &Frame) -> Visibility {
 /// with the first, as [`visibility`] does.
 pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
     let [width, height] = [frame.width(), frame.height()].map(|side| side.div_ceil(step));
+    // Point i of the grid is pixel i · step, so both ends are rounded up.
     let on_grid = |pixels: Range<usize>| pixels.start.div_ceil(step)..pixels.end.div_ceil(step);
     let mut visibility = Visibility {
         polygons: Picture::new(width, height, Visibility::NONE),
