@@ -453,6 +453,7 @@ impl Reader<'_> {
             self.raw_row(&mut bytes, 4 * channels * width, y, height)?;
             let samples = bytes.as_chunks().0;
             pixels.extend(samples.chunks_exact(channels).map(|samples| {
+                // A grey picture has one channel, which the remainder takes for all three.
                 let at = |channel: usize| float(samples[channel % channels]);
                 [at(0), at(1), at(2), 1.0]
             }));
