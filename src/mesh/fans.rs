@@ -240,6 +240,7 @@ impl<'a> SurfaceFinder<'a> {
         // Taken out so that `link` may borrow the rest; put back below to keep its memory.
         let ends = core::mem::take(&mut self.ends);
         for edge in ends.chunk_by(|a, b| (a.other, a.part) == (b.other, b.part)) {
+            // Sorting has put arriving ends before leaving ones.
             match edge.split_at(edge.partition_point(|end| !end.leaves)) {
                 ([a], [b]) => {
                     let [p, q] = [a, b].map(|end| fan[end.item as usize].polygon);

@@ -163,6 +163,7 @@ impl Surface {
         for &p in &self.polygons {
             let polygon = mesh.polygon(p as usize);
             let from = |corner: u32| position(mesh, corner) - point;
+            // Angles have signs, so a fan adds up to the polygon, whatever its shape.
             for pair in polygon[1..].windows(2) {
                 angle += solid_angle(from(polygon[0]), from(pair[0]), from(pair[1]));
             }

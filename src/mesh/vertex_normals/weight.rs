@@ -114,6 +114,7 @@ impl<'a> Weights<'a> {
             NormalWeight::Area => self.polygons[p].dot(normal),
             NormalWeight::Angle if is_reflex => TAU - angle(sine, cosine),
             NormalWeight::Angle => angle(sine, cosine),
+            // sin / (|e₁| |e₂|) is Max's |e₁ × e₂| / (|e₁|² |e₂|²).
             NormalWeight::Uniform | NormalWeight::Max => sine / lengths,
         };
         let cross = if is_reflex { -cross } else { cross };
@@ -192,6 +193,7 @@ fn of_triangle([a, b, c]: [DVec3; 3], normal: DVec3, weight: NormalWeight) -> [f
     let product = libm::sqrt(normal.length_squared());
     [(0, 2), (1, 0), (2, 1)].map(|(next, last)| match weight {
         NormalWeight::Uniform | NormalWeight::Area => product,
+        // The last edge runs toward the corner, so the sign turns it round.
         NormalWeight::Angle => angle(product, -edges[next].dot(edges[last])),
         NormalWeight::Max => product / (squares[next] * squares[last]),
     })
