@@ -293,6 +293,7 @@ fn errors(
     };
     let stepped = |step: f64| {
         if step > 0.0 {
+            // 8 δ are the set-up: see `Variant::bound`.
             let spans = step * extent.steps + 8.0 * apart;
             let triangles = extent.triangle_roundings(step, apart);
             spans.max(triangles).max(BARYCENTRIC)

@@ -387,9 +387,11 @@ impl Illumination {
             all.is_crossed |= is_crossing || seen.low == 0.0;
             let k_d = magnitude(light.diffuse) * to_levels;
             let k_s = magnitude(light.specular) * to_levels;
+            // See (e).
             all.diffuse += k_d * f32::min(1.0, seen.high * over_low);
             let turns = if is_halfway { 1.0 } else { 2.0 };
             all.steep += k_d + k_s * turns * Num::sqrt(n);
+            // A quarter of the levels, divided by the count of lights: see (c).
             let shines = k_s > 0.0 && {
                 let reach = reach(light, &seen, s, is_halfway).clamp(0.0, 1.0);
                 k_s * model.exponent.of(reach) * lights.len() as f32 > 0.25 * levels
