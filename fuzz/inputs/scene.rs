@@ -40,12 +40,11 @@ pub fn run(bytes: &[u8]) {
             .split(|c: char| !c.is_ascii_digit())
             .any(|n| n.len() > 2);
         let name = name.strip_prefix("builtin:").filter(|_| !is_large);
-        let mesh = builtin(name.unwrap_or("cube"))
-            .map_err(|error| UnusableMesh::new(error.to_string()))?;
-        if mesh.polygon_count() > MOST_POLYGONS {
-            Err(UnusableMesh::new("more polygons than are drawn here"))
-        } else {
-            Ok((Arc::new(mesh), Vec::new()))
+        let mesh = builtin(name.unwrap_or("cube"));
+        let mesh = mesh.map_err(|error| UnusableMesh::new(error.to_string()))?;
+        match mesh.polygon_count() > MOST_POLYGONS {
+            true => Err(UnusableMesh::new("more polygons than are drawn here")),
+            false => Ok((Arc::new(mesh), Vec::new())),
         }
     };
     let mut scene = match file.resolve(load) {

@@ -274,8 +274,8 @@ fn weighted_highlights_are_within_their_bound() {
     ";
     let file = SceneFile::parse(text, "weighted").unwrap_or_else(|e| panic!("{e}"));
     let resolved = file.resolve(|name, _| {
-        let shape = builtin(name.trim_start_matches("builtin:"))
-            .map_err(|error| UnusableMesh::new(error.to_string()))?;
+        let shape = builtin(name.trim_start_matches("builtin:"));
+        let shape = shape.map_err(|error| UnusableMesh::new(error.to_string()))?;
         Ok((Arc::new(shape), Vec::new()))
     });
     let scene = resolved.unwrap_or_else(|e| panic!("{e}")).scene;
