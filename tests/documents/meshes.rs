@@ -17,10 +17,8 @@ fn table(heading: &str) -> Vec<[String; 3]> {
         .split_once(&format!("\n{heading}\n"))
         .expect("a heading of the page");
     let part = part.split("\n## ").next().unwrap_or_default();
-    let rows = rows(part)
-        .into_iter()
-        .skip(1)
-        .map(|row| <[String; 3]>::try_from(row).expect("three cells"));
+    let rows = rows(part).into_iter().skip(1);
+    let rows = rows.map(|row| <[String; 3]>::try_from(row).expect("three cells"));
     rows.collect()
 }
 
@@ -29,8 +27,8 @@ fn answer(obj: &str, mtl: Option<&str>) -> Result<Vec<String>, String> {
     let library = |_: &str| mtl.map(|text| text.as_bytes().to_vec());
     let loaded = parse_mesh("t.obj", obj.as_bytes(), |name| {
         library(name).ok_or_else(|| io::ErrorKind::NotFound.into())
-    })
-    .map_err(|error| error.to_string())?;
+    });
+    let loaded = loaded.map_err(|error| error.to_string())?;
     Ok(loaded.warnings)
 }
 
@@ -74,12 +72,13 @@ fn every_file_is_answered_as_the_page_says() {
         let mut count = 0;
         for [_, files, said] in table(&format!("## {format}")) {
             for file in quoted(&files) {
-                let bytes = fs::read(root().join("fuzz/corpus").join(file))
-                    .unwrap_or_else(|error| panic!("{file}: {error}"));
+                let bytes = fs::read(root().join("fuzz/corpus").join(file));
+                let bytes = bytes.unwrap_or_else(|error| panic!("{file}: {error}"));
                 // The ending decides if the bytes do not identify the format.
                 let name = format!("t.{}", format.to_lowercase());
                 let none = |_: &str| Err(io::ErrorKind::NotFound.into());
-                let loaded = parse_mesh(name, &bytes, none).map_err(|error| error.to_string());
+                let loaded = parse_mesh(name, &bytes, none);
+                let loaded = loaded.map_err(|error| error.to_string());
                 check(file, &said, loaded.map(|loaded| loaded.warnings));
                 count += 1;
             }
@@ -125,11 +124,8 @@ fn every_statement_of_the_code_is_on_the_page() {
     );
     for (heading, known) in [("## OBJ", statements), ("## MTL", keys)] {
         let rows = table(heading);
-        let listed: BTreeSet<String> = rows
-            .iter()
-            .flat_map(|[statement, ..]| quoted(statement))
-            .map(str::to_ascii_lowercase)
-            .collect();
+        let listed = rows.iter().flat_map(|[statement, ..]| quoted(statement));
+        let listed: BTreeSet<String> = listed.map(str::to_ascii_lowercase).collect();
         let missing: Vec<_> = known.difference(&listed).collect();
         assert!(missing.is_empty(), "{PAGE} does not list {missing:?}");
     }
