@@ -62,8 +62,9 @@ fn own_lines(c: &mut Criterion) {
         for length in [16usize, 64, 512] {
             group.throughput(Throughput::Elements(length as u64));
             for level in [SimdLevel::Scalar, SimdLevel::best()] {
-                let shader = SpanShader::new(&variant, &lighting, Interpolation::Screen);
-                let mut shader = shader.expect("a method for any light").with_simd(level);
+                let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen)
+                    .expect("a method for any light")
+                    .with_simd(level);
                 let (mut colours, count) = (vec![[0.0; 3]; length], shader.varyings());
                 let mut ends = vec![0.0; 2 * count];
                 group.bench_function(BenchmarkId::new(level.to_string(), length), |b| {

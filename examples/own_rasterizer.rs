@@ -66,8 +66,9 @@ impl Canvas {
             // Pixels have their centres at ½. An end that lies exactly on the row counts as above
             // it, so a row crosses either two edges or none.
             let y = row as f32 + 0.5;
-            let crossed = [(a, b), (b, c), (c, a)].into_iter();
-            let crossed = crossed.filter(|(p, q)| (p.y <= y) != (q.y <= y));
+            let crossed = [(a, b), (b, c), (c, a)]
+                .into_iter()
+                .filter(|(p, q)| (p.y <= y) != (q.y <= y));
             let mut ends: Vec<Point> = crossed.map(|(p, q)| p.at_row(q, y)).collect();
             ends.sort_by(|p, q| p.x.total_cmp(&q.x));
             let [left, right] = &ends[..] else { continue };

@@ -34,9 +34,10 @@ pub static BRICKS: LazyLock<[Vec<f32>; 3]> = LazyLock::new(|| {
     let colour = |[u, v]: [usize; 2]| {
         let row = v / 16;
         let (along, brick) = ((u + 16 * (row % 2)) % 32, (u + 16 * (row % 2)) / 32 % 2);
-        match along < 2 || v % 16 < 2 {
-            true => [0.75, 0.72, 0.66],
-            false => [0.5 + 0.06 * ((row + brick) % 3) as f32, 0.17, 0.1],
+        if along < 2 || v % 16 < 2 {
+            [0.75, 0.72, 0.66]
+        } else {
+            [0.5 + 0.06 * ((row + brick) % 3) as f32, 0.17, 0.1]
         }
     };
     let colours: Vec<[f32; 3]> = places.map(colour).collect();

@@ -29,8 +29,8 @@ pub fn run(bytes: &[u8]) {
     }
     // Some programs write a C string with its NUL.
     let with_nul = [obj, b"\n\0"].concat();
-    let again = parse_mesh("fuzz.obj", &with_nul, |_| Ok(mtl.to_vec()));
-    let again = again.expect("a NUL at the end refuses nothing");
+    let again = parse_mesh("fuzz.obj", &with_nul, |_| Ok(mtl.to_vec()))
+        .expect("a NUL at the end refuses nothing");
     assert_eq!(again.mesh, loaded.mesh);
     draw(loaded.mesh);
 }

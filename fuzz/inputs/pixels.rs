@@ -32,11 +32,15 @@ pub fn run(bytes: &[u8]) {
     let Some((seed, changes)) = bytes.split_first_chunk::<8>() else {
         return;
     };
-    let changes = changes.as_chunks::<10>().0.iter().take(MOST_CHANGES);
-    let changes = changes.map(|[low, high, bits @ ..]| {
-        (u16::from_le_bytes([*low, *high]), f64::from_le_bytes(*bits))
-    });
-    let changes: Vec<wild::Change> = changes.collect();
+    let changes: Vec<wild::Change> = changes
+        .as_chunks::<10>()
+        .0
+        .iter()
+        .take(MOST_CHANGES)
+        .map(|[low, high, bits @ ..]| {
+            (u16::from_le_bytes([*low, *high]), f64::from_le_bytes(*bits))
+        })
+        .collect();
     let mut long_seed = [0; 32];
     long_seed[..8].copy_from_slice(seed);
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &long_seed);

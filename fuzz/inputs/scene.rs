@@ -31,8 +31,8 @@ pub fn run(bytes: &[u8]) {
         }
     };
     let printed = file.to_toml();
-    let again = SceneFile::parse(&printed, "printed.toml");
-    let again = again.unwrap_or_else(|error| panic!("{}\n{printed}", error.render(false)));
+    let again = SceneFile::parse(&printed, "printed.toml")
+        .unwrap_or_else(|error| panic!("{}\n{printed}", error.render(false)));
     assert_eq!(file, again, "{printed}");
     let load = |name: &str, _: &Path| {
         // A name with a number of three digits asks for a large mesh.

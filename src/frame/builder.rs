@@ -429,8 +429,11 @@ impl FrameBuilder {
         clip_space.clip(frame, &self.polygons)?;
         // A vertex without a place on the picture has the least positive weight, which must not
         // count.
-        let weights = frame.vertices.iter().map(|v| v.inv_w);
-        let weights = weights.filter(|w| *w > f64::MIN_POSITIVE);
+        let weights = frame
+            .vertices
+            .iter()
+            .map(|v| v.inv_w)
+            .filter(|w| *w > f64::MIN_POSITIVE);
         let [least, largest] = [
             weights.clone().fold(f64::INFINITY, f64::min),
             weights.fold(0.0, f64::max),

@@ -216,14 +216,15 @@ impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Short(value) = *self;
         let (narrow, size) = (value as f32, value.abs());
-        match f64::from(narrow) == value {
-            // From 2²⁴ on, the shortest digits of an `f32` are not the digits of the integer that
-            // it holds.
-            true if (1e-5..16_777_216.0).contains(&size) => write!(f, "{narrow}"),
-            true if size > 0.0 && size.is_finite() && !(1e-5..1e16).contains(&size) => {
-                write!(f, "{narrow:e}")
-            }
-            _ => Written(value).fmt(f),
+        let is_narrow = f64::from(narrow) == value;
+        // From 2²⁴ on, the shortest digits of an `f32` are not the digits of the integer that it
+        // holds.
+        if is_narrow && (1e-5..16_777_216.0).contains(&size) {
+            write!(f, "{narrow}")
+        } else if is_narrow && size > 0.0 && size.is_finite() && !(1e-5..1e16).contains(&size) {
+            write!(f, "{narrow:e}")
+        } else {
+            Written(value).fmt(f)
         }
     }
 }

@@ -41,14 +41,15 @@ pub(super) fn check(
     range: &NumberRange,
 ) -> Checked {
     let value = value.into();
-    match range.holds(value) {
-        true => Ok(()),
-        false => Err(FrameError::Value {
+    if range.holds(value) {
+        Ok(())
+    } else {
+        Err(FrameError::Value {
             item,
             name,
             value,
             expected: range.expected,
-        }),
+        })
     }
 }
 
@@ -79,9 +80,10 @@ pub(super) fn direction(
 /// no direction, keeps its bits.
 pub(crate) fn unit(vector: [f32; 3]) -> [f32; 3] {
     let wide = DVec3::from_array(vector.map(f64::from));
-    match is_unit(wide) {
-        true => vector,
-        false => as_unit(wide).as_vec3().to_array(),
+    if is_unit(wide) {
+        vector
+    } else {
+        as_unit(wide).as_vec3().to_array()
     }
 }
 
@@ -123,9 +125,10 @@ pub(super) fn planes([near, far]: [f64; 2], is_perspective: bool) -> Checked {
     let range = if is_perspective { &NEAR } else { &PLANE };
     check(ITEM, "the near distance", near, range)?;
     check(ITEM, "the far distance", far, &PLANE)?;
-    match near < far {
-        true => Ok(()),
-        false => Err(no_depth(far)),
+    if near < far {
+        Ok(())
+    } else {
+        Err(no_depth(far))
     }
 }
 

@@ -85,10 +85,11 @@ pub type SubPixel = fixed::types::I24F8;
 /// [`FrameBuilder::finish`] refuses both, as they lie beyond [`Frame::GUARD`].
 pub fn sub_pixel(pixels: impl Into<f64>) -> SubPixel {
     let bits = libm::rint(pixels.into() * 256.0);
-    match bits.is_nan() {
-        true => SubPixel::MAX,
+    if bits.is_nan() {
+        SubPixel::MAX
+    } else {
         // The conversion saturates.
-        false => SubPixel::from_bits(bits as i32),
+        SubPixel::from_bits(bits as i32)
     }
 }
 
@@ -308,9 +309,10 @@ impl Frame {
         // A power of two changes no bit of a ratio's mantissa.
         self.weight_scale = libm::scalbn(1.0, -libm::frexp(largest).1);
         let is_used = self.interpolation == Interpolation::Perspective;
-        match is_used && least < largest / MOST {
-            true => Err(FrameError::Weights),
-            false => Ok(()),
+        if is_used && least < largest / MOST {
+            Err(FrameError::Weights)
+        } else {
+            Ok(())
         }
     }
 

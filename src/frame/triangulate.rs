@@ -157,7 +157,8 @@ fn area(a: Position, b: Position, c: Position) -> i64 {
 /// polygon is not simple.
 fn ears(places: &[Position]) -> Option<Vec<[usize; 3]>> {
     let origin = *places.first()?;
-    // A polygon of 2³² corners adds at most 2³² areas of 2⁵⁰, which needs more than 64 bits.
+    // A polygon of 2³² corners adds at most 2³² areas of 2⁵⁰, which needs more than 64 bits. The
+    // last edge may be left out: with the first corner it spans no area.
     let whole: i128 = places
         .windows(2)
         .map(|edge| i128::from(area(origin, edge[0], edge[1])))
@@ -198,6 +199,7 @@ fn ears(places: &[Position]) -> Option<Vec<[usize; 3]>> {
         };
         ring.left.remove(at);
     }
+    // Three corners are left, and each of them has the area of their triangle.
     match ring.area_at(1).signum() {
         0 => {}
         1 => triangles.push(ring.corner(1)),

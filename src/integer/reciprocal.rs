@@ -26,6 +26,7 @@ static RECIPROCALS: [u32; 256] = {
 const fn reciprocal(n: u32) -> u32 {
     // 2^shift is the least power of 2 that is not below n.
     let shift = 32 - (n - 1).leading_zeros();
+    // One bit too many, plus 1, halved: the mantissa is rounded to the nearest.
     shift << 16 | ((1 << (15 + shift)) / n + 1) >> 1
 }
 
@@ -66,6 +67,7 @@ impl Reciprocal {
     /// Both products are below 2¹⁶ · 2¹⁵. Its error is 2⁻¹⁴/n² plus the mantissa's.
     #[inline(always)]
     pub(super) fn times_squared(self, x: i32) -> i32 {
+        // Q(13 + shift), and then `twice` is Q(27 + 2 shift), which the last shift turns into Q30.
         let once = x.wrapping_mul(self.mantissa).wrapping_add(1 << 14) >> 15;
         let twice = once * self.mantissa;
         if self.shift >= 2 {

@@ -220,8 +220,10 @@ fn within_limit(spec: &str) -> Result<Values, BuiltinError> {
 /// Reads a shape and its parameters, and checks all of them.
 fn parse(spec: &str) -> Result<Values, BuiltinError> {
     let (name, settings) = spec.split_once('?').unwrap_or((spec, ""));
-    let shape = BUILTINS.iter().find(|shape| shape.name == name);
-    let shape = shape.ok_or_else(|| BuiltinError::UnknownShape { name: name.into() })?;
+    let shape = BUILTINS
+        .iter()
+        .find(|shape| shape.name == name)
+        .ok_or_else(|| BuiltinError::UnknownShape { name: name.into() })?;
     let mut values = Values::new(shape);
     let mut set: Vec<&'static str> = Vec::new();
     let mut polygons = None;
@@ -299,26 +301,27 @@ impl ShapeParameter {
             max,
             ..
         } = *self;
-        let value = match kind {
+        let parsed = match kind {
             // An i128 has room for far more digits than any range allows, so that
             // 99999999999999999999 is reported as out of range and not as no whole number.
             ParameterKind::Integer => text.replace('_', "").parse::<i128>().ok().map(|n| n as f64),
             ParameterKind::Real => text.parse().ok().filter(|n: &f64| !n.is_nan()),
             ParameterKind::Bool => text.parse().ok().map(|b: bool| b as u8 as f64),
         };
-        let value = value.ok_or_else(|| BuiltinError::WrongKind {
+        let value = parsed.ok_or_else(|| BuiltinError::WrongKind {
             parameter,
             expected: kind.name(),
             found: text.into(),
         })?;
-        match (min..=max).contains(&value) {
-            true => Ok(value),
-            false => Err(BuiltinError::OutOfRange {
+        if (min..=max).contains(&value) {
+            Ok(value)
+        } else {
+            Err(BuiltinError::OutOfRange {
                 parameter,
                 found: text.into(),
                 min,
                 max,
-            }),
+            })
         }
     }
 }

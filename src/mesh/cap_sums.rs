@@ -159,8 +159,10 @@ mod tests {
                     .into_iter()
                     .chain(once.iter().copied().take(40))
                 {
-                    let near = normals.iter().zip(&weights);
-                    let near = near.filter(|(n, _)| own.dot(**n) >= least);
+                    let near = normals
+                        .iter()
+                        .zip(&weights)
+                        .filter(|(n, _)| own.dot(**n) >= least);
                     let expected: DVec3 = near.clone().map(|(n, w)| *n * *w).sum();
                     let total: f64 = near.clone().map(|(_, w)| w).sum();
                     let sum = sums.within(own, least);

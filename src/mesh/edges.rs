@@ -113,9 +113,10 @@ impl EdgeCounts {
                     let groups = [p, q].map(|p| mesh.smoothing_group(p));
                     let is_smooth =
                         groups[0] == groups[1] && groups[0] != Some(PolygonMesh::FACETED);
-                    match mesh.part(p) == mesh.part(q) {
-                        true => counts.sharp += usize::from(is_sharp),
-                        false => counts.seams += usize::from(!is_sharp && is_smooth),
+                    if mesh.part(p) == mesh.part(q) {
+                        counts.sharp += usize::from(is_sharp);
+                    } else {
+                        counts.seams += usize::from(!is_sharp && is_smooth);
                     }
                 }
                 _ => {}
@@ -144,11 +145,14 @@ fn closing(mesh: &PolygonMesh, vertex: &[u32], open: &[EdgeUse], part: f64) -> u
     }
     let near = super::weld::weld_near(&positions, part * super::weld::size(mesh));
     let place = |vertex: u32| ends.binary_search(&vertex).map_or(0, |place| near[place]);
-    let moved = open.iter().map(|edge| {
-        let [a, b] = edge.ends.map(place);
-        ([a.min(b), a.max(b)], edge.ascends == (a < b))
-    });
-    let mut moved: Vec<([u32; 2], bool)> = moved.filter(|([a, b], _)| a != b).collect();
+    let mut moved: Vec<([u32; 2], bool)> = open
+        .iter()
+        .map(|edge| {
+            let [a, b] = edge.ends.map(place);
+            ([a.min(b), a.max(b)], edge.ascends == (a < b))
+        })
+        .filter(|([a, b], _)| a != b)
+        .collect();
     moved.sort_unstable();
     let groups = moved.chunk_by(|a, b| a.0 == b.0);
     groups

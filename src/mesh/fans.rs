@@ -132,8 +132,10 @@ impl<'a> SurfaceFinder<'a> {
         if self.is_in_one_group(fan, smoothing) {
             return count;
         }
-        let keys = fan.iter().zip(&self.surfaces).enumerate();
-        let mut keys: Vec<_> = keys
+        let mut keys: Vec<_> = fan
+            .iter()
+            .zip(&self.surfaces)
+            .enumerate()
             .map(|(item, (corner, &surface))| (surface, self.smoothing_group(corner.polygon), item))
             .collect();
         keys.sort_unstable();
@@ -238,6 +240,7 @@ impl<'a> SurfaceFinder<'a> {
         // Taken out so that `link` may borrow the rest; put back below to keep its memory.
         let ends = core::mem::take(&mut self.ends);
         for edge in ends.chunk_by(|a, b| (a.other, a.part) == (b.other, b.part)) {
+            // Sorting has put arriving ends before leaving ones.
             match edge.split_at(edge.partition_point(|end| !end.leaves)) {
                 ([a], [b]) => {
                     let [p, q] = [a, b].map(|end| fan[end.item as usize].polygon);
@@ -343,12 +346,11 @@ impl<'a> SurfaceFinder<'a> {
             let root = self.root(item);
             // A root comes before every other corner of its surface, so that its index is stored
             // already.
-            let index = match root == item {
-                true => {
-                    count += 1;
-                    count - 1
-                }
-                false => self.surfaces[root as usize],
+            let index = if root == item {
+                count += 1;
+                count - 1
+            } else {
+                self.surfaces[root as usize]
             };
             self.surfaces.push(index);
         }

@@ -94,17 +94,17 @@ pub fn areas_cancel(mesh: &PolygonMesh, p: usize) -> bool {
     while let [first, inner @ .., last] = path
         && (first == last || inner.last() == Some(first) || inner.first() == Some(last))
     {
-        path = match (first == last, inner.last() == Some(first)) {
-            (true, _) | (_, true) => &path[..path.len() - 1],
-            _ => &path[1..],
+        path = if first == last || inner.last() == Some(first) {
+            &path[..path.len() - 1]
+        } else {
+            &path[1..]
         };
     }
     let Some(&first) = path.first() else {
         return false;
     };
     let largest = path.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
-    let far = path.iter().map(|p| *p - first);
-    let far = far.fold(DVec3::ZERO, |far, d| {
+    let far = path.iter().map(|p| *p - first).fold(DVec3::ZERO, |far, d| {
         if d.length_squared() > far.length_squared() {
             d
         } else {

@@ -163,6 +163,7 @@ impl Surface {
         for &p in &self.polygons {
             let polygon = mesh.polygon(p as usize);
             let from = |corner: u32| position(mesh, corner) - point;
+            // Angles have signs, so a fan adds up to the polygon, whatever its shape.
             for pair in polygon[1..].windows(2) {
                 angle += solid_angle(from(polygon[0]), from(pair[0]), from(pair[1]));
             }
@@ -347,9 +348,10 @@ mod tests {
             let all = polygons.iter().flatten();
             let own: Vec<Vec3> = all.map(|&c| positions[c as usize]).collect();
             let mut indices = 0..own.len() as u32;
-            let lists = polygons.iter();
-            let lists = lists.map(|list| indices.by_ref().take(list.len()).collect());
-            let lists = lists.collect();
+            let lists = polygons
+                .iter()
+                .map(|list| indices.by_ref().take(list.len()).collect())
+                .collect();
             (own, lists)
         };
         assert_eq!(count(&touching.each_ref().map(soup), false), 1);

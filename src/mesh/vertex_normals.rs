@@ -313,12 +313,13 @@ fn averaged(
         }
         of_run
     });
-    match runs.iter().all(|run| run.indices.is_empty()) {
-        true => CornerNormals::ByPosition {
+    if runs.iter().all(|run| run.indices.is_empty()) {
+        CornerNormals::ByPosition {
             values: runs.into_iter().flat_map(|run| run.values).collect(),
             positions: around.vertex,
-        },
-        false => CornerNormals::ByCorner(join_runs(mesh, fans, count, runs)),
+        }
+    } else {
+        CornerNormals::ByCorner(join_runs(mesh, fans, count, runs))
     }
 }
 
@@ -339,8 +340,10 @@ fn join_runs(
         for v in vertices.clone() {
             for item in fans.of(v) {
                 // Without indices, each vertex of the run has one value, in the order of vertices.
-                let index = indices.next().copied();
-                let index = index.unwrap_or((v - vertices.start) as u32);
+                let index = indices
+                    .next()
+                    .copied()
+                    .unwrap_or((v - vertices.start) as u32);
                 corners[item.corner as usize] = first + index;
             }
         }
@@ -449,8 +452,8 @@ fn creased(
         let mut of_run = AveragedRun::default();
         for v in run * RUN..count.min(run * RUN + RUN) {
             let fan = fans.of(v);
-            let surfaces = finder.find(v, fan);
-            of_run.add_creased(fan, (&finder.surfaces, surfaces), &weights, least_cosine);
+            let count = finder.find(v, fan);
+            of_run.add_creased(fan, &finder.surfaces, count, &weights, least_cosine);
         }
         of_run
     });
@@ -458,11 +461,13 @@ fn creased(
 }
 
 impl AveragedRun {
-    /// Adds the normals of the corners in `fan`, which lie on `count` surfaces.
+    /// Adds the normals of the corners in `fan`, which lie on `count` surfaces. `surfaces` holds the
+    /// surface of each corner.
     fn add_creased(
         &mut self,
         fan: &[FanCorner],
-        (surfaces, count): (&[u32], usize),
+        surfaces: &[u32],
+        count: usize,
         weights: &Weights,
         least_cosine: f64,
     ) {
@@ -502,9 +507,10 @@ fn creased_surface(
     let around = terms(surface, weights);
     // If all corners have weight 0, they count equally.
     let weighs = around.iter().any(|term| term.weight > 0.0);
-    let (around, weights) = match weighs || around.is_empty() {
-        true => (around, *weights),
-        false => (terms(surface, &weights.uniform()), weights.uniform()),
+    let (around, weights) = if weighs || around.is_empty() {
+        (around, *weights)
+    } else {
+        (terms(surface, &weights.uniform()), weights.uniform())
     };
     let add = |mut sum: Sum, term: &Term| {
         sum.add_term(term);
@@ -520,8 +526,9 @@ fn creased_surface(
             _ if !has_normal => all,
             Some(tree) => tree.within(own, least_cosine),
             None => {
-                let near = around.iter();
-                let near = near.filter(|term| own.dot(term.polygon) >= least_cosine);
+                let near = around
+                    .iter()
+                    .filter(|term| own.dot(term.polygon) >= least_cosine);
                 near.fold(none, add)
             }
         };
@@ -735,11 +742,15 @@ mod tests {
             let (sin, cos) = libm::sincos(angle(k % 6));
             DVec3::new(sin, f64::from(k / 6), cos).as_vec3()
         };
-        let quads = (0..4u32).flat_map(|row| (0..5).map(move |column| 6 * row + column));
-        let quads = quads.map(|k| match reversed {
-            false => [k, k + 1, k + 7, k + 6],
-            true => [k, k + 6, k + 7, k + 1],
-        });
+        let quads = (0..4u32)
+            .flat_map(|row| (0..5).map(move |column| 6 * row + column))
+            .map(|k| {
+                if reversed {
+                    [k, k + 6, k + 7, k + 1]
+                } else {
+                    [k, k + 1, k + 7, k + 6]
+                }
+            });
         ((0..30).map(position).collect(), quads.collect())
     }
 
@@ -786,9 +797,10 @@ mod tests {
                 let both = vertex_normals(&mesh, source);
                 let expected = [&front_alone, &back_alone].map(|mesh| vertex_normals(mesh, source));
                 for quad in 0..40 {
-                    let (side, own) = match front_first {
-                        true => (quad / 20, quad % 20),
-                        false => (1 - quad % 2, quad / 2),
+                    let (side, own) = if front_first {
+                        (quad / 20, quad % 20)
+                    } else {
+                        (1 - quad % 2, quad / 2)
                     };
                     for k in 0..4 {
                         let (found, expected) =
@@ -896,9 +908,10 @@ mod tests {
                 let normals = vertex_normals(&mesh, source);
                 for (wall, polygon) in walls.iter().enumerate() {
                     let k = 4 * wall;
-                    let expected = match *polygon == out {
-                        true => face_normal(&mesh, wall),
-                        false => both.as_vec3(),
+                    let expected = if *polygon == out {
+                        face_normal(&mesh, wall)
+                    } else {
+                        both.as_vec3()
                     };
                     // Two unit normals, added in either order, and rounded to f32.
                     let off = (at(&normals, k) - expected).length();
@@ -948,9 +961,12 @@ mod tests {
         };
         let positions: Vec<Vec3> = (0..2 * count).map(border).collect();
         let quads: Vec<[u32; 4]> = (0..count)
-            .map(|k| match k + 1 == count {
-                false => [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2],
-                true => [2 * k, 2 * k + 1, 0, 1],
+            .map(|k| {
+                if k + 1 == count {
+                    [2 * k, 2 * k + 1, 0, 1]
+                } else {
+                    [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2]
+                }
             })
             .collect();
         let mesh = mesh_of(positions, &quads, Vec::new());
@@ -985,12 +1001,11 @@ mod tests {
                 assert_eq!(at(&faceted, k), face_normal(&mesh, k / 4));
                 // Along the border each group has its own normal: the normal of its column of
                 // quads.
-                match position % 6 == 2 {
-                    true => {
-                        let off = (at(&two, k) - face_normal(&mesh, k / 4)).length();
-                        assert!(off <= 2.0 * f32::EPSILON);
-                    }
-                    false => assert_eq!(at(&two, k), at(&smooth, k)),
+                if position % 6 == 2 {
+                    let off = (at(&two, k) - face_normal(&mesh, k / 4)).length();
+                    assert!(off <= 2.0 * f32::EPSILON);
+                } else {
+                    assert_eq!(at(&two, k), at(&smooth, k));
                 }
             }
         }

@@ -74,9 +74,10 @@ impl WindingDoubts {
                     uses.iter()
                         .all(|of| print(of.polygon) == print(uses[0].polygon))
                 };
-            match is_of_one {
-                true => self.open_edges += 1,
-                false => self.uneven_edges += 1,
+            if is_of_one {
+                self.open_edges += 1;
+            } else {
+                self.uneven_edges += 1;
             }
         }
     }

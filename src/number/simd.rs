@@ -158,9 +158,10 @@ macro_rules! block {
             #[inline(always)]
             fn max(self, least: f32) -> Self {
                 // If one operand is NaN, x86 returns the second: `least`, which is not NaN.
-                match cfg!(target_arch = "x86_64") {
-                    true => SimdBase::max(self, least),
-                    false => SimdBase::max_precise(self, least),
+                if cfg!(target_arch = "x86_64") {
+                    SimdBase::max(self, least)
+                } else {
+                    SimdBase::max_precise(self, least)
                 }
             }
             #[inline(always)]

@@ -113,8 +113,9 @@ impl FromStr for SimdLevel {
         if let Some(level) = named.filter(|level| level.is_available()) {
             return Ok(level);
         }
-        let available = core::iter::once("auto").chain(SimdLevel::available().map(SimdLevel::name));
-        let available = available.collect();
+        let available = core::iter::once("auto")
+            .chain(SimdLevel::available().map(SimdLevel::name))
+            .collect();
         Err(match named {
             Some(level) => NameError::NotOnThisMachine { level, available },
             None => NameError::Unknown {

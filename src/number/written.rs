@@ -14,9 +14,10 @@ impl fmt::Display for Written {
         let size = value.abs();
         // Whole numbers below 1e16 have up to 16 digits, all of which an `f64` can tell apart.
         let is_plain = size == 0.0 || !size.is_finite() || (1e-5..1e16).contains(&size);
-        match is_plain {
-            true => write!(f, "{value}"),
-            false => write!(f, "{value:e}"),
+        if is_plain {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
         }
     }
 }

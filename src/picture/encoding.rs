@@ -89,9 +89,10 @@ pub fn srgb_encode(c: f32) -> f32 {
 /// Returns the sRGB value of linear intensity `c`, as [`srgb_encode`] does, without rounding to
 /// `f32`.
 pub(crate) fn srgb_encode_f64(c: f64) -> f64 {
-    match c <= 0.003_130_8 {
-        true => 12.92 * c,
-        false => 1.055 * libm::pow(c, 1.0 / 2.4) - 0.055,
+    if c <= 0.003_130_8 {
+        12.92 * c
+    } else {
+        1.055 * libm::pow(c, 1.0 / 2.4) - 0.055
     }
 }
 

@@ -111,7 +111,7 @@ fn interpolate(
             line.runs(|span, pixels| {
                 list.clear();
                 let uniforms = UniformsIndex(0); // nothing is lit
-                edges.add_run(span, (row, pixels.clone()), uniforms, &mut list);
+                edges.add_run(span, row, pixels.clone(), uniforms, &mut list);
                 let [mut at, step] = list.starts.of(0).map(values);
                 for x in pixels {
                     visit(x, row, at);
@@ -140,7 +140,7 @@ fn of_vertices(frame: &Frame, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static>
     let all = (0..frame.vertices().len() as u32).map(of);
     let mut values: Vec<f32> = all.flat_map(|[x, y, z]| [x, y, z, 1.0]).collect();
     let is_weighted = frame.interpolation() == Interpolation::Perspective;
-    finish(frame, &mut values, (4, false), is_weighted);
+    finish(frame, &mut values, 4, false, is_weighted);
     Varyings::of_vertices(values, 4)
 }
 
@@ -168,8 +168,7 @@ pub fn checkerboard(
     // Moving the board by a whole number of periods leaves it unchanged, and keeps coordinates
     // small far from 0.
     let period = 2048.0 * size;
-    let origin = frame.origin();
-    let origin = origin.map(|o| o - libm::rint(o / period) * period);
+    let origin = frame.origin().map(|o| o - libm::rint(o / period) * period);
     // The position of a vertex in the world, rounded once.
     let world = |vertex: u32| {
         let position = frame.position(vertex);

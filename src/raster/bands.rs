@@ -43,7 +43,7 @@ pub(super) fn stream_bands<F: Format<Pixel = [u8; 4]>>(
             test: DepthTest::Less,
             samples: frame.width() * frame.samples(),
         };
-        draw_bands(surface, (height, first / a_band), rows, draw);
+        draw_bands(surface, height, first / a_band, rows, draw);
         if !take(&window[..count * width]) {
             return;
         }
@@ -53,7 +53,8 @@ pub(super) fn stream_bands<F: Format<Pixel = [u8; 4]>>(
 /// Draws bands of `height` scanlines of samples, from band `first` on, until all rows are drawn.
 pub(super) fn draw_bands<F: Format>(
     surface: Surface<'_, F>,
-    (height, first): (usize, usize),
+    height: usize,
+    first: usize,
     rows: Rows<'_, F::Pixel>,
     draw: &DrawBand<'_>,
 ) {

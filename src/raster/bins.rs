@@ -131,6 +131,7 @@ impl BinChunk {
         };
         let [from, end] = &ranges;
         for ((entry, &from), &end) in entries.into_iter().zip(from).zip(end) {
+            // Most polygons are in one band, and the loop does not run for them.
             put(from, entry);
             for band in from + 1..end {
                 put(band, entry);
@@ -157,6 +158,8 @@ fn read(frame: &Frame, polygon: &Polygon) -> ([u32; 3], [Point; 3]) {
     match *corners {
         [a, b, c] => ([a, b, c], [point(a), point(b), point(c)]),
         [a, b, c, d] => {
+            // The least corner of all four, and the greatest corner of each pair: together they
+            // have the same box.
             let [ab, cd] = [box_of(point(a), point(b)), box_of(point(c), point(d))];
             (Listed::QUADRANGLE, [box_of(ab[0], cd[0])[0], ab[1], cd[1]])
         }

@@ -215,9 +215,10 @@ impl CallersTest {
             (true, false) => own > *stored,
             (true, true) => own >= *stored,
         };
-        (*stored, *depth) = match is_seen {
-            true => (own, *depth),
-            false => (*stored, f32::INFINITY),
+        (*stored, *depth) = if is_seen {
+            (own, *depth)
+        } else {
+            (*stored, f32::INFINITY)
         };
         !is_seen
     }

@@ -61,6 +61,7 @@ pub fn depth_ties(frame: &Frame) -> DepthTies {
         })
         .collect();
     let mut is_tied = vec![false; frame.width()];
+    // The last pair that was compared, because most samples meet the pair of the sample before.
     let mut equal = ((NO_POLYGON, NO_POLYGON), false);
     scan(frame, &Varyings::none(), &mut |_, line, _| {
         is_tied.fill(false);
@@ -121,6 +122,7 @@ fn uncertainty(frame: &Frame, polygon: &Polygon, rule: SampleDepth) -> f32 {
         (low, high, largest) = (low.min(p[2]), high.max(p[2]), largest.max(p[2].abs()));
     }
     let growth = (normal[0].abs() + normal[1].abs()) / normal[2].abs();
+    // A polygon that is seen edge-on divides by 0. Then the range of its depths is the smaller one.
     let snapped = f64::min(growth * SubPixel::DELTA.to_num::<f64>(), high - low);
     let rounded = f64::from(ROUNDINGS * f32::EPSILON / 2.0) * largest;
     (snapped + rounded) as f32
@@ -130,9 +132,11 @@ fn uncertainty(frame: &Frame, polygon: &Polygon, rule: SampleDepth) -> f32 {
 /// whichever way they run.
 fn are_equal(frame: &Frame, polygons: [u32; 2]) -> bool {
     let [a, b] = polygons.map(|index| {
-        let corners = frame.corners(&frame.polygons()[index as usize]).iter();
-        let mut corners: Vec<&ScreenVertex> =
-            corners.map(|&v| &frame.vertices()[v as usize]).collect();
+        let mut corners: Vec<&ScreenVertex> = frame
+            .corners(&frame.polygons()[index as usize])
+            .iter()
+            .map(|&v| &frame.vertices()[v as usize])
+            .collect();
         corners.sort_by(|p, q| p.compare(q));
         corners
     });
@@ -156,17 +160,19 @@ mod tests {
         let material = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
         let material = builder.lighting(material);
         for (index, corners) in (0..).zip(polygons) {
-            let corners = corners.iter().map(|&[x, y, depth]| {
-                builder.vertex(Vertex {
-                    x: SubPixel::from_num(x),
-                    y: SubPixel::from_num(y),
-                    depth,
-                    inv_w: 1.0,
-                    normal: [0.0, 0.0, 1.0],
-                    material,
+            let corners: Vec<u32> = corners
+                .iter()
+                .map(|&[x, y, depth]| {
+                    builder.vertex(Vertex {
+                        x: SubPixel::from_num(x),
+                        y: SubPixel::from_num(y),
+                        depth,
+                        inv_w: 1.0,
+                        normal: [0.0, 0.0, 1.0],
+                        material,
+                    })
                 })
-            });
-            let corners: Vec<u32> = corners.collect();
+                .collect();
             builder.polygon(&corners, [0.0, 0.0, 1.0], index);
         }
         depth_ties(&builder.finish().expect("corners inside the guard band"))

@@ -80,6 +80,7 @@ fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTr
         let mut scanline = Scanline::new(frame);
         scanline.cut(frame.corners(&frame.polygons()[polygon as usize]), y);
         for (end, other, others_scanline) in &open {
+            // Open spans end beyond `start`, so the overlap has at least one pixel.
             let (first, last) = (start, stop.min(*end) - 1);
             // The depth of each sample is tested against the cube. So the ends of the overlap may
             // be invisible, and every pixel is compared.

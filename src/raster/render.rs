@@ -178,11 +178,12 @@ impl Variant {
         let frame = surface.frame;
         #[cfg(feature = "simd")]
         if let Renderer::Row(level) = renderer {
+            // The closure is called once, which its type does not say.
             let mut rows = Some(rows);
             let is_levels = surface.format.is_levels();
             return super::rows::draw(self, frame, level, is_levels, &mut |height, draw| {
                 if let Some(rows) = rows.take() {
-                    draw_bands(surface, (height, 0), rows, draw);
+                    draw_bands(surface, height, 0, rows, draw);
                 }
             });
         }

@@ -277,6 +277,7 @@ impl<'a> SetUp<'a> {
     fn collect_whole(&self, corner: u32, whole: &mut Vec<Vec3<f32>>) {
         match self.frame.clip_corner(corner) {
             None => whole.push(vec3(self.frame.normal(corner))),
+            // An end of the edge may itself be a corner that another plane made.
             Some(cut) => {
                 self.collect_whole(cut.a, whole);
                 self.collect_whole(cut.b, whole);
@@ -292,9 +293,10 @@ impl<'a> SetUp<'a> {
     /// Returns the index of a polygon's uniforms.
     #[inline(always)]
     pub fn uniforms_of(&self, polygon: u32) -> UniformsIndex {
-        match self.is_by_polygon {
-            true => UniformsIndex(polygon),
-            false => UniformsIndex(self.frame.polygons()[polygon as usize].material),
+        if self.is_by_polygon {
+            UniformsIndex(polygon)
+        } else {
+            UniformsIndex(self.frame.polygons()[polygon as usize].material)
         }
     }
 
@@ -306,9 +308,10 @@ impl<'a> SetUp<'a> {
             (material as usize) < self.frame.lightings().len(),
             "a material and not a polygon"
         );
-        let before = match self.is_by_polygon {
-            true => self.frame.polygons().len() as u32,
-            false => 0,
+        let before = if self.is_by_polygon {
+            self.frame.polygons().len() as u32
+        } else {
+            0
         };
         UniformsIndex(before + material)
     }
@@ -338,9 +341,10 @@ impl<'a> SetUp<'a> {
         let ready = alone.filter(|_| has_one_material && !is_local && !reads_attributes);
         let item = |i: usize| {
             let vertex = i as u32;
-            let point = match is_local {
-                true => frame.position(vertex),
-                false => [0.0; 3],
+            let point = if is_local {
+                frame.position(vertex)
+            } else {
+                [0.0; 3]
             };
             // With a single material its index need not be read.
             let material = (!has_one_material).then(|| frame.material(vertex));
@@ -353,7 +357,7 @@ impl<'a> SetUp<'a> {
         };
         let mut values = self.lit(memory, frame.vertices().len(), ready.unwrap_or(&[]), &item);
         let great_circle = self.varyings.great_circles;
-        finish(frame, &mut values, (count, great_circle), is_weighted);
+        finish(frame, &mut values, count, great_circle, is_weighted);
         (values.into(), Per::Vertex)
     }
 
@@ -371,9 +375,10 @@ impl<'a> SetUp<'a> {
     /// Returns a vertex's attributes, or zeros if nothing reads them.
     #[inline(always)]
     fn attributes(&self, vertex: u32) -> [f32; 4] {
-        match self.reads_attributes() {
-            true => self.frame.attributes(vertex),
-            false => [0.0; 4],
+        if self.reads_attributes() {
+            self.frame.attributes(vertex)
+        } else {
+            [0.0; 4]
         }
     }
 
@@ -400,12 +405,11 @@ impl<'a> SetUp<'a> {
                 uniforms: self.uniforms_of(index as u32),
                 normal,
                 position: [0.0; 3],
-                attributes: match frame.is_coloured() {
-                    true => {
-                        let [r, g, b] = frame.mean(polygon).colour;
-                        [r, g, b, 1.0]
-                    }
-                    false => [0.0; 4],
+                attributes: if frame.is_coloured() {
+                    let [r, g, b] = frame.mean(polygon).colour;
+                    [r, g, b, 1.0]
+                } else {
+                    [0.0; 4]
                 },
             }
         };
@@ -498,6 +502,8 @@ impl<'a> SetUp<'a> {
                     }
                     next = item(first + k);
                 }
+                // The padding holds vertices of earlier batches, or zeros. What they are lit to is
+                // not copied.
                 let padded = k.next_multiple_of(BLOCK);
                 let to = &mut lit[..padded * own];
                 let vectors = [&normals[..padded], &points[..padded]];
@@ -541,6 +547,7 @@ fn by_polygon(frame: &Frame, materials: Vec<Uniforms>) -> Vec<Uniforms> {
     let Some(first) = materials.first() else {
         return materials;
     };
+    // Every element is overwritten below.
     let mut all = vec![first.bare(); polygons.len()];
     for_each_chunk(&mut all[..], CHUNK, &|first, part: &mut [Uniforms]| {
         for (polygon, to) in polygons[first..].iter().zip(part) {
@@ -598,12 +605,13 @@ fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &m
     }
 }
 
-/// Computes the `values` of the corners that clipping made, and multiplies all values by the
-/// weights of perspective if `is_weighted`.
+/// Computes the `values` of the corners that clipping made, `count` of them per vertex, and
+/// multiplies all values by the weights of perspective if `is_weighted`.
 pub(super) fn finish(
     frame: &Frame,
     values: &mut [f32],
-    (count, great_circle): (usize, bool),
+    count: usize,
+    great_circle: bool,
     is_weighted: bool,
 ) {
     for corner in frame.clip_corners() {

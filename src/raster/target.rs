@@ -270,6 +270,7 @@ impl<F: Format> Target for Direct<'_, F> {
         if !self.surface.format.is_levels() {
             return None;
         }
+        // The empty slice only asks if pixels have the layout of levels.
         let is_in_place = !self.surface.keeps_background && F::levels(&mut []).is_some();
         if is_in_place {
             return F::levels(self.row(row));
@@ -285,6 +286,7 @@ impl<F: Format> Target for Direct<'_, F> {
             keeps_background,
             ..
         } = self.surface;
+        // If kernels wrote in place, `line` is empty and nothing is left to convert.
         for (pixel, &levels) in self.row(row).iter_mut().zip(&line) {
             if levels[3] > 0 || !keeps_background {
                 *pixel = format.of_levels(levels);
@@ -338,10 +340,13 @@ impl<F: Format> BoxFilter<'_, F> {
         for (pixel, (sum, covered)) in row.zip(&mut self.sums) {
             if *covered > 0 {
                 let share = f64::from(*covered);
-                let below = match keeps_background {
-                    true => format.linear(*pixel).map(f64::from),
-                    false => [r, g, b, 0.0],
+                let below = if keeps_background {
+                    format.linear(*pixel).map(f64::from)
+                } else {
+                    [r, g, b, 0.0]
                 };
+                // How much the uncovered samples weigh: nothing over the frame's own background,
+                // whose alpha is 0 here.
                 let rest = (all - share) * below[3];
                 let mean = |c: usize| match frame.alpha() {
                     Alpha::Straight => ((sum[c] + rest * below[c]) / (share + rest)) as f32,
@@ -365,6 +370,7 @@ impl<F: Format> Target for BoxFilter<'_, F> {
         for (column, colour) in (x..).zip(colours) {
             let (sum, covered) = &mut self.sums[column / samples];
             for (sum, channel) in sum.iter_mut().zip(colour) {
+                // Samples are clamped before they are averaged, as if each were a pixel.
                 *sum += f64::from(channel.clamp(0.0, 1.0));
             }
             *covered += 1;

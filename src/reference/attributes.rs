@@ -203,9 +203,10 @@ impl<'a> VertexAttributes<'a> {
                 let place = scanline.place(x)?;
                 let normal = self.slerped(&place, wide(self.frame.polygon_normal(polygon)));
                 // Slerp ignores depth, so colours are linear on the screen, too.
-                let colour = match self.colours.is_empty() {
-                    true => DVec3::ONE,
-                    false => scanline.weights(x)?.sum(|v| self.colours[v]),
+                let colour = if self.colours.is_empty() {
+                    DVec3::ONE
+                } else {
+                    scanline.weights(x)?.sum(|v| self.colours[v])
                 };
                 at_mean(normal, colour)
             }
@@ -214,9 +215,10 @@ impl<'a> VertexAttributes<'a> {
 
     /// Returns the vertex colour between the corners, or white if no material reads it.
     fn colour(&self, weights: &VertexWeights) -> DVec3 {
-        match self.colours.is_empty() {
-            true => DVec3::ONE,
-            false => self.interpolated(&self.colours, weights),
+        if self.colours.is_empty() {
+            DVec3::ONE
+        } else {
+            self.interpolated(&self.colours, weights)
         }
     }
 

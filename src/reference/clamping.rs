@@ -117,9 +117,10 @@ fn most(lighting: &Lighting) -> f64 {
     let channel = |i: usize| {
         let of_lights = lighting.lights.iter().map(|light| {
             let is_unbounded = matches!(light.falloff, Falloff::InverseSquare | Falloff::Inverse);
-            match light.place.is_local() && is_unbounded {
-                true => f64::INFINITY,
-                false => f64::from(light.diffuse[i]) + f64::from(light.specular[i]),
+            if light.place.is_local() && is_unbounded {
+                f64::INFINITY
+            } else {
+                f64::from(light.diffuse[i]) + f64::from(light.specular[i])
             }
         });
         f64::from(lighting.ambient[i]) + of_lights.sum::<f64>()

@@ -162,6 +162,8 @@ impl VertexWeights {
         let twice_area = |p: (i64, i64), q: (i64, i64), r: (i64, i64)| {
             ((q.0 - p.0) * (r.1 - p.1) - (q.1 - p.1) * (r.0 - p.0)) as f64
         };
+        // If the corners run the other way round, all areas change their signs, and the quotients
+        // do not.
         let (p, all) = ((xc, yc), twice_area(a, b, c));
         VertexWeights([
             (corners[0], twice_area(p, b, c) / all),
@@ -248,6 +250,7 @@ impl<'a> Scanline<'a> {
             .iter()
             .filter(|crossing| crossing.is_not_right_of(centre(x)))
             .count();
+        // A closed polygon has an even count of crossings, so behind an odd one there is another.
         (passed % 2 == 1).then(|| (self.crossings[passed - 1], self.crossings[passed]))
     }
 
@@ -256,6 +259,7 @@ impl<'a> Scanline<'a> {
         // The first pixel centre at or right of each left edge.
         let mut firsts = self.crossings.iter().step_by(2).map(|crossing| {
             let numerator = crossing.x_height - PIXEL / 2 * crossing.height;
+            // Rounds up, as `div_euclid` rounds down.
             let first = -(-numerator).div_euclid(PIXEL * crossing.height);
             first.clamp(columns.start as i64, columns.end as i64) as usize
         });

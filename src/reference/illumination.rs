@@ -80,9 +80,10 @@ pub(crate) struct Point {
 /// direction, only ambient light is left. `power` may replace the power by another function.
 pub(crate) fn sum(lighting: &Lighting, power: Power, point: Point) -> DVec3 {
     let (n, p) = (point.normal, point.position);
-    let c = match lighting.vertex_colours {
-        true => point.colour,
-        false => DVec3::ONE,
+    let c = if lighting.vertex_colours {
+        point.colour
+    } else {
+        DVec3::ONE
     };
     let (v, _) = toward(lighting.view, p);
     let mut intensity = wide(lighting.ambient) * c;

@@ -34,6 +34,7 @@ impl Visibility {
             // next behind it.
             let gap = &mut self.depth_gap.row_mut(y)[x];
             *gap = if is_visible {
+                // Infinite for the first polygon, as nothing is behind it.
                 *seen - depth
             } else {
                 gap.min(depth - *seen)
@@ -76,9 +77,10 @@ fn depth(frame: &Frame, weights: &VertexWeights) -> f64 {
         (DepthSource::Interpolated, _) => weights.sum(|v| vertex(v).depth),
         (DepthSource::PerSample, DepthRange::Perspective { near, far }) => {
             let w = near / weights.sum(|v| vertex(v).inv_w);
-            match has_levels {
-                true => perspective_z(near, far, w),
-                false => -1.0 / w,
+            if has_levels {
+                perspective_z(near, far, w)
+            } else {
+                -1.0 / w
             }
         }
         (DepthSource::PerSample, DepthRange::Orthographic { near: n, far: f }) => {
@@ -114,6 +116,7 @@ pub fn visibility(frame: &Frame) -> Visibility {
 /// with the first, as [`visibility`] does.
 pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
     let [width, height] = [frame.width(), frame.height()].map(|side| side.div_ceil(step));
+    // Point i of the grid is pixel i · step, so both ends are rounded up.
     let on_grid = |pixels: Range<usize>| pixels.start.div_ceil(step)..pixels.end.div_ceil(step);
     let mut visibility = Visibility {
         polygons: Picture::new(width, height, Visibility::NONE),
@@ -144,9 +147,12 @@ pub(super) fn visibility_on_grid(frame: &Frame, step: usize) -> Visibility {
     }
     // Between the planes, z is linear in the compared value, whatever the planes' distances are.
     let range = farthest - nearest;
-    let z = |depth: f64| match depth.is_finite() {
-        true => (depth - nearest) / range,
-        false => depth,
+    let z = |depth: f64| {
+        if depth.is_finite() {
+            (depth - nearest) / range
+        } else {
+            depth
+        }
     };
     Visibility {
         depth: visibility.depth.map(z),

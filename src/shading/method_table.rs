@@ -261,8 +261,7 @@ impl MethodRow {
     pub(crate) fn extras(&self, is_local: bool, perspective: bool, is_coloured: bool) -> Extras {
         let point = is_local && self.needs.local == Local::PerPixel && self.positional[0].linear;
         let albedo = is_coloured && self.needs.shading_rate == ShadingRate::Pixel;
-        let divides = self.needs.perspective == Perspective::Divides;
-        let divides = perspective && (divides || point);
+        let divides = perspective && (point || self.needs.perspective == Perspective::Divides);
         Extras {
             point,
             albedo,

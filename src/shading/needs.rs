@@ -57,9 +57,10 @@ impl Needs {
     /// the ends of the span.
     #[inline(always)]
     pub(crate) fn start<F: Num>(self, [a, b]: [F; 2], t0: F, dt: F) -> [F; 2] {
-        match self.reads_span() {
-            true => [a, b],
-            false => ramp(a, b, t0, dt),
+        if self.reads_span() {
+            [a, b]
+        } else {
+            ramp(a, b, t0, dt)
         }
     }
     /// True if edges carry normals along great circles.

@@ -201,9 +201,10 @@ impl SpanShader {
         let is_walked = (self.kernels.walks_along_runs)(self.variant.parameters(), model);
         let [_, pixel, _] = (self.kernels.counts)(self.uniforms[0].lights.len());
         let extras = self.extras.count();
-        let (varyings, extras) = match is_walked {
-            true => (pixel, 0),
-            false => (self.varyings - extras, extras),
+        let (varyings, extras) = if is_walked {
+            (pixel, 0)
+        } else {
+            (self.varyings - extras, extras)
         };
         self.simd = kernels.map(|kernels| SimdSpans {
             level,
@@ -272,9 +273,10 @@ impl SpanShader {
     /// If `to` has not as many places as [`SpanShader::varyings`] returns.
     pub fn vertex_into(&self, vertex: SpanVertex, to: &mut [f32]) {
         assert_eq!(to.len(), self.varyings, "one place for each varying");
-        let normal = match vertex.normal.iter().all(|n| n.is_finite()) {
-            true => guard::unit(vertex.normal),
-            false => [0.0; 3],
+        let normal = if vertex.normal.iter().all(|n| n.is_finite()) {
+            guard::unit(vertex.normal)
+        } else {
+            [0.0; 3]
         };
         let own = self.varyings - self.extras.count();
         let job = Vertices {
@@ -359,6 +361,7 @@ impl SimdSpans {
     /// Shades the only run of `job`, as a row of the G-buffer.
     fn shade(&mut self, job: &Pixels<'_>, colours: &mut [[f32; 3]]) {
         let length = colours.len().next_multiple_of(STEP);
+        // Depths stay 0, which counts as drawn.
         self.cells.resize(length * self.cell.count(), 0.0);
         match self.kernels.walk.filter(|_| self.is_walked) {
             Some(walk) => self.walk(walk, job, colours.len().next_multiple_of(BLOCK)),

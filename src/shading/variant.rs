@@ -97,13 +97,16 @@ impl Variant {
         } else if (self.power.parameter()).is_some_and(|(name, _)| name == key) {
             self.power = self.power.with(key, &value)?;
         } else {
-            let index = info.parameters.iter().position(|p| p.name == key);
-            let index = index.ok_or_else(|| NameError::UnknownParameter {
-                kind: "method",
-                owner: info.name,
-                name: key.to_owned(),
-                known: info.parameters.iter().map(|p| p.name).collect(),
-            })?;
+            let index = info
+                .parameters
+                .iter()
+                .position(|p| p.name == key)
+                .ok_or_else(|| NameError::UnknownParameter {
+                    kind: "method",
+                    owner: info.name,
+                    name: key.to_owned(),
+                    known: info.parameters.iter().map(|p| p.name).collect(),
+                })?;
             self.parameters[index] = info.parameters[index].parse(&value)?;
         }
         Ok(self)

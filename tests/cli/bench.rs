@@ -76,8 +76,12 @@ fn comparisons_name_the_renderer_of_each_row() {
         assert_eq!(drawn_by(&comparison["renderer"]), asked, "{flags}");
         let drawn: Vec<_> = self::rows(&comparison).iter().map(drawn_by).collect();
         assert_eq!(drawn, rows, "{flags}");
-        let other = comparison["barycentric"].as_array().unwrap().iter();
-        let other: Vec<_> = other.map(drawn_by).collect();
+        let other: Vec<_> = comparison["barycentric"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(drawn_by)
+            .collect();
         assert_eq!(other, [("barycentric", "scalar", 1)], "{flags}");
         let timed = |row: &Value| row["speed"].is_object();
         assert!(self::rows(&comparison).iter().all(timed), "{flags}");
@@ -415,8 +419,10 @@ fn the_legend_of_the_mark_stands_only_under_tables_with_marked_rows() {
 fn free_gigabytes() -> u64 {
     let memory = std::fs::read_to_string("/proc/meminfo").expect("Linux tells");
     let gigabytes = |key: &str| {
-        let kilobytes = memory.lines().find_map(|line| line.strip_prefix(key));
-        let kilobytes = kilobytes.and_then(|text| text.split_whitespace().next());
+        let kilobytes = memory
+            .lines()
+            .find_map(|line| line.strip_prefix(key))
+            .and_then(|text| text.split_whitespace().next());
         kilobytes.map_or(0, |text| text.parse::<u64>().expect("a number") / 1_000_000)
     };
     gigabytes("MemAvailable:") + gigabytes("SwapFree:")
@@ -468,8 +474,12 @@ fn spans_are_timed_at_every_length() {
     let (lengths, spans) = (lengths.unwrap(), spans.unwrap());
     assert_eq!((lengths.len(), spans.len()), (11, 4));
     for span in spans {
-        let ns = span["ns"].as_array().unwrap();
-        let ns: Vec<f64> = ns.iter().map(|ns| ns.as_f64().unwrap()).collect();
+        let ns: Vec<f64> = span["ns"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|ns| ns.as_f64().unwrap())
+            .collect();
         assert_eq!(ns.len(), lengths.len());
         assert!(ns[10] > ns[0] && ns[0] > 0.0, "{ns:?}");
     }

@@ -30,8 +30,7 @@ fn mistakes_are_named_with_evidence_and_advice() {
     let folder = drawn("-m gouraud");
     let ended = folder
         .run("diagnose yours.png teapot -o strip.png")
-        .differs();
-    let ended = ended
+        .differs()
         .prints("one mistake explains it")
         .prints("Gouraud shading");
     ended

@@ -44,12 +44,11 @@ fn all_files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        match path.is_dir() {
-            true => {
-                let inner = all_files(&path).into_iter();
-                files.extend(inner.map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
-            }
-            false => files.push((name, fs::read(&path).unwrap())),
+        if path.is_dir() {
+            let inner = all_files(&path).into_iter();
+            files.extend(inner.map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
+        } else {
+            files.push((name, fs::read(&path).unwrap()));
         }
     }
     files.sort();
@@ -236,15 +235,16 @@ fn approving_copies_changed_and_new_pictures_and_removes_nothing() {
     assert_eq!(names, expected, "no draft is left");
     for (name, bytes) in &after {
         let is_approved = ["c.png", "in/new/e.png"].contains(&&**name);
-        let expected = match is_approved {
-            true => folder.read(&format!("now/{name}")),
+        let expected = if is_approved {
+            folder.read(&format!("now/{name}"))
+        } else {
             // Pictures within the threshold stay, so that references do not drift.
-            false => before
+            before
                 .iter()
                 .find(|(old, _)| old == name)
                 .expect(name)
                 .1
-                .clone(),
+                .clone()
         };
         assert_eq!(*bytes, expected, "{name}");
     }

@@ -181,13 +181,15 @@ const CUBE: &str = "o Cube\nv 1 1 -1\nv 1 -1 -1\nv 1 1 1\nv 1 -1 1\nv -1 1 -1\nv
 
 /// Returns [`CUBE`] without its normals.
 fn without_normals() -> String {
-    let lines = CUBE.lines().filter(|line| !line.starts_with("vn"));
-    let lines = lines.map(|line| {
-        let words = line
-            .split(' ')
-            .map(|word| word.split("//").next().unwrap_or(word));
-        words.collect::<Vec<_>>().join(" ") + "\n"
-    });
+    let lines = CUBE
+        .lines()
+        .filter(|line| !line.starts_with("vn"))
+        .map(|line| {
+            let words = line
+                .split(' ')
+                .map(|word| word.split("//").next().unwrap_or(word));
+            words.collect::<Vec<_>>().join(" ") + "\n"
+        });
     lines.collect()
 }
 
@@ -200,12 +202,13 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
     let mut side = 0;
     let groups: String = without_normals()
         .lines()
-        .map(|line| match line.starts_with("f ") {
-            true => {
+        .map(|line| {
+            if line.starts_with("f ") {
                 side += 1;
                 format!("s {side}\n{line}\n")
+            } else {
+                format!("{line}\n")
             }
-            false => format!("{line}\n"),
         })
         .collect();
     // Only the first side lacks normals.
@@ -643,8 +646,10 @@ const TRIANGLES: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\n
 fn weights_of_normals_are_compared_side_by_side() {
     let folder = Folder::new();
     folder.write("cube.obj", TRIANGLES);
-    let compared = folder.run("compare cube.obj --weights --size 96x72").done();
-    let compared = compared.prints("against averages by angle\n");
+    let compared = folder
+        .run("compare cube.obj --weights --size 96x72")
+        .done()
+        .prints("against averages by angle\n");
     let numbers = |word: &str| {
         let line = compared.out.lines().find(|line| line.starts_with(word));
         let cells = line.expect("a line").split_whitespace().skip(1);

@@ -131,8 +131,11 @@ fn the_example_of_the_page_is_the_output_of_the_program() {
     let found = folder.run("diagnose mine.png vase").exits(1);
     // The page shows levels and pixels of another program, so compare only these lines.
     for part in ["wrong, and", "not normalised", "what to do", "read on"] {
-        let line = found.out.lines().find(|line| line.contains(part));
-        let line = line.unwrap_or_else(|| panic!("no {part}: {}", found.out));
+        let line = found
+            .out
+            .lines()
+            .find(|line| line.contains(part))
+            .unwrap_or_else(|| panic!("no {part}: {}", found.out));
         assert!(PAGE.contains(line), "the page lacks: {line}");
     }
 }

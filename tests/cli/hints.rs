@@ -357,9 +357,12 @@ fn up_turns_view_and_light_of_a_mesh_and_is_printed() {
     let written = |turned: bool| {
         let positions = mesh.positions().iter();
         let mut obj: String = positions
-            .map(|p| match turned {
-                false => format!("v {} {} {}\n", p.x, p.y, p.z),
-                true => format!("v {} {} {}\n", p.x, -p.z, p.y),
+            .map(|p| {
+                if turned {
+                    format!("v {} {} {}\n", p.x, -p.z, p.y)
+                } else {
+                    format!("v {} {} {}\n", p.x, p.y, p.z)
+                }
             })
             .collect();
         for polygon in mesh.polygons() {
@@ -422,8 +425,7 @@ fn info_begins_with_the_mesh_and_says_if_it_lies_on_its_side() {
     let text = String::from_utf8(folder.read("a.obj")).expect("text");
     let lying = text
         .replace("v -1 0 -1", "v -1 -1 0")
-        .replace("v 1 0 -1", "v 1 -1 0");
-    let lying = lying
+        .replace("v 1 0 -1", "v 1 -1 0")
         .replace("v 1 0 1", "v 1 1 0")
         .replace("v -1 0 1", "v -1 1 0");
     folder.write("z.obj", lying.replace("v 0 1 0", "v 0 0 1"));

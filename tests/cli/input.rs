@@ -221,8 +221,9 @@ fn a_bad_position_or_normal_that_no_face_uses_is_only_a_warning() {
         "mesh.obj",
         format!("{TRIANGLE}v 1.#IND 0 0\nvn nan nan nan\nvt nan\nf 1//1 2 3\nv 1 2"),
     );
-    let ended = folder.run("render mesh.obj --size 64x48 -o out.png").done();
-    let ended = ended
+    let ended = folder
+        .run("render mesh.obj --size 64x48 -o out.png")
+        .done()
         .says("a position is not three finite numbers and is left out (2 times, first in line 4)");
     ended.says("a normal is not three finite numbers: corners that name it count as without a normal (line 5)");
 }

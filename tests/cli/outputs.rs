@@ -133,8 +133,9 @@ fn a_document_is_read_from_standard_input_once() {
 #[test]
 fn a_full_device_is_an_error_for_every_output_and_for_help() {
     let folder = Folder::new();
-    let outputs = cases(&folder).into_iter();
-    let outputs = outputs.map(|(command, flag, _)| format!("{command} {flag} -"));
+    let outputs = cases(&folder)
+        .into_iter()
+        .map(|(command, flag, _)| format!("{command} {flag} -"));
     let results = [
         "--help",
         "--version",
@@ -144,8 +145,9 @@ fn a_full_device_is_an_error_for_every_output_and_for_help() {
         "completions bash",
         "list scenes",
         "explain flat",
-    ];
-    let results = results.iter().map(|text| (*text).to_owned());
+    ]
+    .iter()
+    .map(|text| (*text).to_owned());
     for arguments in outputs.chain(results) {
         let full = std::fs::File::options().write(true).open("/dev/full");
         let mut command = folder.command(&arguments);
@@ -187,9 +189,10 @@ fn files_of_other_programs_stay_where_the_command_chooses_the_name() {
         let path = folder.path(others);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
         // A picture by another program, and a text.
-        let precious = match others.ends_with(".png") {
-            true => png_of_others(),
-            false => b"# My own notes\n".to_vec(),
+        let precious = if others.ends_with(".png") {
+            png_of_others()
+        } else {
+            b"# My own notes\n".to_vec()
         };
         folder.write(others, &precious);
         folder
@@ -250,11 +253,12 @@ fn too_many_threads_of_the_environment_are_refused() {
             let arguments = "list engines";
             let output = folder.command(arguments).env(name, value).output();
             let ended = Ended::new(arguments, output.expect("the tool runs"));
-            match is_taken {
-                true => drop(ended.done()),
-                false => drop(ended.refused(&[&format!(
+            if is_taken {
+                drop(ended.done());
+            } else {
+                drop(ended.refused(&[&format!(
                     "{name}={value}: expected a number of threads from 1 to 1024"
-                )])),
+                )]));
             }
         }
     }

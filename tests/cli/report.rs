@@ -368,8 +368,9 @@ fn parts_that_do_not_make_a_report_are_refused() {
     ] {
         folder.run(&format!("report {flags}")).refused(&[said]);
     }
-    let other = String::from_utf8(folder.read("2.json")).unwrap();
-    let other = other.replace(r#""number": 2,"#, r#""number": 7,"#);
+    let other = String::from_utf8(folder.read("2.json"))
+        .unwrap()
+        .replace(r#""number": 2,"#, r#""number": 7,"#);
     folder.write("7.json", &other);
     folder
         .run("report --from 1.json 7.json")

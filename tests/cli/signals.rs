@@ -35,8 +35,10 @@ fn send(signal: &str, to: &Child) {
 /// starts ignores the signal, too.
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    let mask = status
+        .lines()
+        .find_map(|line| line.strip_prefix("SigIgn:"))
+        .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
     mask.map_or(signal != 15, |mask| mask >> (signal - 1) & 1 == 1)
 }
 
@@ -100,8 +102,10 @@ fn a_signal_while_pictures_are_approved_leaves_all_old_or_all_new() {
         send("TERM", &child);
         child.wait().expect("an end");
         assert_eq!(references.names(), names, "no draft is left");
-        let new = names.iter().filter(|name| references.read(name) == large);
-        let new = new.count();
+        let new = names
+            .iter()
+            .filter(|name| references.read(name) == large)
+            .count();
         assert!([0, names.len()].contains(&new), "{new} are new");
     }
 }

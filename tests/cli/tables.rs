@@ -93,8 +93,8 @@ fn lists_have_an_entry_for_everything_in_their_table() {
 #[test]
 fn engines_and_instruction_sets_are_listed_with_their_abilities() {
     let folder = Folder::new();
-    let engines = folder.run("list engines --json").done().json();
-    let engines = engines.as_array().expect("a list");
+    let listed = folder.run("list engines --json").done().json();
+    let engines = listed.as_array().expect("a list");
     for (engine, entry) in [Engine::Span, Engine::Row].iter().zip(engines) {
         assert_eq!(entry["name"], engine.name());
     }
@@ -162,8 +162,8 @@ fn default_methods_are_listed_first() {
     let names: Vec<_> = few.map(|method| method.info.name).collect();
     assert!((8..=12).contains(&names.len()), "{names:?}");
     let listed = folder.run("list methods --json").done().json();
-    let listed = listed.as_array().unwrap().iter();
-    assert!(listed.map(|entry| &entry["name"]).eq(&names));
+    let entries = listed.as_array().unwrap().iter();
+    assert!(entries.map(|entry| &entry["name"]).eq(&names));
     let others = METHODS.len() - names.len();
     folder
         .run("list methods")
@@ -190,8 +190,9 @@ fn every_method_is_explained() {
         let name = entry.info.name;
         let short = folder.run(&format!("explain {name}")).done();
         assert!(short.out.contains("with 1 light,") && !short.out.contains("with 4 lights"));
-        let ended = folder.run(&format!("explain {name} --all")).done();
-        let ended = ended
+        let ended = folder
+            .run(&format!("explain {name} --all"))
+            .done()
             .prints(entry.info.title)
             .prints("pixel: shade")
             .prints("with 4 lights");
@@ -240,8 +241,10 @@ fn every_method_is_explained() {
         1
     );
     // The automatic choice has no value and is written as `auto`.
-    let auto = folder.run("explain fast-phong:steps=auto --json").done();
-    let auto = auto.json();
+    let auto = folder
+        .run("explain fast-phong:steps=auto --json")
+        .done()
+        .json();
     assert_eq!(
         (
             &auto["variant"],

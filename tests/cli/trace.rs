@@ -22,8 +22,9 @@ fn traced_colours_equal_those_that_render_stores() {
         let how = format!("{SPHERE} -m {method}");
         let render = format!("render {how} --engine span --simd scalar -o out.pfm");
         folder.run(&render).done();
-        let picture = read_picture(&folder.path("out.pfm")).expect("a picture");
-        let picture = picture.to_linear();
+        let picture = read_picture(&folder.path("out.pfm"))
+            .expect("a picture")
+            .to_linear();
         let trace = folder.run(&format!("trace {how}")).done().json();
         let mut pixels = 0;
         for line in trace["lines"].as_array().expect("lines") {

@@ -206,8 +206,12 @@ fn a_closed_part_that_is_inside_out_among_others_is_drawn() {
                 _ => {
                     part.push('f');
                     for word in &words[1..] {
-                        let corner = word.split('/').next().expect("a corner");
-                        let corner: i32 = corner.parse().expect("a number");
+                        let corner: i32 = word
+                            .split('/')
+                            .next()
+                            .expect("a corner")
+                            .parse()
+                            .expect("a number");
                         write!(part, " {}", corner - 9).expect("memory");
                     }
                     part.push('\n');
@@ -232,8 +236,7 @@ fn the_printed_scene_of_an_open_mesh_draws_the_same_picture() {
     let flags = "--size 64x48";
     let printed = folder
         .run(&format!("render open.obj {flags} --print-scene"))
-        .done();
-    let printed = printed
+        .done()
         .prints("cull = \"none\"\n")
         .prints("two_sided = true\n");
     folder.write("printed.toml", &printed.out);

@@ -32,9 +32,12 @@ fn check(drawing: &Drawing) -> Result<f64, String> {
     let (seen, truly) = (case.seen(), &case.visibility().polygons);
     // The span engine is compared wherever it sees the reference's polygon. Others are compared
     // where rounding cannot change the visible polygon.
-    let counts = |x, y| match drawing.is_by_spans() {
-        true => seen.get(x, y) == truly.get(x, y),
-        false => case.decided().get(x, y),
+    let counts = |x, y| {
+        if drawing.is_by_spans() {
+            seen.get(x, y) == truly.get(x, y)
+        } else {
+            case.decided().get(x, y)
+        }
     };
     let (max, uncovered) = largest_difference(case.truth(info.model), &drawing.linear(), counts);
     let bound = variant.bound(frame);

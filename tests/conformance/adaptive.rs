@@ -81,9 +81,10 @@ impl Setting {
         Setting {
             cell: one_of(share(), &[12, 20, 32, 64]),
             lights: one_of(share(), &[1, 1, 2, 3, 4]),
-            interpolation: match share() < 0.3 {
-                true => Interpolation::Perspective,
-                false => Interpolation::Screen,
+            interpolation: if share() < 0.3 {
+                Interpolation::Perspective
+            } else {
+                Interpolation::Screen
             },
             levels: one_of(share(), &[0.05, 0.1, 0.5, 0.5, 1.0, 2.0, 4.0, 16.0]),
         }
@@ -121,9 +122,10 @@ impl Reader<'_> {
             self.share(),
             &[0.5, 1.0, 2.0, 5.0, 7.3, 10.0, 32.0, 33.0, 128.0],
         );
-        lighting.specular = match self.share() < 0.3 {
-            true => SpecularModel::Blinn,
-            false => SpecularModel::Phong,
+        lighting.specular = if self.share() < 0.3 {
+            SpecularModel::Blinn
+        } else {
+            SpecularModel::Phong
         };
         lighting.lights = (0..setting.lights)
             .map(|_| LightTerm {
@@ -333,10 +335,13 @@ fn search(random: &mut Random) -> (Setting, [f64; 2]) {
                     return genes(random);
                 }
                 let reach = 0.5 * f64::powf(0.001, random.share().into());
-                best.1.map(|gene: f64| match random.share() < 0.04 {
-                    true => (gene + reach * (2.0 * f64::from(random.share()) - 1.0))
-                        .clamp(0.0, 0.999_999),
-                    false => gene,
+                best.1.map(|gene: f64| {
+                    if random.share() < 0.04 {
+                        (gene + reach * (2.0 * f64::from(random.share()) - 1.0))
+                            .clamp(0.0, 0.999_999)
+                    } else {
+                        gene
+                    }
                 })
             })
             .collect();

@@ -30,8 +30,10 @@ fn coloured(mesh: &PolygonMesh) -> PolygonMesh {
     builder.materials(mesh.materials().to_vec(), polygons.map(material).collect());
     let mut random = Random::new(7);
     let mut channel = || (1.6 * random.signed().abs() - 0.2).max(0.0);
-    let colours = mesh.positions().iter();
-    let colours = colours.map(|_| Vec3::new(channel(), channel(), channel()));
+    let colours = mesh
+        .positions()
+        .iter()
+        .map(|_| Vec3::new(channel(), channel(), channel()));
     builder.colours(colours.collect());
     builder.finish().expect("a mesh with colours")
 }
@@ -68,8 +70,10 @@ fn every_method_is_within_its_bound() {
                 Interpolation::Screen => Interpolation::Perspective,
                 Interpolation::Perspective => Interpolation::Screen,
             };
-            let other = scene.frame().ok();
-            let other = other.map(|frame| Case::new(format!("{name} in colours, other"), frame));
+            let other = scene
+                .frame()
+                .ok()
+                .map(|frame| Case::new(format!("{name} in colours, other"), frame));
             [Some(own), other].into_iter().flatten()
         })
         .collect();

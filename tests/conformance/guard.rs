@@ -465,8 +465,8 @@ fn unit_vectors_keep_their_bits() {
     for _ in 0..1000 {
         let [x, y, z] = [0; 3].map(|_| random.share() - 0.5);
         let normal = Vec3::new(x, y, z).normalize().to_array();
-        let frame = built(plain_lighting(), corner(1, 15, normal), normal, |_| ());
-        let frame = frame.expect("a frame");
+        let frame =
+            built(plain_lighting(), corner(1, 15, normal), normal, |_| ()).expect("a frame");
         let bits = |v: [f32; 3]| v.map(f32::to_bits);
         assert_eq!(bits(frame.normal(2)), bits(normal));
         assert_eq!(

@@ -361,9 +361,10 @@ fn side_by_side(shape: &str, count: usize, hidden: std::ops::Range<usize>) -> Sc
         let place = |i: usize| 1.2 * (i as f64 - 0.5 * (count - 1) as f64);
         scene.objects = (0..count)
             .map(|i| {
-                let turn = match hidden.contains(&i) {
-                    true => DAffine3::from_rotation_y(core::f64::consts::PI),
-                    false => DAffine3::IDENTITY,
+                let turn = if hidden.contains(&i) {
+                    DAffine3::from_rotation_y(core::f64::consts::PI)
+                } else {
+                    DAffine3::IDENTITY
                 };
                 let share = (i + 1) as f32 / count as f32;
                 let mut object = Object::new(mesh.clone());

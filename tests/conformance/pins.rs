@@ -80,8 +80,8 @@ fn drawn_alike(case: &Case) -> Pins {
             cull: false,
             ..Reading::default()
         };
-        let picture = cs171::render(&triangles, shading, reading);
-        let picture = picture.filtered(frame.samples(), frame.alpha());
+        let picture =
+            cs171::render(&triangles, shading, reading).filtered(frame.samples(), frame.alpha());
         let channels = picture.pixels().as_flattened().iter();
         pin(
             &format!("{shading:?}").to_lowercase(),

@@ -88,9 +88,10 @@ impl Triangle {
                 SpecularModel::Phong => 2.0 * j * k - l_v,
                 SpecularModel::Blinn => (j + k) / (2.0 + 2.0 * l_v).sqrt(),
             };
-            let highlight = match j > 0.0 {
-                true => cosine.max(0.0).powf(f64::from(lighting.shininess)),
-                false => 0.0,
+            let highlight = if j > 0.0 {
+                cosine.max(0.0).powf(f64::from(lighting.shininess))
+            } else {
+                0.0
             };
             let [diffuse, specular] = [light.diffuse, light.specular].map(|c| f64::from(c[0]));
             colour += strength * (diffuse * j.max(0.0) + specular * highlight);
@@ -281,9 +282,10 @@ fn random_triangle(random: &mut Random) -> Triangle {
     let mut place = |is_local: bool| {
         let to = (vector() + DVec3::Z).normalize_or(DVec3::Z);
         let at = (1.5 + 4.0 * far(vector() + DVec3::X * 0.5)) * to;
-        match is_local {
-            true => Place::Local(at.as_vec3().to_array()),
-            false => Place::Infinite(to.as_vec3().to_array()),
+        if is_local {
+            Place::Local(at.as_vec3().to_array())
+        } else {
+            Place::Infinite(to.as_vec3().to_array())
         }
     };
     let places: Vec<_> = [true, true, false].map(&mut place).into();

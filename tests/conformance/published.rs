@@ -178,10 +178,12 @@ fn six_points(
     midway: fn(DVec3, DVec3) -> DVec3,
 ) -> f64 {
     let weights = [1.0 - p - q, p, q];
-    let corners = [a, b, c].into_iter().zip(weights);
-    let corners = corners.map(|(n, b)| to.dot(n) * b * (2.0 * b - 1.0));
-    let edges = [(a, b, 0, 1), (b, c, 1, 2), (c, a, 2, 0)];
-    let edges = edges.map(|(m, n, i, j)| 4.0 * weights[i] * weights[j] * to.dot(midway(m, n)));
+    let corners = [a, b, c]
+        .into_iter()
+        .zip(weights)
+        .map(|(n, b)| to.dot(n) * b * (2.0 * b - 1.0));
+    let edges = [(a, b, 0, 1), (b, c, 1, 2), (c, a, 2, 0)]
+        .map(|(m, n, i, j)| 4.0 * weights[i] * weights[j] * to.dot(midway(m, n)));
     corners.sum::<f64>() + edges.iter().sum::<f64>()
 }
 

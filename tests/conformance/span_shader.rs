@@ -166,9 +166,10 @@ fn span_colours_equal_the_engines() {
                         // If lights are at infinity, both vertices of a side are equal, so its edge
                         // steps by 0. On great circles normals are rounded.
                         let is_circle = variant.info().name.starts_with("slerp");
-                        let most = match rectangle.lighting.is_local() || is_circle {
-                            true => variant.bound(&frame) as f32,
-                            false => 0.0,
+                        let most = if rectangle.lighting.is_local() || is_circle {
+                            variant.bound(&frame) as f32
+                        } else {
+                            0.0
                         };
                         assert!(off <= most, "{who}: {off:e} at {i}");
                     }
@@ -202,8 +203,9 @@ fn simd_colours_equal_those_of_scalar_code() {
                 let rectangle = Rectangle::new(lights, interpolation);
                 let frame = rectangle.frame();
                 for variant in floats_on(&frame).map(|entry| entry.variant()) {
-                    let shader = SpanShader::new(&variant, &rectangle.lighting, interpolation);
-                    let mut shader = shader.expect("a method for any light").with_simd(level);
+                    let mut shader = SpanShader::new(&variant, &rectangle.lighting, interpolation)
+                        .expect("a method for any light")
+                        .with_simd(level);
                     let plan = variant.plan(&frame, Renderer::on(level)).renderer();
                     assert_eq!(Some(Renderer::on(shader.level())), plan, "{variant}");
                     scalar += usize::from(shader.level() == SimdLevel::Scalar);
@@ -214,8 +216,9 @@ fn simd_colours_equal_those_of_scalar_code() {
                         let mut found = vec![[9.0; 3]; pixels];
                         rectangle.shade_by(&mut shader, &variant, first, &mut found);
                         for (x, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                            let off = (0..3).map(|c| (found[c] - expected[c]).abs());
-                            let off = off.fold(0.0, f32::max);
+                            let off = (0..3)
+                                .map(|c| (found[c] - expected[c]).abs())
+                                .fold(0.0, f32::max);
                             let who = format!("{variant} on {level}, {interpolation:?}");
                             assert!(off <= most, "{who}: {off:e} at {x} from {first}");
                             *[&mut other, &mut same][usize::from(off == 0.0)] += 1;
@@ -240,9 +243,10 @@ fn a_reused_shader_allocates_nothing() {
         let frame = rectangle.frame();
         for variant in floats_on(&frame).map(|entry| entry.variant()) {
             for level in [SimdLevel::Scalar, SimdLevel::best()] {
-                let shader =
-                    SpanShader::new(&variant, &rectangle.lighting, Interpolation::Perspective);
-                let mut shader = shader.expect("a method for any light").with_simd(level);
+                let mut shader =
+                    SpanShader::new(&variant, &rectangle.lighting, Interpolation::Perspective)
+                        .expect("a method for any light")
+                        .with_simd(level);
                 let mut ends = [[0.0; 96]; 2];
                 let mut colours = [[0.0; 3]; 48];
                 let mut line = || {

@@ -285,8 +285,10 @@ fn a_supersampled_rim_has_straight_alpha_without_the_background() {
         for (x, y) in (0..18).flat_map(|y| (0..24).map(move |x| (x, y))) {
             let [r, g, b, alpha] = picture.get(x, y).map(f64::from);
             let places = (0..side * side).map(|i| (x * side + i % side, y * side + i / side));
-            let covered = places.map(|(x, y)| samples.get(x, y));
-            let covered: Vec<_> = covered.filter(|sample| sample[3] > 0.0).collect();
+            let covered: Vec<_> = places
+                .map(|(x, y)| samples.get(x, y))
+                .filter(|sample| sample[3] > 0.0)
+                .collect();
             assert_eq!(alpha, covered.len() as f64 / 16.0);
             if covered.is_empty() {
                 assert_eq!([r, g, b], [1.0, 0.75, 0.5]);

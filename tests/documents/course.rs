@@ -209,8 +209,9 @@ fn goals_name_existing_findings_and_handles_and_are_not_met_at_the_start() {
             let figure = Figure::named(figure).expect("a figure");
             let live = figure.live.expect("handles");
             let content = live.make(&[]).expect("a figure");
-            let found = content.finding(key);
-            let found = found.unwrap_or_else(|| panic!("{path}: no {key} at the start"));
+            let found = content
+                .finding(key)
+                .unwrap_or_else(|| panic!("{path}: no {key} at the start"));
             match rule {
                 "first" => {
                     let is_handle = live.handles.iter().any(|handle| handle.name == rest[0]);
@@ -413,8 +414,8 @@ fn every_number_is_measured_or_stands_in_a_figure() {
         let all = findings(text).map(|(figure, ..)| figure);
         let asked = named(text, "question").filter_map(|(words, _)| words.split(' ').next());
         for name in all.chain(asked).chain([figure_of(text)]) {
-            let figure = Figure::named(name);
-            let figure = figure.unwrap_or_else(|| panic!("{}: no figure {name}", path.display()));
+            let figure = Figure::named(name)
+                .unwrap_or_else(|| panic!("{}: no figure {name}", path.display()));
             made.entry(name)
                 .or_insert_with(|| figure.make().expect("a figure"));
         }
@@ -424,8 +425,9 @@ fn every_number_is_measured_or_stands_in_a_figure() {
         let path = path.display();
         for (figure, key, paragraph) in findings(text) {
             let content = &made[figure];
-            let finding: Option<&Finding> = content.finding(key);
-            let finding = finding.unwrap_or_else(|| panic!("{path}: {figure} has no {key}"));
+            let finding: &Finding = content
+                .finding(key)
+                .unwrap_or_else(|| panic!("{path}: {figure} has no {key}"));
             let value = finding.value;
             let is_stated = numbers(paragraph).iter().any(|number| number.is(value));
             assert!(is_stated, "{path}: {figure} {key} is {value}: {paragraph}");

@@ -75,8 +75,10 @@ pictures are up to date.
 
 fn run(arguments: &str) -> Vec<u8> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_fastphong"));
-    let output = command.args(arguments.split_whitespace()).output();
-    let output = output.expect("the tool runs");
+    let output = command
+        .args(arguments.split_whitespace())
+        .output()
+        .expect("the tool runs");
     let problem = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{arguments}: {problem}");
     output.stdout
@@ -131,8 +133,10 @@ fn help() -> BTreeMap<String, [String; 2]> {
 
 /// Returns the path of the picture that a command draws.
 fn file(command: &str) -> String {
-    let words = command.split(|c: char| !c.is_alphanumeric());
-    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = command
+        .split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .collect();
     format!("{PICTURES}/{}.png", words.join("-"))
 }
 

@@ -107,8 +107,11 @@ fn imports() -> BTreeMap<String, BTreeSet<String>> {
     let mut sources = BTreeMap::new();
     for file in files("src", "rs") {
         let path = file.to_string_lossy();
-        let module = path.trim_start_matches("src/").trim_end_matches(".rs");
-        let module = module.trim_end_matches("/mod").to_owned();
+        let module = path
+            .trim_start_matches("src/")
+            .trim_end_matches(".rs")
+            .trim_end_matches("/mod")
+            .to_owned();
         let is_in_a_room = root().join("src").join(&module).is_dir() || module.contains('/');
         if is_in_a_room && !module.split('/').any(|part| FOR_TESTS.contains(&part)) {
             sources.insert(module, read(&file));
@@ -116,8 +119,9 @@ fn imports() -> BTreeMap<String, BTreeSet<String>> {
     }
     let modules: BTreeSet<&str> = sources.keys().map(String::as_str).collect();
     let targets = |module: &str, source: &str| {
-        let targets = paths(source).into_iter();
-        let targets = targets.filter_map(|path| target(module, &path, &modules));
+        let targets = paths(source)
+            .into_iter()
+            .filter_map(|path| target(module, &path, &modules));
         targets.filter(|target| target != module).collect()
     };
     sources
@@ -139,8 +143,8 @@ fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
         before.push(room);
     }
     for entry in fs::read_dir(root().join("src")).expect("src can be read") {
-        let name = entry.expect("src can be read").file_name();
-        let name = name.to_string_lossy();
+        let file_name = entry.expect("src can be read").file_name();
+        let name = file_name.to_string_lossy();
         let is_room = before.contains(&&*name) || ["lib.rs", "main.rs"].contains(&&*name);
         assert!(
             is_room,

@@ -6,8 +6,11 @@ use serde_json::Value;
 
 /// Returns numbers with this many decimals, separated by commas.
 fn numbers(value: &Value, decimals: usize) -> String {
-    let all = value.as_array().expect("a list").iter();
-    let all = all.map(|x| format!("{:.decimals$}", x.as_f64().expect("a number")));
+    let all = value
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|x| format!("{:.decimals$}", x.as_f64().expect("a number")));
     all.collect::<Vec<_>>().join(", ")
 }
 
@@ -70,8 +73,8 @@ fn the_tables_hold_the_measured_figures() {
     // The first paragraph states these figures.
     let fast = list("spans")
         .into_iter()
-        .find(|span| span["method"] == "fast");
-    let fast = fast.expect("it is measured");
+        .find(|span| span["method"] == "fast")
+        .expect("it is measured");
     let [instructions, cycles] =
         ["m0p_instructions", "m0p_cycles"].map(|key| number(&fast[key][1]).round());
     has(format!(

@@ -510,8 +510,10 @@ fn every_file_is_compiled() {
             ("mod", Some(own)) => (own.to_string_lossy(), folder.parent().unwrap_or(folder)),
             _ => (name, folder),
         };
-        let parents = ["mod.rs", "main.rs", "lib.rs"].map(|parent| folder.join(parent));
-        let parents = parents.into_iter().chain([folder.with_extension("rs")]);
+        let parents = ["mod.rs", "main.rs", "lib.rs"]
+            .map(|parent| folder.join(parent))
+            .into_iter()
+            .chain([folder.with_extension("rs")]);
         let declaration = format!("mod {name};");
         let declares = |source: String| source.lines().any(|line| line.ends_with(&declaration));
         if !parents

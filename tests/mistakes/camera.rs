@@ -127,9 +127,10 @@ impl Camera {
     /// Returns the depth of a point `forward` of the eye: 0 at the near plane, 1 at the far one.
     pub fn depth(&self, forward: f64) -> f64 {
         let range = self.far - self.near;
-        match self.is_perspective {
-            true => self.far / range * (1.0 - self.near / forward),
-            false => (forward - self.near) / range,
+        if self.is_perspective {
+            self.far / range * (1.0 - self.near / forward)
+        } else {
+            (forward - self.near) / range
         }
     }
 }

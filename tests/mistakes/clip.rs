@@ -21,12 +21,11 @@ pub fn is_inside(camera: &Camera, seen: &Seen) -> bool {
 
 /// Cuts a polygon at the near and the far plane.
 pub fn clipped<'a>(camera: &Camera, polygon: &'a [Vertex]) -> Cow<'a, [Vertex]> {
-    match polygon.iter().all(|v| is_inside(camera, &v.seen)) {
-        true => Cow::Borrowed(polygon),
-        false => {
-            let part = cut(polygon, |v| v.seen.forward - camera.near);
-            Cow::Owned(cut(&part, |v| camera.far - v.seen.forward))
-        }
+    if polygon.iter().all(|v| is_inside(camera, &v.seen)) {
+        Cow::Borrowed(polygon)
+    } else {
+        let part = cut(polygon, |v| v.seen.forward - camera.near);
+        Cow::Owned(cut(&part, |v| camera.far - v.seen.forward))
     }
 }
 

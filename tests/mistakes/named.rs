@@ -174,18 +174,22 @@ fn is_named(found: &Diagnosis, names: &[&str]) -> bool {
 
 /// Writes the mistakes that a diagnosis names.
 fn said(found: &Diagnosis) -> String {
-    let causes = found.causes.iter().take(4).map(|cause| {
-        let ids: Vec<&str> = cause.mistakes.iter().map(|mistake| &*mistake.id).collect();
-        format!("{} ({:.2})", ids.join(" + "), cause.residual)
-    });
-    let nearest = found
+    let causes: Vec<String> = found
+        .causes
+        .iter()
+        .take(4)
+        .map(|cause| {
+            let ids: Vec<&str> = cause.mistakes.iter().map(|mistake| &*mistake.id).collect();
+            format!("{} ({:.2})", ids.join(" + "), cause.residual)
+        })
+        .collect();
+    let nearest: Vec<String> = found
         .singles
         .iter()
         .take(2)
-        .map(|single| format!("{} {:.2}", single.mistakes[0].id, single.residual));
+        .map(|single| format!("{} {:.2}", single.mistakes[0].id, single.residual))
+        .collect();
     let (verdict, before) = (found.verdict, found.reference.levels);
-    let causes: Vec<String> = causes.collect();
-    let nearest: Vec<String> = nearest.collect();
     format!(
         "{verdict:?} {before:.2}: {}; nearest {}",
         causes.join(" or "),
@@ -330,18 +334,18 @@ fn single(
         _ => diagnosis.reference.beyond > 0.05,
     };
     let line = || format!("{name} {}: {}", mistake.id, said(diagnosis));
-    match (names.is_empty(), seen) {
+    if !seen {
         // This picture does not show the mistake, or noise hides it.
-        (_, false) => found.add(
+        found.add(
             "unseen, said to be correct",
             is_correct || is_named(diagnosis, names),
             line,
-        ),
-        (false, true) => found.add(kind, is_named(diagnosis, names), line),
-        (true, true) => {
-            let is_told = !matches!(diagnosis.verdict, Verdict::One);
-            found.add("not in the table, and no other named", is_told, line);
-        }
+        );
+    } else if names.is_empty() {
+        let is_told = !matches!(diagnosis.verdict, Verdict::One);
+        found.add("not in the table, and no other named", is_told, line);
+    } else {
+        found.add(kind, is_named(diagnosis, names), line);
     }
 }
 
@@ -402,8 +406,7 @@ const LEAST: [(&str, f64, f64); 5] = [
 
 #[test]
 fn mistakes_are_named() {
-    let share = std::env::var("FASTPHONG_MISTAKES");
-    let share = share.map_or(120, |share| {
+    let share = std::env::var("FASTPHONG_MISTAKES").map_or(120, |share| {
         share.parse().expect("one of how many pictures")
     });
     let is_sample = share > 10;

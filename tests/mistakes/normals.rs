@@ -97,9 +97,10 @@ fn polygon_normal(points: &[DVec3], how: PolygonNormal) -> DVec3 {
 /// Returns the unit vector along `vector`; 0 if `vector` is 0 up to rounding.
 fn unit_or_zero(vector: DVec3) -> DVec3 {
     let length = vector.dot(vector).sqrt();
-    match length > 1e-30 {
-        true => vector / length,
-        false => DVec3::ZERO,
+    if length > 1e-30 {
+        vector / length
+    } else {
+        DVec3::ZERO
     }
 }
 
@@ -294,11 +295,16 @@ fn averages(
 /// normal if the sum vanishes.
 fn direction(sum: DVec3, own: DVec3, how: VertexNormal) -> DVec3 {
     let length = sum.dot(sum).sqrt();
-    match (length > 1e-12, own != DVec3::ZERO) {
-        (true, _) if how == VertexNormal::SumKept => sum,
-        (true, _) => sum / length,
-        (false, true) => own,
-        (false, false) => DVec3::Z,
+    if length > 1e-12 {
+        if how == VertexNormal::SumKept {
+            sum
+        } else {
+            sum / length
+        }
+    } else if own != DVec3::ZERO {
+        own
+    } else {
+        DVec3::Z
     }
 }
 

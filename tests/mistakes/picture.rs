@@ -43,27 +43,16 @@ pub fn picture(
             let rows = (y * side..(y + 1) * side).map(|row| row * samples.width + x * side);
             let covered = rows.flat_map(|at| &exposed[at..at + side]).flatten();
             let (sum, count) = covered.fold((DVec3::ZERO, 0), |(sum, n), c| (sum + *c, n + 1));
-            pixels.push(match (count, variation.opaque) {
-                (0, is_opaque) => store(
-                    background,
-                    if is_opaque { 1.0 } else { 0.0 },
-                    options,
-                    scene,
-                ),
-                (_, false) => {
-                    let alpha = f64::from(count) / (side * side) as f64;
-                    store(sum / f64::from(count), alpha, options, scene)
-                }
-                (_, true) => {
-                    let all = (side * side) as f64;
-                    store(
-                        (sum + (all - f64::from(count)) * background) / all,
-                        1.0,
-                        options,
-                        scene,
-                    )
-                }
-            });
+            let all = (side * side) as f64;
+            let (colour, alpha) = if count == 0 {
+                (background, if variation.opaque { 1.0 } else { 0.0 })
+            } else if variation.opaque {
+                let rest = all - f64::from(count);
+                ((sum + rest * background) / all, 1.0)
+            } else {
+                (sum / f64::from(count), f64::from(count) / all)
+            };
+            pixels.push(store(colour, alpha, options, scene));
         }
     }
     let mut picture = laid_out(
@@ -128,9 +117,10 @@ fn encode(c: f64, wrong: Encoding, of_scene: picture::Encoding) -> f64 {
 
 /// Returns the sRGB value of an intensity (IEC 61966-2-1).
 fn srgb(c: f64) -> f64 {
-    match c <= 0.003_130_8 {
-        true => 12.92 * c,
-        false => 1.055 * c.powf(1.0 / 2.4) - 0.055,
+    if c <= 0.003_130_8 {
+        12.92 * c
+    } else {
+        1.055 * c.powf(1.0 / 2.4) - 0.055
     }
 }
 

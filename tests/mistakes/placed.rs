@@ -82,9 +82,10 @@ impl<'a> Placed<'a> {
     fn to_world(&self, normal: DVec3, is_unit: bool) -> DVec3 {
         let vector = self.normal_matrix * normal + self.normal_offset;
         let vector = if is_unit { unit(vector) } else { vector };
-        match self.is_in_eye_space {
-            false => vector,
-            true => self.camera.turned(vector),
+        if self.is_in_eye_space {
+            self.camera.turned(vector)
+        } else {
+            vector
         }
     }
 
@@ -97,13 +98,12 @@ impl<'a> Placed<'a> {
         let corners = self.mesh.polygon(p);
         let seen = |c: &u32| &self.positions[*c as usize].1;
         let is_whole = corners.iter().all(|c| is_inside(self.camera, seen(c)));
-        let area = match is_whole {
-            true => area(corners.iter().map(|c| self.camera.device(seen(c)))),
-            false => {
-                let vertices = self.vertices(p);
-                let part = clipped(self.camera, &vertices);
-                area(part.iter().map(|v| self.camera.device(&v.seen)))
-            }
+        let area = if is_whole {
+            area(corners.iter().map(|c| self.camera.device(seen(c))))
+        } else {
+            let vertices = self.vertices(p);
+            let part = clipped(self.camera, &vertices);
+            area(part.iter().map(|v| self.camera.device(&v.seen)))
         };
         if self.is_reversed { -area } else { area }
     }

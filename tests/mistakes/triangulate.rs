@@ -26,11 +26,12 @@ pub fn triangulate(points: &[DVec3], start: usize, how: Triangles, out: &mut Vec
         Triangles::Right if count == 3 => out.push([0, 1, 2]),
         Triangles::Right => {
             let normal = newell(points);
-            match (0..count)
+            if (0..count)
                 .all(|i| turn(points, normal, [i, (i + 1) % count, (i + 2) % count]) >= 0.0)
             {
-                true => fan(count, start, out),
-                false => cut_ears(points, normal, start, out),
+                fan(count, start, out);
+            } else {
+                cut_ears(points, normal, start, out);
             }
         }
     }
@@ -48,9 +49,10 @@ fn turn(points: &[DVec3], normal: DVec3, [a, b, c]: [usize; 3]) -> f64 {
         .dot(normal);
     // For corners on one line only rounding is left.
     let scale = (points[b] - points[a]).length_squared() + (points[c] - points[b]).length_squared();
-    match product.abs() <= 1e-12 * scale * normal.length() {
-        true => 0.0,
-        false => product,
+    if product.abs() <= 1e-12 * scale * normal.length() {
+        0.0
+    } else {
+        product
     }
 }
 

@@ -126,9 +126,9 @@ fn with_stray_bytes(obj: &str, kinds: &[u8]) -> String {
             1 => writeln!(text, "\u{feff}{line}"),
             2 => writeln!(text, "# a\0b\n\n{line} # c\0"),
             3 => writeln!(text, "\0{line}\x1a\r"),
-            4 => match (line.starts_with(['v', 'f']), line.rsplit_once(' ')) {
-                (true, Some((start, end))) => writeln!(text, "{start} \\\n\n# \0\n  {end}"),
-                _ => writeln!(text, "{line}"),
+            4 if line.starts_with(['v', 'f']) => match line.rsplit_once(' ') {
+                Some((start, end)) => writeln!(text, "{start} \\\n\n# \0\n  {end}"),
+                None => writeln!(text, "{line}"),
             },
             5 if line.starts_with(['v', 'f', 's']) => writeln!(text, "{line} \\\n"),
             6 => writeln!(text, "g a\0b\n{line}"),

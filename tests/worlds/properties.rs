@@ -124,8 +124,7 @@ fn numbered(
 /// The row engine has depth from plane equations, but from edges where it walks along runs, for
 /// slerp Phong alone: `walks` says which.
 fn numbers(numbered: &Frame, renderer: Renderer, walks: bool) -> Picture<u32> {
-    let method = Variant::parse(if walks { "slerp-phong" } else { "flat" });
-    let method = method.expect("a method");
+    let method = Variant::parse(if walks { "slerp-phong" } else { "flat" }).expect("a method");
     let picture = method
         .render_linear_with(numbered, renderer)
         .expect("a method for the frame");

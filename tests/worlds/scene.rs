@@ -244,8 +244,9 @@ fn object() -> BoxedStrategy<String> {
         prop::option::weighted(0.4, material()),
     )
         .prop_map(|(mesh, normals, transform, material)| {
-            let material = material.map(|material| format!("material = {material}\n"));
-            let material = material.unwrap_or_default();
+            let material = material
+                .map(|material| format!("material = {material}\n"))
+                .unwrap_or_default();
             format!("[[object]]\nmesh = '{mesh}'\n{normals}{transform}{material}")
         })
         .boxed()

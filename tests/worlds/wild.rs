@@ -87,8 +87,11 @@ fn visit(scene: &mut Scene, visit: &mut dyn FnMut(&mut f64)) {
             .iter_mut()
             .for_each(&mut *visit);
         if let Some(material) = &mut object.material {
-            let channels = material.ambient.iter_mut().chain(&mut material.diffuse);
-            let channels = channels.chain(&mut material.specular);
+            let channels = material
+                .ambient
+                .iter_mut()
+                .chain(&mut material.diffuse)
+                .chain(&mut material.specular);
             channels.for_each(|c| narrow(c, visit));
             narrow(&mut material.shininess, visit);
         }

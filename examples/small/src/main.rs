@@ -164,8 +164,13 @@ fn frames(light: &[Light<'_, Rgb565>; 1], frame: &mut [Rgb565]) {
                 .iter()
                 .fold(NOTHING, |sum, pixel| checksum(sum, u32::from(pixel.0)));
             let pixels = frame.iter().filter(|pixel| pixel.0 != 0).count() as u32;
-            let line = Line::new().text("frame ").text(name).text(" ");
-            let line = line.number(globe.count as u32).text(" ").number(pixels);
+            let line = Line::new()
+                .text("frame ")
+                .text(name)
+                .text(" ")
+                .number(globe.count as u32)
+                .text(" ")
+                .number(pixels);
             line.text(" ").number(sum).print();
         };
         frame.fill(Rgb565(0));

@@ -68,9 +68,12 @@ impl Table {
 
     /// Returns the table as comma-separated values (RFC 4180).
     pub fn csv(&self) -> String {
-        let cell = |cell: &String| match cell.contains(['"', ',', '\n', '\r']) {
-            true => format!("\"{}\"", cell.replace('"', "\"\"")),
-            false => cell.clone(),
+        let cell = |cell: &String| {
+            if cell.contains(['"', ',', '\n', '\r']) {
+                format!("\"{}\"", cell.replace('"', "\"\""))
+            } else {
+                cell.clone()
+            }
         };
         let line = |cells: &Vec<String>| cells.iter().map(cell).collect::<Vec<_>>().join(",");
         self.lines().map(|cells| line(cells) + "\r\n").collect()
@@ -91,11 +94,18 @@ pub fn aligned(lines: &[impl AsRef<[String]>], left: &[usize]) -> String {
     }
     let mut text = String::new();
     for line in lines {
-        let cells = line.as_ref().iter().zip(&widths).enumerate();
-        let cells = cells.map(|(column, (cell, width))| match left.contains(&column) {
-            true => format!("{cell:width$}"),
-            false => format!("{cell:>width$}"),
-        });
+        let cells = line
+            .as_ref()
+            .iter()
+            .zip(&widths)
+            .enumerate()
+            .map(|(column, (cell, width))| {
+                if left.contains(&column) {
+                    format!("{cell:width$}")
+                } else {
+                    format!("{cell:>width$}")
+                }
+            });
         text += cells.collect::<Vec<_>>().join("  ").trim_end();
         text.push('\n');
     }
@@ -106,15 +116,20 @@ pub fn aligned(lines: &[impl AsRef<[String]>], left: &[usize]) -> String {
 pub fn html_text(text: &str) -> String {
     // HTML allows no other control characters, not even as numeric references.
     let is_none = |letter: char| letter.is_control() && !matches!(letter, '\n' | '\t');
-    let text = text.replace(is_none, "\u{FFFD}").replace('&', "&amp;");
-    let text = text.replace('<', "&lt;").replace('>', "&gt;");
-    text.replace('"', "&quot;").replace('\'', "&#39;")
+    text.replace(is_none, "\u{FFFD}")
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+        .replace('\'', "&#39;")
 }
 
 /// Escapes text for Markdown, also within a table.
 pub fn markdown_text(text: &str) -> String {
-    let text = text.replace(char::is_control, " ");
-    let mut text = text.replace('&', "&amp;").replace('<', "&lt;");
+    let mut text = text
+        .replace(char::is_control, " ")
+        .replace('&', "&amp;")
+        .replace('<', "&lt;");
     // The backslash comes first, because escaping the others adds backslashes.
     for letter in ['\\', '`', '*', '_', '[', ']', '|', '#', '~', '!'] {
         text = text.replace(letter, &format!("\\{letter}"));

@@ -100,9 +100,12 @@ impl<'a> Drawer<'a> {
             levels.scale = self.stretched(&levels, light, hits);
         }
         let all = light.iter().enumerate();
-        let of = |(i, colour): (usize, &DVec3)| match hits.is_covered(i) {
-            true => levels.of(*colour),
-            false => self.background,
+        let of = |(i, colour): (usize, &DVec3)| {
+            if hits.is_covered(i) {
+                levels.of(*colour)
+            } else {
+                self.background
+            }
         };
         all.map(of).collect()
     }
@@ -119,12 +122,14 @@ impl<'a> Drawer<'a> {
             }
         }
         let most = light.iter().map(|c| c.max_element()).fold(0.0, f64::max);
-        match most > 0.0 {
+        if most <= 0.0 {
+            1.0
+        } else if own > 0.0 {
             // The picture's brightest pixel is brighter than the brightest sample, but not twice as
             // bright.
-            true if own > 0.0 => (both / own).clamp(0.5 / most, 1.02 / most),
-            true => 1.0 / most,
-            false => 1.0,
+            (both / own).clamp(0.5 / most, 1.02 / most)
+        } else {
+            1.0 / most
         }
     }
 
@@ -220,8 +225,7 @@ impl<'a> Drawer<'a> {
     pub fn terms(&mut self, recipe: &Recipe, factor: f64) -> Option<Vec<Terms>> {
         let hits = self.hits(recipe.geometry, recipe.place)?;
         let shading = recipe.shading;
-        let illumination = self.illumination(shading);
-        let illumination = illumination.with_exponents(factor);
+        let illumination = self.illumination(shading).with_exponents(factor);
         let normals = self.normals(shading.normals);
         let shader = self.shader(&hits, &normals, shading, &illumination);
         Some((0..hits.len()).map(|i| shader.terms(i)).collect())
@@ -265,11 +269,12 @@ impl<'a> Drawer<'a> {
         let drawn = self.frame(geometry)?;
         let pixels = self.places(place, &drawn);
         let known = self.methods.entry((geometry, method));
-        let picture = known.or_insert_with(|| {
-            let method = METHODS.get(usize::from(method))?.variant();
-            drawn_by(&drawn.frame, &method).map(Rc::new)
-        });
-        let picture = picture.clone()?;
+        let picture = known
+            .or_insert_with(|| {
+                let method = METHODS.get(usize::from(method))?.variant();
+                drawn_by(&drawn.frame, &method).map(Rc::new)
+            })
+            .clone()?;
         let colour = |[x, y]: [usize; 2]| {
             let [r, g, b, _] = picture.get(x, y).map(f64::from);
             DVec3::new(r, g, b)

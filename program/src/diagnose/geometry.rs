@@ -127,11 +127,12 @@ impl Geometry {
         // only ever stretched.
         let least = scale[0].min(scale[1]).min(1.0);
         half /= least;
-        let projection = match is_perspective {
-            true => Projection::Perspective {
+        let projection = if is_perspective {
+            Projection::Perspective {
                 fovy: 2.0 * libm::atan(half).to_degrees(),
-            },
-            false => Projection::Orthographic { half_height: half },
+            }
+        } else {
+            Projection::Orthographic { half_height: half }
         };
         (half.is_finite() && half > 0.0).then_some(Extent {
             projection,
@@ -211,11 +212,13 @@ fn without_cut_polygons(frame: &Frame) -> Frame {
 /// triangles are kept. Concave polygons are cut into ears, unless `of_concave` is set.
 fn fans(frame: &Frame, start: usize, keeps: fn(usize) -> usize, of_concave: bool) -> Frame {
     let cut = (!of_concave).then(|| triangulated(frame));
-    let ears = cut.iter().flat_map(|cut| {
-        let pieces = cut.origins.iter().zip(cut.frame.polygons());
-        pieces.map(|(origin, piece)| (*origin, cut.frame.corners(piece)))
-    });
-    let mut ears = ears.peekable();
+    let mut ears = cut
+        .iter()
+        .flat_map(|cut| {
+            let pieces = cut.origins.iter().zip(cut.frame.polygons());
+            pieces.map(|(origin, piece)| (*origin, cut.frame.corners(piece)))
+        })
+        .peekable();
     let mut index = 0..;
     frame.with_pieces(|polygon, add| {
         let index = index.next().unwrap_or(u32::MAX);

@@ -52,8 +52,8 @@ impl Hits {
         let indices = looked_at.polygons(frame);
         let mut hits = Hits::default();
         let mut weights = Weights::new(frame, surface, geometry);
-        let indices = indices.chunks(looked_at.slots());
-        for (pixel, indices) in looked_at.pixels.iter().zip(indices) {
+        let places = indices.chunks(looked_at.slots());
+        for (pixel, indices) in looked_at.pixels.iter().zip(places) {
             let seen = pixel.zip(frame.polygons().get(indices[0] as usize));
             let is_hit = seen.is_some_and(|([x, y], polygon)| weights.find(polygon, [x, y]));
             if let Some((_, polygon)) = seen.filter(|_| is_hit) {
@@ -228,13 +228,18 @@ impl<'a> Weights<'a> {
         };
         let vertices = self.frame.vertices();
         let is_weighted = self.frame.interpolation() == Interpolation::Perspective;
-        let factor = |v: u32| match (self.is_times_w, is_weighted) {
-            (true, _) => 1.0 / vertices[v as usize].inv_w,
-            (false, true) => vertices[v as usize].inv_w,
-            (false, false) => 1.0,
+        let factor = |v: u32| {
+            if self.is_times_w {
+                1.0 / vertices[v as usize].inv_w
+            } else if is_weighted {
+                vertices[v as usize].inv_w
+            } else {
+                1.0
+            }
         };
-        let all = self.assigned(self.frame.corners(polygon), weights.all());
-        let all = all.map(|(v, weight)| (v, weight * factor(v)));
+        let all = self
+            .assigned(self.frame.corners(polygon), weights.all())
+            .map(|(v, weight)| (v, weight * factor(v)));
         let sum: f64 = all.iter().map(|(_, weight)| weight).sum();
         for (vertex, weight) in all.into_iter().filter(|(_, weight)| *weight != 0.0) {
             self.add(vertex, weight / sum);

@@ -111,9 +111,10 @@ impl Levels {
             Rounding::Of256 if self.is_wrapped() => libm::floor(256.0 * stored),
             Rounding::Of256 => libm::floor(256.0 * stored).min(255.0),
         };
-        match self.is_wrapped() {
-            true => level % 256.0,
-            false => level,
+        if self.is_wrapped() {
+            level % 256.0
+        } else {
+            level
         }
     }
 }

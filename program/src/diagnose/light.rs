@@ -70,12 +70,12 @@ impl Illumination {
         let camera = &scene.camera;
         let count = scene.lights.len();
         let is_local = scene.local_viewer != (switches.viewer == Viewer::Other);
-        let viewer = match (switches.viewer, is_local) {
-            (Viewer::EyeAsDirection, _) => Place::Infinite(camera.eye.normalize_or_zero()),
-            (Viewer::AlongZ, _) => Place::Infinite(DVec3::Z),
-            (Viewer::AtOrigin, _) => Place::Local(-origin),
-            (_, true) => Place::Local(camera.eye - origin),
-            (_, false) => Place::Infinite(camera.view()),
+        let viewer = match switches.viewer {
+            Viewer::EyeAsDirection => Place::Infinite(camera.eye.normalize_or_zero()),
+            Viewer::AlongZ => Place::Infinite(DVec3::Z),
+            Viewer::AtOrigin => Place::Local(-origin),
+            _ if is_local => Place::Local(camera.eye - origin),
+            _ => Place::Infinite(camera.view()),
         };
         let (model, exponent) = highlight_model(scene, &switches);
         Illumination {
@@ -114,12 +114,12 @@ impl Illumination {
         let switches = &self.switches;
         let (kd, ks) = (wide(material.diffuse), wide(material.specular));
         let v = self.toward_viewer(at);
+        let raw = n;
+        let n = self.normal(raw, p);
         let shiny = match switches.highlight_normal {
-            Length::Unit => None,
-            Length::Raw => Some(n),
+            Length::Unit => n,
+            Length::Raw => raw,
         };
-        let n = self.normal(n, p);
-        let shiny = shiny.unwrap_or(n);
         let ambient = match switches.ambient {
             AmbientUse::WithoutMaterial => self.ambient,
             AmbientUse::TimesDiffuse => self.ambient * wide(material.ambient) * kd,

@@ -56,8 +56,8 @@ impl Mistake {
         let lecture = self
             .see
             .strip_suffix(".1")
-            .filter(|see| *see == "L21 2" || *see == "L21 3");
-        let lecture = lecture.unwrap_or(self.see);
+            .filter(|see| *see == "L21 2" || *see == "L21 3")
+            .unwrap_or(self.see);
         let chapter = chapters.iter().find(|(section, _)| *section == lecture);
         match (chapter, self.see) {
             (Some((_, chapter)), see) => format!("{see}; docs/course/{chapter}.md"),

@@ -171,8 +171,8 @@ pub fn diagnose(
     let target = target(&subject, &drawer.pixels, own);
     drawer.target = target.levels.clone();
     drawer.light_lengths = question.light_lengths.to_vec();
-    let search = Search::new(scene, &mut drawer, &target, &right);
-    let mut search = search.ok_or(DiagnoseError::NothingToCompare)?;
+    let mut search =
+        Search::new(scene, &mut drawer, &target, &right).ok_or(DiagnoseError::NothingToCompare)?;
     if let Some(method) = question.method {
         search.reference = nearer(search.reference, by_method(method, &frame, &mut search));
     }
@@ -241,8 +241,8 @@ fn with_search<T>(
         levels: right.levels,
         is_drawn,
     };
-    let search = Search::new(scene, &mut drawer, &target, &[Recipe::default()]);
-    let mut search = search.ok_or(DiagnoseError::NothingToCompare)?;
+    let mut search = Search::new(scene, &mut drawer, &target, &[Recipe::default()])
+        .ok_or(DiagnoseError::NothingToCompare)?;
     Ok(with(&mut search))
 }
 
@@ -351,8 +351,7 @@ fn samples(scene: &Scene, prepared: &PreparedScene, surface: &Surface<'_>) -> Ve
 
 /// Returns about `count` pixels of a picture, one at a random place of each cell of a grid.
 fn grid([width, height]: [usize; 2], count: usize) -> Vec<[usize; 2]> {
-    let side = libm::sqrt((width * height) as f64 / count as f64) as usize;
-    let side = side.max(1);
+    let side = (libm::sqrt((width * height) as f64 / count as f64) as usize).max(1);
     let mut random = SplitMix(1);
     let mut pixels = Vec::new();
     for y in (0..height).step_by(side) {
@@ -379,19 +378,21 @@ fn target(subject: &Subject<'_>, pixels: &[[usize; 2]], background: [f32; 3]) ->
 fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
     let reference = search.drawer.draw(&search.base);
     let named = findings.causes.first();
-    let nearest = named.or(findings.singles.first().filter(|best| {
+    let nearest_cause = named.or(findings.singles.first().filter(|best| {
         findings.verdict != Verdict::Correct && best.residual.levels < search.reference.levels
     }));
     let explained = named.and_then(|cause| search.drawer.draw(&cause.recipe));
-    let nearest = nearest.and_then(|cause| search.drawer.draw(&cause.recipe));
+    let nearest = nearest_cause.and_then(|cause| search.drawer.draw(&cause.recipe));
     let target = search.target;
     let pixels = &search.drawer.pixels;
     let look_at = reference
         .as_ref()
         .and_then(|reference| spot(target, pixels, reference, explained.as_ref()));
-    let worst = nearest.as_ref().or(reference.as_ref());
     let size = [search.scene.width as usize, search.scene.height as usize];
-    let worst = worst.and_then(|drawn| worst_part(target, pixels, drawn, size));
+    let worst = nearest
+        .as_ref()
+        .or(reference.as_ref())
+        .and_then(|drawn| worst_part(target, pixels, drawn, size));
     let cracks = worst.map_or(0.0, |_| {
         let best = explained.as_ref().or(reference.as_ref());
         best.map_or(0.0, |best| cracks(target, best, search.drawer.background))
@@ -414,9 +415,10 @@ fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
             .as_ref()
             .map_or(0.0, |reference| outline(target, reference)),
         cracks,
-        verdict: match is_empty(target, reference.as_ref()) {
-            true => Verdict::Empty,
-            false => findings.verdict,
+        verdict: if is_empty(target, reference.as_ref()) {
+            Verdict::Empty
+        } else {
+            findings.verdict
         },
         reference: search.reference,
         cut: search.base.geometry.cut.name(),

@@ -402,12 +402,13 @@ impl<'a, 'd> Search<'a, 'd> {
                     _ => base.geometry.cut,
                 };
                 let candidate = self.candidate(mistakes, base);
-                found.extend(
-                    candidate.map(|candidate| match depends_on_cut(&candidate.recipe) {
-                        true => self.with_any_cut(candidate),
-                        false => candidate,
-                    }),
-                );
+                found.extend(candidate.map(|candidate| {
+                    if depends_on_cut(&candidate.recipe) {
+                        self.with_any_cut(candidate)
+                    } else {
+                        candidate
+                    }
+                }));
             }
             self.drawer.forget_light();
         }

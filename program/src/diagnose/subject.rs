@@ -30,9 +30,10 @@ impl<'a> Subject<'a> {
     /// Returns the width and height of the scene that it shows.
     pub fn size(&self) -> [usize; 2] {
         let [width, height] = self.picture.size();
-        match self.is_transposed {
-            true => [height, width],
-            false => [width, height],
+        if self.is_transposed {
+            [height, width]
+        } else {
+            [width, height]
         }
     }
 

@@ -73,8 +73,8 @@ fn floors(content: &mut FigureContent) -> Result {
     for (label, falloff) in FALLOFFS {
         let picture = floor(falloff, 1.0)?;
         let white = 100.0 * share(&picture, |pixel| pixel[0] >= 1.0);
-        let cells = [white, below(1.0, &picture), below(10.0, &picture)];
-        let cells = cells.map(|share| format!("{} %", written(share)));
+        let cells = [white, below(1.0, &picture), below(10.0, &picture)]
+            .map(|share| format!("{} %", written(share)));
         rows.push(format!("{label} | {}", cells.join(" | ")));
         clipped.push(white);
         panels.push((label, stored(&picture)));

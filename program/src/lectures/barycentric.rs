@@ -103,8 +103,10 @@ fn misprints(content: &mut FigureContent) -> Result {
         (elsewhere, "%", elsewhere != 0.0),
         "It fills another triangle, on the other side of the edge ab, where γ is negative.",
     );
-    let gained = count(&|p| !is_inside(p) && is_in(without_signs(p)));
-    let gained = percent(gained, SIDE * SIDE - inside);
+    let gained = percent(
+        count(&|p| !is_inside(p) && is_in(without_signs(p))),
+        SIDE * SIDE - inside,
+    );
     content.contradicts(
         "unsigned-areas | pixels outside that areas without signs count as inside",
         (gained, "%", gained != 0.0),

@@ -51,9 +51,10 @@ fn shows(content: &mut FigureContent, label: &str, rms: f64) {
         &format!("coarse | {label}"),
         (rms, "grey levels", true),
         Agreement::if_holds(rms <= 1.0),
-        match rms <= 1.0 {
-            true => "Nobody sees it: the polygons are small, or the light is far away.",
-            false => "Every polygon shows: the assumption holds for lights at infinity.",
+        if rms <= 1.0 {
+            "Nobody sees it: the polygons are small, or the light is far away."
+        } else {
+            "Every polygon shows: the assumption holds for lights at infinity."
         },
     );
 }

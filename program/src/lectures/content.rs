@@ -323,9 +323,10 @@ impl Agreement {
     /// Returns [`Agreement::Confirms`] if the lecture's statement `holds`, else
     /// [`Agreement::Contradicts`].
     pub fn if_holds(holds: bool) -> Agreement {
-        match holds {
-            true => Agreement::Confirms,
-            false => Agreement::Contradicts,
+        if holds {
+            Agreement::Confirms
+        } else {
+            Agreement::Contradicts
         }
     }
 }
@@ -362,9 +363,10 @@ pub(super) fn written(value: f64) -> String {
     }
     let is_enough = |digits: &usize| size >= 100.0 / libm::pow(10.0, *digits as f64);
     let text = format!("{value:.*}", (0..5).find(is_enough).unwrap_or(5));
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').into(),
-        false => text,
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        text
     }
 }
 

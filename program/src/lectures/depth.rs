@@ -104,8 +104,11 @@ fn fights(content: &mut FigureContent, bits: u32, wrong: usize) {
 fn ways(content: &mut FigureContent) -> Result {
     let by = |source| far_away(DepthBits::ThirtyTwo, source, 1.0).map(|frame| depth(&frame));
     let (corners, samples) = (by(DepthSource::Interpolated)?, by(DepthSource::PerSample)?);
-    let both = corners.pixels().iter().zip(samples.pixels());
-    let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
+    let both = corners
+        .pixels()
+        .iter()
+        .zip(samples.pixels())
+        .filter(|(a, b)| a.is_finite() && b.is_finite());
     let difference = largest(both.map(|(a, b)| f64::from((a - b).abs())));
     // Either way rounds depths of up to 1 by 2⁻²⁵ at the corners and at each step along an edge and
     // a span. The second way scales 1/w by f/(f − n), which is close to 1.
@@ -168,10 +171,12 @@ fn curve(content: &mut FigureContent) -> Result {
         "preserved | depth half-way to the far plane: how far from the middle of the range, which is 2 long",
         (moved, "", true),
         Agreement::if_holds(moved < 1e-3),
-        match (moved < 1e-3, is_ordered) {
-            (true, _) => "Depth is preserved.",
-            (_, true) => "Depth preserves the order of distances and nothing else (\"preserved\", L5).",
-            (_, false) => "Depth does not even preserve the order.",
+        if moved < 1e-3 {
+            "Depth is preserved."
+        } else if is_ordered {
+            "Depth preserves the order of distances and nothing else (\"preserved\", L5)."
+        } else {
+            "Depth does not even preserve the order."
         },
     );
     Ok(())

@@ -50,7 +50,8 @@ pub(super) static LIVE: Live = Live {
         content.pictures(2, "A cube with averaged normals", panels);
         concludes(
             content,
-            ("turned", name),
+            "turned",
+            name,
             cut.off(weight),
             levels(&whole.lit(weight)?, &cut.lit(weight)?),
         );
@@ -155,23 +156,21 @@ fn lit(mesh: &PolygonMesh, normals: NormalRule) -> Result<LinearPicture> {
 
 /// Adds the findings of a weight: the largest angle, in degrees, and the largest difference, in
 /// grey levels, that diagonals make.
-fn concludes(content: &mut FigureContent, (key, name): (&str, &str), off: f64, levels: f64) {
+fn concludes(content: &mut FigureContent, key: &str, name: &str, off: f64, levels: f64) {
     let moves = off > ROUNDING;
     content.adds(
         &format!("{key} | normals of a cube that is cut, {name}: largest angle from its diagonals"),
         (off, "degrees", true),
-        match moves {
-            true => "The diagonals move the normals: the same solid is lit differently.",
-            false => "Here the diagonals do not matter.",
+        if moves {
+            "The diagonals move the normals: the same solid is lit differently."
+        } else {
+            "Here the diagonals do not matter."
         },
     );
     content.adds(
         &format!("{key}-levels | picture of a cube that is cut, {name}: largest difference from six squares"),
         (levels, "levels", true),
-        match levels > 0.5 {
-            true => "You can see it.",
-            false => "You cannot see it.",
-        },
+        if levels > 0.5 { "You can see it." } else { "You cannot see it." },
     );
 }
 
@@ -191,8 +190,9 @@ fn diagonals(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     for (weight, name) in WEIGHTS {
         let (of_whole, picture) = (whole.lit(weight)?, one.lit(weight)?);
-        let all = (0..64).map(|turned| Ok(Cube::new(Some(turned))?.off(weight)));
-        let all = all.collect::<Result<Vec<f64>>>()?;
+        let all = (0..64)
+            .map(|turned| Ok(Cube::new(Some(turned))?.off(weight)))
+            .collect::<Result<Vec<f64>>>()?;
         let worst = largest(all.iter().copied());
         let exact = all.iter().filter(|off| **off < ROUNDING).count();
         let seen = levels(&of_whole, &picture);
@@ -200,7 +200,7 @@ fn diagonals(content: &mut FigureContent) -> Result {
         rows.push(format!("{name} | {cells}"));
         panels.push((format!("cut, {name}"), stored(&picture)));
         let key = ["uniform", "area", "angle", "max"][weight as usize];
-        concludes(content, (key, name), worst, seen);
+        concludes(content, key, name, worst, seen);
     }
     content.pictures(
         5,
@@ -299,10 +299,10 @@ impl Surface {
         // Each corner of the cube becomes three vertices: vertex 3i + k of corner i lies on the
         // face across axis k.
         let corner = |i: usize| DVec3::new(sign(i), sign(i >> 1), sign(i >> 2));
-        let normals = (0..24).map(|n| corner(n / 3) * axes[n % 3]);
-        let normals: Vec<DVec3> = normals.collect();
-        let positions = (0..24).map(|n| INNER * corner(n / 3) + (1.0 - INNER) * normals[n]);
-        let positions: Vec<DVec3> = positions.collect();
+        let normals: Vec<DVec3> = (0..24).map(|n| corner(n / 3) * axes[n % 3]).collect();
+        let positions: Vec<DVec3> = (0..24)
+            .map(|n| INNER * corner(n / 3) + (1.0 - INNER) * normals[n])
+            .collect();
         let mut polygons: Vec<Vec<u32>> =
             (0..8).map(|i| vec![3 * i, 3 * i + 1, 3 * i + 2]).collect();
         for k in 0..3 {

@@ -108,9 +108,10 @@ fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f6
     // Interpolate between the last pixel that has a half or more and the next one.
     let last = points.iter().rposition(|p| p.1 >= 0.5).unwrap_or(0);
     let (a, b) = (points[last], points[(last + 1).min(points.len() - 1)]);
-    let part = match a.1 > b.1 {
-        true => (a.1 - 0.5) / (a.1 - b.1),
-        false => 0.0,
+    let part = if a.1 > b.1 {
+        (a.1 - 0.5) / (a.1 - b.1)
+    } else {
+        0.0
     };
     Ok((a.0 + part * (b.0 - a.0), points))
 }

@@ -49,9 +49,12 @@ fn meshes(content: &mut FigureContent) -> Result {
         (fewest, "grey levels", fewest <= 1.0),
         "No pixel differs by more than a grey level.",
     );
-    let verdict = |error: f64| match error <= 1.0 {
-        true => "One step is enough on this mesh.",
-        false => "One step is not enough on this mesh.",
+    let verdict = |error: f64| {
+        if error <= 1.0 {
+            "One step is enough on this mesh."
+        } else {
+            "One step is not enough on this mesh."
+        }
     };
     let coarse = by_one[0].0;
     content.adds(

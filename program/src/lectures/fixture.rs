@@ -76,8 +76,11 @@ impl ScreenPolygon {
             normal: corner.normal.as_vec3().to_array(),
             material,
         };
-        let corners = self.corners.iter().map(|c| builder.vertex(vertex(c)));
-        let corners: Vec<u32> = corners.collect();
+        let corners: Vec<u32> = self
+            .corners
+            .iter()
+            .map(|c| builder.vertex(vertex(c)))
+            .collect();
         builder.polygon(&corners, self.normal.as_vec3().to_array(), index as u32);
     }
 }
@@ -207,8 +210,10 @@ pub(super) fn draw_each<const N: usize>(
     frame: &Frame,
     methods: [&str; N],
 ) -> Result<[LinearPicture; N]> {
-    let pictures = methods.iter().map(|method| draw(frame, method));
-    let pictures = pictures.collect::<Result<Vec<_>>>()?;
+    let pictures = methods
+        .iter()
+        .map(|method| draw(frame, method))
+        .collect::<Result<Vec<_>>>()?;
     Ok(pictures.try_into().expect("a picture by each method"))
 }
 

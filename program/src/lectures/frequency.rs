@@ -123,8 +123,10 @@ fn compare_errors(content: &mut FigureContent, errors: &[Vec<Difference>]) {
     let polygons = RINGS.map(|rings| 2 * rings * rings);
     let rms = |i: usize, k: usize| 255.0 * errors[i][k].rms;
     let cells = |errors: &[Difference]| errors.iter().map(max_and_rms).collect::<String>();
-    let rows = FREQUENCIES.iter().zip(errors);
-    let rows = rows.map(|((_, frequency), errors)| format!("{frequency}{}", cells(errors)));
+    let rows = FREQUENCIES
+        .iter()
+        .zip(errors)
+        .map(|((_, frequency), errors)| format!("{frequency}{}", cells(errors)));
     let columns = polygons.map(|polygons| format!(" | {polygons}"));
     let head = format!("max / RMS in levels, by polygons{}", columns.concat());
     content.table(&head, rows);

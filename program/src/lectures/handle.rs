@@ -158,9 +158,9 @@ mod tests {
                 for end in handle.range {
                     let mut values = start.clone();
                     values[i] = end;
-                    let there = live.make(&values);
-                    let there =
-                        there.unwrap_or_else(|e| panic!("{name}: {} {end}: {e}", handle.name));
+                    let there = live
+                        .make(&values)
+                        .unwrap_or_else(|e| panic!("{name}: {} {end}: {e}", handle.name));
                     has_changed |= there != at_start;
                     for finding in &there.findings {
                         let key = &finding.key;

@@ -103,16 +103,17 @@ fn loses(content: &mut FigureContent, key: &str, cells: u32, exponent: f32, kept
     let (wide, cell) = (written(width(exponent)), written(degrees));
     let is_lost = kept < 0.9;
     let facts = format!("The highlight is {wide}° wide, a polygon {cell}°.");
-    let says = match (kept < 0.1, is_lost) {
-        (true, _) => "No vertex sees it, so nothing between the vertices can.",
-        (_, true) => {
-            "The vertices see less of it, and nothing between them is brighter than they are."
-        }
-        _ => "The polygons are small compared with the highlight: Gouraud is a cheaper Phong.",
+    let says = if kept < 0.1 {
+        "No vertex sees it, so nothing between the vertices can."
+    } else if is_lost {
+        "The vertices see less of it, and nothing between them is brighter than they are."
+    } else {
+        "The polygons are small compared with the highlight: Gouraud is a cheaper Phong."
     };
-    let agreement = match is_lost {
-        true => Agreement::Confirms,
-        false => Agreement::Adds,
+    let agreement = if is_lost {
+        Agreement::Confirms
+    } else {
+        Agreement::Adds
     };
     content.found(
         &format!("{key} | part of the highlight's height that Gouraud keeps in the middle of a polygon, {cells} around, n = {exponent}"),

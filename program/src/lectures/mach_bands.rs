@@ -143,22 +143,25 @@ fn measure_jumps(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)], edg
         content.confirms(
             &format!("value-{name} | {name}: largest jump of the intensity"),
             (value, "grey levels", (value < 0.5) != is_flat),
-            match is_flat {
-                true => "The intensity jumps at edges.",
-                false => "Along common edges the intensities agree.",
+            if is_flat {
+                "The intensity jumps at edges."
+            } else {
+                "Along common edges the intensities agree."
             },
         );
         let is_smooth = slope < 4.0 * control;
         content.found(
             &format!("slope-{name} | {name}: largest jump of the slope"),
             (slope, "grey levels per pixel", true),
-            match is_flat {
-                true => Agreement::Adds,
-                false => Agreement::if_holds(is_smooth),
+            if is_flat {
+                Agreement::Adds
+            } else {
+                Agreement::if_holds(is_smooth)
             },
-            match is_smooth {
-                true => "It is no larger than on the cylinder itself.",
-                false => "The slope jumps at edges: Mach bands are weakened, not eliminated.",
+            if is_smooth {
+                "It is no larger than on the cylinder itself."
+            } else {
+                "The slope jumps at edges: Mach bands are weakened, not eliminated."
             },
         );
     }

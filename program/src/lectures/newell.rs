@@ -134,18 +134,17 @@ fn dragged(content: &mut FigureContent, values: &[f64]) -> Result {
     let off = if twice < 0.0 { error(-sum) } else { error(sum) };
     // Coordinates are sixteenths, so twice the area is a multiple of 1/256: less is rounding, and
     // zero.
-    match twice.abs() > 1e-6 {
-        true => {
-            let rounding = ROUNDING / twice.abs();
-            right(content, off, rounding.to_degrees().max(LEAST_DEGREES));
-            let area = (sum.length() / twice.abs() - 1.0).abs();
-            as_long(content, area, rounding.max(LEAST_SHARE));
-        }
-        false => content.adds(
+    if twice.abs() > 1e-6 {
+        let rounding = ROUNDING / twice.abs();
+        right(content, off, rounding.to_degrees().max(LEAST_DEGREES));
+        let area = (sum.length() / twice.abs() - 1.0).abs();
+        as_long(content, area, rounding.max(LEAST_SHARE));
+    } else {
+        content.adds(
             "newell | |N| by Newell\u{2019}s formula",
             (sum.length(), "", true),
             "The polygon encloses no area, or as much on one side as on the other: it has no normal.",
-        ),
+        );
     }
     Ok(())
 }
@@ -193,8 +192,8 @@ fn pictures(content: &mut FigureContent) -> Result {
     let panels = [
         (edges, &lit_by(&all, worst)?),
         (newell, &lit_by(&all, by_newell)?),
-    ];
-    let panels = panels.map(|(caption, picture)| (caption, stored(picture)));
+    ]
+    .map(|(caption, picture)| (caption, stored(picture)));
     content.pictures(1, "Five polygons of one plane", panels);
     Ok(())
 }

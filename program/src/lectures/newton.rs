@@ -102,9 +102,10 @@ fn few_iterations(content: &mut FigureContent, degrees: f64, steps: u32) {
         &format!("error-{steps} | span of {degrees}°, {name}: largest relative error of d"),
         (error, "", true),
         Agreement::if_holds(is_enough),
-        match is_enough {
-            true => "A few iterations are enough: rounding to grey levels hides the error.",
-            false => "Too few for normals this far apart: the error is half a grey level or more.",
+        if is_enough {
+            "A few iterations are enough: rounding to grey levels hides the error."
+        } else {
+            "Too few for normals this far apart: the error is half a grey level or more."
         },
     );
 }

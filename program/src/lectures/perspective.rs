@@ -33,8 +33,8 @@ fn camera() -> Camera {
 
 /// Draws the board on a floor of these polygons.
 fn board(polygons: &[&[u32]], interpolation: Interpolation) -> Result<LinearPicture> {
-    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
-    let corners = corners.map(|(x, z)| REACH * DVec3::new(x, 0.0, z));
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)]
+        .map(|(x, z)| REACH * DVec3::new(x, 0.0, z));
     let mut scene = bare(&corners, polygons, camera(), [WIDTH as u32, HEIGHT as u32])?;
     scene.interpolation = interpolation;
     Ok(checkerboard(&scene.frame()?, None, SQUARE, BOARD))

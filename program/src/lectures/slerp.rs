@@ -187,9 +187,10 @@ fn drift(content: &mut FigureContent) -> Result {
     ));
     for ((key, name), errors) in NAMES.into_iter().zip(all) {
         let most = largest(errors);
-        let verdict = match most > 0.5 / 255.0 {
-            true => "The error is visible.",
-            false => "The error is not visible.",
+        let verdict = if most > 0.5 / 255.0 {
+            "The error is visible."
+        } else {
+            "The error is not visible."
         };
         content.adds(
             &format!("drift-{key} | {name}: largest error over {LONG} pixels"),

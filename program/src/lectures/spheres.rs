@@ -234,9 +234,10 @@ impl Lit {
 
     /// Adds the findings at the highlight, with these keys.
     fn conclude(&self, content: &mut FigureContent, [gouraud, fast]: [&str; 2]) {
-        let agreement = match self.dark > ALIKE {
-            true => Agreement::Confirms,
-            false => Agreement::Adds,
+        let agreement = if self.dark > ALIKE {
+            Agreement::Confirms
+        } else {
+            Agreement::Adds
         };
         content.found(
             &format!("{gouraud} | Gouraud where the highlight is brightest: too dark by"),
@@ -244,9 +245,10 @@ impl Lit {
             agreement,
             &self.says(),
         );
-        let says = match self.off <= 0.5 {
-            true => "The difference is invisible.",
-            false => "Here normals turn far from one end of a scan line to the other.",
+        let says = if self.off <= 0.5 {
+            "The difference is invisible."
+        } else {
+            "Here normals turn far from one end of a scan line to the other."
         };
         content.adds(
             &format!("{fast} | fast Phong at the same place: off by"),
@@ -331,8 +333,8 @@ fn start(content: &mut FigureContent) -> Result {
 fn corners(content: &mut FigureContent) -> Result {
     // The corner of the icosahedron that faces the eye most.
     let frame = sphere(1)?.frame()?;
-    let normals = (0..frame.vertices().len() as u32).map(|i| frame.normal(i));
-    let normals = normals.map(|n| DVec3::from_array(n.map(f64::from)));
+    let normals = (0..frame.vertices().len() as u32)
+        .map(|i| DVec3::from_array(frame.normal(i).map(f64::from)));
     let nearest = normals
         .max_by(|a, b| a.z.total_cmp(&b.z))
         .unwrap_or(DVec3::Z);

@@ -71,8 +71,8 @@ const PAST_DARK: Polygons = &[&[0, 1, 3], &[1, 2, 3]];
 fn square(degrees: f64, polygons: Polygons, normals: Normals) -> Result<Frame> {
     let middle = f64::from(SIDE) / 2.0;
     let (sin, cos) = sine_and_cosine(degrees);
-    let places = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
-    let places = places.map(|(x, y)| [cos * x - sin * y, sin * x + cos * y]);
+    let places = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]
+        .map(|(x, y)| [cos * x - sin * y, sin * x + cos * y]);
     let corner = |i: &usize| ScreenCorner::new(places[*i].map(|c| middle + REACH * c), normals[*i]);
     let polygon =
         |corners: &&[usize]| ScreenPolygon::new(corners.iter().map(corner).collect::<Vec<_>>());
@@ -217,9 +217,10 @@ fn depends_not(content: &mut FigureContent, method: &str, degrees: f64, change: 
         ),
         (change, "grey levels", true),
         Agreement::if_holds(agrees),
-        match agrees {
-            true => "Triangles do not depend on the orientation: only rounding is left.",
-            false => "Triangles depend on the orientation, too: great circles are not barycentric.",
+        if agrees {
+            "Triangles do not depend on the orientation: only rounding is left."
+        } else {
+            "Triangles depend on the orientation, too: great circles are not barycentric."
         },
     );
 }

@@ -141,15 +141,16 @@ fn measured(content: &mut FigureContent, frame: &Frame) -> Result {
         [&gouraud, &naive, &one, &slerp].map(stored),
     );
     let lost = levels(&gouraud, &naive);
-    let (agreement, says) = match lost > 1.0 {
-        true => (
+    let (agreement, says) = if lost > 1.0 {
+        (
             Agreement::Confirms,
             "No corner sees the highlight, so nothing between the corners can.",
-        ),
-        false => (
+        )
+    } else {
+        (
             Agreement::Adds,
             "Here Gouraud's picture is as good as Phong's.",
-        ),
+        )
     };
     content.found(
         "gouraud | Gouraud against naive Phong: largest difference",
@@ -159,12 +160,13 @@ fn measured(content: &mut FigureContent, frame: &Frame) -> Result {
     );
     for (key, steps, picture) in [("one", "one step", one), ("two", "two steps", two)] {
         let off = levels(&picture, &naive);
-        let (agreement, says) = match off > 0.5 {
-            true => (
+        let (agreement, says) = if off > 0.5 {
+            (
                 Agreement::Contradicts,
                 "|N| changes too fast here for one Newton step.",
-            ),
-            false => (Agreement::Confirms, "Nobody can see it."),
+            )
+        } else {
+            (Agreement::Confirms, "Nobody can see it.")
         };
         content.found(
             &format!("{key} | fast Phong with {steps} of Newton\u{2019}s method against naive Phong: largest difference"),

@@ -90,8 +90,10 @@ pub(super) fn html(data: &Value) -> String {
 
 /// Returns the kind and the words of a comment, or `None` if the line is not a comment.
 fn comment(line: &str) -> Option<(&str, &str)> {
-    let inside = line.trim_end().strip_prefix("<!-- ")?;
-    let inside = inside.strip_suffix(" -->")?;
+    let inside = line
+        .trim_end()
+        .strip_prefix("<!-- ")?
+        .strip_suffix(" -->")?;
     Some(inside.split_once(": ").unwrap_or((inside, "")))
 }
 
@@ -271,8 +273,10 @@ fn address(code: &str) -> Event<'static> {
 /// Returns the address in the page for a link of a chapter, if it leads to another chapter or to a
 /// website. Other files of the repository are not in the page.
 fn in_page(to: &str) -> Option<String> {
-    let chapter = CHAPTERS.iter().find(|chapter| chapter.file == to);
-    let chapter = chapter.map(|chapter| format!("#course/{}", chapter.part));
+    let chapter = CHAPTERS
+        .iter()
+        .find(|chapter| chapter.file == to)
+        .map(|chapter| format!("#course/{}", chapter.part));
     chapter.or_else(|| to.starts_with("https://").then(|| to.to_owned()))
 }
 

@@ -26,8 +26,10 @@ pub const MOST_BYTES: u64 = 10 * MOST_PACKED as u64;
 /// and packed contents. Files have the names that the scene uses. Returns `None` if the files are
 /// too large for the page.
 pub fn live_scene(scene: &str, files: &[(String, Vec<u8>)]) -> Option<String> {
-    let packed = files.iter().map(|(name, bytes)| (name, packed(bytes)));
-    let packed: Vec<(&String, String)> = packed.collect();
+    let packed: Vec<(&String, String)> = files
+        .iter()
+        .map(|(name, bytes)| (name, packed(bytes)))
+        .collect();
     let size: usize = packed.iter().map(|(_, text)| text.len()).sum();
     (size <= MOST_PACKED).then(|| json!({ "scene": scene, "files": packed }).to_string())
 }

@@ -122,12 +122,13 @@ fn others(scene: &Value) -> String {
         .filter_map(|row| row["other_polygon"].as_f64())
         .fold(0.0, f64::max);
     let share = 100.0 * most / scene["covered_pixels"].as_f64().unwrap_or(0.0).max(1.0);
-    match share > 0.1 {
-        true => format!(
+    if share > 0.1 {
+        format!(
             "At up to {share:.2} % of the covered pixels a method shows another polygon than the reference, because both have the \
              same depth up to rounding. The errors leave out these pixels.\n\n"
-        ),
-        false => String::new(),
+        )
+    } else {
+        String::new()
     }
 }
 

@@ -46,16 +46,18 @@ const PROJECT: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "slerp-phong
 /// Packs the traces of all figures into one JSON object with a trace for each method.
 fn packed_traces(document: &Document) -> String {
     let blocks = document.figures.iter().flat_map(|f| &f.content.blocks);
-    let traces = blocks.filter_map(|block| match block {
-        FigureBlock::Trace { method, trace } => Some((&**method, &**trace)),
-        _ => None,
-    });
-    let traces: BTreeMap<&str, _> = traces.collect();
-    match traces.is_empty() {
-        true => String::new(),
+    let traces: BTreeMap<&str, _> = blocks
+        .filter_map(|block| match block {
+            FigureBlock::Trace { method, trace } => Some((&**method, &**trace)),
+            _ => None,
+        })
+        .collect();
+    if traces.is_empty() {
+        String::new()
+    } else {
         // Not through a `Value`: its floats have 64 bits and would be written with digits that the
         // engine's 32 do not have.
-        false => live::packed(&serde_json::to_vec(&traces).expect("numbers and texts")),
+        live::packed(&serde_json::to_vec(&traces).expect("numbers and texts"))
     }
 }
 
@@ -175,9 +177,10 @@ impl Report {
     /// if all can.
     fn limits(&self) -> String {
         let mut all = [&self.data].into_iter().chain(&self.beside);
-        match all.any(document::is_older) {
-            true => alloc::format!(" Of documents of schema {OLDER}: {NOT_COMPARABLE}."),
-            false => String::new(),
+        if all.any(document::is_older) {
+            alloc::format!(" Of documents of schema {OLDER}: {NOT_COMPARABLE}.")
+        } else {
+            String::new()
         }
     }
 
@@ -200,10 +203,10 @@ impl Report {
     /// If a part is missing. Call [`check_whole`] first.
     pub(crate) fn joined(mut parts: Vec<Report>) -> Report {
         parts.sort_by_key(|part| part.part().map(|(_, shard)| shard.number));
-        let scenes = parts
+        let scenes: Vec<_> = parts
             .iter()
-            .map(|part| document::list(&part.data, "/comparisons"));
-        let scenes: Vec<_> = scenes.collect();
+            .map(|part| document::list(&part.data, "/comparisons"))
+            .collect();
         let most = scenes.iter().map(|scenes| scenes.len()).max();
         // Parts take scenes in turn: part 1 has the first, part 2 the second, and so on.
         let comparisons = (0..most.unwrap_or(0))

@@ -65,8 +65,11 @@ impl PairsPage {
     /// Writes the page.
     pub fn html(&self) -> String {
         let html = |is_equal: bool| {
-            let pairs = self.pairs.iter().enumerate();
-            let pairs = pairs.filter(|(_, pair)| (pair.status == "equal") == is_equal);
+            let pairs = self
+                .pairs
+                .iter()
+                .enumerate()
+                .filter(|(_, pair)| (pair.status == "equal") == is_equal);
             pairs.map(|(i, pair)| pair.html(i)).collect::<String>()
         };
         let parts = [
@@ -106,17 +109,21 @@ impl ShownPair {
             .map(|at| at.map(|place| place / self.step.max(1)));
         let data = json!({ "size": self.size, "largest": self.largest, "worst": worst });
         let data = html_text(&data.to_string());
-        let opens = match self.map.is_empty() {
-            true => "",
-            false => "<button class=\"opens\">Open</button>",
+        let opens = if self.map.is_empty() {
+            ""
+        } else {
+            "<button class=\"opens\">Open</button>"
         };
-        let chip = match self.fails {
-            true => "contradicts",
-            false => "confirms",
+        let chip = if self.fails {
+            "contradicts"
+        } else {
+            "confirms"
         };
-        let hints = self.notes.iter().chain([&self.region_text]);
-        let hints = hints.filter(|text| !text.is_empty());
-        let hints: String = hints
+        let hints: String = self
+            .notes
+            .iter()
+            .chain([&self.region_text])
+            .filter(|text| !text.is_empty())
             .map(|text| format!("<p class=\"hint\">{}</p>", html_text(text)))
             .collect();
         format!(

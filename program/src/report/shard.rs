@@ -84,8 +84,10 @@ pub fn check_whole(parts: &[PartOf]) -> Result<(), String> {
             ));
         }
     }
-    let missing = (1..=of).filter(|number| !seen.contains(number));
-    let missing: Vec<_> = missing.map(|number| number.to_string()).collect();
+    let missing: Vec<_> = (1..=of)
+        .filter(|number| !seen.contains(number))
+        .map(|number| number.to_string())
+        .collect();
     if missing.is_empty() {
         return Ok(());
     }

@@ -78,8 +78,11 @@ fn small(data: &Value) -> Table {
             let pointer = format!("/at_32_pixels_15_degrees/{i}");
             cell(span, &pointer, |x| format!("{x:.1}"))
         };
-        let errors = list(span, "/worst_error").iter().filter_map(Value::as_f64);
-        let errors: Vec<String> = errors.map(|error| format!("{error:.1}")).collect();
+        let errors: Vec<String> = list(span, "/worst_error")
+            .iter()
+            .filter_map(Value::as_f64)
+            .map(|error| format!("{error:.1}"))
+            .collect();
         let name = text(span, "/method").to_string();
         let row = [name, at(1), at(0), at(2), errors.join(", ")];
         table.rows.push(row.into());
@@ -189,9 +192,12 @@ fn growth(scaling: &Value) -> Table {
         let costs = ["vertex", "triangle", "span", "pixel", "background"];
         let misfit = number(curve, "/costs/worst").map(f64::abs);
         let fits = misfit.is_some_and(|misfit| misfit <= 0.5);
-        row.extend(costs.map(|of| match fits {
-            true => cell(curve, &format!("/costs/{of}_ns"), significant),
-            false => NONE.into(),
+        row.extend(costs.map(|of| {
+            if fits {
+                cell(curve, &format!("/costs/{of}_ns"), significant)
+            } else {
+                NONE.into()
+            }
         }));
         row.push(misfit.map_or(NONE.into(), |misfit| format!("{:.0}", 100.0 * misfit)));
         table.rows.push(row);

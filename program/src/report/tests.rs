@@ -157,8 +157,13 @@ fn the_page_is_readable_without_javascript() {
     let mut document = document(&[(SPHERE, "sphere"), ("triangle", "three")]);
     document.figures.push(figure());
     let page = report(&document).html();
-    let inside = page.split("<noscript>").nth(1).unwrap();
-    let inside = inside.split("</noscript>").next().unwrap();
+    let inside = page
+        .split("<noscript>")
+        .nth(1)
+        .unwrap()
+        .split("</noscript>")
+        .next()
+        .unwrap();
     assert!(inside.contains("<img src=\"data:image/png;base64,"));
     for text in [
         "fast Phong rsqrt",

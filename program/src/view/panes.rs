@@ -128,9 +128,10 @@ impl Panes {
 
     /// Returns the side that column `x` is on.
     pub fn side_at(&self, x: f64, width: usize) -> Side {
-        match x < self.split(width) as f64 {
-            true => Side::Left,
-            false => Side::Right,
+        if x < self.split(width) as f64 {
+            Side::Left
+        } else {
+            Side::Right
         }
     }
 

@@ -242,9 +242,10 @@ impl Viewer {
             let aspect = f64::from(width) / f64::from(height);
             prepared.set_size(width, height);
             prepared.set_camera(self.orbit.camera(start, aspect));
-            prepared.set_lights(match self.carries_lights {
-                true => self.orbit.carry(start, lights),
-                false => lights.clone(),
+            prepared.set_lights(if self.carries_lights {
+                self.orbit.carry(start, lights)
+            } else {
+                lights.clone()
             });
             self.generation += 1;
             self.is_stale = false;
@@ -382,8 +383,10 @@ mod tests {
                 .expect("a method")
                 .render(&frame)
                 .expect("a method for the frame");
-            let colours = picture.pixels().iter();
-            let colours = colours.map(|&[r, g, b, _]| u32::from_be_bytes([0, r, g, b]));
+            let colours = picture
+                .pixels()
+                .iter()
+                .map(|&[r, g, b, _]| u32::from_be_bytes([0, r, g, b]));
             assert!(alone.iter().map(|pixel| pixel & 0xff_ffff).eq(colours));
         }
     }

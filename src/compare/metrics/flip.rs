@@ -301,9 +301,12 @@ fn both_ways(plane: &Picture<f32>, weights: &[f32]) -> Picture<f32> {
 /// dark.
 fn hunt_lab(xyz: Vec3) -> Vec3 {
     const DELTA: f32 = 6.0 / 29.0;
-    let [x, y, z] = xyz.to_array().map(|t| match t > DELTA * DELTA * DELTA {
-        true => libm::cbrtf(t),
-        false => t / (3.0 * DELTA * DELTA) + 4.0 / 29.0,
+    let [x, y, z] = xyz.to_array().map(|t| {
+        if t > DELTA * DELTA * DELTA {
+            libm::cbrtf(t)
+        } else {
+            t / (3.0 * DELTA * DELTA) + 4.0 / 29.0
+        }
     });
     let lightness = 116.0 * y - 16.0;
     let [a, b] = [500.0 * (x - y), 200.0 * (y - z)].map(|c| 0.01 * lightness * c);
@@ -326,9 +329,10 @@ fn error(r: &Percept, a: &Percept, most: f32) -> f32 {
     // powers would. A colour difference of 0 has the logarithm −∞, which ends as 0.
     let power = QC * libm::log2f(hyab(r.lab, a.lab));
     let limit = PC * most;
-    let colour = match power < libm::log2f(limit) {
-        true => power + libm::log2f(PT / limit),
-        false => libm::log2f(PT + (libm::exp2f(power) - limit) / (most - limit) * (1.0 - PT)),
+    let colour = if power < libm::log2f(limit) {
+        power + libm::log2f(PT / limit)
+    } else {
+        libm::log2f(PT + (libm::exp2f(power) - limit) / (most - limit) * (1.0 - PT))
     };
     let feature = (r.edge - a.edge).abs().max((r.point - a.point).abs());
     let feature = libm::sqrtf(feature / core::f32::consts::SQRT_2);

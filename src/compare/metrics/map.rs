@@ -107,9 +107,10 @@ fn signed_colour(error: f64, scale: f64) -> [u8; 4] {
     if error == 0.0 {
         return EQUAL;
     }
-    let ([from, to], beyond) = match error > 0.0 {
-        true => (BRIGHTER, BEYOND),
-        false => (DARKER, BEYOND_DARKER),
+    let ([from, to], beyond) = if error > 0.0 {
+        (BRIGHTER, BEYOND)
+    } else {
+        (DARKER, BEYOND_DARKER)
     };
     if error.abs() <= scale {
         let share = error.abs() / scale;

@@ -139,9 +139,10 @@ pub struct SizeMismatch {
 
 impl SizeMismatch {
     fn check(reference: [usize; 2], actual: [usize; 2]) -> Result<(), SizeMismatch> {
-        match reference == actual {
-            true => Ok(()),
-            false => Err(SizeMismatch { reference, actual }),
+        if reference == actual {
+            Ok(())
+        } else {
+            Err(SizeMismatch { reference, actual })
         }
     }
 }
@@ -285,9 +286,10 @@ impl PixelDifference {
         if is_mismatch {
             errors = [0.0; 3];
         }
-        let luminance = match is_mismatch {
-            true => 0.0,
-            false => actual.luminance() - reference.luminance(),
+        let luminance = if is_mismatch {
+            0.0
+        } else {
+            actual.luminance() - reference.luminance()
         };
         Some(PixelDifference {
             errors: errors.map(|error| error.max(alpha)),
@@ -312,10 +314,12 @@ fn channel_errors(reference: Levels, actual: Levels) -> [f64; 4] {
     core::array::from_fn(|c| {
         let (r, a) = (reference.0[c], actual.0[c]);
         let error = (a - r).abs();
-        match error.is_finite() {
-            true => error,
-            false if r == a || (r.is_nan() && a.is_nan()) => 0.0,
-            false => 255.0,
+        if error.is_finite() {
+            error
+        } else if r == a || (r.is_nan() && a.is_nan()) {
+            0.0
+        } else {
+            255.0
         }
     })
 }

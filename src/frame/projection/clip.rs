@@ -46,12 +46,14 @@ impl Cut {
         };
         let (da, db) = (plane.normal.dot(a.position), plane.normal.dot(b.position));
         debug_assert!((da < 0.0) != (db < 0.0), "the plane is between the ends");
+        // One distance is below 0 and the other is not, so their difference is not 0.
         let t = (da / (da - db)).clamp(0.0, 1.0);
         // a + (b − a) is not always b in floats. Returning b itself leaves a corner on the plane
         // where it is.
-        let mut position = match t < 1.0 {
-            true => a.position + (b.position - a.position) * t,
-            false => b.position,
+        let mut position = if t < 1.0 {
+            a.position + (b.position - a.position) * t
+        } else {
+            b.position
         };
         // Where the near plane is very near, rounding could put the corner behind the eye.
         if let Some(w) = plane.w {
@@ -67,9 +69,10 @@ impl Cut {
     /// has no place on the screen, and keeps its parameter in space.
     pub fn t_on_screen(&self) -> f64 {
         let (wa, wb) = (self.a.position.w, self.b.position.w);
-        match wa > 0.0 && wb > 0.0 {
-            true => (self.t * wb / ((1.0 - self.t) * wa + self.t * wb)).clamp(0.0, 1.0),
-            false => self.t,
+        if wa > 0.0 && wb > 0.0 {
+            (self.t * wb / ((1.0 - self.t) * wa + self.t * wb)).clamp(0.0, 1.0)
+        } else {
+            self.t
         }
     }
 }
@@ -115,8 +118,10 @@ pub(crate) fn clip(
     let mut first = 0;
     // From the last outside corner before a run to the first one behind it.
     while let Some(before) = (first..count).find(|&step| is_inside(at(step + 1))) {
-        let behind = (before + 1..count).find(|&step| !is_inside(at(step)));
-        let behind = behind.unwrap_or(count);
+        let behind = (before + 1..count)
+            .find(|&step| !is_inside(at(step)))
+            // Step `count` is the outside corner again.
+            .unwrap_or(count);
         first = behind;
         // A run that only touches the plane has no area inside.
         if (before + 1..behind).all(|step| distances[at(step)] == 0.0) {
@@ -202,8 +207,11 @@ fn flat(p: DVec4) -> glam::DVec3 {
 /// farthest from it. A polygon that is not flat has ends on no line; then starting at the least one
 /// makes pieces independent of where the polygon begins and how it runs.
 fn line_direction(runs: &[Vec<HomogeneousCorner>]) -> glam::DVec3 {
-    let ends = runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
-    let mut ends: Vec<DVec4> = ends.map(|end| end.position).collect();
+    let mut ends: Vec<DVec4> = runs
+        .iter()
+        .flat_map(|run| [run[0], run[run.len() - 1]])
+        .map(|end| end.position)
+        .collect();
     ends.sort_by(|&a, &b| canonical(a, b));
     let origin = flat(ends[0]);
     let differences = ends.iter().map(|&end| flat(end) - origin);

@@ -122,19 +122,23 @@ impl<'a> ClipSpace<'a> {
         }
         let mut seen = core::mem::take(&mut frame.polygons);
         seen.clear();
-        let mut clipped = polygons.iter().enumerate().map(|(index, polygon)| {
-            let corners = frame.corners(polygon).iter().map(|&v| codes[v as usize]);
-            let (all, any) = corners.fold((Codes::MAX, 0), |(all, any), c| (all & c, any | c));
-            // The planes that all corners are beyond, and the planes that any corner is beyond.
-            match any & BEYOND_PLANES {
-                _ if all & !BEYOND_PLANES != 0 => frame.stats.outside += 1,
-                0 => seen.push(*polygon),
-                _ if self.settings.clipping == Clipping::NdcCube => frame.stats.unprojected += 1,
-                _ => self.cut(&view, frame, (index, polygon), &mut seen)?,
-            }
-            Ok(())
-        });
-        let clipped = clipped.find(Result::is_err).unwrap_or(Ok(()));
+        let clipped = polygons
+            .iter()
+            .enumerate()
+            .try_for_each(|(index, polygon)| {
+                let corners = frame.corners(polygon).iter().map(|&v| codes[v as usize]);
+                let (all, any) = corners.fold((Codes::MAX, 0), |(all, any), c| (all & c, any | c));
+                // The planes that all corners are beyond, and the planes that any corner is beyond.
+                match any & BEYOND_PLANES {
+                    _ if all & !BEYOND_PLANES != 0 => frame.stats.outside += 1,
+                    0 => seen.push(*polygon),
+                    _ if self.settings.clipping == Clipping::NdcCube => {
+                        frame.stats.unprojected += 1
+                    }
+                    _ => self.cut(&view, frame, index, polygon, &mut seen)?,
+                }
+                Ok(())
+            });
         frame.polygons = seen;
         frame.scratch.codes = codes;
         clipped
@@ -145,12 +149,16 @@ impl<'a> ClipSpace<'a> {
         &self,
         view: &View<'_>,
         frame: &mut Frame,
-        (index, polygon): (usize, &Polygon),
+        index: usize,
+        polygon: &Polygon,
         to: &mut Vec<Polygon>,
     ) -> Checked {
-        let corners = frame.corners(polygon).iter();
-        let corners: Option<Vec<HomogeneousCorner>> = corners.map(|&v| self.corner(v)).collect();
-        let corners = corners.ok_or(FrameError::Polygon { index })?;
+        let corners = frame
+            .corners(polygon)
+            .iter()
+            .map(|&v| self.corner(v))
+            .collect::<Option<Vec<HomogeneousCorner>>>()
+            .ok_or(FrameError::Polygon { index })?;
         let edge = EdgeOf {
             material: polygon.material,
             face: frame.polygon_normal(polygon),

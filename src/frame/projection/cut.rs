@@ -48,8 +48,11 @@ impl Cutting<'_> {
             material: self.table.material(polygon),
             face,
         };
-        let ends = corners.iter().map(clip_position).zip(&whole);
-        let ends = ends.map(|(position, &vertex)| HomogeneousCorner { position, vertex });
+        let ends = corners
+            .iter()
+            .map(clip_position)
+            .zip(&whole)
+            .map(|(position, &vertex)| HomogeneousCorner { position, vertex });
         let mean = self.frame.mean_of(&whole);
         let mut cutter = Cutter {
             view: self.view,
@@ -109,9 +112,10 @@ impl Cutter<'_> {
             self.frame.stats.unprojected += 1;
             return Vec::new();
         }
-        match pieces.is_empty() {
-            true => self.frame.stats.outside += 1,
-            false => self.frame.stats.clipped += 1,
+        if pieces.is_empty() {
+            self.frame.stats.outside += 1;
+        } else {
+            self.frame.stats.clipped += 1;
         }
         pieces.retain(|piece| {
             self.is_drawn(doubled_area(
@@ -138,6 +142,7 @@ impl Cutter<'_> {
     fn piece(&mut self, corners: &[HomogeneousCorner], mean: Mean) -> (u32, u32) {
         debug_assert!(corners.len() >= 3, "clipping leaves polygons");
         let frame = &mut *self.frame;
+        // Corner lists of pieces are numbered behind the lists of the geometry.
         let first = (frame.geometry.corners.len() + frame.cut_corners.len()) as u32;
         frame.means.push((first, mean));
         frame

@@ -28,9 +28,10 @@ impl Scene {
         lightings: &mut Vec<Lighting>,
     ) {
         let lights = self.lights_from(origin);
-        let view = match self.local_viewer {
-            true => Place::Local(self.camera.eye - origin),
-            false => Place::Infinite(self.camera.view()),
+        let view = if self.local_viewer {
+            Place::Local(self.camera.eye - origin)
+        } else {
+            Place::Infinite(self.camera.view())
         };
         lightings.clear();
         lightings.extend(

@@ -80,6 +80,7 @@ impl PreparedScene {
         self.moving.objects[index].transform = transform;
         if let Some(geometry) = Arc::get_mut(&mut self.geometry) {
             let place = self.moving.place(index, geometry);
+            // The words at both ends may hold bits of other objects, which come out as before.
             let words = place.polygons.start / 64..place.polygons.end.div_ceil(64);
             self.moving.pose(index, &self.table.turned, geometry, place);
             for word in words {
@@ -119,8 +120,11 @@ impl PreparedScene {
             return;
         }
         let moving = &mut self.moving;
-        let transforms = moving.objects.iter().map(|object| object.transform);
-        let transforms: Vec<DAffine3> = transforms.collect();
+        let transforms: Vec<DAffine3> = moving
+            .objects
+            .iter()
+            .map(|object| object.transform)
+            .collect();
         let spare = moving.spare.take();
         let unshared = spare.and_then(|mut spare| {
             Arc::get_mut(&mut spare.geometry)?;
@@ -193,10 +197,12 @@ impl Moving {
         model.transform = object.positions_to_world();
         let map = NormalMap::new(&object.transform);
         if map.mirrored != was_mirrored {
-            let half = match geometry.two_sided {
-                true => geometry.corners.len() / 2,
-                false => geometry.corners.len(),
+            let half = if geometry.two_sided {
+                geometry.corners.len() / 2
+            } else {
+                geometry.corners.len()
             };
+            // Without corners `half` is 0, and chunks must not be empty.
             for side in geometry.corners.chunks_exact_mut(half.max(1)) {
                 reverse_corners(&object.mesh, &mut side[place.corners.clone()]);
             }

@@ -141,6 +141,7 @@ impl Sight<'_> {
         places: &mut Places,
         stats: &mut FrameStats,
     ) -> VisibilityWord {
+        // `count` is 1 or more: a shift by 64 would overflow.
         let all = u64::MAX >> (64 - count);
         let (clockwise, counter_clockwise) = if self.table.starts.is_empty() {
             winding::of_triangles(self.triangles(first, count), self.vertices, places)
@@ -183,10 +184,12 @@ impl Sight<'_> {
         stats.edge_on += count_of(whole & !(clockwise | counter_clockwise));
         // y points downward on the picture. A polygon that runs clockwise there has an area over 0,
         // and is seen from behind.
-        let back = match self.scene.two_sided {
-            true if self.table.turned.is_empty() => clockwise,
-            true => clockwise ^ bits_of(&self.table.turned, first),
-            false => 0,
+        let back = if !self.scene.two_sided {
+            0
+        } else if self.table.turned.is_empty() {
+            clockwise
+        } else {
+            clockwise ^ bits_of(&self.table.turned, first)
         };
         VisibilityWord {
             drawn: whole & (clockwise | counter_clockwise) & !culled,
@@ -209,6 +212,7 @@ impl Sight<'_> {
                 (all[k], any[k]) = (a & b & c, a | b | c);
             }
         } else {
+            // The minimum shows the compiler that `k` is in bounds.
             for k in 0..count.min(64) {
                 all[k] = Codes::MAX;
                 for &v in self.polygon(first + k) {
@@ -323,9 +327,10 @@ impl Filling<'_> {
                 continue;
             }
             let (here, rest) = out.split_at_mut(word.drawn.count_ones() as usize);
-            match is_plain && word.drawn & word.back == 0 {
-                true => fill_plain(first, word.drawn, here),
-                false => self.fill_whole(first, word, here),
+            if is_plain && word.drawn & word.back == 0 {
+                fill_plain(first, word.drawn, here);
+            } else {
+                self.fill_whole(first, word, here);
             }
             out = rest;
         }
@@ -337,6 +342,7 @@ impl Filling<'_> {
     fn fill_whole(&self, first: usize, word: &VisibilityWord, out: &mut [Polygon]) {
         let mut left = word.drawn;
         for place in out {
+            // `out` has a place for each bit, so this is below 64. The mask below spares a check.
             let bit = left.trailing_zeros();
             left &= left.wrapping_sub(1);
             *place = self.whole(first + bit as usize, word.back >> (bit & 63) & 1 != 0);

@@ -75,6 +75,7 @@ impl Preparation {
             first_material: self.materials.len() as u32,
         };
         let default = Material::default();
+        // The last one is for polygons without a material: see `Source::material`.
         let of_mesh = mesh.materials().iter().chain([&default]);
         self.materials
             .extend(of_mesh.map(|material| *object.material.as_ref().unwrap_or(material)));
@@ -83,8 +84,9 @@ impl Preparation {
         let normals = polygon_normals(mesh);
         let first_polygon = self.geometry.faces.len();
         let cancels = |p: &usize| normals[*p] == DVec3::ZERO && areas_cancel(mesh, *p);
-        let cancelling = (0..mesh.polygon_count()).filter(cancels);
-        let cancelling = cancelling.map(|p| (first_polygon + p) as u32);
+        let cancelling = (0..mesh.polygon_count())
+            .filter(cancels)
+            .map(|p| (first_polygon + p) as u32);
         self.table.cancelling.extend(cancelling);
         self.geometry
             .faces
@@ -179,6 +181,7 @@ impl Preparation {
                 .map(|&position| first as u32 + position),
         );
         if has_attributes(mesh) {
+            // Earlier objects may have had no attributes.
             geometry.attributes.resize(first, Geometry::NO_ATTRIBUTES);
             let positions = 0..mesh.positions().len();
             let attributes = positions.filter_map(|position| attributes(mesh, position));

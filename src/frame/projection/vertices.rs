@@ -58,7 +58,7 @@ pub(super) fn place(
 ) -> Result<Placed, FrameError> {
     let (is_any_beyond, first_invalid) = (AtomicBool::new(false), AtomicUsize::new(usize::MAX));
     // Weights are compared by their exponents, which are in the order of the weights and fit in an
-    // atomic integer.
+    // atomic integer. A weight is positive, so its sign bit is 0.
     let exponent = |weight: f64| (weight.to_bits() >> MANTISSA) as usize;
     let exponents = Placed::NONE.weights.map(|w| AtomicUsize::new(exponent(w)));
     for_each_chunk((vertices, codes), CHUNK, &|first,
@@ -296,10 +296,7 @@ impl<'a> Placing<'a> {
             out[i] = ScreenVertex {
                 x: nearest((over::<PERSPECTIVE>(x[i], w[i]) * 0.5 + 0.5) * self.size[0]),
                 y: nearest((0.5 - over::<PERSPECTIVE>(y[i], w[i]) * 0.5) * self.size[1]),
-                depth: match PERSPECTIVE {
-                    true => -1.0 / w[i],
-                    false => z[i],
-                },
+                depth: if PERSPECTIVE { -1.0 / w[i] } else { z[i] },
                 inv_w: weights[i],
             };
         }

@@ -187,17 +187,19 @@ impl<'a> View<'a> {
 
     /// Returns the value that the depth test compares: see [`Vertex::depth`](crate::frame::Vertex).
     pub fn depth(&self, clip: DVec4) -> f64 {
-        match self.is_perspective() {
-            true => -1.0 / clip.w,
-            false => clip.z / clip.w,
+        if self.is_perspective() {
+            -1.0 / clip.w
+        } else {
+            clip.z / clip.w
         }
     }
 
     /// Returns 1/w, scaled to 1 at the near plane.
     fn weight(&self, w: f64) -> f64 {
-        match self.is_perspective() {
-            true => self.scene.camera.near / w,
-            false => 1.0,
+        if self.is_perspective() {
+            self.scene.camera.near / w
+        } else {
+            1.0
         }
     }
 

@@ -474,8 +474,10 @@ fn the_documentation_lists_every_shape_with_its_parameters() {
     let page = include_str!("../builtin.rs");
     for shape in BUILTINS {
         let start = format!("//! | `{}`", shape.name);
-        let line = page.lines().find(|line| line.starts_with(&start));
-        let line = line.unwrap_or_else(|| panic!("{} is missing", shape.name));
+        let line = page
+            .lines()
+            .find(|line| line.starts_with(&start))
+            .unwrap_or_else(|| panic!("{} is missing", shape.name));
         for parameter in shape.parameters {
             let is_listed = line.contains(&format!("`{}`", parameter.name));
             assert!(

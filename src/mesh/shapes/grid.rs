@@ -51,10 +51,12 @@ impl ParameterGrid {
     /// Returns how many polygons the mesh has; `u64::MAX` if that overflows.
     pub fn polygon_count(&self) -> u64 {
         let (columns, rows) = (self.columns as u64, self.rows as u64);
-        match (self.topology, self.triangles) {
-            (_, false) => columns.saturating_mul(rows),
-            (Topology::Ball, true) => columns.saturating_mul(rows - 1).saturating_mul(2),
-            (_, true) => columns.saturating_mul(rows).saturating_mul(2),
+        if !self.triangles {
+            columns.saturating_mul(rows)
+        } else if self.topology == Topology::Ball {
+            columns.saturating_mul(rows - 1).saturating_mul(2)
+        } else {
+            columns.saturating_mul(rows).saturating_mul(2)
         }
     }
 

@@ -128,20 +128,23 @@ fn share_normals(index: &[u32], count: usize, directions: &[DVec3]) -> (Vec<Vec3
     let mut first = vec![NONE; count];
     // A linked list per position: each value's direction, and the next value there.
     let mut chain: Vec<(DVec3, u32)> = Vec::with_capacity(count);
-    let value_of = index.iter().zip(directions).map(|(&position, &direction)| {
-        let head = &mut first[position as usize];
-        let mut value = *head;
-        while value != NONE && chain[value as usize].0.dot(direction) < SAME {
-            value = chain[value as usize].1;
-        }
-        if value == NONE {
-            value = chain.len() as u32;
-            chain.push((direction, *head));
-            *head = value;
-        }
-        value
-    });
-    let value_of = value_of.collect();
+    let value_of = index
+        .iter()
+        .zip(directions)
+        .map(|(&position, &direction)| {
+            let head = &mut first[position as usize];
+            let mut value = *head;
+            while value != NONE && chain[value as usize].0.dot(direction) < SAME {
+                value = chain[value as usize].1;
+            }
+            if value == NONE {
+                value = chain.len() as u32;
+                chain.push((direction, *head));
+                *head = value;
+            }
+            value
+        })
+        .collect();
     (
         chain
             .iter()

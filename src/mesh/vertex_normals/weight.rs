@@ -126,6 +126,7 @@ impl<'a> Weights<'a> {
             NormalWeight::Area => self.polygons[p].dot(normal),
             NormalWeight::Angle if is_reflex => TAU - angle(sine, cosine),
             NormalWeight::Angle => angle(sine, cosine),
+            // sin / (|e₁| |e₂|) is Max's |e₁ × e₂| / (|e₁|² |e₂|²).
             NormalWeight::Uniform | NormalWeight::Max => sine / lengths,
         };
         let cross = if is_reflex { -cross } else { cross };
@@ -161,9 +162,10 @@ impl<'a> Weights<'a> {
             NormalWeight::Angle => self.sum_by(NormalWeight::Angle, fan),
             NormalWeight::Max => self.sum_by(NormalWeight::Max, fan),
         };
-        match sum.is_without_weight() {
-            true => self.sum_by(NormalWeight::Uniform, fan),
-            false => sum,
+        if sum.is_without_weight() {
+            self.sum_by(NormalWeight::Uniform, fan)
+        } else {
+            sum
         }
     }
 
@@ -203,6 +205,7 @@ fn of_triangle([a, b, c]: [DVec3; 3], normal: DVec3, weight: NormalWeight) -> [f
     let product = libm::sqrt(normal.length_squared());
     [(0, 2), (1, 0), (2, 1)].map(|(next, last)| match weight {
         NormalWeight::Uniform | NormalWeight::Area => product,
+        // The last edge runs toward the corner, so the sign turns it round.
         NormalWeight::Angle => angle(product, -edges[next].dot(edges[last])),
         NormalWeight::Max => product / (squares[next] * squares[last]),
     })
@@ -217,9 +220,10 @@ fn of_triangle([a, b, c]: [DVec3; 3], normal: DVec3, weight: NormalWeight) -> [f
 /// least 0.7 long.
 fn corner_normal(cross: DVec3, sine: f64, polygon: DVec3) -> DVec3 {
     let part = 2.0 * sine;
-    let mixed = match part < 1.0 {
-        true => 2.0 * cross + (1.0 - part) * polygon,
-        false => cross,
+    let mixed = if part < 1.0 {
+        2.0 * cross + (1.0 - part) * polygon
+    } else {
+        cross
     };
     mixed / libm::sqrt(mixed.length_squared())
 }

@@ -62,8 +62,12 @@ fn errors(
         of_position[position as usize] =
             Some(degrees_between(at(&normals, k), truth[position as usize]));
     }
-    let found = of_position.iter().enumerate().filter(|(p, _)| counts(*p));
-    let found: Vec<f64> = found.filter_map(|(_, error)| *error).collect();
+    let found: Vec<f64> = of_position
+        .iter()
+        .enumerate()
+        .filter(|(p, _)| counts(*p))
+        .filter_map(|(_, error)| *error)
+        .collect();
     let squares: f64 = found.iter().map(|e| e * e).sum();
     let rms = libm::sqrt(squares / found.len() as f64);
     (rms, found.iter().copied().fold(0.0, f64::max))
@@ -278,8 +282,8 @@ fn a_corner_of_a_polygon_that_is_not_flat_counts_with_its_own_normal() {
         )
     };
     let (positions, truth): (Vec<DVec3>, Vec<DVec3>) = (0..SIDE * SIDE).map(point).unzip();
-    let quads = (0..SIDE - 1).flat_map(|x| (0..SIDE - 1).map(move |y| x * SIDE + y));
-    let quads: Vec<Vec<u32>> = quads
+    let quads: Vec<Vec<u32>> = (0..SIDE - 1)
+        .flat_map(|x| (0..SIDE - 1).map(move |y| x * SIDE + y))
         .map(|k| vec![k, k + SIDE, k + SIDE + 1, k + 1])
         .collect();
     let mesh = mesh_of(&positions, &quads);
@@ -336,13 +340,12 @@ fn bevelled(bevel: f64) -> (PolygonMesh, DVec3) {
         b - back * z,
         c - back * y,
     ];
-    let polygons = [
+    let mut polygons = vec![
         vec![0, 4, 5, 3],
         vec![0, 1, 6, 4],
         vec![0, 3, 7, 2],
         vec![0, 2, 1],
     ];
-    let mut polygons = polygons.to_vec();
     // Counter-clockwise seen from outside.
     for polygon in &mut polygons {
         let at = |k: usize| positions[polygon[k] as usize];
@@ -405,14 +408,15 @@ fn prism(is_cut: bool) -> PolygonMesh {
     let mut polygons: Vec<Vec<u32>> = (0..6)
         .map(|k| vec![k, 6 + k, 6 + (k + 1) % 6, (k + 1) % 6])
         .collect();
-    match is_cut {
-        false => polygons.extend([vec![0, 1, 2, 3, 4, 5], vec![11, 10, 9, 8, 7, 6]]),
-        true => polygons.extend([
+    if is_cut {
+        polygons.extend([
             vec![0, 1, 2, 3],
             vec![0, 3, 4, 5],
             vec![9, 8, 7, 6],
             vec![11, 10, 9, 6],
-        ]),
+        ]);
+    } else {
+        polygons.extend([vec![0, 1, 2, 3, 4, 5], vec![11, 10, 9, 8, 7, 6]]);
     }
     mesh_of(&positions, &polygons)
 }
@@ -489,8 +493,8 @@ fn a_tiny_fine_sphere_keeps_its_normals() {
     };
     let truth: Vec<DVec3> = (0..(rings - 1) * columns).map(point).collect();
     let positions: Vec<DVec3> = truth.iter().map(|p| *p * 1e-9).collect();
-    let quads = (0..rings - 2).flat_map(|v| (0..columns).map(move |u| (v * columns, u)));
-    let quads: Vec<Vec<u32>> = quads
+    let quads: Vec<Vec<u32>> = (0..rings - 2)
+        .flat_map(|v| (0..columns).map(move |u| (v * columns, u)))
         .map(|(row, u)| {
             [
                 u,

@@ -85,8 +85,8 @@ macro_rules! compare {
             |$a: $f, $b: $f, $c: $f| $operation,
             |$a: f32, $b: f32, $c: f32| $operation,
         );
-        let columns = pairs();
-        let columns = columns.each_ref().map(|column| &column[..]);
+        let pairs = pairs();
+        let columns = pairs.each_ref().map(|column| &column[..]);
         for (i, found) in blocks::<$s, $f>(columns, wide).into_iter().enumerate() {
             let operands = columns.map(|column| column[i]);
             let [a, b, c] = operands;

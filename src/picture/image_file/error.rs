@@ -150,9 +150,10 @@ impl EncodeError {
     /// Returns an error if no file can hold a picture of this size.
     pub(super) fn check(width: usize, height: usize) -> Result<(), EncodeError> {
         let fits = |side| (1..=MAX_SIDE).contains(&side);
-        match fits(width) && fits(height) {
-            true => Ok(()),
-            false => Err(EncodeError { width, height }),
+        if fits(width) && fits(height) {
+            Ok(())
+        } else {
+            Err(EncodeError { width, height })
         }
     }
 }

@@ -89,8 +89,7 @@ impl<W: Write> PpmWriter<W> {
 pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<()> {
     let (width, height) = (picture.width(), picture.height());
     // The sign of the scale states the byte order: negative is little-endian.
-    let pieces = Pieces::new(out, "PF", [width, height], "-1.0");
-    let mut pieces = pieces.map_err(io::Error::other)?;
+    let mut pieces = Pieces::new(out, "PF", [width, height], "-1.0").map_err(io::Error::other)?;
     let mut bytes = [[[0; 4]; 3]; RUN];
     for y in (0..height).rev() {
         for pixels in picture.row(y).chunks(RUN) {

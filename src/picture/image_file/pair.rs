@@ -205,9 +205,10 @@ fn is_opaque(picture: &FilePicture) -> bool {
 
 /// Converts a grey level to another encoding, without rounding.
 fn converted(level: f64, from: Encoding, to: Encoding) -> f64 {
-    match from == to {
-        true => level,
-        false => 255.0 * to.encode(from.decode(level / 255.0)),
+    if from == to {
+        level
+    } else {
+        255.0 * to.encode(from.decode(level / 255.0))
     }
 }
 

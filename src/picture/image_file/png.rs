@@ -158,26 +158,23 @@ fn pixels<const BYTES: usize, S: Copy + Default>(
             }
         }));
     };
-    match reader.info().interlaced {
-        true => {
-            // Interlaced rows come in seven passes, so that all of them are complete only at the
-            // end.
-            let size = width * height * channels * BYTES;
-            if !has_room::<u8>(size) {
-                return Err(DecodeError::NoMemory { width, height });
-            }
-            // Zeroed memory costs nothing until a row is written to it, so a truncated file costs
-            // little.
-            let mut rows = vec![0; size];
-            reader.next_frame(&mut rows).map_err(broken)?;
-            add(&rows);
+    if reader.info().interlaced {
+        // Interlaced rows come in seven passes, so that all of them are complete only at the
+        // end.
+        let size = width * height * channels * BYTES;
+        if !has_room::<u8>(size) {
+            return Err(DecodeError::NoMemory { width, height });
         }
-        false => {
-            let mut row = vec![0; width * channels * BYTES];
-            // The call after the last row checks the end of the data.
-            while reader.read_row(&mut row).map_err(broken)?.is_some() {
-                add(&row);
-            }
+        // Zeroed memory costs nothing until a row is written to it, so a truncated file costs
+        // little.
+        let mut rows = vec![0; size];
+        reader.next_frame(&mut rows).map_err(broken)?;
+        add(&rows);
+    } else {
+        let mut row = vec![0; width * channels * BYTES];
+        // The call after the last row checks the end of the data.
+        while reader.read_row(&mut row).map_err(broken)?.is_some() {
+            add(&row);
         }
     }
     let picture = Picture::from_pixels(width, height, pixels);
@@ -194,8 +191,10 @@ fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>, has_gamma_of
         let note = "the file is an animation: this is its still picture";
         picture.notes.push(note.to_owned());
     }
-    let gamma = info.gama_chunk.map(ScaledFloat::into_scaled);
-    let gamma = gamma.or(has_gamma_of_zero.then_some(0));
+    let gamma = info
+        .gama_chunk
+        .map(ScaledFloat::into_scaled)
+        .or(has_gamma_of_zero.then_some(0));
     let by_gamma = gamma.and_then(|gamma| match gamma {
         _ if gamma.abs_diff(LINEAR_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Linear),
         _ if gamma.abs_diff(SRGB_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Srgb),
@@ -298,15 +297,17 @@ fn exif_orientation(data: &[u8]) -> Option<u32> {
     let integer = |at: usize, size: usize| {
         let bytes = data.get(at..at.checked_add(size)?)?;
         let append = |value: u32, byte: &u8| value << 8 | u32::from(*byte);
-        Some(match is_little {
-            true => bytes.iter().rev().fold(0, append),
-            false => bytes.iter().fold(0, append),
+        Some(if is_little {
+            bytes.iter().rev().fold(0, append)
+        } else {
+            bytes.iter().fold(0, append)
         })
     };
     let directory = integer(4, 4)? as usize;
     let count = integer(directory, 2)? as usize;
-    let entries = (0..count).map(|entry| directory.saturating_add(2 + 12 * entry));
-    let mut entries = entries.take_while(|entry| *entry < data.len());
+    let mut entries = (0..count)
+        .map(|entry| directory.saturating_add(2 + 12 * entry))
+        .take_while(|entry| *entry < data.len());
     let entry = entries.find(|entry| integer(*entry, 2) == Some(ORIENTATION))?;
     // The value is a SHORT, or a LONG from some writers. Either begins where a 4-byte value does.
     match integer(entry + 2, 2)? {

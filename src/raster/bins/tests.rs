@@ -104,8 +104,11 @@ fn triangles_are_distinguished_from_other_polygons() {
                 let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
                 for frame in [&whole, &pieces] {
                     let bins = Bins::new(frame, 8);
-                    let others = bins.band(0).flatten().filter(|entry| !entry.is_triangle());
-                    let others = others.map(|entry| entry.index as usize);
+                    let others = bins
+                        .band(0)
+                        .flatten()
+                        .filter(|entry| !entry.is_triangle())
+                        .map(|entry| entry.index as usize);
                     assert!(others.eq(other), "{other:?} of {count}");
                 }
             }

@@ -157,6 +157,7 @@ pub(super) fn draw(
     is_levels: bool,
     each_band: &mut EachBand<'_>,
 ) {
+    // Supersampled pixels are averaged as linear floats and become levels later.
     let is_scaled = is_levels && frame.samples() == 1;
     let scale = if is_scaled { 255.0 } else { 1.0 };
     let [memory, packed] = BUFFERS.with_borrow_mut(|buffers| {
@@ -165,23 +166,21 @@ pub(super) fn draw(
     let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
-    let kept = match is_scaled {
-        true => rows.pack(packed),
-        false => packed,
-    };
+    let kept = if is_scaled { rows.pack(packed) } else { packed };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|index, band, target| {
         BUFFERS.with_borrow_mut(|buffers| {
-            rows.fill_tile(&bins, (index, &band), buffers);
+            rows.fill_tile(&bins, index, &band, buffers);
             for row in 0..band.len() {
                 rows.shade(row, buffers, target);
             }
         });
     });
     if let Cow::Owned(values) = rows.setup.varyings.values {
-        let (varyings, packed) = match rows.is_packed {
-            true => (kept, values),
-            false => (values, kept),
+        let (varyings, packed) = if rows.is_packed {
+            (kept, values)
+        } else {
+            (values, kept)
         };
         BUFFERS.with_borrow_mut(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
     }
@@ -208,7 +207,7 @@ pub(super) fn polygon_indices(variant: &Variant, frame: &Frame, level: SimdLevel
             let index = start / a_band;
             let band = index * HEIGHT..((index + 1) * HEIGHT).min(frame.height());
             BUFFERS.with_borrow_mut(|buffers| {
-                rows.fill_tile(&bins, (index, &band), buffers);
+                rows.fill_tile(&bins, index, &band, buffers);
                 for (row, to) in pixels.chunks_exact_mut(frame.width()).enumerate() {
                     rows.take_indices(row, &mut buffers.tile, to);
                 }
@@ -316,7 +315,7 @@ impl<'a> RowEngine<'a> {
     }
 
     /// Prepares an empty tile and rasterises all polygons of a band into it.
-    fn fill_tile(&self, bins: &Bins, (index, band): (usize, &Range<usize>), buffers: &mut Buffers) {
+    fn fill_tile(&self, bins: &Bins, index: usize, band: &Range<usize>, buffers: &mut Buffers) {
         let width = self.setup.frame.width();
         buffers.tile.prepare(HEIGHT, width, self.cell);
         buffers.queue.prepare(self.setup.varyings.count);
@@ -389,7 +388,7 @@ impl<'a> RowEngine<'a> {
                 let (m, top) = (Lanes(simd), rows.start);
                 let (batch, fragments) = (&mut buffers.batch, &buffers.fragments);
                 let all = tiny | others;
-                batch.set_up_planes::<S, N>(m, &self.setup, (self.cell, self.test), all);
+                batch.set_up_planes::<S, N>(m, &self.setup, self.cell, self.test, all);
                 let writer = &mut buffers.tile.writer::<S, N>(m, self.test);
                 // Triangles are drawn in order, whichever path each takes: equal depths must not
                 // change places.
@@ -399,7 +398,7 @@ impl<'a> RowEngine<'a> {
                     } else if batch.path[k] == CoveragePath::Small as i32 {
                         SmallTriangle::new(m, batch, k).draw(&mut buffers.starts, top, writer);
                     } else {
-                        runs::draw_large(m, (batch, k), top, writer);
+                        runs::draw_large(m, batch, k, top, writer);
                     }
                 }
             },
@@ -437,8 +436,8 @@ impl<'a> RowEngine<'a> {
                 let taken = taken.min(others.trailing_zeros() as usize);
                 let drawn = bounded.drawn & ((1 << taken) - 1);
                 let Buffers { quads, tile, .. } = buffers;
-                quads.read::<N>(&self.setup, (self.cell, self.test), drawn);
-                quads.find_runs(m, &bounded, (width, rows), count);
+                quads.read::<N>(&self.setup, self.cell, self.test, drawn);
+                quads.find_runs(m, &bounded, width, rows, count);
                 tile.extend(bounded.blocks());
                 let writer = &mut tile.writer::<S, N>(m, self.test);
                 for k in bits(drawn) {

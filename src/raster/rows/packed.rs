@@ -52,8 +52,8 @@ impl RowEngine<'_> {
             // Depths stay 0, which counts as drawn everywhere.
             let mut cells = alloc::vec![0.0; BATCH * cell.count()];
             let mut bytes = [[0; 4]; BATCH];
-            let values = values.chunks(BATCH * count);
-            for (to, values) in packed.chunks_mut(BATCH).zip(values) {
+            let batches = packed.chunks_mut(BATCH).zip(values.chunks(BATCH * count));
+            for (to, values) in batches {
                 for (k, varying) in values.chunks_exact(count).enumerate() {
                     let block = &mut cells[k / BLOCK * cell.stride()..][..cell.stride()];
                     for (i, value) in varying.iter().enumerate() {

@@ -180,6 +180,7 @@ impl<S: Simd> Side<S> {
                 rest: m.int(0),
                 step_pixels: m.int(0),
                 step_rest: m.int(0),
+                // Not 0, because `offset` divides by it.
                 denominator: m.int(1),
             },
             at: [m.splat(0.0); MOST],
@@ -319,6 +320,7 @@ impl QuadBatch {
             first,
             origin: [left >> 8, left & m.int(-256)],
             turned: lefts >> 31,
+            // The bits that are set are those where the inverted mask is 0.
             drawn: m.bits_not_negative(is_drawn ^ all),
             others: m.bits_not_negative((is_there ^ all) | is_drawn),
         }
@@ -330,7 +332,8 @@ impl QuadBatch {
     pub fn read<const N: usize>(
         &mut self,
         setup: &SetUp<'_>,
-        (cell, test): (CellLayout, SampleDepth),
+        cell: CellLayout,
+        test: SampleDepth,
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
@@ -364,7 +367,8 @@ impl QuadBatch {
         &mut self,
         m: Lanes<S>,
         bounded: &Bounded<S>,
-        (width, rows): (usize, &Range<usize>),
+        width: usize,
+        rows: &Range<usize>,
         count: ValueCount<N>,
     ) {
         for edge in 0..CORNERS {
@@ -415,6 +419,7 @@ impl QuadBatch {
         let [x, x_below] = [goes_down.select(xi, xj), goes_down.select(xj, xi)];
         let first = centre(m, top).max(m.int(rows.start as i32));
         let crosses = first.less(centre(m, bottom).min(m.int(rows.end as i32)));
+        // From the upper end down to the centre of the first row.
         let past = (first << 8) + m.int(128) - top;
         let height = m.float(bottom - top);
         // The height is over 0 for every edge that crosses a row. The others divide by 0, and their
@@ -466,7 +471,8 @@ impl QuadBatch {
             };
             draw_run(
                 m,
-                (place, start as usize..end as usize),
+                place,
+                start as usize..end as usize,
                 writer,
                 #[inline(always)]
                 |i, x| m.ramp(run.at[i][k], x as i32, run.step[i][k]),
@@ -510,6 +516,7 @@ fn parameter<S: Simd>(
     let whole = wide(m, right.pixel - left.pixel);
     let before = wide(m, start - left.pixel);
     let one = f64x4::splat(m.0, 1.0);
+    // Lanes without a run may divide by 0. Their pixel range is empty, so nothing reads the result.
     let dt = [
         one / (whole[0] + (l[0] - r[0])),
         one / (whole[1] + (l[1] - r[1])),
@@ -531,6 +538,7 @@ fn wide<S: Simd>(m: Lanes<S>, x: i32x8<S>) -> [f64x4<S>; 2] {
 /// Returns first values and growth, as [`ramp`](crate::shading::ramp) computes them.
 #[inline(always)]
 fn ramp<S: Simd>(a: f32x8<S>, b: f32x8<S>, t0: f32x8<S>, dt: f32x8<S>) -> [f32x8<S>; 2] {
+    // Product and sum are rounded separately, as in the span engine: the bits must be equal.
     let difference = b - a;
     [a + difference * t0, difference * dt]
 }

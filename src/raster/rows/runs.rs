@@ -83,9 +83,9 @@ impl RunQueue {
                 break;
             }
             active.spans(width, |active, span| {
-                let pixels = (row as usize, span.start as usize..span.end as usize);
-                self.blocks += pixels.1.len().div_ceil(BLOCK);
-                active.add_run(&span, pixels, uniforms, &mut self.list);
+                let pixels = span.start as usize..span.end as usize;
+                self.blocks += pixels.len().div_ceil(BLOCK);
+                active.add_run(&span, row as usize, pixels, uniforms, &mut self.list);
                 self.places.push(RunPlace {
                     row: row as usize - rows.start,
                     depth: [span.depth, span.depth_step],
@@ -144,7 +144,8 @@ impl RunQueue {
                 let from = &self.walked[walked - BLOCK..walked + length * count + BLOCK];
                 draw_run(
                     m,
-                    (*place, pixels),
+                    *place,
+                    pixels,
                     &mut writer,
                     #[inline(always)]
                     |index, x| match index - CellLayout::varying(0) {
@@ -159,7 +160,8 @@ impl RunQueue {
                 let [at, step] = self.list.starts.of(i);
                 draw_run(
                     m,
-                    (*place, pixels),
+                    *place,
+                    pixels,
                     &mut writer,
                     #[inline(always)]
                     |index, x| match index - CellLayout::varying(0) {
@@ -186,7 +188,8 @@ fn pixels_of(run: &Run) -> Range<usize> {
 #[inline(always)]
 pub(super) fn draw_run<S: Simd, const N: usize>(
     m: Lanes<S>,
-    (RunPlace { row, depth }, pixels): (RunPlace, Range<usize>),
+    RunPlace { row, depth }: RunPlace,
+    pixels: Range<usize>,
     writer: &mut Writer<'_, S, N>,
     value: impl Fn(usize, isize) -> f32x8<S>,
 ) {
@@ -211,7 +214,8 @@ pub(super) fn draw_run<S: Simd, const N: usize>(
 #[inline(always)]
 pub(super) fn draw_large<S: Simd, const N: usize>(
     m: Lanes<S>,
-    (batch, k): (&Batch, usize),
+    batch: &Batch,
+    k: usize,
     top: usize,
     writer: &mut Writer<'_, S, N>,
 ) {
@@ -263,7 +267,8 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
                 };
                 draw_run(
                     m,
-                    (place, start as usize..end as usize),
+                    place,
+                    start as usize..end as usize,
                     writer,
                     #[inline(always)]
                     |i, x| m.ramp(at[i], x as i32, step[i]),

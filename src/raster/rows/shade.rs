@@ -46,14 +46,14 @@ impl RowEngine<'_> {
                 let to = &mut levels.expect("colours are packed for levels")[drawn];
                 with_level!(self.level, S => self.show::<S>(tile, row, to));
             }
-            Some(only) => self.shade_stretch(tile, (row, drawn), only, line, target),
+            Some(only) => self.shade_stretch(tile, row, drawn, only, line, target),
             None => {
                 let mut stretches = core::mem::take(&mut line.stretches);
                 with_level!(self.level, S => {
                     self.find_stretches::<S>(tile, row, drawn, &mut stretches);
                 });
                 for (uniforms, pixels) in stretches.drain(..) {
-                    self.shade_stretch(tile, (row, pixels), uniforms, line, target);
+                    self.shade_stretch(tile, row, pixels, uniforms, line, target);
                 }
                 line.stretches = stretches;
             }
@@ -67,7 +67,8 @@ impl RowEngine<'_> {
     fn shade_stretch(
         &self,
         tile: &Tile,
-        (row, pixels): (usize, Range<usize>),
+        row: usize,
+        pixels: Range<usize>,
         uniforms: UniformsIndex,
         line: &mut RowBuffers,
         target: &mut dyn Target,

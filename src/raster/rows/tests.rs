@@ -143,15 +143,18 @@ fn check<S: Token>(
             ) = (0.5, 1.0, 1.0);
         }
         for (k, listed) in rest[..taken].iter().enumerate() {
-            let expected = expected[listed.index as usize].iter().copied();
-            let expected: Vec<_> = expected.filter(|(row, _)| rows.contains(row)).collect();
+            let expected: Vec<_> = expected[listed.index as usize]
+                .iter()
+                .copied()
+                .filter(|(row, _)| rows.contains(row))
+                .collect();
             let (m, at) = (Lanes(simd), (width, &rows, SampleDepth::new(frame)));
             if (tiny | others) >> k & 1 == 0 {
                 assert_eq!(expected, [], "{listed:?}");
                 continue;
             }
             let draw_large = |writer: &mut tile::Writer<'_, S, 0>| {
-                runs::draw_large(m, (batch, k), rows.start, writer);
+                runs::draw_large(m, batch, k, rows.start, writer);
             };
             // Runs find the pixels of triangles of any size.
             let mut found = vec![drawn(simd, at, draw_large)];
@@ -341,7 +344,7 @@ fn drawn_as_levels(
     for (index, first) in (0..height).step_by(HEIGHT).enumerate() {
         let band = first..(first + HEIGHT).min(height);
         let mut rows = Picture8::new(width, band.len(), [1; 4]);
-        engine.fill_tile(&bins, (index, &band), &mut buffers);
+        engine.fill_tile(&bins, index, &band, &mut buffers);
         for row in 0..band.len() {
             engine.shade(row, &mut buffers, &mut Levels(&mut rows));
         }
@@ -529,7 +532,7 @@ fn assert_runs(variant: &Variant, engine: &RowEngine<'_>, bins: &Bins) {
     let (frame, mut eight, mut runs) = (engine.setup.frame, Buffers::default(), Buffers::default());
     for (index, first) in (0..frame.height()).step_by(HEIGHT).enumerate() {
         let band = first..(first + HEIGHT).min(frame.height());
-        engine.fill_tile(bins, (index, &band), &mut eight);
+        engine.fill_tile(bins, index, &band, &mut eight);
         runs.tile.prepare(HEIGHT, frame.width(), engine.cell);
         runs.queue.prepare(engine.setup.varyings.count);
         let active = &mut ActiveEdges::new(frame, &engine.setup.varyings);

@@ -52,6 +52,7 @@ impl Tile {
             self.values
                 .resize(rows * blocks * cell.stride(), f32::INFINITY);
         }
+        // Empty, and the first call of `extend` replaces both ends.
         self.drawn = blocks..0;
     }
 
@@ -99,6 +100,8 @@ impl Tile {
         let first = (row * self.blocks + drawn.start) * stride;
         let stored = stored.get_mut(drawn.start * BLOCK..).unwrap_or_default();
         let blocks = self.values[first..][..drawn.len() * stride].chunks_exact_mut(stride);
+        // The last block may end beyond the picture. There `stored` is shorter, and pixels are not
+        // compared.
         for (block, stored) in blocks.zip(stored.chunks_mut(BLOCK)) {
             let depths = &mut block[BLOCK * CellLayout::DEPTH..][..BLOCK];
             for (depth, stored) in depths.iter_mut().zip(stored) {

@@ -37,7 +37,7 @@ impl Fragments {
     pub fn find<S: Simd>(&mut self, m: Lanes<S>, batch: &Batch, top: usize, tile: &Tile) -> u32 {
         let (mut drawn, mut first) = (0, 0);
         while first < batch.count {
-            drawn |= self.find_eight(m, batch, (first, top), tile) << first;
+            drawn |= self.find_eight(m, batch, first, top, tile) << first;
             first += BLOCK;
         }
         drawn
@@ -54,11 +54,13 @@ impl Fragments {
         &mut self,
         m: Lanes<S>,
         batch: &Batch,
-        (first, top): (usize, usize),
+        first: usize,
+        top: usize,
         tile: &Tile,
     ) -> u32 {
         let one = m.int(1);
         let paths = m.load_int(&batch.path[first..]);
+        // `Tiny` is the largest path, so every other one is less.
         let others = paths.less(m.int(CoveragePath::Tiny as i32));
         if !m.any_not_negative(others) {
             return 0;
@@ -79,9 +81,10 @@ impl Fragments {
         ];
         let over_area = m.load(&batch.over_area[first..]);
         let back = [m.load(&b.off[first..]), m.load(&c.off[first..])];
-        // Columns and rows that are left in the box, less 1: below 0 outside of it. The loops end
-        // with the widest and the highest of the eight boxes. A branch on covered pixels would
-        // often be mispredicted.
+        // Columns and rows that are left in the box, less 1: below 0 outside of it. An or with −1
+        // puts triangles that are not tiny outside from the start. The loops end with the widest
+        // and the highest of the eight boxes. A branch on covered pixels would often be
+        // mispredicted.
         let mut beside = (columns[1] - columns[0] - one) | others;
         let all_below = (rows[1] - rows[0] - one) | others;
         let (mut across_at, next_row) = (columns[0], tile.places(m, one, m.int(0)));

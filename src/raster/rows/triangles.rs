@@ -297,6 +297,7 @@ impl Batch {
         let turned = area.less(zero);
         // Negates the lanes where `turned` is −1: −x = !x + 1.
         let area = (area ^ turned) - turned;
+        // Infinite where the area is 0. These lanes are not drawn.
         let over_area = m.splat(1.0) / m.float(area);
         let drawn = exact & zero.less(area);
         let tiny = drawn
@@ -314,6 +315,8 @@ impl Batch {
             | (tiny & m.int(CoveragePath::Tiny as i32))
             | (large & m.int(CoveragePath::Large as i32));
         let not_small = (small & (tiny ^ all)) ^ all;
+        // Masks are −1 or 0, so a lane that is not negative is one where the mask is false. The
+        // bits of `others` are set for small and for large triangles.
         let has_small = m.any_not_negative(not_small);
         let others = m.bits_not_negative(not_small & (large ^ all));
         m.store_int(path, &mut self.path[first..]);
@@ -322,6 +325,7 @@ impl Batch {
             m.store_int(columns[end], &mut self.columns[end][first..]);
             m.store_int(rows[end], &mut self.rows[end][first..]);
         }
+        // Clears the low three bits: the first column of the block.
         let block = columns[0] & m.int(-(BLOCK as i32));
         let bounded = Bounded {
             x,
@@ -356,6 +360,7 @@ impl Batch {
         let disowns = m.int(1) + (dy.less(zero) | (level & zero.less(dx)));
         let to = &mut self.edges[edge];
         let at = dx * (bounded.py - y[i]) - dy * (bounded.px - x[i]) - disowns;
+        // Per sub-pixel the function grows by −dy to the right and by dx downward. A pixel has 256.
         let (right, down) = (dy * m.int(-256), dx * m.int(256));
         let off = m.float(disowns) * over_area;
         m.store_int(at, &mut to.at[first..]);
@@ -389,7 +394,8 @@ impl Batch {
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        (cell, test): (CellLayout, SampleDepth),
+        cell: CellLayout,
+        test: SampleDepth,
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);

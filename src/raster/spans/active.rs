@@ -163,6 +163,7 @@ impl EdgeVaryings {
     /// Steps the varyings in a slot to the next scanline.
     #[inline(always)]
     fn advance(&mut self, slot: u32) {
+        // `circles` is empty unless edges follow great circles.
         if let Some(circle) = self.circles.get_mut(slot as usize) {
             circle.sines.next(); // 4.9–4.12
             return;
@@ -205,6 +206,7 @@ impl<'a> ActiveEdges<'a> {
             edges: Vec::new(),
             merged: Vec::new(),
             more: EdgeVaryings {
+                // ⌈count / GROUP⌉ − 1: the edge itself holds the first group.
                 groups: usize::from(is_many) * (varyings.count.saturating_sub(1) / GROUP),
                 values: Vec::new(),
                 circles: Vec::new(),
@@ -237,6 +239,8 @@ impl<'a> ActiveEdges<'a> {
             // An edge that ends here is not copied, as edges are large.
             let edge = &self.edges[i];
             let (polygon, end, slot) = (edge.polygon, edge.end, edge.slot);
+            // Strictly less: edges of the same polygon follow its stepped edges, and `order` sorts
+            // them later.
             while let Some(begins) = new.next_if(|begins| begins.polygon < polygon) {
                 self.start_edge(begins, row);
             }
@@ -267,9 +271,10 @@ impl<'a> ActiveEdges<'a> {
         let [top, bottom] = [edge.top, edge.bottom].map(|v| &vertices[v as usize]);
         let place = |v: &ScreenVertex| [v.x, v.y];
         let [t0, dt] = parameter([top, bottom], row);
-        let (varyings, slot) = match self.is_walked {
-            true => self.start_varyings(edge, [t0, dt]),
-            false => (Group::default(), 0),
+        let (varyings, slot) = if self.is_walked {
+            self.start_varyings(edge, [t0, dt])
+        } else {
+            (Group::default(), 0)
         };
         let from = self.depth.of_corner(top);
         let to = self.depth.of_corner(bottom);
@@ -297,6 +302,7 @@ impl<'a> ActiveEdges<'a> {
             return (Group::new(ends, parameter), slot);
         }
         if self.has_slots {
+            // Slots exist only if there are more than GROUP values, so the slices are not empty.
             slot = self.more.enter([&a[GROUP..], &b[GROUP..]], parameter);
         }
         (Group::new([first_of(a), first_of(b)], parameter), slot)
@@ -376,14 +382,16 @@ impl<'a> ActiveEdges<'a> {
                 state.by.extend(&edge.varyings.step[..extras]);
                 return state;
             }
-            let more = match self.has_slots {
-                true => self.more.groups(edge.slot),
-                false => &[],
+            let more = if self.has_slots {
+                self.more.groups(edge.slot)
+            } else {
+                &[]
             };
             for group in core::iter::once(&edge.varyings).chain(more) {
                 state.at.extend(group.at);
                 state.by.extend(group.step);
             }
+            // The last group is padded with zeros.
             state.at.truncate(self.varyings.count);
             state.by.truncate(self.varyings.count);
             state
@@ -423,7 +431,8 @@ impl<'a> ActiveEdges<'a> {
     pub fn add_run(
         &self,
         span: &PolygonSpan,
-        (row, pixels): (usize, Range<usize>),
+        row: usize,
+        pixels: Range<usize>,
         uniforms: UniformsIndex,
         to: &mut RunList,
     ) {
@@ -484,6 +493,7 @@ impl<'a> ActiveEdges<'a> {
         let [first, second] = to.add();
         if let Some(constant) = self.varyings.of_polygon(span.polygon) {
             first.copy_from_slice(constant);
+            // `second` is the growth otherwise, and `add` left zeros there.
             if self.varyings.keeps_ends {
                 second.copy_from_slice(constant);
             }
@@ -507,12 +517,13 @@ impl<'a> ActiveEdges<'a> {
     /// `dt`; or both ends.
     #[inline(always)]
     fn between(&self, [left, right]: [Group; 2], parameter: [f32; 2]) -> Group {
-        match self.varyings.keeps_ends {
-            true => Group {
+        if self.varyings.keeps_ends {
+            Group {
                 at: left.at,
                 step: right.at,
-            },
-            false => Group::new([left.at, right.at], parameter),
+            }
+        } else {
+            Group::new([left.at, right.at], parameter)
         }
     }
 }

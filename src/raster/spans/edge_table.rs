@@ -40,6 +40,7 @@ impl EdgeTable {
         let mut found = Vec::with_capacity(2 * frame.polygons().len());
         for index in 0..frame.polygons().len() as u32 {
             for_each_edge(frame, 0..rows as i32, index, |row, edge| {
+                // Counted one place later, so that the sums below are the starts of the buckets.
                 starts[row as usize + 1] += 1;
                 found.push((row, edge));
             });
@@ -49,6 +50,7 @@ impl EdgeTable {
         }
         let mut edges = vec![TableEdge::default(); found.len()];
         let mut next = starts.clone();
+        // `found` is in the order of polygons, and each bucket keeps this order.
         for (row, edge) in found {
             let place = &mut next[row as usize];
             edges[*place as usize] = edge;
@@ -81,9 +83,10 @@ pub(crate) fn for_each_edge(
         let ends = [from, to].map(|v| (vertices[v as usize].y, v));
         from = to;
         // Compiles to selections, not to a jump: it is hard to predict which end is the upper one.
-        let [(y, top), (end, bottom)] = match ends[0].0 <= ends[1].0 {
-            true => ends,
-            false => [ends[1], ends[0]],
+        let [(y, top), (end, bottom)] = if ends[0].0 <= ends[1].0 {
+            ends
+        } else {
+            [ends[1], ends[0]]
         };
         let first = first_centre(y).max(rows.start);
         if first < first_centre(end).min(rows.end) {
@@ -113,18 +116,20 @@ mod tests {
         let material =
             builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
         for (index, corners) in (0..).zip(polygons) {
-            let corners = corners.iter().map(|at| {
-                let [x, y] = at.map(SubPixel::from_num);
-                builder.vertex(Vertex {
-                    x,
-                    y,
-                    depth: 0.5,
-                    inv_w: 1.0,
-                    normal: [0.0, 0.0, 1.0],
-                    material,
+            let corners: Vec<u32> = corners
+                .iter()
+                .map(|at| {
+                    let [x, y] = at.map(SubPixel::from_num);
+                    builder.vertex(Vertex {
+                        x,
+                        y,
+                        depth: 0.5,
+                        inv_w: 1.0,
+                        normal: [0.0, 0.0, 1.0],
+                        material,
+                    })
                 })
-            });
-            let corners: Vec<u32> = corners.collect();
+                .collect();
             builder.polygon(&corners, [0.0, 0.0, 1.0], index);
         }
         builder.finish().expect("corners inside the guard band")

@@ -61,6 +61,7 @@ impl VisibleLine {
     pub fn draw(&mut self, span: PolygonSpan) {
         let index = self.spans.len() as u32;
         let pixels = span.start as usize..span.end as usize;
+        // An empty range is 0..0 and would pull the start of the union to 0.
         self.drawn = if self.drawn.is_empty() {
             pixels.clone()
         } else {

@@ -51,6 +51,7 @@ pub(super) fn scan(
 
 /// Draws a method's frame into `target`.
 pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
+    // Visible runs of a scanline do not overlap, so their colours fit in one row.
     let mut colours = vec![[0.0f32; 3]; setup.frame.width()];
     let mut list = RunList::new(setup.varyings.count);
     scan(setup.frame, &setup.varyings, &mut |row, line, edges| {
@@ -60,7 +61,7 @@ pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
         }
         line.runs(|span, pixels| {
             let uniforms = setup.uniforms_of(span.polygon);
-            edges.add_run(span, (row, pixels), uniforms, &mut list);
+            edges.add_run(span, row, pixels, uniforms, &mut list);
         });
         (setup.kernels.pixels)(&setup.pixels(&list), &mut colours);
         let mut rest = &colours[..];

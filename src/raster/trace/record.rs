@@ -344,8 +344,8 @@ impl Recorder<'_> {
         let setup = self.setup;
         self.list.clear();
         let uniforms = setup.uniforms_of(span.polygon);
-        let here = (row, pixels.clone());
-        self.active.add_run(span, here, uniforms, &mut self.list);
+        self.active
+            .add_run(span, row, pixels.clone(), uniforms, &mut self.list);
         let job = setup.pixels(&self.list);
         let mut colours = vec![[0.0; 3]; pixels.len()];
         (setup.kernels.pixels)(&job, &mut colours);
@@ -383,11 +383,12 @@ impl Recorder<'_> {
         let mut inside: BTreeMap<_, _> = walked.inside.iter().cloned().collect();
         if walked.names == ["Nx", "Ny", "Nz"] {
             let normals = walked.values.iter();
-            let squares = normals.map(|n| {
-                let n: Vec3<f32> = vec3([n[0], n[1], n[2]]);
-                n.dot(n)
-            });
-            let squares: Vec<f32> = squares.collect();
+            let squares: Vec<f32> = normals
+                .map(|n| {
+                    let n: Vec3<f32> = vec3([n[0], n[1], n[2]]);
+                    n.dot(n)
+                })
+                .collect();
             let roots = squares.iter().map(|square| vec![Num::sqrt(*square)]);
             inside.insert("d", roots.collect());
             inside.insert("D", squares.into_iter().map(|d| vec![d]).collect());

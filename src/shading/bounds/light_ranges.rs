@@ -59,6 +59,7 @@ impl Spread {
     pub fn of(frame: &Frame) -> Spread {
         let unseen = |lighting: &Lighting| SeenLights {
             strengths: vec![0.0; lighting.lights.len()],
+            // The greatest |L + V|, which `add` lowers.
             half: 2.0,
         };
         let mut spread = Spread {
@@ -170,10 +171,11 @@ impl Ball {
         };
         let toward = position - self.middle;
         let far = toward.length();
-        // Inside the ball no bound is known. Use the smallest distance that methods distinguish
-        // from 0.
+        // A place before or behind all corners is at least as far as its distance along the normal.
         let corners = self.corners.iter();
         let (low, high) = range(corners.map(|p| (position - p).dot(self.normal)));
+        // Otherwise no bound is known inside the ball. Use the smallest distance that methods
+        // distinguish from 0.
         let nearest = (far - self.radius).max(low).max(-high).max(1e-15);
         let longest = (far + self.radius).max(position.length() + self.reach);
         SeenPlace {
@@ -182,9 +184,10 @@ impl Ball {
             nearest,
             direction: toward.normalize_or_zero(),
             // From inside the ball the place is seen in any direction.
-            angle: match far > self.radius {
-                true => libm::asin(self.radius / far),
-                false => core::f64::consts::PI,
+            angle: if far > self.radius {
+                libm::asin(self.radius / far)
+            } else {
+                core::f64::consts::PI
             },
         }
     }

@@ -139,9 +139,11 @@ impl Variant {
     /// ([`super::Info::approximation`]) and by its power function ([`Power::error`]).
     pub fn approximation(&self, frame: &Frame) -> f64 {
         let spread = Spread::of(frame);
-        let materials = frame.lightings().iter().zip(&spread.materials);
         let albedo = largest_colour(frame);
-        let materials: Vec<MaterialBound<'_>> = materials
+        let materials: Vec<MaterialBound<'_>> = frame
+            .lightings()
+            .iter()
+            .zip(&spread.materials)
             .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let info = self.row().on(frame).info;
@@ -170,9 +172,11 @@ impl Variant {
     /// Returns [`Variant::bound`] of each polygon of `frame`, in order.
     pub fn polygon_bounds<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = f64> + 'a {
         let spread = Spread::of(frame);
-        let materials = frame.lightings().iter().zip(&spread.materials);
         let albedo = largest_colour(frame);
-        let materials: Vec<MaterialBound<'a>> = materials
+        let materials: Vec<MaterialBound<'a>> = frame
+            .lightings()
+            .iter()
+            .zip(&spread.materials)
             .map(|(lighting, seen)| self.material_bound(lighting, seen, albedo))
             .collect();
         let polygons = frame.polygons().iter().enumerate();
@@ -196,10 +200,7 @@ impl Variant {
         seen: &SeenLights,
         albedo: f64,
     ) -> MaterialBound<'a> {
-        let albedo = match lighting.vertex_colours {
-            true => albedo,
-            false => 1.0,
-        };
+        let albedo = if lighting.vertex_colours { albedo } else { 1.0 };
         let diffuse_error = self.length_error(lighting);
         // (1 − E)ⁿ ≥ 1 − n E for n ≥ 1, and ≥ 1 − E for an exponent below 1.
         let power = match lighting.specular {
@@ -233,9 +234,10 @@ impl Variant {
             },
             other: of_channels(&lost) + ROUNDING * lighting.lights.len() as f64,
             albedo,
-            dull: match lighting.vertex_colours {
-                true => of_channels(&dull),
-                false => 0.0,
+            dull: if lighting.vertex_colours {
+                of_channels(&dull)
+            } else {
+                0.0
             },
             diffuse,
             specular,
@@ -254,12 +256,11 @@ impl Variant {
 
 /// Returns the largest channel of a vertex colour; 1 if no material uses them.
 fn largest_colour(frame: &Frame) -> f64 {
-    match frame.is_coloured() {
-        true => {
-            let all = (0..frame.vertices().len() as u32).map(|v| frame.colour(v));
-            f64::from(all.flatten().fold(0.0, f32::max))
-        }
-        false => 1.0,
+    if frame.is_coloured() {
+        let all = (0..frame.vertices().len() as u32).map(|v| frame.colour(v));
+        f64::from(all.flatten().fold(0.0, f32::max))
+    } else {
+        1.0
     }
 }
 
@@ -290,13 +291,15 @@ fn errors(
             f64::min(2.0, extent.apart() + vectors + 1.0 - 1.0 / weights)
         }
     };
-    let stepped = |step: f64| match step > 0.0 {
-        true => {
+    let stepped = |step: f64| {
+        if step > 0.0 {
+            // 8 δ are the set-up: see `Variant::bound`.
             let spans = step * extent.steps + 8.0 * apart;
             let triangles = extent.triangle_roundings(step, apart);
             spans.max(triangles).max(BARYCENTRIC)
+        } else {
+            0.0
         }
-        false => 0.0,
     };
     let rounding = ROUNDING * weights;
     // The least length of a normal before it is normalised.
@@ -305,9 +308,10 @@ fn errors(
         ShadingRate::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
         ShadingRate::Pixel => extent.cosine,
     };
-    let over_length = match length > 0.0 {
-        true => 1.0 / length,
-        false => f64::INFINITY,
+    let over_length = if length > 0.0 {
+        1.0 / length
+    } else {
+        f64::INFINITY
     };
     let cosine = match of {
         Stepped::Colours | Stepped::Sums => rounding * start * vectors * over_length,
@@ -319,9 +323,10 @@ fn errors(
         Stepped::Products => {
             // With positions three products are stepped: L·N has an error of 3 per step, as D, and
             // the roots of N·N and L·L half of it each.
-            let (step, vectors) = match is_followed {
-                true => (step.max(6.0), vectors * vectors),
-                false => (step, vectors),
+            let (step, vectors) = if is_followed {
+                (step.max(6.0), vectors * vectors)
+            } else {
+                (step, vectors)
             };
             let rounding = rounding * weights * over_length * over_length;
             rounding * (start + stepped(step)) * vectors

@@ -58,9 +58,10 @@ impl Extent {
     /// Returns the largest distance between the normals of two corners: 2 sin θ, as all are within
     /// θ of one direction.
     pub fn apart(&self) -> f64 {
-        match self.cosine > 0.0 {
-            true => 2.0 * libm::sqrt(f64::max(0.0, 1.0 - self.cosine * self.cosine)),
-            false => 2.0,
+        if self.cosine > 0.0 {
+            2.0 * libm::sqrt(f64::max(0.0, 1.0 - self.cosine * self.cosine))
+        } else {
+            2.0
         }
     }
 
@@ -104,6 +105,7 @@ fn least_cosine(frame: &Frame, corners: &[u32]) -> f64 {
     let mut sum = DVec3::ZERO;
     for_each_end(frame, corners, &mut |v| sum += wide(frame.normal(v)));
     let Some(mean) = sum.try_normalize() else {
+        // Normals that cancel have no mean direction, so nothing is known about them.
         return -1.0;
     };
     let mut least = 1.0;

@@ -116,6 +116,7 @@ impl Extras {
             extra.albedo = vec3([value(first), value(first + 1), value(first + 2)]);
         }
         if self.weight {
+            // The weight comes last.
             extra.weight = value(self.count() - 1);
         }
         extra
@@ -133,6 +134,7 @@ impl Extras {
             rest = others;
         }
         if self.weight {
+            // Engines multiply every varying by the vertex's weight, and this 1 becomes the weight.
             rest[0] = 1.0;
         }
     }
@@ -178,9 +180,10 @@ impl Extras {
         if self.albedo {
             extra.albedo = extra.albedo * w;
         }
-        match self.divides {
-            true => (scaled(pixel, w), extra),
-            false => (pixel, extra),
+        if self.divides {
+            (scaled(pixel, w), extra)
+        } else {
+            (pixel, extra)
         }
     }
 }
@@ -198,9 +201,10 @@ impl<F: Num> ExtraWalk<F> {
     #[inline(always)]
     pub fn next(&mut self) -> Extra<F> {
         let (point, weight) = self.place.next();
-        let albedo = match self.has_albedo {
-            true => self.albedo.next(),
-            false => self.albedo.at,
+        let albedo = if self.has_albedo {
+            self.albedo.next()
+        } else {
+            self.albedo.at
         };
         Extra {
             point,
@@ -433,10 +437,12 @@ fn light<C: Carries, F: Num>(
     );
     let points = job.points.chunks_exact(F::WIDTH);
     let vertices = job.normals.chunks_exact(F::WIDTH).zip(points);
+    // Without varyings `own` is 0, and chunks must not be empty.
     let out = out.chunks_exact_mut((F::WIDTH * own).max(1));
     for (block, ((normals, points), out)) in vertices.zip(out).enumerate() {
         let n = gather(normals);
         let mut lit = LightAt::new(stored, n.x, general);
+        // On the fast path everything is at infinity, so nothing reads the point.
         lit = lit.at(if general { gather(points) } else { n });
         let has_albedo = general && stored.model.has_albedo;
         if has_albedo || matches!(C::FROM, Carried::Attributes) {
@@ -465,10 +471,12 @@ fn light<C: Carries, F: Num>(
 /// Shades runs one pixel at a time, with the lecture's loop.
 fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = match is_general::<M>(job, uniforms) {
-            true if job.extras.albedo => shade_coloured_runs::<M>(job, uniforms, runs, out),
-            true => shade_runs::<M>(job, uniforms, [true, false], runs, out),
-            false => shade_fast_runs::<M>(job, uniforms, runs, out),
+        out = if !is_general::<M>(job, uniforms) {
+            shade_fast_runs::<M>(job, uniforms, runs, out)
+        } else if job.extras.albedo {
+            shade_coloured_runs::<M>(job, uniforms, runs, out)
+        } else {
+            shade_runs::<M>(job, uniforms, [true, false], runs, out)
         };
     }
 }
@@ -609,9 +617,10 @@ impl SimdKernels {
                 ShadingRate::Pixel => None,
                 _ => Some(vertex_blocks::<M, T>),
             },
-            walk: match may_walk_along_runs::<M>() {
-                true => Some(walk::<M, T>),
-                false => None,
+            walk: if may_walk_along_runs::<M>() {
+                Some(walk::<M, T>)
+            } else {
+                None
             },
             shade: shade::<M, T, S>,
         }
@@ -625,11 +634,10 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
     vectorize(
         simd,
         #[inline(always)]
-        || match job.uniforms.model.is_fast && !M::NEEDS.general_only {
-            true => {
+        || {
+            if job.uniforms.model.is_fast && !M::NEEDS.general_only {
                 light::<M::Carries, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into())
-            }
-            false => {
+            } else {
                 light::<M::Carries, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into())
             }
         },
@@ -751,12 +759,13 @@ fn shade_blocks<M: Shader, S: Token>(
     let (simd, lights) = (S::get(), stored.lights.len());
     let extras = job.extras.known(general, coloured);
     let method = M::new(job.parameters, &stored.model);
-    // A constant unless the method's parameters decide, so only one of the two arms below is
+    // A constant unless the method's parameters decide, so only one of the two branches below is
     // compiled.
     let is_walked = may_walk_along_runs::<M>() && method.walks_along_runs();
-    let planes = match is_walked {
-        true => count::<Pixel<M, f32>>(lights),
-        false => count::<Varying<M, f32>>(lights),
+    let planes = if is_walked {
+        count::<Pixel<M, f32>>(lights)
+    } else {
+        count::<Varying<M, f32>>(lights)
     };
     // Equals the engine's layout, but with counts that are known at compile time: the offsets of
     // all loads below become constants.

@@ -48,11 +48,14 @@ impl SpanBench {
     ) -> [[f32; 3]; 2] {
         let [a, b, c] = self.normals.map(vertex).map(vec3);
         let [t0, dt] = SpanBench::EDGE;
-        [a, b].map(|from| match on_circles {
-            true => GreatCircle::new(vec3(SpanBench::FACE), [from, c], t0, dt)
-                .normal()
-                .array(),
-            false => [0, 1, 2].map(|i| ramp(from.array()[i], c.array()[i], t0, dt)[0]),
+        [a, b].map(|from| {
+            if on_circles {
+                GreatCircle::new(vec3(SpanBench::FACE), [from, c], t0, dt)
+                    .normal()
+                    .array()
+            } else {
+                [0, 1, 2].map(|i| ramp(from.array()[i], c.array()[i], t0, dt)[0])
+            }
         })
     }
 
@@ -125,9 +128,10 @@ impl SpanBench {
 
     /// Returns the reason why a method refuses the light of this span, or `None`.
     pub fn refuses(&self, variant: &Variant) -> Option<&'static str> {
-        let interpolation = match self.perspective {
-            true => Interpolation::Perspective,
-            false => Interpolation::Screen,
+        let interpolation = if self.perspective {
+            Interpolation::Perspective
+        } else {
+            Interpolation::Screen
         };
         (variant.row().fit)(On::Spans(&self.lighting, interpolation)).refused()
     }

@@ -142,18 +142,21 @@ pub(crate) struct LightUniforms {
 impl Uniforms {
     /// Prepares the light on a material. Colours are multiplied by `scale`.
     pub fn new(lighting: &Lighting, power: Power, scale: f32) -> Uniforms {
-        let lights = lighting.lights.iter().map(|light| LightUniforms {
-            place: light.place.map(vec3),
-            falloff: match light.place {
-                Place::Local(_) => light.falloff,
-                Place::Infinite(_) => Falloff::None,
-            },
-            diffuse: vec3(light.diffuse) * scale,
-            specular: vec3(light.specular) * scale,
-            l_v: 0.0,
-            half: 0.0,
-        });
-        let lights: Vec<LightUniforms> = lights.collect();
+        let lights: Vec<LightUniforms> = lighting
+            .lights
+            .iter()
+            .map(|light| LightUniforms {
+                place: light.place.map(vec3),
+                falloff: match light.place {
+                    Place::Local(_) => light.falloff,
+                    Place::Infinite(_) => Falloff::None,
+                },
+                diffuse: vec3(light.diffuse) * scale,
+                specular: vec3(light.specular) * scale,
+                l_v: 0.0,
+                half: 0.0,
+            })
+            .collect();
         let model = LightModel {
             scale,
             ambient: vec3(lighting.ambient) * scale,
@@ -278,6 +281,7 @@ const MOST_LEVELS: f32 = 1_073_741_824.0;
 /// `unit` is 1, or the factor by which the caller has multiplied all squared distances.
 #[inline(always)]
 pub(crate) fn strength<F: Num>(falloff: Falloff, square: F, unit: F) -> Option<F> {
+    // At the light itself 1/r² would be infinite.
     let square = square.max(LEAST_SQUARE);
     match falloff {
         Falloff::None => None,
@@ -325,6 +329,8 @@ fn faint(function: Power, shininess: f32, scale: f32, lights: &[LightUniforms]) 
     let power = (faint / strongest.fold(faint, f32::max)).max(LEAST_POWER);
     let n = shininess;
     let cosine = match function {
+        // Each line solves its function of t for t. Below 1 every function is tⁿ: see
+        // `Exponent::new`.
         Power::Squaring | Power::Table { .. } => libm::powf(power, 1.0 / n),
         _ if n < 1.0 => libm::powf(power, 1.0 / n),
         Power::Exp => 1.0 + libm::logf(power) / n,
@@ -522,13 +528,14 @@ impl<'a, F: Num> LightAt<'a, F> {
     /// Returns ambient or diffuse light times the vertex colour, if the material asks for it.
     #[inline(always)]
     pub(crate) fn times_albedo(&self, light: Vec3<F>) -> Vec3<F> {
-        match self.general && self.has_albedo {
-            true => vec3([
+        if self.general && self.has_albedo {
+            vec3([
                 light.x * self.albedo.x,
                 light.y * self.albedo.y,
                 light.z * self.albedo.z,
-            ]),
-            false => light,
+            ])
+        } else {
+            light
         }
     }
 
@@ -591,8 +598,8 @@ impl<'a, F: Num> LightAt<'a, F> {
             light,
         };
         if self.general && is_positional {
-            // At the light itself the direction is 0/0: the clamps turn its cosines into 0, as for
-            // a normal of length 0.
+            // Until here `seen.to` is the position of the light. At the light itself the direction
+            // is 0/0: the clamps turn its cosines into 0, as for a normal of length 0.
             let to = seen.to - self.point;
             let square = to.dot(to);
             seen.to = to * (one / square.sqrt());
@@ -628,8 +635,10 @@ impl<'a, F: Num> LightAt<'a, F> {
     ) -> SeenLight<'a, F> {
         SeenLight {
             index,
+            // Any unit vector will do: the caller has its own, and `add` reads none.
             to: self.view,
             l_v,
+            // Read only where highlights are computed from N·H.
             half: if self.is_halfway() {
                 over_sum(l_v)
             } else {
@@ -762,9 +771,10 @@ impl<'a, F: Num> LightAt<'a, F> {
     /// material asks for it.
     #[inline(always)]
     fn plus_diffuse(&self, colour: Vec3<F>, factor: F, light: &SeenLight<'a, F>) -> Vec3<F> {
-        match self.general && self.has_albedo {
-            true => colour + self.times_albedo(light.light.diffuse.broadcast(factor) * factor),
-            false => colour.plus(factor, light.light.diffuse),
+        if self.general && self.has_albedo {
+            colour + self.times_albedo(light.light.diffuse.broadcast(factor) * factor)
+        } else {
+            colour.plus(factor, light.light.diffuse)
         }
     }
 

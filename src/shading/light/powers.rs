@@ -39,6 +39,7 @@ impl Exponent {
     pub fn new(power: Power, shininess: f32, faint: f32) -> Self {
         let n = shininess as u32;
         match power {
+            // All functions but tⁿ are for exponents of 1 or more.
             Power::Exp if n > 0 => Exponent::Exp(shininess * core::f32::consts::LOG2_E),
             Power::Table { size } if n > 0 => Exponent::Table {
                 from: faint,
@@ -61,6 +62,7 @@ impl Exponent {
             return None;
         };
         let (from, n) = (f64::from(faint), f64::from(shininess));
+        // The size that the user asked for: `scale` is rounded, and so is its product.
         let size = libm::round(f64::from(scale) * (1.0 - from)) as u32;
         let entry = |i: u32| from + (1.0 - from) * f64::from(i) / f64::from(size);
         let power = |i| libm::pow(entry(i), n) as f32;

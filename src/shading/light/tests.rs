@@ -193,8 +193,9 @@ fn cosines(model: &LightModel) -> Vec<f32> {
     let near_one = (0..2000).map(|i| 1.0 - f32::powf(2.0, -12.0 * i as f32 / 1000.0));
     let even = (0..=4000).map(|i| i as f32 / 4000.0);
     let t = model.faint;
-    let around = [t.next_down(), t, t.next_up(), 0.999 * t, 1.001 * t];
-    let around = around.into_iter().map(|x| x.clamp(0.0, 1.0));
+    let around = [t.next_down(), t, t.next_up(), 0.999 * t, 1.001 * t]
+        .into_iter()
+        .map(|x| x.clamp(0.0, 1.0));
     near_one.chain(even).chain(around).collect()
 }
 

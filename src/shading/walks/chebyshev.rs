@@ -38,10 +38,12 @@ impl<F: Num, V: Values<F>> Chebyshev<F, V> {
         // 1 − cos δ itself would lose the digits of a small angle.
         let h = sin_step * sin_step / (cos_step + 1.0);
         let grown = circle.to * (sin_step * cos_t - h * sin_t);
+        // sin(x − δ) − sin x = −(sin δ cos x + h sin x): the weight of the first end falls.
         let fallen = circle.from * (sin_step * cos_rest + h * sin_rest);
         Chebyshev {
             at: of(circle.normal()),
             step: of(grown - fallen),
+            // α = 4 sin² δ/2 = 2 (1 − cos δ)
             alpha: h + h,
         }
     }

@@ -165,6 +165,7 @@ impl<F: Num, W: Walk<F, Pixel = F>, const L: usize> Walk<F> for PerLight<W, L> {
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
+        // The first light's value also fills the places after the last light, which nothing reads.
         let mut pixel = PerLight::new(self.count, self.values[0].next());
         for i in 1..self.len() {
             pixel.values[i] = self.values[i].next();

@@ -26,6 +26,7 @@ pub(crate) fn each<F: Num, P: Values<F>>(mut value: P, mut to: impl FnMut(usize,
 #[inline(always)]
 pub(crate) fn count<P: Values<f32>>(lights: usize) -> usize {
     let mut count = 0;
+    // `each` leaves the index after the last value, which is the count.
     P::filled(lights, 0.0).each(&mut count, &mut |_, _| ());
     count
 }

@@ -67,13 +67,12 @@ fn all_formats_hold_the_same_picture_and_keep_the_memory_between_rows() {
         for place in 0..len {
             let (x, y) = (place % STRIDE, place / STRIDE);
             let found = (rgba[place], bgra[place], argb[place], floats[place]);
-            let pixels = match x < width {
-                true => {
-                    let [r, g, b, alpha] = expected.get(x, y);
-                    let number = u32::from_be_bytes([alpha, r, g, b]);
-                    ([r, g, b, alpha], [b, g, r, alpha], number, linear.get(x, y))
-                }
-                false => ([9; 4], [9; 4], 9, [9.0; 4]),
+            let pixels = if x < width {
+                let [r, g, b, alpha] = expected.get(x, y);
+                let number = u32::from_be_bytes([alpha, r, g, b]);
+                ([r, g, b, alpha], [b, g, r, alpha], number, linear.get(x, y))
+            } else {
+                ([9; 4], [9; 4], 9, [9.0; 4])
             };
             assert_eq!(found, pixels, "{who}: {x}, {y}");
         }
@@ -98,21 +97,23 @@ fn drawing_into_a_part_writes_only_the_part() {
             let part = PictureMut::from(&mut picture).part([left, top], [width, height]);
             draw(variant, frame, part, DrawOptions::by(renderer));
             // Draw into a part of a part, in rows that are 80 pixels apart.
-            let part = PictureMut::argb(&mut argb, SIZE[0], SIZE[1]).stride(80);
-            let part = part
+            let part = PictureMut::argb(&mut argb, SIZE[0], SIZE[1])
+                .stride(80)
                 .part([left, 0], [width, SIZE[1]])
                 .part([0, top], [width, height]);
             draw(variant, frame, part, DrawOptions::by(renderer));
             for (x, y) in (0..SIZE[1]).flat_map(|y| (0..80).map(move |x| (x, y))) {
                 let is_inside =
                     (left..left + width).contains(&x) && (top..top + height).contains(&y);
-                let [r, g, b, alpha] = match is_inside {
-                    true => expected.get(x - left, y - top),
-                    false => [9; 4],
+                let [r, g, b, alpha] = if is_inside {
+                    expected.get(x - left, y - top)
+                } else {
+                    [9; 4]
                 };
-                let number = match is_inside {
-                    true => u32::from_be_bytes([alpha, r, g, b]),
-                    false => 9,
+                let number = if is_inside {
+                    u32::from_be_bytes([alpha, r, g, b])
+                } else {
+                    9
                 };
                 assert_eq!(argb[80 * y + x], number, "{who}: {x}, {y}");
                 if x < SIZE[0] {
@@ -258,9 +259,10 @@ fn is_reversed(test: DepthTest) -> bool {
 
 /// Returns an empty depth buffer.
 fn no_depths(test: DepthTest, frame: &Frame) -> Vec<f32> {
-    let nothing = match is_reversed(test) {
-        true => f32::NEG_INFINITY,
-        false => f32::INFINITY,
+    let nothing = if is_reversed(test) {
+        f32::NEG_INFINITY
+    } else {
+        f32::INFINITY
     };
     vec![nothing; frame.width() * frame.height()]
 }
@@ -317,10 +319,12 @@ fn each_depth_test_shows_the_ball_that_the_reference_finds_nearer() {
                 let nearest = z[0].min(z[1]);
                 let stored = f64::from(depths[48 * y + x]);
                 if nearest.is_finite() {
-                    let found = match (is_reversed(test), is_perspective) {
-                        (false, _) => range.z(stored),
-                        (true, true) => range.z(-stored),
-                        (true, false) => 1.0 - stored,
+                    let found = if !is_reversed(test) {
+                        range.z(stored)
+                    } else if is_perspective {
+                        range.z(-stored)
+                    } else {
+                        1.0 - stored
                     };
                     assert!((found - nearest).abs() <= most, "{who}, {test:?}: {x}, {y}");
                 } else {

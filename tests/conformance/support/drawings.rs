@@ -56,24 +56,26 @@ pub fn for_each_drawing<'a, T: Send>(
         // Make it before the threads below start: engines draw it on these threads, and none of
         // them may wait for it.
         case.seen();
-        let drawn = METHODS.par_iter().map(|entry| {
-            let variant = entry.variant();
-            let renderers = distinct(&variant, &case.frame);
-            let is_refused = matches!(
-                variant.plan(&case.frame, Renderer::LECTURE),
-                Plan::Refused(_)
-            );
-            assert_eq!(renderers.is_empty(), is_refused, "{}", entry.info.name);
-            let draw = |renderer| {
-                look(&Drawing {
-                    case,
-                    variant: variant.clone(),
-                    renderer,
-                })
-            };
-            renderers.into_iter().map(draw).collect::<Vec<T>>()
-        });
-        let drawn: Vec<Vec<T>> = drawn.collect();
+        let drawn: Vec<Vec<T>> = METHODS
+            .par_iter()
+            .map(|entry| {
+                let variant = entry.variant();
+                let renderers = distinct(&variant, &case.frame);
+                let is_refused = matches!(
+                    variant.plan(&case.frame, Renderer::LECTURE),
+                    Plan::Refused(_)
+                );
+                assert_eq!(renderers.is_empty(), is_refused, "{}", entry.info.name);
+                let draw = |renderer| {
+                    look(&Drawing {
+                        case,
+                        variant: variant.clone(),
+                        renderer,
+                    })
+                };
+                renderers.into_iter().map(draw).collect::<Vec<T>>()
+            })
+            .collect();
         found.extend(drawn.into_iter().flatten());
     }
     found

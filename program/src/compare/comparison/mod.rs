@@ -368,9 +368,10 @@ pub fn memory_needed(frame: &Frame, variants: &[Variant]) -> u64 {
         models.len() as u64
     };
     let (visibility, polygons, linear, stored) = (4 + 8 + 8, 4, 16, 4);
-    let (references, forms) = match is_cut {
-        true => (2, models(&variants) + models(&counterparts)),
-        false => (1, models(&[&variants[..], &counterparts].concat())),
+    let (references, forms) = if is_cut {
+        (2, models(&variants) + models(&counterparts))
+    } else {
+        (1, models(&[&variants[..], &counterparts].concat()))
     };
     let rows = (variants.len() + counterparts.len()) as u64;
     let shading = samples * (32 + visibility) + pixels * (32 + linear);
@@ -433,8 +434,11 @@ impl Comparison {
 /// Returns `variants`, with naive Phong in front if it is not among them.
 pub(crate) fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
     let is_missing = !variants.iter().any(is_baseline);
-    let baseline = METHODS.iter().filter(|e| e.info.name == BASELINE);
-    let baseline = baseline.filter(|_| is_missing).map(|e| e.variant());
+    let baseline = METHODS
+        .iter()
+        .filter(|e| e.info.name == BASELINE)
+        .filter(|_| is_missing)
+        .map(|e| e.variant());
     baseline.chain(variants.iter().cloned()).collect()
 }
 
@@ -445,9 +449,10 @@ pub(crate) fn is_baseline(variant: &Variant) -> bool {
 
 /// Returns the name of the barycentric renderer's method that `variant` is compared with.
 fn counterpart(variant: &Variant) -> &'static str {
-    match variant.row().is_barycentric() {
-        true => variant.info().name,
-        false => BASELINE,
+    if variant.row().is_barycentric() {
+        variant.info().name
+    } else {
+        BASELINE
     }
 }
 

@@ -58,6 +58,15 @@ impl<'a> ClosedForms<'a> {
     }
 }
 
+/// A variant's drawing, compared with its closed form but not yet with the Phong reference.
+struct ComparedDrawing {
+    picture: Picture8,
+    linear: LinearPicture,
+    /// The difference from the variant's closed form, or `None` if that is the Phong reference.
+    own: Option<Difference>,
+    bound: f64,
+}
+
 impl<'a> References<'a> {
     /// Prepares the references of `frame`. `cut` is the frame cut into triangles.
     pub fn new(frame: &'a Frame, cut: &'a Triangulated) -> Self {
@@ -90,20 +99,28 @@ impl<'a> References<'a> {
     pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
         const IS_FOR: &str = "others are left out";
         let forms = &self.closed_forms;
-        let planned = variant.plan(forms.frame, renderer).renderer();
-        let planned = planned.unwrap_or(renderer);
+        let planned = variant
+            .plan(forms.frame, renderer)
+            .renderer()
+            .unwrap_or(renderer);
         let by = DrawnBy::new(planned);
         let shown = &*self.shown(variant, planned);
-        let linear = variant.render_linear_with(forms.frame, renderer);
-        let linear = linear.expect(IS_FOR);
-        let picture = variant.render_with(forms.frame, renderer);
-        let picture = picture.expect(IS_FOR);
+        let linear = variant
+            .render_linear_with(forms.frame, renderer)
+            .expect(IS_FOR);
+        let picture = variant.render_with(forms.frame, renderer).expect(IS_FOR);
         let own = match variant.closed_form() {
             form if form == Model::Phong.into() => None,
             form => Some(forms.difference(form, &linear, shown)),
         };
-        let own = (own, variant.bound(forms.frame));
-        self.row(variant, by, (picture, linear), shown, own)
+        let bound = variant.bound(forms.frame);
+        let drawing = ComparedDrawing {
+            picture,
+            linear,
+            own,
+            bound,
+        };
+        self.row(variant, by, drawing, shown)
     }
 
     /// Returns the indices of the polygons that a variant shows, drawn by `renderer`.
@@ -123,8 +140,13 @@ impl<'a> References<'a> {
         let forms = self.on_triangles.as_ref().unwrap_or(&self.closed_forms);
         let own = forms.difference(variant.closed_form(), &linear, &self.barycentric);
         let (by, shown) = (DrawnBy::BARYCENTRIC, self.origins(&self.barycentric));
-        let own = (Some(own), variant.bound(&self.cut.frame));
-        Some(self.row(variant, by, (picture, linear), &shown, own))
+        let drawing = ComparedDrawing {
+            picture,
+            linear,
+            own: Some(own),
+            bound: variant.bound(&self.cut.frame),
+        };
+        Some(self.row(variant, by, drawing, &shown))
     }
 
     /// Compares the Phong reference on triangles with the one on polygons. Returns `None` if the
@@ -146,16 +168,20 @@ impl<'a> References<'a> {
         triangles.map(|triangle| origin(triangle).copied().unwrap_or(Visibility::NONE))
     }
 
-    /// Makes the row for a pair of pictures. `shown` holds the polygons that they show. `own` is
-    /// the difference from the method's own closed form, or `None` if that is the Phong reference.
+    /// Makes the row for a drawing. `shown` holds the polygons that its pictures show.
     fn row(
         &self,
         variant: &Variant,
         drawn_by: DrawnBy,
-        (picture, linear): (Picture8, LinearPicture),
+        drawing: ComparedDrawing,
         shown: &Picture<u32>,
-        (own, bound): (Option<Difference>, f64),
     ) -> MethodRow {
+        let ComparedDrawing {
+            picture,
+            linear,
+            own,
+            bound,
+        } = drawing;
         let error = self.closed_forms.difference(Model::Phong, &linear, shown);
         let own = own.unwrap_or(error);
         let is_clamped = |pixel: &&[f32; 4]| pixel[3] > 0.0 && pixel[..3].contains(&1.0);

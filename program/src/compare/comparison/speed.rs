@@ -53,8 +53,10 @@ pub(super) fn time(
     drop(candidates);
     let (of_rows, of_barycentric) = timings.split_at(comparison.rows.len());
     let (rows, barycentric) = (&comparison.rows, &comparison.barycentric);
-    let naive = rows.iter().position(|row| is_baseline(&row.variant));
-    let naive = naive.map(|i| &of_rows[i]);
+    let naive = rows
+        .iter()
+        .position(|row| is_baseline(&row.variant))
+        .map(|i| &of_rows[i]);
     let other = |row: &MethodRow| {
         let name = counterpart(&row.variant);
         let is_it = |other: &MethodRow| other.variant.info().name == name;

@@ -148,11 +148,11 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
         text += "! farther from its own closed form than rounding explains\n";
     }
     for row in comparison.rows.iter().filter(|row| !row.kinds.is_empty()) {
-        let kinds = row
+        let kinds: Vec<String> = row
             .kinds
             .iter()
-            .map(|kind| format!("{} {}", kind.polygons, kind.name));
-        let kinds: Vec<String> = kinds.collect();
+            .map(|kind| format!("{} {}", kind.polygons, kind.name))
+            .collect();
         text += &format!("{}: polygons by kind: {}\n", row.name(), kinds.join(", "));
     }
     for left_out in &comparison.left_out {
@@ -191,9 +191,10 @@ pub(crate) fn clamping_note(clamping: &Clamping) -> Option<String> {
 /// Returns the lines above the table: the frame, the engines, and how to read the columns.
 fn head(c: &Comparison) -> String {
     let count = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
-    let polygons = match c.polygons < c.stats.polygons {
-        true => format!("{} of {}", c.polygons, count(c.stats.polygons, "polygon")),
-        false => count(c.polygons, "polygon"),
+    let polygons = if c.polygons < c.stats.polygons {
+        format!("{} of {}", c.polygons, count(c.stats.polygons, "polygon"))
+    } else {
+        count(c.polygons, "polygon")
     };
     let mut text = format!("{}: {}×{}, {polygons}", c.name, c.width, c.height);
     if c.triangles != c.polygons {
@@ -257,9 +258,10 @@ fn signed_levels(error: f64) -> String {
 }
 
 fn decibels(difference: &Difference) -> String {
-    match difference.psnr.is_finite() {
-        true => format!("{:.1}", difference.psnr),
-        false => "equal".to_string(),
+    if difference.psnr.is_finite() {
+        format!("{:.1}", difference.psnr)
+    } else {
+        "equal".to_string()
     }
 }
 

@@ -40,8 +40,13 @@ fn of_system(text: &str) -> Option<(u64, u64)> {
 
 /// Returns the value of a line such as `VmSize:  5 kB`, in bytes.
 fn kilobytes(text: &str, key: &str) -> Option<u64> {
-    let value = text.lines().find_map(|line| line.strip_prefix(key))?;
-    let value: u64 = value.split_whitespace().next()?.parse().ok()?;
+    let value: u64 = text
+        .lines()
+        .find_map(|line| line.strip_prefix(key))?
+        .split_whitespace()
+        .next()?
+        .parse()
+        .ok()?;
     Some(value.saturating_mul(1024))
 }
 
@@ -88,9 +93,10 @@ fn folders(groups: &str, mounts: &str) -> Vec<Group> {
         // A line is `4:memory:/a/b`, or `0::/a/b` in the unified hierarchy.
         let own = groups.lines().find_map(|line| {
             let (controllers, path) = line.split_once(':')?.1.split_once(':')?;
-            let is_own = match is_unified {
-                true => controllers.is_empty(),
-                false => controllers.split(',').any(|name| name == "memory"),
+            let is_own = if is_unified {
+                controllers.is_empty()
+            } else {
+                controllers.split(',').any(|name| name == "memory")
             };
             is_own.then_some(path)
         });
@@ -135,9 +141,10 @@ impl Group {
         };
         // The kernel counts cached pages of files as used, but frees the inactive ones on demand.
         let reclaimable = || {
-            let key = match self.is_unified {
-                true => "inactive_file ",
-                false => "total_inactive_file ",
+            let key = if self.is_unified {
+                "inactive_file "
+            } else {
+                "total_inactive_file "
             };
             let stat = text(&self.folder.join("memory.stat"))?;
             let pages = stat.lines().find_map(|line| line.strip_prefix(key))?;
@@ -156,8 +163,8 @@ impl Group {
         let most = value("memory.limit_in_bytes")?;
         let free = left(most, value("memory.usage_in_bytes")).saturating_add(swap);
         // Version 1 may also limit memory and swap together.
-        let both = value("memory.memsw.limit_in_bytes");
-        let both = both.map(|most| left(most, value("memory.memsw.usage_in_bytes")));
+        let both = value("memory.memsw.limit_in_bytes")
+            .map(|most| left(most, value("memory.memsw.usage_in_bytes")));
         Some(free.min(both.unwrap_or(u64::MAX)))
     }
 }

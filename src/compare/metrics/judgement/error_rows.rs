@@ -29,9 +29,10 @@ pub(super) fn for_each_error_row(
         of_reference.move_to(y);
         of_actual.move_to(y);
         for (x, error) in errors.iter_mut().enumerate() {
-            *error = match selection.includes(x, y) {
-                true => error_at(of_reference, of_actual, [x, y]),
-                false => None,
+            *error = if selection.includes(x, y) {
+                error_at(of_reference, of_actual, [x, y])
+            } else {
+                None
             };
         }
         visit(y, &errors);
@@ -60,9 +61,10 @@ fn error_between(a: Levels, b: Levels) -> Option<f64> {
         return Some(errors.into_iter().fold(0.0, f64::max));
     }
     let difference = PixelDifference::new(a, b)?;
-    Some(match difference.is_not_finite_differing {
-        true => f64::INFINITY,
-        false => difference.largest(),
+    Some(if difference.is_not_finite_differing {
+        f64::INFINITY
+    } else {
+        difference.largest()
     })
 }
 
@@ -123,8 +125,9 @@ impl<'a> Window<'a> {
                 } else {
                     // Between its top and bottom row, a ring has two pixels in a row, or fewer at
                     // the border of the picture.
-                    let ends = [left, right].into_iter();
-                    let ends = ends.filter(|end| end.abs_diff(x) == distance);
+                    let ends = [left, right]
+                        .into_iter()
+                        .filter(|end| end.abs_diff(x) == distance);
                     least = ends.map(|end| error(&row[end])).fold(least, f64::min);
                 }
             }

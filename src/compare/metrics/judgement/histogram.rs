@@ -28,9 +28,10 @@ pub struct Bin {
 impl Histogram {
     /// Counts a pixel with an error in grey levels.
     pub(super) fn add(&mut self, error: f64) {
-        match error.is_finite() {
-            true => self.counts[ENDS.partition_point(|end| *end < error)] += 1,
-            false => self.not_finite += 1,
+        if error.is_finite() {
+            self.counts[ENDS.partition_point(|end| *end < error)] += 1;
+        } else {
+            self.not_finite += 1;
         }
     }
 

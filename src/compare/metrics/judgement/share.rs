@@ -125,8 +125,8 @@ mod tests {
     #[test]
     fn a_share_is_not_rounded_to_none_or_all() {
         let all = 1 << 28;
-        let shown = [(0, 0), (0, 9), (1, all), (1, 3), (all - 1, all), (9, 9)];
-        let shown = shown.map(|(pixels, all)| share_text(pixels, all));
+        let shown = [(0, 0), (0, 9), (1, all), (1, 3), (all - 1, all), (9, 9)]
+            .map(|(pixels, all)| share_text(pixels, all));
         let expected = [
             "0.00 %",
             "0.00 %",

@@ -189,8 +189,9 @@ impl Reader<'_> {
     fn number<N: str::FromStr>(&mut self, what: &str) -> Result<N, ReadProblem> {
         let word = self.word()?;
         let text = str::from_utf8(&word).ok();
-        let number = text.filter(|text| !text.starts_with('+'));
-        let number = number.and_then(|text| text.parse().ok());
+        let number = text
+            .filter(|text| !text.starts_with('+'))
+            .and_then(|text| text.parse().ok());
         number.ok_or_else(|| self.not_a_number(what, &word))
     }
 
@@ -441,9 +442,10 @@ impl Reader<'_> {
             let expected = "expected a negative or a positive number";
             return Err(self.broken(format!("the scale tells no order of bytes: {expected}")));
         }
-        let float = match scale < 0.0 {
-            true => f32::from_le_bytes,
-            false => f32::from_be_bytes,
+        let float = if scale < 0.0 {
+            f32::from_le_bytes
+        } else {
+            f32::from_be_bytes
         };
         let mut pixels = reserved(width, height)?;
         let mut bytes = Vec::new();
@@ -451,6 +453,7 @@ impl Reader<'_> {
             self.raw_row(&mut bytes, 4 * channels * width, y, height)?;
             let samples = bytes.as_chunks().0;
             pixels.extend(samples.chunks_exact(channels).map(|samples| {
+                // A grey picture has one channel, which the remainder takes for all three.
                 let at = |channel: usize| float(samples[channel % channels]);
                 [at(0), at(1), at(2), 1.0]
             }));

@@ -99,9 +99,10 @@ impl FromEye {
         if !(is_small && self.least_length > 0.0) {
             return PI;
         }
-        let tilt = match furthest < 1.0 {
-            true => 2.0 * furthest * least,
-            false => 1.0,
+        let tilt = if furthest < 1.0 {
+            2.0 * furthest * least
+        } else {
+            1.0
         };
         let range = match chart {
             Chart::Stereographic => greatest - least,
@@ -134,9 +135,10 @@ impl FromEye {
         let most = libm::acos(lowest);
         let sine = libm::sin(most);
         let leaning = libm::sin(most.min(FRAC_PI_2));
-        let moved = match leaning + rounding < 1.0 {
-            true => libm::asin(leaning + rounding) - libm::asin(leaning),
-            false => libm::acos(1.0 - rounding.min(1.0)),
+        let moved = if leaning + rounding < 1.0 {
+            libm::asin(leaning + rounding) - libm::asin(leaning)
+        } else {
+            libm::acos(1.0 - rounding.min(1.0))
         };
         most - libm::asin(c * sine) + moved
     }

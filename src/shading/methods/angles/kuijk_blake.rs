@@ -66,6 +66,7 @@ const fn cosines() -> [f32; STEPS + 1] {
     while i < STEPS {
         let x = LARGEST_SQUARE * i as f64 / STEPS as f64;
         let (mut sum, mut k) = (1.0, 12);
+        // Horner's scheme for Σ (−x)ᵏ / (2k)!, from the last term on.
         while k > 0 {
             sum = 1.0 - sum * x / ((2 * k) * (2 * k - 1)) as f64;
             k -= 1;
@@ -103,9 +104,10 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let most = [0, 1, 2].map(sum).into_iter().fold(0.0, f64::max);
     // Near a light of this falloff its strength has no bound.
     let is_strong = |falloff| matches!(falloff, Falloff::InverseSquare | Falloff::Inverse);
-    let colour = match lights.iter().any(|light| is_strong(light.falloff)) {
-        true => 1.0,
-        false => fit_error(f64::from(lighting.shininess)) * most,
+    let colour = if lights.iter().any(|light| is_strong(light.falloff)) {
+        1.0
+    } else {
+        fit_error(f64::from(lighting.shininess)) * most
     };
     Approximation {
         colour,
@@ -177,17 +179,16 @@ impl<const L: usize> Shader for KuijkBlake<L> {
         let (cos, sin) = (sum.dot(sum).sqrt(), difference.dot(difference).sqrt());
         let half = sin.atan2(cos); // φ/2
         let one = cos.broadcast(1.0);
-        let (middle, across, half) = match half.value() * 2.0 > LARGEST_ANGLE {
-            true => (span.constants(), difference * 0.0, half * 0.0),
-            false => {
-                let middle = sum * (one / cos);
-                // If both ends have nearly the same normal, their difference is all rounding and
-                // has any direction, even along the middle.
-                let across = difference - middle * difference.dot(middle);
-                let length = across.dot(across).sqrt();
-                let over = (one / length.max(LEAST_ANGLE)).gate(length, LEAST_ANGLE);
-                (middle, across * over, half)
-            }
+        let (middle, across, half) = if half.value() * 2.0 > LARGEST_ANGLE {
+            (span.constants(), difference * 0.0, half * 0.0)
+        } else {
+            let middle = sum * (one / cos);
+            // If both ends have nearly the same normal, their difference is all rounding and
+            // has any direction, even along the middle.
+            let across = difference - middle * difference.dot(middle);
+            let length = across.dot(across).sqrt();
+            let over = (one / length.max(LEAST_ANGLE)).gate(length, LEAST_ANGLE);
+            (middle, across * over, half)
         };
         let here = (t0 * 2.0 - 1.0) * half; // α
         let zero = lit.zero();

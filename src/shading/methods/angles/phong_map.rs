@@ -67,6 +67,7 @@ impl Shader for PhongMap {
     #[inline(always)]
     fn shade<F: Num>(self, lit: &LightAt<'_, F>, (x, y): Pixel<Self, F>) -> Vec3<F> {
         let square = x.mul_add(x, y * y);
+        // Rounding may put the point outside of the ball.
         let z = (-square + 1.0).max(0.0).sqrt();
         let n = Vec3 { x, y, z };
         let mut colour = lit.ambient();

@@ -39,9 +39,10 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let lighting = &frame.lightings()[polygon.material as usize];
     let least = Extent::of(frame, polygon).cosine.clamp(0.0, 1.0);
     let (short, n) = (1.0 - least, f64::from(lighting.shininess));
-    let of_highlight = match n >= 1.0 && least > 0.0 {
-        true => f64::min(1.0, short / least + n * short * short / 2.0),
-        false => 1.0, // infinitely steep at 0
+    let of_highlight = if n >= 1.0 && least > 0.0 {
+        f64::min(1.0, short / least + n * short * short / 2.0)
+    } else {
+        1.0 // infinitely steep at 0
     };
     let of_channel = |c: usize| -> f64 {
         let all = lighting.lights.iter();

@@ -317,9 +317,10 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
             }
         }
         CurvedWalk {
-            colour: match MANY {
-                true => colours(zero, rows, normal),
-                false => normal, // not stepped
+            colour: if MANY {
+                colours(zero, rows, normal)
+            } else {
+                normal // not stepped
             },
             products: Linear { at, step },
             square: Quadratic::new(square, along + along, growth),
@@ -337,9 +338,10 @@ impl<const MANY: bool, const ROOT: bool> Shader for Curved<MANY, ROOT> {
         let CurvedPixel {
             j, k, d, factors, ..
         } = pixel;
-        let r = match ROOT {
-            false => factors.x + d * (factors.y + d * factors.z),
-            true => d.broadcast(1.0) / d.sqrt(),
+        let r = if ROOT {
+            d.broadcast(1.0) / d.sqrt()
+        } else {
+            factors.x + d * (factors.y + d * factors.z)
         };
         let mut colour = lit.ambient();
         if MANY {
@@ -447,6 +449,8 @@ impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
             self.restart();
         }
         self.left -= 1;
+        // Only a start for the array: the places of followed lights are overwritten, no other is
+        // read.
         let (mut j, k) = (self.first.0, self.products.at.1);
         self.products.at.1 = self.products.at.1 + self.products.step.1;
         let products = &mut self.products;
@@ -454,9 +458,10 @@ impl<F: Num, const MANY: bool> Walk<F> for CurvedWalk<F, MANY> {
             *j = products.at.0[i];
             products.at.0[i] = products.at.0[i] + products.step.0[i];
         }
-        let vector = match MANY {
-            true => self.colour.next(),
-            false => self.colour.at,
+        let vector = if MANY {
+            self.colour.next()
+        } else {
+            self.colour.at
         };
         let d = self.square.next();
         CurvedPixel {

@@ -183,6 +183,7 @@ pub(crate) fn squares(s: f32, [light, heavy]: [f32; 2]) -> [f32; 2] {
 pub(crate) fn line([low, high]: [f32; 2]) -> ([f32; 3], f32) {
     let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
     let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
+    // A line in u = D/middle − 1; `factors` are for D itself.
     let (at, slope) = (1.0 + 0.1875 * xx, -0.5 - 0.234_375 * xx);
     let factors = [scale * (at - slope), scale * slope / middle, 0.0];
     (factors, 0.1875 * xx * (1.0 + x + 2.0 * xx))
@@ -194,6 +195,7 @@ pub(crate) fn parabola([low, high]: [f32; 2]) -> ([f32; 3], f32) {
     let (middle, x) = (0.5 * (low + high), (high - low) / (high + low));
     let (xx, scale) = (x * x, 1.0 / Num::sqrt(middle));
     let at = 1.0 - 0.034_179_7 * xx * xx;
+    // A parabola in u = D/middle − 1; `factors` are for D itself.
     let (slope, curve) = (-0.5 - 0.234_375 * xx, 0.375 + 0.273_437_5 * xx);
     let factors = [
         scale * (at - slope + curve),
@@ -250,6 +252,7 @@ pub(crate) fn plan<R: Real>(
     }
     let spread = spread(polygon.whole.iter().map(|n| plain(*n)));
     let s = rounded_up(spread);
+    // Written so that NaN is refused, too.
     if !(s < 5.0 && outline.weights[0] > 0.0) {
         return Plan::EXACT;
     }
@@ -384,24 +387,29 @@ impl Illumination {
             all.is_crossed |= is_crossing || seen.low == 0.0;
             let k_d = magnitude(light.diffuse) * to_levels;
             let k_s = magnitude(light.specular) * to_levels;
+            // See (e).
             all.diffuse += k_d * f32::min(1.0, seen.high * over_low);
             let turns = if is_halfway { 1.0 } else { 2.0 };
             all.steep += k_d + k_s * turns * Num::sqrt(n);
+            // A quarter of the levels, divided by the count of lights: see (c).
             let shines = k_s > 0.0 && {
                 let reach = reach(light, &seen, s, is_halfway).clamp(0.0, 1.0);
                 k_s * model.exponent.of(reach) * lights.len() as f32 > 0.25 * levels
             };
             if shines {
                 let l_v = light.l_v;
-                let of_cosine = match is_halfway {
-                    true => 1.0,
-                    false => 2.1 * f32::max(1.0 + l_v, -l_v),
+                let of_cosine = if is_halfway {
+                    1.0
+                } else {
+                    2.1 * f32::max(1.0 + l_v, -l_v)
                 };
-                all.gain += match n >= 1.0 {
-                    true => k_s * n * (1.0 + room / k_s) * of_cosine,
-                    false => f32::INFINITY, // infinitely steep at 0
+                all.gain += if n >= 1.0 {
+                    k_s * n * (1.0 + room / k_s) * of_cosine
+                } else {
+                    f32::INFINITY // infinitely steep at 0
                 };
             }
+            // A material has at most 64 lights, so each has its bit.
             all.in_front |= u64::from(!is_crossing) << i;
             if is_crossing || shines {
                 if let Some(place) = all.followed.get_mut(all.count) {

@@ -61,14 +61,17 @@ fn may_shine<F: Num>(
             return false;
         }
         let n = lit.model.shininess;
+        // No bound is known: the power is not tⁿ, normals nearly cancel, or light and eye are
+        // opposite.
         if !exponent.is_power() || cosine.is_nan() || cosine <= 0.0 || light.half == 0.0 {
             return true;
         }
         let least = libm::powf(FAINT / k_s, 1.0 / n);
         let (is_halfway, l_v) = (lit.model.specular == SpecularModel::Blinn, light.l_v);
-        let bound = match is_halfway {
-            true => least,
-            false => Num::sqrt(f32::max(0.0, (least + l_v) / (1.0 + l_v))),
+        let bound = if is_halfway {
+            least
+        } else {
+            Num::sqrt(f32::max(0.0, (least + l_v) / (1.0 + l_v)))
         };
         let bound = (bound - ROUNDINGS).clamp(0.0, 1.0);
         // cos (w + acos bound), by the addition theorem: both angles are at most a right angle, so
@@ -79,9 +82,10 @@ fn may_shine<F: Num>(
         let toward = mean.dot(h);
         // With light and eye both behind, R·V has the value that it has in front, because (N·H)²
         // has no sign.
-        let toward = match is_gated || is_halfway {
-            true => toward,
-            false => toward.abs(),
+        let toward = if is_gated || is_halfway {
+            toward
+        } else {
+            toward.abs()
         };
         toward >= farthest - ROUNDINGS
     })
@@ -142,9 +146,10 @@ impl Method for HTest {
     #[inline(always)]
     fn polygon<R: Real>(self, lit: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Chosen<Self, R> {
         let normals = polygon.whole.iter().map(|n| plain(*n));
-        match may_shine(lit, normals) {
-            true => OneOf::Second(()),
-            false => OneOf::First(()),
+        if may_shine(lit, normals) {
+            OneOf::Second(())
+        } else {
+            OneOf::First(())
         }
     }
 }

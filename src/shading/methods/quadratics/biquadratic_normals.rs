@@ -39,9 +39,10 @@ pub struct BiquadraticNormals;
 fn midway<R: Real>([n1, n2]: [Vec3<R>; 2], [p1, p2]: [Vec3<R>; 2]) -> Vec3<R> {
     let (sum, edge) = (n1 + n2, p2 - p1);
     let square = edge.dot(edge);
-    match square.value() > 0.0 {
-        true => (sum - edge * (edge.dot(sum) * 2.0 / square)).unit(),
-        false => sum.unit(), // a frame without positions
+    if square.value() > 0.0 {
+        (sum - edge * (edge.dot(sum) * 2.0 / square)).unit()
+    } else {
+        sum.unit() // a frame without positions
     }
 }
 
@@ -60,8 +61,9 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
         let from = midway(n, p) - (n[0] + n[1]) * 0.5;
         libm::sqrt(from.dot(from).into())
     };
-    let most = [apart(0, 1), apart(1, 2), apart(2, 0)];
-    let most = most.into_iter().fold(0.0, f64::max);
+    let most = [apart(0, 1), apart(1, 2), apart(2, 0)]
+        .into_iter()
+        .fold(0.0, f64::max);
     let length = f64::from(least_length(normals.map(|n| (n, 1.0))));
     if width > WIDEST {
         return Approximation::NONE;
@@ -109,6 +111,7 @@ impl Method for BiquadraticNormals {
         if !polygon.is_whole || width > WIDEST {
             return OneOf::Second(());
         }
+        // N (Σ a_j w_j)² at a corner, and half-way along an edge, where both a_i are ½.
         let at_corner = |v: Corner<R>| v.normal * (v.weight * v.weight);
         let at_edge = |v: Corner<R>, w: Corner<R>| {
             let normal = midway([v.normal, w.normal], [v.position, w.position]);

@@ -47,7 +47,7 @@ fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
         return Approximation::NONE;
     };
     if frame.is_local() {
-        return positional::approximation(frame, polygon, (farthest, 1.0 / 6.0));
+        return positional::approximation(frame, polygon, farthest, 1.0 / 6.0);
     }
     Approximation {
         cosine: 0.5 * libm::pow(relative(farthest, corners).into(), 3.0),

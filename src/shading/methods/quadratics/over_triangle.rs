@@ -55,9 +55,10 @@ pub(crate) fn farthest([a, b, c]: [Vec3<f32>; 3]) -> f32 {
 /// be 0.
 pub(crate) fn relative(across: fn([Vec3<f32>; 3]) -> f32, corners: [(Vec3<f32>, f32); 3]) -> f32 {
     let length = least_length(corners);
-    match length > 0.0 {
-        true => across(corners.map(|(unit, weight)| unit * weight)) / length,
-        false => f32::INFINITY,
+    if length > 0.0 {
+        across(corners.map(|(unit, weight)| unit * weight)) / length
+    } else {
+        f32::INFINITY
     }
 }
 

@@ -132,9 +132,10 @@ impl Triangle {
             Falloff::Inverse => most / length,
             _ => most / length * (most / length),
         };
-        match length > 0.0 {
-            true => [factor * change * change * change, strength],
-            false => [f32::INFINITY; 2],
+        if length > 0.0 {
+            [factor * change * change * change, strength]
+        } else {
+            [f32::INFINITY; 2]
         }
     }
 
@@ -172,7 +173,8 @@ type Light = (Place<Vec3<f32>>, Falloff);
 pub(crate) fn approximation(
     frame: &Frame,
     polygon: &Polygon,
-    (across, share): (Across, f64),
+    across: Across,
+    share: f64,
 ) -> Approximation {
     let &[a, b, c] = frame.corners(polygon) else {
         return Approximation::NONE;

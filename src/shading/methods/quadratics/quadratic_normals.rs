@@ -38,9 +38,10 @@ pub struct QuadraticNormals;
 fn approximation(frame: &Frame, polygon: &Polygon) -> Approximation {
     let extent = Extent::of(frame, polygon);
     let apart = extent.weights * extent.apart() + extent.weights - 1.0;
-    let cosine = match extent.cosine > 0.0 {
-        true => 0.0241 * libm::pow(apart / extent.cosine, 3.0),
-        false => f64::INFINITY,
+    let cosine = if extent.cosine > 0.0 {
+        0.0241 * libm::pow(apart / extent.cosine, 3.0)
+    } else {
+        f64::INFINITY
     };
     Approximation {
         cosine,

@@ -94,16 +94,18 @@ fn approximation(frame: &Frame, polygon: &Polygon, parameters: &[Value]) -> Appr
     };
     let [a, b, c] = corners.map(|(normal, _)| normal);
     let lacks = [[a, b], [b, c], [c, a]].map(lack);
-    let short = match parameters[0] == BARRERA && is_alike(corners.map(|(_, weight)| weight)) {
-        true => 4.0 / 3.0 * lacks.into_iter().fold(0.0, f64::max),
-        false => 0.0,
+    let short = if parameters[0] == BARRERA && is_alike(corners.map(|(_, weight)| weight)) {
+        4.0 / 3.0 * lacks.into_iter().fold(0.0, f64::max)
+    } else {
+        0.0
     };
-    let mut error = match frame.is_local() {
-        true => positional::approximation(frame, polygon, (longest, SHARE)),
-        false => Approximation {
+    let mut error = if frame.is_local() {
+        positional::approximation(frame, polygon, longest, SHARE)
+    } else {
+        Approximation {
             cosine: 0.102 * libm::pow(width(corners).into(), 3.0),
             ..Approximation::NONE
-        },
+        }
     };
     error.cosine += short;
     error

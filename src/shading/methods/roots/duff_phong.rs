@@ -80,6 +80,7 @@ impl<const L: usize> DuffOfNormals<L> {
         lit: &LightAt<'_, F>,
         Linear { at: n, step: dn }: Linear<Vec3<F>>,
     ) -> <Self as Shader>::Walk<F> {
+        // Products are linear in N, so those of ΔN are their steps.
         let (at, step) = (lit.products(n), lit.products(dn));
         (Linear { at, step }, Quadratic::square(n, dn)) // 4.3
     }
@@ -134,6 +135,7 @@ impl<const L: usize> DuffPhongLocal<L> {
         let ((n, p, w), (dn, dp, dw)) = (at, step);
 
         let eye = lit.model.eye;
+        // `toward` is linear in point and weight, so it turns their steps into steps of the vector.
         let (v, dv) = (toward(eye, p, w), toward(eye, dp, dw));
         let half = w * dw;
         let nn = Quadratic::square(n, dn);
