@@ -83,6 +83,7 @@ impl Soup {
         let (corners, count) = weld_repeated(&rounded.collect::<Vec<Vec3>>());
         let mut polygons = Polygons::default();
         polygons.positions.reserve(count);
+        polygons.notes = self.notes;
         polygons.corners.reserve(corners.len());
         let mut start = 0;
         for &end in &self.ends {
@@ -97,7 +98,6 @@ impl Soup {
             start = end as usize;
             polygons.end_polygon(Place::Line(0))?;
         }
-        polygons.notes = self.notes;
         Ok(polygons)
     }
 }

@@ -187,8 +187,8 @@ fn warnings_from_before_an_error_come_with_it() {
     assert_eq!(
         sentences(&error.notes),
         [
-            "points and lines are not drawn (line 7)",
-            "`hello` is not an OBJ statement and is ignored (line 6)"
+            "`hello` is not an OBJ statement and is ignored (line 6)",
+            "points and lines are not drawn (line 7)"
         ]
     );
     let error = parse("Not Found\n").unwrap_err();
