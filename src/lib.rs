@@ -120,6 +120,15 @@ pub use fixed;
 #[cfg(feature = "alloc")]
 pub use glam;
 
+/// How this crate was built. Times mean nothing without it.
+pub mod build {
+    /// The compiler, as in `rustc 1.95.0 (…)`, or `unknown`.
+    pub const RUSTC: &str = env!("FASTPHONG_RUSTC");
+    /// The kind of profile: `release` or `debug`.
+    pub const PROFILE: &str = env!("FASTPHONG_PROFILE");
+    /// The optimisation level: `0` to `3`, `s` or `z`.
+    pub const OPT_LEVEL: &str = env!("FASTPHONG_OPT_LEVEL");
+}
 #[cfg(feature = "alloc")]
 pub mod compare;
 #[cfg(feature = "alloc")]

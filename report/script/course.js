@@ -1,4 +1,4 @@
-/* View: course. Shows the chapters that Rust made from docs/course, one below the other, and fills in figures and findings when they come near. */
+/* View: course. Shows the chapters that Rust made from report/course, one below the other, and fills in figures and findings when they come near. */
 
 const CHAPTERS = $$("#course article");
 const chapterOf = part => CHAPTERS.find(c => c.dataset.part === (part === "stop" ? "0" : part));

@@ -1,5 +1,5 @@
-//! Checks the rooms of `src`, one folder each. Imports point one way, between rooms and between
-//! files.
+//! Checks the rooms of the library in `src` and of the program in `program/src`, one folder each.
+//! Imports point one way, between rooms and between files.
 //!
 //! It finds paths without parsing Rust: a path follows `crate::`, `super::` or `fastphong::`
 //! outside comments.
@@ -7,6 +7,10 @@
 use crate::markdown::{files, is_word, read, root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+
+/// The source folder of the library, and that of the program. The rooms of the program are named
+/// `program/ROOM`.
+const TREES: [(&str, &str); 2] = [("src", ""), ("program/src", "program/")];
 
 /// The rooms in order, each with the rooms that it may import. Those must stand before it.
 const ROOMS: &[(&str, &str)] = &[
@@ -29,18 +33,26 @@ const ROOMS: &[(&str, &str)] = &[
         "picture number mesh scene frame reference shading raster",
     ),
     (
-        "diagnose",
+        "program/compare",
+        "picture number mesh scene frame reference shading raster compare",
+    ),
+    (
+        "program/diagnose",
         "picture number mesh scene frame reference shading raster",
     ),
     (
-        "lectures",
-        "picture number mesh scene frame reference shading raster compare",
+        "program/lectures",
+        "picture number mesh scene frame reference shading raster compare program/compare",
     ),
-    ("report", "picture number shading compare lectures"),
-    ("view", "picture mesh scene frame shading raster"),
     (
-        "cli",
-        "picture number mesh scene frame reference shading raster compare diagnose lectures report view",
+        "program/report",
+        "picture number shading compare program/compare program/lectures",
+    ),
+    ("program/view", "picture mesh scene frame shading raster"),
+    (
+        "program/cli",
+        "picture number mesh scene frame reference shading raster compare program/compare \
+         program/diagnose program/lectures program/report program/view",
     ),
 ];
 
@@ -91,9 +103,12 @@ fn paths(source: &str) -> Vec<String> {
 fn target(module: &str, path: &str, modules: &BTreeSet<&str>) -> Option<String> {
     let ups = path.matches("super::").count();
     let above: Vec<&str> = module.split('/').collect();
-    let mut whole = match ups {
-        0 => Vec::new(),
-        _ => above[..above.len().checked_sub(ups)?].to_vec(),
+    let mut whole = if ups > 0 {
+        above[..above.len().checked_sub(ups)?].to_vec()
+    } else if above[0] == "program" && path.starts_with("crate::") {
+        vec!["program"]
+    } else {
+        Vec::new()
     };
     whole.extend(path.split("::").skip(ups.max(1)));
     let prefixes = (1..=whole.len()).rev().map(|n| whole[..n].join("/"));
@@ -102,16 +117,20 @@ fn target(module: &str, path: &str, modules: &BTreeSet<&str>) -> Option<String> 
         .find(|prefix| modules.contains(&**prefix))
 }
 
-/// Returns the imports of each file. Files are named by their modules, as in `frame/builder`.
+/// Returns the imports of each file. Files are named by their modules, as in `frame/builder` or
+/// `program/cli/files`.
 fn imports() -> BTreeMap<String, BTreeSet<String>> {
     let mut sources = BTreeMap::new();
-    for file in files("src", "rs") {
-        let path = file.to_string_lossy();
-        let module = path.trim_start_matches("src/").trim_end_matches(".rs");
-        let module = module.trim_end_matches("/mod").to_owned();
-        let is_in_a_room = root().join("src").join(&module).is_dir() || module.contains('/');
-        if is_in_a_room && !module.split('/').any(|part| FOR_TESTS.contains(&part)) {
-            sources.insert(module, read(&file));
+    for (folder, package) in TREES {
+        for file in files(folder, "rs") {
+            let path = file.strip_prefix(folder).expect("a file of the folder");
+            let path = path.with_extension("");
+            let module = path.to_string_lossy();
+            let module = module.trim_end_matches("/mod");
+            let is_in_a_room = root().join(folder).join(module).is_dir() || module.contains('/');
+            if is_in_a_room && !module.split('/').any(|part| FOR_TESTS.contains(&part)) {
+                sources.insert(format!("{package}{module}"), read(&file));
+            }
         }
     }
     let modules: BTreeSet<&str> = sources.keys().map(String::as_str).collect();
@@ -126,8 +145,18 @@ fn imports() -> BTreeMap<String, BTreeSet<String>> {
         .collect()
 }
 
+/// Returns the room of a module.
+fn room(module: &str) -> String {
+    let is_program = module.starts_with("program/");
+    let parts: Vec<&str> = module
+        .split('/')
+        .take(1 + usize::from(is_program))
+        .collect();
+    parts.join("/")
+}
+
 #[test]
-fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
+fn every_source_folder_is_a_room_and_imports_point_one_way() {
     let mut before: Vec<&str> = Vec::new();
     for (room, allowed) in ROOMS {
         for other in allowed.split_whitespace() {
@@ -138,16 +167,17 @@ fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
         }
         before.push(room);
     }
-    for entry in fs::read_dir(root().join("src")).expect("src can be read") {
-        let name = entry.expect("src can be read").file_name();
-        let name = name.to_string_lossy();
-        let is_room = before.contains(&&*name) || ["lib.rs", "main.rs"].contains(&&*name);
-        assert!(
-            is_room,
-            "src/{name} is no room: put it into one of {before:?}"
-        );
+    for (folder, package) in TREES {
+        for entry in fs::read_dir(root().join(folder)).expect("the folder can be read") {
+            let name = entry.expect("the folder can be read").file_name();
+            let name = name.to_string_lossy();
+            let is_room = before.contains(&&*format!("{package}{name}"));
+            assert!(
+                is_room || ["lib.rs", "main.rs"].contains(&&*name),
+                "{folder}/{name} is no room: put it into one of {before:?}"
+            );
+        }
     }
-    let room = |module: &str| module.split('/').next().unwrap_or_default().to_owned();
     let mut wrong = Vec::new();
     for (module, targets) in imports() {
         let here = room(&module);
@@ -158,7 +188,7 @@ fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
         for target in targets {
             let there = room(&target);
             if here != there && !allowed.split_whitespace().any(|room| room == there) {
-                wrong.push(format!("src/{module} imports {target}"));
+                wrong.push(format!("{module} imports {target}"));
             }
         }
     }
@@ -194,4 +224,33 @@ fn no_file_imports_itself_through_others() {
         imports.is_empty(),
         "files that import each other: {imports:#?}"
     );
+}
+
+/// A package is published with the files of its own folder only. Tests may read others.
+#[test]
+fn packages_compile_in_only_their_own_files() {
+    let mut found = 0;
+    for ((folder, _), package) in TREES.into_iter().zip(["", "program"]) {
+        for file in files(folder, "rs") {
+            let is_test = file
+                .iter()
+                .any(|part| part == "tests" || part == "tests.rs");
+            let source = read(&file);
+            let (code, _) = source
+                .split_once("#[cfg(test)]\nmod tests {")
+                .unwrap_or((&source, ""));
+            for call in ["include_str!(", "include_bytes!(", "include!("] {
+                for (at, _) in code.match_indices(call).filter(|_| !is_test) {
+                    // The text may be the first part of `concat!`.
+                    let path = code[at..].split('"').nth(1).expect("a path");
+                    let ups = path.matches("../").count();
+                    let inner = file.strip_prefix(package).expect("a file of the package");
+                    let depth = inner.iter().count() - 1;
+                    assert!(ups <= depth, "{}: {path} is outside", file.display());
+                    found += 1;
+                }
+            }
+        }
+    }
+    assert!(found >= 5, "only {found} files are compiled in");
 }

@@ -1,4 +1,4 @@
-//! Compares the tables of `docs/small.md` with `docs/small.json`, which `examples/small/run`
+//! Compares the tables of `docs/small.md` with `report/small.json`, which `examples/small/run`
 //! writes.
 
 use crate::markdown::read;
@@ -18,7 +18,7 @@ fn number(value: &Value) -> f64 {
 #[test]
 fn the_tables_hold_the_measured_figures() {
     let page = read("docs/small.md");
-    let data: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let data: Value = serde_json::from_str(&read("report/small.json")).expect("JSON");
     let list = |key: &str| data[key].as_array().expect("a list").clone();
     let has = |row: String| assert!(page.contains(&row), "docs/small.md has no row {row}");
     for span in list("spans") {

@@ -27,11 +27,13 @@ const NUMBERED: [(u32, u32); 4] = [(1, 1), (2, 1), (3, 6), (4, 12)];
 /// Returns the documents for readers.
 fn documents() -> Vec<PathBuf> {
     let mut all = files("docs", "md");
+    all.extend(files("report/course", "md"));
     all.extend(
         [
             "README.md",
             "CONTRIBUTING.md",
             "CHANGELOG.md",
+            "program/README.md",
             "scenes/README.md",
         ]
         .map(PathBuf::from),
@@ -248,7 +250,7 @@ fn the_number_of_figures_is_right_everywhere() {
 fn is_path(text: &str) -> bool {
     let plain = !text.contains([' ', '*', '<', '$', '…', ':', '(', '{']) && !text.contains("NAME");
     let folder = [
-        "src", "tests", "docs", "examples", "benches", "scenes", ".ci",
+        "src", "program", "tests", "docs", "report", "examples", "benches", "scenes", ".ci",
     ];
     let ending = [".md", ".rs", ".toml", ".obj"]
         .iter()

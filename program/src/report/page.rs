@@ -8,38 +8,22 @@ use crate::compare::table::{Table, html_text};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use fastphong_report::{SCRIPT, STYLE, TEMPLATE, VIEWER};
 use serde_json::{Number, Value};
 
-const TEMPLATE: &str = include_str!("../../../report/template.html");
-/// The template of a viewer, which the script clones.
-pub(super) const VIEWER: &str = include_str!("../../../report/viewer.html");
-pub(super) const STYLE: &str = include_str!("../../../report/app.css");
+/// The files of the script that a viewer needs on a page that brings its own pictures.
+const OF_VIEWER: [&str; 4] = ["markup.js", "controls.js", "numbers.js", "viewer.js"];
 
-/// Joins files of `report/script` in this order. At load time a file can use only definitions of
-/// files before it.
-macro_rules! script {
-    ($($file:literal)*) => {
-        concat!($(include_str!(concat!("../../../report/script/", $file, ".js"))),*)
-    };
+/// Joins the files of the script.
+fn script() -> String {
+    SCRIPT.iter().map(|(_, text)| *text).collect()
 }
 
-const SCRIPT: &str = script!(
-    "markup" "controls" "numbers" "data" "marks" "studio" "pictures" "errors" "live" "turn" "viewer" "charts" "plot" "findings"
-    // Views, each with the files that only it uses.
-    "pareto" "overview"
-    "probe" "row" "scene-table" "scenes"
-    "formulas" "methods"
-    "corners" "growth" "small" "beside" "speed"
-    "terms" "traces" "steps" "stop-words" "stop-stage" "stop-strip" "stop-ask" "stop-panel" "stop"
-    "spheres" "figure" "lectures"
-    "hands" "questions" "goals" "costs" "course"
-    "measured"
-    // All views.
-    "views" "link" "keys" "page"
-);
-
-/// The part of the script that a viewer needs on a page that brings its own pictures.
-pub(super) const VIEWER_SCRIPT: &str = script!("markup" "controls" "numbers" "viewer");
+/// Joins the part of the script that a viewer needs.
+pub(super) fn viewer_script() -> String {
+    let files = SCRIPT.iter().filter(|(file, _)| OF_VIEWER.contains(file));
+    files.map(|(_, text)| *text).collect()
+}
 
 /// Fills the template.
 pub(super) fn page(report: &Report) -> String {
@@ -63,7 +47,7 @@ pub(super) fn page(report: &Report) -> String {
         ("data", script_text(&json(report))),
         ("pictures", pictures(report)),
         ("viewer", VIEWER.to_string()),
-        ("script", bare(SCRIPT)),
+        ("script", bare(&script())),
     ];
     filled(TEMPLATE, &parts)
 }
@@ -286,7 +270,8 @@ mod tests {
         let files = std::fs::read_dir(folder).expect("the folder of the script");
         for file in files.map(|entry| entry.expect("a readable folder").path()) {
             let text = std::fs::read_to_string(&file).expect("a file of text");
-            assert!(SCRIPT.contains(&text), "{} is not listed", file.display());
+            let is_joined = SCRIPT.iter().any(|(_, listed)| *listed == text);
+            assert!(is_joined, "{} is not listed", file.display());
         }
     }
 
@@ -295,12 +280,13 @@ mod tests {
         let script =
             "/* A sum,\n   of two. */\n\tconst sum = a + b; // here\n\n// no\n/* no */\n\t\tsum;\n";
         assert_eq!(bare(script), "const sum = a + b; // here\nsum;\n");
-        for text in [SCRIPT, STYLE] {
+        let joined = super::script();
+        for text in [&*joined, STYLE] {
             let page = bare(text);
             assert!(!page.contains("\n\t") && !page.contains("\n/*") && page.len() < text.len());
         }
         // `bare` would drop all lines after a comment that ends in the middle of a line.
-        let comments = SCRIPT
+        let comments = joined
             .lines()
             .chain(STYLE.lines())
             .map(str::trim_start)

@@ -2,18 +2,15 @@
 //!
 //! Its parts are in `report/pairs`. It shares style and viewer with the report.
 
-use super::page::{STYLE, VIEWER, VIEWER_SCRIPT, filled};
+use super::page::{filled, viewer_script};
 use super::pictures::data_uri;
 use crate::compare::table::html_text;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use fastphong::compare::metrics::judgement::LargestRegion;
+use fastphong_report::{PAIRS_SCRIPT, PAIRS_STYLE, PAIRS_TEMPLATE, STYLE, VIEWER};
 use serde_json::json;
-
-const TEMPLATE: &str = include_str!("../../../report/pairs/page.html");
-const OWN_STYLE: &str = include_str!("../../../report/pairs/style.css");
-const OWN_SCRIPT: &str = include_str!("../../../report/pairs/script.js");
 
 /// The contents of the page.
 #[derive(Clone, Debug, Default)]
@@ -71,15 +68,15 @@ impl PairsPage {
         };
         let parts = [
             ("title", html_text(&self.title)),
-            ("style", STYLE.to_string() + OWN_STYLE),
+            ("style", STYLE.to_string() + PAIRS_STYLE),
             ("about", html_text(&self.about)),
             ("levels", self.levels.to_string()),
             ("pairs", html(false)),
             ("equal", html(true)),
             ("viewer", VIEWER.to_string()),
-            ("script", VIEWER_SCRIPT.to_string() + OWN_SCRIPT),
+            ("script", viewer_script() + PAIRS_SCRIPT),
         ];
-        filled(TEMPLATE, &parts)
+        filled(PAIRS_TEMPLATE, &parts)
     }
 }
 
