@@ -132,10 +132,16 @@ pub mod build {
 #[cfg(feature = "alloc")]
 pub mod compare;
 #[cfg(feature = "alloc")]
+pub mod drawing;
+#[cfg(feature = "alloc")]
 pub mod frame;
 pub mod integer;
 #[cfg(feature = "alloc")]
 pub mod mesh;
+#[cfg(feature = "alloc")]
+pub mod note;
+#[cfg(feature = "alloc")]
+pub mod notes;
 #[cfg(feature = "alloc")]
 pub mod number;
 #[cfg(feature = "alloc")]

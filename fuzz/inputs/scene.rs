@@ -44,7 +44,7 @@ pub fn run(bytes: &[u8]) {
         let mesh = mesh.map_err(|error| UnusableMesh::new(error.to_string()))?;
         match mesh.polygon_count() > MOST_POLYGONS {
             true => Err(UnusableMesh::new("more polygons than are drawn here")),
-            false => Ok((Arc::new(mesh), Vec::new())),
+            false => Ok((Arc::new(mesh), Default::default())),
         }
     };
     let mut scene = match file.resolve(load) {

@@ -42,6 +42,7 @@ pub(crate) mod winding;
 use self::vertex_normals::NormalRule;
 #[cfg(feature = "io")]
 use self::vertex_normals::{NormalSource, NormalWeight};
+use crate::note::{Note, Setting};
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
@@ -234,6 +235,13 @@ impl PolygonMesh {
     #[doc(hidden)]
     pub fn up_by_custom(&self) -> Option<char> {
         self.up_by_custom
+    }
+
+    /// Returns a note for a mesh in a format where z points up by custom.
+    pub(crate) fn up_note(&self) -> Option<Note> {
+        let is_z = self.up_by_custom == Some('z');
+        let note = || Note::note("mesh/up", "z is up in most STL files: ");
+        is_z.then(|| note().set(Setting::word("camera.up", "z")))
     }
 
     /// Returns the rule for vertex normals when the mesh is drawn on its own and the caller sets no

@@ -22,6 +22,8 @@
 //! Every operation is `#[inline(always)]`. A function that is not inlined into a pixel loop is not
 //! compiled for the loop's instruction set.
 
+#[doc(hidden)]
+pub mod counted;
 mod counting;
 #[cfg(feature = "simd")]
 pub(crate) mod lanes;

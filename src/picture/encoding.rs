@@ -1,7 +1,7 @@
 //! Transfer functions: from computed intensities to stored grey levels, and back.
 
 use super::{LevelRows, Levels};
-use super::{LinearPicture, Picture8};
+use super::{LinearPicture, Picture, Picture8};
 
 /// How linear intensities are stored in eight bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -240,6 +240,14 @@ pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
             let encoder = Encoder::srgb();
             picture.map(|pixel| encoder.store(pixel))
         }
+    }
+}
+
+/// Returns a linear picture in `f64` as it is stored in this encoding.
+pub fn store_f64(picture: &Picture<[f64; 4]>, encoding: Encoding) -> Picture8 {
+    match encoding {
+        Encoding::Linear => picture.map(|pixel| pixel.map(|c| libm::round(255.0 * c) as u8)),
+        Encoding::Srgb => store(&picture.map(|pixel| pixel.map(|c| c as f32)), encoding),
     }
 }
 

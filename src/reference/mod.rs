@@ -44,7 +44,8 @@ pub use coverage::is_anything_covered;
 pub use visibility::{Visibility, visibility};
 
 use crate::frame::{Frame, Polygon};
-use crate::picture::{Alpha, LinearPicture, Picture, Picture8};
+use crate::picture::encoding::store_f64;
+use crate::picture::{Alpha, Encoding, LinearPicture, Picture, Picture8};
 use crate::scene::Power;
 use attributes::VertexAttributes;
 use coverage::Scanline;
@@ -153,8 +154,7 @@ impl ReferencePicture {
 
     /// Returns the picture in eight bits: round(255 c), without a transfer function.
     pub fn to_picture8(&self) -> Picture8 {
-        self.picture
-            .map(|pixel| pixel.map(|c| libm::round(255.0 * c) as u8))
+        store_f64(&self.picture, Encoding::Linear)
     }
 }
 

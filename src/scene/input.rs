@@ -29,8 +29,9 @@ use crate::mesh::builtin::{BUILTINS, builtin};
 #[cfg(feature = "gltf")]
 use crate::mesh::read::view;
 use crate::mesh::read::{
-    ReadError, cause, gzip, is_no_scene, load_mesh_by, mesh_endings, parse_mesh,
+    ReadError, cause, gzip, is_no_scene, load_mesh_by as read_mesh_by, mesh_endings, parse_mesh,
 };
+use crate::note::{Note, Notes};
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
 use std::collections::BTreeMap;
@@ -363,7 +364,7 @@ pub fn has_ending(path: &Path, ending: &str) -> bool {
         .is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
-/// Returns the scene that `file` describes, with its meshes, warnings and notes.
+/// Returns the scene that `file` describes, with its meshes, and notes about it.
 ///
 /// # Errors
 /// [`SceneError`] if a value is out of its range or a mesh cannot be used.
@@ -380,29 +381,30 @@ pub fn resolve_by(
     file: &SceneFile,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<Resolved, SceneError> {
-    file.resolve(|name, folder| load_named(name, folder, read, file.draws_materials_of(name)))
+    file.resolve(|name, folder| load_mesh_by(name, folder, read))
 }
 
 /// Loads the mesh called `name`: `builtin:…`, `shipped:…`, `-`, or a mesh file relative to
-/// `folder`. Returns it with the loader's warnings.
+/// `folder`. Returns it with the loader's notes.
 ///
 /// # Errors
 /// [`UnusableMesh`] says what is wrong, in which file and line, and what was expected.
 pub fn load_mesh(name: &str, folder: &Path) -> MeshResult {
-    load_named(name, folder, &mut read_input, true)
+    load_mesh_by(name, folder, &mut read_input)
 }
 
-/// Loads a mesh. With `draws_materials` false, warnings about its materials are left out, because
-/// other materials replace them.
-fn load_named(
+/// Loads the mesh called `name` as [`load_mesh`] does. `read` returns the contents of files.
+///
+/// # Errors
+/// As for [`load_mesh`].
+pub fn load_mesh_by(
     name: &str,
     folder: &Path,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    draws_materials: bool,
 ) -> MeshResult {
     if let Some(spec) = name.strip_prefix(BUILTIN) {
         let mesh = builtin(spec).map_err(|error| UnusableMesh::new(error.to_string()))?;
-        return Ok((Arc::new(mesh), Vec::new()));
+        return Ok((Arc::new(mesh), Notes::default()));
     }
     let loaded = if let Some(file) = name.strip_prefix(SHIPPED) {
         let Some(bytes) = shipped_file(file) else {
@@ -418,13 +420,13 @@ fn load_named(
             bytes.ok_or(std::io::ErrorKind::NotFound.into())
         })
     } else if name == STANDARD_INPUT {
-        load_mesh_by(Path::new(name), read).map_err(|error| ReadError {
+        read_mesh_by(Path::new(name), read).map_err(|error| ReadError {
             path: shown(name).into(),
             ..error
         })
     } else {
         let path: PathBuf = folder.join(name);
-        let loaded = load_mesh_by(&path, read);
+        let loaded = read_mesh_by(&path, read);
         let is_shape = is_builtin(name.split('?').next().unwrap_or_default());
         if is_shape && matches!(&loaded, Err(error) if error.is_unreadable) {
             let hint = format!("did you mean `{BUILTIN}{name}`?");
@@ -433,15 +435,17 @@ fn load_named(
         }
         loaded
     };
+    let as_notes = |texts: Vec<String>| {
+        let notes = texts.into_iter();
+        notes.map(|text| Note::warning("mesh", text)).collect()
+    };
     let loaded = loaded.map_err(|error| UnusableMesh {
         reason: error.to_string(),
-        warnings: error.warnings,
+        notes: as_notes(error.warnings),
     })?;
     let name = shown(name);
-    let is_told = |i: &usize| draws_materials || !loaded.material_warnings.contains(i);
-    let warnings = (0..loaded.warnings.len()).filter(is_told);
-    let warnings = warnings.map(|i| format!("{name}: {}", loaded.warnings[i]));
-    Ok((Arc::new(loaded.mesh), warnings.collect()))
+    let warnings = as_notes(loaded.warnings);
+    Ok((Arc::new(loaded.mesh), warnings.about(name)))
 }
 
 /// Rewrites the mesh paths of `file` relative to the current folder, so that the scene can be
@@ -519,8 +523,8 @@ mod tests {
                 scene.name
             );
             assert_eq!(
-                (embedded.warnings, from_file.warnings),
-                (Vec::new(), Vec::new()),
+                (embedded.notes, from_file.notes),
+                (Notes::default(), Notes::default()),
                 "{}",
                 scene.name
             );

@@ -27,8 +27,12 @@ pub(crate) mod direction;
 pub mod file;
 #[cfg(feature = "io")]
 pub mod input;
+#[cfg(feature = "io")]
+mod light_rig;
 mod lighting;
 mod of_mesh;
+#[cfg(feature = "io")]
+pub mod open;
 #[doc(hidden)]
 pub mod orbit;
 mod power;
@@ -48,6 +52,7 @@ use crate::mesh::vertex_normals::NormalRule;
 use crate::mesh::{Material, PolygonMesh};
 use crate::picture::{Encoding, Rgb};
 use crate::sync::Arc;
+use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DAffine3, DMat3, DVec3};
@@ -56,6 +61,8 @@ use glam::{DAffine3, DMat3, DVec3};
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Object {
+    /// The name for notes: the mesh file's, `builtin:cube`, or empty.
+    pub name: String,
     /// The shape. Objects may share it.
     pub mesh: Arc<PolygonMesh>,
     /// The transform from model space to world space. The positions of the mesh are relative to its
@@ -74,6 +81,7 @@ impl Object {
     pub fn new(mesh: impl Into<Arc<PolygonMesh>>) -> Object {
         let mesh = mesh.into();
         Object {
+            name: String::new(),
             normals: mesh.normal_rule(),
             mesh,
             transform: DAffine3::IDENTITY,
@@ -91,7 +99,7 @@ impl Object {
     }
 
     /// Returns the world positions that polygons use, each once.
-    pub(crate) fn world_points(&self) -> impl Iterator<Item = DVec3> {
+    pub fn world_points(&self) -> impl Iterator<Item = DVec3> {
         let mesh = &self.mesh;
         let mut used = vec![false; mesh.positions().len()];
         for &corner in mesh.corners() {
@@ -204,4 +212,10 @@ impl Scene {
     pub const MAX_SIDE: u32 = 16_384;
     /// The largest count of lights in a scene.
     pub const MAX_LIGHTS: usize = 64;
+
+    /// Returns the world positions that polygons use, for each object each once. A fitted camera
+    /// depends on nothing else.
+    pub fn world_points(&self) -> Vec<DVec3> {
+        self.objects.iter().flat_map(Object::world_points).collect()
+    }
 }

@@ -4,9 +4,8 @@ use super::direction::unit;
 use super::{Camera, Culling, Fit, Light, Object, Projection, Scene};
 use crate::mesh::winding::WindingDoubts;
 use crate::mesh::{Material, PolygonMesh};
-use crate::sync::Arc;
 use alloc::vec;
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
 
 impl Scene {
     /// The default width and height of a picture.
@@ -79,10 +78,8 @@ impl Scene {
                 [1.0; 3],
             )],
             objects: vec![Object {
-                normals: mesh.normal_rule(),
-                mesh: Arc::new(mesh),
-                transform: DAffine3::IDENTITY,
                 material: own,
+                ..Object::new(mesh)
             }],
             culling: match two_sided {
                 true => Culling::None,
@@ -120,7 +117,7 @@ mod tests {
             let mesh = builtin(spec).unwrap();
             let from_file = SceneFile::for_mesh(std::format!("builtin:{spec}"));
             let from_file = from_file
-                .resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
+                .resolve(|_, _| Ok((mesh.clone().into(), Default::default())))
                 .unwrap();
             let (a, b) = (
                 Scene::of_mesh(mesh).frame().unwrap(),
@@ -152,7 +149,7 @@ mod tests {
         let mesh = builder.finish().unwrap();
         let from_file = SceneFile::for_mesh("builtin:gear");
         let from_file = from_file
-            .resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
+            .resolve(|_, _| Ok((mesh.clone().into(), Default::default())))
             .unwrap();
         let (a, b) = (
             Scene::of_mesh(mesh).frame().unwrap(),
@@ -186,7 +183,7 @@ mod tests {
             let mesh = parse_mesh("t.obj", text.as_bytes(), none).unwrap().mesh;
             let mut file = SceneFile::for_mesh("t.obj");
             let load = |file: &SceneFile| {
-                file.resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
+                file.resolve(|_, _| Ok((mesh.clone().into(), Default::default())))
                     .unwrap()
             };
             let resolved = load(&file);

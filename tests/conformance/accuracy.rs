@@ -273,7 +273,7 @@ fn weighted_highlights_are_within_their_bound() {
     let resolved = file.resolve(|name, _| {
         let shape = builtin(name.trim_start_matches("builtin:"));
         let shape = shape.map_err(|error| UnusableMesh::new(error.to_string()))?;
-        Ok((Arc::new(shape), Vec::new()))
+        Ok((Arc::new(shape), Default::default()))
     });
     let scene = resolved.unwrap_or_else(|e| panic!("{e}")).scene;
     check_exponents("weighted", &scene.frame().expect("a frame"), &[1.0, 4.0]);

@@ -148,7 +148,7 @@ fn read(text: &str, scene: &Scene) -> Result<Scene, String> {
     let file = SceneFile::parse(text, "made.toml").map_err(|error| error.render(false))?;
     let load = |name: &str, _: &Path| {
         let number: usize = name.parse().expect("a number");
-        Ok((scene.objects[number].mesh.clone(), Vec::new()))
+        Ok((scene.objects[number].mesh.clone(), Default::default()))
     };
     let resolved = file.resolve(load).map_err(|error| error.render(false))?;
     Ok(resolved.scene)

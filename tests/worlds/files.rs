@@ -80,7 +80,7 @@ impl Sheet {
         file.overlay(SceneTable::parse(&over).map_err(|error| error.render(false))?);
         let loaded = parse(obj).map_err(|error| error.to_string())?;
         let mesh = Arc::new(loaded.mesh);
-        let resolved = file.resolve(|_, _| Ok((mesh.clone(), Vec::new())));
+        let resolved = file.resolve(|_, _| Ok((mesh.clone(), Default::default())));
         let scene = resolved.map_err(|error| error.render(false))?.scene;
         let frame = scene.frame().map_err(|error| error.to_string())?;
         // An average would stop at an edge between quads that are wound differently.

@@ -31,13 +31,13 @@ impl World {
         let file = SceneFile::parse(&self.scene, "world.toml").map_err(|e| e.render(false))?;
         let load = |name: &str, _: &Path| match name.strip_prefix("builtin:") {
             Some(spec) => builtin(spec)
-                .map(|mesh| (Arc::new(mesh), Vec::new()))
+                .map(|mesh| (Arc::new(mesh), Default::default()))
                 .map_err(|error| UnusableMesh::new(error.to_string())),
             None => parse_mesh(name, self.mesh.as_bytes(), |library| match library {
                 "world.mtl" => Ok(self.materials.clone().into_bytes()),
                 _ => Err(ErrorKind::NotFound.into()),
             })
-            .map(|loaded| (Arc::new(loaded.mesh), loaded.warnings))
+            .map(|loaded| (Arc::new(loaded.mesh), loaded.notes))
             .map_err(|error| UnusableMesh::new(error.to_string())),
         };
         let resolved = file.resolve(load).map_err(|error| error.render(false))?;

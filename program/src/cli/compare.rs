@@ -5,11 +5,12 @@ use super::input_name;
 use super::measured::{Measurement, TimingFlags, command_line};
 use super::memory;
 use super::scene_flags::SceneFlags;
-use super::{CliError, Log, Outcome, done, files, weights};
+use super::{CliError, Log, Outcome, done, weights};
 use crate::compare::comparison::{TableKind, table};
 use crate::report::Document;
 use fastphong::raster::Renderer;
 use fastphong::scene::file::shown;
+use fastphong::scene::open::Look;
 
 /// Compare methods on one scene: error against the reference, time, speed-up
 #[derive(clap::Args, Debug)]
@@ -69,10 +70,8 @@ impl CompareArgs {
 
     /// Prints the table that compares the weights of vertex normals.
     fn compare_weights(&self, log: Log) -> Result<Outcome, CliError> {
-        let file = self.scene.load(&self.input)?;
-        let resolved = files::resolve(&file)?;
-        self.scene.warn_without_hints(&file, &resolved, log);
-        memory::check_frame(&resolved.scene)?;
-        done(&weights::table(shown(&self.input), &resolved.scene)?)
+        let opened = self.scene.open(&self.input, Look::Compared, log)?;
+        memory::check_frame(&opened.scene)?;
+        done(&weights::table(shown(&self.input), &opened.scene)?)
     }
 }

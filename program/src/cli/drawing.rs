@@ -5,70 +5,18 @@ use super::engines::{ENGINES, EngineFlag, EngineInfo, Simd, cs171_shading};
 use super::text::{counted, grouped};
 use super::{CliError, Log};
 use crate::compare::comparison::DrawnBy;
+use fastphong::drawing::Drawing;
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::SimdLevel;
-use fastphong::number::suggest::unknown;
-use fastphong::picture::encoding::{quantise, srgb_encode, store};
+use fastphong::picture::encoding::{quantise, srgb_encode, store_f64};
 use fastphong::picture::image_file::{FilePicture, FilePixels, Format, PpmWriter};
 use fastphong::picture::{Alpha, Encoding, Picture};
 use fastphong::raster::{Edges, Plan, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
-use fastphong::shading::{METHODS, MethodRow, Variant};
-use std::fmt;
+use fastphong::shading::Variant;
 use std::io::{self, Write};
-
-/// The value of `--method` that asks for the reference picture.
-const REFERENCE: &str = "reference";
-
-/// The value of `--method` that lets the program choose.
-pub const AUTO: &str = "auto";
-
-/// The method that computes the colours.
-#[derive(Clone, Debug)]
-pub enum Method {
-    /// A method of the table.
-    Variant(Variant),
-    /// The `f64` closed form that methods are measured against.
-    Reference(Model),
-}
-
-/// The method asked for. `None` is `auto`, which is decided once the frame is known.
-pub type AskedMethod = Option<Method>;
-
-/// Reads `auto`, `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
-pub fn method(text: &str) -> Result<AskedMethod, String> {
-    let (name, rest) = text.split_once(':').unwrap_or((text, ""));
-    if name == REFERENCE {
-        let named = Model::ALL.map(|model| (format!("model={}", model.name()), model));
-        return match named.iter().find(|(name, _)| name == rest) {
-            _ if rest.is_empty() => Ok(Some(Method::Reference(Model::Phong))),
-            Some((_, model)) => Ok(Some(Method::Reference(*model))),
-            None => {
-                let names = named.map(|(name, _)| name).join(", ");
-                Err(format!("`{rest}`: expected one of {names}"))
-            }
-        };
-    }
-    let names = METHODS.iter().map(|entry| entry.info.name);
-    match Variant::parse(text) {
-        Ok(variant) => Ok(Some(Method::Variant(variant))),
-        Err(_) if text == AUTO => Ok(None),
-        Err(error) if MethodRow::named(name).is_some() => Err(error.to_string()),
-        Err(_) => Err(unknown("method", name, names.chain([AUTO, REFERENCE]))),
-    }
-}
-
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Method::Variant(variant) => variant.fmt(f),
-            Method::Reference(Model::Phong) => f.write_str(REFERENCE),
-            Method::Reference(model) => write!(f, "{REFERENCE}:model={}", model.name()),
-        }
-    }
-}
 
 /// What a picture shows, and the engine that draws it.
 enum PictureContent {
@@ -117,7 +65,7 @@ impl RenderJob {
     /// frame.
     pub fn shaded(
         frame: Frame,
-        method: &Method,
+        method: &Drawing,
         engine: EngineFlag,
         simd: Simd,
         renderer: Renderer,
@@ -125,19 +73,22 @@ impl RenderJob {
     ) -> Result<RenderJob, CliError> {
         let name = method.to_string();
         let (title, content) = match (engine, method) {
-            (EngineFlag::Scanlines(_), Method::Variant(variant)) => {
+            (EngineFlag::Scanlines(_), Drawing::Auto) => {
+                unreachable!("a method was chosen before")
+            }
+            (EngineFlag::Scanlines(_), Drawing::Variant(variant)) => {
                 if let Plan::Refused(reason) = variant.plan(&frame, renderer) {
                     return Err(format!("`{variant}` cannot draw this picture: {reason}").into());
                 }
                 let content = PictureContent::Scanlines(variant.clone(), renderer);
                 return Ok(RenderJob::new(frame, content, name));
             }
-            (EngineFlag::Scanlines(Some(engine)), Method::Reference(_)) => {
+            (EngineFlag::Scanlines(Some(engine)), Drawing::Reference(_)) => {
                 let engine = engine.name();
                 let problem = format!("`{method}` is not drawn by the {engine} engine");
                 return Err(format!("{problem}: leave out --engine").into());
             }
-            (EngineFlag::Scanlines(None), Method::Reference(model)) => {
+            (EngineFlag::Scanlines(None), Drawing::Reference(model)) => {
                 ("the reference", PictureContent::Reference(*model))
             }
             (EngineFlag::Barycentric(edges), method) => {
@@ -183,7 +134,7 @@ impl RenderJob {
             }
             PictureContent::Barycentric(..) => DrawnBy::BARYCENTRIC,
             PictureContent::Cs171(..) => in_f64("cs171"),
-            PictureContent::Reference(_) => in_f64(REFERENCE),
+            PictureContent::Reference(_) => in_f64(Drawing::REFERENCE),
             PictureContent::Aov(..) => DrawnBy::new(Renderer::LECTURE),
         };
         (drawn_by, None)
@@ -199,7 +150,7 @@ impl RenderJob {
     pub fn log(&self, asked: bool, threads: Option<usize>, log: Log) {
         let (drawn_by, reason) = self.drawn_by();
         let shown = match drawn_by.engine {
-            REFERENCE => "the reference, f64, 1 thread".to_owned(),
+            Drawing::REFERENCE => "the reference, f64, 1 thread".to_owned(),
             _ => drawn_by.to_string(),
         };
         match reason {
@@ -350,11 +301,11 @@ impl RenderJob {
 }
 
 /// Returns the variant if the engine `name` has the method.
-fn supported<'a>(method: &'a Method, name: &str, title: &str) -> Result<&'a Variant, CliError> {
+fn supported<'a>(method: &'a Drawing, name: &str, title: &str) -> Result<&'a Variant, CliError> {
     let engine = ENGINES.iter().filter(|engine| engine.name == name);
     let has: Vec<&str> = engine.flat_map(EngineInfo::methods).collect();
     match method {
-        Method::Variant(variant) if has.contains(&variant.info().name) => Ok(variant),
+        Drawing::Variant(variant) if has.contains(&variant.info().name) => Ok(variant),
         _ => {
             let problem = format!("{title} does not support the method `{method}`");
             Err(format!("{problem}: expected one of {}", has.join(", ")).into())
@@ -387,12 +338,9 @@ fn in_triangles(frame: Frame, engine: &str, log: Log) -> Frame {
 
 /// Converts a picture in `f64` to one that can be written to a file.
 fn from_f64(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePicture {
-    let single = || picture.map(|pixel| pixel.map(|c| c as f32));
-    match (linear, encoding) {
-        (true, _) => FilePicture::linear(single()),
-        (false, Encoding::Linear) => {
-            FilePicture::stored(picture.map(|pixel| pixel.map(|c| (255.0 * c).round() as u8)))
-        }
-        (false, Encoding::Srgb) => FilePicture::stored(store(&single(), Encoding::Srgb)),
+    if linear {
+        FilePicture::linear(picture.map(|pixel| pixel.map(|c| c as f32)))
+    } else {
+        FilePicture::stored(store_f64(picture, encoding))
     }
 }

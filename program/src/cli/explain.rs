@@ -3,10 +3,11 @@
 use super::engines::engines_with;
 use super::list::{exactness, method_json};
 use super::text::wrapped;
-use super::{CliError, Outcome, done, files};
+use super::{CliError, Outcome, done};
 use crate::compare::comparison::parameter_json;
 use crate::compare::table::Table;
 use crate::report::{OPERATIONS, RATES};
+use fastphong::scene::open::{Look, Overlay, open};
 use fastphong::scene::{Falloff, Interpolation};
 use fastphong::shading::{OperationCounts, SpanBench, Variant};
 use serde_json::{Value, json};
@@ -154,10 +155,8 @@ impl ExplainArgs {
 const EXAMPLE: &str = "teapot";
 
 fn example_bound(method: &Variant) -> Result<f64, CliError> {
-    let frame = files::resolve(&files::load(EXAMPLE, None)?)?
-        .scene
-        .frame()?;
-    Ok(method.bound(&frame))
+    let opened = open(EXAMPLE, &Overlay::default(), Look::Compared)?;
+    Ok(method.bound(&opened.scene.frame()?))
 }
 
 /// Returns counted operations as a table.

@@ -16,10 +16,10 @@ use fastphong::mesh::read::mesh_endings;
 use fastphong::picture::image_file::{
     FilePicture, ImageFileError, place, read_picture, write_file_by, write_files_by,
 };
-use fastphong::scene::file::Resolved;
 use fastphong::scene::file::SceneError;
 use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
 use fastphong::scene::input::{self, InputFormat, has_ending, read_input};
+use fastphong::scene::open::{Look, Opened, Overlay, open_by};
 use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
@@ -171,13 +171,13 @@ pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, Scene
     Ok(file)
 }
 
-/// Returns the scene that `file` describes, as [`input::resolve`] does.
+/// Opens `file`, as [`open_by`] does.
 ///
 /// # Errors
-/// As [`input::resolve`], and if there is too little memory for its meshes.
-pub fn resolve(file: &SceneFile) -> Result<Resolved, CliError> {
-    memory::check_meshes(file)?;
-    Ok(input::resolve_by(file, &mut read_of_scene)?)
+/// As [`open_by`], and if there is too little memory for its meshes.
+pub fn open(file: SceneFile, over: &Overlay, look: Look) -> Result<Opened, CliError> {
+    memory::check_meshes(&file)?;
+    Ok(open_by(file, over, look, &mut read_of_scene)?)
 }
 
 /// Returns the mesh files and material libraries of `file`, with names relative to the folder of

@@ -2,6 +2,7 @@
 //! picture, as a program that shows frame after frame would draw them.
 
 use super::measured::{Measurement, command_line};
+use super::scene_flags::note_frame;
 use super::values::number;
 use super::{CliError, Log, memory};
 use crate::compare::timing::{Machine, Timing};
@@ -72,9 +73,12 @@ pub fn frame_times(
 ) -> Result<(String, String), CliError> {
     let turns = of.inputs.len() * of.renderers.len() * methods.len();
     let mut times: Vec<FrameTime> = Vec::with_capacity(turns);
-    of.each_scene(|name, _, scene, progress| {
-        let prepared = scene.prepare()?;
-        drop(scene);
+    of.each_scene(|name, opened, progress| {
+        memory::check_frame(&opened.scene)?;
+        let prepared = opened.scene.prepare()?;
+        let frame = prepared.frame()?;
+        progress.aside(|| note_frame(&opened, &frame, of.log));
+        drop((opened, frame));
         for renderer in of.renderers {
             for variant in methods {
                 let done = times.len() as f32 / turns as f32;

@@ -1,18 +1,16 @@
 //! `fastphong info`: describes a scene or a mesh.
 
-use super::clamped::too_bright_text;
 use super::input_name;
 use super::mesh_facts::{MeshFacts, PLANAR};
-use super::mesh_hints::{hints, lies_on_its_side};
 use super::normal_text::describe;
-use super::scene_flags::SceneFlags;
-use super::shown_frame::ShownFrame;
+use super::scene_flags::{Flags, SceneFlags};
 use super::text::{counted, grouped, wrapped};
-use super::unlit::unlit_texts;
-use super::{CliError, Log, Outcome, done, files, memory};
+use super::{CliError, Log, Outcome, done, memory};
 use fastphong::frame::Frame;
+use fastphong::notes::{Cost, lies_on_its_side, of_frame, of_mesh};
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::{SceneFile, shown};
+use fastphong::scene::open::Look;
 use fastphong::scene::{Projection, Scene};
 use fastphong::shading::{METHODS, Variant};
 use serde_json::{Value, json};
@@ -48,10 +46,11 @@ struct ObjectFacts<'a> {
 impl InfoArgs {
     /// Prints the facts.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
-        let file = self.scene.load(&self.input)?;
-        let resolved = files::resolve(&file)?;
-        self.scene.warn_without_hints(&file, &resolved, log);
-        let scene = &resolved.scene;
+        let opened = self
+            .scene
+            .open_file(self.scene.read(&self.input)?, Look::Compared)?;
+        log.notes(&opened.notes);
+        let (file, scene) = (&opened.file, &opened.scene);
         // A mesh that several objects share is analysed once.
         let mut known = BTreeMap::new();
         let objects = scene.objects.iter().zip(file.meshes());
@@ -60,8 +59,13 @@ impl InfoArgs {
                 let mut found = Vec::new();
                 if !mesh.starts_with("builtin:") {
                     let lies = lies_on_its_side(&object.mesh);
-                    found.extend(lies.filter(|_| !self.scene.gives(Some("camera"), "up")));
-                    found.extend(hints("it", object));
+                    let lies = lies.filter(|_| !self.scene.over().sets("camera.up"));
+                    let hints = of_mesh(object);
+                    let notes = lies.iter().chain(&hints).cloned();
+                    found.extend(notes.map(|mut note| {
+                        note.about.clear();
+                        note.text(&Flags)
+                    }));
                 }
                 (MeshFacts::of(&object.mesh), found)
             };
@@ -78,18 +82,26 @@ impl InfoArgs {
         let objects: Vec<ObjectFacts> = objects.collect();
         memory::check_frame(scene)?;
         let frame = scene.frame()?;
-        let shown = ShownFrame::new(&file, scene, &frame);
-        unlit_texts(&shown)
+        let notes = of_frame(scene, &frame, Cost::Samples);
+        let mut notes = notes.without_stated(|key| file.states(key));
+        // This one is a row of the table.
+        let too_bright = ["light/clamped", "light/endless-highlight"];
+        let too_bright = notes
             .iter()
-            .for_each(|text| log.warning(text));
+            .find(|note| too_bright.contains(&note.kind))
+            .cloned();
+        if let Some(note) = &too_bright {
+            notes.remove(note.kind);
+        }
+        log.notes(&notes);
         let facts = SceneFacts {
             input: &self.input,
-            file: &file,
+            file,
             scene,
             objects,
             choices: auto_choices(&frame),
             method: Variant::auto(&frame, Renderer::fastest()),
-            too_bright: too_bright_text(&shown),
+            too_bright: too_bright.map(|note| note.text(&Flags)),
         };
         done(&match self.json {
             true => format!("{:#}\n", facts.json()),
@@ -110,7 +122,7 @@ struct SceneFacts<'a> {
     choices: Vec<AutoChoice>,
     /// The method that `auto` chooses, and why.
     method: (Variant, &'static str),
-    /// The warning of [`too_bright_text`].
+    /// The warning that light is clamped.
     too_bright: Option<String>,
 }
 

@@ -4,7 +4,9 @@
 //! would panic, so nothing here uses it.
 
 use super::files::{self, Destination};
+use super::scene_flags::Flags;
 use super::{CliError, Outcome};
+use fastphong::note::{Level, Notes};
 use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
@@ -37,6 +39,17 @@ impl Log {
             true => format!("\x1b[1;33mwarning\x1b[0m: {text}"),
             false => format!("warning: {text}"),
         });
+    }
+
+    /// Writes notes about a scene in the words of the command line.
+    pub fn notes(self, notes: &Notes) {
+        for note in notes {
+            let text = note.text(&Flags);
+            match note.level {
+                Level::Warning => self.warning(&text),
+                Level::Note => self.note(&text),
+            }
+        }
     }
 
     /// Writes a note: something that the program did or suggests.

@@ -1,21 +1,17 @@
 //! Flags and steps shared by the commands that compare and time methods.
 
 use super::engines::ThreadFlags;
-use super::files;
-use super::frame_notes::warn_of_frame;
 use super::output::{self, Output};
 use super::progress::Progress;
-use super::scene_flags::SceneFlags;
-use super::shown_frame::ShownFrame;
+use super::scene_flags::{SceneFlags, frame_of, note_scene};
 use super::values::number;
 use super::{CliError, Log, memory};
 use crate::compare::comparison::{Comparison, Input, compare};
 use crate::compare::timing::{Machine, TimeLimits};
 use fastphong::number::NameError;
 use fastphong::raster::Renderer;
-use fastphong::scene::Scene;
-use fastphong::scene::file::SceneFile;
 use fastphong::scene::input::SCENES;
+use fastphong::scene::open::{Look, Opened};
 use fastphong::shading::{Family, METHODS, MethodRow, Tier, Variant};
 use std::collections::HashSet;
 use std::time::Duration;
@@ -69,26 +65,25 @@ pub struct Measurement<'a> {
 }
 
 impl Measurement<'_> {
-    /// Calls `measure` with the name, the file and the scene of each input. Loads every input
+    /// Calls `measure` with the name and the scene of each input. Loads every input
     /// first, so that a bad one fails at once.
     ///
     /// # Errors
     /// If an input cannot be loaded or is also an output, or `measure` fails.
     pub fn each_scene(
         &self,
-        mut measure: impl FnMut(&str, &SceneFile, Scene, &Progress) -> Result<(), CliError>,
+        mut measure: impl FnMut(&str, Opened, &Progress) -> Result<(), CliError>,
     ) -> Result<(), CliError> {
         warn_of_debug_build(self.log);
-        let files = self.inputs.iter().map(|name| self.scene.load(name));
+        let files = self.inputs.iter().map(|name| self.scene.read(name));
         let files = files.collect::<Result<Vec<_>, _>>()?;
         output::check_places(self.outputs)?;
         let progress = Progress::silent_between_moves(self.log);
-        for (name, file) in self.inputs.iter().zip(&files) {
-            let resolved = files::resolve(file)?;
+        for (name, file) in self.inputs.iter().zip(files) {
+            let opened = self.scene.open_file(file, Look::Compared)?;
             output::check(self.outputs)?;
-            progress.aside(|| self.scene.warn(file, &resolved, self.log));
-            memory::check_frame(&resolved.scene)?;
-            measure(name, file, resolved.scene, &progress)?;
+            progress.aside(|| note_scene(&opened, self.log));
+            measure(name, opened, &progress)?;
         }
         Ok(())
     }
@@ -118,13 +113,10 @@ impl TimingFlags {
     ) -> Result<Vec<Comparison>, CliError> {
         let turns = (of.inputs.len() * of.renderers.len()) as f32;
         let mut comparisons = Vec::new();
-        of.each_scene(|name, file, scene, progress| {
-            let frame = scene.frame()?;
-            progress.aside(|| {
-                warn_of_frame(&ShownFrame::new(file, &scene, &frame), of.log);
-                memory::check(&frame, &self.methods, 1, of.log)
-            })?;
-            drop(scene);
+        of.each_scene(|name, opened, progress| {
+            let frame = progress.aside(|| frame_of(&opened, of.log))?;
+            progress.aside(|| memory::check(&frame, &self.methods, 1, of.log))?;
+            drop(opened);
             let input = Input {
                 name: name.to_owned(),
                 frame: &frame,

@@ -7,10 +7,8 @@
 
 mod aov;
 mod bench;
-mod clamped;
 mod compare;
 mod contents;
-mod depth_notes;
 mod diagnose;
 mod diff;
 mod drawing;
@@ -20,17 +18,14 @@ mod experiments;
 mod explain;
 mod figure;
 mod files;
-mod frame_notes;
 mod frame_times;
 mod info;
 mod input_name;
-mod light_rig;
 mod list;
 mod log;
 mod measured;
 mod memory;
 mod mesh_facts;
-mod mesh_hints;
 mod name_template;
 #[cfg(not(feature = "view"))]
 mod no_view;
@@ -44,13 +39,11 @@ mod report;
 mod scene_flags;
 mod search;
 mod shell;
-mod shown_frame;
 mod signals;
 mod span_times;
 mod text;
 mod tolerance;
 mod trace;
-mod unlit;
 mod values;
 #[cfg(feature = "view")]
 mod view;

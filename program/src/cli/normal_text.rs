@@ -1,18 +1,8 @@
 //! Describes in words where vertex normals come from.
 
 use super::text::grouped;
-use fastphong::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
+use fastphong::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse};
 use fastphong::scene::Object;
-
-/// Returns the end of "averaged" for a weight: ` by area`.
-pub fn by_weight(weight: NormalWeight) -> &'static str {
-    match weight {
-        NormalWeight::Uniform => "",
-        NormalWeight::Area => " by area",
-        NormalWeight::Angle => " by angle",
-        NormalWeight::Max => " by Max's weights",
-    }
-}
 
 /// Describes where an object's vertex normals come from.
 pub fn describe(object: &Object) -> String {
@@ -20,7 +10,7 @@ pub fn describe(object: &Object) -> String {
     let used = NormalUse::of(mesh, object.normals.source);
     let faceted = Some(fastphong::mesh::PolygonMesh::FACETED);
     let is_faceted = |p| mesh.smoothing_group(p) == faceted;
-    let by = by_weight(object.normals.weight);
+    let by = object.normals.weight.by_text();
     let averaged = match object.normals.source {
         NormalSource::Crease(angle) => format!("averaged{by} up to a crease of {angle} degrees"),
         // `up_by_custom` is y for glTF files only.

@@ -1,29 +1,30 @@
 //! `fastphong render`: draws the picture of an input.
 
 use super::aov::{Aov, KINDS, Subject};
-use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
+use super::drawing::RenderJob;
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
-use super::frame_notes::warn_of_frame;
 use super::input_name;
 use super::name_template::{named, scene_name};
 use super::output::{self, ForceFlag, Output, print_beside};
-use super::polygon_counts::{stats_text, warn_of_polygons_left_out};
+use super::polygon_counts::stats_text;
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
-use super::scene_flags::SceneFlags;
-use super::shown_frame::ShownFrame;
-use super::text::counted;
+use super::scene_flags::{SceneFlags, note_frame, note_scene};
 use super::tolerance::{Tolerance, ToleranceFlags};
 use super::watch::watch;
 use super::{CliError, Log, Outcome, files, memory, values};
+use fastphong::drawing::Drawing;
 use fastphong::frame::Frame;
+use fastphong::notes::{Cost, of_polygons};
 use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
-use fastphong::raster::painter_conflicts::{Conflicts, conflicts};
 use fastphong::scene::file::STANDARD_INPUT;
-use fastphong::scene::{HiddenSurfaces, input};
+use fastphong::scene::open::Look;
+use fastphong::scene::{Scene, input};
 use fastphong::shading::{METHODS, Variant};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::time::Instant;
 
 /// Draw a scene or a mesh
@@ -50,8 +51,8 @@ pub struct RenderArgs {
     /// `auto` chooses the fastest method with naive Phong's picture; `fastphong info` shows which
     /// one that is. `reference` draws the f64 closed form of Phong shading, or of another model
     /// with `reference:model=flat|gouraud|phong|slerp`
-    #[arg(short, long, default_value = AUTO, value_parser = drawing::method)]
-    method: AskedMethod,
+    #[arg(short, long, default_value = Drawing::AUTO, value_parser = Drawing::from_str)]
+    method: Drawing,
     /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time; `row`, with
     /// SIMD; `auto`, which is `row` if it can draw the scene, else `span`; `barycentric`, also with
     /// `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See
@@ -118,32 +119,32 @@ impl RenderArgs {
             }
             EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
         };
-        let shows = self.aov.is_none();
-        let mut file = match shows {
-            true => self.scene.load_to_show(&self.input)?,
-            false => self.scene.load(&self.input)?,
-        };
+        let file = self.scene.read(&self.input)?;
         let progress = Progress::watched(log);
         progress.at(0.0, "loading");
         let started = Instant::now();
-        let mut resolved = match shows {
-            true => self.scene.resolve_to_show(&mut file)?,
-            false => files::resolve(&file)?,
+        let look = if self.aov.is_none() {
+            Look::Shown
+        } else {
+            Look::Compared
         };
-        if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
+        let mut opened = self.scene.open_file(file, look)?;
+        if self.aov.is_some() && std::mem::replace(&mut opened.scene.samples, 1) > 1 {
             // The mean of several depths, normals or polygon indices has no meaning.
             progress.aside(|| log.note("--aov shows a single sample per pixel, in its middle"));
         }
+        if self.aov == Some(Aov::Colours) {
+            opened.notes.remove("colours-unused");
+        }
         progress.aside(|| {
-            self.scene.warn(&file, &resolved, log);
-            match self.aov {
-                Some(Aov::Colours) => self.scene.note_no_colours(&file, &resolved, log),
-                _ => self.scene.note_colours(&file, &resolved, log),
+            note_scene(&opened, log);
+            if self.aov == Some(Aov::Colours) {
+                note_no_colours(&opened.scene, log);
             }
             log.duration("loaded", started);
         });
         if self.print_scene {
-            file.overlay(resolved.chosen.clone());
+            let mut file = opened.file.clone();
             input::make_paths_relative_to_current_folder(&mut file);
             progress.aside(|| {
                 if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {
@@ -166,13 +167,14 @@ impl RenderArgs {
         }
         progress.at(0.25, "projecting");
         let started = Instant::now();
-        memory::check_frame(&resolved.scene)?;
-        let frame = resolved.scene.frame()?;
+        memory::check_frame(&opened.scene)?;
+        let frame = opened.scene.frame()?;
         progress.aside(|| {
             log.duration("projected", started);
-            match shows {
-                true => warn_of_frame(&ShownFrame::new(&file, &resolved.scene, &frame), log),
-                false => warn_of_polygons_left_out(&frame, log),
+            match self.aov {
+                None => note_frame(&opened, &frame, log),
+                // Other quantities have no light.
+                Some(_) => log.notes(&of_polygons(&frame, Cost::Samples)),
             }
             if self.stats {
                 return print_beside(&beside, &stats_text(&frame));
@@ -180,19 +182,10 @@ impl RenderArgs {
             log.detail(stats_text(&frame).trim_end());
             Ok(())
         })?;
-        if log != Log::Quiet && matches!(frame.hidden_surfaces(), HiddenSurfaces::Painter(_)) {
-            progress.at(0.4, "checking the painter's order");
-            let conflicts = conflicts(&frame);
-            progress.aside(|| match painter_text(&conflicts) {
-                Some(text) => log.warning(&text),
-                None => log.detail("the painter draws every pair of polygons in the right order"),
-            });
-        }
         progress.at(0.5, "shading");
         let mut job = progress.aside(|| {
             let mut job = self.job(frame, renderer, log)?;
-            let image = file.table().table("image");
-            job.opaque = image.and_then(|image| image.text("alpha")) == Some("opaque");
+            job.opaque = opened.file.is_opaque();
             let asked = matches!(self.engine, EngineFlag::Scanlines(Some(_)));
             job.log(asked || self.simd.is_some(), self.threads.threads, log);
             Ok::<_, CliError>(job)
@@ -290,14 +283,12 @@ impl RenderArgs {
     /// of polygons.
     fn method_of(&self, aov: Aov) -> Result<Variant, CliError> {
         match &self.method {
-            None => Ok(Variant::parse("adaptive-phong")?),
-            Some(_) if aov != Aov::Kind => {
+            Drawing::Auto => Ok(Variant::parse("adaptive-phong")?),
+            _ if aov != Aov::Kind => {
                 Err(format!("--aov {} cannot be used with --method", aov.name()).into())
             }
-            Some(Method::Variant(variant)) if !variant.row().kinds().is_empty() => {
-                Ok(variant.clone())
-            }
-            Some(method) => {
+            Drawing::Variant(variant) if !variant.row().kinds().is_empty() => Ok(variant.clone()),
+            method => {
                 let all = METHODS.iter().filter(|entry| !entry.kinds().is_empty());
                 let names: Vec<&str> = all.map(|entry| entry.info.name).collect();
                 let names = names.join(", ");
@@ -321,7 +312,7 @@ impl RenderArgs {
             }
             return Ok(RenderJob::aov(frame, aov, subject));
         }
-        let method = self.method.clone().unwrap_or_else(|| {
+        let method = if self.method == Drawing::Auto {
             let (variant, why) = match self.engine {
                 EngineFlag::Cs171 { .. } => {
                     let variant = Variant::parse("naive-phong").expect("a method of the table");
@@ -329,10 +320,26 @@ impl RenderArgs {
                 }
                 _ => Variant::auto(&frame, renderer),
             };
-            log.detail(&format!("method {variant}, chosen by {AUTO}: {why}"));
-            Method::Variant(variant)
-        });
+            log.detail(&format!(
+                "method {variant}, chosen by {}: {why}",
+                Drawing::AUTO
+            ));
+            Drawing::Variant(variant)
+        } else {
+            self.method.clone()
+        };
         RenderJob::shaded(frame, &method, self.engine, self.simd, renderer, log)
+    }
+}
+
+/// Notes which meshes have no vertex colours for `--aov colours`.
+fn note_no_colours(scene: &Scene, log: Log) {
+    let objects = scene.objects.iter();
+    let without = objects.filter(|object| object.mesh.colours().is_empty());
+    let names: BTreeSet<&str> = without.map(|object| &*object.name).collect();
+    for name in names {
+        let text = "has no vertex colours: --aov colours shows it in white";
+        log.note(&format!("{name}: {text}"));
     }
 }
 
@@ -371,26 +378,4 @@ fn write(
         progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
     }
     Ok(())
-}
-
-/// Returns a warning if the painter's algorithm draws pairs of polygons in the wrong order.
-fn painter_text(conflicts: &Conflicts) -> Option<String> {
-    // Every order draws at least one pair of a cycle wrong, so cycles without wrong pairs cannot
-    // occur.
-    let wrong = match conflicts.wrong.len() {
-        0 => return None,
-        wrong => counted(wrong, "pair is drawn", "pairs are drawn") + " in the wrong order",
-    };
-    if conflicts.cycles.is_empty() {
-        return Some(wrong + " by the painter's key, though a right order exists");
-    }
-    let in_cycles = conflicts.cycles.iter().map(Vec::len).sum();
-    let in_cycles = counted(in_cycles, "polygon", "polygons");
-    let cycles = counted(conflicts.cycles.len(), "cycle", "cycles");
-    let cutting = match conflicts.interpenetrating {
-        0 => String::new(),
-        n => format!(", {} each other", counted(n, "pair cuts", "pairs cut")),
-    };
-    let problem = format!("{in_cycles} in {cycles}: no order draws them right");
-    Some(format!("{problem}; {wrong}{cutting}"))
 }

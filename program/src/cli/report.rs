@@ -5,13 +5,11 @@ use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};
 use super::figure::{Figures, distinct, draw_figures};
 use super::files;
-use super::frame_notes::warn_of_frame;
 use super::input_name;
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::output::{self, ForceFlag, Output, print_beside};
 use super::progress::Progress;
-use super::scene_flags::SceneFlags;
-use super::shown_frame::ShownFrame;
+use super::scene_flags::{SceneFlags, frame_of, note_scene};
 use super::{CliError, Log, Outcome, memory};
 use crate::compare::comparison::{self, Comparison, Input};
 use crate::compare::timing::TimeLimits;
@@ -26,6 +24,7 @@ use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
+use fastphong::scene::open::Look;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -139,7 +138,7 @@ impl ReportArgs {
         let first = read.next();
         let names = self.names()?;
         // Every input is loaded first, so that a bad one fails at once.
-        let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
+        let load = |name: &&str| self.scene.read(name).map(|file| self.shown(file));
         let inputs: &[&str] = if first.is_some() { &[] } else { &names };
         let scenes = inputs.iter().map(load).collect::<Result<Vec<_>, _>>()?;
         let outputs = self.outputs()?;
@@ -321,7 +320,7 @@ impl ReportArgs {
 
     /// Shrinks the picture of a scene to the size on the page, unless flags set the size.
     fn shown(&self, mut file: SceneFile) -> SceneFile {
-        if self.full || self.scene.gives(Some("image"), "width") {
+        if self.full || self.scene.over().sets("image.width") {
             return file;
         }
         let image = file.table().table("image");
@@ -356,15 +355,13 @@ impl ReportArgs {
         log: Log,
         progress: &mut dyn FnMut(f32, &str),
     ) -> Result<DrawnScene, CliError> {
-        let mut file = file.clone();
-        let resolved = self.scene.resolve_to_show(&mut file)?;
+        let opened = self.scene.open_file(file.clone(), Look::Shown)?;
         // Only now are the material libraries of the meshes known.
         output::check(&outputs.all())?;
-        bar.aside(|| self.scene.warn(&file, &resolved, log));
-        memory::check_frame(&resolved.scene)?;
-        let frame = resolved.scene.frame()?;
-        bar.aside(|| warn_of_frame(&ShownFrame::new(&file, &resolved.scene, &frame), log));
-        drop(resolved);
+        bar.aside(|| note_scene(&opened, log));
+        let frame = bar.aside(|| frame_of(&opened, log))?;
+        let file = opened.file;
+        drop(opened.scene);
         let at_once = rayon::current_num_threads().min(self.names()?.len());
         bar.aside(|| memory::check(&frame, &self.timing.methods, at_once, log))?;
         let input = Input {

@@ -2,22 +2,39 @@
 //! the name and the help of the flag. The values replace those of the file and are checked together
 //! with them.
 
-use super::mesh_hints::{Z_IS_UP, hints};
 use super::normal_text::describe;
-use super::{CliError, Log, files};
+use super::{CliError, Log, files, memory};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use fastphong::scene::file::Resolved;
+use fastphong::frame::Frame;
+use fastphong::note::{Door, SceneKeys, Setting as Suggestion};
+use fastphong::notes::{self, Cost};
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::schema::{self, AXES, Flag, KEYS, Key, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
-use fastphong::scene::file::{STANDARD_INPUT, SceneFile, shown};
+use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
 use fastphong::scene::input::InputFormat;
-use std::collections::HashSet;
-use std::sync::Arc;
+use fastphong::scene::open::{Look, Opened, Overlay};
 
 /// A key of a scene file, such as `camera.eye`, and its value.
 type Setting = (&'static str, Data);
+
+/// The door of the command line: `--cull none`.
+#[derive(Clone, Copy, Debug)]
+pub struct Flags;
+
+impl Door for Flags {
+    fn setting(&self, setting: &Suggestion) -> String {
+        let Suggestion { key, value, .. } = setting;
+        let flag = keys_with_flags().find(|(known, _)| known.path == *key);
+        match flag.map(|(_, flag)| flag) {
+            _ if *key == "object.crease" => format!("--normals crease={value}"),
+            Some(flag) if flag.value_name.is_empty() => format!("--{}", flag.name),
+            Some(flag) => format!("--{} {value}", flag.name),
+            None => SceneKeys.setting(setting),
+        }
+    }
+}
 
 /// Returns the keys that have flags, with these flags.
 fn keys_with_flags() -> impl Iterator<Item = (&'static Key, Flag)> {
@@ -145,9 +162,7 @@ fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
 /// The changes that flags make to a scene, in the form of a scene file.
 #[derive(Clone, Debug, Default)]
 pub struct SceneFlags {
-    over: SceneTable,
-    /// The keys that every object gets, whatever the scene file says about it.
-    every_object: SceneTable,
+    over: Overlay,
     /// The format of standard input; `None` if its bytes decide.
     input_format: Option<InputFormat>,
 }
@@ -183,10 +198,7 @@ impl clap::Args for SceneFlags {
 impl clap::FromArgMatches for SceneFlags {
     /// Collects the values of all flags on the command line.
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let mut flags = SceneFlags {
-            input_format: matches.get_one(INPUT_FORMAT).copied(),
-            ..SceneFlags::default()
-        };
+        let (mut scene, mut every_object) = (SceneTable::default(), SceneTable::default());
         let mut lights: Vec<SceneTable> = Vec::new();
         // The keys that every light of `--light-at` gets.
         let mut near = SceneTable::default();
@@ -200,11 +212,11 @@ impl clap::FromArgMatches for SceneFlags {
                 for (path, data) in settings.clone() {
                     let (table, key) = path.split_once('.').unwrap_or(("", path));
                     let table = match (table, flag.name) {
-                        ("", _) => &mut flags.over,
+                        ("", _) => &mut scene,
                         ("light", "light" | "light-at") => lights.last_mut().expect("a light"),
                         ("light", _) => &mut near,
-                        ("object", _) => &mut flags.every_object,
-                        (table, _) => flags.over.table_mut(table),
+                        ("object", _) => &mut every_object,
+                        (table, _) => scene.table_mut(table),
                     };
                     table.set(key, data, origin.clone());
                 }
@@ -214,15 +226,14 @@ impl clap::FromArgMatches for SceneFlags {
         for light in lights.iter_mut().filter(has_position) {
             light.overlay(near.clone());
         }
-        if let Some(material) = flags.over.get("material") {
-            let entries = &mut flags.every_object.entries;
-            entries.insert("material", material.clone());
-        }
         if !lights.is_empty() {
             let lights = Data::Tables(lights);
-            flags.over.set("light", lights, Origin::Program);
+            scene.set("light", lights, Origin::Program);
         }
-        Ok(flags)
+        Ok(SceneFlags {
+            over: Overlay::new(scene, every_object),
+            input_format: matches.get_one(INPUT_FORMAT).copied(),
+        })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
@@ -232,12 +243,23 @@ impl clap::FromArgMatches for SceneFlags {
 }
 
 impl SceneFlags {
-    /// Loads the scene that `input` names, with the changes by flags.
+    /// Opens the scene that `input` names, with the changes by flags, and prints the notes about it.
     ///
     /// # Errors
-    /// If there is no such input.
-    pub fn load(&self, input: &str) -> Result<SceneFile, CliError> {
-        Ok(self.over(self.read(input)?))
+    /// If there is no such input, or it cannot be used.
+    pub fn open(&self, input: &str, look: Look, log: Log) -> Result<Opened, CliError> {
+        let opened = self.open_file(self.read(input)?, look)?;
+        note_scene(&opened, log);
+        Ok(opened)
+    }
+
+    /// Opens a scene file that was read, with the changes by flags. The caller prints its notes
+    /// ([`note_scene`]).
+    ///
+    /// # Errors
+    /// If it cannot be used.
+    pub fn open_file(&self, file: SceneFile, look: Look) -> Result<Opened, CliError> {
+        files::open(file, &self.over, look)
     }
 
     /// Loads the scene that `input` names, without the changes by flags.
@@ -253,92 +275,44 @@ impl SceneFlags {
         Ok(files::load(input, self.input_format)?)
     }
 
-    /// Returns `file` with the changes by flags.
-    pub fn over(&self, mut file: SceneFile) -> SceneFile {
-        file.overlay(self.over.clone());
-        let is_of_normals = |key: &&str| matches!(*key, "normals" | "crease");
-        let gives_normals = self.every_object.entries.keys().any(is_of_normals);
-        for object in file.objects_mut() {
-            if gives_normals {
-                object.entries.retain(|key, _| !is_of_normals(key));
-            }
-            object.overlay(self.every_object.clone());
-        }
-        file
+    /// Returns the changes by flags.
+    pub fn over(&self) -> &Overlay {
+        &self.over
     }
+}
 
-    /// True if a flag sets `key`, of the scene or of its table `table`.
-    pub fn gives(&self, table: Option<&str>, key: &str) -> bool {
-        let table = table.map_or(Some(&self.over), |table| self.over.table(table));
-        table.is_some_and(|table| table.get(key).is_some())
+/// Prints the notes about a scene and its meshes, and with `--verbose` where its vertex normals come
+/// from.
+pub fn note_scene(opened: &Opened, log: Log) {
+    if log == Log::Quiet {
+        return;
     }
-
-    /// Notes which mesh files have vertex colours that only `--aov colours` would show.
-    pub fn note_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
-        let objects = resolved.scene.objects.iter().zip(file.meshes());
-        let objects = objects.filter(|_| !resolved.scene.colours);
-        let mut told = Vec::new();
-        for (_, mesh) in objects.filter(|(object, _)| !object.mesh.colours().is_empty()) {
-            if !mesh.starts_with("builtin:") && !told.contains(&mesh) {
-                let has = "has vertex colours, which are not used";
-                log.note(&format!("{}: {has}: --colours on uses them", shown(mesh)));
-                told.push(mesh);
-            }
-        }
+    log.notes(&opened.notes);
+    for object in &opened.scene.objects {
+        log.detail(&format!(
+            "vertex normals of {}: {}",
+            object.name,
+            describe(object)
+        ));
     }
+    log.notes(&notes::of_meshes(&opened.scene));
+}
 
-    /// Notes which meshes have no vertex colours for `--aov colours`.
-    pub fn note_no_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
-        let objects = resolved.scene.objects.iter().zip(file.meshes());
-        let mut told = Vec::new();
-        for (_, mesh) in objects.filter(|(object, _)| object.mesh.colours().is_empty()) {
-            if !told.contains(&mesh) {
-                let shown = shown(mesh);
-                log.note(&format!(
-                    "{shown}: has no vertex colours: --aov colours shows it in white"
-                ));
-                told.push(mesh);
-            }
-        }
-    }
+/// Returns the frame of an opened scene, and prints the notes about it.
+///
+/// # Errors
+/// If the scene cannot be projected, or there is too little memory for its frame.
+pub fn frame_of(opened: &Opened, log: Log) -> Result<Frame, CliError> {
+    memory::check_frame(&opened.scene)?;
+    let frame = opened.scene.frame()?;
+    note_frame(opened, &frame, log);
+    Ok(frame)
+}
 
-    /// Prints warnings about a scene, where its vertex normals come from, and hints on its mesh
-    /// files.
-    pub fn warn(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
-        self.warn_without_hints(file, resolved, log);
-        if log == Log::Quiet {
-            return;
-        }
-        let mut looked_at = HashSet::new();
-        let is_alone = file.path().is_none() && !self.gives(Some("camera"), "up");
-        for (object, mesh) in resolved.scene.objects.iter().zip(file.meshes()) {
-            if is_alone && object.mesh.up_by_custom() == Some('z') {
-                log.note(&format!("{}: {Z_IS_UP}", shown(mesh)));
-            }
-            if !mesh.starts_with("builtin:") && looked_at.insert(Arc::as_ptr(&object.mesh)) {
-                hints(shown(mesh), object)
-                    .iter()
-                    .for_each(|hint| log.note(hint));
-            }
-        }
-    }
-
-    /// Prints warnings about a scene, and where its vertex normals come from.
-    pub fn warn_without_hints(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
-        for warning in &resolved.warnings {
-            log.warning(warning);
-        }
-        for note in &resolved.notes {
-            log.note(note);
-        }
-        for (object, mesh) in resolved.scene.objects.iter().zip(file.meshes()) {
-            log.detail(&format!("vertex normals of {mesh}: {}", describe(object)));
-        }
-        let mut objects = resolved.scene.objects.iter();
-        if self.over.get("material").is_some()
-            && objects.any(|object| !object.mesh.materials().is_empty())
-        {
-            log.note("the material set by flags replaces those of the mesh file");
-        }
+/// Prints the notes about a frame of an opened scene.
+pub fn note_frame(opened: &Opened, frame: &Frame, log: Log) {
+    if log != Log::Quiet {
+        let notes = notes::of_frame(&opened.scene, frame, Cost::Samples);
+        log.notes(&notes.without_stated(|key| opened.file.states(key)));
     }
 }

@@ -2,9 +2,10 @@
 
 use super::contents::Contents;
 use super::output::{self, Output};
-use super::scene_flags::SceneFlags;
-use super::{CliError, Log, Outcome, files, input_name, memory};
+use super::scene_flags::{SceneFlags, frame_of, note_scene};
+use super::{CliError, Log, Outcome, input_name};
 use fastphong::frame::Frame;
+use fastphong::scene::open::Look;
 use fastphong::shading::Variant;
 use std::path::PathBuf;
 
@@ -42,12 +43,11 @@ impl TraceArgs {
     /// Traces the scene and writes the document.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let output = Output::new("--output", &self.output, Contents::Json);
-        let file = self.scene.load(&self.input)?;
+        let file = self.scene.read(&self.input)?;
         output::check(&[&output])?;
-        let resolved = files::resolve(&file)?;
-        self.scene.warn_without_hints(&file, &resolved, log);
-        memory::check_frame(&resolved.scene)?;
-        let frame = resolved.scene.frame()?;
+        let opened = self.scene.open_file(file, Look::Compared)?;
+        note_scene(&opened, log);
+        let frame = frame_of(&opened, log)?;
         self.check(&frame)?;
         let trace = self.method.trace(&frame, self.line);
         let trace = trace.map_err(|error| format!("`{}`: {error}", self.method))?;

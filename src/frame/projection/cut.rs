@@ -208,12 +208,7 @@ mod tests {
         Scene {
             width: 4,
             height: 4,
-            objects: vec![Object {
-                mesh: Arc::new(builder.finish().expect("a mesh")),
-                transform: DAffine3::IDENTITY,
-                material: None,
-                normals: NormalRule::default(),
-            }],
+            objects: vec![Object::new(builder.finish().expect("a mesh"))],
             ..Scene::new(Camera {
                 eye: DVec3::ZERO,
                 target: -DVec3::Z,

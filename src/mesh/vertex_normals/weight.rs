@@ -30,6 +30,18 @@ pub enum NormalWeight {
     Max,
 }
 
+impl NormalWeight {
+    /// Returns how a sentence about averaged normals goes on: ` by area`.
+    pub fn by_text(self) -> &'static str {
+        match self {
+            NormalWeight::Uniform => "",
+            NormalWeight::Area => " by area",
+            NormalWeight::Angle => " by angle",
+            NormalWeight::Max => " by Max's weights",
+        }
+    }
+}
+
 /// The weights of corners of a mesh.
 #[derive(Clone, Copy)]
 pub(in crate::mesh) struct Weights<'a> {

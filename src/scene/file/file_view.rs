@@ -5,6 +5,7 @@ use super::SceneFile;
 use super::value::SceneTable;
 #[cfg(feature = "gltf")]
 use crate::mesh::read::{FileLight, FileView};
+use crate::note::{Note, Setting};
 #[cfg(feature = "gltf")]
 use crate::scene::ranges::{COORDINATE, FOVY};
 use std::format;
@@ -16,7 +17,12 @@ impl SceneFile {
     #[cfg(feature = "gltf")]
     pub(in crate::scene) fn see_as(&mut self, view: &FileView) {
         let mut text = String::new();
-        self.notes.extend(view.left_out.iter().cloned());
+        let left_out = view.left_out.iter().cloned();
+        self.notes.append(
+            left_out
+                .map(|text| Note::note("view-left-out", text))
+                .collect(),
+        );
         if let Some(camera) = view.camera {
             let is_near = COORDINATE.holds_all(camera.eye) && COORDINATE.holds_all(camera.target);
             if is_near && FOVY.holds(camera.fovy) {
@@ -28,15 +34,15 @@ impl SceneFile {
                 );
             } else {
                 let why = "expected coordinates up to 1e15 and 0.001 to 179.999 degrees";
-                let note = format!("the file's camera is left out: {why}");
-                self.notes.push(note);
+                let text = format!("the file's camera is left out: {why}");
+                self.notes.push(Note::note("view-left-out", text));
             }
         }
         let is_near = |light: &&FileLight| COORDINATE.holds_all(light.place);
         let lights: Vec<String> = view.lights.iter().filter(is_near).map(table).collect();
         if lights.len() < view.lights.len() {
-            let note = "lights of the file are left out: expected coordinates up to 1e15";
-            self.notes.push(note.into());
+            let text = "lights of the file are left out: expected coordinates up to 1e15";
+            self.notes.push(Note::note("view-left-out", text));
         }
         if !lights.is_empty() {
             text += &format!("light = [{}]\n", lights.join(", "));
@@ -67,21 +73,23 @@ impl SceneFile {
     }
 
     /// Says in a sentence what the scene still has of the mesh file's camera and lights.
-    pub(super) fn view_note(&self) -> Option<String> {
-        let mut taken = Vec::new();
-        if self.has_camera_of_mesh_file() {
-            taken.push(
-                "seen by the file's own camera (--view 27,15 or other angles fit the mesh instead)"
-                    .into(),
-            );
+    pub(super) fn view_note(&self) -> Option<Note> {
+        let seen = self.has_camera_of_mesh_file().then(|| {
+            Note::note("view-of-file", "seen by the file's own camera (")
+                .set(Setting::number("camera.azimuth", "27,15"))
+                .say(" or other angles fit the mesh instead)")
+        });
+        if !self.has_lights_of_mesh_file() {
+            return seen;
         }
-        if self.has_lights_of_mesh_file() {
-            taken.push(match self.table.tables("light").len() {
-                1 => String::from("lit by its light"),
-                count => format!("lit by its {count} lights"),
-            });
-        }
-        (!taken.is_empty()).then(|| taken.join(", "))
+        let lit = match self.table.tables("light").len() {
+            1 => String::from("lit by its light"),
+            count => format!("lit by its {count} lights"),
+        };
+        Some(match seen {
+            Some(note) => note.say(", ").say(lit),
+            None => Note::note("view-of-file", lit),
+        })
     }
 }
 

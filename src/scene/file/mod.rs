@@ -10,7 +10,7 @@
 //!
 //! let file = SceneFile::parse("image.width = 320\n[[object]]\nmesh = 'cube'\n", "cube.toml")?;
 //! let resolved = file.resolve(|name, _folder| match builtin(name) {
-//!     Ok(mesh) => Ok((mesh.into(), Vec::new())),
+//!     Ok(mesh) => Ok((mesh.into(), Default::default())),
 //!     Err(error) => Err(UnusableMesh::new(error.to_string())),
 //! })?;
 //! assert_eq!(resolved.scene.width, 320);
@@ -38,13 +38,14 @@ mod viewpoint;
 mod visibility;
 
 pub use diagnostics::SceneError;
-pub use resolve::{Resolved, UnusableMesh};
+pub use resolve::{Resolved, UnusableMesh, View};
 pub use value::SceneTable;
 
 use super::Scene;
 use crate::mesh::Material;
 use crate::mesh::read::content::foreign;
 use crate::mesh::read::{cause, gzip};
+use crate::note::Notes;
 use diagnostics::{Origin, SourceText};
 use glam::DVec3;
 use schema::SCENE;
@@ -78,7 +79,7 @@ pub struct SceneFile {
     table: SceneTable,
     source: Option<Arc<SourceText>>,
     /// Remarks on what a mesh file has and a scene cannot have.
-    notes: Vec<String>,
+    notes: Notes,
     /// The camera and lights that a mesh file contributed.
     of_mesh_file: SceneTable,
 }
@@ -108,7 +109,7 @@ impl SceneFile {
             Ok(table) => Ok(SceneFile {
                 table,
                 source,
-                notes: Vec::new(),
+                notes: Notes::default(),
                 of_mesh_file: SceneTable::default(),
             }),
             Err(error) => Err(error.within(&source)),
@@ -177,7 +178,7 @@ impl SceneFile {
         let mut file = SceneFile {
             table: SceneTable::parse(&text).expect("a scene in which all is right"),
             source: None,
-            notes: Vec::new(),
+            notes: Notes::default(),
             of_mesh_file: SceneTable::default(),
         };
         // Set separately, because the name may contain quotes.
@@ -185,6 +186,11 @@ impl SceneFile {
         let object = &mut file.objects_mut()[0];
         object.set("mesh", Data::Text(mesh), Origin::Program);
         file
+    }
+
+    /// Drops all lights, so that the scene has the default one.
+    pub(super) fn drop_lights(&mut self) {
+        self.table.entries.remove("light");
     }
 
     /// Returns the scene as TOML. [`SceneFile::parse`] reads an equal scene from it.
@@ -204,6 +210,15 @@ impl SceneFile {
         &self.table
     }
 
+    /// True if `key` is set: `interpolation`, or `camera.up` in a table.
+    pub fn states(&self, key: &str) -> bool {
+        let (table, key) = match key.split_once('.') {
+            Some((table, key)) => (self.table.table(table), key),
+            None => (Some(&self.table), key),
+        };
+        table.is_some_and(|table| table.get(key).is_some())
+    }
+
     /// Returns the title, for captions.
     pub fn title(&self) -> Option<&str> {
         self.table.text("title")
@@ -221,7 +236,7 @@ impl SceneFile {
     }
 
     /// True if an object shows the mesh called `mesh` in the mesh's own materials.
-    pub(super) fn draws_materials_of(&self, mesh: &str) -> bool {
+    fn draws_materials_of(&self, mesh: &str) -> bool {
         let mut objects = self.table.tables("object").iter();
         objects.any(|object| object.text("mesh") == Some(mesh) && object.get("material").is_none())
     }

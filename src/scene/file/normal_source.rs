@@ -6,10 +6,10 @@ use super::diagnostics::{Origin, SceneError};
 use super::value::{Data, SceneTable};
 use crate::mesh::PolygonMesh;
 use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
+use crate::note::{Note, Notes, Setting};
 use crate::scene::ranges::CREASE;
 use std::format;
-use std::string::{String, ToString};
-use std::vec::Vec;
+use std::string::ToString;
 
 /// What an object states about its vertex normals: a source, a weight, both, or neither.
 #[derive(Clone, Copy)]
@@ -67,12 +67,7 @@ pub(super) fn spell_out(rule: NormalRule, object: &mut SceneTable) -> bool {
 
 /// Adds a note, once, if `source` does not use the normals or the smoothing groups of the mesh file
 /// `name`.
-pub(super) fn note_unused(
-    name: &str,
-    mesh: &PolygonMesh,
-    source: NormalSource,
-    notes: &mut Vec<String>,
-) {
+pub(super) fn note_unused(name: &str, mesh: &PolygonMesh, source: NormalSource, notes: &mut Notes) {
     let used = NormalUse::of(mesh, source);
     let by = match source {
         NormalSource::Auto => "normals = \"auto\"".to_string(),
@@ -84,11 +79,12 @@ pub(super) fn note_unused(
         (used.leaves_normals, "normals"),
         (used.leaves_groups, "smoothing groups"),
     ] {
-        let note = format!(
-            "{name}: the {what} of the file are not used under {by}: normals = \"auto\" uses them"
-        );
-        if is_left && !notes.contains(&note) {
-            notes.push(note);
+        if is_left {
+            let text = format!("the {what} of the file are not used under {by}: ");
+            let note = Note::note("normals-unused", text)
+                .set(Setting::word("object.normals", "auto"))
+                .say(" uses them");
+            notes.push(note.about(name));
         }
     }
 }

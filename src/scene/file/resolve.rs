@@ -14,38 +14,37 @@ use super::{BUILTIN, SceneFile, shown};
 use crate::mesh::orientation::inside_out;
 use crate::mesh::vertex_normals::{NormalRule, NormalSource};
 use crate::mesh::{Material, PolygonMesh};
+use crate::note::{Note, Notes, Setting};
 use crate::number::Written;
 use crate::scene::direction::{length, unit};
 use crate::scene::ranges::{COORDINATE, NumberRange, PIXEL, SIZE, STRENGTH, VOLUME};
-use crate::scene::{Culling, Light, Object, Scene, volume};
+use crate::scene::{Camera, Culling, Light, Object, Scene, volume};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::format;
 use std::path::{Path, PathBuf};
-use std::string::String;
+use std::string::{String, ToString};
 use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-/// A scene that can be drawn, with warnings and notes.
+/// A scene that can be drawn, with notes about it.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Resolved {
     /// The scene.
     pub scene: Scene,
-    /// Problems to know before trusting the picture, one sentence each.
-    pub warnings: Vec<String>,
-    /// What the scene leaves unused or undecided on purpose, one sentence each.
-    pub notes: Vec<String>,
+    /// What to know before trusting the picture, and what the scene leaves unused or undecided.
+    pub notes: Notes,
     /// Keys that the scene leaves open and that its mesh decided. [Laid over](SceneFile::overlay)
     /// the scene file, they make it mean the same wherever it is written down.
     #[doc(hidden)]
     pub chosen: SceneTable,
 }
 
-/// A mesh with the warnings of its loader, or the error.
-pub(crate) type MeshResult = Result<(Arc<PolygonMesh>, Vec<String>), UnusableMesh>;
+/// A mesh with the notes of its loader, or the error.
+pub(crate) type MeshResult = Result<(Arc<PolygonMesh>, Notes), UnusableMesh>;
 
 /// A mesh that a scene names and that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -54,17 +53,73 @@ pub(crate) type MeshResult = Result<(Arc<PolygonMesh>, Vec<String>), UnusableMes
 pub struct UnusableMesh {
     /// What is wrong, where, and what was expected: one line.
     pub reason: String,
-    /// What was odd before it and may be the cause: one line each.
-    pub warnings: Vec<String>,
+    /// What was odd before it and may be the cause.
+    pub notes: Notes,
 }
 
 impl UnusableMesh {
-    /// Makes an error without warnings.
+    /// Makes an error without notes.
     pub fn new(reason: impl Into<String>) -> UnusableMesh {
         UnusableMesh {
             reason: reason.into(),
-            warnings: Vec::new(),
+            notes: Notes::default(),
         }
+    }
+}
+
+/// The part of a scene that may change from picture to picture without loading anything again.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct View {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Samples per pixel along each side.
+    pub samples: u32,
+    /// The camera.
+    pub camera: Camera,
+    /// The lights.
+    pub lights: Vec<Light>,
+}
+
+/// A view as a scene file states it. A fitted camera still needs the objects.
+struct StatedView<'a> {
+    width: u32,
+    height: u32,
+    samples: u32,
+    viewpoint: Viewpoint<'a>,
+    lights: Vec<Light>,
+}
+
+impl<'a> StatedView<'a> {
+    fn new(file: &Section<'a>) -> Result<StatedView<'a>, SceneError> {
+        let image = file.section("image", "image");
+        let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
+        let height = image.side("height")?.unwrap_or(Scene::DEFAULT_SIZE.1);
+        let lights = lights(file)?;
+        let aspect = f64::from(width) / f64::from(height);
+        Ok(StatedView {
+            width,
+            height,
+            viewpoint: Viewpoint::new(file.section("camera", "camera"), aspect)?,
+            samples: samples(&image, [width, height])?,
+            lights,
+        })
+    }
+
+    /// Returns the view of objects at `points`.
+    fn view(self, file: &Section, points: &[DVec3], notes: &mut Notes) -> Result<View, SceneError> {
+        let camera = self.viewpoint.camera(points.iter().copied(), notes)?;
+        file.sections("light", "light")
+            .try_for_each(|light| check_distance(&light, points, camera.eye))?;
+        Ok(View {
+            width: self.width,
+            height: self.height,
+            samples: self.samples,
+            camera,
+            lights: self.lights,
+        })
     }
 }
 
@@ -74,7 +129,7 @@ impl SceneFile {
     /// `load_mesh` loads each different mesh once. Its arguments are the mesh's name in the file
     /// (`vase.obj`, `builtin:sphere?rings=8`) and the folder to which file names are relative. That
     /// is the folder of the scene file; for meshes that a flag or the program names, it is the
-    /// empty path (the current folder). It returns the mesh and the loader's warnings.
+    /// empty path (the current folder). It returns the mesh and the loader's notes.
     ///
     /// # Errors
     /// [`SceneError`] for the first value that is out of its range or contradicts another one, for
@@ -87,6 +142,21 @@ impl SceneFile {
         scene.map_err(|error| error.within(&self.source))
     }
 
+    /// Returns the view that the file describes of objects whose polygons use these positions in the
+    /// world ([`Scene::world_points`]). It loads nothing.
+    ///
+    /// # Errors
+    /// [`SceneError`] as [`SceneFile::resolve`], for everything that is not about objects.
+    pub fn view(&self, points: &[DVec3]) -> Result<View, SceneError> {
+        let file = Section {
+            table: &self.table,
+            name: "",
+        };
+        let view = StatedView::new(&file);
+        let view = view.and_then(|stated| stated.view(&file, points, &mut Notes::default()));
+        view.map_err(|error| error.within(&self.source))
+    }
+
     fn scene(
         &self,
         load_mesh: impl FnMut(&str, &Path) -> MeshResult,
@@ -96,26 +166,18 @@ impl SceneFile {
             name: "",
         };
         let image = file.section("image", "image");
-        let (mut warnings, mut notes) = (Vec::new(), self.notes.clone());
-        notes.extend(self.view_note());
-        let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
-        let height = image.side("height")?.unwrap_or(Scene::DEFAULT_SIZE.1);
+        let mut notes = self.notes.clone();
+        if let Some(note) = self.view_note() {
+            notes.push(note);
+        }
+        let stated = StatedView::new(&file)?;
         let background = image.channels("background", &PIXEL)?.unwrap_or([0.0; 3]);
         let ambient = file.channels("ambient", &STRENGTH)?;
-        let lights = lights(&file)?;
-        let aspect = f64::from(width) / f64::from(height);
-        let viewpoint = Viewpoint::new(file.section("camera", "camera"), aspect)?;
-        let samples = samples(&image, [width, height])?;
         let clipping = clipping(&file)?;
-        let hidden_surfaces = hidden_surfaces(&file, &mut warnings)?;
-        let mut objects = self.objects(&file, load_mesh, &mut warnings)?;
+        let hidden_surfaces = hidden_surfaces(&file, &mut notes)?;
+        let mut objects = self.objects(&file, load_mesh, &mut notes)?;
         let colours = file.table.text("colours") == Some("on");
-        let mut sides = Sides::new(
-            &file,
-            self.mesh_alone(&file, &objects),
-            &mut warnings,
-            &mut notes,
-        );
+        let mut sides = Sides::new(&file, self.mesh_alone(&file, &objects), &mut notes);
         let is_named = file
             .sections("object", "object")
             .any(|object| is_named_in_file(&object));
@@ -149,24 +211,22 @@ impl SceneFile {
                 Culling::Front | Culling::None if sides.two_sided => continue,
                 Culling::Front | Culling::None => "so that its outside is lit from within",
             };
-            warn_of_inside_out(name, &object.mesh, outside, &mut warnings);
+            warn_of_inside_out(name, &object.mesh, outside, &mut notes);
         }
         let points: Vec<DVec3> = objects.iter().flat_map(Object::world_points).collect();
-        let camera = viewpoint.camera(points.iter().copied(), &mut warnings)?;
-        file.sections("light", "light")
-            .try_for_each(|light| check_distance(&light, &points, camera.eye))?;
+        let view = stated.view(&file, &points, &mut notes)?;
         let mut chosen = sides.chosen;
         if let Some(tables) = normals_spelt_out(&file, &objects) {
             chosen.set("object", Data::Tables(tables), Origin::Program);
         }
         let specular = file.word("specular");
         let scene = Scene {
-            width,
-            height,
+            width: view.width,
+            height: view.height,
             background,
-            camera,
+            camera: view.camera,
             ambient: ambient.unwrap_or([1.0; 3]),
-            lights,
+            lights: view.lights,
             local_viewer: file.table.text("viewer") == Some("local"),
             specular,
             shininess_for: file.choice("shininess_for").unwrap_or(specular),
@@ -177,13 +237,12 @@ impl SceneFile {
             hidden_surfaces,
             clipping,
             two_sided: sides.two_sided,
-            samples,
+            samples: view.samples,
             encoding: image.word("encoding"),
             objects,
         };
         Ok(Resolved {
             scene,
-            warnings,
             notes,
             chosen,
         })
@@ -194,11 +253,11 @@ impl SceneFile {
         &self,
         file: &Section,
         mut load_mesh: impl FnMut(&str, &Path) -> MeshResult,
-        warnings: &mut Vec<String>,
+        notes: &mut Notes,
     ) -> Result<Vec<Object>, SceneError> {
         let given = file.section("material", "material");
         let default = material(&given, &Material::default())?;
-        let mut over_one = Vec::new();
+        let mut over_one = Notes::default();
         if file.table.tables("object").is_empty() {
             let expected = "expected at least one [[object]]";
             let problem = "the scene has no objects";
@@ -233,8 +292,12 @@ impl SceneFile {
                 Entry::Occupied(known) => known.into_mut(),
                 Entry::Vacant(new) => {
                     let loaded = load_mesh(spec, &new.key().0);
-                    let (mesh, odd) = loaded.map_err(|why| mesh_error(&section, spec, &why))?;
-                    warnings.extend(odd);
+                    let (mesh, mut odd) = loaded.map_err(|why| mesh_error(&section, spec, &why))?;
+                    // Other materials replace those of the file.
+                    if !self.draws_materials_of(spec) {
+                        odd.remove("material/");
+                    }
+                    notes.append(odd);
                     new.insert([Some(mesh), None])
                 }
             };
@@ -275,6 +338,7 @@ impl SceneFile {
                 tell_over_one(&[given], &mut over_one);
             }
             let object = Object {
+                name: shown(spec).into(),
                 mesh,
                 transform,
                 material: own,
@@ -290,7 +354,7 @@ impl SceneFile {
             }
             objects.push(object);
         }
-        warnings.append(&mut over_one);
+        notes.append(over_one);
         Ok(objects)
     }
 
@@ -367,9 +431,10 @@ fn mesh_error(object: &Section, mesh: &str, why: &UnusableMesh) -> SceneError {
         true => object.error("mesh", &format!("`{mesh}` cannot be used"), reason),
         false => SceneError::new(Origin::Program, reason, ""),
     };
-    match &why.warnings[..] {
-        [] => error,
-        odd => error.note(odd.join("\n")),
+    if why.notes.is_empty() {
+        error
+    } else {
+        error.note(why.notes.to_string())
     }
 }
 
@@ -387,7 +452,7 @@ fn material(section: &Section, default: &Material) -> Result<Material, SceneErro
 
 /// Adds a warning, once, for each coefficient that is above 1 in a channel. The first table that
 /// sets a coefficient decides.
-fn tell_over_one(tables: &[Section], warnings: &mut Vec<String>) {
+fn tell_over_one(tables: &[Section], notes: &mut Notes) {
     for key in ["ka", "kd", "ks"] {
         let Some(section) = tables.iter().find(|section| section.has(key)) else {
             continue;
@@ -400,9 +465,7 @@ fn tell_over_one(tables: &[Section], warnings: &mut Vec<String>) {
             "`{}` is {most}: a surface that reflects more light than it gets; expected 0 to 1, as light above 1 is clamped at each pixel",
             section.name(key)
         );
-        if !warnings.contains(&warning) {
-            warnings.push(warning);
-        }
+        notes.push(Note::warning("material/over-one", warning));
     }
 }
 
@@ -476,7 +539,7 @@ fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, Scene
 }
 
 /// Adds a warning, once, if the mesh file `name` is wound inside out.
-fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, warnings: &mut Vec<String>) {
+fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, notes: &mut Notes) {
     let found = inside_out(mesh);
     let polygons = found.polygons;
     let which = match found.surfaces {
@@ -485,13 +548,13 @@ fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, warnings: &
         1 => format!("1 surface of the file, of {polygons} polygons, is"),
         n => format!("{n} surfaces of the file, of {polygons} polygons, are"),
     };
-    let warning = format!(
-        "{name}: {which} closed and wound inside out, {outside}: turn the faces around, or try \
-         --cull none --two-sided"
-    );
-    if !warnings.contains(&warning) {
-        warnings.push(warning);
-    }
+    let text =
+        format!("{which} closed and wound inside out, {outside}: turn the faces around, or try ");
+    let note = Note::warning("inside-out", text)
+        .set(Setting::word("cull", "none"))
+        .say(" ")
+        .set(Setting::number("two_sided", "true"));
+    notes.push(note.about(name));
 }
 
 /// Returns the mesh with `default` as the material of every polygon that had none.

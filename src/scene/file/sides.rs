@@ -7,6 +7,7 @@ use super::shown;
 use super::value::{Data, SceneTable};
 use crate::mesh::PolygonMesh;
 use crate::mesh::winding::WindingDoubts;
+use crate::note::{Note, Notes, Setting};
 use crate::scene::Culling;
 use std::format;
 use std::string::String;
@@ -24,12 +25,7 @@ impl Sides {
     /// Reads the keys of `scene`. `alone` is the name and the mesh of a file that no scene file
     /// names. For such a mesh, absent keys depend on its winding: if it is doubtful, both sides are
     /// drawn and lit, and a note says why.
-    pub fn new(
-        scene: &Section,
-        alone: Option<(&str, &PolygonMesh)>,
-        warnings: &mut Vec<String>,
-        notes: &mut Vec<String>,
-    ) -> Sides {
+    pub fn new(scene: &Section, alone: Option<(&str, &PolygonMesh)>, notes: &mut Notes) -> Sides {
         let mut sides = Sides {
             culling: scene.word("cull"),
             two_sided: scene.is_on("two_sided"),
@@ -45,28 +41,36 @@ impl Sides {
         }
         if sides.two_sided && sides.culling == Culling::Back {
             let name = scene.name("two_sided");
-            warnings.push(format!(
+            let text = format!(
                 "`{name}` has no effect with cull = \"back\": polygons seen from behind are left out"
-            ));
+            );
+            notes.push(Note::warning("no-effect", text));
         }
         sides
     }
 
     /// Chooses the keys that `scene` leaves open for a mesh with doubtful winding. Returns the note
     /// about it.
-    fn choose(&mut self, scene: &Section, name: &str, doubts: &WindingDoubts) -> String {
-        let mut done = "lit on the side that is seen";
+    fn choose(&mut self, scene: &Section, name: &str, doubts: &WindingDoubts) -> Note {
+        let why = reasons(doubts);
+        let mut note = Note::note(
+            "winding",
+            format!("{why}: its polygons are lit on the side that is seen"),
+        );
         let set = |table: &mut SceneTable, key, data| table.set(key, data, Origin::Program);
         if !scene.has("cull") {
             self.culling = Culling::None;
             set(&mut self.chosen, "cull", Data::Text("none".into()));
-            done = "drawn and lit on both sides (--cull back draws front sides only)";
+            let done = format!("{why}: its polygons are drawn and lit on both sides (");
+            note = Note::note("winding", done)
+                .set(Setting::word("cull", "back"))
+                .say(" draws front sides only)");
         }
         if !scene.has("two_sided") {
             self.two_sided = true;
             set(&mut self.chosen, "two_sided", Data::Switch(true));
         }
-        format!("{name}: {}: its polygons are {done}", reasons(doubts))
+        note.about(name)
     }
 }
 

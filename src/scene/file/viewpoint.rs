@@ -3,14 +3,13 @@
 use super::check::Section;
 use super::diagnostics::{Origin, SceneError};
 use super::upright::turn;
+use crate::note::{Note, Notes};
 use crate::number::Written;
 use crate::scene::direction::unit;
 use crate::scene::ranges::{COORDINATE, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, TILT};
 use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::{DMat3, DVec3};
 use std::format;
-use std::string::String;
-use std::vec::Vec;
 
 /// The fraction of the picture that objects fill.
 const FIT: NumberRange = NumberRange::new(1e-3, 100.0, "a fraction of the picture, 0.001 to 100");
@@ -57,10 +56,10 @@ impl<'a> Viewpoint<'a> {
     pub fn camera(
         &self,
         points: impl Iterator<Item = DVec3> + Clone,
-        warnings: &mut Vec<String>,
+        notes: &mut Notes,
     ) -> Result<Camera, SceneError> {
         let mut camera = match self.fixed {
-            Some([eye, target]) => self.fixed(eye, target, points, warnings),
+            Some([eye, target]) => self.fixed(eye, target, points, notes),
             None => Camera::fit(points, &self.fit).ok_or_else(|| {
                 let expected = "nothing to fit the camera to";
                 let problem = "the objects have no polygons";
@@ -95,7 +94,7 @@ impl<'a> Viewpoint<'a> {
         eye: DVec3,
         target: DVec3,
         points: impl Iterator<Item = DVec3> + Clone,
-        warnings: &mut Vec<String>,
+        notes: &mut Notes,
     ) -> Camera {
         let mut camera = Camera {
             eye,
@@ -113,7 +112,10 @@ impl<'a> Viewpoint<'a> {
         };
         match camera.depth_range(points) {
             Some(range) => (camera.near, camera.far) = range,
-            None => warnings.push("nothing lies in front of the eye".into()),
+            None => notes.push(Note::warning(
+                "behind-eye",
+                "nothing lies in front of the eye",
+            )),
         }
         camera
     }

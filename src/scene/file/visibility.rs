@@ -3,15 +3,14 @@
 
 use super::check::Section;
 use super::diagnostics::SceneError;
+use crate::note::{Note, Notes};
 use crate::scene::{Clipping, DepthBits, DepthBuffer, HiddenSurfaces, Interpolation, Scene};
 use std::format;
-use std::string::String;
-use std::vec::Vec;
 
 /// Returns the method for hidden surfaces. Warns about a key that has no effect under this method.
 pub(super) fn hidden_surfaces(
     scene: &Section,
-    warnings: &mut Vec<String>,
+    notes: &mut Notes,
 ) -> Result<HiddenSurfaces, SceneError> {
     let is_known = |bits| [16, 24, 32].contains(&bits);
     let bits = match scene.whole("depth_bits", is_known, "16, 24 or 32")? {
@@ -27,8 +26,8 @@ pub(super) fn hidden_surfaces(
     ] {
         if scene.has(key) && choice != needs {
             let name = scene.name(key);
-            let warning = format!("`{name}` has no effect without visibility = \"{needs}\"");
-            warnings.push(warning);
+            let text = format!("`{name}` has no effect without visibility = \"{needs}\"");
+            notes.push(Note::warning("no-effect", text));
         }
     }
     Ok(match choice {

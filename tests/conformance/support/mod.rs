@@ -83,10 +83,10 @@ pub fn scene(name: &str, size: Size) -> Scene {
     }
     let load = |spec: &str, folder: &Path| match spec.strip_prefix("builtin:") {
         Some(spec) => builtin(spec)
-            .map(|mesh| (Arc::new(mesh), vec![]))
+            .map(|mesh| (Arc::new(mesh), Default::default()))
             .map_err(|e| UnusableMesh::new(e.to_string())),
         None => load_mesh(&folder.join(spec))
-            .map(|l| (Arc::new(l.mesh), l.warnings))
+            .map(|l| (Arc::new(l.mesh), l.notes))
             .map_err(|e| UnusableMesh::new(e.to_string())),
     };
     file.resolve(load).unwrap_or_else(|e| panic!("{e}")).scene

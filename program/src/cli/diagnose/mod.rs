@@ -6,17 +6,18 @@ mod text;
 
 use super::output::{self, Output, print_beside};
 use super::progress::Progress;
-use super::scene_flags::SceneFlags;
-use super::{CliError, Log, Outcome, files, input_name, memory};
+use super::scene_flags::{SceneFlags, frame_of, note_scene};
+use super::{CliError, Log, Outcome, files, input_name};
 use crate::diagnose::{DiagnoseError, Question, diagnose};
+use fastphong::frame::Frame;
 use fastphong::glam::DVec3;
 use fastphong::picture::image_file::FilePicture;
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::Scene;
-use fastphong::scene::file::Resolved;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
+use fastphong::scene::open::{Look, Opened};
 use fastphong::shading::Variant;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -59,7 +60,7 @@ impl DiagnoseArgs {
             .map(|path| Output::of_picture(path, None))
             .transpose()?;
         let outputs: Vec<&Output> = output.iter().collect();
-        let file = self.scene.load(&self.input)?;
+        let file = self.scene.read(&self.input)?;
         files::will_read(&self.picture, "the picture");
         output::check(&outputs)?;
         let picture = files::picture(&self.picture, "the picture")?;
@@ -68,27 +69,25 @@ impl DiagnoseArgs {
         }
         let progress = Progress::watched(log);
         progress.at(0.0, "loading the scene");
-        let (file, resolved, own_size) = self.sized(file, &picture)?;
-        let mut scene = resolved.scene.clone();
-        scene.samples = 1;
-        progress.aside(|| self.scene.warn_without_hints(&file, &resolved, log));
-        memory::check_frame(&scene)?;
-        self.check_method(&scene)?;
+        let (mut opened, own_size) = self.sized(file, &picture)?;
+        opened.scene.samples = 1;
+        progress.aside(|| note_scene(&opened, log));
+        let frame = progress.aside(|| frame_of(&opened, log))?;
+        self.check_method(&frame)?;
+        drop(frame);
+        let scene = &opened.scene;
         let question = Question {
-            scene: &scene,
+            scene,
             method: self.method.as_ref(),
             picture: &picture,
-            light_lengths: &light_lengths(&file),
+            light_lengths: &light_lengths(&opened.file),
         };
         let found = diagnose(&question, &mut |share| {
             progress.at(share, "drawing mistakes");
         });
         let found = found.map_err(|error| self.error(&error, picture.size()))?;
         let text = match self.json {
-            true => format!(
-                "{:#}\n",
-                json::json(self, &scene, &found, started.elapsed())
-            ),
+            true => format!("{:#}\n", json::json(self, scene, &found, started.elapsed())),
             false => {
                 let own = [own_size, [scene.width, scene.height]];
                 text::text(self, &found, own)
@@ -116,21 +115,21 @@ impl DiagnoseArgs {
         &self,
         mut file: SceneFile,
         picture: &FilePicture,
-    ) -> Result<(SceneFile, Resolved, [u32; 2]), CliError> {
+    ) -> Result<(Opened, [u32; 2]), CliError> {
         let [width, height] = picture.size();
         let most = Scene::MAX_SIDE as usize;
         if width.max(height) > most {
             let found = format!("{}: has {width}x{height} pixels", self.picture.display());
             return Err(format!("{found}: expected at most {most} a side").into());
         }
-        let resolved = files::resolve(&file)?;
-        let own_size = [resolved.scene.width, resolved.scene.height];
+        let opened = self.scene.open_file(file.clone(), Look::Compared)?;
+        let own_size = [opened.scene.width, opened.scene.height];
         let [own_width, own_height] = own_size;
         let own = [own_width, own_height].map(|side| side as usize);
         if own == [width, height] || own == [height, width] {
-            return Ok((file, resolved, own_size));
+            return Ok((opened, own_size));
         }
-        if self.scene.gives(Some("image"), "width") {
+        if self.scene.over().sets("image.width") {
             let found = format!("{}: has {width}x{height} pixels", self.picture.display());
             let expected = format!("expected {own_width}x{own_height}, as --resolution says");
             return Err(format!("{found}: {expected}").into());
@@ -140,16 +139,16 @@ impl DiagnoseArgs {
         image.set("width", Data::Whole(width as i64), Origin::Program);
         image.set("height", Data::Whole(height as i64), Origin::Program);
         file.overlay(size);
-        let resolved = files::resolve(&file)?;
-        Ok((file, resolved, own_size))
+        let opened = self.scene.open_file(file, Look::Compared)?;
+        Ok((opened, own_size))
     }
 
     /// Checks that the method asked for can draw the scene.
-    fn check_method(&self, scene: &Scene) -> Result<(), CliError> {
+    fn check_method(&self, frame: &Frame) -> Result<(), CliError> {
         let Some(method) = &self.method else {
             return Ok(());
         };
-        match method.plan(&scene.frame()?, Renderer::LECTURE) {
+        match method.plan(frame, Renderer::LECTURE) {
             Plan::Refused(reason) => Err(format!("--as {method}: {reason}").into()),
             _ => Ok(()),
         }

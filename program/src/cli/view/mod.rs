@@ -6,12 +6,12 @@ use super::engines::{self, Simd, ThreadFlags, renderer};
 use super::input_name;
 use super::measured::{Methods, methods, warn_of_debug_build};
 use super::name_template::scene_name;
-use super::polygon_counts::warn_of_polygons_left_out;
-use super::scene_flags::SceneFlags;
+use super::scene_flags::{SceneFlags, note_frame};
 use super::watch::Watched;
 use super::{CliError, Log, Outcome, memory};
 use crate::view::{Action, Loaded, Panes, Viewer};
 use fastphong::raster::Renderer;
+use fastphong::scene::open::Look;
 
 /// Show a scene or a mesh in a window: turn it, and compare two methods by a divider
 #[derive(clap::Args, Clone, Debug)]
@@ -106,15 +106,11 @@ impl ViewArgs {
 
     /// Loads and prepares the scene.
     fn load(&self, log: Log) -> Result<Loaded, CliError> {
-        let mut file = self.scene.load_to_show(&self.input)?;
-        let resolved = self.scene.resolve_to_show(&mut file)?;
-        self.scene.warn(&file, &resolved, log);
-        self.scene.note_colours(&file, &resolved, log);
-        memory::check_frame(&resolved.scene)?;
-        let camera = file.table().table("camera");
-        let gives = |key| camera.is_some_and(|camera| camera.get(key).is_some());
-        let loaded = Loaded::new(&resolved.scene, [gives("near"), gives("far")])?;
-        warn_of_polygons_left_out(&loaded.frame()?, log);
+        let opened = self.scene.open(&self.input, Look::Shown, log)?;
+        memory::check_frame(&opened.scene)?;
+        let given = ["camera.near", "camera.far"].map(|key| opened.file.states(key));
+        let loaded = Loaded::new(&opened.scene, given)?;
+        note_frame(&opened, &loaded.frame()?, log);
         Ok(loaded)
     }
 }

@@ -1,5 +1,6 @@
 use super::expect::{check, error};
 use super::{cubes, with_object};
+use crate::note::Note;
 use crate::scene::Scene;
 use crate::scene::file::diagnostics::Origin;
 use crate::scene::file::value::Data;
@@ -412,7 +413,10 @@ fn meshes_that_cannot_be_loaded() {
         let error = file
             .resolve(|_, _| {
                 Err(UnusableMesh {
-                    warnings: warnings.iter().map(ToString::to_string).collect(),
+                    notes: warnings
+                        .iter()
+                        .map(|text| Note::warning("odd", *text))
+                        .collect(),
                     ..UnusableMesh::new(reason)
                 })
             })

@@ -1,6 +1,7 @@
 use super::{cube, cubes, resolve, with_object};
 use crate::mesh::vertex_normals::{NormalSource, NormalWeight};
 use crate::mesh::{Material, MeshBuilder, PolygonMesh};
+use crate::note::{Level, Note, Notes, SceneKeys};
 use crate::picture::Encoding;
 use crate::scene::file::Resolved;
 use crate::scene::file::SceneFile;
@@ -27,9 +28,7 @@ fn near(a: DVec3, b: DVec3) -> bool {
 
 #[test]
 fn defaults() {
-    let Resolved {
-        scene, warnings, ..
-    } = resolve(&with_object(""));
+    let Resolved { scene, notes, .. } = resolve(&with_object(""));
     assert_eq!(
         (scene.width, scene.height, scene.background),
         (640, 480, [0.0; 3])
@@ -62,7 +61,7 @@ fn defaults() {
         (scene.camera.target, scene.camera.up),
         (DVec3::ZERO, DVec3::Y)
     );
-    assert!(warnings.is_empty());
+    assert!(notes.is_empty());
 }
 
 #[test]
@@ -166,12 +165,10 @@ fn every_way_of_hiding_surfaces() {
             HiddenSurfaces::Painter(PainterKey::Farthest),
         ),
     ] {
-        let Resolved {
-            scene, warnings, ..
-        } = of(text);
+        let Resolved { scene, notes, .. } = of(text);
         assert_eq!(
-            (scene.hidden_surfaces, warnings.len()),
-            (expected, 0),
+            (scene.hidden_surfaces, notes.is_empty()),
+            (expected, true),
             "{text}"
         );
     }
@@ -193,7 +190,7 @@ fn every_way_of_hiding_surfaces() {
             "`depth` has no effect without visibility = \"z-buffer\"",
         ),
     ] {
-        assert_eq!(of(text).warnings, [warning]);
+        assert_eq!(of(text).notes.to_string(), warning);
     }
 }
 
@@ -228,7 +225,7 @@ fn fit_rule() {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
     let sphere = |text: &str| {
         let file = SceneFile::parse(&with_object(text), "scene.toml").expect("valid");
-        file.resolve(|_, _| Ok((Arc::new(sphere()), vec![])))
+        file.resolve(|_, _| Ok((Arc::new(sphere()), Notes::default())))
             .expect("valid")
             .scene
             .camera
@@ -315,7 +312,7 @@ fn camera_at_a_given_place() {
     let away = resolve(&with_object(
         "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\nfovy = 30",
     ));
-    assert_eq!(away.warnings, ["nothing lies in front of the eye"]);
+    assert_eq!(away.notes.to_string(), "nothing lies in front of the eye");
 }
 
 #[test]
@@ -434,7 +431,7 @@ fn shininess(object: &Object, p: usize) -> f32 {
 fn materials() {
     let object = |text: &str| {
         let file = SceneFile::parse(text, "scene.toml").expect("valid");
-        file.resolve(|_, _| Ok((Arc::new(painted()), vec![])))
+        file.resolve(|_, _| Ok((Arc::new(painted()), Notes::default())))
             .expect("valid")
             .scene
             .objects
@@ -492,10 +489,11 @@ fn each_mesh_is_loaded_once_from_its_folder() {
     let mut asked = Vec::new();
     let mut load = |spec: &str, folder: &std::path::Path| {
         asked.push((spec.to_string(), PathBuf::from(folder)));
-        Ok((Arc::new(cube()), vec![format!("odd {spec}")]))
+        let odd = Note::warning("odd", format!("odd {spec}"));
+        Ok((Arc::new(cube()), Notes::from_iter([odd])))
     };
     let resolved = file.resolve(&mut load).expect("valid");
-    assert_eq!(resolved.warnings, ["odd a.obj", "odd b.obj"]);
+    assert_eq!(resolved.notes.to_string(), "odd a.obj\nodd b.obj");
     assert!(Arc::ptr_eq(
         &resolved.scene.objects[0].mesh,
         &resolved.scene.objects[2].mesh
@@ -506,7 +504,7 @@ fn each_mesh_is_loaded_once_from_its_folder() {
     asked.clear();
     let mut load = |spec: &str, folder: &std::path::Path| {
         asked.push((spec.to_string(), PathBuf::from(folder)));
-        Ok((Arc::new(cube()), vec![]))
+        Ok((Arc::new(cube()), Notes::default()))
     };
     file.resolve(&mut load).expect("valid");
     let there = PathBuf::from("some/where");
@@ -698,7 +696,7 @@ fn positions_that_are_nearly_one_are_welded_where_an_object_asks_for_it() {
     let text = "[[object]]\nmesh = 'a.obj'\nweld = 1e-4\n[[object]]\nmesh = 'a.obj'\n\
                 [[object]]\nmesh = 'a.obj'\nweld = 1e-6\n[[object]]\nmesh = 'a.obj'\nweld = 1e-4\n";
     let file = SceneFile::parse(text, "scene.toml").expect("valid");
-    let load = |_: &str, _: &std::path::Path| Ok((apart.clone(), Vec::new()));
+    let load = |_: &str, _: &std::path::Path| Ok((apart.clone(), Notes::default()));
     let scene = file.resolve(load).expect("valid").scene;
     let [welded, same, other, again] = [0, 1, 2, 3].map(|i| &scene.objects[i].mesh);
     assert_eq!(welded.positions()[3..5], apart.positions()[1..3]);
@@ -712,7 +710,7 @@ fn positions_that_are_nearly_one_are_welded_where_an_object_asks_for_it() {
 /// them.
 #[test]
 fn coefficients_over_one_are_told_where_they_are_drawn() {
-    let told = |text: &str| resolve(text).warnings;
+    let told = |text: &str| resolve(text).notes.texts(Level::Warning, &SceneKeys);
     let starts = |text: &str, name: &str| {
         let warnings = told(text);
         assert_eq!(warnings.len(), 1, "{warnings:?}");

@@ -36,7 +36,7 @@ fn cube() -> PolygonMesh {
 
 /// Loads a cube for every mesh.
 fn cubes(_: &str, _: &Path) -> MeshResult {
-    Ok((Arc::new(cube()), Vec::new()))
+    Ok((Arc::new(cube()), Default::default()))
 }
 
 /// Resolves the scene of `text`, with cubes for all meshes.

@@ -1,3 +1,4 @@
+use crate::note::Notes;
 use crate::number::split_mix::SplitMix;
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
@@ -89,7 +90,7 @@ impl Random {
         SceneFile {
             table,
             source: None,
-            notes: Vec::new(),
+            notes: Notes::default(),
             of_mesh_file: SceneTable::default(),
         }
     }

@@ -37,11 +37,7 @@ fn shipped_scenes_are_valid() {
         let resolved = file
             .resolve(cubes)
             .unwrap_or_else(|error| panic!("{error}"));
-        assert!(
-            resolved.warnings.is_empty(),
-            "{name}: {:?}",
-            resolved.warnings
-        );
+        assert!(resolved.notes.is_empty(), "{name}: {}", resolved.notes);
         let size = (resolved.scene.width, resolved.scene.height);
         assert!(size == (640, 480) || size == (320, 240), "{name}: {size:?}");
         assert!(

@@ -1,21 +1,30 @@
 //! Warns of lights that light nothing, and of pictures that no light reaches.
 
-use super::shown_frame::ShownFrame;
-use super::text::counted;
-use fastphong::mesh::orientation::is_inside_closed_surface;
-use fastphong::scene::{LightTerm, Place};
+use super::drawn_scene::DrawnScene;
+use crate::mesh::orientation::is_inside_closed_surface;
+use crate::note::{Note, Notes};
+use crate::number::counted::counted;
+use crate::scene::{LightTerm, Place};
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
 use glam::DVec3;
 
 /// How many lights inside surfaces the warnings name at most.
 const MOST_NAMED: usize = 4;
 
-/// Returns warnings about lights inside closed surfaces that they cannot light, and about a picture
-/// that no light reaches.
-pub fn unlit_texts(shown: &ShownFrame) -> Vec<String> {
-    let lit = LitObjects::of(shown);
-    let mut texts = inside(shown, &lit);
-    texts.extend(no_light(shown, &lit));
-    texts
+/// Warns of lights inside closed surfaces that they cannot light, and of a picture that no light
+/// reaches.
+pub(super) fn unlit(drawn: &DrawnScene, notes: &mut Notes) {
+    let lit = LitObjects::of(drawn);
+    for text in inside(drawn, &lit) {
+        notes.push(Note::warning("light/inside", text));
+    }
+    if let Some(text) = no_light(drawn, &lit) {
+        notes.push(Note::warning("light/none", text));
+    }
 }
 
 /// The visible objects, and which lights fall on them.
@@ -29,8 +38,8 @@ struct LitObjects {
 }
 
 impl LitObjects {
-    fn of(shown: &ShownFrame) -> LitObjects {
-        let (frame, objects) = (shown.frame, shown.scene.objects.len());
+    fn of(drawn: &DrawnScene) -> LitObjects {
+        let (frame, objects) = (drawn.frame, drawn.scene.objects.len());
         let lights = frame.light_count();
         let mut lit = LitObjects {
             lights,
@@ -42,7 +51,7 @@ impl LitObjects {
         // first polygons, so that the other polygons are skipped.
         let mut open = vec![lights; objects];
         for polygon in frame.polygons() {
-            let (object, _) = shown.place(polygon.source);
+            let (object, _) = drawn.place(polygon.source);
             let lighting = &frame.lightings()[polygon.material as usize];
             lit.is_seen[object] = true;
             lit.has_ambient |= lighting.ambient != [0.0; 3];
@@ -86,9 +95,9 @@ fn falls(light: &LightTerm, normal: [f32; 3], position: [f32; 3]) -> bool {
 }
 
 /// Returns a warning for each light at a position inside a closed surface that it does not light.
-fn inside(shown: &ShownFrame, lit: &LitObjects) -> Vec<String> {
+fn inside(drawn: &DrawnScene, lit: &LitObjects) -> Vec<String> {
     let mut found = Vec::new();
-    for (light, place) in shown
+    for (light, place) in drawn
         .scene
         .lights
         .iter()
@@ -98,13 +107,13 @@ fn inside(shown: &ShownFrame, lit: &LitObjects) -> Vec<String> {
         let Place::Local(at) = place else {
             continue;
         };
-        for (index, object) in shown.scene.objects.iter().enumerate() {
+        for (index, object) in drawn.scene.objects.iter().enumerate() {
             if !lit.is_seen[index] || lit.is_lit(index, light) {
                 continue;
             }
             let in_mesh = object.positions_to_world().inverse().transform_point3(at);
             if is_inside_closed_surface(&object.mesh, in_mesh) {
-                let (mesh, [x, y, z]) = (shown.mesh_name(index), at.to_array());
+                let (mesh, [x, y, z]) = (drawn.name(index), at.to_array());
                 let place = format!("light number {}, at ({x}, {y}, {z}),", light + 1);
                 found.push(format!(
                     "{place} stands inside the closed surface of {mesh} and cannot light its outside"
@@ -125,8 +134,8 @@ fn inside(shown: &ShownFrame, lit: &LitObjects) -> Vec<String> {
 }
 
 /// Returns a warning if polygons are visible but no light falls on them.
-fn no_light(shown: &ShownFrame, lit: &LitObjects) -> Option<String> {
-    if shown.frame.polygons().is_empty() || lit.is_lit.contains(&true) {
+fn no_light(drawn: &DrawnScene, lit: &LitObjects) -> Option<String> {
+    if drawn.frame.polygons().is_empty() || lit.is_lit.contains(&true) {
         return None;
     }
     match (lit.lights, lit.has_ambient) {

@@ -1,10 +1,16 @@
 //! The warning about light over 1, which is clamped: how much of the picture it affects, and which
 //! materials cause it.
 
-use super::shown_frame::ShownFrame;
-use fastphong::reference::clamping;
-use fastphong::scene::{Light, Lighting};
-use std::collections::BTreeSet;
+use super::drawn_scene::DrawnScene;
+use crate::note::{Note, Notes};
+use crate::number::counted::counted;
+use crate::reference::clamping;
+use crate::scene::{Light, LightTerm, Lighting};
+use alloc::borrow::ToOwned;
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 /// How many materials the warning names at most.
 const MOST_NAMED: usize = 3;
@@ -12,14 +18,18 @@ const MOST_NAMED: usize = 3;
 /// The weakest unbounded highlight to warn of: a tenth of white is visible.
 const LEAST_TOLD: f64 = 0.1;
 
-/// Returns the warning about a frame that is too bright: how much of it is clamped, and why in
-/// which materials; or which highlights cover everything that is lit. `None` if neither matters.
-pub fn too_bright_text(shown: &ShownFrame) -> Option<String> {
-    clamped_text(shown).or_else(|| endless_highlight_text(shown))
+/// Warns of a frame that is too bright: how much of it is clamped, and why in which materials; or
+/// which highlights cover everything that is lit.
+pub(super) fn too_bright(drawn: &DrawnScene, notes: &mut Notes) {
+    if let Some(text) = clamped_text(drawn) {
+        notes.push(Note::warning("light/clamped", text));
+    } else if let Some(text) = endless_highlight_text(drawn) {
+        notes.push(Note::warning("light/endless-highlight", text));
+    }
 }
 
-fn clamped_text(shown: &ShownFrame) -> Option<String> {
-    let clamping = clamping(shown.frame);
+fn clamped_text(drawn: &DrawnScene) -> Option<String> {
+    let clamping = clamping(drawn.frame);
     if !clamping.is_notable() {
         return None;
     }
@@ -40,12 +50,12 @@ fn clamped_text(shown: &ShownFrame) -> Option<String> {
         .enumerate()
         .filter(|(_, clamped)| *clamped > 0)
         .collect();
-    materials.sort_by_key(|(_, clamped)| std::cmp::Reverse(*clamped));
+    materials.sort_by_key(|(_, clamped)| core::cmp::Reverse(*clamped));
     let others = materials.len().saturating_sub(MOST_NAMED);
     materials.truncate(MOST_NAMED);
     let mut why: Vec<String> = materials
         .iter()
-        .map(|(material, _)| reason(shown, *material))
+        .map(|(material, _)| reason(drawn, *material))
         .collect();
     if others > 0 {
         why.push(format!("{others} more materials"));
@@ -58,20 +68,20 @@ fn clamped_text(shown: &ShownFrame) -> Option<String> {
 
 /// Names the materials whose exponent is under 1, so that the highlight covers everything that is
 /// lit. This looks wrong even where the light stays under 1.
-fn endless_highlight_text(shown: &ShownFrame) -> Option<String> {
-    let lightings = shown.frame.lightings();
+fn endless_highlight_text(drawn: &DrawnScene) -> Option<String> {
+    let lightings = drawn.frame.lightings();
     let is_endless = |material: &u32| {
         let lighting = &lightings[*material as usize];
         lighting.shininess < 1.0 && terms(lighting).2 >= LEAST_TOLD
     };
-    let drawn = shown
+    let visible = drawn
         .frame
         .polygons()
         .iter()
         .map(|polygon| polygon.material);
-    let materials: BTreeSet<u32> = drawn.filter(is_endless).collect();
+    let materials: BTreeSet<u32> = visible.filter(is_endless).collect();
     let names = materials.iter().take(MOST_NAMED);
-    let mut names: Vec<String> = names.map(|material| name(shown, *material)).collect();
+    let mut names: Vec<String> = names.map(|material| name(drawn, *material)).collect();
     if materials.len() > MOST_NAMED {
         names.push(format!("{} more materials", materials.len() - MOST_NAMED));
     }
@@ -83,11 +93,11 @@ fn endless_highlight_text(shown: &ShownFrame) -> Option<String> {
 }
 
 /// Names the material at an index of the frame, and says why its light is over 1.
-fn reason(shown: &ShownFrame, material: usize) -> String {
-    let lighting = &shown.frame.lightings()[material];
-    let name = name(shown, material as u32);
+fn reason(drawn: &DrawnScene, material: usize) -> String {
+    let lighting = &drawn.frame.lightings()[material];
+    let name = name(drawn, material as u32);
     let (ambient, diffuse, highlight) = terms(lighting);
-    let decimal = |x: f64| format!("{}", (1e3 * x).round() / 1e3);
+    let decimal = |x: f64| format!("{}", libm::round(1e3 * x) / 1e3);
     let mut text = format!(
         "{name} reaches {}: ambient {} + diffuse {} + highlight {}",
         decimal(ambient + diffuse + highlight),
@@ -96,7 +106,7 @@ fn reason(shown: &ShownFrame, material: usize) -> String {
         decimal(highlight)
     );
     if lighting.vertex_colours {
-        let most = decimal(largest_colour(shown, material as u32));
+        let most = decimal(largest_colour(drawn, material as u32));
         text += &format!(
             ", of which ambient and diffuse are multiplied by vertex colours of up to {most}"
         );
@@ -108,17 +118,17 @@ fn reason(shown: &ShownFrame, material: usize) -> String {
             &format!(", and with an exponent (Ns, shininess) of {shininess} the highlight {most}");
     }
     let brightest = |light: &Light| light.colour.into_iter().fold(0.0, f32::max);
-    let light: f32 = shown.scene.lights.iter().map(brightest).sum();
+    let light: f32 = drawn.scene.lights.iter().map(brightest).sum();
     if light > 1.0 {
-        let lights = super::text::counted(shown.scene.lights.len(), "light of", "lights of");
+        let lights = counted(drawn.scene.lights.len(), "light of", "lights of");
         text += &format!(", under {lights} {} in all", decimal(light.into()));
     }
     text
 }
 
 /// Returns the largest channel of all vertex colours on a material.
-fn largest_colour(shown: &ShownFrame, material: u32) -> f64 {
-    let frame = shown.frame;
+fn largest_colour(drawn: &DrawnScene, material: u32) -> f64 {
+    let frame = drawn.frame;
     let polygons = frame.polygons().iter();
     let polygons = polygons.filter(|polygon| polygon.material == material);
     // Corners made by clipping have no vertex colours.
@@ -132,7 +142,7 @@ fn largest_colour(shown: &ShownFrame, material: u32) -> f64 {
 /// the surface head-on.
 fn terms(lighting: &Lighting) -> (f64, f64, f64) {
     let channel = |i: usize| {
-        let sum = |of: fn(&fastphong::scene::LightTerm) -> [f32; 3]| -> f64 {
+        let sum = |of: fn(&LightTerm) -> [f32; 3]| -> f64 {
             lighting
                 .lights
                 .iter()
@@ -154,18 +164,18 @@ fn terms(lighting: &Lighting) -> (f64, f64, f64) {
 
 /// Returns a name for the material at an index of the frame, found through its first polygon: the
 /// name in the mesh file, or its object.
-fn name(shown: &ShownFrame, material: u32) -> String {
-    let mut polygons = shown.frame.polygons().iter();
+fn name(drawn: &DrawnScene, material: u32) -> String {
+    let mut polygons = drawn.frame.polygons().iter();
     let Some(polygon) = polygons.find(|polygon| polygon.material == material) else {
         return "a material".to_owned();
     };
-    let (object, polygon) = shown.place(polygon.source);
-    let (of_object, mesh) = (&shown.scene.objects[object], shown.mesh_name(object));
+    let (object, polygon) = drawn.place(polygon.source);
+    let (of_object, mesh) = (&drawn.scene.objects[object], drawn.name(object));
     let own = of_object.mesh.polygon_material(polygon);
     let own = own.filter(|_| of_object.material.is_none());
     match own.and_then(|own| of_object.mesh.material_name(own)) {
         Some(own) => format!("material `{own}` of {mesh}"),
-        None if shown.scene.objects.len() > 1 => {
+        None if drawn.scene.objects.len() > 1 => {
             format!("the material of object {}, {mesh},", object + 1)
         }
         None => format!("the material of {mesh}"),

@@ -1,11 +1,13 @@
 //! Hints about mesh files: what may not look as intended, and which flag to try.
 
-use super::normal_text::by_weight;
-use super::text::counted;
-use fastphong::mesh::PolygonMesh;
-use fastphong::mesh::edges::EdgeCounts;
-use fastphong::mesh::vertex_normals::{NormalSource, NormalUse};
-use fastphong::scene::Object;
+use crate::mesh::PolygonMesh;
+use crate::mesh::edges::EdgeCounts;
+use crate::mesh::vertex_normals::{NormalSource, NormalUse};
+use crate::note::{Note, Notes, Setting};
+use crate::number::counted::counted;
+use crate::scene::{Object, Scene};
+use alloc::collections::BTreeSet;
+use alloc::format;
 
 /// The angle, in degrees, above which an edge was probably meant to be sharp.
 const CREASE: f64 = 40.0;
@@ -13,44 +15,61 @@ const CREASE: f64 = 40.0;
 /// that was rounded in two ways. Programs write 32-bit floats with seven digits.
 const ROUNDED: f64 = 1e-6;
 
-/// The hint for meshes in a format where z is up by custom.
-pub const Z_IS_UP: &str = "z is up in most STL files: --up z";
+/// Returns hints about the mesh files of a scene: edges that look too smooth, vertices that nearly
+/// meet, seams. Built-in meshes are right.
+pub fn of_meshes(scene: &Scene) -> Notes {
+    let mut notes = Notes::default();
+    let mut looked_at = BTreeSet::new();
+    for object in &scene.objects {
+        let mesh = &*object.mesh;
+        if mesh.was_read() && looked_at.insert(mesh as *const PolygonMesh) {
+            notes.append(of_mesh(object));
+        }
+    }
+    notes
+}
 
-/// Returns hints about the normals of an object. `name` is the name of its mesh file.
-pub fn hints(name: &str, object: &Object) -> Vec<String> {
-    let mesh = &*object.mesh;
+/// Returns hints about the mesh of one object, and about its normals.
+pub fn of_mesh(object: &Object) -> Notes {
+    let mut notes = Notes::default();
+    let (mesh, name) = (&*object.mesh, &object.name);
     let used = NormalUse::of(mesh, object.normals.source);
     let counts = EdgeCounts::of(mesh, CREASE, ROUNDED);
-    let mut hints = Vec::new();
     // A user who asked for averaged normals needs no hint.
     let is_left_open = object.normals.source == NormalSource::Auto;
     if is_left_open && used.given == 0 && !mesh.states_smoothing() && counts.sharp > 0 {
         let edges = counted(counts.sharp, "edge that turns", "edges that turn");
-        let by = by_weight(object.normals.weight);
+        let by = object.normals.weight.by_text();
         // `vn` and `s` are words of OBJ.
-        let lack = match is_obj(name) {
-            true => "neither normals (vn) nor smoothing groups (s)",
-            false => "no normals",
+        let lack = if is_obj(name) {
+            "neither normals (vn) nor smoothing groups (s)"
+        } else {
+            "no normals"
         };
-        hints.push(format!(
-            "{name}: has {lack}: normals are averaged{by}, even over {edges} by more than {CREASE} \
-             degrees; --normals crease={CREASE} keeps these sharp"
-        ));
+        let text = format!(
+            "has {lack}: normals are averaged{by}, even over {edges} by more than {CREASE} degrees; "
+        );
+        let note = Note::note("mesh/sharp", text)
+            .set(Setting::number("object.crease", format!("{CREASE}")))
+            .say(" keeps these sharp");
+        notes.push(note.about(name));
     }
     if counts.closing > 0 {
         let edges = counted(counts.closing, "open edge", "open edges");
-        hints.push(format!(
-            "{name}: {edges} would close if positions that differ only by rounding were merged: --weld {ROUNDED:e}"
-        ));
+        let text =
+            format!("{edges} would close if positions that differ only by rounding were merged: ");
+        let weld = Setting::number("object.weld", format!("{ROUNDED:e}"));
+        notes.push(Note::note("mesh/weld", text).set(weld).about(name));
     }
     if counts.seams > 0 && used.averaged > 0 {
         let edges = counted(counts.seams, "edge", "edges");
-        hints.push(format!(
-            "{name}: objects (o) of the file meet in {edges} of a smooth surface: normals are not averaged across them, which shows as \
+        let text = format!(
+            "objects (o) of the file meet in {edges} of a smooth surface: normals are not averaged across them, which shows as \
              seams; remove the `o` lines to average them"
-        ));
+        );
+        notes.push(Note::note("mesh/seams", text).about(name));
     }
-    hints
+    notes
 }
 
 /// True for the name of an OBJ file, compressed or not.
@@ -60,12 +79,12 @@ fn is_obj(name: &str) -> bool {
 }
 
 /// Guesses from the bounds of a mesh if it lies on its side, and returns a hint on how to raise it.
-pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<String> {
+pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<Note> {
+    const KIND: &str = "mesh/lies";
     /// The fraction of the size that counts as zero.
     const NEAR: f64 = 1e-3;
     match mesh.up_by_custom() {
-        Some('z') => return Some(Z_IS_UP.to_owned()),
-        Some(_) => return None,
+        Some(_) => return mesh.up_note(),
         None => {}
     }
     let (low, high) = mesh.bounds()?;
@@ -85,24 +104,41 @@ pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<String> {
             } else {
                 ("below", "-")
             };
-            let name = names[up];
-            return Some(format!(
-                "lies {side} the plane {name} = 0, and around 0 along the other axes: if {sign}{name} is up, --up {sign}{name}"
-            ));
+            let (name, axis) = (names[up], up_word(sign, names[up]));
+            let text = format!(
+                "lies {side} the plane {name} = 0, and around 0 along the other axes: if {axis} is up, "
+            );
+            return Some(Note::note(KIND, text).set(Setting::word("camera.up", axis)));
         }
     }
     let [x, y, z] = sides;
     if z >= 2.0 * x.max(y) && !stands(1) {
-        return Some("is longest along z: if it stands along z, --up z".to_owned());
+        let note = Note::note(KIND, "is longest along z: if it stands along z, ");
+        return Some(note.set(Setting::word("camera.up", "z")));
     }
     let is_ground = 4.0 * z <= x.min(y) && is_around(0) == is_around(1) && stands(0) == stands(1);
-    is_ground.then(|| "is flat along z: if it is a terrain, --up z".to_owned())
+    is_ground.then(|| {
+        Note::note(KIND, "is flat along z: if it is a terrain, ")
+            .set(Setting::word("camera.up", "z"))
+    })
+}
+
+/// Returns the word for an axis, turned around if `sign` is `-`.
+fn up_word(sign: &str, axis: &str) -> &'static str {
+    match (sign, axis) {
+        ("", "x") => "x",
+        ("", _) => "z",
+        (_, "x") => "-x",
+        _ => "-z",
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastphong::mesh::MeshBuilder;
+    use crate::mesh::MeshBuilder;
+    use alloc::string::ToString;
+    use alloc::vec::Vec;
     use glam::Vec3;
 
     /// Makes a mesh with these bounds.
@@ -135,14 +171,14 @@ mod tests {
     fn meshes_that_do_not_stand_on_y_get_a_hint() {
         let told = |low, high| lies_on_its_side(&between(low, high));
         let up = |low, high, flag: &str| {
-            let hint = told(low, high).expect("a hint");
+            let hint = told(low, high).expect("a hint").to_string();
             assert!(hint.ends_with(flag), "{hint}");
         };
-        up([-2.0, -1.0, 0.0], [2.0, 1.0, 1.5], "--up z");
-        up([-2.0, -1.0, -1.5], [2.0, 1.0, 0.0], "--up -z");
-        up([0.0, -1.0, -1.0], [3.0, 1.0, 1.0], "--up x");
-        up([-1.0, -1.0, -5.0], [1.0, 1.0, 5.0], "--up z");
-        up([0.0, 0.0, -0.2], [8.0, 8.0, 0.3], "--up z");
+        up([-2.0, -1.0, 0.0], [2.0, 1.0, 1.5], "`camera.up = \"z\"`");
+        up([-2.0, -1.0, -1.5], [2.0, 1.0, 0.0], "`camera.up = \"-z\"`");
+        up([0.0, -1.0, -1.0], [3.0, 1.0, 1.0], "`camera.up = \"x\"`");
+        up([-1.0, -1.0, -5.0], [1.0, 1.0, 5.0], "`camera.up = \"z\"`");
+        up([0.0, 0.0, -0.2], [8.0, 8.0, 0.3], "`camera.up = \"z\"`");
         // A tower, a door and a car that stand on y = 0, a ball, a cube beside 0.
         assert_eq!(told([-1.0, 0.0, -1.0], [1.0, 5.0, 1.0]), None);
         assert_eq!(told([-0.5, 0.0, -0.05], [0.5, 2.0, 0.05]), None);

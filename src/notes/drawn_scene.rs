@@ -1,22 +1,20 @@
 //! A frame together with its scene, to tell which object and mesh a polygon came from.
 
-use fastphong::frame::Frame;
-use fastphong::scene::file::{SceneFile, shown};
-use fastphong::scene::{Object, Scene};
+use crate::frame::Frame;
+use crate::scene::{Object, Scene};
+use alloc::vec::Vec;
 
 /// A frame and the scene that it shows.
-pub struct ShownFrame<'a> {
-    file: &'a SceneFile,
+pub(super) struct DrawnScene<'a> {
     pub scene: &'a Scene,
     pub frame: &'a Frame,
     /// For each object, the index in the scene of its first polygon.
     starts: Vec<usize>,
 }
 
-impl<'a> ShownFrame<'a> {
-    /// Makes it of a `frame`, the `scene` that it shows, and the scene's `file`, which has the
-    /// names.
-    pub fn new(file: &'a SceneFile, scene: &'a Scene, frame: &'a Frame) -> Self {
+impl<'a> DrawnScene<'a> {
+    /// Makes it of the `scene` and a `frame` that shows it.
+    pub fn new(scene: &'a Scene, frame: &'a Frame) -> Self {
         let mut count = 0;
         let start = |object: &Object| {
             let start = count;
@@ -24,8 +22,7 @@ impl<'a> ShownFrame<'a> {
             start
         };
         let starts = scene.objects.iter().map(start).collect();
-        ShownFrame {
-            file,
+        DrawnScene {
             scene,
             frame,
             starts,
@@ -42,13 +39,11 @@ impl<'a> ShownFrame<'a> {
         (object, source - self.starts[object])
     }
 
-    /// True if the scene, or a flag, states a value for `key`.
-    pub fn states(&self, key: &str) -> bool {
-        self.file.table().get(key).is_some()
-    }
-
-    /// Returns the name of the mesh of an object.
-    pub fn mesh_name(&self, object: usize) -> &str {
-        shown(self.file.meshes().nth(object).unwrap_or_default())
+    /// Returns the name of an object: its mesh's, or its number if it has none.
+    pub fn name(&self, object: usize) -> &str {
+        match self.scene.objects[object].name.as_str() {
+            "" => "the mesh",
+            name => name,
+        }
     }
 }

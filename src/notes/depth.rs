@@ -1,30 +1,34 @@
 //! Notes about depth: polygons whose depths rounding cannot tell apart, and polygons that
 //! interpolation on the screen distorts.
 
-use super::Log;
-use super::text::{counted, grouped};
-use fastphong::frame::{DepthRange, Frame};
-use fastphong::raster::depth_ties::{DepthTies, depth_ties};
-use fastphong::scene::{HiddenSurfaces, Interpolation};
+use crate::frame::{DepthRange, Frame};
+use crate::note::{Note, Notes, Setting};
+use crate::number::counted::{counted, grouped};
+use crate::raster::depth_ties::{DepthTies, depth_ties};
+use crate::scene::{HiddenSurfaces, Interpolation};
+use alloc::format;
 
 /// The share of covered samples decided by rounding from which on the user is warned.
 const SHARE: f64 = 0.001;
 
 /// Warns of polygons whose depths rounding cannot tell apart, and notes polygons that are drawn
 /// twice.
-pub fn note_depth_ties(frame: &Frame, log: Log) {
+pub(super) fn ties(frame: &Frame, notes: &mut Notes) {
     let ties = depth_ties(frame);
     if ties.samples as f64 > SHARE * ties.covered as f64 {
-        log.warning(&ties_text(frame, ties));
+        notes.push(ties_note(frame, ties));
     }
     if ties.doubled > 0 {
         let one = "polygon has the corners of an earlier one, which hides it";
         let more = "polygons have the corners of earlier ones, which hide them";
-        log.note(&counted(ties.doubled, one, more));
+        notes.push(Note::note(
+            "depth/doubled",
+            counted(ties.doubled, one, more),
+        ));
     }
 }
 
-fn ties_text(frame: &Frame, ties: DepthTies) -> String {
+fn ties_note(frame: &Frame, ties: DepthTies) -> Note {
     let polygons = counted(ties.polygons, "polygon meets", "polygons meet");
     let share = 100.0 * ties.samples as f64 / ties.covered as f64;
     let samples = grouped(ties.samples);
@@ -32,14 +36,23 @@ fn ties_text(frame: &Frame, ties: DepthTies) -> String {
         HiddenSurfaces::ZBuffer(buffer) => buffer.bits.most().map(|most| most.ilog2() + 1),
         HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => None,
     };
+    let at = format!("{samples} samples ({share:.2} % of those covered)");
     match bits {
-        Some(bits) => format!(
-            "{polygons} others at equal depth in {bits} bits, at {samples} samples ({share:.2} % of those covered): the one \
-             drawn first is visible there; --depth-bits 32 tells more of them apart"
-        ),
-        None => format!(
-            "{polygons} others at the same depth up to rounding, at {samples} samples ({share:.2} % of those covered): which one \
-             is visible there differs between engines; move one of them, or leave it out"
+        Some(bits) => Note::warning(
+            "depth/ties",
+            format!(
+                "{polygons} others at equal depth in {bits} bits, at {at}: the one drawn first is \
+                 visible there; "
+            ),
+        )
+        .set(Setting::number("depth_bits", "32"))
+        .say(" tells more of them apart"),
+        None => Note::warning(
+            "depth/ties",
+            format!(
+                "{polygons} others at the same depth up to rounding, at {at}: which one is visible \
+                 there differs between engines; move one of them, or leave it out"
+            ),
         ),
     }
 }
@@ -57,9 +70,9 @@ fn normal_at(frame: &Frame, vertex: u32) -> [f32; 3] {
     }
 }
 
-/// Tells the user if perspective makes much of a difference to attributes interpolated on the
-/// screen, and which flag helps.
-pub fn note_screen_interpolation(frame: &Frame, log: Log) {
+/// Notes if perspective makes much of a difference to attributes interpolated on the screen. Whoever
+/// chose the interpolation knows what it does.
+pub(super) fn screen_interpolation(frame: &Frame, notes: &mut Notes) {
     let is_perspective = matches!(frame.depth_range(), DepthRange::Perspective { .. });
     if !is_perspective || frame.interpolation() == Interpolation::Perspective {
         return;
@@ -79,10 +92,13 @@ pub fn note_screen_interpolation(frame: &Frame, log: Log) {
     if bent > 0 {
         let one = "polygon is more than twice as far away at one corner as at another";
         let more = "polygons are more than twice as far away at one corner as at another";
-        log.note(&format!(
-            "{}: values interpolated over them are linear on the screen, as in the lecture, and so not in space; \
-             --interpolation perspective makes them right",
-            counted(bent, one, more)
-        ));
+        let polygons = counted(bent, one, more);
+        let text = format!(
+            "{polygons}: values interpolated over them are linear on the screen, as in the lecture, and so not in space; "
+        );
+        let note = Note::note("interpolation", text)
+            .set(Setting::word("interpolation", "perspective"))
+            .say(" makes them right");
+        notes.push(note.unless("interpolation"));
     }
 }
