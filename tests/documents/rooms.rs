@@ -4,7 +4,7 @@
 //! It finds paths without parsing Rust: a path follows `crate::`, `super::` or `fastphong::`
 //! outside comments.
 
-use crate::markdown::{files, is_word, read, root};
+use crate::markdown::{files, is_word, quoted, read, root, rows};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
@@ -18,8 +18,9 @@ const ROOMS: &[(&str, &str)] = &[
     ("integer", ""),
     ("picture", ""),
     ("number", "picture"),
-    ("mesh", "picture number"),
-    ("scene", "picture number mesh"),
+    ("note", ""),
+    ("mesh", "picture number note"),
+    ("scene", "picture number note mesh"),
     ("frame", "picture number mesh scene"),
     // `number`, `shading` and `raster` must stay out, because the reference shares no arithmetic
     // with the engines.
@@ -28,6 +29,9 @@ const ROOMS: &[(&str, &str)] = &[
     // `painter_conflicts.rs` needs the reference's exact spans. The engines need nothing from the
     // reference.
     ("raster", "picture number scene frame reference shading"),
+    // One method or the reference, by name.
+    ("drawing", "picture number frame reference shading raster"),
+    ("notes", "number note mesh scene frame reference raster"),
     (
         "compare",
         "picture number mesh scene frame reference shading raster",
@@ -51,8 +55,8 @@ const ROOMS: &[(&str, &str)] = &[
     ("program/view", "picture mesh scene frame shading raster"),
     (
         "program/cli",
-        "picture number mesh scene frame reference shading raster compare program/compare \
-         program/diagnose program/lectures program/report program/view",
+        "picture number note mesh scene frame reference shading raster drawing notes compare \
+         program/compare program/diagnose program/lectures program/report program/view",
     ),
 ];
 
@@ -127,7 +131,7 @@ fn imports() -> BTreeMap<String, BTreeSet<String>> {
             let path = path.with_extension("");
             let module = path.to_string_lossy();
             let module = module.trim_end_matches("/mod");
-            let is_in_a_room = root().join(folder).join(module).is_dir() || module.contains('/');
+            let is_in_a_room = !["lib", "main"].contains(&module);
             if is_in_a_room && !module.split('/').any(|part| FOR_TESTS.contains(&part)) {
                 sources.insert(format!("{package}{module}"), read(&file));
             }
@@ -171,9 +175,9 @@ fn every_source_folder_is_a_room_and_imports_point_one_way() {
         for entry in fs::read_dir(root().join(folder)).expect("the folder can be read") {
             let name = entry.expect("the folder can be read").file_name();
             let name = name.to_string_lossy();
-            let is_room = before.contains(&&*format!("{package}{name}"));
+            let room = format!("{package}{}", name.trim_end_matches(".rs"));
             assert!(
-                is_room || ["lib.rs", "main.rs"].contains(&&*name),
+                before.contains(&&*room) || ["lib.rs", "main.rs"].contains(&&*name),
                 "{folder}/{name} is no room: put it into one of {before:?}"
             );
         }
@@ -224,6 +228,72 @@ fn no_file_imports_itself_through_others() {
         imports.is_empty(),
         "files that import each other: {imports:#?}"
     );
+}
+
+/// Returns the names of the items that a source file hides from the documentation.
+fn hidden(source: &str) -> Vec<&str> {
+    const KEYWORDS: [&str; 9] = [
+        "pub", "const", "fn", "struct", "enum", "trait", "type", "mod", "static",
+    ];
+    let mut found = Vec::new();
+    let mut lines = source.lines().map(str::trim);
+    while let Some(line) = lines.next() {
+        if !line.starts_with("#[doc(hidden)]") {
+            continue;
+        }
+        let item = lines.find(|line| !line.starts_with(['#', '/']));
+        let item = item.expect("an item after the attribute");
+        if let Some(path) = item.strip_prefix("pub use ") {
+            let list = path.rsplit("::").next().unwrap_or(path);
+            let names = list.split(|c| !is_word(c));
+            found.extend(names.filter(|name| !name.is_empty()));
+        } else {
+            let mut words = item.split(|c| !is_word(c));
+            found.extend(words.find(|word| !word.is_empty() && !KEYWORDS.contains(word)));
+        }
+    }
+    found
+}
+
+/// What the library opens for the program is listed, so that the list stays short.
+#[test]
+fn hidden_items_of_the_library_are_listed() {
+    let map = read("docs/architecture.md");
+    let (_, section) = map
+        .split_once("### What the library hides")
+        .expect("a table");
+    let (section, _) = section.split_once("\n\nAround").expect("an end");
+    let mut listed: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for row in rows(section).into_iter().skip(1) {
+        let [room, items, _] = &row[..] else {
+            panic!("{row:?}")
+        };
+        let names = quoted(items).into_iter().map(str::to_owned);
+        let room = room.trim_matches('`').to_owned();
+        listed.entry(room).or_default().extend(names);
+    }
+    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for file in files("src", "rs") {
+        let source = read(&file);
+        let names = hidden(&source);
+        let room = file.iter().nth(1).expect("a file in src");
+        let room = room.to_string_lossy().trim_end_matches(".rs").to_owned();
+        if !names.is_empty() {
+            let names = names.into_iter().map(str::to_owned);
+            found.entry(room).or_default().extend(names);
+        }
+    }
+    for names in listed.values_mut().chain(found.values_mut()) {
+        names.sort();
+    }
+    for room in listed.keys().chain(found.keys()) {
+        assert_eq!(
+            listed.get(room),
+            found.get(room),
+            "docs/architecture.md lists the items on the left for `{room}`; the code hides those \
+             on the right"
+        );
+    }
 }
 
 /// A package is published with the files of its own folder only. Tests may read others.
