@@ -28,8 +28,9 @@ pub fn run(ending: &str, bytes: &[u8]) {
     match (read(), read()) {
         (Ok(loaded), Ok(again)) => {
             assert_eq!(loaded.mesh, again.mesh);
-            for warning in &loaded.warnings {
-                assert!(is_one_line(warning), "{warning:?}");
+            for note in &loaded.notes {
+                let text = note.to_string();
+                assert!(is_one_line(&text), "{text:?}");
             }
             draw(loaded.mesh);
         }

@@ -22,9 +22,10 @@ pub fn run(bytes: &[u8]) {
         Ok(loaded) => loaded,
         Err(error) => return check_message(&error),
     };
-    for warning in &loaded.warnings {
-        assert!(is_one_line(warning), "{warning:?}");
-        assert!(!warning.contains("gave up"), "{warning:?}");
+    for note in &loaded.notes {
+        let text = note.to_string();
+        assert!(is_one_line(&text), "{text:?}");
+        assert!(!text.contains("gave up"), "{text:?}");
     }
     // Some programs write a C string with its NUL.
     let with_nul = [obj, b"\n\0"].concat();

@@ -31,7 +31,7 @@ use crate::mesh::read::view;
 use crate::mesh::read::{
     ReadError, cause, gzip, is_no_scene, load_mesh_by as read_mesh_by, mesh_endings, parse_mesh,
 };
-use crate::note::{Note, Notes};
+use crate::note::Notes;
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
 use std::collections::BTreeMap;
@@ -435,17 +435,11 @@ pub fn load_mesh_by(
         }
         loaded
     };
-    let as_notes = |texts: Vec<String>| {
-        let notes = texts.into_iter();
-        notes.map(|text| Note::warning("mesh", text)).collect()
-    };
     let loaded = loaded.map_err(|error| UnusableMesh {
         reason: error.to_string(),
-        notes: as_notes(error.warnings),
+        notes: error.notes,
     })?;
-    let name = shown(name);
-    let warnings = as_notes(loaded.warnings);
-    Ok((Arc::new(loaded.mesh), warnings.about(name)))
+    Ok((Arc::new(loaded.mesh), loaded.notes.about(shown(name))))
 }
 
 /// Rewrites the mesh paths of `file` relative to the current folder, so that the scene can be

@@ -3,6 +3,7 @@
 
 use crate::markdown::{quoted, read, root, rows};
 use fastphong::mesh::read::{mesh_endings, parse_mesh};
+use fastphong::note::Notes;
 use std::collections::BTreeSet;
 use std::{fs, io};
 
@@ -22,6 +23,11 @@ fn table(heading: &str) -> Vec<[String; 3]> {
     rows.collect()
 }
 
+/// Returns the notes as sentences.
+fn sentences(notes: &Notes) -> Vec<String> {
+    notes.iter().map(ToString::to_string).collect()
+}
+
 /// Reads an OBJ file with a library. Returns the messages, or the error.
 fn answer(obj: &str, mtl: Option<&str>) -> Result<Vec<String>, String> {
     let library = |_: &str| mtl.map(|text| text.as_bytes().to_vec());
@@ -29,7 +35,7 @@ fn answer(obj: &str, mtl: Option<&str>) -> Result<Vec<String>, String> {
         library(name).ok_or_else(|| io::ErrorKind::NotFound.into())
     });
     let loaded = loaded.map_err(|error| error.to_string())?;
-    Ok(loaded.warnings)
+    Ok(sentences(&loaded.notes))
 }
 
 /// Checks that the tool answers a file as the page says.
@@ -79,7 +85,7 @@ fn every_file_is_answered_as_the_page_says() {
                 let none = |_: &str| Err(io::ErrorKind::NotFound.into());
                 let loaded = parse_mesh(name, &bytes, none);
                 let loaded = loaded.map_err(|error| error.to_string());
-                check(file, &said, loaded.map(|loaded| loaded.warnings));
+                check(file, &said, loaded.map(|loaded| sentences(&loaded.notes)));
                 count += 1;
             }
         }

@@ -182,10 +182,8 @@ pub(in crate::frame) struct EdgeOf {
 mod tests {
     use super::*;
     use crate::frame::FrameStats;
-    use crate::mesh::vertex_normals::NormalRule;
     use crate::mesh::{Material, MeshBuilder};
     use crate::scene::{Camera, Object, Projection, Scene};
-    use alloc::sync::Arc;
     use glam::{DAffine3, DVec3, Vec3};
 
     /// Returns a scene of polygons, each with its own material. A camera at the origin looks toward

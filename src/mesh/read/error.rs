@@ -1,8 +1,8 @@
 //! The error of reading a mesh file, and how messages quote words of a file.
 
+use crate::note::Notes;
 use std::path::PathBuf;
 use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// The error for a mesh file that cannot be read: which file, where in it, what is wrong and what
 /// was expected.
@@ -16,9 +16,9 @@ pub struct ReadError {
     pub place: Option<Place>,
     /// What is wrong and what was expected, in one line.
     pub problem: String,
-    /// Warnings from before the error, as in [`LoadedMesh::warnings`](super::LoadedMesh::warnings).
-    /// They often explain its cause.
-    pub warnings: Vec<String>,
+    /// Notes from before the error, as in [`LoadedMesh::notes`](super::LoadedMesh::notes). They
+    /// often explain its cause.
+    pub notes: Notes,
     /// True if the file does not exist or the operating system could not read it.
     pub(crate) is_unreadable: bool,
 }
@@ -41,8 +41,8 @@ pub(super) struct Refusal {
     /// The place; `None` for the file as a whole.
     pub place: Option<Place>,
     pub problem: String,
-    /// Warnings from before the problem.
-    pub notes: Vec<String>,
+    /// Notes from before the problem.
+    pub notes: Notes,
 }
 
 impl Refusal {
@@ -51,7 +51,7 @@ impl Refusal {
         Refusal {
             place: None,
             problem: problem.into(),
-            notes: Vec::new(),
+            notes: Notes::default(),
         }
     }
 

@@ -18,7 +18,7 @@
 //! Polygons keep all their sides and are never triangulated. Positions are read with 64 bits, and a
 //! mesh far from 0 is rounded relative to [`PolygonMesh::origin`]. A file that cannot be read is a
 //! [`ReadError`] with its line or byte. If only parts of a file cannot be used, the mesh comes with
-//! warnings.
+//! [`Notes`].
 
 pub(crate) mod content;
 mod error;
@@ -40,28 +40,26 @@ pub use error::{Place, ReadError};
 pub(crate) use gltf::{FileLight, FileView, view};
 
 use super::{MeshBuilder, PolygonMesh};
+use crate::note::{Note, Notes};
 use error::Refusal;
 use glam::DVec3;
 use std::ffi::OsStr;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::string::{String, ToString};
+use std::string::ToString;
 use std::vec::Vec;
 use std::{format, fs, io};
 
-/// A mesh from a file, and warnings about everything in the file that the mesh does not show.
+/// A mesh from a file, and notes about everything in the file that the mesh does not show.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct LoadedMesh {
     /// The mesh. It has the materials that its polygons use; a polygon without a material gets the
     /// default one.
     pub mesh: PolygonMesh,
-    /// One line for each kind of thing that was skipped or changed, most with the line number of
-    /// the first case.
-    pub warnings: Vec<String>,
-    /// The range of warnings about materials. They do not matter if other materials replace the
-    /// file's.
-    pub(crate) material_warnings: Range<usize>,
+    /// One note for each kind of thing that was skipped or changed, most with the line number of
+    /// the first case. The kinds of those about materials begin with `material/`. They do not
+    /// matter if other materials replace the file's.
+    pub notes: Notes,
 }
 
 /// The result of a format's reader.
@@ -69,10 +67,7 @@ struct Parts {
     builder: MeshBuilder,
     /// The positions of the builder before rounding.
     positions: Vec<DVec3>,
-    /// These become [`LoadedMesh::warnings`].
-    notes: Vec<String>,
-    /// The range of `notes` about materials.
-    material_notes: Range<usize>,
+    notes: Notes,
 }
 
 /// A function that reads a file that the mesh file names.
@@ -155,7 +150,7 @@ pub(crate) fn load_mesh_by(
         path: path.into(),
         place: None,
         problem,
-        warnings: Vec::new(),
+        notes: Notes::default(),
         is_unreadable,
     };
     if path.is_dir() {
@@ -168,12 +163,12 @@ pub(crate) fn load_mesh_by(
         failed(true, problem)
     })?;
     let directory = path.parent().unwrap_or(Path::new(""));
-    let mut in_other_case = Vec::new();
+    let mut in_other_case = Notes::default();
     let loaded = parse_mesh(path, &bytes, |name| {
         read_beside(directory, name, read, &mut in_other_case)
     });
     loaded.map(|mut loaded| {
-        loaded.warnings.append(&mut in_other_case);
+        loaded.notes.append(in_other_case);
         loaded
     })
 }
@@ -192,12 +187,12 @@ pub(crate) fn cause(path: &Path, error: io::Error) -> io::Error {
 
 /// Reads the file `name` that a mesh file names, through `read`. It is looked for as a path from
 /// `directory`, then by its bare file name there, and last in upper or lower case if only one file
-/// matches; that adds a warning.
+/// matches; that adds a note.
 fn read_beside(
     directory: &Path,
     name: &str,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    warnings: &mut Vec<String>,
+    notes: &mut Notes,
 ) -> io::Result<Vec<u8>> {
     // Reading a device or a pipe might never end.
     let mut read = |file: &Path| match fs::metadata(file) {
@@ -224,8 +219,9 @@ fn read_beside(
             };
             let name = error::quote(name);
             let found = found.display();
-            warnings.push(format!(
-                "{what} `{name}` is not there: {found} is read instead"
+            notes.push(Note::warning(
+                "file-in-other-case",
+                format!("{what} `{name}` is not there: {found} is read instead"),
             ));
             Ok(bytes)
         })
@@ -265,7 +261,7 @@ pub fn parse_mesh(
         path: path.into(),
         place: refusal.place,
         problem: refusal.problem,
-        warnings: refusal.notes,
+        notes: refusal.notes,
         is_unreadable: false,
     };
     let bytes = gzip::unpacked(bytes).map_err(|error| {
@@ -286,7 +282,7 @@ pub fn parse_mesh(
 fn format_of(
     path: &Path,
     bytes: &[u8],
-) -> Result<(&'static dyn MeshFormat, Option<String>), Refusal> {
+) -> Result<(&'static dyn MeshFormat, Option<Note>), Refusal> {
     let mut formats = FORMATS.iter();
     let has_its_ending = |format: &dyn MeshFormat| {
         let mut endings = format.endings().iter();
@@ -296,10 +292,9 @@ fn format_of(
     if let Some(format) = formats.find(|format| format.recognises(bytes)) {
         let is_other = by_ending.is_some() && !has_its_ending(*format);
         let note = || {
-            format!(
-                "is {}, whatever its ending says, and read as one",
-                format.name()
-            )
+            let name = format.name();
+            let text = format!("is {name}, whatever its ending says, and read as one");
+            Note::warning("ending-of-other-format", text)
         };
         return Ok((*format, is_other.then(note)));
     }
@@ -313,15 +308,15 @@ fn format_of(
 }
 
 /// Makes the mesh from the result of a reader.
-fn finish(parts: Parts, odd: Option<String>) -> Result<LoadedMesh, Refusal> {
-    let mut warnings = parts.notes;
+fn finish(parts: Parts, odd: Option<Note>) -> Result<LoadedMesh, Refusal> {
+    let mut notes = parts.notes;
     let mesh = match parts.builder.finish() {
         Ok(mesh) => mesh,
         Err(error) => {
             return Err(Refusal {
                 place: None,
                 problem: error.to_string(),
-                notes: warnings,
+                notes,
             });
         }
     };
@@ -329,14 +324,10 @@ fn finish(parts: Parts, odd: Option<String>) -> Result<LoadedMesh, Refusal> {
         return Err(Refusal {
             place: None,
             problem: "has no polygon: expected faces of at least three different corners".into(),
-            notes: warnings,
+            notes,
         });
     }
-    warnings.extend(rounding::warnings(&mesh, &parts.positions));
-    warnings.extend(odd);
-    Ok(LoadedMesh {
-        mesh,
-        warnings,
-        material_warnings: parts.material_notes,
-    })
+    notes.append(rounding::notes(&mesh, &parts.positions));
+    odd.into_iter().for_each(|note| notes.push(note));
+    Ok(LoadedMesh { mesh, notes })
 }

@@ -37,7 +37,7 @@ impl MeshFormat for Off {
             let problem = "has no polygon: expected faces of at least three corners";
             return Err(Refusal::whole(problem));
         }
-        Ok(polygons.finish(Vec::new()))
+        Ok(polygons.finish())
     }
 }
 

@@ -4,6 +4,7 @@ use super::Parts;
 use super::error::{Place, Refusal};
 use crate::mesh::newell::unit_normal;
 use crate::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
+use crate::note::{Note, Notes};
 use crate::picture::Rgb;
 use core::mem::take;
 use glam::{DVec3, Vec3};
@@ -34,14 +35,8 @@ pub(super) struct Polygons {
     /// The smoothing group of each polygon; empty if the file does not say which polygons are
     /// smooth.
     groups: Vec<u32>,
-    /// How many polygons are left out because they have fewer than three different corners.
-    small: usize,
-    /// How many polygons have a corner twice in a row.
-    repeated: usize,
-    /// How many polygons have a colour that is not three finite numbers.
-    without_colour: usize,
-    /// How many polygons have a colour that is out of range.
-    clamped: usize,
+    /// What the reader and the polygons' rules skipped or changed.
+    pub notes: Notes,
 }
 
 /// Stands for no material, and for no index.
@@ -83,10 +78,12 @@ impl Polygons {
                 kept.pop();
             }
             if kept.len() < 3 {
-                self.small += 1;
+                count_small_face(&mut self.notes, 0);
                 return Ok(false);
             }
-            self.repeated += usize::from(kept.len() < written);
+            if kept.len() < written {
+                count_repeated_corner(&mut self.notes, 0);
+            }
             self.corners.append(&mut kept);
         }
         let most = PolygonMesh::MAX_POLYGONS;
@@ -134,11 +131,17 @@ impl Polygons {
     /// ignored; one that is out of range is clamped.
     pub(super) fn set_colour(&mut self, colour: DVec3) {
         if !colour.is_finite() {
-            self.without_colour += 1;
+            let text = "a colour of a face is not three finite numbers: the face has none";
+            let kind = "face-colour-not-finite";
+            self.notes.count(kind, 0, || Note::warning(kind, text));
             return;
         }
         let within = colour.clamp(DVec3::ZERO, DVec3::ONE);
-        self.clamped += usize::from(within != colour);
+        if within != colour {
+            let text = "a colour of a face is out of range and is clamped to it";
+            let kind = "face-colour-clamped";
+            self.notes.count(kind, 0, || Note::warning(kind, text));
+        }
         let material = self.material_of_colour(within.as_vec3().to_array());
         self.set_material(material);
     }
@@ -153,13 +156,12 @@ impl Polygons {
         }
     }
 
-    /// Makes the mesh of these polygons. `notes` are warnings from before.
-    pub(super) fn finish(mut self, mut notes: Vec<String>) -> Parts {
+    /// Makes the mesh of these polygons.
+    pub(super) fn finish(mut self) -> Parts {
         self.drop_unused();
         let mut builder = MeshBuilder::from_f64(&self.positions);
         builder.read_from_file();
         builder.set_polygons(take(&mut self.corners), take(&mut self.ends));
-        self.note_counts(&mut notes);
         if !self.normals.is_empty() {
             let unit = |normal: &DVec3| unit_normal(*normal).map_or(Vec3::ZERO, |n| n.as_vec3());
             let values: Vec<Vec3> = self.normals.iter().map(unit).collect();
@@ -169,19 +171,21 @@ impl Polygons {
             let zeros = values.iter().filter(|normal| **normal == Vec3::ZERO);
             let zeros = if is_flat { 0 } else { zeros.count() };
             if zeros == values.len() {
-                notes.push("the normals of the file have length zero: they are not used".into());
+                let text = "the normals of the file have length zero: they are not used";
+                self.notes.push(Note::warning("normals-all-zero", text));
             } else {
                 if zeros > 0 {
-                    notes.push(format!(
+                    let text = format!(
                         "{zeros} of {} normals of the file have length zero: their corners count as without a normal",
                         values.len()
-                    ));
+                    );
+                    self.notes.push(Note::warning("normals-zero", text));
                 }
                 let corners = None;
                 builder.normals(GivenNormals { values, corners });
             }
         }
-        self.add_colours(&mut builder, &mut notes);
+        self.add_colours(&mut builder);
         builder.stating_smoothing(!self.groups.is_empty());
         if self.groups.contains(&PolygonMesh::FACETED) {
             builder.smoothing_groups(take(&mut self.groups));
@@ -197,56 +201,26 @@ impl Polygons {
         Parts {
             builder,
             positions: self.positions,
-            material_notes: notes.len()..notes.len(),
-            notes,
-        }
-    }
-
-    /// Adds a note for each kind of odd polygon, with their count.
-    fn note_counts(&self, notes: &mut Vec<String>) {
-        let counts = [
-            (
-                self.small,
-                "a face of fewer than three different corners is left out",
-            ),
-            (
-                self.repeated,
-                "a corner that repeats the one before it is left out",
-            ),
-            (
-                self.without_colour,
-                "a colour of a face is not three finite numbers: the face has none",
-            ),
-            (
-                self.clamped,
-                "a colour of a face is out of range and is clamped to it",
-            ),
-        ];
-        for (count, what) in counts {
-            match count {
-                0 => {}
-                1 => notes.push(what.into()),
-                _ => notes.push(format!("{what} ({count} times)")),
-            }
+            notes: self.notes,
         }
     }
 
     /// Passes the colours of positions to the builder if all are finite.
-    fn add_colours(&mut self, builder: &mut MeshBuilder, notes: &mut Vec<String>) {
+    fn add_colours(&mut self, builder: &mut MeshBuilder) {
         if self.colours.is_empty() {
             return;
         }
         if self.colours.iter().any(|colour| !colour.is_finite()) {
-            notes.push("a colour is not three finite numbers: the colours are not used".into());
+            let text = "a colour is not three finite numbers: the colours are not used";
+            self.notes.push(Note::warning("colours-not-finite", text));
             return;
         }
         let is_outside = |c: &Vec3| c.min_element() < 0.0 || c.max_element() > 1.0;
         if self.colours.iter().any(is_outside) {
-            notes.push(
-                "a colour is not within 0 to 1: what is shown is clamped at each pixel".into(),
-            );
+            let text = "a colour is not within 0 to 1: what is shown is clamped at each pixel";
+            self.notes.push(Note::warning("colours-over-range", text));
             if look_like_bytes(self.colours.iter().copied()) {
-                notes.push(LIKE_BYTES.into());
+                self.notes.push(like_bytes());
             }
         }
         // A surface cannot reflect less than nothing.
@@ -288,8 +262,33 @@ pub(super) fn keep<T>(entries: &mut Vec<T>, new: &[u32]) {
     entries.retain(|_| indices.next().is_some_and(|index| *index != NONE));
 }
 
-/// The warning about colours that [`look_like_bytes`].
-pub(super) const LIKE_BYTES: &str = "the colours look like 0 to 255: divide them by 255";
+/// Counts a face that is left out. `line` is 0 if it has no line.
+pub(super) fn count_small_face(notes: &mut Notes, line: usize) {
+    let text = "a face of fewer than three different corners is left out";
+    let kind = "face-small";
+    notes.count(kind, line, || Note::warning(kind, text));
+}
+
+/// Counts a face with a corner twice in a row. `line` is 0 if it has no line.
+pub(super) fn count_repeated_corner(notes: &mut Notes, line: usize) {
+    let text = "a corner that repeats the one before it is left out";
+    let kind = "face-corner-repeated";
+    notes.count(kind, line, || Note::warning(kind, text));
+}
+
+/// The kind of [`points_or_lines`].
+pub(super) const POINTS_OR_LINES: &str = "points-or-lines";
+
+/// Returns the note about points and lines.
+pub(super) fn points_or_lines() -> Note {
+    Note::warning(POINTS_OR_LINES, "points and lines are not drawn")
+}
+
+/// Returns the note about colours that [`look_like_bytes`].
+pub(super) fn like_bytes() -> Note {
+    let text = "the colours look like 0 to 255: divide them by 255";
+    Note::warning("colours-like-bytes", text)
+}
 
 /// True if linear colours look like bytes: most channels above 0 are also over 1, and all are at
 /// most 255. One channel must be over 8, because colours that are only a little too bright are no
@@ -327,6 +326,7 @@ pub(super) fn coloured(colour: Rgb) -> Material {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::string::ToString;
 
     #[test]
     fn colours_in_bytes_are_recognised() {
@@ -367,7 +367,7 @@ mod tests {
         let red = polygons.material_of_colour([1.0, 0.0, 0.0]);
         polygons.set_material(red);
         assert_eq!(polygons.material_of_colour([1.0, -0.0, 0.0]), red);
-        let parts = polygons.finish(Vec::new());
+        let parts = polygons.finish();
         let mesh = parts.builder.finish().expect("a mesh");
         let found: Vec<&[u32]> = mesh.polygons().collect();
         assert_eq!(found, [&[0, 1, 2], &[1, 2, 3]]);
@@ -382,6 +382,7 @@ mod tests {
             "a face of fewer than three different corners is left out (3 times)",
             "a corner that repeats the one before it is left out",
         ];
-        assert_eq!(parts.notes, told);
+        let notes: Vec<String> = parts.notes.iter().map(ToString::to_string).collect();
+        assert_eq!(notes, told);
     }
 }

@@ -1,9 +1,9 @@
-//! Warnings about polygons that lose their shape when their positions are rounded.
+//! Notes about polygons that lose their shape when their positions are rounded.
 
 use crate::mesh::PolygonMesh;
+use crate::note::{Note, Notes};
 use glam::DVec3;
 use std::format;
-use std::string::String;
 use std::vec::Vec;
 
 /// Rounding may move a corner by this part of its polygon's extent. A sixteenth at both ends can
@@ -23,10 +23,10 @@ enum Cause {
     FarFromMiddle,
 }
 
-/// Returns one line for each reason why rounding bends polygons. `positions` are the file's, before
+/// Returns a note for each reason why rounding bends polygons. `positions` are the file's, before
 /// `mesh` rounded them.
-pub(super) fn warnings(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
-    let mut lines = Vec::new();
+pub(super) fn notes(mesh: &PolygonMesh, positions: &[DVec3]) -> Notes {
+    let mut notes = Notes::default();
     let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
     let high = positions
         .iter()
@@ -35,46 +35,48 @@ pub(super) fn warnings(mesh: &PolygonMesh, positions: &[DVec3]) -> Vec<String> {
     let distance = low.abs().max(high.abs()).max_element();
     let step = f64::EPSILON * distance;
     if extent < STEPS * step {
-        lines.push(format!(
-            "the mesh is {extent:.1e} wide and {distance:.1e} from 0, where 64-bit numbers are up to {step:.1e} apart: expected \
-             a file that was written with the mesh nearer to 0"
+        notes.push(Note::warning(
+            "rounding-in-file",
+            format!(
+                "the mesh is {extent:.1e} wide and {distance:.1e} from 0, where 64-bit numbers are up to {step:.1e} apart: \
+                 expected a file that was written with the mesh nearer to 0"
+            ),
         ));
     }
     // Most files hold 32-bit numbers, so that nothing was rounded.
     let origin = mesh.origin();
     let own = mesh.positions().iter().map(|p| origin + p.as_dvec3());
     if own.eq(positions.iter().copied()) {
-        return lines;
+        return notes;
     }
     let causes: Vec<Cause> = mesh
         .polygons()
         .filter_map(|polygon| cause(mesh, positions, polygon))
         .collect();
-    let counted = |cause: Cause, why: &str| {
+    let mut tell = |kind: &'static str, cause: Cause, why: &str| {
         let count = causes.iter().filter(|other| **other == cause).count();
         let polygons = match count {
-            0 => return None,
+            0 => return,
             1 => "polygon is",
             _ => "polygons are",
         };
-        Some(format!("{count} {polygons} so small{why}"))
+        notes.push(Note::warning(
+            kind,
+            format!("{count} {polygons} so small{why}"),
+        ));
     };
-    lines.extend(
-        [
-            counted(
-                Cause::Small,
-                " that 32-bit coordinates bend their shape: expected a larger unit of length",
-            ),
-            counted(
-                Cause::FarFromMiddle,
-                ", so far from the middle of the mesh, that 32-bit coordinates bend their shape: \
-             expected a separate file for each object if objects lie far apart",
-            ),
-        ]
-        .into_iter()
-        .flatten(),
+    tell(
+        "rounding-small",
+        Cause::Small,
+        " that 32-bit coordinates bend their shape: expected a larger unit of length",
     );
-    lines
+    tell(
+        "rounding-far",
+        Cause::FarFromMiddle,
+        ", so far from the middle of the mesh, that 32-bit coordinates bend their shape: \
+         expected a separate file for each object if objects lie far apart",
+    );
+    notes
 }
 
 /// Returns the reason why rounding bends a polygon; `None` if it does not.

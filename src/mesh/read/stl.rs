@@ -14,9 +14,9 @@ use crate::mesh::PolygonMesh;
 use crate::mesh::origin::origin;
 use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalWeight};
 use crate::mesh::weld::weld_repeated;
+use crate::note::{Note, Notes};
 use glam::{DVec3, Vec3};
 use std::format;
-use std::string::String;
 use std::vec::Vec;
 
 /// An edge is sharp if its polygons meet at more than this angle in degrees.
@@ -45,17 +45,16 @@ impl MeshFormat for Stl {
     }
 
     fn read(&self, bytes: &[u8], _: Beside) -> Result<Parts, Refusal> {
-        let mut notes = Vec::new();
         let text = text_end(bytes);
         let soup = match is_text(text) && !is_binary_stl(bytes) {
             true => read_text(text)?,
-            false => read_binary(bytes, &mut notes)?,
+            false => read_binary(bytes)?,
         };
         if soup.ends.is_empty() {
             let expected = "expected triangles, binary or as `facet` statements";
             return Err(Refusal::whole(format!("has no triangle: {expected}")));
         }
-        let mut parts = soup.welded()?.finish(notes);
+        let mut parts = soup.welded()?.finish();
         parts.builder.normal_rule(NormalRule {
             source: NormalSource::Crease(CREASE),
             weight: NormalWeight::Angle,
@@ -72,6 +71,7 @@ struct Soup {
     positions: Vec<DVec3>,
     /// The end of each facet in `positions`.
     ends: Vec<u32>,
+    notes: Notes,
 }
 
 impl Soup {
@@ -97,6 +97,7 @@ impl Soup {
             start = end as usize;
             polygons.end_polygon(Place::Line(0))?;
         }
+        polygons.notes = self.notes;
         Ok(polygons)
     }
 }
@@ -119,7 +120,7 @@ fn is_text(bytes: &[u8]) -> bool {
 }
 
 /// Reads the triangles of a binary file.
-fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
+fn read_binary(bytes: &[u8]) -> Result<Soup, Refusal> {
     let Some(stated) = bytes.get(HEADER..START).and_then(|four| four.first_chunk()) else {
         let length = bytes.len();
         return Err(Refusal::whole(format!(
@@ -129,12 +130,13 @@ fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
     let stated = u32::from_le_bytes(*stated);
     let body = &bytes[START..];
     let held = body.len() / TRIANGLE;
+    let mut notes = Notes::default();
     let count = match stated {
         // A program that writes to a pipe cannot go back to fill in the count.
         0 | u32::MAX if held > 0 => {
-            notes.push(format!(
-                "the header says {stated} triangles: all {held} in the file are read"
-            ));
+            let text =
+                format!("the header says {stated} triangles: all {held} in the file are read");
+            notes.push(Note::warning("triangle-count", text));
             held
         }
         _ => stated as usize,
@@ -175,13 +177,16 @@ fn read_binary(bytes: &[u8], notes: &mut Vec<String>) -> Result<Soup, Refusal> {
         has_attributes |= triangle[48..] != [0, 0];
     }
     if has_attributes {
-        notes.push(
-            "the two bytes after each triangle, where some programs store colours, are not read"
-                .into(),
-        );
+        let text =
+            "the two bytes after each triangle, where some programs store colours, are not read";
+        notes.push(Note::warning("triangle-attributes", text));
     }
     let ends = (1..=count as u32).map(|triangle| 3 * triangle).collect();
-    Ok(Soup { positions, ends })
+    Ok(Soup {
+        positions,
+        ends,
+        notes,
+    })
 }
 
 /// Reads the facets of a text word by word. Line ends matter only after names, and keywords may be

@@ -11,10 +11,11 @@ mod view;
 pub(crate) use view::{FileLight, FileView, view};
 
 use super::error::{Place, Refusal, quote};
-use super::polygons::{Polygons, coloured, is_position};
+use super::polygons::{POINTS_OR_LINES, Polygons, coloured, is_position, points_or_lines};
 use super::words::text_end;
 use super::{Beside, MeshFormat, Parts};
 use crate::mesh::{Material, PolygonMesh};
+use crate::note::{Note, Setting};
 use accessors::Buffers;
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, Vec3};
 use gltf::json::validation::Checked;
@@ -71,7 +72,7 @@ impl MeshFormat for Gltf {
             reader.node(&node, &pose, &buffers)?;
         }
         if reader.polygons.count() == 0 {
-            let problem = match reader.oddities.contains(&Oddity::PointOrLine) {
+            let problem = match reader.polygons.notes.has(POINTS_OR_LINES) {
                 true => {
                     "has points or lines but no triangle: expected a scene with meshes of triangles"
                 }
@@ -371,21 +372,6 @@ impl Pose {
     }
 }
 
-/// A feature of a file that is not drawn, or drawn differently. Each makes one note.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
-enum Oddity {
-    #[error("points and lines are not drawn")]
-    PointOrLine,
-    #[error("morph targets are not applied")]
-    Morph,
-    #[error("textures are not drawn")]
-    Texture,
-    #[error("transparency is not drawn, all surfaces are opaque")]
-    Transparency,
-    #[error("emission is not drawn")]
-    Emission,
-}
-
 /// The polygons of the nodes that were read so far.
 #[derive(Default)]
 struct Reader {
@@ -395,7 +381,6 @@ struct Reader {
     known: HashMap<(usize, usize), Option<Triangles>>,
     /// The material of the mesh for each material of the file.
     materials: HashMap<usize, u32>,
-    oddities: BTreeSet<Oddity>,
     has_normals: bool,
     has_colours: bool,
     /// How many primitives were placed.
@@ -411,7 +396,7 @@ impl Reader {
         };
         let weights = node.weights().or_else(|| mesh.weights());
         if weights.is_some_and(|weights| weights.iter().any(|weight| *weight != 0.0)) {
-            self.oddities.insert(Oddity::Morph);
+            self.warn("morph-targets", "morph targets are not applied");
         }
         for primitive in mesh.primitives() {
             let key = (mesh.index(), primitive.index());
@@ -431,7 +416,7 @@ impl Reader {
                 }
                 None => {
                     self.known.insert(key, None);
-                    self.oddities.insert(Oddity::PointOrLine);
+                    self.polygons.notes.push(points_or_lines());
                 }
             }
         }
@@ -451,13 +436,14 @@ impl Reader {
             None => metallic.base_color_texture().is_some(),
         };
         if has_texture || material.normal_texture().is_some() {
-            self.oddities.insert(Oddity::Texture);
+            self.warn("material/texture", "textures are not drawn");
         }
         if material.alpha_mode() != AlphaMode::Opaque {
-            self.oddities.insert(Oddity::Transparency);
+            let text = "transparency is not drawn, all surfaces are opaque";
+            self.warn("material/transparency", text);
         }
         if material.emissive_factor() != [0.0; 3] {
-            self.oddities.insert(Oddity::Emission);
+            self.warn("material/emission", "emission is not drawn");
         }
         let channel = |channel: f32| match channel.is_finite() {
             true => channel.clamp(0.0, 1.0),
@@ -468,6 +454,11 @@ impl Reader {
         let added = self.polygons.add_material(own, name);
         self.materials.insert(index, added);
         added
+    }
+
+    /// Adds a warning, unless it is there.
+    fn warn(&mut self, kind: &'static str, text: &'static str) {
+        self.polygons.notes.push(Note::warning(kind, text));
     }
 
     /// Adds triangles where a node places them.
@@ -548,30 +539,22 @@ impl Reader {
         Ok(())
     }
 
-    fn finish(self) -> Parts {
-        let mut notes = Vec::new();
+    fn finish(mut self) -> Parts {
         if self.flat > 0 {
             let (flat, all) = (self.flat, self.primitives);
             let which = match flat == all {
                 true => "the file has no normals".into(),
                 false => format!("{flat} of {all} parts have no normals"),
             };
-            notes.push(format!(
-                "{which}: drawn flat, as glTF says; --normals averaged or crease=40 smooths"
-            ));
+            let text = format!("{which}: drawn flat, as glTF says; ");
+            let note = Note::warning("normals-missing", text)
+                .set(Setting::word("object.normals", "averaged"))
+                .say(" or ")
+                .set(Setting::number("object.crease", "40"))
+                .say(" smooths");
+            self.polygons.notes.push(note);
         }
-        let is_of_materials = |oddity: &&Oddity| **oddity >= Oddity::Texture;
-        let others = self
-            .oddities
-            .iter()
-            .filter(|oddity| !is_of_materials(oddity));
-        notes.extend(others.map(ToString::to_string));
-        let first = notes.len();
-        let of_materials = self.oddities.iter().filter(is_of_materials);
-        notes.extend(of_materials.map(ToString::to_string));
-        let material_notes = first..notes.len();
-        let mut parts = self.polygons.finish(notes);
-        parts.material_notes = material_notes;
+        let mut parts = self.polygons.finish();
         parts.builder.up_by_custom('y');
         parts
     }

@@ -20,10 +20,11 @@ mod prescan;
 mod tests;
 
 use super::error::{Place, Refusal};
-use super::polygons::LIKE_BYTES;
+use super::polygons::like_bytes;
 use super::{Beside, MeshFormat, Parts};
 use crate::mesh::newell::unit_normal;
 use crate::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
+use crate::note::{Note, Notes};
 use error::ObjProblem;
 use glam::{DVec3, Vec3};
 use mtl::Library;
@@ -73,13 +74,13 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
             true => ObjProblem::NotText,
             false => ObjProblem::Empty,
         };
-        return Err(failed(None, problem, Vec::new()));
+        return Err(failed(None, problem, Notes::default()));
     }
     let scan = prescan::prescan(&text, limits);
-    let scan = scan.map_err(|refusal| failed(refusal.line, refusal.problem, refusal.warnings))?;
-    let mut warnings = scan.warnings();
-    let parsed = parser::parse(&scan)
-        .map_err(|why| failed(None, ObjProblem::Parser(why), warnings.clone()))?;
+    let scan = scan.map_err(|refusal| failed(refusal.line, refusal.problem, refusal.notes))?;
+    let mut notes = scan.notes.clone();
+    let parsed =
+        parser::parse(&scan).map_err(|why| failed(None, ObjProblem::Parser(why), notes.clone()))?;
 
     let positions: Vec<DVec3> = vectors(&parsed.positions).collect();
     let mut builder = MeshBuilder::from_f64(&positions);
@@ -104,9 +105,10 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
             zeros => (zeros, "normals of the file have"),
         };
         if zeros > 0 {
-            warnings.push(format!(
+            let text = format!(
                 "{zeros} {have} length zero: corners that name one count as without a normal"
-            ));
+            );
+            notes.push(Note::warning("normals-zero", text));
         }
         builder.normals(GivenNormals {
             values,
@@ -114,7 +116,7 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
         });
     }
     if scan.has_colours_like_bytes() {
-        warnings.push(LIKE_BYTES.into());
+        notes.push(like_bytes());
     }
     if let Some(colours) = scan.used_colours() {
         builder.colours(colours);
@@ -124,24 +126,21 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
     builder.smoothing_groups(groups(&scan.smoothing_runs, off, scan.polygons));
     builder.stating_smoothing(!scan.smoothing_runs.is_empty());
     // Libraries are read even if no face uses a material, because a caller that copies the mesh's
-    // files must learn of all of them. Their warnings matter only if a material is used.
-    let mut library_warnings = Vec::new();
-    let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut library_warnings);
-    let first = warnings.len();
+    // files must learn of all of them. Their notes matter only if a material is used.
+    let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut notes);
     if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
-        warnings.append(&mut library_warnings);
-        let (named, of_polygons) = assign_materials(&scan, &mut library, &mut warnings);
-        warnings.extend(library.warnings());
+        let (named, of_polygons) = assign_materials(&scan, &mut library, &mut notes);
+        notes.append(library.notes());
         let (materials, names) = named.into_iter().unzip();
         builder.materials(materials, of_polygons);
         builder.material_names(names);
+    } else {
+        notes.remove("material/");
     }
-    let material_warnings = first..warnings.len();
     Ok(Parts {
         builder,
         positions,
-        notes: warnings,
-        material_notes: material_warnings,
+        notes,
     })
 }
 
@@ -190,7 +189,7 @@ fn groups<'a, K: Eq + Hash>(
 fn assign_materials(
     scan: &Prescan,
     library: &mut Library,
-    warnings: &mut Vec<String>,
+    notes: &mut Notes,
 ) -> (Vec<(Material, String)>, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let mut materials = Vec::new();
@@ -219,10 +218,9 @@ fn assign_materials(
     }
     // If a library is missing, that was reported and explains the unknown names.
     if library.is_complete && !unknown.is_empty() {
-        warnings.push(format!(
-            "no material library defines {}: the default material is used",
-            list(&unknown)
-        ));
+        let names = list(&unknown);
+        let text = format!("no material library defines {names}: the default material is used");
+        notes.push(Note::warning("material/undefined", text));
     }
     (materials, of_polygons)
 }

@@ -1,18 +1,19 @@
-//! MTL files. They become [`Material`]s and warnings about features that are not drawn.
+//! MTL files. They become [`Material`]s and notes about features that are not drawn.
 
 use super::super::content::foreign;
 use super::super::gzip::unpacked;
 use super::error::quote;
 use super::lines::{Statements, decode, keyword, name_candidates, without_comment};
 use crate::mesh::Material;
+use crate::note::{Note, Notes};
 use crate::picture::Rgb;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::string::{String, ToString};
 use std::vec::Vec;
-use std::{format, io, mem};
+use std::{format, io, mem, vec};
 
 /// The most ignored lines of one file that are shown one by one.
-const WARNINGS_SHOWN: usize = 8;
+const IGNORED_SHOWN: usize = 8;
 
 // The MTL format's defaults: Ka and Kd as in J. Burkardt's description of the format
 // (people.sc.fsu.edu/~jburkardt/data/mtl/mtl.html).
@@ -21,30 +22,6 @@ const DIFFUSE: Rgb = [0.8; 3];
 // The format's own Ks = 1 and Ns = 0 would light half of the surface white. Without `Ks` there is
 // no highlight instead.
 const SPECULAR: Rgb = [0.0; 3];
-
-/// A feature of a material that is not drawn, or drawn differently. Each makes one warning, however
-/// many materials have it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
-enum Oddity {
-    #[error("textures are not drawn")]
-    Texture,
-    #[error("a texture over a black or missing `Kd`: the default grey is drawn instead")]
-    DefaultGrey,
-    #[error("transparency is not drawn, all surfaces are opaque")]
-    Transparency,
-    #[error("emission is not drawn")]
-    Emission,
-    #[error("physically based keys are not read")]
-    PhysicallyBased,
-    #[error("reflection, refraction and cast shadows are not drawn")]
-    Reflection,
-    #[error("a colour is not within 0 to 1: what is shown is clamped at each pixel")]
-    ColourOutOfRange,
-    #[error("a name that is defined already: the first definition is used")]
-    SecondDefinition,
-    #[error("not an MTL statement, ignored")]
-    Unknown,
-}
 
 /// A statement in one of the libraries.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,12 +33,20 @@ struct Place {
     statement: String,
 }
 
-/// A statement that is ignored, and the reason.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Ignored {
+/// A statement that is ignored, or drawn in another way than its author may have meant. It becomes
+/// a note if its material is used.
+#[derive(Clone, Debug)]
+struct Remark {
     place: Place,
+    /// The kind of the note.
+    kind: &'static str,
+    /// Follows the statement in the note.
     why: &'static str,
 }
+
+/// The kind of the notes about ignored statements. Each has its own note; of the other kinds all
+/// statements share one.
+const IGNORED: &str = "material/ignored";
 
 /// A value and the statement that sets it.
 #[derive(Clone, Debug)]
@@ -85,8 +70,7 @@ struct Definition {
     /// The least channel of `Tf`: 1 is opaque, as Maya writes it.
     filter: Option<Stated>,
     diffuse_map: Option<Place>,
-    oddities: Vec<(Oddity, Place)>,
-    ignored: Vec<Ignored>,
+    remarks: Vec<Remark>,
     is_used: bool,
 }
 
@@ -104,7 +88,7 @@ pub(super) struct Library {
     /// The names of the files that were read.
     files: Vec<String>,
     /// Statements outside of any definition.
-    ignored: Vec<Ignored>,
+    remarks: Vec<Remark>,
     /// The result for each file that was tried. An error is taken out when it is reported.
     tried: HashMap<String, Result<(), Option<io::Error>>>,
     /// True if every file could be read and defines materials.
@@ -117,7 +101,7 @@ impl Library {
     pub(super) fn load(
         lines: &[(usize, String)],
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
-        warnings: &mut Vec<String>,
+        notes: &mut Notes,
     ) -> Library {
         let mut library = Library {
             is_complete: true,
@@ -130,12 +114,12 @@ impl Library {
             // would then be looked for.
             let may_be_one = names.len() < 2 || !uncommented.contains(['/', '\\']);
             let mut one_file = name_candidates(rest).filter(|_| may_be_one);
-            if one_file.any(|name| library.try_file(name, *line, load_mtl, warnings)) {
+            if one_file.any(|name| library.try_file(name, *line, load_mtl, notes)) {
                 continue;
             }
             for name in names {
-                if !library.try_file(&name, *line, load_mtl, warnings) {
-                    library.warn_missing(&name, *line, warnings);
+                if !library.try_file(&name, *line, load_mtl, notes) {
+                    library.note_missing(&name, *line, notes);
                 }
             }
         }
@@ -149,7 +133,7 @@ impl Library {
         name: &str,
         line: usize,
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
-        warnings: &mut Vec<String>,
+        notes: &mut Notes,
     ) -> bool {
         let file = file_of(name);
         if let Some(known) = self.tried.get(&file) {
@@ -161,9 +145,8 @@ impl Library {
         {
             self.is_complete = false;
             let (name, expected) = (quote(name), "expected MTL text with `newmtl` lines");
-            warnings.push(format!(
-                "material library `{name}` (line {line}) {problem}: {expected}"
-            ));
+            let text = format!("material library `{name}` (line {line}) {problem}: {expected}");
+            notes.push(Note::warning("material/library", text));
         }
         let is_there = read.is_ok();
         let tried = read.map(|_| ()).map_err(Some);
@@ -172,15 +155,14 @@ impl Library {
     }
 
     /// Reports, once per file, that the file `name`, which line `line` names, could not be read.
-    fn warn_missing(&mut self, name: &str, line: usize, warnings: &mut Vec<String>) {
+    fn note_missing(&mut self, name: &str, line: usize, notes: &mut Notes) {
         self.is_complete = false;
         if let Some(Err(unreported)) = self.tried.get_mut(&file_of(name))
             && let Some(error) = unreported.take()
         {
             let name = quote(name);
-            warnings.push(format!(
-                "material library `{name}` (line {line}) cannot be read: {error}"
-            ));
+            let text = format!("material library `{name}` (line {line}) cannot be read: {error}");
+            notes.push(Note::warning("material/library", text));
         }
     }
 
@@ -238,7 +220,11 @@ impl Library {
                     continue;
                 }
             };
-            ignored.push(Ignored { place, why });
+            ignored.push(Remark {
+                place,
+                kind: IGNORED,
+                why,
+            });
         }
         if self.definitions.len() == before {
             let why = match has_nul {
@@ -253,11 +239,11 @@ impl Library {
         for (first, second, place) in self.second.drain(..) {
             let [one, other] = [first, second].map(|index| self.definitions[index].material());
             if one != other {
-                let oddities = &mut self.definitions[first].oddities;
-                oddities.push((Oddity::SecondDefinition, place));
+                let why = "a name that is defined already: the first definition is used";
+                self.definitions[first].remark("material/second-definition", why, &place);
             }
         }
-        self.ignored.append(&mut ignored);
+        self.remarks.append(&mut ignored);
         Ok(())
     }
 
@@ -277,7 +263,7 @@ impl Library {
     }
 
     /// Returns the material for a `usemtl` statement with the arguments `rest`, and marks it as
-    /// used for [`Library::warnings`].
+    /// used for [`Library::notes`].
     pub(super) fn use_material(&mut self, rest: &str) -> Option<Material> {
         let find = |name| self.names.get(name).or(self.uncommented.get(name));
         let index = *name_candidates(rest).find_map(find)?;
@@ -285,43 +271,38 @@ impl Library {
         Some(self.definitions[index].material())
     }
 
-    /// Returns one line for each kind of feature of used materials that is not drawn, and one for
-    /// each statement that is ignored.
-    pub(super) fn warnings(&mut self) -> Vec<String> {
-        let used = self.definitions.iter_mut().filter(|found| found.is_used);
-        let mut ignored = mem::take(&mut self.ignored);
-        let mut oddities: BTreeMap<Oddity, Vec<Place>> = BTreeMap::new();
-        for definition in used {
-            ignored.append(&mut definition.ignored);
-            for (oddity, place) in definition.oddities.drain(..) {
-                oddities.entry(oddity).or_default().push(place);
-            }
+    /// Returns a note for each kind of feature of used materials that is not drawn, with the first
+    /// statement of the kind, and one for each statement that is ignored.
+    pub(super) fn notes(&mut self) -> Notes {
+        let mut remarks = mem::take(&mut self.remarks);
+        for used in self.definitions.iter_mut().filter(|found| found.is_used) {
+            remarks.append(&mut used.remarks);
         }
-        ignored.sort();
-        let mut warnings = Vec::new();
-        for of_file in ignored.chunk_by(|a, b| a.place.file == b.place.file) {
-            let file = &self.files[of_file[0].place.file];
-            let (shown, others) = of_file.split_at(of_file.len().min(WARNINGS_SHOWN));
-            for Ignored { place, why } in shown {
-                let (line, statement) = (place.line, &place.statement);
-                warnings.push(format!("{file}:{line}: `{statement}` {why}"));
-            }
-            if !others.is_empty() {
-                let more = others.len();
-                warnings.push(format!("{file}: {more} more lines are ignored"));
-            }
-        }
-        for (oddity, places) in oddities {
-            let first = places.iter().min().expect("each kind has a place");
-            let (file, line) = (&self.files[first.file], first.line);
-            let statement = &first.statement;
-            let times = match places.len() {
-                1 => String::new(),
-                n => format!(" ({n} times)"),
+        remarks.sort_by(|one, other| one.place.cmp(&other.place));
+        let mut notes = Notes::default();
+        let mut ignored = vec![0; self.files.len()];
+        for Remark { place, kind, why } in remarks {
+            let note = |separator| {
+                let at = format!("{}:{}", self.files[place.file], place.line);
+                let text = format!("`{}`{separator} {why}", place.statement);
+                Note::warning(kind, text).about(&at)
             };
-            warnings.push(format!("{file}:{line}: `{statement}`: {oddity}{times}"));
+            if kind != IGNORED {
+                notes.count(kind, 0, || note(":"));
+                continue;
+            }
+            ignored[place.file] += 1;
+            if ignored[place.file] <= IGNORED_SHOWN {
+                notes.push(note(""));
+            }
         }
-        warnings
+        for (file, count) in self.files.iter().zip(ignored) {
+            if count > IGNORED_SHOWN {
+                let text = format!("{} more lines are ignored", count - IGNORED_SHOWN);
+                notes.push(Note::warning(IGNORED, text).about(file));
+            }
+        }
+        notes
     }
 }
 
@@ -377,12 +358,13 @@ impl Definition {
             }),
             "ke" => {
                 if colour(values) != Ok([0.0; 3]) {
-                    self.note(Oddity::Emission, &place);
+                    self.remark("material/emission", "emission is not drawn", &place);
                 }
                 Ok(())
             }
             "pr" | "pm" | "ps" | "pc" | "pcr" | "aniso" | "anisor" => {
-                self.note(Oddity::PhysicallyBased, &place);
+                let why = "physically based keys are not read";
+                self.remark("material/physically-based", why, &place);
                 Ok(())
             }
             // The index of refraction, the sharpness of reflections and the anti-aliasing of
@@ -393,19 +375,21 @@ impl Definition {
                 Ok(())
             }
             _ => {
-                self.note(Oddity::Unknown, &place);
+                let why = "not an MTL statement, ignored";
+                self.remark("material/unknown", why, &place);
                 Ok(())
             }
         };
         if let Err(why) = read {
-            self.ignored.push(Ignored { place, why });
+            self.remark(IGNORED, why, &place);
         }
     }
 
     fn read_colour(&mut self, word: &str, values: &str, place: &Place) -> Result<(), &'static str> {
         let colour = colour(values)?;
         if colour.iter().any(|channel| *channel > 1.0) {
-            self.note(Oddity::ColourOutOfRange, place);
+            let why = "a colour is not within 0 to 1: what is shown is clamped at each pixel";
+            self.remark("material/over-range", why, place);
         }
         match word {
             "ka" => self.ambient = Some(colour),
@@ -419,7 +403,8 @@ impl Definition {
         let expected = "is ignored: expected an illumination model, a whole number from 0 to 10";
         let model: u8 = values.parse().map_err(|_| expected)?;
         if model > 2 {
-            self.note(Oddity::Reflection, place);
+            let why = "reflection, refraction and cast shadows are not drawn";
+            self.remark("material/reflection", why, place);
         }
         self.illumination = Some(model);
         Ok(())
@@ -428,15 +413,16 @@ impl Definition {
     /// Reads a texture. Some exporters write the keyword without a file, which means none.
     fn read_texture(&mut self, word: &str, values: &str, place: &Place) {
         if !values.is_empty() {
-            self.note(Oddity::Texture, place);
+            self.remark("material/texture", "textures are not drawn", place);
             if word == "map_kd" {
                 self.diffuse_map = Some(place.clone());
             }
         }
     }
 
-    fn note(&mut self, oddity: Oddity, place: &Place) {
-        self.oddities.push((oddity, place.clone()));
+    fn remark(&mut self, kind: &'static str, why: &'static str, place: &Place) {
+        let place = place.clone();
+        self.remarks.push(Remark { place, kind, why });
     }
 
     /// Evaluates the statements that depend on others, after all were read.
@@ -446,7 +432,8 @@ impl Definition {
             .is_none_or(|colour| colour.iter().all(|c| *c == 0.0));
         if let Some(map) = self.diffuse_map.take().filter(|_| is_black) {
             self.diffuse = None;
-            self.note(Oddity::DefaultGrey, &map);
+            let why = "a texture over a black or missing `Kd`: the default grey is drawn instead";
+            self.remark("material/default-grey", why, &map);
         }
         let dissolve = self.dissolve.take();
         let transparency = self.transparency.take();
@@ -464,7 +451,8 @@ impl Definition {
             (None, None, filter) => filter.filter(|stated| stated.value != 1.0),
         };
         if let Some(Stated { place, .. }) = reported {
-            self.note(Oddity::Transparency, &place);
+            let why = "transparency is not drawn, all surfaces are opaque";
+            self.remark("material/transparency", why, &place);
         }
     }
 

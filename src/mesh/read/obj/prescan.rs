@@ -7,15 +7,18 @@
 //! each `g`. So it gets only positions, normals and faces, with absolute indices and in one group.
 //! The pre-scan itself follows groups, materials and smoothing.
 
-use super::super::polygons::look_like_bytes;
+use super::super::polygons::{
+    POINTS_OR_LINES, count_repeated_corner, count_small_face, look_like_bytes, points_or_lines,
+};
 use super::corner::{Entries, ObjCorner, WrittenCorner};
 use super::error::{ObjProblem, VectorProblem, quote};
 use super::lines::{
     FREE_FORM, Statements, is_plain_number, keyword, line_number, read_number, without_comment,
 };
+use crate::note::{Note, Notes};
+use core::mem::take;
 use glam::Vec3;
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::format;
 use std::str::SplitAsciiWhitespace;
 use std::string::String;
@@ -29,49 +32,14 @@ pub(super) struct MeshLimits {
     pub corners: usize,
 }
 
-/// Something that is ignored, or read in another way than its author may have meant. Each kind
-/// makes one warning, however often it occurs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
-enum Oddity {
-    #[error("points and lines are not drawn")]
-    PointOrLine,
-    #[error("free-form curves and surfaces are not read, only polygons")]
-    FreeForm,
-    #[error("`call` and `csh` are not followed: the geometry that they would add is missing")]
-    Call,
-    #[error("is not an OBJ statement and is ignored")]
-    Unknown,
-    #[error("a face of fewer than three different corners is left out")]
-    SmallFace,
-    #[error("a corner that repeats the one before it is left out")]
-    RepeatedCorner,
-    #[error("polypaint (`#MRGB`, colours in comments) is not read")]
-    Polypaint,
-    #[error("the weight w of a position is ignored")]
-    Weight,
-    #[error("a position is not three finite numbers and is left out")]
-    BadPosition,
-    #[error("a normal is not three finite numbers: corners that name it count as without a normal")]
-    BadNormal,
-    #[error("a normal that no face uses is ignored")]
-    UnusedNormal,
-    #[error("a corner names a normal that does not exist and counts as without a normal")]
-    NoNormal,
-    #[error("a face uses a position that has no colour: the colours of the others are not used")]
-    NoColour,
-    #[error(
-        "a face uses a position whose colour is not within 0 to 1: what is shown is clamped at each pixel"
-    )]
-    ColourOutOfRange,
-    #[error("a texture coordinate that does not exist is ignored, as all of them are")]
-    NoTextureCoordinate,
-    #[error("a face names normals or texture coordinates, but the file has none: they are ignored")]
-    UndeclaredNormal,
-    #[error(
-        "is not a smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off`"
-    )]
-    NoSmoothingGroup,
-}
+// The kinds of notes that decide about others, or about the file.
+const UNKNOWN: &str = "statement-unknown";
+const BAD_POSITION: &str = "position-not-finite";
+const WITHOUT_COLOUR: &str = "colours-missing";
+const COLOUR_OUT_OF_RANGE: &str = "colours-over-range";
+const NO_NORMAL: &str = "normal-missing";
+const UNDECLARED_NORMAL: &str = "normals-undeclared";
+const NO_TEXTURE_COORDINATE: &str = "texture-coordinate-missing";
 
 /// The text for the parser, and everything that the parser does not see.
 #[derive(Default)]
@@ -113,12 +81,10 @@ pub(super) struct Prescan {
     /// The colour of each position, up to the last position that has one; [`NO_COLOUR`] for the
     /// others.
     colours: Vec<Vec3>,
-    /// The first word that is not a statement.
-    unknown_word: String,
-    /// The first word that is not a smoothing group.
-    unknown_group: String,
-    /// How often each kind occurs, and in which line first.
-    oddities: BTreeMap<Oddity, (usize, usize)>,
+    /// True if the first word that is not a statement is `newmtl`.
+    is_library: bool,
+    /// What is ignored, or read in another way than its author may have meant.
+    pub notes: Notes,
 }
 
 /// A position that is not three finite numbers.
@@ -137,8 +103,8 @@ pub(super) struct Refusal {
     /// The first line that is wrong; `None` for the file as a whole.
     pub line: Option<usize>,
     pub problem: ObjProblem,
-    /// Warnings from before the problem.
-    pub warnings: Vec<String>,
+    /// Notes from before the problem.
+    pub notes: Notes,
 }
 
 /// Scans all of `text`.
@@ -178,25 +144,29 @@ fn scan(text: &str, limits: MeshLimits, all_normals: Option<usize>) -> Result<Pr
     for normal in 0..scan.unused_normals.len().min(scan.normals) {
         match scan.unused_normals[normal] {
             0 => {}
-            line => scan.note(line as usize, Oddity::UnusedNormal),
+            line => {
+                let text = "a normal that no face uses is ignored";
+                scan.count(line as usize, "normal-unused", text);
+            }
         }
     }
+    scan.remove_implied_notes();
     match scan.polygons {
         // A stray NUL in a text does no harm. Together with unknown words it shows that the file is
         // not text.
-        0 if scan.has(Oddity::Unknown) && text.contains('\0') => {
+        0 if scan.notes.has(UNKNOWN) && text.contains('\0') => {
             let at = text.find('\0').unwrap_or_default();
             Err(Refusal {
                 line: Some(line_number(text, at)),
                 problem: ObjProblem::NotText,
-                warnings: Vec::new(),
+                notes: Notes::default(),
             })
         }
-        0 if scan.unknown_word.eq_ignore_ascii_case("newmtl") => {
+        0 if scan.is_library => {
             let what = "a material library, not the mesh that names it";
             Err(scan.refusal(None, ObjProblem::OtherFile(what)))
         }
-        0 if scan.has(Oddity::PointOrLine) => {
+        0 if scan.notes.has(POINTS_OR_LINES) => {
             Err(scan.refusal(None, ObjProblem::OnlyPointsOrLines))
         }
         0 => Err(scan.refusal(None, ObjProblem::NoPolygons)),
@@ -213,9 +183,7 @@ impl Prescan {
     /// True if the colours that faces use look like values from 0 to 255.
     pub(super) fn has_colours_like_bytes(&self) -> bool {
         let colours = self.used_positions.iter().map(|&at| self.colour(at));
-        self.has(Oddity::ColourOutOfRange)
-            && !self.has(Oddity::NoColour)
-            && look_like_bytes(colours)
+        self.notes.has(COLOUR_OUT_OF_RANGE) && look_like_bytes(colours)
     }
 
     /// Returns the colours of the positions that faces use, in the order of the parser's mesh;
@@ -224,7 +192,7 @@ impl Prescan {
         // A surface cannot reflect less than nothing.
         let colour = |&at: &u32| self.colour(at).max(Vec3::ZERO);
         let colours = self.used_positions.iter().map(colour);
-        let is_whole = !self.colours.is_empty() && !self.has(Oddity::NoColour);
+        let is_whole = !self.colours.is_empty() && !self.notes.has(WITHOUT_COLOUR);
         is_whole.then(|| colours.collect())
     }
 
@@ -233,16 +201,17 @@ impl Prescan {
         colour.copied().unwrap_or(NO_COLOUR)
     }
 
-    /// Makes the refusal for `problem`, with all warnings so far.
+    /// Makes the refusal for `problem`, with all notes so far.
     fn refusal(&mut self, line: Option<usize>, problem: ObjProblem) -> Refusal {
-        // The error itself reports the position, so a warning about it would repeat it.
+        // The error itself reports the position, so a note about it would repeat it.
         if let ObjProblem::BadPosition { .. } = problem {
-            self.oddities.remove(&Oddity::BadPosition);
+            self.notes.remove(BAD_POSITION);
         }
+        self.remove_implied_notes();
         Refusal {
             line,
             problem,
-            warnings: self.warnings(),
+            notes: take(&mut self.notes),
         }
     }
 
@@ -274,48 +243,33 @@ impl Prescan {
             let face = self.first_uses[position as usize] as usize;
             let colour = self.colour(position);
             if colour.is_nan() {
-                self.note(face, Oddity::NoColour);
+                let text = "a face uses a position that has no colour: the colours of the others are not used";
+                self.count(face, WITHOUT_COLOUR, text);
             } else if colour.min_element() < 0.0 || colour.max_element() > 1.0 {
-                self.note(face, Oddity::ColourOutOfRange);
+                let text = "a face uses a position whose colour is not within 0 to 1: what is shown is clamped at each pixel";
+                self.count(face, COLOUR_OUT_OF_RANGE, text);
             }
         }
     }
 
-    /// Returns one line for each kind of oddity.
-    pub(super) fn warnings(&self) -> Vec<String> {
-        // Some oddities follow from others and need no separate line.
-        let matters = |oddity: &Oddity| match oddity {
-            Oddity::ColourOutOfRange => !self.has(Oddity::NoColour),
-            Oddity::UndeclaredNormal => self.normals == 0,
-            Oddity::NoNormal => self.normals > 0,
-            Oddity::NoTextureCoordinate => {
-                let is_reported = self.normals == 0 && self.has(Oddity::UndeclaredNormal);
-                self.texture_coordinates > 0 || !is_reported
-            }
-            _ => true,
-        };
-        let oddities = self.oddities.iter().filter(|(oddity, _)| matters(oddity));
-        oddities
-            .map(|(oddity, &(count, first_line))| {
-                let subject = match oddity {
-                    Oddity::Unknown => format!("`{}` ", self.unknown_word),
-                    Oddity::NoSmoothingGroup => format!("`s {}` ", self.unknown_group),
-                    _ => String::new(),
-                };
-                match count {
-                    1 => format!("{subject}{oddity} (line {first_line})"),
-                    n => format!("{subject}{oddity} ({n} times, first in line {first_line})"),
-                }
-            })
-            .collect()
+    /// Removes the notes that follow from others.
+    fn remove_implied_notes(&mut self) {
+        let (normals, notes) = (self.normals, &mut self.notes);
+        if notes.has(WITHOUT_COLOUR) {
+            notes.remove(COLOUR_OUT_OF_RANGE);
+        }
+        match normals {
+            0 => notes.remove(NO_NORMAL),
+            _ => notes.remove(UNDECLARED_NORMAL),
+        }
+        if self.texture_coordinates == 0 && notes.has(UNDECLARED_NORMAL) {
+            notes.remove(NO_TEXTURE_COORDINATE);
+        }
     }
 
-    fn has(&self, oddity: Oddity) -> bool {
-        self.oddities.contains_key(&oddity)
-    }
-
-    fn note(&mut self, line: usize, oddity: Oddity) {
-        self.oddities.entry(oddity).or_insert((0, line)).0 += 1;
+    /// Counts a case of a kind, whose note is a warning with this text.
+    fn count(&mut self, line: usize, kind: &'static str, text: &'static str) {
+        self.notes.count(kind, line, || Note::warning(kind, text));
     }
 
     fn statement(
@@ -338,7 +292,8 @@ impl Prescan {
                 }
                 let mut words = without_comment(rest).split_ascii_whitespace();
                 if self.vector("vn", &mut words).is_err() {
-                    self.note(line, Oddity::BadNormal);
+                    let text = "a normal is not three finite numbers: corners that name it count as without a normal";
+                    self.count(line, "normal-not-finite", text);
                 }
                 self.text.push(b'\n');
                 self.normals += 1;
@@ -357,21 +312,25 @@ impl Prescan {
                 let group = self.smoothing_group(line, without_comment(rest));
                 self.smoothing_runs.push((self.polygons, group));
             }
-            "p" | "l" => self.note(line, Oddity::PointOrLine),
+            "p" | "l" => self.notes.count(POINTS_OR_LINES, line, points_or_lines),
             // Group names, textures, levels of detail and display settings do not change a picture
             // of polygons.
             "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
             | "shadow_obj" | "trace_obj" => {}
-            "call" | "csh" => self.note(line, Oddity::Call),
-            "#mrgb" => self.note(line, Oddity::Polypaint),
-            word if word.is_empty() || word.starts_with('#') => {}
-            word if FREE_FORM.contains(&word) => self.note(line, Oddity::FreeForm),
-            _ => {
-                if !self.has(Oddity::Unknown) {
-                    self.unknown_word = quote(written);
-                }
-                self.note(line, Oddity::Unknown);
+            "call" | "csh" => {
+                let text = "`call` and `csh` are not followed: the geometry that they would add is missing";
+                self.count(line, "statement-call", text);
             }
+            "#mrgb" => {
+                let text = "polypaint (`#MRGB`, colours in comments) is not read";
+                self.count(line, "colours-polypaint", text);
+            }
+            word if word.is_empty() || word.starts_with('#') => {}
+            word if FREE_FORM.contains(&word) => {
+                let text = "free-form curves and surfaces are not read, only polygons";
+                self.count(line, "statement-free-form", text);
+            }
+            _ => self.unknown_statement(line, written),
         }
         Ok(())
     }
@@ -413,13 +372,24 @@ impl Prescan {
         Err(problem)
     }
 
+    /// Notes a word that is not a statement. Of several, the note quotes the first.
+    fn unknown_statement(&mut self, line: usize, word: &str) {
+        self.notes.count(UNKNOWN, line, || {
+            self.is_library = word.eq_ignore_ascii_case("newmtl");
+            let word = quote(word);
+            let text = format!("`{word}` is not an OBJ statement and is ignored");
+            Note::warning(UNKNOWN, text)
+        });
+    }
+
     /// Reads a position: three numbers, then a colour (three more) or a weight (one more), which is
     /// ignored. Words after a colour are not checked.
     fn position(&mut self, line: usize, rest: &str) {
         let mut words = without_comment(rest).split_ascii_whitespace();
         let read = self.vector("v", &mut words);
         if let Err(problem) = read.and_then(|()| self.colour_or_weight(line, &mut words)) {
-            self.note(line, Oddity::BadPosition);
+            let text = "a position is not three finite numbers and is left out";
+            self.count(line, BAD_POSITION, text);
             self.bad_positions.push(BadPosition {
                 index: self.positions.count,
                 line,
@@ -448,7 +418,8 @@ impl Prescan {
         }
         let colour = Vec3::from_array(values);
         if found == 1 && values[0] != 1.0 {
-            self.note(line, Oddity::Weight);
+            let text = "the weight w of a position is ignored";
+            self.count(line, "position-weight", text);
         }
         if found == 3 && colour.is_finite() {
             self.colours.resize(self.positions.count, NO_COLOUR);
@@ -471,7 +442,7 @@ impl Prescan {
             if let Some(word) = words.clone().find(|word| word.contains('\\')) {
                 self.corner(line, word)?;
             }
-            self.note(line, Oddity::SmallFace);
+            count_small_face(&mut self.notes, line);
             return Ok(());
         }
         corners.clear();
@@ -484,11 +455,11 @@ impl Prescan {
             corners.pop();
         }
         if corners.len() < 3 {
-            self.note(line, Oddity::SmallFace);
+            count_small_face(&mut self.notes, line);
             return Ok(());
         }
         if corners.len() < written {
-            self.note(line, Oddity::RepeatedCorner);
+            count_repeated_corner(&mut self.notes, line);
         }
         if self.polygons == self.limits.polygons {
             return Err(ObjProblem::TooManyPolygons);
@@ -567,10 +538,14 @@ impl Prescan {
             (_, "on") => 1,
             (_, "off" | "null") => 0,
             _ => {
-                if !self.has(Oddity::NoSmoothingGroup) {
-                    self.unknown_group = quote(word);
-                }
-                self.note(line, Oddity::NoSmoothingGroup);
+                let kind = "statement-no-smoothing-group";
+                self.notes.count(kind, line, || {
+                    let word = quote(word);
+                    Note::warning(
+                        kind,
+                        format!("`s {word}` is not a smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off`"),
+                    )
+                });
                 0
             }
         }
@@ -581,7 +556,8 @@ impl Prescan {
         if let Some(index) = written.texture
             && (index == 0 || index.unsigned_abs() > self.texture_coordinates as u64)
         {
-            self.note(line, Oddity::NoTextureCoordinate);
+            let text = "a texture coordinate that does not exist is ignored, as all of them are";
+            self.count(line, NO_TEXTURE_COORDINATE, text);
         }
         let position = self.positions.resolve(line, written.position)?;
         let normal = written.normal.and_then(|index| self.normal(line, index));
@@ -592,7 +568,8 @@ impl Prescan {
     /// and returns `None`.
     fn normal(&mut self, line: usize, index: i64) -> Option<usize> {
         if self.normals == 0 {
-            self.note(line, Oddity::UndeclaredNormal);
+            let text = "a face names normals or texture coordinates, but the file has none: they are ignored";
+            self.count(line, UNDECLARED_NORMAL, text);
         }
         let size = usize::try_from(index.unsigned_abs()).ok();
         let named = size.and_then(|size| match index {
@@ -602,7 +579,11 @@ impl Prescan {
         let named = named.filter(|named| self.all_normals.is_none_or(|all| *named < all));
         match named {
             Some(named) => self.named_normals = self.named_normals.max(named.saturating_add(1)),
-            None => self.note(line, Oddity::NoNormal),
+            None => {
+                let text =
+                    "a corner names a normal that does not exist and counts as without a normal";
+                self.count(line, NO_NORMAL, text);
+            }
         }
         named
     }

@@ -10,11 +10,11 @@ mod header;
 use super::error::{Place, Refusal};
 use super::polygons::{Polygons, is_position};
 use super::{Beside, MeshFormat, Parts};
+use crate::note::Note;
 use body::{Body, decode};
 use glam::DVec3;
 use header::{Coding, Element, Header, Property};
 use std::format;
-use std::string::String;
 use std::vec::Vec;
 
 /// The format.
@@ -47,27 +47,28 @@ impl MeshFormat for Ply {
             ));
         }
         let header = header::read(bytes)?;
-        let mut notes = Vec::new();
-        if header.has_texture {
-            notes.push(String::from("textures are not drawn"));
-        }
         let mut polygons = read_body(bytes, &header, false);
         // Some programs write more words in each line than their header says. Read as one stream of
         // words, their file fails or has words left over. It is then read again line by line.
         let is_whole = matches!(&polygons, Ok((_, true)));
         if header.coding == Coding::Text
             && !is_whole
-            && let Ok((by_lines, true)) = read_body(bytes, &header, true)
+            && let Ok((mut by_lines, true)) = read_body(bytes, &header, true)
             && by_lines.count() > 0
         {
-            notes.push("lines have more words than the header says: they are ignored".into());
+            let text = "lines have more words than the header says: they are ignored";
+            by_lines.notes.push(Note::warning("words-left-over", text));
             polygons = Ok((by_lines, true));
         }
-        let (polygons, _) = polygons?;
+        let (mut polygons, _) = polygons?;
         if polygons.count() == 0 {
             return Err(no_polygon(&polygons));
         }
-        Ok(polygons.finish(notes))
+        if header.has_texture {
+            let text = "textures are not drawn";
+            polygons.notes.push(Note::warning("texture", text));
+        }
+        Ok(polygons.finish())
     }
 }
 

@@ -15,11 +15,11 @@ fn bytes_decide_before_endings_with_a_warning() {
     let none = |_: &str| Err(ErrorKind::NotFound.into());
     for name in ["a", "a.off", "a.xyz"] {
         let loaded = parse_mesh(name, OFF, none).expect("a mesh");
-        assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+        assert!(loaded.notes.is_empty(), "{}", loaded.notes);
     }
     let loaded = parse_mesh("a.STL", OFF, none).expect("a mesh");
     let said = "is an OFF file, whatever its ending says, and read as one";
-    assert_eq!(loaded.warnings, [said]);
+    assert_eq!(sentences(&loaded.notes), [said]);
     // Without a keyword the ending decides.
     let error = parse_mesh("a.off", &OFF[4..], none).expect_err("no keyword");
     assert!(error.to_string().starts_with("a.off:1: `3`: expected OFF"));

@@ -113,15 +113,15 @@ fn nodes_place_triangles_with_normals_colours_and_materials() {
 fn triangles_without_normals_are_flat_with_a_warning() {
     let bare = json(&data(), r#"}, "indices": 2"#, "", "");
     let loaded = parse(&bare).expect("a mesh");
-    let said = "the file has no normals: drawn flat, as glTF says; --normals averaged or crease=40 smooths";
-    assert_eq!(loaded.warnings, [said]);
+    let said = "the file has no normals: drawn flat, as glTF says; `object.normals = \"averaged\"` or `object.crease = 40` smooths";
+    assert_eq!(sentences(&loaded.notes), [said]);
     assert_eq!(loaded.mesh.smoothing_group(0), Some(PolygonMesh::FACETED));
     let two = bare.replace(
         r#""primitives": ["#,
         r#""primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}}, "#,
     );
     let loaded = parse(&two).expect("a mesh");
-    assert!(loaded.warnings[0].starts_with("1 of 2 parts have no normals"));
+    assert!(sentences(&loaded.notes)[0].starts_with("1 of 2 parts have no normals"));
     let mesh = &loaded.mesh;
     let groups = [0, 1].map(|p| mesh.smoothing_group(p));
     assert_eq!(

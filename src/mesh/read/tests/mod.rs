@@ -9,12 +9,19 @@ mod ply;
 mod stl;
 
 use super::{LoadedMesh, ReadError, parse_mesh};
+use crate::note::Notes;
 use std::io::ErrorKind;
+use std::string::{String, ToString};
 use std::vec::Vec;
 
 /// Reads a file whose name does not tell its format, with no files beside it.
 fn parse(bytes: impl AsRef<[u8]>) -> Result<LoadedMesh, ReadError> {
     parse_mesh("t", bytes.as_ref(), |_| Err(ErrorKind::NotFound.into()))
+}
+
+/// Returns the notes as sentences.
+pub(super) fn sentences(notes: &Notes) -> Vec<String> {
+    notes.iter().map(ToString::to_string).collect()
 }
 
 /// Returns the polygons of a valid file.
@@ -28,5 +35,5 @@ fn polygons(bytes: impl AsRef<[u8]>) -> Vec<Vec<u32>> {
 #[track_caller]
 fn assert_refused(bytes: impl AsRef<[u8]>, message: &str) {
     let error = parse(bytes).expect_err("no mesh");
-    assert_eq!(std::string::ToString::to_string(&error), message);
+    assert_eq!(error.to_string(), message);
 }

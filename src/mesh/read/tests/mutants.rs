@@ -64,7 +64,7 @@ pub(super) fn try_mutants(ending: &str, files: &[Vec<u8>]) {
             (Ok(first), Ok(second)) => {
                 meshes += 1;
                 assert_eq!(first.mesh, second.mesh);
-                assert_eq!(first.warnings, second.warnings);
+                assert_eq!(first.notes, second.notes);
             }
             (Err(first), Err(second)) => {
                 errors += 1;

@@ -56,7 +56,11 @@ fn odd_colours_of_faces_are_reported() {
             std::format!("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 {colour}\n3 2 1 0 {colour}\n");
         let loaded = parse(text).expect("a mesh");
         let expected = told.map(|told| std::format!("{told} (2 times)"));
-        assert_eq!(loaded.warnings, Vec::from_iter(expected), "{colour}");
+        assert_eq!(
+            sentences(&loaded.notes),
+            Vec::from_iter(expected),
+            "{colour}"
+        );
         let mesh = loaded.mesh;
         let found = mesh.polygon_material(1).map(|m| mesh.materials()[m]);
         assert_eq!(found, material.map(coloured), "{colour}");

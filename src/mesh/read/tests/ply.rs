@@ -61,7 +61,7 @@ fn all_codings_make_equal_meshes() {
     assert_eq!(mesh.colours()[3], Vec3::new(1.0, 0.2, 0.0));
     let normals = mesh.given_normals().expect("normals");
     assert_eq!(normals.values, [Vec3::Z; 4]);
-    assert!(text.warnings.is_empty());
+    assert!(text.notes.is_empty());
     for coding in ["binary_little_endian", "binary_big_endian"] {
         assert_eq!(read(coding).mesh, *mesh, "{coding}");
     }

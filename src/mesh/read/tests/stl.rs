@@ -46,7 +46,7 @@ fn equal_positions_are_one_and_edges_are_creased() {
     assert_eq!(mesh.positions().len(), 4);
     assert_eq!(mesh.normal_rule().source, NormalSource::Crease(40.0));
     assert_eq!(mesh.normal_rule().weight, NormalWeight::Angle);
-    assert!(loaded.warnings.is_empty() && mesh.given_normals().is_none());
+    assert!(loaded.notes.is_empty() && mesh.given_normals().is_none());
     // A text file far from 0, where 32 bits are too coarse to tell its corners apart.
     let far = "4000000 0 0.001,4000000.001 0 0.001,4000000 0.001 0.001";
     let loaded = parse(format!("solid far\n{}", facet(far))).expect("a mesh");
@@ -59,7 +59,7 @@ fn the_triangle_count_may_be_wrong() {
         let loaded = read_stl(&binary(b"x", count, &SQUARE)).expect("a mesh");
         assert_eq!(loaded.mesh.polygon_count(), 2);
         let said = format!("the header says {count} triangles: all 2 in the file are read");
-        assert_eq!(loaded.warnings, [said]);
+        assert_eq!(sentences(&loaded.notes), [said]);
     }
     let trailing = [binary(b"x", 2, &SQUARE), b"abc".to_vec()].concat();
     let loaded = read_stl(&trailing).expect("a mesh");

@@ -14,7 +14,6 @@ use glam::Vec3;
 use std::path::Path;
 use std::string::String;
 use std::sync::Arc;
-use std::vec::Vec;
 
 /// Returns the cube −1..=1 as six quads, counter-clockwise from outside.
 fn cube() -> PolygonMesh {

@@ -143,7 +143,7 @@ fn the_first_face_that_uses_a_position_is_named() {
     assert_error(text, 5, message);
     // The error replaces the warning.
     let told = ["a face of fewer than three different corners is left out (line 1)"];
-    assert_eq!(parse(text).unwrap_err().warnings, told);
+    assert_eq!(sentences(&parse(text).unwrap_err().notes), told);
     // A face that is left out uses nothing.
     let loaded = after_points("v nan 0 0\nf 1 6\nf 6 6 6\nf 1 2 3\n");
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
@@ -169,7 +169,7 @@ fn normals_and_texture_coordinates_that_are_no_numbers_refuse_nothing() {
         assert_eq!(warning(&loaded), told, "{vn}");
     }
     let loaded = after_points("vt nan\nvt\nvt 1,5 x\nf 1/1 2/2 3/3\n");
-    assert_eq!(loaded.warnings, Vec::<String>::new());
+    assert_eq!(loaded.notes, Notes::default());
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn a_face_that_is_left_out_refuses_nothing() {
 fn warnings_from_before_an_error_come_with_it() {
     let error = parse(format!("{POINTS}hello\nl 1 2\nf 1 2 9\n")).unwrap_err();
     assert_eq!(
-        error.warnings,
+        sentences(&error.notes),
         [
             "points and lines are not drawn (line 7)",
             "`hello` is not an OBJ statement and is ignored (line 6)"
@@ -197,7 +197,7 @@ fn warnings_from_before_an_error_come_with_it() {
         error.problem,
         "has no polygon: expected OBJ text with an `f` line of at least three corners"
     );
-    assert_eq!(error.warnings, [told]);
+    assert_eq!(sentences(&error.notes), [told]);
     assert_eq!(parse("Not Found\n").unwrap_err().place, None);
 }
 

@@ -21,7 +21,7 @@ fn polygons_keep_all_their_sides() {
         [vec![0, 1, 2, 3, 4], vec![0, 1, 2], vec![0, 2, 3, 4]]
     );
     assert_eq!(loaded.mesh.positions()[3], Vec3::new(1.0, 0.5, 0.0));
-    assert_eq!(loaded.warnings, Vec::<String>::new());
+    assert_eq!(loaded.notes, Notes::default());
 }
 
 #[test]
@@ -38,7 +38,7 @@ fn groups_share_positions_and_unused_positions_go() {
     let loaded = after_points("o a\nf 2 3 4\ng b\nf 4 3 5\no\ng\nf 2 4 5\n");
     assert_eq!(loaded.mesh.positions().len(), 4);
     assert_eq!(polygons(&loaded), [[0, 1, 2], [2, 1, 3], [0, 2, 3]]);
-    assert_eq!(loaded.warnings, Vec::<String>::new());
+    assert_eq!(loaded.notes, Notes::default());
 }
 
 #[test]
@@ -88,8 +88,8 @@ fn carriage_returns_and_line_feeds_end_lines_in_any_mixture() {
     // Blank lines count as lines.
     assert!(
         warning(&loaded).ends_with("is left out (line 11)"),
-        "{:?}",
-        loaded.warnings
+        "{}",
+        loaded.notes
     );
     // A line that ends in a single CR may be continued, too.
     let loaded = parse("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 \\\r2 \\\r\n3\rf 3 2 1\r").unwrap();
@@ -118,8 +118,8 @@ fn a_backslash_continues_no_name_and_no_comment() {
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
     assert!(
         warning(&loaded).starts_with("free-form curves"),
-        "{:?}",
-        loaded.warnings
+        "{}",
+        loaded.notes
     );
 }
 
@@ -136,7 +136,7 @@ fn a_comment_begins_after_a_number() {
 fn keywords_may_have_capitals() {
     let loaded = parse("V 0 0 0\nV 1 0 0\nV 0 1 0\nVN 0 0 1\nF 1//1 2//1 3//1\n").unwrap();
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
-    assert!(loaded.mesh.given_normals().is_some() && loaded.warnings.is_empty());
+    assert!(loaded.mesh.given_normals().is_some() && loaded.notes.is_empty());
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn byte_order_mark_and_latin_1() {
     assert_eq!(loaded.mesh.positions()[0], Vec3::X);
     let dos = after_points("f 1 2 3\r\n\u{1a}");
     assert_eq!(
-        (polygons(&dos), dos.warnings),
+        (polygons(&dos), sentences(&dos.notes)),
         (vec![vec![0, 1, 2]], vec![])
     );
     let latin = [b"o Gr\xfcn \xa9\n", POINTS.as_bytes(), b"f 1 2 3 # \xe9\n"].concat();
@@ -172,7 +172,7 @@ fn weights_and_colours_do_not_move_positions() {
     );
     let no_colours = "a face uses a position that has no colour: the colours of the others are not used (2 times, first in line 4)";
     assert_eq!(
-        loaded.warnings,
+        sentences(&loaded.notes),
         ["the weight w of a position is ignored (line 1)", no_colours]
     );
 }
@@ -194,8 +194,8 @@ fn faces_without_area_by_their_indices() {
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
     assert!(
         warning(&loaded).ends_with("is left out (4 times, first in line 6)"),
-        "{:?}",
-        loaded.warnings
+        "{}",
+        loaded.notes
     );
 
     // A repeated neighbour is removed. A corner met twice on the way round (a bridge to a hole)
@@ -264,7 +264,7 @@ fn corners_with_and_without_normals_may_be_mixed() {
                 .map(|&n| normals.values[n as usize])
                 .collect();
             assert_eq!(found, expected, "{text:?}");
-            assert_eq!(loaded.warnings, Vec::<String>::new());
+            assert_eq!(loaded.notes, Notes::default());
         }
     }
     let unused = after_points("vn 0 0 1\nf 1 2 3\n");
@@ -308,7 +308,7 @@ fn normals_of_a_file_without_any_are_averaged() {
 /// Returns the smoothing group of each polygon.
 fn smoothing(text: &str) -> Vec<Option<u32>> {
     let loaded = after_points(text);
-    assert_eq!(loaded.warnings, Vec::<String>::new(), "{text:?}");
+    assert_eq!(loaded.notes, Notes::default(), "{text:?}");
     let polygons = 0..loaded.mesh.polygon_count();
     polygons.map(|p| loaded.mesh.smoothing_group(p)).collect()
 }
@@ -343,7 +343,7 @@ fn smoothing_groups_belong_to_the_polygons_after_them() {
 fn objects_are_parts_and_groups_are_not() {
     let parts = |text: &str| {
         let loaded = after_points(text);
-        assert_eq!(loaded.warnings, Vec::<String>::new());
+        assert_eq!(loaded.notes, Notes::default());
         let mesh = loaded.mesh;
         (0..mesh.polygon_count())
             .map(|p| mesh.part(p))
@@ -392,13 +392,13 @@ fn texture_coordinates_do_not_matter() {
     assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 1, 2]]);
     assert!(
         warning(&loaded).starts_with("a texture coordinate that does not exist"),
-        "{:?}",
-        loaded.warnings
+        "{}",
+        loaded.notes
     );
     assert!(
         warning(&loaded).ends_with("(3 times, first in line 8)"),
-        "{:?}",
-        loaded.warnings
+        "{}",
+        loaded.notes
     );
 }
 
@@ -412,8 +412,8 @@ fn unknown_and_free_form_statements_are_reported_once() {
     let loaded = after_points("cstype bezier\ncurv 0 1 1 2 3\nf 1 2 3\n");
     assert!(
         warning(&loaded).starts_with("free-form curves and surfaces"),
-        "{:?}",
-        loaded.warnings
+        "{}",
+        loaded.notes
     );
     // `fo` is an older keyword for faces.
     assert_eq!(polygons(&after_points("fo 1 2 3\n")), [[0, 1, 2]]);
@@ -432,7 +432,7 @@ fn shipped_meshes() {
             .join(name)
             .with_extension("obj");
         let loaded = load_mesh(&path).unwrap();
-        assert_eq!(loaded.warnings, Vec::<String>::new(), "{name}");
+        assert_eq!(loaded.notes, Notes::default(), "{name}");
         let mesh = &loaded.mesh;
         assert_eq!(
             (
@@ -488,7 +488,7 @@ fn colours_follow_their_positions() {
         loaded.mesh.colours(),
         [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]
     );
-    assert_eq!(loaded.warnings, Vec::<String>::new());
+    assert_eq!(loaded.notes, Notes::default());
     // Faces may precede positions.
     let loaded = parse("f 4 2 3\n".to_string() + points).unwrap();
     assert_eq!(
@@ -509,30 +509,28 @@ fn colours_are_used_if_all_positions_of_faces_have_one() {
         let expected = format!(
             "a face uses a position that has no colour: the colours of the others are not used (line {line})"
         );
-        assert_eq!(loaded.warnings, [expected]);
+        assert_eq!(sentences(&loaded.notes), [expected]);
     }
     // Unused positions count neither as missing, nor as out of range, nor as having colours.
     let colours = [Vec3::X, Vec3::Y, Vec3::Z];
     let points = "v 9 9 9\nv 0 0 0 1 0 0\nv 8 8 8 255 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 7 7 7\n";
     let loaded = parse(format!("{points}f 2 4 5\n")).unwrap();
     assert_eq!(
-        (loaded.mesh.colours(), loaded.warnings.len()),
+        (loaded.mesh.colours(), loaded.notes.iter().count()),
         (&colours[..], 0)
     );
     let loaded = after_points("v 7 7 7 1 0 0\nf 1 2 3\n");
-    assert!(loaded.mesh.colours().is_empty() && loaded.warnings.is_empty());
+    assert!(loaded.mesh.colours().is_empty() && loaded.notes.is_empty());
 
     let loaded = parse("v 0 0 0 255 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 -1\nf 1 2 3\n").unwrap();
     assert_eq!(loaded.mesh.colours()[0], Vec3::new(255.0, 0.0, 0.0));
-    assert_eq!(loaded.warnings.len(), 1);
-    assert!(
-        loaded.warnings[0].contains("not within 0 to 1") && loaded.warnings[0].contains("2 times")
-    );
+    let told = warning(&loaded);
+    assert!(told.contains("not within 0 to 1") && told.contains("2 times"));
     let bytes = "v 0 0 0 255 0 0\nv 1 0 0 0 128 0\nv 0 1 0 0 0 64\nf 1 2 3\n";
     let loaded = parse(bytes).unwrap();
     assert_eq!(loaded.mesh.colours()[1], Vec3::new(0.0, 128.0, 0.0));
     assert_eq!(
-        loaded.warnings[1..],
+        sentences(&loaded.notes)[1..],
         ["the colours look like 0 to 255: divide them by 255"]
     );
     // Numbers after a colour, such as alpha, are ignored; four numbers are a position with a
@@ -540,13 +538,13 @@ fn colours_are_used_if_all_positions_of_faces_have_one() {
     let loaded =
         parse("v 0 0 0 1 0 0 1\nv 1 0 0 0 1 0 .5 x\nv 0 1 0 0 0 1 nan\nf 1 2 3\n").unwrap();
     assert_eq!(
-        (loaded.mesh.colours(), loaded.warnings.len()),
+        (loaded.mesh.colours(), loaded.notes.iter().count()),
         (&colours[..], 0)
     );
     for more in ["1", "0 1"] {
         let text = format!("v 0 0 0 {more}\nv 1 0 0 {more}\nv 0 1 0 {more}\nf 1 2 3\n");
         let loaded = parse(text).unwrap();
-        assert!(loaded.mesh.colours().is_empty() && loaded.warnings.is_empty());
+        assert!(loaded.mesh.colours().is_empty() && loaded.notes.is_empty());
     }
 }
 
@@ -560,7 +558,7 @@ fn an_index_far_ahead_takes_no_memory() {
 #[test]
 fn normals_that_no_face_names_are_reported_once() {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    let told = |text: String| parse(&text).unwrap().warnings;
+    let told = |text: String| sentences(&parse(&text).unwrap().notes);
     let unused = "a normal that no face uses is ignored";
     let all = told(format!("{triangle}vn 0 0 1\nvn 0 1 0\nf 1 2 3\n"));
     assert_eq!(all, [format!("{unused} (2 times, first in line 4)")]);
@@ -592,7 +590,7 @@ fn a_nul_that_ends_a_line_or_stands_in_a_comment_or_a_name_refuses_nothing() {
     ] {
         let loaded = after_points(text);
         assert_eq!(loaded.mesh, plain.mesh, "{text:?}");
-        assert_eq!(loaded.warnings, Vec::<String>::new(), "{text:?}");
+        assert_eq!(loaded.notes, Notes::default(), "{text:?}");
     }
 }
 
@@ -604,14 +602,14 @@ fn a_byte_order_mark_at_the_start_of_any_line_is_skipped() {
         ));
         let loaded = loaded.unwrap();
         assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(loaded.warnings, Vec::<String>::new());
+        assert_eq!(loaded.notes, Notes::default());
     }
     // The mark in a file that is decoded as Latin-1 because of its name.
     let mut bytes = POINTS.as_bytes().to_vec();
     bytes.extend(b"\xef\xbb\xbfg caf\xe9\n\xef\xbb\xbff 1 2 3\n");
     let loaded = parse(bytes).unwrap();
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
-    assert_eq!(loaded.warnings, Vec::<String>::new());
+    assert_eq!(loaded.notes, Notes::default());
 }
 
 #[test]
@@ -627,7 +625,7 @@ fn blank_lines_and_comments_do_not_end_a_continued_statement_and_statements_do()
     ] {
         let loaded = after_points(text);
         assert_eq!(polygons(&loaded), [[0, 1, 2, 3]], "{text:?}");
-        assert_eq!(loaded.warnings, Vec::<String>::new(), "{text:?}");
+        assert_eq!(loaded.notes, Notes::default(), "{text:?}");
     }
     let loaded = after_points("f 1 2 3 \\\n\nf 1 3 4 \\\nv 0 0 2\nf 1 2 6\n");
     assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 2, 3], [0, 1, 4]]);

@@ -27,7 +27,7 @@ fn material(mtl: &str) -> (Option<Material>, Vec<String>) {
             .mesh
             .polygon_material(0)
             .map(|m| loaded.mesh.materials()[m]),
-        loaded.warnings,
+        sentences(&loaded.notes),
     )
 }
 
@@ -294,7 +294,7 @@ fn a_library_that_is_not_mtl_text_is_named() {
         let expected = "expected MTL text with `newmtl` lines";
         assert_eq!(
             warning(&loaded),
-            &format!("material library `a.mtl` (line 6) {told}: {expected}")
+            format!("material library `a.mtl` (line 6) {told}: {expected}")
         );
     }
 }
@@ -341,7 +341,7 @@ fn names_with_spaces_and_number_signs() {
             Some([grey; 3]),
             "{name}"
         );
-        assert_eq!(loaded.warnings, Vec::<String>::new());
+        assert_eq!(loaded.notes, Notes::default());
     }
 }
 
@@ -428,7 +428,7 @@ fn paths_of_libraries() {
             folder,
             name,
             &mut |path| std::fs::read(path),
-            &mut Vec::new(),
+            &mut Notes::default(),
         )
     };
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -457,7 +457,7 @@ fn a_nul_in_a_library_refuses_nothing() {
         "newmtl red\nKd 1 \\\n\n0 0\n",
     ] {
         let loaded = parse_mesh("t.obj", obj.as_bytes(), |_| Ok(mtl.into())).unwrap();
-        assert_eq!(loaded.warnings, Vec::<String>::new(), "{mtl:?}");
+        assert_eq!(loaded.notes, Notes::default(), "{mtl:?}");
         assert_eq!(
             loaded.mesh.materials()[0].diffuse,
             [1.0, 0.0, 0.0],
@@ -466,9 +466,9 @@ fn a_nul_in_a_library_refuses_nothing() {
     }
     let loaded = parse_mesh("t.obj", obj.as_bytes(), |_| Ok(vec![1, 0, 0, 2, 0])).unwrap();
     assert!(
-        loaded.warnings[0].contains("holds binary data"),
-        "{:?}",
-        loaded.warnings
+        loaded.notes.to_string().contains("holds binary data"),
+        "{}",
+        loaded.notes
     );
 }
 
@@ -485,7 +485,7 @@ fn one_library_by_two_names_is_read_once_and_several_paths_are_several_files() {
                 false => Ok(b"Kd 9 9 9\nnewmtl m\nKd 1 0 0\n".to_vec()),
             }
         });
-        let told = loaded.unwrap().warnings.len();
+        let told = loaded.unwrap().notes.iter().count();
         (asked.borrow().clone(), told)
     };
     let one = "mtllib a.mtl\nmtllib ./a.mtl\nmtllib .\\a.mtl\nmtllib c/../a.mtl\nmtllib .//a.mtl";
@@ -514,6 +514,11 @@ fn repeating_an_equal_material_makes_no_warning() {
         ),
     ] {
         let loaded = load("usemtl m\nmtllib a.mtl\nf 1 2 3\n", &[("a.mtl", mtl)]);
-        assert_eq!(loaded.warnings.len(), told, "{mtl}: {:?}", loaded.warnings);
+        assert_eq!(
+            loaded.notes.iter().count(),
+            told,
+            "{mtl}: {:?}",
+            sentences(&loaded.notes)
+        );
     }
 }

@@ -6,7 +6,9 @@ mod fuzz;
 mod geometry;
 mod materials;
 
+use crate::mesh::read::tests::sentences;
 use crate::mesh::read::{LoadedMesh, ReadError, parse_mesh};
+use crate::note::Notes;
 use std::string::String;
 use std::vec::Vec;
 use std::{format, io};
@@ -29,8 +31,9 @@ fn polygons(loaded: &LoadedMesh) -> Vec<Vec<u32>> {
     loaded.mesh.polygons().map(<[u32]>::to_vec).collect()
 }
 
-/// Returns the only warning.
-fn warning(loaded: &LoadedMesh) -> &String {
-    assert_eq!(loaded.warnings.len(), 1, "{:?}", loaded.warnings);
-    &loaded.warnings[0]
+/// Returns the only note.
+fn warning(loaded: &LoadedMesh) -> String {
+    let mut notes = sentences(&loaded.notes);
+    assert_eq!(notes.len(), 1, "{notes:?}");
+    notes.remove(0)
 }
