@@ -1,6 +1,5 @@
 //! Checks the course in `report/course`. Its figures and findings exist, and each of its numbers is
 //! measured or stands in a figure.
-#![cfg(feature = "cli")]
 
 use crate::markdown::{files, quoted, read, root, rows};
 use fastphong::shading::Variant;

@@ -3,8 +3,8 @@
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test documents mistakes` draws every mistake that
 //! `fastphong diagnose` knows on every shipped scene except `million`. It writes
-//! `program/src/diagnose/shown_by_table.rs` and `docs/mistakes.md`. The document is made from the compiled
-//! table, so bless twice.
+//! `program/src/diagnose/shown_by_table.rs` and `docs/mistakes.md`. The document is made from the
+//! compiled table, so bless twice.
 
 use crate::markdown::{read, root};
 use fastphong::scene::input::{SCENES, ShippedScene, resolve};

@@ -543,8 +543,8 @@ fn every_file_is_compiled() {
     assert!(lost.is_empty(), "no parent declares {lost:?}");
 }
 
-/// Commands open files only in `program/src/cli/files.rs`, which makes sure that no file is both read and
-/// written.
+/// Commands open files only in `program/src/cli/files.rs`, which makes sure that no file is both
+/// read and written.
 #[test]
 fn commands_open_files_in_one_module() {
     let opens = [
