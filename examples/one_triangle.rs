@@ -7,7 +7,7 @@
 //! ```
 //!
 //! It needs only the feature `alloc`, so it also runs with
-//! `--no-default-features --features alloc`.
+//! `-p fastphong --no-default-features --features alloc`.
 
 use fastphong::glam::{DVec3, Vec3};
 use fastphong::mesh::vertex_normals::NormalSource;

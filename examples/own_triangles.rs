@@ -7,8 +7,9 @@
 //! ```
 //!
 //! It needs only the feature `alloc`, so it also runs with
-//! `--no-default-features --features alloc`. `Variant::draw` draws into your own memory, with SIMD
-//! where `Renderer::fastest()` has it, and can test depth against your own depth buffer.
+//! `-p fastphong --no-default-features --features alloc`. `Variant::draw` draws into your own
+//! memory, with SIMD where `Renderer::fastest()` has it, and can test depth against your own depth
+//! buffer.
 
 use fastphong::frame::{FrameBuilder, Vertex};
 use fastphong::glam::{DVec3, Vec3};

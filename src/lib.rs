@@ -7,12 +7,7 @@
 //! [`frame::Frame`] through the same engine, so two pictures differ by shading and nothing else.
 //! The [`mod@reference`] defines the correct picture. It shares no arithmetic with the methods.
 //!
-//! The command-line tool is the package `fastphong-cli`. To leave out files and threads, turn features off:
-//!
-//! ```toml
-//! [dependencies]
-//! fastphong = { version = "0.1", default-features = false, features = ["std"] }
-//! ```
+//! The command-line tool is the package `fastphong-cli`.
 //!
 //! # Example
 //!
@@ -72,6 +67,7 @@
 //! | choose a method | [`shading::methods`], [`shading::Variant`]; all of them are in [`shading::METHODS`] |
 //! | get the fastest method for a picture | [`shading::Variant::auto`] |
 //! | draw into your own memory, with your own depth buffer | [`shading::Variant::draw`], [`picture::PictureMut`] |
+//! | use all SIMD lanes and threads | [`raster::Renderer::fastest`], [`raster::DrawOptions::by`] |
 //! | choose an engine: scalar spans or SIMD rows | [`raster`] |
 //! | save a picture | `picture::image_file::write_picture` |
 //! | shade the spans of your own rasterizer | [`shading::SpanShader`] |
@@ -98,6 +94,8 @@
 //!
 //! # Features
 //!
+//! `gltf`, `simd` and `threads` are the default.
+//!
 //! | feature | adds |
 //! |---|---|
 //! | none | [`integer`] only: `no_std`, no allocator, no floating-point unit |
@@ -111,6 +109,9 @@
 //! The crate needs Rust 1.95 or later. Only a minor release (0.x) raises this version.
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#[cfg(all(doctest, feature = "alloc"))]
+#[doc = include_str!("../README.md")]
+struct Readme;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 #[cfg(any(feature = "std", test))]
@@ -120,6 +121,15 @@ pub use fixed;
 #[cfg(feature = "alloc")]
 pub use glam;
 
+/// How this crate was built. Times mean nothing without it.
+pub mod build {
+    /// The compiler, as in `rustc 1.95.0 (…)`, or `unknown`.
+    pub const RUSTC: &str = env!("FASTPHONG_RUSTC");
+    /// The kind of profile: `release` or `debug`.
+    pub const PROFILE: &str = env!("FASTPHONG_PROFILE");
+    /// The optimisation level: `0` to `3`, `s` or `z`.
+    pub const OPT_LEVEL: &str = env!("FASTPHONG_OPT_LEVEL");
+}
 #[cfg(feature = "alloc")]
 pub mod compare;
 #[cfg(feature = "alloc")]

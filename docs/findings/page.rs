@@ -218,7 +218,7 @@ fn best(times: &ByMethod, errors: &ByMethod) -> String {
 /// Returns times and worst errors of the methods in integers. Times are cycles per pixel on a
 /// Cortex-M0+, in spans of 32 pixels, as multiples of naive Phong's in the same integers.
 fn small() -> [ByMethod; 2] {
-    let document: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let document: Value = serde_json::from_str(&read("report/small.json")).expect("JSON");
     let spans = list(&document, "spans");
     let cycles = |span: &Value| number(&span["m0p_cycles"][1]);
     let naive = spans
@@ -272,7 +272,7 @@ fn small_table() -> String {
 pub fn answer() -> String {
     let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
     let (one, four) = (errors(1), errors(4));
-    let small: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let small: Value = serde_json::from_str(&read("report/small.json")).expect("JSON");
     let cycles = |name: &str| {
         let mut spans = list(&small, "spans").iter();
         let span = spans.find(|span| span["method"] == name).expect("a method");

@@ -17,3 +17,25 @@ pub mod report;
 #[cfg(any(feature = "view", all(test, feature = "cli")))]
 #[cfg_attr(not(feature = "view"), allow(dead_code, unused_imports))]
 mod view;
+
+/// A copy of the library's private generator.
+mod split_mix {
+    /// SplitMix64: Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, OOPSLA
+    /// 2014. The field is its seed, and then its state.
+    pub(crate) struct SplitMix(pub u64);
+
+    impl SplitMix {
+        pub fn next(&mut self) -> u64 {
+            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            z ^ (z >> 31)
+        }
+    }
+
+    /// The first value for seed 0 of the authors' reference implementation.
+    #[test]
+    fn random_numbers_are_those_of_the_paper() {
+        assert_eq!(SplitMix(0).next(), 0xE220_A839_7B1D_CDAF);
+    }
+}

@@ -1,4 +1,4 @@
-/* View: course. Shows the chapters that Rust made from docs/course, one below the other, and fills in figures and findings when they come near. */
+/* View: course. Shows the chapters that Rust made from report/course, one below the other, and fills in figures and findings when they come near. */
 
 import { address } from "./address.js";
 import { widthOf } from "./charts.js";

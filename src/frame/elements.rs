@@ -114,14 +114,17 @@ pub struct Polygon {
     pub source: u32,
     /// The index of its normal in the frame's geometry, plus [`Polygon::FLIPPED`] if the normal is
     /// negated: see [`Frame::polygon_normal`].
-    #[doc(hidden)]
-    pub face: u32,
+    pub(crate) face: u32,
 }
 
 impl Polygon {
     /// Marks the index of a normal that is negated, because the polygon is lit from behind.
-    #[doc(hidden)]
-    pub const FLIPPED: u32 = 1 << 31;
+    pub(crate) const FLIPPED: u32 = 1 << 31;
+
+    /// True if the polygon is lit from behind, so that its normal is negated.
+    pub fn is_flipped(&self) -> bool {
+        self.face & Polygon::FLIPPED != 0
+    }
 }
 
 /// Counts of the scene's polygons, by what became of them on the way into the frame.

@@ -54,14 +54,12 @@ mod painter_order;
 pub mod perspective;
 mod projection;
 pub(crate) mod row_tiles;
-#[doc(hidden)]
 pub mod triangulate;
 
 pub use builder::FrameBuilder;
 pub use depth_range::DepthRange;
 pub use elements::{ClipCorner, FrameStats, Mean, Polygon, ScreenVertex, Vertex};
 pub use error::{FrameError, FrameItem};
-#[doc(hidden)]
 pub use geometry::{Geometry, Models, PlacedModel};
 pub use projection::PreparedScene;
 
@@ -100,12 +98,9 @@ pub fn sub_pixel(pixels: impl Into<f64>) -> SubPixel {
 /// polygons.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    #[doc(hidden)]
-    pub width: u32,
-    #[doc(hidden)]
-    pub height: u32,
-    #[doc(hidden)]
-    pub samples: u32,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) samples: u32,
     pub(crate) background: Rgb,
     pub(crate) interpolation: Interpolation,
     pub(crate) hidden_surfaces: HiddenSurfaces,
@@ -116,11 +111,9 @@ pub struct Frame {
     pub(crate) encoding: Encoding,
     pub(crate) alpha: Alpha,
     pub(crate) origin: [f64; 3],
-    #[doc(hidden)]
-    pub geometry: Arc<Geometry>,
+    pub(crate) geometry: Arc<Geometry>,
     /// The vertices of the geometry, and behind them the vertices that clipping made.
-    #[doc(hidden)]
-    pub vertices: Vec<ScreenVertex>,
+    pub(crate) vertices: Vec<ScreenVertex>,
     /// The materials of the vertices that clipping made.
     pub(crate) cut_materials: Vec<u32>,
     /// The means of cut polygons, by the index of their first corner, in ascending order.
@@ -129,8 +122,7 @@ pub struct Frame {
     /// The corner lists of cut polygons. Their indices continue the indices of the geometry's
     /// lists.
     pub(crate) cut_corners: Vec<u32>,
-    #[doc(hidden)]
-    pub polygons: Vec<Polygon>,
+    pub(crate) polygons: Vec<Polygon>,
     pub(crate) lightings: Vec<Lighting>,
     /// True if any lighting is local. Stored, because methods ask for each polygon and there may be
     /// many materials.
@@ -439,6 +431,22 @@ impl Frame {
         self.lightings.first().map_or(0, |l| l.lights.len())
     }
 
+    /// True if a polygon belongs to an object that its transform mirrors.
+    pub fn is_mirrored(&self, polygon: &Polygon) -> bool {
+        let (geometry, corners) = (&self.geometry, self.corners(polygon));
+        // Vertices of the second side follow the vertices of the first. Vertices from clipping come
+        // last.
+        let first_cut = geometry.vertex_count();
+        let own = corners.iter().map(|corner| *corner as usize);
+        let Some(own) = own.into_iter().find(|corner| *corner < first_cut) else {
+            return false;
+        };
+        let models = &geometry.models;
+        let object = models.object_of(own % geometry.normals.len());
+        let object = models.objects.get(object);
+        object.is_some_and(|object| object.transform.matrix3.determinant() < 0.0)
+    }
+
     /// Returns what became of the scene's polygons, as counts.
     pub fn stats(&self) -> FrameStats {
         self.stats
@@ -450,6 +458,18 @@ impl Frame {
             .iter()
             .map(|&index| self.polygons[index as usize])
             .collect();
+    }
+
+    /// Returns all vertices, so that they can be moved. Nothing is checked again.
+    #[doc(hidden)]
+    pub fn vertices_mut(&mut self) -> &mut [ScreenVertex] {
+        &mut self.vertices
+    }
+
+    /// Returns all polygons, so that they can be sorted. Nothing is checked again.
+    #[doc(hidden)]
+    pub fn polygons_mut(&mut self) -> &mut [Polygon] {
+        &mut self.polygons
     }
 
     /// Returns a copy with other polygons over the same vertices. `pieces` calls its second

@@ -46,7 +46,6 @@ mod table;
 mod tests;
 
 pub use error::BuiltinError;
-#[doc(hidden)]
 pub use table::BUILTINS;
 
 use super::{MeshError, PolygonMesh};
@@ -55,7 +54,6 @@ use core::fmt;
 
 /// A shape that is made by formula.
 #[derive(Debug)]
-#[doc(hidden)]
 pub struct Builtin {
     /// The name.
     pub name: &'static str,
@@ -71,12 +69,10 @@ pub struct Builtin {
 
 /// The name of the parameter that asks for a polygon count. The resolution whose count is nearest
 /// to it is chosen.
-#[doc(hidden)]
 pub const POLYGONS: &str = "polygons";
 
 /// A parameter of a shape.
 #[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
 pub struct ShapeParameter {
     /// The name.
     pub name: &'static str,
@@ -94,7 +90,6 @@ pub struct ShapeParameter {
 
 /// The kind of a parameter's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[doc(hidden)]
 pub enum ParameterKind {
     /// A whole number; underscores may stand between digits.
     Integer,
@@ -201,7 +196,6 @@ pub fn builtin(spec: &str) -> Result<PolygonMesh, BuiltinError> {
 ///
 /// # Errors
 /// As [`builtin`].
-#[doc(hidden)]
 pub fn polygon_count(spec: &str) -> Result<u64, BuiltinError> {
     Ok(within_limit(spec)?.polygon_count())
 }

@@ -182,7 +182,6 @@ impl PolygonMesh {
     }
 
     /// True if the mesh has smoothing groups, or its file puts all polygons into one of them.
-    #[doc(hidden)]
     pub fn states_smoothing(&self) -> bool {
         self.states_smoothing || self.has_smoothing_groups()
     }
@@ -232,7 +231,6 @@ impl PolygonMesh {
 
     /// Returns the axis that points up in files of this format, if the format has a custom: `z` for
     /// STL, `y` for glTF.
-    #[doc(hidden)]
     pub fn up_by_custom(&self) -> Option<char> {
         self.up_by_custom
     }
@@ -252,7 +250,6 @@ impl PolygonMesh {
     }
 
     /// Returns the name of a material in the mesh's file, if it has one.
-    #[doc(hidden)]
     pub fn material_name(&self, material: usize) -> Option<&str> {
         self.material_names.get(material).map(String::as_str)
     }
@@ -525,8 +522,7 @@ impl MeshBuilder {
 
     /// Sets the axis that points up in files of this format.
     #[cfg(feature = "io")]
-    #[doc(hidden)]
-    pub fn up_by_custom(&mut self, axis: char) -> &mut Self {
+    pub(crate) fn up_by_custom(&mut self, axis: char) -> &mut Self {
         self.mesh.up_by_custom = Some(axis);
         self
     }
@@ -554,8 +550,7 @@ impl MeshBuilder {
 
     /// Sets the names of the materials, in the order of the materials.
     #[cfg(feature = "io")]
-    #[doc(hidden)]
-    pub fn material_names(&mut self, names: Vec<String>) -> &mut Self {
+    pub(crate) fn material_names(&mut self, names: Vec<String>) -> &mut Self {
         self.mesh.material_names = names;
         self
     }

@@ -28,7 +28,6 @@ pub(super) fn size(mesh: &PolygonMesh) -> f64 {
 impl PolygonMesh {
     /// Moves each position onto the first one that is nearer than `part` of the mesh's size, so
     /// that both become one vertex.
-    #[doc(hidden)]
     pub fn weld(&mut self, part: f64) {
         let distance = part * size(self);
         let wide: Vec<DVec3> = self.positions.iter().map(|p| p.as_dvec3()).collect();
@@ -81,7 +80,6 @@ fn key(p: &Vec3) -> [u32; 3] {
 
 /// Returns for each of `len` keys its index among the distinct keys, by first occurrence, and how
 /// many distinct keys there are. It is as fast as [`weld`].
-#[doc(hidden)]
 pub fn number_distinct(len: usize, key: impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
     by_hash(len, &key).unwrap_or_else(|| by_sorting(len, &key))
 }

@@ -28,7 +28,6 @@ pub struct Counts {
 
 /// The counter to which [`Counted`] values report.
 #[derive(Debug, Default)]
-#[doc(hidden)]
 pub struct Counter(Cell<Counts>);
 
 impl Counter {
@@ -48,7 +47,6 @@ impl Counter {
 
 /// An `f32` that reports every operation to its counter.
 #[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
 pub struct Counted<'a> {
     value: f32,
     counter: &'a Counter,

@@ -28,16 +28,14 @@ mod counting;
 #[cfg(feature = "simd")]
 pub(crate) mod lanes;
 mod name_error;
-#[doc(hidden)]
-pub mod parallel;
+pub(crate) mod parallel;
 #[cfg(feature = "simd")]
 mod powf;
 mod scalar;
 #[cfg(feature = "simd")]
 pub(crate) mod simd;
 mod simd_level;
-#[doc(hidden)]
-pub mod split_mix;
+pub(crate) mod split_mix;
 #[doc(hidden)]
 pub mod suggest;
 #[cfg(test)]
@@ -46,9 +44,7 @@ mod vec3;
 pub(crate) mod vectorized;
 mod written;
 
-pub use counting::Counts;
-#[doc(hidden)]
-pub use counting::{Counted, Counter};
+pub use counting::{Counted, Counter, Counts};
 pub use name_error::NameError;
 pub use simd_level::SimdLevel;
 pub use vec3::{Vec3, vec3};
@@ -58,8 +54,7 @@ pub(crate) use written::Written;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// How many pixels a block of the G-buffer holds.
-#[doc(hidden)]
-pub const BLOCK: usize = 8;
+pub(crate) const BLOCK: usize = 8;
 
 /// Multiplication followed by addition.
 pub trait MulAdd: Sized + Mul<Output = Self> + Add<Output = Self> {

@@ -8,7 +8,6 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 /// A slice, or several slices of one length, that can be split in two at an index.
-#[doc(hidden)]
 pub trait Parts: Sized + Send {
     /// Returns how many elements there are.
     fn len(&self) -> usize;
@@ -73,7 +72,6 @@ pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(dyn Fn(usize
 }
 
 /// Returns `of(0)`, `of(1)` … `of(count − 1)`, computed in runs of `chunk` elements.
-#[doc(hidden)]
 pub fn collect<T: Clone + Default + Send>(
     count: usize,
     chunk: usize,

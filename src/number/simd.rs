@@ -7,7 +7,7 @@ use fearless_simd::{
     Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
 };
 
-pub use super::BLOCK;
+pub(crate) use super::BLOCK;
 
 /// An instruction set for which kernels are compiled.
 pub trait Token: Simd {

@@ -1,11 +1,9 @@
 //! SplitMix64: Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
 
 /// A random sequence. The field is its seed, and then its state.
-#[doc(hidden)]
 pub struct SplitMix(pub u64);
 
 impl SplitMix {
-    #[doc(hidden)]
     pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

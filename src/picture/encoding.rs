@@ -1,6 +1,5 @@
 //! Transfer functions: from computed intensities to stored grey levels, and back.
 
-use super::{LevelRows, Levels};
 use super::{LinearPicture, Picture, Picture8};
 
 /// How linear intensities are stored in eight bits.
@@ -249,33 +248,6 @@ pub fn store_f64(picture: &Picture<[f64; 4]>, encoding: Encoding) -> Picture8 {
     match encoding {
         Encoding::Linear => picture.map(|pixel| pixel.map(|c| libm::round(255.0 * c) as u8)),
         Encoding::Srgb => store(&picture.map(|pixel| pixel.map(|c| c as f32)), encoding),
-    }
-}
-
-/// A stored picture as a screen shows it: in sRGB levels, without rounding again. Alpha is ignored.
-#[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
-pub struct Displayed<'a> {
-    /// The picture.
-    pub picture: &'a Picture8,
-    /// Its encoding.
-    pub encoding: Encoding,
-}
-
-impl LevelRows for Displayed<'_> {
-    fn size(&self) -> [usize; 2] {
-        [self.picture.width(), self.picture.height()]
-    }
-
-    fn level_row(&self, y: usize, levels: &mut [Levels]) {
-        let shown: [f64; 256] = core::array::from_fn(|level| match self.encoding {
-            Encoding::Srgb => level as f64,
-            Encoding::Linear => 255.0 * srgb_encode_f64(level as f64 / 255.0),
-        });
-        for (levels, [r, g, b, _]) in levels.iter_mut().zip(self.picture.row(y)) {
-            let [r, g, b] = [r, g, b].map(|level| shown[usize::from(*level)]);
-            *levels = Levels([r, g, b, 255.0]);
-        }
     }
 }
 

@@ -42,7 +42,6 @@ type VisitRow<'a> = &'a mut dyn FnMut(usize, &dyn Fn(usize) -> u32);
 /// Calls `visit` for each row on which anything is drawn. It passes the row's index and a function
 /// that returns the index of the polygon at a column, as [`polygon_indices`] does. The picture is
 /// never in memory as a whole.
-#[doc(hidden)]
 pub fn for_each_polygon_row(frame: &Frame, visit: VisitRow<'_>) {
     scan(frame, &Varyings::none(), &mut |row, line, _| {
         visit(row, &|x| line.polygon(x));

@@ -214,7 +214,6 @@ pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
 ///
 /// It differs from [`polygon_indices`](super::polygon_indices) only where depths are equal within
 /// rounding.
-#[doc(hidden)]
 pub fn barycentric_polygon_indices(frame: &Frame, edges: Edges) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NO_POLYGON);
     let visit = &mut |polygon, column, row, _: &mut RunList| picture.row_mut(row)[column] = polygon;

@@ -79,8 +79,7 @@ mod barycentric;
 #[cfg(feature = "simd")]
 mod bins;
 mod depth;
-#[doc(hidden)]
-pub mod depth_ties;
+pub(crate) mod depth_ties;
 mod draw;
 mod engine;
 #[doc(hidden)]
@@ -96,10 +95,8 @@ pub mod trace;
 
 #[doc(hidden)]
 pub use aov::for_each_polygon_row;
-#[doc(hidden)]
 pub use aov::{checkerboard, vertex_colours};
 pub use aov::{coverage, depth, normals, polygon_indices};
-#[doc(hidden)]
 pub use barycentric::{Edges, barycentric_polygon_indices};
 pub use depth::DepthTest;
 pub use draw::{Background, DrawError, DrawOptions};

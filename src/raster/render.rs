@@ -64,7 +64,6 @@ impl Variant {
     ///
     /// # Errors
     /// As [`Variant::render`].
-    #[doc(hidden)]
     pub fn render_with(&self, frame: &Frame, renderer: Renderer) -> Result<Picture8, DrawError> {
         self.render_anew(frame, renderer, [0; 4])
     }
@@ -73,7 +72,6 @@ impl Variant {
     ///
     /// # Errors
     /// As [`Variant::render`].
-    #[doc(hidden)]
     pub fn render_linear_with(
         &self,
         frame: &Frame,
@@ -157,7 +155,6 @@ impl Variant {
 
     /// Returns the kind by which the method draws each polygon, an index into
     /// [`crate::shading::Method::Kinds`].
-    #[doc(hidden)]
     pub fn kinds_of_polygons(&self, frame: &Frame) -> Vec<u8> {
         let setup = SetUp::new(self, frame, SimdLevel::Scalar, 1.0, Vec::new());
         match setup.kinds() {
@@ -247,7 +244,6 @@ impl Variant {
 
     /// Draws the triangles of `frame` with the barycentric renderer. Returns `None` if that
     /// renderer does not have this method.
-    #[doc(hidden)]
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
         match frame.encoding() {
             Encoding::Linear => {
@@ -261,7 +257,6 @@ impl Variant {
     }
 
     /// Draws as [`Variant::render_barycentric`], but before rounding.
-    #[doc(hidden)]
     pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
         self.triangles(Surface::new(frame, Floats), edges, [0.0; 4])
     }

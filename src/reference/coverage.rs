@@ -38,7 +38,6 @@ pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Ran
 }
 
 /// True if any polygon of `frame` covers the centre of a sample.
-#[doc(hidden)]
 pub fn is_anything_covered(frame: &Frame) -> bool {
     let mut line = Scanline::new(frame);
     frame.polygons().iter().any(|polygon| {
@@ -53,7 +52,6 @@ pub fn is_anything_covered(frame: &Frame) -> bool {
 
 /// The crossing of a scanline and an edge of a polygon, at the exact column `x_height / height`.
 #[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
 pub struct Crossing {
     /// The vertex at the upper end of the edge.
     pub top: u32,
@@ -120,7 +118,6 @@ impl Crossing {
 
 /// A pixel between two edges of its polygon.
 #[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
 pub struct SpanPlace {
     /// The edge to its left, or through its centre.
     pub left: Crossing,
@@ -144,7 +141,6 @@ impl SpanPlace {
 
 /// The weights of vertices in a pixel's attributes. Their sum is 1.
 #[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
 pub struct VertexWeights([(u32, f64); 4]);
 
 impl VertexWeights {
@@ -206,7 +202,6 @@ impl VertexWeights {
 
 /// A polygon on one row of pixel centres.
 #[derive(Clone, Debug)]
-#[doc(hidden)]
 pub struct Scanline<'a> {
     frame: &'a Frame,
     corners: &'a [u32],

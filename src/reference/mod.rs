@@ -39,8 +39,7 @@ mod tests;
 
 #[doc(hidden)]
 pub use clamping::{Clamping, clamping};
-#[doc(hidden)]
-pub use coverage::is_anything_covered;
+pub(crate) use coverage::is_anything_covered;
 pub use visibility::{Visibility, visibility};
 
 use crate::frame::{Frame, Polygon};

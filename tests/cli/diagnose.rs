@@ -36,7 +36,7 @@ fn mistakes_are_named_with_evidence_and_advice() {
     ended
         .prints("0.00 are left")
         .prints("what to do")
-        .prints("docs/course/3-gouraud-shading.md");
+        .prints("report/course/3-gouraud-shading.md");
     let strip = picture(&folder.path("strip.png"));
     assert_eq!([strip.width(), strip.height()], [3 * 160 + 2 * 8, 120]);
     // The third picture equals the first: the mistake explains every difference.

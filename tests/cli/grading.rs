@@ -6,10 +6,10 @@ use serde_json::Value;
 use std::process::{Command, Output};
 
 /// The page for students.
-const PAGE: &str = include_str!("../../docs/course/check-your-own.md");
+const PAGE: &str = include_str!("../../report/course/check-your-own.md");
 
 /// The page for teachers.
-const TEACHING: &str = include_str!("../../docs/course/teaching.md");
+const TEACHING: &str = include_str!("../../report/course/teaching.md");
 
 /// Returns the code block that is called `name`; panics if there is none.
 fn script(name: &str) -> &'static str {

@@ -1,5 +1,4 @@
 //! The command line as a user calls it: exit codes and messages for good and bad input.
-#![cfg(feature = "cli")]
 
 mod aov;
 mod bench;

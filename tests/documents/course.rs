@@ -1,6 +1,5 @@
-//! Checks the course in `docs/course`. Its figures and findings exist, and each of its numbers is
+//! Checks the course in `report/course`. Its figures and findings exist, and each of its numbers is
 //! measured or stands in a figure.
-#![cfg(feature = "cli")]
 
 use crate::markdown::{files, quoted, read, root, rows};
 use fastphong::shading::Variant;
@@ -19,7 +18,7 @@ const MOST_BYTES: u64 = 350_000;
 
 /// Returns the path and the text of each chapter, in order.
 fn chapters() -> Vec<(PathBuf, String)> {
-    let all = files("docs/course", "md").into_iter();
+    let all = files("report/course", "md").into_iter();
     let is_chapter = |path: &PathBuf| name(path).starts_with(|c: char| c.is_ascii_digit());
     let chapters = all.filter(is_chapter);
     chapters.map(|path| (path.clone(), read(path))).collect()
@@ -37,7 +36,7 @@ fn name(path: &Path) -> String {
 
 /// Returns the page for teachers.
 fn teaching() -> String {
-    read(format!("docs/course/{TEACHING}"))
+    read(format!("report/course/{TEACHING}"))
 }
 
 /// Returns the contents of each comment of a kind, and the paragraph after the comment.
@@ -66,7 +65,7 @@ fn figure_of(text: &str) -> &str {
 #[test]
 fn every_section_has_a_chapter_that_leads_to_the_next() {
     let chapters = chapters();
-    let source = read("program/src/report/course.rs");
+    let source = read("report/files.rs");
     let title = |text: &str| text.lines().next().unwrap()[2..].to_string();
     assert_eq!(chapters.len(), SECTIONS.len());
     let teaching = (PathBuf::from(TEACHING), teaching());
@@ -77,10 +76,7 @@ fn every_section_has_a_chapter_that_leads_to_the_next() {
         let is_section = title(text).starts_with(&format!("{part} "));
         assert!(is_section || file == TEACHING, "{file}");
         let listed = format!("\"{part}\" in \"{file}\"");
-        assert!(
-            source.contains(&listed),
-            "program/src/report/course.rs: {listed}"
-        );
+        assert!(source.contains(&listed), "report/files.rs: {listed}");
         let link = |arrow: fn(String) -> String, to: Option<&&(PathBuf, String)>| {
             to.map(|(path, text)| format!("[{}]({})", arrow(title(text)), name(path)))
         };
@@ -108,14 +104,14 @@ fn every_chapter_has_one_figure_with_its_still() {
             panic!("{path}: not one figure")
         };
         assert_eq!(text.matches("## See it").count(), 1, "{path}");
-        let picture = format!("../images/course/{name}.png");
+        let picture = format!("../../docs/images/course/{name}.png");
         let has_alt = still.starts_with("![") && !still.starts_with("![]");
         assert!(
             has_alt && still.contains(&format!("]({picture})\n")),
             "{path}"
         );
         assert!(Figure::named(name).is_some(), "{path}: no figure {name}");
-        let file = root().join("docs/course").join(&picture);
+        let file = root().join("report/course").join(&picture);
         let found = std::fs::metadata(&file).map(|file| file.len());
         bytes += found.unwrap_or_else(|error| panic!("{picture}: {error}"));
     }

@@ -1,6 +1,5 @@
 //! Checks `docs/lectures.md`, which lists all items of the three lectures with their code and their
 //! tests or figures. `tidy.rs` checks its equations.
-#![cfg(feature = "cli")]
 
 use crate::markdown::{defines, places, quoted, read, root, rows};
 use fastphong_cli::lectures::Figure;

@@ -2,7 +2,6 @@
 
 mod course;
 mod findings;
-#[cfg(feature = "cli")]
 mod flags;
 mod lectures;
 mod live;

@@ -1,12 +1,16 @@
-//! Checks the rooms of `src`, one folder each. Imports point one way, between rooms and between
-//! files.
+//! Checks the rooms of the library in `src` and of the program in `program/src`, one folder each.
+//! Imports point one way, between rooms and between files.
 //!
 //! It finds paths without parsing Rust: a path follows `crate::`, `super::` or `fastphong::`
 //! outside comments.
 
-use crate::markdown::{files, is_word, read, root};
+use crate::markdown::{files, is_word, quoted, read, root, rows};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+
+/// The source folder of the library, and that of the program. The rooms of the program are named
+/// `program/ROOM`.
+const TREES: [(&str, &str); 2] = [("src", ""), ("program/src", "program/")];
 
 /// The rooms in order, each with the rooms that it may import. Those must stand before it.
 const ROOMS: &[(&str, &str)] = &[
@@ -14,8 +18,9 @@ const ROOMS: &[(&str, &str)] = &[
     ("integer", ""),
     ("picture", ""),
     ("number", "picture"),
-    ("mesh", "picture number"),
-    ("scene", "picture number mesh"),
+    ("note", ""),
+    ("mesh", "picture number note"),
+    ("scene", "picture number note mesh"),
     ("frame", "picture number mesh scene"),
     // `number`, `shading` and `raster` must stay out, because the reference shares no arithmetic
     // with the engines.
@@ -24,23 +29,34 @@ const ROOMS: &[(&str, &str)] = &[
     // `painter_conflicts.rs` needs the reference's exact spans. The engines need nothing from the
     // reference.
     ("raster", "picture number scene frame reference shading"),
+    // One method or the reference, by name.
+    ("drawing", "picture number frame reference shading raster"),
+    ("notes", "number note mesh scene frame reference raster"),
     (
         "compare",
         "picture number mesh scene frame reference shading raster",
     ),
     (
-        "diagnose",
+        "program/compare",
+        "picture number mesh scene frame reference shading raster compare",
+    ),
+    (
+        "program/diagnose",
         "picture number mesh scene frame reference shading raster",
     ),
     (
-        "lectures",
-        "picture number mesh scene frame reference shading raster compare",
+        "program/lectures",
+        "picture number mesh scene frame reference shading raster compare program/compare",
     ),
-    ("report", "picture number shading compare lectures"),
-    ("view", "picture mesh scene frame shading raster"),
     (
-        "cli",
-        "picture number mesh scene frame reference shading raster compare diagnose lectures report view",
+        "program/report",
+        "picture number shading compare program/compare program/lectures",
+    ),
+    ("program/view", "picture mesh scene frame shading raster"),
+    (
+        "program/cli",
+        "picture number note mesh scene frame reference shading raster drawing notes compare \
+         program/compare program/diagnose program/lectures program/report program/view",
     ),
 ];
 
@@ -91,9 +107,12 @@ fn paths(source: &str) -> Vec<String> {
 fn target(module: &str, path: &str, modules: &BTreeSet<&str>) -> Option<String> {
     let ups = path.matches("super::").count();
     let above: Vec<&str> = module.split('/').collect();
-    let mut whole = match ups {
-        0 => Vec::new(),
-        _ => above[..above.len().checked_sub(ups)?].to_vec(),
+    let mut whole = if ups > 0 {
+        above[..above.len().checked_sub(ups)?].to_vec()
+    } else if above[0] == "program" && path.starts_with("crate::") {
+        vec!["program"]
+    } else {
+        Vec::new()
     };
     whole.extend(path.split("::").skip(ups.max(1)));
     let prefixes = (1..=whole.len()).rev().map(|n| whole[..n].join("/"));
@@ -102,19 +121,20 @@ fn target(module: &str, path: &str, modules: &BTreeSet<&str>) -> Option<String> 
         .find(|prefix| modules.contains(&**prefix))
 }
 
-/// Returns the imports of each file. Files are named by their modules, as in `frame/builder`.
+/// Returns the imports of each file. Files are named by their modules, as in `frame/builder` or
+/// `program/cli/files`.
 fn imports() -> BTreeMap<String, BTreeSet<String>> {
     let mut sources = BTreeMap::new();
-    for file in files("src", "rs") {
-        let path = file.to_string_lossy();
-        let module = path
-            .trim_start_matches("src/")
-            .trim_end_matches(".rs")
-            .trim_end_matches("/mod")
-            .to_owned();
-        let is_in_a_room = root().join("src").join(&module).is_dir() || module.contains('/');
-        if is_in_a_room && !module.split('/').any(|part| FOR_TESTS.contains(&part)) {
-            sources.insert(module, read(&file));
+    for (folder, package) in TREES {
+        for file in files(folder, "rs") {
+            let path = file.strip_prefix(folder).expect("a file of the folder");
+            let path = path.with_extension("");
+            let module = path.to_string_lossy();
+            let module = module.trim_end_matches("/mod");
+            let is_in_a_room = !["lib", "main"].contains(&module);
+            if is_in_a_room && !module.split('/').any(|part| FOR_TESTS.contains(&part)) {
+                sources.insert(format!("{package}{module}"), read(&file));
+            }
         }
     }
     let modules: BTreeSet<&str> = sources.keys().map(String::as_str).collect();
@@ -130,8 +150,18 @@ fn imports() -> BTreeMap<String, BTreeSet<String>> {
         .collect()
 }
 
+/// Returns the room of a module.
+fn room(module: &str) -> String {
+    let is_program = module.starts_with("program/");
+    let parts: Vec<&str> = module
+        .split('/')
+        .take(1 + usize::from(is_program))
+        .collect();
+    parts.join("/")
+}
+
 #[test]
-fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
+fn every_source_folder_is_a_room_and_imports_point_one_way() {
     let mut before: Vec<&str> = Vec::new();
     for (room, allowed) in ROOMS {
         for other in allowed.split_whitespace() {
@@ -142,16 +172,17 @@ fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
         }
         before.push(room);
     }
-    for entry in fs::read_dir(root().join("src")).expect("src can be read") {
-        let file_name = entry.expect("src can be read").file_name();
-        let name = file_name.to_string_lossy();
-        let is_room = before.contains(&&*name) || ["lib.rs", "main.rs"].contains(&&*name);
-        assert!(
-            is_room,
-            "src/{name} is no room: put it into one of {before:?}"
-        );
+    for (folder, package) in TREES {
+        for entry in fs::read_dir(root().join(folder)).expect("the folder can be read") {
+            let name = entry.expect("the folder can be read").file_name();
+            let name = name.to_string_lossy();
+            let room = format!("{package}{}", name.trim_end_matches(".rs"));
+            assert!(
+                before.contains(&&*room) || ["lib.rs", "main.rs"].contains(&&*name),
+                "{folder}/{name} is no room: put it into one of {before:?}"
+            );
+        }
     }
-    let room = |module: &str| module.split('/').next().unwrap_or_default().to_owned();
     let mut wrong = Vec::new();
     for (module, targets) in imports() {
         let here = room(&module);
@@ -162,7 +193,7 @@ fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
         for target in targets {
             let there = room(&target);
             if here != there && !allowed.split_whitespace().any(|room| room == there) {
-                wrong.push(format!("src/{module} imports {target}"));
+                wrong.push(format!("{module} imports {target}"));
             }
         }
     }
@@ -198,4 +229,99 @@ fn no_file_imports_itself_through_others() {
         imports.is_empty(),
         "files that import each other: {imports:#?}"
     );
+}
+
+/// Returns the names of the items that a source file hides from the documentation.
+fn hidden(source: &str) -> Vec<&str> {
+    const KEYWORDS: [&str; 9] = [
+        "pub", "const", "fn", "struct", "enum", "trait", "type", "mod", "static",
+    ];
+    let mut found = Vec::new();
+    let mut lines = source.lines().map(str::trim);
+    while let Some(line) = lines.next() {
+        if !line.starts_with("#[doc(hidden)]") {
+            continue;
+        }
+        let item = lines.find(|line| !line.starts_with(['#', '/']));
+        let item = item.expect("an item after the attribute");
+        if let Some(path) = item.strip_prefix("pub use ") {
+            let list = path.rsplit("::").next().unwrap_or(path);
+            let names = list.split(|c| !is_word(c));
+            found.extend(names.filter(|name| !name.is_empty()));
+        } else {
+            let mut words = item.split(|c| !is_word(c));
+            found.extend(words.find(|word| !word.is_empty() && !KEYWORDS.contains(word)));
+        }
+    }
+    found
+}
+
+/// What the library opens for the program is listed, so that the list stays short.
+#[test]
+fn hidden_items_of_the_library_are_listed() {
+    let map = read("docs/architecture.md");
+    let (_, section) = map
+        .split_once("### What the library hides")
+        .expect("a table");
+    let (section, _) = section.split_once("\n\nAround").expect("an end");
+    let mut listed: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for row in rows(section).into_iter().skip(1) {
+        let [room, items, _] = &row[..] else {
+            panic!("{row:?}")
+        };
+        let names = quoted(items).into_iter().map(str::to_owned);
+        let room = room.trim_matches('`').to_owned();
+        listed.entry(room).or_default().extend(names);
+    }
+    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for file in files("src", "rs") {
+        let source = read(&file);
+        let names = hidden(&source);
+        let room = file.iter().nth(1).expect("a file in src");
+        let room = room.to_string_lossy().trim_end_matches(".rs").to_owned();
+        if !names.is_empty() {
+            let names = names.into_iter().map(str::to_owned);
+            found.entry(room).or_default().extend(names);
+        }
+    }
+    for names in listed.values_mut().chain(found.values_mut()) {
+        names.sort();
+    }
+    for room in listed.keys().chain(found.keys()) {
+        assert_eq!(
+            listed.get(room),
+            found.get(room),
+            "docs/architecture.md lists the items on the left for `{room}`; the code hides those \
+             on the right"
+        );
+    }
+}
+
+/// A package is published with the files of its own folder only. Tests may read others.
+#[test]
+fn packages_compile_in_only_their_own_files() {
+    let mut found = 0;
+    for ((folder, _), package) in TREES.into_iter().zip(["", "program"]) {
+        for file in files(folder, "rs") {
+            let is_test = file
+                .iter()
+                .any(|part| part == "tests" || part == "tests.rs");
+            let source = read(&file);
+            let (code, _) = source
+                .split_once("#[cfg(test)]\nmod tests {")
+                .unwrap_or((&source, ""));
+            for call in ["include_str!(", "include_bytes!(", "include!("] {
+                for (at, _) in code.match_indices(call).filter(|_| !is_test) {
+                    // The text may be the first part of `concat!`.
+                    let path = code[at..].split('"').nth(1).expect("a path");
+                    let ups = path.matches("../").count();
+                    let inner = file.strip_prefix(package).expect("a file of the package");
+                    let depth = inner.iter().count() - 1;
+                    assert!(ups <= depth, "{}: {path} is outside", file.display());
+                    found += 1;
+                }
+            }
+        }
+    }
+    assert!(found >= 5, "only {found} files are compiled in");
 }

@@ -1,4 +1,4 @@
-//! Compares the tables of `docs/small.md` with `docs/small.json`, which `examples/small/run`
+//! Compares the tables of `docs/small.md` with `report/small.json`, which `examples/small/run`
 //! writes.
 
 use crate::markdown::read;
@@ -21,7 +21,7 @@ fn number(value: &Value) -> f64 {
 #[test]
 fn the_tables_hold_the_measured_figures() {
     let page = read("docs/small.md");
-    let data: Value = serde_json::from_str(&read("docs/small.json")).expect("JSON");
+    let data: Value = serde_json::from_str(&read("report/small.json")).expect("JSON");
     let list = |key: &str| data[key].as_array().expect("a list").clone();
     let has = |row: String| assert!(page.contains(&row), "docs/small.md has no row {row}");
     // The page shows some of the measured spans.
@@ -49,7 +49,7 @@ fn the_tables_hold_the_measured_figures() {
     assert!(shown.len() > 12, "{} rows of spans", shown.len());
     for row in shown {
         let is_measured = spans.iter().any(|span| span == row);
-        assert!(is_measured, "docs/small.json has no row {row}");
+        assert!(is_measured, "report/small.json has no row {row}");
     }
     for frame in list("frames") {
         let millions = |key: &str| format!("{:.2} M", number(&frame[key]) / 1e6);

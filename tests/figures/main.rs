@@ -1,6 +1,5 @@
 //! Makes every figure of the lectures, and compares the findings that support its claims with
 //! theory.
-#![cfg(feature = "cli")]
 
 mod lighting;
 mod projection;

@@ -13,7 +13,7 @@ pub struct ViewArgs {
 impl ViewArgs {
     /// Returns the error.
     pub fn run(&self) -> Result<Outcome, CliError> {
-        let expected = "expected one that `cargo install --path . --features view` built";
+        let expected = "expected one that `cargo install --path program --features view` built";
         Err(format!("this fastphong was built without windows: {expected}").into())
     }
 }

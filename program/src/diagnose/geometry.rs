@@ -61,11 +61,11 @@ impl Geometry {
         scene.camera.projection = extent.projection;
         let mut frame = prepared.frame().ok()?;
         if self.depth == Depth::Reversed {
-            let vertices = frame.vertices.iter_mut();
+            let vertices = frame.vertices_mut().iter_mut();
             vertices.for_each(|vertex| vertex.depth = -vertex.depth);
         }
         if matches!(self.depth, Depth::FirstInFile | Depth::TiesToLast) {
-            frame.polygons.reverse();
+            frame.polygons_mut().reverse();
         }
         self.place(&mut frame, extent.scale);
         let mut frame = self.cut(frame);
@@ -143,8 +143,8 @@ impl Geometry {
 
     /// Moves vertices on the picture.
     fn place(&self, frame: &mut Frame, scale: [f64; 2]) {
-        let samples = f64::from(frame.samples);
-        let size = [frame.width, frame.height].map(f64::from);
+        let samples = frame.samples() as f64;
+        let size = [frame.width(), frame.height()].map(|side| side as f64);
         let is_fine = self.corners == Snapping::Fine;
         if scale == [1.0; 2] && self.halves == [0; 2] && is_fine {
             return;
@@ -161,7 +161,7 @@ impl Geometry {
             };
             fastphong::frame::sub_pixel(at.clamp(-limit, limit))
         };
-        for vertex in &mut frame.vertices {
+        for vertex in frame.vertices_mut() {
             (vertex.x, vertex.y) = (moved(vertex.x, 0), moved(vertex.y, 1));
         }
     }
@@ -199,10 +199,10 @@ impl Geometry {
 
 /// Leaves out polygons that clipping cut.
 fn without_cut_polygons(frame: &Frame) -> Frame {
-    let first_cut = frame.geometry.vertex_count() as u32;
+    let is_cut = |corner: &u32| frame.clip_corner(*corner).is_some();
     frame.with_pieces(|polygon, add| {
         let corners = frame.corners(polygon);
-        if corners.iter().all(|&corner| corner < first_cut) {
+        if !corners.iter().any(is_cut) {
             add(corners);
         }
     })
@@ -231,7 +231,7 @@ fn fans(frame: &Frame, start: usize, keeps: fn(usize) -> usize, of_concave: bool
         }
         if is_fan {
             // Polygons of mirrored objects have their corners in reverse order.
-            let is_reversed = is_mirrored(frame, corners);
+            let is_reversed = frame.is_mirrored(polygon);
             let sides = corners.len();
             let first = if is_reversed {
                 sides - 1 - start
@@ -252,7 +252,7 @@ fn fans(frame: &Frame, start: usize, keeps: fn(usize) -> usize, of_concave: bool
 fn culled(frame: Frame, culling: Culling, mirrored: Mirrored) -> Frame {
     let is_kept = |polygon: &Polygon| {
         let corners = frame.corners(polygon);
-        let is_mirrored = is_mirrored(&frame, corners);
+        let is_mirrored = frame.is_mirrored(polygon);
         // Rows grow downward, so corners run counter-clockwise where the area is negative.
         let is_turned = is_mirrored && mirrored == Mirrored::Inside;
         let is_front = (twice_area(&frame, corners) < 0) != is_turned;
@@ -267,20 +267,6 @@ fn culled(frame: Frame, culling: Culling, mirrored: Mirrored) -> Frame {
             add(frame.corners(polygon));
         }
     })
-}
-
-/// True if a polygon belongs to an object that its transform mirrors.
-fn is_mirrored(frame: &Frame, corners: &[u32]) -> bool {
-    let models = &frame.geometry.models;
-    let count = frame.geometry.normals.len();
-    // Vertices of the second side follow the vertices of the first. Vertices from clipping come
-    // last.
-    let first_cut = frame.geometry.vertex_count();
-    let own = corners
-        .iter()
-        .find(|&&corner| (corner as usize) < first_cut);
-    let object = own.map(|&corner| &models.objects[models.object_of(corner as usize % count)]);
-    object.is_some_and(|object| object.transform.matrix3.determinant() < 0.0)
 }
 
 /// Returns the square of the distance between two vertices in space.

@@ -88,7 +88,7 @@ impl Hits {
         self.pieces.push(piece);
         self.polygons.push(polygon.source);
         self.materials.push(polygon.material);
-        self.flipped.push(polygon.face & Polygon::FLIPPED != 0);
+        self.flipped.push(polygon.is_flipped());
         self.weights.extend_from_slice(weights);
         self.ends.push(self.weights.len() as u32);
     }

@@ -60,9 +60,9 @@ impl Mistake {
             .unwrap_or(self.see);
         let chapter = chapters.iter().find(|(section, _)| *section == lecture);
         match (chapter, self.see) {
-            (Some((_, chapter)), see) => format!("{see}; docs/course/{chapter}.md"),
+            (Some((_, chapter)), see) => format!("{see}; report/course/{chapter}.md"),
             (None, "scenes") => "scenes/README.md".to_owned(),
-            (None, "check") => "docs/course/check-your-own.md".to_owned(),
+            (None, "check") => "report/course/check-your-own.md".to_owned(),
             (None, see @ ("pictures" | "methods")) => format!("docs/{see}.md"),
             (None, see) => format!("{see}; docs/lectures.md"),
         }

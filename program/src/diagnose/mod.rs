@@ -32,11 +32,11 @@ pub use search::Verdict;
 pub(crate) use shown_by::scene_that_tells;
 pub use shown_by::scenes_that_show;
 
+use crate::split_mix::SplitMix;
 use alloc::vec::Vec;
 use amounts::{Amounts, Tone};
 use drawer::{Drawer, Drawn};
 use fastphong::frame::{Frame, FrameError, PreparedScene};
-use fastphong::number::split_mix::SplitMix;
 use fastphong::picture::image_file::FilePicture;
 use fastphong::picture::{Encoding, Picture, Picture8};
 use fastphong::reference::Model;

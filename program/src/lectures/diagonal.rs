@@ -1,11 +1,11 @@
 //! Vertex normals by different weights: the diagonal of a square face moves the average (L21 3.1).
 
 use super::prelude::*;
+use crate::split_mix::SplitMix;
 use core::f64::consts::{PI, TAU};
 use fastphong::mesh::newell::newell;
 use fastphong::mesh::vertex_normals::{NormalRule, NormalWeight, vertex_normals};
 use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
-use fastphong::number::split_mix::SplitMix;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "diagonal",

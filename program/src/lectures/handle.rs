@@ -124,7 +124,7 @@ impl Handle {
 mod tests {
     use super::*;
     use crate::lectures::{FIGURES, Figure, LIVE};
-    use fastphong::number::split_mix::SplitMix;
+    use crate::split_mix::SplitMix;
 
     #[test]
     fn values_are_brought_into_range() {

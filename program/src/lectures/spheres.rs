@@ -391,7 +391,7 @@ fn meshes(content: &mut FigureContent) -> Result {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fastphong::number::split_mix::SplitMix;
+    use crate::split_mix::SplitMix;
 
     #[test]
     fn the_sphere_is_closed_and_its_corners_are_shared() {

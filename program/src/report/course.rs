@@ -1,4 +1,4 @@
-//! The course: turns the chapters of `docs/course` from Markdown into parts of the page.
+//! The course: turns the chapters of `report/course` from Markdown into parts of the page.
 //!
 //! A comment in the Markdown says what the page does with the paragraph after it:
 //!
@@ -37,30 +37,11 @@ struct Chapter {
     text: &'static str,
 }
 
-/// Reads files of `docs/course`.
-macro_rules! chapters {
-    ($($part:literal in $file:literal)*) => {
-        &[$(Chapter {
-            part: $part,
-            file: $file,
-            text: include_str!(concat!("../../../docs/course/", $file)),
-        }),*]
-    };
+/// Returns all chapters, in order.
+fn chapters() -> impl Iterator<Item = Chapter> {
+    let chapters = fastphong_report::CHAPTERS.iter();
+    chapters.map(|&(part, file, text)| Chapter { part, file, text })
 }
-
-/// All chapters, in order.
-static CHAPTERS: &[Chapter] = chapters!(
-    "0" in "0-one-scan-line.md"
-    "1" in "1-introduction.md"
-    "2" in "2-uniform-shading.md"
-    "3" in "3-gouraud-shading.md"
-    "4.1" in "4.1-naive-phong-shading.md"
-    "4.2" in "4.2-diffuse-reflection.md"
-    "4.3" in "4.3-specular-reflection.md"
-    "4.4" in "4.4-spherical-interpolation.md"
-    "5" in "5-summary.md"
-    "teaching" in "teaching.md"
-);
 
 /// The heading of findings, which the page folds until the reader has answered the question before
 /// them.
@@ -75,16 +56,16 @@ const SCROLLING: &str =
 pub(super) fn html(data: &Value) -> String {
     let made = list(data, "/figures");
     let is_made = |name| made.iter().any(|figure| text(figure, "/name") == name);
-    let lines = CHAPTERS.iter().flat_map(|chapter| chapter.text.lines());
-    if !lines.filter_map(figure_of).all(is_made) {
+    let mut lines = chapters().flat_map(|chapter| chapter.text.lines());
+    if !lines.all(|line| figure_of(line).is_none_or(is_made)) {
         return String::new();
     }
-    let link = |chapter: &Chapter| {
+    let link = |chapter: Chapter| {
         let (part, title) = (chapter.part, html_text(chapter.title()));
         format!("<a href=\"#course/{part}\"><span>{title}</span></a>")
     };
-    let links: String = CHAPTERS.iter().map(link).collect();
-    let articles: String = CHAPTERS.iter().map(|chapter| chapter.html(data)).collect();
+    let links: String = chapters().map(link).collect();
+    let articles: String = chapters().map(|chapter| chapter.html(data)).collect();
     format!("<nav class=\"list\" aria-label=\"Chapters\">{links}</nav>\n<div>\n{articles}</div>")
 }
 
@@ -273,8 +254,7 @@ fn address(code: &str) -> Event<'static> {
 /// Returns the address in the page for a link of a chapter, if it leads to another chapter or to a
 /// website. Other files of the repository are not in the page.
 fn in_page(to: &str) -> Option<String> {
-    let chapter = CHAPTERS
-        .iter()
+    let chapter = chapters()
         .find(|chapter| chapter.file == to)
         .map(|chapter| format!("#course/{}", chapter.part));
     chapter.or_else(|| to.starts_with("https://").then(|| to.to_owned()))
@@ -321,7 +301,7 @@ mod tests {
     #[test]
     fn comments_become_places_and_links_stay_in_the_page() {
         let page = html(&document(""));
-        for chapter in CHAPTERS {
+        for chapter in chapters() {
             let html = chapter.html(&document(""));
             assert!(page.contains(&html), "{}", chapter.file);
             let classes = [
@@ -352,7 +332,7 @@ mod tests {
             let opened = html.matches("<div").count();
             assert_eq!(opened, html.matches("</div>").count(), "{}", chapter.file);
         }
-        for chapter in CHAPTERS {
+        for chapter in chapters() {
             // A link stands in the list, and in the previous or the next chapter.
             let link = format!("href=\"#course/{}\"", chapter.part);
             assert!(page.matches(&link).count() >= 2, "{link}");

@@ -185,8 +185,7 @@ pub(super) fn indented(document: &impl Serialize) -> String {
 /// Returns the measurements of `examples/small/run`, on emulated processors without a
 /// floating-point unit. This machine plays no part in them.
 pub fn small() -> Value {
-    let text = include_str!("../../../docs/small.json");
-    serde_json::from_str(text).expect("a test reads it")
+    serde_json::from_str(fastphong_report::SMALL).expect("a test reads it")
 }
 
 /// Describes each variant once, in the order of the method table. It leaves out unknown variants.

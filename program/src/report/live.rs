@@ -4,13 +4,11 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use fastphong_report::MODULE;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde_json::json;
 use std::io::Write;
-
-/// The crate itself, compiled to WebAssembly by `live/build`.
-static MODULE: &[u8] = include_bytes!("../../../report/live.wasm");
 
 /// The most visible polygons of a scene that readers can turn on the page. A third of them turn at
 /// 24 frames a second (docs/performance.md).

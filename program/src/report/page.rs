@@ -9,32 +9,12 @@ use crate::compare::table::{Table, html_text};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use fastphong_report::{SCRIPT, STYLE, TEMPLATE, VIEWER};
 use serde_json::{Number, Value};
-
-const TEMPLATE: &str = include_str!("../../../report/template.html");
-/// The template of a viewer, which the script clones.
-pub(super) const VIEWER: &str = include_str!("../../../report/viewer.html");
-pub(super) const STYLE: &str = include_str!("../../../report/app.css");
-
-/// Lists files of `report/script` with their texts, in any order.
-macro_rules! modules {
-    ($($file:literal)*) => {
-        &[$((concat!($file, ".js"), include_str!(concat!("../../../report/script/", $file, ".js")))),*]
-    };
-}
-
-const MODULES: &[(&str, &str)] = modules!(
-    "address" "beside" "charts" "controls" "corners" "costs" "course" "data" "errors" "figure"
-    "findings" "formulas" "goals" "growth" "hands" "keys" "lectures" "link" "live" "marks" "markup"
-    "measured" "methods" "numbers" "overview" "page" "pairs" "pareto" "pictures" "plot" "probe"
-    "questions" "row" "scene-table" "scene-viewer" "scenes" "small" "speed" "spheres" "steps"
-    "stop-ask" "stop-panel" "stop-stage" "stop-strip" "stop-words" "stop" "studio" "terms" "theme"
-    "traces" "turn" "viewer" "views"
-);
 
 /// Joins the script of a page, whose first module is `entry`.
 pub(super) fn script(entry: &str) -> String {
-    bare(&joined(MODULES, entry).expect("a test joins all modules"))
+    bare(&joined(SCRIPT, entry).expect("a test joins all modules"))
 }
 
 /// Fills the template.
@@ -282,7 +262,7 @@ mod tests {
 
     #[test]
     fn every_file_of_the_script_belongs_to_a_page() {
-        let pages = ["page.js", "pairs.js"].map(|entry| joined(MODULES, entry).unwrap());
+        let pages = ["page.js", "pairs.js"].map(|entry| joined(SCRIPT, entry).unwrap());
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../report/script");
         let files = std::fs::read_dir(folder).expect("the folder of the script");
         for file in files.map(|entry| entry.expect("a readable folder").path()) {
@@ -297,7 +277,7 @@ mod tests {
     fn the_page_has_the_script_without_comments() {
         let script = "/* A sum,\n   of two. */\n\tconst sum = a + b; // here\n\n// no\n/* no */\n\t\tf(\n\tsum,\n);\n";
         assert_eq!(bare(script), "const sum = a + b; // here\nf(\nsum\n);\n");
-        let joined = joined(MODULES, "page.js").unwrap();
+        let joined = joined(SCRIPT, "page.js").unwrap();
         for text in [&joined, STYLE] {
             let page = bare(text);
             assert!(!page.contains("\n\t") && !page.contains("\n/*") && page.len() < text.len());

@@ -3,17 +3,15 @@
 //! Its parts are in `report/pairs` and `report/script/pairs.js`. It shares style and viewer with
 //! the report.
 
-use super::page::{STYLE, VIEWER, filled, script};
+use super::page::{filled, script};
 use super::pictures::data_uri;
 use crate::compare::table::html_text;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use fastphong::compare::metrics::judgement::LargestRegion;
+use fastphong_report::{PAIRS_STYLE, PAIRS_TEMPLATE, STYLE, VIEWER};
 use serde_json::json;
-
-const TEMPLATE: &str = include_str!("../../../report/pairs/page.html");
-const OWN_STYLE: &str = include_str!("../../../report/pairs/style.css");
 
 /// The contents of the page.
 #[derive(Clone, Debug, Default)]
@@ -74,7 +72,7 @@ impl PairsPage {
         };
         let parts = [
             ("title", html_text(&self.title)),
-            ("style", STYLE.to_string() + OWN_STYLE),
+            ("style", STYLE.to_string() + PAIRS_STYLE),
             ("about", html_text(&self.about)),
             ("levels", self.levels.to_string()),
             ("pairs", html(false)),
@@ -82,7 +80,7 @@ impl PairsPage {
             ("viewer", VIEWER.to_string()),
             ("script", script("pairs.js")),
         ];
-        filled(TEMPLATE, &parts)
+        filled(PAIRS_TEMPLATE, &parts)
     }
 }
 

@@ -14,10 +14,10 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use fastphong::number::parallel::collect;
 use fastphong::picture::Picture8;
 use fastphong::picture::encoding::store;
 use fastphong::picture::image_file::{FilePicture, Format};
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// The packed pictures of one scene.
@@ -45,7 +45,7 @@ impl Pictures {
     pub fn new(comparison: &Comparison) -> Pictures {
         let reference = planes(&store(&comparison.reference, comparison.encoding));
         let rows = &comparison.rows;
-        let drawn = collect(rows.len(), 1, |i| planes(&rows[i].picture));
+        let drawn: Vec<_> = rows.par_iter().map(|row| planes(&row.picture)).collect();
         let packed = |at: usize| {
             let near = nearest(&drawn[at], &reference, &drawn[..at]);
             let base = near.map_or(&reference, |i| &drawn[i]);
@@ -55,7 +55,7 @@ impl Pictures {
         };
         Pictures {
             reference: pack(&reference),
-            rows: collect(rows.len(), 1, packed).into_iter().collect(),
+            rows: (0..rows.len()).into_par_iter().map(packed).collect(),
         }
     }
 

@@ -24,7 +24,6 @@ use alloc::vec::Vec;
 use core::fmt;
 
 mod flip;
-#[doc(hidden)]
 pub mod judgement;
 mod list;
 mod map;
@@ -33,15 +32,12 @@ mod rows;
 mod ssim;
 
 use crate::picture::{LevelRows, Levels};
-#[doc(hidden)]
-pub use flip::Perceived;
-pub use flip::{flip_colours, flip_map, mean_flip};
+pub use flip::{Perceived, flip_colours, flip_map, mean_flip};
 pub use list::{Better, METRICS, MetricInfo};
 pub use map::{difference_map, signed_difference_map};
 use percentile::Percentile;
 use rows::for_each_row;
 use ssim::MeanSsim;
-#[doc(hidden)]
 pub use ssim::{ssim, ssim_where};
 
 /// The share of the compared pixels whose error does not exceed [`Difference::p99`].
@@ -49,7 +45,6 @@ const PERCENTILE: f64 = 0.99;
 
 /// The largest picture, in pixels, for which SSIM and ꟻLIP are computed: 8192 × 8192. Larger ones
 /// would take minutes.
-#[doc(hidden)]
 pub const MAX_PERCEIVED: usize = 1 << 26;
 
 /// The difference between two pictures: the result of [`compare()`].

@@ -179,7 +179,6 @@ impl PreparedScene {
     }
 
     /// True if vertex colours multiply a material.
-    #[doc(hidden)]
     pub fn is_coloured(&self, material: u32) -> bool {
         self.settings.colours && self.coloured[material as usize]
     }
@@ -354,19 +353,16 @@ impl PreparedScene {
     }
 
     /// Returns the materials, indexed by [`Polygon::material`].
-    #[doc(hidden)]
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
     /// Returns how many polygons the scene has.
-    #[doc(hidden)]
     pub fn polygon_count(&self) -> usize {
         self.table.count
     }
 
     /// Returns the vertices at the corners of a polygon of the scene, independent of the camera.
-    #[doc(hidden)]
     pub fn corners(&self, polygon: usize) -> &[u32] {
         let (first, count) = self.table.corners(polygon);
         &self.geometry.corners[first as usize..][..count as usize]

@@ -46,18 +46,11 @@ mod replace;
 
 use bitmap::Bitmap;
 pub use error::{DecodeError, EncodeError, ImageFileError};
-#[doc(hidden)]
 pub use netpbm::PpmWriter;
-pub use pair::Pair;
-#[doc(hidden)]
-pub use pair::{AlphaUse, LevelView};
+pub use pair::{AlphaUse, Pair, UsedEncoding};
 pub use png::encode_png;
 #[doc(hidden)]
-pub use replace::write_file;
-#[doc(hidden)]
-pub use replace::write_file_by;
-#[doc(hidden)]
-pub use replace::{place, remove_drafts, write_files_by};
+pub use replace::{place, remove_drafts, write_file, write_file_by, write_files_by};
 
 /// How many pixels the largest readable picture has: 16384 × 16384, the largest that is drawn. A
 /// larger file is more likely broken or hostile than intended.
@@ -303,7 +296,6 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
 ///
 /// # Errors
 /// As for [`read_picture`].
-#[doc(hidden)]
 pub fn read_picture_from(input: impl Read, path: &Path) -> Result<FilePicture, ImageFileError> {
     let ending = path.extension().unwrap_or_default();
     let is_targa = ending.eq_ignore_ascii_case("tga");

@@ -30,7 +30,6 @@ pub(super) fn write_ppm(picture: &Picture8, out: impl Write) -> io::Result<()> {
 /// A writer of a binary PPM file. It takes the pixels from the top, so that the whole picture need
 /// not be in memory.
 #[derive(Debug)]
-#[doc(hidden)]
 pub struct PpmWriter<W> {
     pieces: Pieces<W>,
     /// How many pixels are still missing.

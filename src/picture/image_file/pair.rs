@@ -5,7 +5,6 @@ use crate::picture::{Encoding, LevelRows, Levels, over};
 
 /// The encoding in which a picture is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[doc(hidden)]
 pub struct UsedEncoding {
     /// The encoding.
     pub encoding: Encoding,
@@ -30,7 +29,6 @@ impl UsedEncoding {
 
 /// What alpha does in a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[doc(hidden)]
 pub enum AlphaUse {
     /// Neither file has alpha.
     Absent,
@@ -91,7 +89,6 @@ impl<'a> Pair<'a> {
     }
 
     /// Returns the encodings of the reference and of the actual picture.
-    #[doc(hidden)]
     pub fn encodings(&self) -> [UsedEncoding; 2] {
         self.encodings
     }
@@ -105,7 +102,6 @@ impl<'a> Pair<'a> {
     }
 
     /// Returns what alpha does in the comparison.
-    #[doc(hidden)]
     pub fn alpha(&self) -> AlphaUse {
         self.alpha
     }
@@ -123,11 +119,6 @@ impl<'a> Pair<'a> {
 
     /// Returns the reference and the actual picture as they are compared.
     pub fn compared(&self) -> [impl LevelRows + Copy + use<'a>; 2] {
-        self.compared_views()
-    }
-
-    /// Returns both pictures as [`Pair::compared`] does, with the name of their type.
-    pub(crate) fn compared_views(&self) -> [LevelView<'a>; 2] {
         [0, 1].map(|i| LevelView {
             background: match self.alpha {
                 AlphaUse::Flattened { .. } => Some(self.background(i, self.pictures[i])),
@@ -142,12 +133,6 @@ impl<'a> Pair<'a> {
     /// one background. It is the reference's background, or else the actual picture's, or else
     /// black.
     pub fn displayed(&self) -> [impl LevelRows + Copy + use<'a>; 2] {
-        self.displayed_views()
-    }
-
-    /// Returns both pictures as [`Pair::displayed`] does, with the name of their type.
-    #[doc(hidden)]
-    pub fn displayed_views(&self) -> [LevelView<'a>; 2] {
         let [reference, actual] = self.pictures;
         let stating = if reference.background.is_some() {
             reference
@@ -214,8 +199,7 @@ fn converted(level: f64, from: Encoding, to: Encoding) -> f64 {
 
 /// A picture of a file, read row by row in the grey levels in which it is compared or shown.
 #[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
-pub struct LevelView<'a> {
+struct LevelView<'a> {
     picture: &'a FilePicture,
     size: [usize; 2],
     /// The encoding of the file.

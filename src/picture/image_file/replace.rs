@@ -42,7 +42,6 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
 ///
 /// # Errors
 /// As for [`write_file`], and if `write` fails.
-#[doc(hidden)]
 pub fn write_file_by(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -61,7 +60,6 @@ pub fn write_file_by(
 ///
 /// # Errors
 /// As for [`write_file_by`], with the path of the file.
-#[doc(hidden)]
 pub fn write_files_by(
     paths: &[&Path],
     mut write: impl FnMut(usize, &mut dyn Write) -> io::Result<()>,
@@ -170,7 +168,6 @@ impl Drop for MadeFolders {
 
 /// Removes the drafts of all files that are being written. Call it when a signal is about to end
 /// the program. While the result lives, every thread that wants to write a file waits.
-#[doc(hidden)]
 pub fn remove_drafts() -> NoDrafts {
     let drafts = drafts();
     for draft in drafts.iter() {
@@ -182,7 +179,6 @@ pub fn remove_drafts() -> NoDrafts {
 
 /// A guard during which no file is written: see [`remove_drafts`].
 #[derive(Debug)]
-#[doc(hidden)]
 pub struct NoDrafts {
     _held: MutexGuard<'static, Vec<PathBuf>>,
 }
@@ -221,7 +217,6 @@ fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(ListedDraft, Name
 }
 
 /// Returns the real path of a file. Links are followed, even to files that do not exist yet.
-#[doc(hidden)]
 pub fn place(path: &Path) -> PathBuf {
     if let Ok(place) = fs::canonicalize(path) {
         return place;

@@ -7,7 +7,7 @@ use super::DiffArgs;
 use super::compared::{Compared, Status, summary};
 use crate::report::pairs_page::{PairsPage, ShownPair};
 use fastphong::compare::metrics::judgement::{Selection, judged_map};
-use fastphong::picture::image_file::{FilePicture, Format, LevelView, Pair};
+use fastphong::picture::image_file::{FilePicture, Format, Pair};
 use fastphong::picture::{LevelRows, Levels, Picture8};
 
 /// How many bytes of full-size pictures the page holds at most. Browsers open a page of this size
@@ -106,7 +106,10 @@ fn fill(
     shown.size = size.map(|side| side.div_ceil(step));
     let [Some(reference), Some(actual)] = pictures else {
         let pack = |picture: &Option<FilePicture>| match picture {
-            Some(picture) => packed(&alone(picture, args), step),
+            Some(picture) => {
+                let [shown, _] = alone(picture, args).displayed();
+                packed(&shown, step)
+            }
             None => Ok(Vec::new()),
         };
         let [reference, actual] = pictures;
@@ -116,8 +119,11 @@ fn fill(
     let pair = Pair::new(reference, actual, args.assume);
     // Pictures of different sizes are shown whole, each in its own encoding.
     let [r, a] = match pair.is_one_size() {
-        true => pair.displayed_views(),
-        false => [alone(reference, args), alone(actual, args)],
+        true => pair.displayed(),
+        false => [reference, actual].map(|picture| {
+            let [shown, _] = alone(picture, args).displayed();
+            shown
+        }),
     };
     shown.reference = packed(&r, step)?;
     if one.status == Status::Equal {
@@ -134,10 +140,9 @@ fn fill(
     Ok(())
 }
 
-/// Returns a single picture as a screen shows it.
-fn alone<'a>(picture: &'a FilePicture, args: &DiffArgs) -> LevelView<'a> {
-    let [shown, _] = Pair::new(picture, picture, args.assume).displayed_views();
-    shown
+/// Pairs a single picture with itself.
+fn alone<'a>(picture: &'a FilePicture, args: &DiffArgs) -> Pair<'a> {
+    Pair::new(picture, picture, args.assume)
 }
 
 /// Packs a picture as a PNG file. Each pixel of the file is the mean of `step` × `step` pixels.

@@ -22,13 +22,13 @@ use core::fmt;
 use fastphong::compare::metrics::{Difference, MAX_PERCEIVED, Perceived, flip_map, mean_flip};
 use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{Frame, FrameStats};
-use fastphong::picture::encoding::{Displayed, store};
+use fastphong::picture::encoding::store;
 use fastphong::picture::{Alpha, Encoding, LinearPicture, Picture8};
 use fastphong::raster::{Plan, PolygonKind, Renderer, coverage};
 use fastphong::reference::{Clamping, Model};
 use fastphong::scene::Interpolation;
 use fastphong::shading::{self, METHODS, MethodParameter, Variant};
-use pictures::References;
+use pictures::{Displayed, References};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
@@ -179,8 +179,8 @@ pub struct MethodRow {
     pub drawn_by: DrawnBy,
     /// The difference from the Phong reference: see [`WHAT_IS_COMPARED`].
     pub error: Difference,
-    /// The difference from its own closed form ([`fastphong::shading::Info::model`]), which shows how
-    /// well it computes what it is meant to. For the barycentric renderer, the closed form is on
+    /// The difference from its own closed form ([`fastphong::shading::Info::model`]), which shows
+    /// how well it computes what it is meant to. For the barycentric renderer, the closed form is on
     /// triangles.
     pub own: Difference,
     /// The largest `own.max` that rounding and the method's approximation by design can cause on

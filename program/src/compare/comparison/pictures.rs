@@ -6,8 +6,8 @@ use core::cell::OnceCell;
 use fastphong::compare::metrics::{Difference, compare_where, ssim_where};
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::Triangulated;
-use fastphong::picture::encoding::{Displayed, store};
-use fastphong::picture::{Encoding, LinearPicture, Picture, Picture8};
+use fastphong::picture::encoding::store;
+use fastphong::picture::{Encoding, LevelRows, Levels, LinearPicture, Picture, Picture8};
 use fastphong::raster::{Edges, Renderer, barycentric_polygon_indices, polygon_indices};
 use fastphong::reference::{self, Clamping, ClosedForm, Model, Visibility};
 use fastphong::scene::Power;
@@ -245,6 +245,32 @@ fn difference(
     let mut difference = compare_where(reference, actual, is_same).expect(ONE_SIZE);
     difference.ssim = ssim_where(&r, &a, is_same).expect(ONE_SIZE);
     difference
+}
+
+/// A stored picture as a screen shows it: in sRGB levels, without rounding again. Alpha is ignored.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Displayed<'a> {
+    /// The picture.
+    pub picture: &'a Picture8,
+    /// Its encoding.
+    pub encoding: Encoding,
+}
+
+impl LevelRows for Displayed<'_> {
+    fn size(&self) -> [usize; 2] {
+        [self.picture.width(), self.picture.height()]
+    }
+
+    fn level_row(&self, y: usize, levels: &mut [Levels]) {
+        let shown: [f64; 256] = core::array::from_fn(|level| match self.encoding {
+            Encoding::Srgb => level as f64,
+            Encoding::Linear => 255.0 * Encoding::Srgb.encode(level as f64 / 255.0),
+        });
+        for (levels, [r, g, b, _]) in levels.iter_mut().zip(self.picture.row(y)) {
+            let [r, g, b] = [r, g, b].map(|level| shown[usize::from(*level)]);
+            *levels = Levels([r, g, b, 255.0]);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@
 //! restarted many times. Each restart has its own random numbers, so that the result is the same on
 //! every machine, whatever the order of restarts.
 
+use crate::split_mix::SplitMix;
 use alloc::vec::Vec;
 use fastphong::frame::{Frame, FrameBuilder, Vertex, sub_pixel};
 use fastphong::mesh::Material;
-use fastphong::number::split_mix::SplitMix;
 use fastphong::reference::{self, Model};
 use fastphong::scene::{Light, Lighting, SpecularModel};
 use fastphong::shading::Variant;

@@ -3,9 +3,10 @@
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use fastphong::build;
 use serde::Serialize;
 
-/// The machine of a measurement, and the build of this program.
+/// The machine of a measurement, and the build of the library.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Machine {
     /// Name of the processor as the system reports it, or `unknown`.
@@ -22,7 +23,7 @@ pub struct Machine {
     pub rustc: String,
     /// `release`, or `debug` for a build with assertions, whose times say nothing.
     pub profile: String,
-    /// Optimisation level: `0` to `3`, `s` or `z`.
+    /// Optimisation level of the library, which has the methods: `0` to `3`, `s` or `z`.
     pub opt_level: String,
     /// Version of this crate.
     pub version: String,
@@ -39,9 +40,9 @@ impl Machine {
             os: std::env::consts::OS.to_string(),
             arch: std::env::consts::ARCH.to_string(),
             target_features: target_features().into_iter().map(String::from).collect(),
-            rustc: env!("FASTPHONG_RUSTC").to_string(),
-            profile: env!("FASTPHONG_PROFILE").to_string(),
-            opt_level: env!("FASTPHONG_OPT_LEVEL").to_string(),
+            rustc: build::RUSTC.to_string(),
+            profile: build::PROFILE.to_string(),
+            opt_level: build::OPT_LEVEL.to_string(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             commit: option_env!("FASTPHONG_COMMIT").map(String::from),
         }

@@ -1,7 +1,7 @@
 //! Statistics of samples: medians, quartiles, and confidence intervals of ratios.
 
+use crate::split_mix::SplitMix;
 use alloc::vec::Vec;
-use fastphong::number::split_mix::SplitMix;
 use serde::Serialize;
 
 /// The confidence level of the interval of a [`Ratio`].

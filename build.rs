@@ -1,4 +1,5 @@
-//! Passes the compiler's version and options to the crate. Benchmark results name them.
+//! Passes the compiler's version and options to `fastphong::build`. Only a build script knows the
+//! optimisation level.
 
 use std::env;
 use std::process::Command;
