@@ -17,7 +17,7 @@ pub enum Level {
     /// Know this before you trust the picture.
     Warning,
     /// A choice that was made for you, something that is not used, or something to try.
-    Note,
+    Remark,
 }
 
 /// A setting of a scene that a note suggests.
@@ -120,9 +120,9 @@ impl Note {
         Note::new(kind, Level::Warning, text.into())
     }
 
-    /// Makes a note of the lower level.
-    pub fn note(kind: &'static str, text: impl Into<Cow<'static, str>>) -> Note {
-        Note::new(kind, Level::Note, text.into())
+    /// Makes a remark.
+    pub fn remark(kind: &'static str, text: impl Into<Cow<'static, str>>) -> Note {
+        Note::new(kind, Level::Remark, text.into())
     }
 
     /// Continues the sentence by a setting.
@@ -306,7 +306,7 @@ mod tests {
         assert_eq!(note.text(&Flags), "a.obj: b.mtl:3: try --cull none once");
         let shown = "a.obj: b.mtl:3: try `cull = \"none\"` once";
         assert_eq!(note.to_string(), shown);
-        let view = Note::note("camera", "").set(Setting::number("camera.azimuth", "27,15"));
+        let view = Note::remark("camera", "").set(Setting::number("camera.azimuth", "27,15"));
         let shown = "`camera = { azimuth = 27, elevation = 15 }`";
         assert_eq!(view.to_string(), shown);
     }
@@ -322,14 +322,14 @@ mod tests {
         notes.count("point", 5, || {
             Note::warning("point", "points are not drawn")
         });
-        notes.push(Note::note("colours", "no colours").unless("colours"));
-        notes.push(Note::note("colours", "no colours").unless("colours"));
+        notes.push(Note::remark("colours", "no colours").unless("colours"));
+        notes.push(Note::remark("colours", "no colours").unless("colours"));
         let all = "lines are not drawn (3 times, first in line 4)\npoints are not drawn (line 5)\nno colours";
         assert_eq!(notes.to_string(), all);
         let left = notes.clone().without_stated(|key| key == "colours");
         assert_eq!(left.iter().count(), 2);
         notes.remove("li");
         assert!(!notes.has("line") && notes.has("point"));
-        assert_eq!(notes.texts(Level::Note, &SceneKeys), ["no colours"]);
+        assert_eq!(notes.texts(Level::Remark, &SceneKeys), ["no colours"]);
     }
 }

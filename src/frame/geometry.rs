@@ -65,7 +65,8 @@ impl PlacedModel {
 }
 
 impl Models {
-    pub fn len(&self) -> usize {
+    /// Returns how many vertices there are.
+    pub fn count(&self) -> usize {
         self.x.len()
     }
 
@@ -142,12 +143,12 @@ impl Geometry {
 
     fn position_of_model(&self, vertex: u32, origin: [f64; 3]) -> [f32; 3] {
         let vertex = vertex as usize;
-        let front = if vertex < self.models.len() {
+        let front = if vertex < self.models.count() {
             Some(vertex)
         } else {
             self.front(vertex as u32)
         };
-        let Some(front) = front.filter(|&front| front < self.models.len()) else {
+        let Some(front) = front.filter(|&front| front < self.models.count()) else {
             return [0.0; 3];
         };
         let transform = &self.models.objects[self.models.object_of(front)].transform;

@@ -238,7 +238,7 @@ impl PolygonMesh {
     /// Returns a note for a mesh in a format where z points up by custom.
     pub(crate) fn up_note(&self) -> Option<Note> {
         let is_z = self.up_by_custom == Some('z');
-        let note = || Note::note("mesh/up", "z is up in most STL files: ");
+        let note = || Note::remark("mesh/up", "z is up in most STL files: ");
         is_z.then(|| note().set(Setting::word("camera.up", "z")))
     }
 

@@ -21,7 +21,7 @@ pub(super) fn ties(frame: &Frame, notes: &mut Notes) {
     if ties.doubled > 0 {
         let one = "polygon has the corners of an earlier one, which hides it";
         let more = "polygons have the corners of earlier ones, which hide them";
-        notes.push(Note::note(
+        notes.push(Note::remark(
             "depth/doubled",
             counted(ties.doubled, one, more),
         ));
@@ -96,7 +96,7 @@ pub(super) fn screen_interpolation(frame: &Frame, notes: &mut Notes) {
         let text = format!(
             "{polygons}: values interpolated over them are linear on the screen, as in the lecture, and so not in space; "
         );
-        let note = Note::note("interpolation", text)
+        let note = Note::remark("interpolation", text)
             .set(Setting::word("interpolation", "perspective"))
             .say(" makes them right");
         notes.push(note.unless("interpolation"));

@@ -49,7 +49,7 @@ pub fn of_mesh(object: &Object) -> Notes {
         let text = format!(
             "has {lack}: normals are averaged{by}, even over {edges} by more than {CREASE} degrees; "
         );
-        let note = Note::note("mesh/sharp", text)
+        let note = Note::remark("mesh/sharp", text)
             .set(Setting::number("object.crease", format!("{CREASE}")))
             .say(" keeps these sharp");
         notes.push(note.about(name));
@@ -59,7 +59,7 @@ pub fn of_mesh(object: &Object) -> Notes {
         let text =
             format!("{edges} would close if positions that differ only by rounding were merged: ");
         let weld = Setting::number("object.weld", format!("{ROUNDED:e}"));
-        notes.push(Note::note("mesh/weld", text).set(weld).about(name));
+        notes.push(Note::remark("mesh/weld", text).set(weld).about(name));
     }
     if counts.seams > 0 && used.averaged > 0 {
         let edges = counted(counts.seams, "edge", "edges");
@@ -67,7 +67,7 @@ pub fn of_mesh(object: &Object) -> Notes {
             "objects (o) of the file meet in {edges} of a smooth surface: normals are not averaged across them, which shows as \
              seams; remove the `o` lines to average them"
         );
-        notes.push(Note::note("mesh/seams", text).about(name));
+        notes.push(Note::remark("mesh/seams", text).about(name));
     }
     notes
 }
@@ -108,17 +108,17 @@ pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<Note> {
             let text = format!(
                 "lies {side} the plane {name} = 0, and around 0 along the other axes: if {axis} is up, "
             );
-            return Some(Note::note(KIND, text).set(Setting::word("camera.up", axis)));
+            return Some(Note::remark(KIND, text).set(Setting::word("camera.up", axis)));
         }
     }
     let [x, y, z] = sides;
     if z >= 2.0 * x.max(y) && !stands(1) {
-        let note = Note::note(KIND, "is longest along z: if it stands along z, ");
+        let note = Note::remark(KIND, "is longest along z: if it stands along z, ");
         return Some(note.set(Setting::word("camera.up", "z")));
     }
     let is_ground = 4.0 * z <= x.min(y) && is_around(0) == is_around(1) && stands(0) == stands(1);
     is_ground.then(|| {
-        Note::note(KIND, "is flat along z: if it is a terrain, ")
+        Note::remark(KIND, "is flat along z: if it is a terrain, ")
             .set(Setting::word("camera.up", "z"))
     })
 }

@@ -144,12 +144,12 @@ fn add_notes(file: &SceneFile, scene: &Scene, over: &Overlay, notes: &mut Notes)
         && scene.objects.iter().any(|o| !o.mesh.materials().is_empty())
     {
         let text = "the material that is set replaces those of the mesh file";
-        notes.push(Note::note("material-replaced", text));
+        notes.push(Note::remark("material-replaced", text));
     }
     for object in &scene.objects {
         let name = &object.name;
         if !scene.colours && !object.mesh.colours().is_empty() && !name.starts_with(BUILTIN) {
-            let note = Note::note("colours-unused", "has vertex colours, which are not used: ")
+            let note = Note::remark("colours-unused", "has vertex colours, which are not used: ")
                 .set(Setting::word("colours", "on"))
                 .say(" uses them");
             notes.push(note.about(name));

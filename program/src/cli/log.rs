@@ -47,7 +47,7 @@ impl Log {
             let text = note.text(&Flags);
             match note.level {
                 Level::Warning => self.warning(&text),
-                Level::Note => self.note(&text),
+                Level::Remark => self.note(&text),
             }
         }
     }

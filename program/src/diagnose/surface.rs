@@ -27,7 +27,7 @@ impl<'a> Surface<'a> {
     pub fn new(scene: &'a Scene, prepared: &'a PreparedScene, origin: [f64; 3]) -> Surface<'a> {
         let geometry = prepared.geometry();
         let origin = DVec3::from_array(origin);
-        let mut positions = Vec::with_capacity(geometry.models.len());
+        let mut positions = Vec::with_capacity(geometry.models.count());
         let mut first = 0;
         for object in &geometry.models.objects {
             let vertices = first..object.end;

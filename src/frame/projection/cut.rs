@@ -37,7 +37,7 @@ impl Cutting<'_> {
             Side::Front
         };
         let other_side = if side == Side::Back {
-            geometry.models.len() as u32
+            geometry.models.count() as u32
         } else {
             0
         };

@@ -302,7 +302,7 @@ impl PreparedScene {
         view: &View<'_>,
         codes: &mut Vec<Codes>,
     ) -> Result<Placed, FrameError> {
-        let count = self.geometry.models.len();
+        let count = self.geometry.models.count();
         frame
             .vertices
             .resize(self.geometry.vertex_count(), Default::default());

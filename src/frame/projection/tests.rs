@@ -638,7 +638,7 @@ fn from_clip_space(scene: &Scene) -> Frame {
     let to_clip = scene
         .camera
         .clip_matrix(f64::from(scene.width) / f64::from(scene.height));
-    for vertex in 0..geometry.models.len() {
+    for vertex in 0..geometry.models.count() {
         let object = geometry.models.object_of(vertex);
         let to_clip = to_clip * DMat4::from(geometry.models.objects[object].transform);
         let position = to_clip * geometry.models.position(vertex).extend(1.0);

@@ -20,7 +20,7 @@ impl SceneFile {
         let left_out = view.left_out.iter().cloned();
         self.notes.append(
             left_out
-                .map(|text| Note::note("view-left-out", text))
+                .map(|text| Note::remark("view-left-out", text))
                 .collect(),
         );
         if let Some(camera) = view.camera {
@@ -35,14 +35,14 @@ impl SceneFile {
             } else {
                 let why = "expected coordinates up to 1e15 and 0.001 to 179.999 degrees";
                 let text = format!("the file's camera is left out: {why}");
-                self.notes.push(Note::note("view-left-out", text));
+                self.notes.push(Note::remark("view-left-out", text));
             }
         }
         let is_near = |light: &&FileLight| COORDINATE.holds_all(light.place);
         let lights: Vec<String> = view.lights.iter().filter(is_near).map(table).collect();
         if lights.len() < view.lights.len() {
             let text = "lights of the file are left out: expected coordinates up to 1e15";
-            self.notes.push(Note::note("view-left-out", text));
+            self.notes.push(Note::remark("view-left-out", text));
         }
         if !lights.is_empty() {
             text += &format!("light = [{}]\n", lights.join(", "));
@@ -75,7 +75,7 @@ impl SceneFile {
     /// Says in a sentence what the scene still has of the mesh file's camera and lights.
     pub(super) fn view_note(&self) -> Option<Note> {
         let seen = self.has_camera_of_mesh_file().then(|| {
-            Note::note("view-of-file", "seen by the file's own camera (")
+            Note::remark("view-of-file", "seen by the file's own camera (")
                 .set(Setting::number("camera.azimuth", "27,15"))
                 .say(" or other angles fit the mesh instead)")
         });
@@ -88,7 +88,7 @@ impl SceneFile {
         };
         Some(match seen {
             Some(note) => note.say(", ").say(lit),
-            None => Note::note("view-of-file", lit),
+            None => Note::remark("view-of-file", lit),
         })
     }
 }

@@ -81,7 +81,7 @@ pub(super) fn note_unused(name: &str, mesh: &PolygonMesh, source: NormalSource, 
     ] {
         if is_left {
             let text = format!("the {what} of the file are not used under {by}: ");
-            let note = Note::note("normals-unused", text)
+            let note = Note::remark("normals-unused", text)
                 .set(Setting::word("object.normals", "auto"))
                 .say(" uses them");
             notes.push(note.about(name));

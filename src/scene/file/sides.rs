@@ -53,7 +53,7 @@ impl Sides {
     /// about it.
     fn choose(&mut self, scene: &Section, name: &str, doubts: &WindingDoubts) -> Note {
         let why = reasons(doubts);
-        let mut note = Note::note(
+        let mut note = Note::remark(
             "winding",
             format!("{why}: its polygons are lit on the side that is seen"),
         );
@@ -62,7 +62,7 @@ impl Sides {
             self.culling = Culling::None;
             set(&mut self.chosen, "cull", Data::Text("none".into()));
             let done = format!("{why}: its polygons are drawn and lit on both sides (");
-            note = Note::note("winding", done)
+            note = Note::remark("winding", done)
                 .set(Setting::word("cull", "back"))
                 .say(" draws front sides only)");
         }

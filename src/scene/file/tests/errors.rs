@@ -6,7 +6,7 @@ use crate::scene::file::diagnostics::Origin;
 use crate::scene::file::value::Data;
 use crate::scene::file::{SceneFile, SceneTable, UnusableMesh};
 use std::format;
-use std::string::{String, ToString};
+use std::string::String;
 use std::vec;
 
 #[test]
