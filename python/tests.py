@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import threading
@@ -63,6 +64,26 @@ def sphere(rings=12, segments=24):
     return vertices, np.array(faces)
 
 
+def measured(mesh, method="auto", **arguments):
+    """Draw a mesh for measuring: linear levels on a transparent background."""
+    return fp.render(mesh, method, **{"size": SIZE, "look": "compared", **arguments})
+
+
+def drawn(picture):
+    """Return which pixels differ from the corner, where nothing is drawn."""
+    return (np.asarray(picture) != np.asarray(picture)[0, 0]).any(axis=2)
+
+
+def told(draw):
+    """Return the warnings that `draw()` raises, and check that they point to this file."""
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        draw()
+    for warning in found:
+        assert pathlib.Path(warning.filename).resolve() == pathlib.Path(__file__).resolve(), warning.filename
+    return [str(warning.message) for warning in found]
+
+
 def same(test, a, b):
     """Fail unless two pictures are equal, byte by byte."""
     test.assertEqual(a.shape, b.shape)
@@ -75,8 +96,6 @@ class Pictures(unittest.TestCase):
         self.assertIsInstance(picture, np.ndarray)
         self.assertEqual((picture.shape, picture.dtype), ((72, 96, 4), np.dtype(np.uint8)))
         self.assertTrue(picture.flags.writeable and picture.flags.c_contiguous)
-        self.assertEqual(picture[36, 48, 3], 255)
-        self.assertEqual(tuple(picture[0, 0]), (0, 0, 0, 0))
         picture[:] = 7
         self.assertTrue((picture == 7).all())
         # The numpy array shares its memory with the bytes that were drawn into.
@@ -121,13 +140,83 @@ class Pictures(unittest.TestCase):
                 fp.read_picture(path)
 
     def test_a_background_makes_pictures_opaque(self):
-        plain = fp.render("builtin:sphere", size=SIZE)
-        white = fp.render("builtin:sphere", size=SIZE, background=1)
-        blue = fp.render("builtin:sphere", size=SIZE, background=(0, 0, 1), samples=2)
+        plain = measured("builtin:sphere")
+        white = measured("builtin:sphere", background=1)
+        blue = measured("builtin:sphere", background=(0, 0, 1), samples=2)
         self.assertEqual(tuple(white[0, 0]), (255, 255, 255, 255))
         self.assertTrue((blue[..., 3] == 255).all())
         covered = plain[..., 3] == 255
         self.assertTrue((white[covered] == plain[covered]).all() and (white[~covered] == 255).all())
+
+    def test_a_mesh_is_shown_or_compared(self):
+        shown, compared = fp.render("builtin:sphere", size=SIZE), measured("builtin:sphere")
+        self.assertTrue((shown[..., 3] == 255).all())
+        self.assertTrue(shown[0, 0].all())
+        self.assertEqual(tuple(compared[0, 0]), (0, 0, 0, 0))
+        self.assertEqual(set(np.unique(compared[..., 3])), {0, 255})
+        self.assertEqual(compared[36, 48, 3], 255)
+        same(self, shown, fp.render("builtin:sphere", size=SIZE, samples=2, look="shown"))
+        same(self, fp.render("football", size=SIZE), measured("football"))
+        with self.assertRaisesRegex(ValueError, "`look` is `bright`: expected shown or compared"):
+            fp.render("builtin:sphere", look="bright")
+
+    def test_arguments_override_the_look(self):
+        # Each argument replaces one part of the look, and the others stay.
+        plain = fp.render("builtin:sphere", size=SIZE)
+        white = fp.render("builtin:sphere", size=SIZE, background=1)
+        self.assertEqual(tuple(white[0, 0]), (255, 255, 255, 255))
+        self.assertTrue((white[36, 48] == plain[36, 48]).all())
+        rough = fp.render("builtin:sphere", size=SIZE, samples=1)
+        self.assertLess(len(np.unique(rough.reshape(-1, 4), axis=0)), len(np.unique(plain.reshape(-1, 4), axis=0)))
+        dark = fp.render("builtin:sphere", size=SIZE, light=[])
+        self.assertTrue((dark[0, 0] == plain[0, 0]).all())
+        self.assertLess(int(dark.max(axis=(0, 1))[0]), int(plain.max(axis=(0, 1))[0]))
+
+    @unittest.skipUnless(os.environ.get("FASTPHONG_PROGRAM"), "FASTPHONG_PROGRAM names no program")
+    def test_pictures_equal_the_programs(self):
+        vertices, quads = CUBE
+        facets = np.zeros(12, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]))
+        facets["corners"] = vertices[triangles(quads)]
+        lines = ["%g %g %g" % tuple(vertex) for vertex in vertices]
+        files = {
+            "cube.stl": b"\0" * 80 + np.uint32(12).tobytes() + facets.tobytes(),
+            "cube.mtl": b"newmtl a\nKd 0.8 0.2 0.1\nKs 0.5 0.5 0.5\nNs 20\nnewmtl b\nKd 0.1 0.2 0.8\n",
+            "cube.obj": "\n".join(
+                ["mtllib cube.mtl", *(f"v {line}" for line in lines), "usemtl a",
+                 *("f %d %d %d %d" % tuple(quad + 1) for quad in quads[:3]), "usemtl b",
+                 *("f %d %d %d %d" % tuple(quad + 1) for quad in quads[3:])]).encode(),
+            "cube.ply": "\n".join(
+                ["ply", "format ascii 1.0", "element vertex 8", *(f"property float {axis}" for axis in "xyz"),
+                 *(f"property uchar {colour}" for colour in ("red", "green", "blue")),
+                 "element face 6", "property list uchar int vertex_indices", "end_header",
+                 *(f"{line} {40 * i % 256} {90 * i % 256} {130 * i % 256}" for i, line in enumerate(lines)),
+                 *("4 %d %d %d %d" % tuple(quad) for quad in quads)]).encode(),
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content in files.items():
+                pathlib.Path(folder, name).write_bytes(content)
+            paths = [os.path.join(folder, name) for name in ("cube.stl", "cube.obj", "cube.ply")]
+            for mesh in (*paths, "builtin:teapot", "football"):
+                for arguments, flags in (
+                    ({}, []),
+                    ({"size": (96, 72)}, ["--size", "96x72"]),
+                    ({"size": (131, 67), "view": (200, 35)}, ["--size", "131x67", "--view", "200,35"]),
+                    ({"size": (96, 72), "up": "z", "fovy": 40}, ["--size", "96x72", "--up", "z", "--fovy", "40"]),
+                    ({"size": (96, 72), "background": 1, "samples": 4},
+                     ["--size", "96x72", "--background", "1", "--samples", "4", "--alpha", "opaque"]),
+                    ({"size": (96, 72), "light": (1, 0, 0), "normals": 30, "weld": 0.01},
+                     ["--size", "96x72", "--light", "1,0,0", "--normals", "crease=30", "--weld", "0.01"]),
+                    ({"size": (96, 72), "scene": {"material": {"kd": 0.3}, "ambient": 2}},
+                     ["--size", "96x72", "--kd", "0.3", "--ambient", "2"]),
+                    ({"size": (48, 36), "method": "reference"}, ["--size", "48x36", "--method", "reference"]),
+                ):
+                    with self.subTest(f"{mesh} {arguments}"):
+                        shown = os.path.join(folder, "shown.png")
+                        program = os.environ["FASTPHONG_PROGRAM"]
+                        subprocess.run([program, "--quiet", "render", mesh, "-o", shown, "--force", *flags], check=True)
+                        with warnings.catch_warnings():
+                            warnings.simplefilter("ignore")
+                            same(self, fp.render(mesh, **arguments), fp.read_picture(shown))
 
     def test_pictures_equal_those_that_the_project_stores(self):
         kept = ROOT / "tests" / "references"
@@ -144,8 +233,8 @@ class Pictures(unittest.TestCase):
 class Meshes(unittest.TestCase):
     def test_a_mesh_draws_the_same_picture_in_every_form(self):
         vertices, quads = CUBE
-        drawn = fp.render(CUBE, size=SIZE)
-        self.assertGreater(int((drawn[..., 3] == 255).sum()), 1000)
+        cube = fp.render(CUBE, size=SIZE)
+        self.assertGreater(int(drawn(cube).sum()), 1000)
         for mesh in (
             list(CUBE),
             (vertices.tolist(), quads.tolist()),
@@ -154,21 +243,21 @@ class Meshes(unittest.TestCase):
             fp.Mesh(vertices, quads),
             fp.Mesh(fp.Mesh(CUBE)),
         ):
-            same(self, fp.render(mesh, size=SIZE), drawn)
+            same(self, fp.render(mesh, size=SIZE), cube)
 
     def test_any_kind_of_numbers_is_accepted(self):
         vertices, quads = CUBE
-        drawn = fp.render(CUBE, size=SIZE)
+        cube = fp.render(CUBE, size=SIZE)
         padded = np.zeros((16, 6))
         padded[::2, ::2] = vertices
         frozen = vertices.copy()
         frozen.flags.writeable = False
         for other in (vertices.astype("<f4"), vertices.astype(">f8"), vertices.astype(np.int8),
                       np.asfortranarray(vertices), padded[::2, ::2], vertices[::-1].copy()[::-1], frozen):
-            same(self, fp.render((other, quads), size=SIZE), drawn)
+            same(self, fp.render((other, quads), size=SIZE), cube)
         for other in (quads.astype(np.int32), quads.astype(np.uint8), quads.astype(">i8"), quads.astype(np.uint64),
                       np.asfortranarray(quads), quads[::-1].copy()[::-1]):
-            same(self, fp.render((vertices, other), size=SIZE), drawn)
+            same(self, fp.render((vertices, other), size=SIZE), cube)
 
     def test_faces_may_have_any_number_of_corners(self):
         vertices, quads = CUBE
@@ -233,23 +322,23 @@ class Meshes(unittest.TestCase):
         vertices, quads = CUBE
         matt = {"material": {"ka": 0, "kd": 0.6, "ks": 0}}
         red = fp.Mesh(vertices, quads, colours=np.tile((1.0, 0, 0), (8, 1)))
-        lit = fp.render(red, size=SIZE, scene=matt)
+        lit = measured(red, scene=matt)
         self.assertTrue(lit[..., 0].any())
         self.assertFalse(lit[..., 1:3].any())
         # With and without alpha, by vertex and by face, as bytes and as floats: all draw the same picture.
         for colours in (np.tile((255, 0, 0), (8, 1)), np.tile((1.0, 0, 0, 0.5), (6, 1)),
                         np.tile(np.array((255, 0, 0, 7), np.uint8), (8, 1))):
-            same(self, fp.render(fp.Mesh(vertices, quads, colours=colours), size=SIZE, scene=matt), lit)
-        same(self, fp.render(red, size=SIZE, colours=True, scene=matt), lit)
-        same(self, fp.render(red, size=SIZE, colours=False), fp.render(CUBE, size=SIZE))
+            same(self, measured(fp.Mesh(vertices, quads, colours=colours), scene=matt), lit)
+        same(self, measured(red, colours=True, scene=matt), lit)
+        same(self, measured(red, colours=False), measured(CUBE))
         # In grey the shades are the same.
-        white = fp.render(fp.Mesh(vertices, quads, colours=np.ones((8, 3))), size=SIZE, scene=matt)
+        white = measured(fp.Mesh(vertices, quads, colours=np.ones((8, 3))), scene=matt)
         self.assertTrue((white[..., 0] == lit[..., 0]).all() and (white[..., 1] == lit[..., 0]).all())
 
     def test_a_coloured_mesh_shows_its_own_colours(self):
         vertices, quads = CUBE
         # On the brown of meshes without colours, a white mesh would look brown.
-        white = fp.render(fp.Mesh(vertices, quads, colours=np.ones((8, 3))), size=SIZE)
+        white = measured(fp.Mesh(vertices, quads, colours=np.ones((8, 3))))
         self.assertTrue((white[..., 0] == white[..., 1]).all() and (white[..., 1] == white[..., 2]).all())
         self.assertGreater(int(white[..., 0].max()), 100)
 
@@ -294,28 +383,34 @@ class Meshes(unittest.TestCase):
         scene = fp.Scene((vertices, quads[:1]), view=(-1, 0, 0), size=SIZE)
         behind = fp.Scene((vertices, quads[:1]), view=(1, 0, 0), size=SIZE)
         self.assertIn("both sides", scene.notes[0])
-        self.assertTrue(scene.render().any() and behind.render().any())
-        only = fp.render((vertices, quads[:1]), view=(1, 0, 0), size=SIZE, scene={"cull": "back"})
-        self.assertFalse(only.any())
-        self.assertEqual(fp.Scene(CUBE).notes, [])
+        self.assertTrue(drawn(scene.render()).any() and drawn(behind.render()).any())
+        only = fp.Scene((vertices, quads[:1]), view=(1, 0, 0), size=SIZE, scene={"cull": "back"})
+        self.assertEqual(only.warnings, ["nothing is drawn: 1 polygon is seen from the culled side; "
+                                         "try `scene={\"cull\": \"none\"}`"])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertFalse(drawn(only.render()).any())
+        self.assertEqual(fp.Scene(CUBE, normals=40).notes, [])
 
     def test_warnings_about_a_mesh_point_to_the_line_that_draws_it(self):
         vertices, quads = CUBE
-        for draw in (lambda mesh: fp.render(mesh, size=SIZE), fp.Scene):
-            with warnings.catch_warnings(record=True) as found:
-                warnings.simplefilter("always")
-                draw((vertices, quads[:, ::-1]))
-            self.assertRegex(str(found[0].message), "wound inside out")
-            self.assertEqual(pathlib.Path(found[0].filename).resolve(), pathlib.Path(__file__).resolve())
+        inside_out = (vertices, quads[:, ::-1])
+        for draw in (lambda: fp.render(inside_out, size=SIZE), lambda: fp.Scene(inside_out).render(size=SIZE)):
+            found = told(draw)
+            self.assertEqual(len(found), 1)
+            self.assertRegex(found[0], "wound inside out.*, or try "
+                                       "`scene={\"cull\": \"none\", \"two_sided\": True}`$")
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "odd.obj")
             path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nhello\n")
-            for read in (lambda: fp.render(path, size=SIZE), lambda: fp.Mesh(path)):
-                with warnings.catch_warnings(record=True) as found:
-                    warnings.simplefilter("always")
-                    read()
-                self.assertRegex(str(found[0].message), "`hello` is not an OBJ statement")
-                self.assertEqual(pathlib.Path(found[0].filename).resolve(), pathlib.Path(__file__).resolve())
+            for read in (lambda: fp.render(path, size=SIZE), lambda: fp.Mesh(path),
+                         lambda: fp.render(fp.Mesh(path), size=SIZE)):
+                found = told(read)
+                self.assertEqual(len(found), 1)
+                self.assertRegex(found[0], "`hello` is not an OBJ statement")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                self.assertEqual(fp.Scene(fp.Mesh(path)).warnings, fp.Mesh(path).warnings)
 
     def test_unusable_files_raise_errors_of_the_right_type(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -348,11 +443,11 @@ class OtherLibraries(unittest.TestCase):
         return types.SimpleNamespace(vertices=vertices, faces=triangles(quads), visual=visual)
 
     def test_trimesh(self):
-        drawn = fp.render((CUBE[0], triangles(CUBE[1])), size=SIZE)
+        cube = fp.render((CUBE[0], triangles(CUBE[1])), size=SIZE)
         mesh = self.trimesh()
-        same(self, fp.render(mesh, size=SIZE), drawn)
+        same(self, fp.render(mesh, size=SIZE), cube)
         scene = types.SimpleNamespace(geometry={}, to_mesh=lambda: mesh)
-        same(self, fp.render(scene, size=SIZE), drawn)
+        same(self, fp.render(scene, size=SIZE), cube)
 
     def test_trimesh_with_colours(self):
         by_vertex = np.random.default_rng(1).integers(0, 256, (8, 4), dtype=np.uint8)
@@ -406,12 +501,12 @@ class OtherLibraries(unittest.TestCase):
 
     def test_meshio(self):
         vertices, quads = CUBE
-        drawn = fp.render(CUBE, size=SIZE)
-        same(self, fp.render(self.meshio(("line", quads[:, :2]), ("quad", quads)), size=SIZE), drawn)
+        cube = fp.render(CUBE, size=SIZE)
+        same(self, fp.render(self.meshio(("line", quads[:, :2]), ("quad", quads)), size=SIZE), cube)
         mixed = self.meshio(("quad", quads[:3]), ("triangle", triangles(quads[3:])), ("vertex", quads[:, :1]))
         same(self, fp.render(mixed, "flat", size=SIZE), fp.render(CUBE, "flat", size=SIZE))
         polygons = self.meshio(("polygon", [list(quad) for quad in quads]))
-        same(self, fp.render(polygons, size=SIZE), drawn)
+        same(self, fp.render(polygons, size=SIZE), cube)
         flat = self.meshio(("triangle", triangles(quads)[:1]), points=vertices[:, :2])
         self.assertEqual(fp.Mesh(flat).vertices.shape, (8, 3))
         with self.assertRaisesRegex(ValueError, "a mesh of line: expected triangles"):
@@ -423,7 +518,7 @@ class OtherLibraries(unittest.TestCase):
         cell = np.array([0, 1, 4, 3, 6, 7, 10, 9])
         mesh = fp.Mesh(self.meshio(("hexahedron", np.array([cell, cell + 1])), points=points))
         self.assertEqual(len(mesh.faces), 10)
-        self.assertEqual(fp.Scene(mesh).notes, [])
+        self.assertEqual(fp.Scene(mesh, normals=40).notes, [])
         corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float)
         wedge = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)], float)
         pyramid = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)])
@@ -433,7 +528,7 @@ class OtherLibraries(unittest.TestCase):
                 warnings.simplefilter("error")
                 mesh = fp.Mesh(self.meshio((kind, np.arange(len(points))[None]), points=points))
                 self.assertEqual(len(mesh.faces), count)
-                self.assertEqual(fp.Scene(mesh).notes, [])
+                self.assertEqual(fp.Scene(mesh, normals=40).notes, [])
 
     def test_colours_and_normals_of_meshio(self):
         vertices, faces = sphere()
@@ -459,7 +554,7 @@ class OtherLibraries(unittest.TestCase):
         ball = trimesh.creation.icosphere(subdivisions=3)
         same(self, fp.render(ball, size=SIZE), fp.render((ball.vertices, ball.faces), size=SIZE))
         scene = trimesh.Scene([ball, trimesh.creation.box()])
-        self.assertTrue(fp.render(scene, size=SIZE).any())
+        self.assertTrue(drawn(fp.render(scene, size=SIZE)).any())
         ball.visual.vertex_colors = np.full((len(ball.vertices), 4), 200, np.uint8)
         self.assertTrue(fp.Mesh(ball)._mesh.has_colours)
         with self.assertRaisesRegex(TypeError, "trimesh.PointCloud is no mesh"):
@@ -470,7 +565,7 @@ class OtherLibraries(unittest.TestCase):
         import pyvista
         for mesh in (pyvista.Sphere(), pyvista.Cube(), pyvista.Plane(), pyvista.Sphere().strip(),
                      pyvista.Dodecahedron(), pyvista.ImageData(dimensions=(3, 4, 5))):
-            self.assertTrue(fp.render(mesh, size=SIZE, up="z").any())
+            self.assertTrue(drawn(fp.render(mesh, size=SIZE, up="z")).any())
         self.assertTrue(fp.Mesh(pyvista.Sphere())._mesh.has_normals)
 
     @unittest.skipUnless(importlib.util.find_spec("meshio"), "meshio is not installed")
@@ -484,22 +579,23 @@ class Arguments(unittest.TestCase):
         names = fp.methods()
         self.assertIn("phong-rsqrt", names)
         self.assertLess(len(names), len(fp.methods(all=True)))
-        truth = fp.render("builtin:sphere", "reference", size=SIZE)
+        truth = measured("builtin:sphere", "reference")
         for name in fp.methods(all=True):
             try:
-                picture = fp.render("builtin:sphere", name, size=SIZE)
+                picture = measured("builtin:sphere", name)
             except ValueError as refused:
                 self.assertRegex(str(refused), "the method is not for this frame")
                 continue
             self.assertTrue((picture[..., 3] == truth[..., 3]).all(), name)
         # The default draws Phong's picture, up to rounding.
-        fp.diff(truth, fp.render("builtin:sphere", size=SIZE)).assert_below(2)
+        fp.diff(truth, measured("builtin:sphere")).assert_below(2)
+        for name in ("reference:phong", "reference:model=phong"):
+            same(self, measured("builtin:sphere", name), truth)
         for name in ("reference:gouraud", "reference:model=gouraud"):
-            fp.diff(fp.render("builtin:sphere", name, size=SIZE),
-                    fp.render("builtin:sphere", "gouraud", size=SIZE)).assert_below(2)
+            fp.diff(measured("builtin:sphere", name), measured("builtin:sphere", "gouraud")).assert_below(2)
         for name, text in (
             ("fast-pong", "did you mean `fast-phong`"),
-            ("reference:pong", "no closed form is named `pong`: expected flat,"),
+            ("reference:pong", "unknown closed form `pong`: did you mean `phong`"),
             ("fast-phong:steps=99", "steps"),
         ):
             with self.assertRaisesRegex(ValueError, text):
@@ -533,6 +629,8 @@ class Arguments(unittest.TestCase):
             ({"scene": {"specula": 1}}, ValueError, "unknown key `specula`: expected one of"),
             ({"view": 3}, TypeError, "`view` is 3: expected 3 numbers"),
             ({"weight": "sine"}, ValueError, "expected one of `uniform`"),
+            ({"weld": 2}, ValueError, "`weld` is 2: expected a fraction of the mesh's size"),
+            ({"weld": "near"}, TypeError, "`weld` is 'near': expected a number"),
             ({"scene": "specular"}, TypeError, "`scene` is 'specular': expected a mapping"),
             ({"scene": {"image": 3}}, TypeError, "`scene` has 3 for `image`"),
             ({"scene": {"object": []}}, ValueError, "`scene` has the key `object`"),
@@ -544,7 +642,7 @@ class Arguments(unittest.TestCase):
                 fp.render("builtin:cube", **{"size": SIZE, **arguments})
 
     def test_arguments_equal_the_keys_of_a_scene(self):
-        draw = lambda **arguments: fp.render("builtin:teapot?res=4", size=SIZE, **arguments)
+        draw = lambda **arguments: measured("builtin:teapot?res=4", **arguments)
         plain = draw()
         for a, b in (
             ({"fovy": 40}, {"scene": {"camera": {"fovy": 40}}}),
@@ -590,7 +688,7 @@ class KeptScenes(unittest.TestCase):
     def test_a_turntable_keeps_its_scale(self):
         # A cube is wider over its diagonal. Fitted, both views have the same width.
         scene = fp.Scene(CUBE, view=(0, 0), size=SIZE)
-        width = lambda picture: int((picture[..., 3] > 0).any(axis=0).sum())
+        width = lambda picture: int(drawn(picture).any(axis=0).sum())
         front, fitted = scene.render(), scene.render(view=(45, 0))
         kept = scene.render(view=(45, 0), keep_scale=True)
         self.assertAlmostEqual(width(kept), 2 ** 0.5 * width(front), delta=2)
@@ -667,7 +765,7 @@ class KeptScenes(unittest.TestCase):
 
 class Differences(unittest.TestCase):
     def test_equal_pictures(self):
-        picture = fp.render("builtin:sphere", size=SIZE)
+        picture = measured("builtin:sphere")
         found = fp.diff(picture, picture)
         self.assertEqual((found.equal, found.max, found.rms, found.differing, found.worst), (True, 0, 0, 0, None))
         found.assert_below(1)
@@ -675,7 +773,7 @@ class Differences(unittest.TestCase):
             found.assert_below(0)
 
     def test_pictures_that_differ(self):
-        a = fp.render("builtin:sphere", size=SIZE)
+        a = measured("builtin:sphere")
         b = a.copy()
         b[36, 48, 1] ^= 5
         b[0, 3] = (9, 9, 9, 255)
@@ -727,10 +825,10 @@ class Normals(unittest.TestCase):
             fp.vertex_normals(CUBE, 40)
         for arguments, text in (
             ({"per": "face"}, "`per` is 'face'"),
-            ({"weight": "sine"}, "expected uniform, area, angle or max"),
-            ({"normals": "smooth"}, "expected auto, averaged"),
+            ({"weight": "sine"}, "expected one of `uniform`"),
+            ({"normals": "smooth"}, "expected one of `averaged`"),
             ({"normals": "crease=x"}, "expected crease=DEGREES"),
-            ({"normals": -1}, "expected degrees between 0 and 180"),
+            ({"normals": -1}, "`normals` is -1: expected "),
         ):
             with self.assertRaisesRegex(ValueError, text):
                 fp.vertex_normals(CUBE, **arguments)
@@ -740,6 +838,62 @@ class Normals(unittest.TestCase):
         more = np.concatenate([vertices, [(9, 9, 9)]])
         self.assertEqual(fp.vertex_normals((more, quads)).shape, (9, 3))
         self.assertFalse(fp.vertex_normals((more, quads))[8].any())
+
+
+class Notes(unittest.TestCase):
+    def test_a_scene_warns_once_when_it_is_first_drawn(self):
+        lit = {"light": {"position": (0, 0, 0)}, "size": SIZE}
+        scene = fp.Scene("builtin:sphere", **lit)
+        for draw in (lambda: fp.render("builtin:sphere", **lit), lambda: scene.render(view=(9, 9))):
+            found = told(draw)
+            self.assertEqual(len(found), 2)
+            self.assertRegex(found[0], "stands inside the closed surface")
+            self.assertRegex(found[1], "the light does not reach anything visible")
+        self.assertEqual(scene.warnings, found)
+        self.assertEqual(told(scene.render), [])
+
+    def test_notes_name_arguments_that_help(self):
+        vertices, faces = sphere()
+        soup = vertices[faces].reshape(-1, 3) * (1 + 1e-7 * np.arange(3 * len(faces))[:, None] % 3e-7)
+        soup = (soup, np.arange(len(soup)).reshape(-1, 3))
+        coloured = fp.Mesh(*CUBE, colours=np.ones((8, 3)))
+        for mesh, before, said, after in (
+            (CUBE, {}, "`normals=40` keeps these sharp", {"normals": 40}),
+            (soup, {}, "were merged: `weld=1e-6`", {"weld": 1e-6}),
+            (coloured, {"colours": False, "normals": 40}, "`colours=True` uses them", {"colours": True}),
+            ((*CUBE, CUBE[0]), {"normals": "averaged"}, "`normals=\"auto\"` uses them", {"normals": "auto"}),
+            (CUBE, {"normals": 40, "fovy": 40, "scene": {"camera": {"eye": (0, 0, 9), "target": (0, 0, 20)}}},
+             "`scene={\"camera\": {\"fit\": 0.8}}` brings all of them into view",
+             {"scene": {"camera": {"fit": 0.8}}}),
+        ):
+            with self.subTest(said):
+                notes = lambda **arguments: (lambda scene: scene.warnings + scene.notes)(fp.Scene(mesh, **arguments))
+                self.assertEqual(len([text for text in notes(**before) if said in text]), 1, notes(**before))
+                self.assertEqual([text for text in notes(**{**before, **after}) if said in text], [])
+
+    def test_weld_merges_vertices(self):
+        vertices, faces = sphere()
+        # Every triangle has its own corners, which rounding has moved apart.
+        moved = vertices[faces].reshape(-1, 3) * (1 + 1e-5 * np.random.default_rng(1).random((3 * len(faces), 1)))
+        soup = (moved, np.arange(len(moved)).reshape(-1, 3))
+        flat, smooth, whole = measured(soup), measured(soup, weld=1e-4), measured((vertices, faces))
+        self.assertLess(fp.diff(whole, smooth).rms, fp.diff(whole, flat).rms)
+
+    def test_the_doors_situations(self):
+        path = ROOT / "tests" / "doors.json"
+        if not path.is_file():
+            self.skipTest("tests/doors.json is not here")
+        for situation in json.loads(path.read_text(encoding="utf-8")):
+            with self.subTest(situation["name"]), tempfile.TemporaryDirectory() as folder:
+                for name, text in situation["files"].items():
+                    pathlib.Path(folder, name).write_text(text, encoding="utf-8")
+                name = situation["input"]
+                scene = fp.Scene(os.path.join(folder, name) if name in situation["files"] else name)
+                found = scene.warnings + scene.notes
+                for note in situation["notes"]:
+                    self.assertEqual(sum(note["says"] in text for text in found), 1, (note, found))
+                for text in found:
+                    self.assertNotIn("--", text)
 
 
 def run_cells(cells):

@@ -22,7 +22,7 @@ from ._pictures import Difference, Picture, picture as _picture, read as read_pi
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ._types import Image, Keys, Light, MeshLike, Normals, Size, Vector, View
+    from ._types import Image, Keys, Light, Look, MeshLike, Normals, Size, Vector, View
 
 __all__ = [
     "Difference", "Mesh", "Picture", "Scene", "diff", "methods", "read_picture", "render", "vertex_normals",
@@ -40,6 +40,7 @@ class Scene:
     """A mesh or a scene file that is prepared once and drawn many times.
 
     It accepts the arguments of `render`. Several threads may draw a scene, which draws one picture at a time.
+    The first picture warns about everything in `warnings`.
     """
 
     def __init__(
@@ -54,19 +55,23 @@ class Scene:
         background: float | Vector | None = None,
         normals: Normals | None = None,
         weight: str | None = None,
+        weld: float | None = None,
         colours: bool | None = None,
         samples: int | None = None,
         scene: Keys | None = None,
-        _level: int = 1,
+        look: Look = "shown",
     ) -> None:
         settings = _keys.settings(
             size=size, view=view, up=up, fovy=fovy, light=light, background=background, normals=normals,
-            weight=weight, colours=colours, samples=samples, scene=scene)
+            weight=weight, weld=weld, colours=colours, samples=samples, scene=scene)
+        # Warnings that the caller was given before, or None once all were given.
+        self._told: list[str] | None = []
         if isinstance(mesh, (str, bytes, os.PathLike)):
-            self._scene = _fastphong.Scene.load(os.fsdecode(mesh), settings)
+            self._scene = _fastphong.Scene.load(os.fsdecode(mesh), settings, look)
         else:
-            self._scene = _fastphong.Scene.of_mesh(Mesh(mesh)._mesh, settings)
-        _warn(self._scene.warnings, _level + 1)
+            checked = Mesh(mesh)
+            self._told = checked.warnings
+            self._scene = _fastphong.Scene.of_mesh(checked._mesh, settings, look)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -75,7 +80,10 @@ class Scene:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings to read before you trust a picture, a list of sentences."""
+        """Warnings to read before you trust a picture, a list of sentences.
+
+        The first use computes them, which takes as long as a picture of the reference.
+        """
         return self._scene.warnings
 
     @property
@@ -94,13 +102,18 @@ class Scene:
         light: Light | None = None,
         samples: int | None = None,
         keep_scale: bool = False,
+        _level: int = 1,
     ) -> Picture:
         """Return a picture. Arguments that you leave out keep the scene's values.
 
         The camera is fitted again, unless `keep_scale` is true: then it turns around its target, as for turntables.
         """
         settings = _keys.settings(size=size, view=view, up=up, fovy=fovy, light=light, samples=samples)
-        return _picture(*self._scene.render(method, settings, bool(keep_scale)))
+        picture = _picture(*self._scene.render(method, settings, bool(keep_scale)))
+        told, self._told = self._told, None
+        if told is not None:
+            _warn([text for text in self.warnings if text not in told], _level + 1)
+        return picture
 
     def __repr__(self) -> str:
         return "<Scene: {}x{} pixels>".format(*self.size)
@@ -117,9 +130,11 @@ def render(
     background: float | Vector | None = None,
     normals: Normals | None = None,
     weight: str | None = None,
+    weld: float | None = None,
     colours: bool | None = None,
     samples: int | None = None,
     scene: Keys | None = None,
+    look: Look = "shown",
 ) -> Picture:
     """Return a picture of a mesh: a new array of (height, width, 4) bytes.
 
@@ -132,16 +147,23 @@ def render(
     up: "y", "z", "-x" ... turns the view and the light with the mesh; a vector turns only the picture.
     fovy: the vertical field of view in degrees. It makes the picture perspective.
     light: a vector toward a light, a mapping with the keys of a light, or a list of these.
-    background: a linear colour, 0 to 1, which makes the picture opaque. Without it the background is transparent.
+    background: a linear colour, 0 to 1, which makes the picture opaque. Without it the background is the look's.
     normals: "auto", "averaged", "given", or an angle in degrees up to which edges are smooth.
     weight: the weight of averaged normals: "uniform", "area", "angle" or "max".
+    weld: merge vertices that are closer than this fraction of the mesh's size, as 1e-6, so that normals are averaged
+        across them.
     colours: true to light vertex colours, false to ignore them.
     samples: the samples per pixel along each side: 1, 2, 4 or 8.
     scene: a mapping with further keys of a scene file.
+    look: how a mesh looks without a scene file. "shown" draws it as `fastphong render` does: two lights, a dark
+        background, sRGB, and 2 x 2 samples per pixel if they cost little. "compared" is for measuring: one white light,
+        linear levels, one sample, a transparent background. Other arguments override both.
+
+    It warns (`warnings.warn`) of what you should know before you trust the picture: see `Scene.warnings`.
     """
     kept = Scene(mesh, size=size, view=view, up=up, fovy=fovy, light=light, background=background, normals=normals,
-                 weight=weight, colours=colours, samples=samples, scene=scene, _level=2)
-    return kept.render(method)
+                 weight=weight, weld=weld, colours=colours, samples=samples, scene=scene, look=look)
+    return kept.render(method, _level=2)
 
 
 def diff(a: Image, b: Image) -> Difference:
@@ -160,8 +182,8 @@ def vertex_normals(
     if per not in ("vertex", "corner"):
         raise ValueError(f"`per` is {per!r}: expected 'vertex' or 'corner'")
     mesh = mesh if isinstance(mesh, Mesh) else Mesh(mesh, _level=2)
-    source, crease = _keys.source(normals)
-    values, entries = _fastphong.vertex_normals(mesh._mesh, source, crease, weight)
+    settings = _keys.settings(normals=normals, weight=weight)
+    values, entries = _fastphong.vertex_normals(mesh._mesh, settings)
     by_corner: NDArray[np.float32] = np.frombuffer(values, "<f4").reshape(-1, 3)[np.frombuffer(entries, "<u4")]
     if per == "corner":
         return by_corner

@@ -80,18 +80,18 @@ def whole(name: str, value: object) -> int:
     return int(value)
 
 
-def source(normals: Normals | None) -> tuple[str | None, float | None]:
-    """Return the source of vertex normals and the crease angle; at least one of them is None."""
+def _normals(normals: Normals | None) -> dict[str, Any]:
+    """Return the key of an object that says where vertex normals come from, if there is one."""
     if normals is None:
-        return None, None
-    if isinstance(normals, str):
-        if normals.startswith("crease="):
-            try:
-                return None, float(normals[len("crease="):])
-            except ValueError:
-                raise ValueError(f"`normals` is {normals!r}: expected crease=DEGREES") from None
-        return normals, None
-    return None, _number("normals", normals)
+        return {}
+    if not isinstance(normals, str):
+        return {"crease": _number("normals", normals)}
+    if not normals.startswith("crease="):
+        return {"normals": normals}
+    try:
+        return {"crease": float(normals[len("crease="):])}
+    except ValueError:
+        raise ValueError(f"`normals` is {normals!r}: expected crease=DEGREES") from None
 
 
 def settings(
@@ -104,6 +104,7 @@ def settings(
     background: float | Vector | None = None,
     normals: Normals | None = None,
     weight: str | None = None,
+    weld: float | None = None,
     colours: bool | None = None,
     samples: int | None = None,
     scene: Keys | None = None,
@@ -150,9 +151,11 @@ def settings(
         put("image", "samples", whole("samples", samples))
     if colours is not None:
         keys["colours"] = "on" if colours else "off"
-    name, crease = source(normals)
-    every = {"normals": name, "crease": crease, "normals_weight": weight}
-    every = {key: value for key, value in every.items() if value is not None}
+    every = _normals(normals)
+    if weight is not None:
+        every["normals_weight"] = weight
+    if weld is not None:
+        every["weld"] = _number("weld", weld)
     if every:
         keys["object"] = [{"mesh": "", **every}]
     return "\n".join(_pair(*item) for item in keys.items())

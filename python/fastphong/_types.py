@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol, Union
+from typing import Any, Literal, Protocol, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -62,6 +62,7 @@ MeshLike = Union[
 Vector = Union["tuple[float, float, float]", Sequence[float], NDArray[Any]]
 View = Union["tuple[float, float]", Vector]
 Light = Union[Vector, Mapping[str, Any], Sequence[Any]]
+Look = Literal["shown", "compared"]
 Normals = Union[str, float]
 Size = Union["tuple[int, int]", Sequence[int]]
 Keys = Mapping[str, Any]

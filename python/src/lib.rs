@@ -13,7 +13,6 @@ mod mesh;
 mod method;
 mod picture;
 mod pool;
-mod proxy;
 mod scene;
 mod settings;
 

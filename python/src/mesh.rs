@@ -2,9 +2,11 @@
 
 use crate::errors::{input_error, value_error};
 use crate::pool::install;
+use crate::settings::{overlay, texts};
 use fastphong::glam::{DVec3, Vec3};
-use fastphong::mesh::vertex_normals::{self as normals, NormalRule, NormalSource, NormalWeight};
+use fastphong::mesh::vertex_normals as normals;
 use fastphong::mesh::{GivenNormals, MeshBuilder, MeshError, PolygonMesh};
+use fastphong::note::{Level, Notes};
 use fastphong::scene::input;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -17,7 +19,8 @@ pub struct Mesh {
     pub mesh: Arc<PolygonMesh>,
     /// The name of the mesh in messages.
     pub name: String,
-    warnings: Vec<String>,
+    /// Notes about the mesh's file.
+    pub notes: Notes,
 }
 
 /// Returns the values that `bytes` hold, of `N` bytes each.
@@ -110,7 +113,7 @@ impl Mesh {
         Ok(Mesh {
             mesh: Arc::new(mesh),
             name,
-            warnings: Vec::new(),
+            notes: Notes::default(),
         })
     }
 
@@ -118,18 +121,14 @@ impl Mesh {
     #[staticmethod]
     fn load(py: Python<'_>, name: String) -> PyResult<Mesh> {
         let loaded = py.detach(|| input::load_mesh(&name, Path::new("")));
-        let (mesh, warnings) = loaded.map_err(|error| input_error(error, Path::new(&name)))?;
-        Ok(Mesh {
-            mesh,
-            name,
-            warnings,
-        })
+        let (mesh, notes) = loaded.map_err(|error| input_error(error, Path::new(&name)))?;
+        Ok(Mesh { mesh, name, notes })
     }
 
     /// Returns the warnings about the mesh's file.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.warnings.clone()
+        texts(&self.notes, Level::Warning)
     }
 
     /// Returns the vertices, three `f64` each.
@@ -170,64 +169,15 @@ impl Mesh {
     }
 }
 
-/// Returns the normal weight that `name` names.
-fn weight(name: &str) -> PyResult<NormalWeight> {
-    match name {
-        "uniform" => Ok(NormalWeight::Uniform),
-        "area" => Ok(NormalWeight::Area),
-        "angle" => Ok(NormalWeight::Angle),
-        "max" => Ok(NormalWeight::Max),
-        other => {
-            let expected = "expected uniform, area, angle or max";
-            Err(value_error(format!("`weight` is `{other}`: {expected}")))
-        }
-    }
-}
-
-/// Returns the normal source that `name` names.
-fn source(name: &str) -> PyResult<NormalSource> {
-    match name {
-        "auto" => Ok(NormalSource::Auto),
-        "averaged" => Ok(NormalSource::Averaged),
-        "given" => Ok(NormalSource::Given),
-        other => {
-            let expected = "expected auto, averaged, given, crease=DEGREES or a number of degrees";
-            Err(value_error(format!("`normals` is `{other}`: {expected}")))
-        }
-    }
-}
-
-/// Returns the rule from Python's arguments. Missing ones have the values that `Scene.of_mesh`
-/// uses.
-fn rule(
-    of_mesh: NormalRule,
-    name: Option<&str>,
-    crease: Option<f64>,
-    weigh: Option<&str>,
-) -> PyResult<NormalRule> {
-    let source = match (crease, name) {
-        (Some(degrees), _) if (0.0..=180.0).contains(&degrees) => NormalSource::Crease(degrees),
-        (Some(degrees), _) => {
-            let expected = "expected degrees between 0 and 180";
-            return Err(value_error(format!("`normals` is {degrees}: {expected}")));
-        }
-        (None, None) => of_mesh.source,
-        (None, Some(name)) => source(name)?,
-    };
-    let weight = weigh.map_or(Ok(of_mesh.weight), weight)?;
-    Ok(NormalRule { source, weight })
-}
-
 /// Returns the unit normals, three `f32` each, and for each corner the index of its normal, `u32`.
 #[pyfunction]
 pub fn vertex_normals<'py>(
     py: Python<'py>,
     mesh: &Mesh,
-    source: Option<&str>,
-    crease: Option<f64>,
-    weight: Option<&str>,
+    settings: &str,
 ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
-    let rule = rule(mesh.mesh.normal_rule(), source, crease, weight)?;
+    let rule = overlay(settings)?.normal_rule(mesh.mesh.normal_rule());
+    let rule = rule.map_err(value_error)?;
     let (values, corners) = py.detach(|| {
         let found = install(|| normals::vertex_normals(&mesh.mesh, rule))?;
         let values = found.values.iter().flat_map(|v| v.to_array());

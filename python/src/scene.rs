@@ -2,23 +2,23 @@
 
 use crate::errors::{input_error, value_error};
 use crate::mesh::Mesh;
-use crate::method::Method;
 use crate::pool::install;
-use crate::proxy::Proxy;
-use crate::settings::Settings;
+use crate::settings::{look_named, overlay, texts};
+use fastphong::drawing::Drawing;
 use fastphong::frame::{Frame, PreparedScene};
-use fastphong::picture::encoding::store;
-use fastphong::picture::{Alpha, Encoding, PictureMut};
-use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::reference;
-use fastphong::scene::file::Resolved;
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::{Camera, Light, Object, input};
+use fastphong::glam::DVec3;
+use fastphong::note::{Level, Notes};
+use fastphong::notes::{Cost, of_frame, of_meshes};
+use fastphong::picture::Alpha;
+use fastphong::raster::Renderer;
+use fastphong::scene::file::{SceneFile, View};
+use fastphong::scene::open::{Opened, Overlay, open_by};
+use fastphong::scene::{Camera, input};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// The most samples that the reference draws. It needs 80 bytes for each, 5 GB in all.
 const MOST_REFERENCE: usize = 1 << 26;
@@ -26,41 +26,19 @@ const MOST_REFERENCE: usize = 1 << 26;
 /// A scene: meshes, lights and a camera.
 #[pyclass(frozen, module = "fastphong._fastphong")]
 pub struct Scene {
-    proxy: Proxy,
+    opened: Opened,
+    /// The positions around which cameras are fitted.
+    points: Vec<DVec3>,
     view: View,
-    is_opaque: bool,
-    warnings: Vec<String>,
-    notes: Vec<String>,
+    /// All notes, once somebody has asked for them.
+    notes: OnceLock<Notes>,
     kept: Mutex<Kept>,
-}
-
-/// The part of a scene that may change from picture to picture.
-#[derive(Clone)]
-struct View {
-    camera: Camera,
-    lights: Vec<Light>,
-    width: u32,
-    height: u32,
-    samples: u32,
 }
 
 /// The memory that all pictures of a scene share, so only one picture is drawn at a time.
 struct Kept {
     prepared: PreparedScene,
     frame: Option<Frame>,
-}
-
-impl View {
-    fn of(resolved: Resolved) -> View {
-        let scene = resolved.scene;
-        View {
-            camera: scene.camera,
-            lights: scene.lights,
-            width: scene.width,
-            height: scene.height,
-            samples: scene.samples,
-        }
-    }
 }
 
 impl Kept {
@@ -82,31 +60,17 @@ impl Kept {
 /// Draws `frame` into `pixels`.
 fn draw(
     frame: &mut Frame,
-    method: &Method,
+    drawing: &Drawing,
     is_opaque: bool,
     pixels: &mut [[u8; 4]],
 ) -> PyResult<()> {
-    frame.set_alpha(match is_opaque {
-        true => Alpha::Flattened,
-        false => Alpha::Straight,
+    frame.set_alpha(if is_opaque {
+        Alpha::Flattened
+    } else {
+        Alpha::Straight
     });
-    match (method.variant(frame), method) {
-        (Some(variant), _) => {
-            let (width, height) = (frame.picture_width(), frame.picture_height());
-            let picture = PictureMut::rgba8(pixels, width, height);
-            let options = DrawOptions::by(Renderer::fastest());
-            variant.draw(frame, picture, options).map_err(value_error)?;
-        }
-        (None, Method::Reference(model)) => {
-            let drawn = reference::render(frame, *model);
-            let stored = match frame.encoding() {
-                Encoding::Linear => drawn.to_picture8(),
-                encoding => store(&drawn.to_linear(), encoding),
-            };
-            pixels.copy_from_slice(stored.pixels());
-        }
-        (None, _) => {}
-    }
+    let drawn = drawing.render_into(frame, Renderer::fastest(), pixels);
+    drawn.map_err(value_error)?;
     if is_opaque {
         pixels.iter_mut().for_each(|pixel| pixel[3] = 255);
     }
@@ -114,57 +78,74 @@ fn draw(
 }
 
 impl Scene {
-    /// Makes a scene from a file and the scene that it resolves to.
-    fn new(file: SceneFile, resolved: Resolved) -> PyResult<Scene> {
-        let Resolved {
-            scene,
-            warnings,
-            notes,
-            ..
-        } = &resolved;
-        let image = file.table().table("image");
-        let is_opaque = image.and_then(|image| image.text("alpha")) == Some("opaque");
-        let prepared = scene.prepare().map_err(value_error)?;
+    /// Prepares a scene that was opened.
+    fn new(opened: Opened) -> PyResult<Scene> {
+        let points = opened.scene.world_points();
+        let view = opened.views.view(&Overlay::default(), &points);
+        let prepared = opened.scene.prepare().map_err(value_error)?;
         Ok(Scene {
-            proxy: Proxy::new(file, scene).map_err(value_error)?,
-            is_opaque,
-            warnings: warnings.clone(),
-            notes: notes.clone(),
+            view: view.map_err(value_error)?,
+            points,
+            notes: OnceLock::new(),
             kept: Mutex::new(Kept {
                 prepared,
                 frame: None,
             }),
-            view: View::of(resolved),
+            opened,
         })
     }
 
     /// Returns the view with other settings. With `keeps_scale` the camera turns around the point
     /// that it looked at.
-    fn view(&self, settings: Settings, keeps_scale: bool) -> PyResult<View> {
-        let mut file = self.proxy.file.clone();
-        settings.lay_over(&mut file);
-        let mut resolved = self.proxy.resolve(&file).map_err(value_error)?;
+    fn view(&self, over: &Overlay, keeps_scale: bool) -> PyResult<View> {
+        let view = self.opened.views.view(over, &self.points);
+        let mut view = view.map_err(value_error)?;
         if keeps_scale {
-            let scene = &mut resolved.scene;
-            scene.camera = turned(&self.view.camera, &scene.camera, &scene.objects);
+            view.camera = turned(&self.view.camera, &view.camera, &self.points);
         }
-        Ok(View::of(resolved))
+        Ok(view)
+    }
+
+    /// Runs `work` on the pool, with the memory that pictures share.
+    fn with_kept<R: Send>(&self, work: impl FnOnce(&mut Kept) -> R + Send) -> PyResult<R> {
+        // Lock here, not on a thread of the pool. A pool thread that waits for others takes up
+        // other pictures, and would wait for its own lock.
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = &mut *kept;
+        install(|| work(kept))
+    }
+
+    /// Returns all notes about the scene, its meshes and its own view. The first call computes
+    /// them, which takes as long as a picture of the reference.
+    fn all_notes(&self, py: Python<'_>) -> PyResult<&Notes> {
+        if let Some(notes) = self.notes.get() {
+            return Ok(notes);
+        }
+        let scene = &self.opened.scene;
+        let found = py.detach(|| {
+            self.with_kept(|kept| {
+                let mut notes = self.opened.notes.clone();
+                notes.append(of_meshes(scene));
+                // A frame that cannot be made is an error of the picture.
+                if let Ok(frame) = kept.frame(&self.view) {
+                    let of_frame = of_frame(scene, frame, Cost::Samples);
+                    notes.append(of_frame.without_stated(|key| self.opened.file.states(key)));
+                }
+                notes
+            })
+        })?;
+        Ok(self.notes.get_or_init(|| found))
     }
 }
 
 /// Returns `own`, turned around its target toward the direction of `other`. Nothing grows or
-/// shrinks. The near and the far plane keep the vertices of `clouds` between them.
-fn turned(own: &Camera, other: &Camera, clouds: &[Object]) -> Camera {
+/// shrinks. The near and the far plane keep `points` between them.
+fn turned(own: &Camera, other: &Camera, points: &[DVec3]) -> Camera {
     let distance = (own.eye - own.target).length();
     let mut camera = *own;
     camera.eye = own.target + distance * other.view();
     camera.up = other.up;
-    let vertices = clouds.iter().flat_map(|object| {
-        let to_world = object.positions_to_world();
-        let vertices = object.mesh.positions().iter();
-        vertices.map(move |vertex| to_world.transform_point3(vertex.as_dvec3()))
-    });
-    if let Some(range) = camera.depth_range(vertices) {
+    if let Some(range) = camera.depth_range(points.iter().copied()) {
         (camera.near, camera.far) = range;
     }
     camera
@@ -174,27 +155,25 @@ fn turned(own: &Camera, other: &Camera, clouds: &[Object]) -> Camera {
 impl Scene {
     /// Makes a scene of one mesh.
     #[staticmethod]
-    fn of_mesh(py: Python<'_>, mesh: &Mesh, settings: &str) -> PyResult<Scene> {
-        let settings = Settings::parse(settings)?;
+    fn of_mesh(py: Python<'_>, mesh: &Mesh, settings: &str, look: &str) -> PyResult<Scene> {
+        let (over, look) = (overlay(settings)?, look_named(look)?);
         let made = || {
-            let mut file = SceneFile::for_mesh(mesh.name.clone());
-            settings.lay_over(&mut file);
-            let resolved = file.resolve(|_, _| Ok((mesh.mesh.clone(), Vec::new())));
-            Scene::new(file, resolved.map_err(value_error)?)
+            let file = SceneFile::for_mesh(mesh.name.clone());
+            let loaded = |_: &str, _: &Path| Ok((mesh.mesh.clone(), mesh.notes.clone()));
+            Scene::new(file.open(&over, look, loaded).map_err(value_error)?)
         };
         py.detach(|| install(made))?
     }
 
     /// Makes a scene from an input: a scene file, a mesh file, a built-in mesh or a shipped scene.
     #[staticmethod]
-    fn load(py: Python<'_>, name: &str, settings: &str) -> PyResult<Scene> {
-        let settings = Settings::parse(settings)?;
+    fn load(py: Python<'_>, name: &str, settings: &str, look: &str) -> PyResult<Scene> {
+        let (over, look) = (overlay(settings)?, look_named(look)?);
         let made = || {
             let path = Path::new(name);
-            let mut file = input::load(name).map_err(|error| input_error(error, path))?;
-            settings.lay_over(&mut file);
-            let resolved = input::resolve(&file).map_err(value_error)?;
-            Scene::new(file, resolved)
+            let file = input::load(name).map_err(|error| input_error(error, path))?;
+            let opened = open_by(file, &over, look, &mut input::read_input);
+            Scene::new(opened.map_err(value_error)?)
         };
         py.detach(|| install(made))?
     }
@@ -207,29 +186,27 @@ impl Scene {
         settings: &str,
         keeps_scale: bool,
     ) -> PyResult<(Bound<'py, PyByteArray>, usize, usize)> {
-        let method = Method::parse(method)?;
-        let settings = Settings::parse(settings)?;
-        let view = match settings.is_empty() {
-            true => self.view.clone(),
-            false => py.detach(|| install(|| self.view(settings, keeps_scale)))??,
+        let drawing: Drawing = method.parse().map_err(value_error)?;
+        let over = overlay(settings)?;
+        let view = if over.is_empty() {
+            self.view.clone()
+        } else {
+            py.detach(|| install(|| self.view(&over, keeps_scale)))??
         };
         let (width, height) = (view.width as usize, view.height as usize);
         let samples = width * height * (view.samples * view.samples) as usize;
-        if matches!(method, Method::Reference(_)) && samples > MOST_REFERENCE {
+        if matches!(drawing, Drawing::Reference(_)) && samples > MOST_REFERENCE {
             let problem =
                 format!("the reference would take 80 bytes for each of {samples} samples");
             let expected = format!("expected at most {MOST_REFERENCE} samples");
             return Err(PyMemoryError::new_err(format!("{problem}: {expected}")));
         }
+        let is_opaque = self.opened.file.is_opaque();
         let pixels = PyByteArray::new_with(py, 4 * width * height, |bytes| {
             py.detach(|| {
-                // Lock here, not on a thread of the pool. A pool thread that waits for others takes
-                // up other pictures, and would wait for its own lock.
-                let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-                let kept = &mut *kept;
-                install(|| {
+                self.with_kept(|kept| {
                     let frame = kept.frame(&view)?;
-                    draw(frame, &method, self.is_opaque, bytes.as_chunks_mut().0)
+                    draw(frame, &drawing, is_opaque, bytes.as_chunks_mut().0)
                 })?
             })
         })?;
@@ -238,14 +215,14 @@ impl Scene {
 
     /// Returns the warnings to read before trusting a picture.
     #[getter]
-    fn warnings(&self) -> Vec<String> {
-        self.warnings.clone()
+    fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        Ok(texts(self.all_notes(py)?, Level::Warning))
     }
 
     /// Returns notes on what the scene leaves unused and on what it chose automatically.
     #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+    fn notes(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        Ok(texts(self.all_notes(py)?, Level::Note))
     }
 
     /// Returns the width and the height of the scene's pictures.

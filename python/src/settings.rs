@@ -1,9 +1,11 @@
-//! The keys of a scene that Python passes, under the names of Python's arguments.
+//! The keys of a scene under the names of Python's arguments: read from Python, and written in
+//! notes.
 
 use crate::errors::value_error;
-use fastphong::scene::file::SceneFile;
+use fastphong::note::{Door, Level, Notes, Setting};
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
+use fastphong::scene::open::{Look, Overlay};
 use pyo3::PyResult;
 
 /// Keys and the arguments that set them. Messages name a key by its argument.
@@ -13,6 +15,7 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("camera.elevation", "view"),
     ("camera.fovy", "fovy"),
     ("camera.up", "up"),
+    ("colours", "colours"),
     ("image.background", "background"),
     ("image.height", "size"),
     ("image.samples", "samples"),
@@ -21,48 +24,28 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("object.crease", "normals"),
     ("object.normals", "normals"),
     ("object.normals_weight", "weight"),
+    ("object.weld", "weld"),
 ];
 
-/// Keys that override those of a scene.
-#[derive(Default)]
-pub struct Settings {
-    over: SceneTable,
-    /// The keys that every object gets.
-    every_object: SceneTable,
+/// Returns the argument that sets the key at `path`, if there is one.
+fn argument(path: &str) -> Option<&'static str> {
+    let mut arguments = ARGUMENTS.iter();
+    arguments.find_map(|(key, name)| (*key == path).then_some(*name))
 }
 
-impl Settings {
-    /// Reads keys as they stand in a scene file. An object among them stands for all objects.
-    pub fn parse(text: &str) -> PyResult<Settings> {
-        let mut over = SceneTable::parse(text).map_err(value_error)?;
-        name_arguments(&mut over, "");
-        let mut every_object = SceneTable::default();
-        if let Some(objects) = over.entries.remove("object")
-            && let Data::Tables(objects) = objects.data
-        {
-            every_object = objects.into_iter().next().unwrap_or_default();
-            every_object.entries.remove("mesh");
-        }
-        Ok(Settings { over, every_object })
+/// Reads keys as they stand in a scene file, to lay them over a scene. An object among them stands
+/// for all objects.
+pub fn overlay(text: &str) -> PyResult<Overlay> {
+    let mut scene = SceneTable::parse(text).map_err(value_error)?;
+    name_arguments(&mut scene, "");
+    let mut every_object = SceneTable::default();
+    if let Some(objects) = scene.entries.remove("object")
+        && let Data::Tables(objects) = objects.data
+    {
+        every_object = objects.into_iter().next().unwrap_or_default();
+        every_object.entries.remove("mesh");
     }
-
-    /// True if there is no key.
-    pub fn is_empty(&self) -> bool {
-        self.over.entries.is_empty() && self.every_object.entries.is_empty()
-    }
-
-    /// Overrides the keys of a scene.
-    pub fn lay_over(self, file: &mut SceneFile) {
-        file.overlay(self.over);
-        let is_source = |key: &&str| matches!(*key, "normals" | "crease");
-        let gives_source = self.every_object.entries.keys().any(is_source);
-        for object in file.objects_mut() {
-            if gives_source {
-                object.entries.retain(|key, _| !is_source(key));
-            }
-            object.overlay(self.every_object.clone());
-        }
-    }
+    Ok(Overlay::new(scene, every_object))
 }
 
 /// Sets the origin of each value in `table` to the argument that sets it, or else to its path.
@@ -81,7 +64,49 @@ fn name_arguments(table: &mut SceneTable, path: &str) {
             }
             _ => {}
         }
-        let argument = ARGUMENTS.iter().find(|(key, _)| *key == path);
-        value.origin = Origin::Flag(argument.map_or(path, |(_, name)| (*name).to_owned()));
+        value.origin = Origin::Flag(argument(&path).map_or(path, str::to_owned));
     }
+}
+
+/// Returns the look called `name`.
+pub fn look_named(name: &str) -> PyResult<Look> {
+    match name {
+        "shown" => Ok(Look::Shown),
+        "compared" => Ok(Look::Compared),
+        _ => {
+            let problem = format!("`look` is `{name}`: expected shown or compared");
+            Err(value_error(problem))
+        }
+    }
+}
+
+/// The door of Python: `normals=40`, and `scene={"cull": "none"}` for keys without an argument.
+#[derive(Clone, Copy, Debug)]
+struct Arguments;
+
+impl Door for Arguments {
+    fn setting(&self, setting: &Setting) -> String {
+        let Setting { key, value, .. } = setting;
+        let value = match &**value {
+            "on" | "true" => "True".to_owned(),
+            "off" | "false" => "False".to_owned(),
+            word if setting.is_word => format!("{word:?}"),
+            numbers if numbers.contains(',') => format!("({})", numbers.replace(',', ", ")),
+            number => number.to_owned(),
+        };
+        match (argument(key), key.split_once('.')) {
+            (Some(name), _) => format!("`{name}={value}`"),
+            (None, Some((table, key))) => format!("`scene={{{table:?}: {{{key:?}: {value}}}}}`"),
+            (None, None) => format!("`scene={{{key:?}: {value}}}`"),
+        }
+    }
+}
+
+/// Returns the notes of one level as sentences that name Python's arguments.
+pub fn texts(notes: &Notes, level: Level) -> Vec<String> {
+    let texts = notes.texts(level, &Arguments).into_iter();
+    // Two keys of one argument that follow each other are passed as one mapping.
+    texts
+        .map(|text| text.replace("}` `scene={", ", "))
+        .collect()
 }

@@ -126,8 +126,7 @@ impl SceneFile {
         let mut file = views.file.clone();
         if has_rig {
             file.take_rig(&scene.camera, [scene.width, scene.height], polygons);
-            let view = file.view(&scene.world_points())?;
-            (scene.lights, scene.samples) = (view.lights, view.samples);
+            (scene.lights, scene.samples) = file.lights_and_samples()?;
         }
         Ok(Opened {
             file,
@@ -219,13 +218,11 @@ impl Views {
     pub fn view(&self, over: &Overlay, points: &[DVec3]) -> Result<View, SceneError> {
         let mut file = self.file.clone();
         file.lay_over(over);
-        let view = file.view(points)?;
-        match self.rig_for {
-            Some(polygons) => {
-                file.take_rig(&view.camera, [view.width, view.height], polygons);
-                file.view(points)
-            }
-            None => Ok(view),
+        let mut view = file.view(points)?;
+        if let Some(polygons) = self.rig_for {
+            file.take_rig(&view.camera, [view.width, view.height], polygons);
+            (view.lights, view.samples) = file.lights_and_samples()?;
         }
+        Ok(view)
     }
 }

@@ -7,6 +7,7 @@ use super::value::{Data, SceneTable};
 use crate::mesh::PolygonMesh;
 use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
 use crate::note::{Note, Notes, Setting};
+use crate::scene::open::Overlay;
 use crate::scene::ranges::CREASE;
 use std::format;
 use std::string::ToString;
@@ -36,6 +37,21 @@ impl StatedNormals {
             source: self.source.unwrap_or(usual.source),
             weight: self.weight.unwrap_or(usual.weight),
         }
+    }
+}
+
+impl Overlay {
+    /// Returns the rule for vertex normals that every object gets. What it does not state comes
+    /// from `usual`.
+    ///
+    /// # Errors
+    /// [`SceneError`] if it states two sources, or a crease that is no angle.
+    pub fn normal_rule(&self, usual: NormalRule) -> Result<NormalRule, SceneError> {
+        let object = Section {
+            table: &self.every_object,
+            name: "object",
+        };
+        Ok(StatedNormals::new(&object)?.or(usual))
     }
 }
 

@@ -157,6 +157,17 @@ impl SceneFile {
         view.map_err(|error| error.within(&self.source))
     }
 
+    /// Returns the lights and the samples per pixel of [`SceneFile::view`]. It fits no camera and
+    /// does not check where lights stand.
+    pub(in crate::scene) fn lights_and_samples(&self) -> Result<(Vec<Light>, u32), SceneError> {
+        let file = Section {
+            table: &self.table,
+            name: "",
+        };
+        let stated = StatedView::new(&file).map_err(|error| error.within(&self.source))?;
+        Ok((stated.lights, stated.samples))
+    }
+
     fn scene(
         &self,
         load_mesh: impl FnMut(&str, &Path) -> MeshResult,

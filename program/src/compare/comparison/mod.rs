@@ -365,7 +365,7 @@ pub fn memory_needed(frame: &Frame, variants: &[Variant]) -> u64 {
         models.push(Model::Phong);
         models.sort_by_key(|model| *model as usize);
         models.dedup();
-        models.count() as u64
+        models.len() as u64
     };
     let (visibility, polygons, linear, stored) = (4 + 8 + 8, 4, 16, 4);
     let (references, forms) = if is_cut {

@@ -28,7 +28,7 @@ pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
     let no_library = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = guarded(|| tobj::load_obj_buf(&mut &scan.text[..], &options, no_library))?;
     let [model] = <[tobj::Model; 1]>::try_from(models)
-        .map_err(|models| format!("{} models", models.count()))?;
+        .map_err(|models| format!("{} models", models.len()))?;
     let mut mesh = model.mesh;
     if mesh.face_arities.is_empty() {
         // The parser leaves the corner counts empty if all polygons are triangles.
