@@ -27,12 +27,12 @@ const WARM_UP = 2;
    current view. */
 class LiveScene {
 	static async make(s) {
-		const live = Object.assign(new LiveScene(), s, { scene: s, times: {} });
+		const live = Object.assign(new LiveScene(), s, { scene: s, times: {}, told: new Set() });
 		live.studio = await Studio.make();
 		const { scene, files } = s.own ?? jsonOf(`live-${s.number}`);
 		for (const [name, bytes] of files)
 			live.studio.file(name, typeof bytes === "string" ? await inflate(bytes) : bytes);
-		live.polygons = live.studio.load(scene);
+		live.polygons = live.studio.load(scene, live.w, live.h);
 		live.list = s.list.filter(m => live.studio.knows(m));
 		live.firstLight = live.studio.light();
 		live.look(STILL, false);
@@ -56,6 +56,16 @@ class LiveScene {
 		this.drawn = {};
 		this.errors = {};
 		this.count = {};
+	}
+
+	/* Returns the notes about the scene in this view that were not returned before. Figures change with the view: a note that differs in
+   nothing else is not new. */
+	news() {
+		const isNew = note => {
+			const kind = note.replace(/\d+/g, "");
+			return !this.told.has(kind) && this.told.add(kind);
+		};
+		return this.studio.notes().filter(isNew);
 	}
 
 	variant(m) {
@@ -117,5 +127,5 @@ async function ownScene(list, s) {
 	const own = { scene: file.name, files: await Promise.all(list.map(read)) };
 	const { w, h } = s;
 	const methods = IDS.filter(m => SCENES[0].list.includes(m));
-	return { id: "own", title: file.name, w, h, encoding: "linear", list: methods, rows: {}, own };
+	return { id: "own", title: file.name, w, h, encoding: "srgb", list: methods, rows: {}, own };
 }
