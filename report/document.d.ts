@@ -237,8 +237,8 @@ interface LiveModule {
 	text(length: number): number;
 	said(): number;
 	file(): void;
-	load(): number;
-	warnings(): number;
+	load(width: number, height: number): number;
+	notes(): number;
 	turned(): number;
 	light(): number;
 	frame(

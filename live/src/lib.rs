@@ -9,9 +9,12 @@
 //! minus the length of a message, which it leaves in the text.
 
 mod figures;
+mod notes;
 mod parameters;
 mod scene_file;
 mod studio;
+#[cfg(test)]
+mod tests;
 
 use std::cell::RefCell;
 use studio::Studio;
@@ -43,11 +46,12 @@ pub extern "C" fn file() {
     with(Studio::file);
 }
 
-/// Loads the text as a scene in TOML, or as the name of a mesh file that was stored by [`file`].
-/// Returns how many polygons the scene has.
+/// Loads the text as a scene in TOML, or as the name of a mesh file that was stored by [`file`],
+/// for pictures of this size. If the width or the height is 0, the scene's size stays. A mesh looks
+/// as `fastphong render` shows it. Returns how many polygons the scene has.
 #[unsafe(no_mangle)]
-pub extern "C" fn load() -> isize {
-    with(|studio| studio.answer(Studio::load))
+pub extern "C" fn load(width: u32, height: u32) -> isize {
+    with(|studio| studio.answer(|studio| studio.load([width, height])))
 }
 
 /// Returns the address of the direction to the scene's first light, three `f64`: to the right,
@@ -99,10 +103,11 @@ pub extern "C" fn turned() -> *const f64 {
     with(|studio| studio.turned.as_ptr())
 }
 
-/// Writes the warnings about the scene into the text, one per line, and returns its length.
+/// Writes what to know about the scene, its meshes and the frame into the text, one note per line,
+/// warnings first. Returns its length. Takes about as long as drawing the frame by the reference.
 #[unsafe(no_mangle)]
-pub extern "C" fn warnings() -> usize {
-    with(|studio| studio.say(studio.warnings.join("\n")))
+pub extern "C" fn notes() -> usize {
+    with(Studio::notes)
 }
 
 /// Writes the scene in its current view into the text, as TOML, and returns its length.
@@ -111,14 +116,16 @@ pub extern "C" fn scene() -> isize {
     with(|studio| studio.answer(Studio::scene))
 }
 
-/// Draws the frame by the method that the text names, or by the reference if it is `reference`.
-/// Stores the result as the exact picture if `is_exact` is not 0, else as the picture. Returns 0.
+/// Draws the frame by what the text names: a method, `auto`, `reference`, or the reference of
+/// another model, as in `reference:model=gouraud`. Stores the result as the exact picture if
+/// `is_exact` is not 0, else as the picture. Returns 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn draw(is_exact: u32) -> isize {
     with(|studio| studio.answer(|studio| studio.draw(is_exact != 0)))
 }
 
-/// Stores the picture as RGBA bytes in the scene's encoding, and returns their address.
+/// Stores the picture over its background as RGBA bytes in the scene's encoding, and returns their
+/// address.
 #[unsafe(no_mangle)]
 pub extern "C" fn picture() -> *const u8 {
     with(Studio::stored)

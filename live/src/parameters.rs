@@ -14,7 +14,6 @@ impl Studio {
                 Range::Whole(least, most) => json!({ "range": [least, most], "whole": true }),
                 Range::Decimal(least, most) => json!({ "range": [least, most] }),
                 Range::Words(words) => json!({ "words": words }),
-                _ => json!({}),
             };
             json!({
                 "name": parameter.name, "meaning": parameter.meaning, "value": parameter.text(*value),

@@ -1,18 +1,23 @@
 //! A scene, a frame of it, and two pictures of the frame: one by a method, and the exact one.
 
+use fastphong::drawing::Drawing;
 use fastphong::frame::{Frame, PreparedScene};
+use fastphong::note::Notes;
+use fastphong::notes::of_meshes;
 use fastphong::picture::encoding::store;
-use fastphong::picture::{LinearPicture, Picture, Picture8};
-use fastphong::raster::{DrawError, polygon_indices};
-use fastphong::reference::{self, Model};
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::input::resolve_by;
+use fastphong::picture::{Alpha, LinearPicture, Picture, Picture8};
+use fastphong::raster::{DrawError, Renderer, polygon_indices};
+use fastphong::reference;
+use fastphong::scene::file::diagnostics::Origin;
+use fastphong::scene::file::value::{Data, SceneTable};
+use fastphong::scene::file::{SceneError, SceneFile};
+use fastphong::scene::open::{Look, Opened, Overlay, open_by};
 use fastphong::scene::orbit::{Orbit, Start};
 use fastphong::scene::{Camera, Light, Scene};
-use fastphong::shading::Variant;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 /// A view that the page asks for. See [`crate::frame`] for its fields.
 pub struct View {
@@ -28,13 +33,15 @@ pub struct View {
 /// A scene that can be seen from any direction.
 pub struct Loaded {
     pub file: SceneFile,
+    /// The scene in its own view.
+    scene: Scene,
+    /// What to know about the scene and its meshes.
+    pub notes: Notes,
     prepared: PreparedScene,
     start: Start,
-    lights: Vec<Light>,
     /// The lights of the current frame, turned as its view asks.
     pub shown_lights: Vec<Light>,
     exponents: Vec<f32>,
-    samples: u32,
     /// The size and the exponent of the last view. An exponent of 0 keeps the materials' own.
     pub size: [u32; 2],
     pub exponent: f32,
@@ -46,7 +53,7 @@ pub struct Studio {
     pub text: Vec<u8>,
     files: BTreeMap<PathBuf, Vec<u8>>,
     pub loaded: Option<Loaded>,
-    frame: Option<Frame>,
+    pub frame: Option<Frame>,
     picture: LinearPicture,
     exact: LinearPicture,
     bytes: Picture8,
@@ -56,7 +63,6 @@ pub struct Studio {
     /// The error of each pixel in grey levels, 0 where pixels are not compared.
     pub errors: Vec<f32>,
     pub turned: [f64; 2],
-    pub warnings: Vec<String>,
     values: Vec<f64>,
     /// The pictures of the figure, and width, height and address of the one that the page asked for
     /// last.
@@ -77,7 +83,6 @@ impl Default for Studio {
             others: Vec::new(),
             errors: Vec::new(),
             turned: [0.0; 2],
-            warnings: Vec::new(),
             values: Vec::new(),
             panels: Vec::new(),
             panel: [0; 3],
@@ -117,35 +122,29 @@ impl Studio {
             .insert(name, text.get(end + 1..).unwrap_or_default().to_vec());
     }
 
-    pub fn load(&mut self) -> Result<usize, String> {
+    /// Opens the scene that the text states, or the mesh file that it names, for pictures of
+    /// `size`, as the program does with `--size`. A width or a height of 0 keeps the scene's size.
+    pub fn load(&mut self, size: [u32; 2]) -> Result<usize, String> {
+        let said = |error: SceneError| error.to_string();
         let text = self.told();
-        let is_mesh = !text.contains('\n');
-        let mut file = match is_mesh {
-            true => SceneFile::for_mesh(text),
-            false => SceneFile::parse(&text, "scene.toml").map_err(|error| error.to_string())?,
+        let file = if text.contains('\n') {
+            SceneFile::parse(&text, "scene.toml").map_err(said)?
+        } else {
+            SceneFile::for_mesh(text)
         };
         let files = &self.files;
-        let mut read = |path: &std::path::Path| {
+        let mut read = |path: &Path| {
             // A scene asks for material libraries in the folder of their mesh. The page has no
             // folders, so the name decides.
             let known = files
                 .get(path)
-                .or_else(|| files.get(&PathBuf::from(path.file_name()?)));
+                .or_else(|| files.get(Path::new(path.file_name()?)));
             known.cloned().ok_or_else(|| ErrorKind::NotFound.into())
         };
-        let resolved = resolve_by(&file, &mut read).map_err(|error| error.to_string())?;
-        file.overlay(resolved.chosen);
-        self.warnings = resolved.warnings;
-        let scene = resolved.scene;
-        let polygons = scene
-            .objects
-            .iter()
-            .map(|object| object.mesh.polygon_count())
-            .sum();
-        let camera = file.table().table("camera");
-        let given =
-            ["near", "far"].map(|key| camera.is_some_and(|camera| camera.get(key).is_some()));
-        self.loaded = Some(Loaded::new(file, &scene, given)?);
+        let opened = open_by(file, &of_size(size), Look::Shown, &mut read).map_err(said)?;
+        let objects = opened.scene.objects.iter();
+        let polygons = objects.map(|object| object.mesh.polygon_count()).sum();
+        self.loaded = Some(Loaded::new(opened)?);
         self.frame = None;
         Ok(polygons)
     }
@@ -154,7 +153,7 @@ impl Studio {
         let toward = self
             .loaded
             .as_ref()
-            .and_then(|loaded| loaded.start.toward_light(&loaded.lights));
+            .and_then(|loaded| loaded.start.toward_light(&loaded.scene.lights));
         self.values = toward.unwrap_or_default().to_vec();
         self.values.as_ptr()
     }
@@ -176,15 +175,15 @@ impl Studio {
         scene.set_samples(if view.samples > 0 {
             view.samples
         } else {
-            loaded.samples
+            loaded.scene.samples
         });
         scene.set_camera(orbit.camera(&loaded.start, f64::from(width) / f64::from(height)));
         let is_lit_anew = view.light != [0.0; 3];
         loaded.shown_lights = match (is_lit_anew, orbit == Orbit::default()) {
             // Turning by 0 would round: an unturned view keeps the scene's lights to the bit.
-            (false, true) => loaded.lights.clone(),
-            (false, false) => orbit.carry(&loaded.start, &loaded.lights),
-            (true, _) => orbit.carry_toward(&loaded.start, &loaded.lights, view.light),
+            (false, true) => loaded.scene.lights.clone(),
+            (false, false) => orbit.carry(&loaded.start, &loaded.scene.lights),
+            (true, _) => orbit.carry_toward(&loaded.start, &loaded.scene.lights, view.light),
         };
         scene.set_lights(loaded.shown_lights.clone());
         loaded.size = view.size;
@@ -196,33 +195,33 @@ impl Studio {
                 *own
             };
         }
-        match &mut self.frame {
-            Some(frame) => scene.frame_into(frame).map_err(|error| error.to_string())?,
-            None => self.frame = Some(scene.frame().map_err(|error| error.to_string())?),
+        let mut frame = match self.frame.take() {
+            Some(mut frame) => scene.frame_into(&mut frame).map(|()| frame),
+            None => scene.frame(),
         }
-        Ok(self
-            .frame
-            .as_ref()
-            .map_or(0, |frame| frame.polygons().len()))
+        .map_err(|error| error.to_string())?;
+        // The page shows pictures over the background, as files without alpha do.
+        frame.set_alpha(Alpha::Flattened);
+        Ok(self.frame.insert(frame).polygons().len())
     }
 
     pub fn draw(&mut self, is_exact: bool) -> Result<usize, String> {
-        let name = self.told();
+        let drawing = Drawing::from_str(&self.told()).map_err(|error| error.to_string())?;
         let Some(frame) = &self.frame else {
             return Err("no frame".into());
         };
         if is_exact {
             self.others.clear();
         }
-        let drawn = if name == "reference" {
-            let exact = reference::render(frame, Model::Phong);
+        let drawn = if let Drawing::Reference(model) = drawing {
+            let exact = reference::render(frame, model);
             if is_exact {
                 self.others = other_polygons(frame, &exact.polygons);
             }
             exact.to_linear()
         } else {
-            let variant = Variant::parse(&name).map_err(|error| error.to_string())?;
-            variant.render_linear(frame).map_err(|error| match error {
+            let drawn = drawing.render_linear(frame, Renderer::LECTURE);
+            drawn.map_err(|error| match error {
                 DrawError::Refused(why) => why.to_string(),
                 other => other.to_string(),
             })?
@@ -238,6 +237,8 @@ impl Studio {
     pub fn stored(&mut self) -> *const u8 {
         let encoding = self.frame.as_ref().map(Frame::encoding).unwrap_or_default();
         self.bytes = store(&self.picture, encoding);
+        let pixels = self.bytes.pixels_mut().iter_mut();
+        pixels.for_each(|pixel| pixel[3] = 255);
         self.bytes.pixels().as_ptr().cast()
     }
 
@@ -277,30 +278,54 @@ fn other_polygons(frame: &Frame, seen: &Picture<u32>) -> Vec<bool> {
     others
 }
 
+/// Returns what is laid over a scene for pictures of `size`, which is nothing if a side is 0.
+fn of_size(size: [u32; 2]) -> Overlay {
+    let mut over = SceneTable::default();
+    if !size.contains(&0) {
+        let image = over.table_mut("image");
+        for (key, side) in ["width", "height"].into_iter().zip(size) {
+            image.set(key, Data::Whole(side.into()), Origin::Program);
+        }
+    }
+    Overlay::new(over, SceneTable::default())
+}
+
 impl Loaded {
-    fn new(file: SceneFile, scene: &Scene, given: [bool; 2]) -> Result<Loaded, String> {
+    fn new(opened: Opened) -> Result<Loaded, String> {
+        let (file, scene, mut notes) = (opened.file, opened.scene, opened.notes);
+        notes.append(of_meshes(&scene));
         let mut prepared = scene.prepare().map_err(|error| error.to_string())?;
         let exponents = prepared
             .materials_mut()
             .iter()
             .map(|material| material.shininess)
             .collect();
-        let lights = scene.lights.clone();
+        let camera = file.table().table("camera");
+        let given =
+            ["near", "far"].map(|key| camera.is_some_and(|camera| camera.get(key).is_some()));
         Ok(Loaded {
-            file,
-            prepared,
-            start: Start::new(scene, given),
-            shown_lights: lights.clone(),
-            lights,
+            start: Start::new(&scene, given),
+            shown_lights: scene.lights.clone(),
             exponents,
-            samples: scene.samples,
             size: [scene.width, scene.height],
             exponent: 0.0,
+            prepared,
+            notes,
+            scene,
+            file,
         })
     }
 
     /// Returns the camera of the frame.
     pub fn camera(&self) -> Camera {
         *self.prepared.camera()
+    }
+
+    /// Returns the scene in the view of the frame.
+    pub fn shown(&self) -> Scene {
+        let mut scene = self.scene.clone();
+        scene.camera = self.camera();
+        scene.lights.clone_from(&self.shown_lights);
+        scene
     }
 }

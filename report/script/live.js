@@ -34,6 +34,8 @@ export class LiveScene {
 		this.scene = s;
 		this.studio = studio;
 		this.times = {};
+		/* The notes that were shown. */
+		this.told = new Set();
 	}
 
 	static async make(s) {
@@ -41,7 +43,7 @@ export class LiveScene {
 		const { scene, files } = s.own ?? jsonOf(`live-${s.number}`);
 		for (const [name, bytes] of files)
 			live.studio.file(name, typeof bytes === "string" ? await inflate(bytes) : bytes);
-		live.polygons = live.studio.load(scene);
+		live.polygons = live.studio.load(scene, live.w, live.h);
 		live.list = s.list.filter(m => live.studio.knows(m));
 		live.firstLight = live.studio.light();
 		live.look(STILL, false);
@@ -65,6 +67,16 @@ export class LiveScene {
 		this.drawn = {};
 		this.errors = {};
 		this.count = {};
+	}
+
+	/* Returns the notes about the scene in this view that were not returned before. Figures change with the view: a note that differs in
+   nothing else is not new. */
+	news() {
+		const isNew = note => {
+			const kind = note.replace(/\d+/g, "");
+			return !this.told.has(kind) && this.told.add(kind);
+		};
+		return this.studio.notes().filter(isNew);
 	}
 
 	variant(m) {
@@ -124,5 +136,5 @@ export async function ownScene(list, s) {
 	const own = { scene: file.name, files: await Promise.all(list.map(read)) };
 	const { w, h } = s;
 	const methods = IDS.filter(m => SCENES[0].list.includes(m));
-	return { id: "own", title: file.name, w, h, encoding: "linear", list: methods, rows: {}, own };
+	return { id: "own", title: file.name, w, h, encoding: "srgb", list: methods, rows: {}, own };
 }

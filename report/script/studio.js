@@ -65,15 +65,15 @@ export class Studio {
 		this.exports.file();
 	}
 
-	/* Loads a scene from its text, or a mesh file by its name. Returns how many polygons it has. */
-	load(scene) {
+	/* Loads a scene from its text, or a mesh file by its name, for pictures of this size. Returns how many polygons it has. */
+	load(scene, w, h) {
 		this.put(scene);
-		return this.ask(this.exports.load());
+		return this.ask(this.exports.load(w, h));
 	}
 
-	/* Returns the warnings about the scene. */
-	warnings() {
-		return this.said(this.exports.warnings());
+	/* Returns what to know about the scene and its frame, a note per line, warnings first. Takes as long as drawing the reference. */
+	notes() {
+		return this.said(this.exports.notes()).split("\n").filter(Boolean);
 	}
 
 	/* Returns azimuth and elevation of the frame, which stop at the poles. */

@@ -191,7 +191,17 @@ export class Hand {
 		v.change?.(v, { moved: true });
 		v.probe?.(v);
 		v.plot?.(v);
-		delay("rounds", 60, () => this.round());
+		delay("rounds", 60, () => {
+			if (!this.moves && this.source === this.live) this.tell(this.live);
+			this.round();
+		});
+	}
+
+	/* Shows the first of the notes that were not shown before, and how many more there are. Without any it says `otherwise`. */
+	tell(live, otherwise) {
+		const [first, ...more] = live.news();
+		const others = more.length ? ` (and ${plural(more.length, "thing")} more)` : "";
+		if (first || otherwise) toast(first ? first + others : otherwise);
 	}
 
 	/* Returns the view without parameters that its methods do not have, since a link may ask for any. */
@@ -406,9 +416,7 @@ export class Hand {
 			const s = await ownScene(files, before.own ? SCENES[0] : before);
 			const live = await LiveScene.make(s);
 			await this.v.set({ scene: s, view: STILL, pin: null, live });
-			const [odd, ...more] = live.studio.warnings().split("\n").filter(Boolean);
-			const others = more.length ? ` (and ${plural(more.length, "thing")} more)` : "";
-			toast(odd ? odd + others : `${s.title}: ${plural(live.polygons, "polygon")}`);
+			this.tell(live, `${s.title}: ${plural(live.polygons, "polygon")}`);
 		} catch (error) {
 			toast(error.message.split("\n")[0]);
 		}
