@@ -38,7 +38,6 @@ function speed() {
 			p => p.pixels,
 			`covered pixels, about ${grouped(growth.of)} triangles`,
 		);
-		costs();
 	}
 	if (D.small) small();
 	if (DOCS.length > 1) beside();
