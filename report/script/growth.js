@@ -1,10 +1,10 @@
-/* Charts of the growth of cost, and the table of costs fitted to it. */
+/* Charts of the growth of cost. */
 
 import { axisX, axisY, curves, logScale, svg, text, widthOf } from "./charts.js";
-import { BASE, D } from "./data.js";
+import { D } from "./data.js";
 import { hue, nameOf } from "./marks.js";
-import { $, bar, html, table, write } from "./markup.js";
-import { by, num } from "./numbers.js";
+import { $ } from "./markup.js";
+import { by } from "./numbers.js";
 
 const curveName = c => (c.engine === "span" ? "lecture’s form" : nameOf(c.method));
 const curveHue = c => (c.engine === "span" ? "var(--ink3)" : hue(c.method));
@@ -16,7 +16,7 @@ export function grow(id, keep, count, label) {
 	const { points, curves: all } = D.scaling;
 	const chosen = points
 		.map((p, i) => ({ ...p, i, n: count(p) }))
-		.filter(p => !p.away && keep(p))
+		.filter(keep)
 		.sort(by(p => p.n));
 	if (!W || chosen.length < 2) return;
 	const series = all
@@ -46,51 +46,4 @@ export function grow(id, keep, count, label) {
 		text((l + r) / 2, 324, label, "axis mid"),
 		curves(x, y, series),
 	]);
-}
-
-const COSTS = [
-	["vertex_ns", "vertex"],
-	["triangle_ns", "triangle"],
-	["span_ns", "span"],
-	["pixel_ns", "pixel of a span"],
-	["background_ns", "pixel of the picture"],
-];
-
-/* Fits with a larger misfit than this are not shown. */
-const MISFIT = 0.5;
-
-/* Draws the table of fitted costs. */
-export function costs() {
-	const all = D.scaling.curves.filter(c => c.costs);
-	const list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT);
-	const most = k => Math.max(...list.map(c => c.costs[k])) || 1;
-	const misfit = c => {
-		const poor = !list.includes(c) && html` <span class="bad">poor fit</span>`;
-		return html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${poor}`;
-	};
-	// The length of a span from which less work per pixel makes up for more work per span.
-	const even = c => {
-		const base = list.find(o => o.method === BASE && o.engine === c.engine)?.costs;
-		const more = c.costs.span_ns - base?.span_ns;
-		const saved = base?.pixel_ns - c.costs.pixel_ns;
-		return saved > 0 && list.includes(c) ? (more > 0 ? num(more / saved, 2) : "0") : "–";
-	};
-	$("#costs").innerHTML = table(
-		["", ...COSTS.map(([, name]) => name), "break-even span, pixels", "largest misfit"],
-		all.map(c => [
-			curveName(c),
-			...COSTS.map(([k]) =>
-				list.includes(c)
-					? bar(
-							num(c.costs[k], 2),
-							Math.max(1, (c.costs[k] / most(k)) * 100),
-							curveHue(c),
-						)
-					: "–",
-			),
-			even(c),
-			misfit(c),
-		]),
-	);
-	write({ misfit: MISFIT * 100 });
 }

@@ -4,7 +4,7 @@ import { beside } from "./beside.js";
 import { segments } from "./controls.js";
 import { cornerMode, corners, fastest, oneLight, ratioIn, WORKS } from "./corners.js";
 import { D, DOCS, levelName, MANY, ratioText, SCENES, STUDY } from "./data.js";
-import { costs, grow } from "./growth.js";
+import { grow } from "./growth.js";
 import { nameOf } from "./marks.js";
 import { $, html, table, write } from "./markup.js";
 import { grouped } from "./numbers.js";
@@ -48,7 +48,6 @@ export function speed() {
 			p => p.pixels,
 			`covered pixels, about ${grouped(growth.of)} triangles`,
 		);
-		costs();
 	}
 	if (D.small) small();
 	if (DOCS.length > 1) beside();

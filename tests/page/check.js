@@ -385,10 +385,6 @@
       await visit("speed");
       labels("speed");
       if (STUDY) check("speed: the same picture is the Overview's", [...document.querySelectorAll("#corners .hit")].map(a => a.getAttribute("href").slice(9)).every(m => !M[m] || M[m].max === undefined || M[m].max <= 1));
-      if (D.scaling) [...document.querySelectorAll("#costs tbody tr")].forEach((tr, i) => {
-        const { worst } = D.scaling.curves.filter(c => c.costs)[i].costs;
-        check(`speed: figures of a fit that misses by ${worst}`, tr.querySelectorAll(".bar").length === (Math.abs(worst) > .5 ? 0 : 5) && /poor fit/.test(tr.textContent) === Math.abs(worst) > .5);
-      });
       document.querySelectorAll("#corner-mode button").forEach(b => b.click());
       labels("speed, all");
       accessible("speed");

@@ -57,7 +57,7 @@ pub struct Document {
     pub figures: Vec<FigureData>,
     /// Speeds of all methods relative to naive Phong's, in kernels and frames, scalar and SIMD.
     pub speedups: Option<Speedups>,
-    /// Times by the counts of triangles and pixels, and fitted costs.
+    /// Times by the counts of triangles and pixels.
     pub scaling: Option<Scaling>,
     /// Costs of pixels on processors without a floating-point unit, from [`small`]. Only reports
     /// have them.

@@ -105,12 +105,15 @@ fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
 /// Subtracts from each byte of a plane the previous one, modulo 256, deflates the result, and
 /// writes it in base 64.
 fn pack(planes: &[Vec<u8>]) -> String {
-    let steps = planes.iter().flat_map(|plane| {
-        let before = core::iter::once(&0).chain(plane);
-        let steps = plane.iter().zip(before);
-        steps.map(|(v, before)| v.wrapping_sub(*before))
-    });
-    packed(&steps.collect::<Vec<u8>>())
+    let mut steps = Vec::new();
+    for plane in planes {
+        let mut before = 0;
+        for &value in plane {
+            steps.push(value.wrapping_sub(before));
+            before = value;
+        }
+    }
+    packed(&steps)
 }
 
 /// Encodes a picture as an opaque PNG file.

@@ -169,37 +169,29 @@ fn corners(speedups: &Value) -> Table {
     table
 }
 
-/// Lists the costs of a vertex, a triangle, a span and a pixel.
+/// Lists the measured points of growth: a row for each frame, a column for each method.
 fn growth(scaling: &Value) -> Table {
-    let mesh = text(scaling, "/mesh");
-    let head = [
-        "method",
-        "engine",
-        "vertex",
-        "triangle",
-        "span",
-        "pixel of a span",
-        "pixel of the picture",
-        "largest misfit, %",
-    ];
     let caption = format!(
-        "Cost of one of each in frames of {mesh}, in nanoseconds; – where the fit is off from a time by more than 50 %"
+        "Growth: least times in ms of frames of {}",
+        text(scaling, "/mesh")
     );
+    let head = ["size", "triangles", "covered pixels", "projection only"];
     let mut table = Table::new(caption, &head);
-    for curve in list(scaling, "/curves") {
-        let engine = format!("{}, {}", text(curve, "/engine"), text(curve, "/level"));
-        let mut row = Vec::from([label(text(curve, "/method")), engine]);
-        let costs = ["vertex", "triangle", "span", "pixel", "background"];
-        let misfit = number(curve, "/costs/worst").map(f64::abs);
-        let fits = misfit.is_some_and(|misfit| misfit <= 0.5);
-        row.extend(costs.map(|of| {
-            if fits {
-                cell(curve, &format!("/costs/{of}_ns"), significant)
-            } else {
-                NONE.into()
-            }
-        }));
-        row.push(misfit.map_or(NONE.into(), |misfit| format!("{:.0}", 100.0 * misfit)));
+    let curves = list(scaling, "/curves");
+    table.head.extend(curves.iter().map(|curve| {
+        let [engine, level] = ["/engine", "/level"].map(|of| text(curve, of));
+        format!("{}, {engine}, {level}", label(text(curve, "/method")))
+    }));
+    let ms = |value: &Value, at: &str| cell(value, at, |ns| significant(ns / 1e6));
+    for (i, point) in list(scaling, "/points").iter().enumerate() {
+        let mut row = Vec::from([
+            format!("{} × {}", point["size"][0], point["size"][1]),
+            point["triangles"].to_string(),
+            point["pixels"].to_string(),
+            ms(point, "/projection/min_ns"),
+        ]);
+        let time = format!("/times/{i}/min_ns");
+        row.extend(curves.iter().map(|curve| ms(curve, &time)));
         table.rows.push(row);
     }
     table

@@ -191,6 +191,15 @@ pub fn compare_where(
     actual: &dyn LevelRows,
     included: impl Fn(usize, usize) -> bool,
 ) -> Result<Difference, SizeMismatch> {
+    compare_selected(reference, actual, &included)
+}
+
+/// Compares like [`compare_where`]. Its loops over pixels are compiled in this crate, and once.
+fn compare_selected(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
+    included: &dyn Fn(usize, usize) -> bool,
+) -> Result<Difference, SizeMismatch> {
     SizeMismatch::check(reference.size(), actual.size())?;
     let mut sums = ErrorSums::default();
     let mut percentile = Percentile::new(PERCENTILE);

@@ -54,6 +54,15 @@ pub fn ssim_where(
     actual: &dyn LevelRows,
     included: impl Fn(usize, usize) -> bool,
 ) -> Result<Option<f64>, SizeMismatch> {
+    ssim_selected(reference, actual, &included)
+}
+
+/// Computes like [`ssim_where`]. Its loops over pixels are compiled in this crate, and once.
+fn ssim_selected(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
+    included: &dyn Fn(usize, usize) -> bool,
+) -> Result<Option<f64>, SizeMismatch> {
     SizeMismatch::check(reference.size(), actual.size())?;
     let [width, height] = reference.size();
     let Some(mut ssim) = MeanSsim::new([width, height]) else {

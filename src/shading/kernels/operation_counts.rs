@@ -1,14 +1,15 @@
 //! Operation counts: the same code that draws, run on values that count their operations.
 
-use crate::number::{Counted, Counter, Counts, Real, vec3};
+use crate::number::{Counted, Counter, Counts, Real, Vec3, vec3};
 use crate::shading::kernels::colour;
 use crate::shading::kernels::runs::RunStart;
-use crate::shading::light::LightAt;
+use crate::shading::kernels::sample_span::BenchPolygon;
 use crate::shading::light::eye_frame::carried;
+use crate::shading::light::{LightAt, Uniforms};
 use crate::shading::walks::values::each;
 use crate::shading::walks::{GreatCircle, Walk};
 use crate::shading::{
-    Carries, CarriesOf, Extras, Kinds, Local, Method, Shader, ShadingRate, Span, SpanBench,
+    Carries, CarriesOf, Extras, Kinds, Local, Method, Needs, Shader, ShadingRate, Span, SpanBench,
     SpanPlace, Values, Variant, Visit, ramp,
 };
 use alloc::vec::Vec;
@@ -44,138 +45,224 @@ pub(crate) struct CountedSpan {
 
 /// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices
 /// and edges. It calls the functions by which engines start edges and spans, walk and shade.
+///
+/// This is compiled for each method, so what all methods have in common is in [`Counting`].
 pub(crate) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedSpan {
     let counter = Counter::default();
-    let value = |x: f32| counter.counted(x);
-    let three = |v: [f32; 3]| vec3(v.map(value));
-    let (row, extras) = (variant.row(), bench.extras(variant));
     let uniforms = bench.uniforms(variant, 1.0);
     let method = M::new(variant.parameters(), &uniforms.model);
-    let (face, zero) = (three(SpanBench::FACE), value(0.0));
-    let lit = LightAt::new(uniforms.stored(), zero, uniforms.model.is_general);
-    let is_polygon = matches!(
-        row.needs.shading_rate,
-        ShadingRate::Polygon | ShadingRate::PolygonMean
-    );
-    let mut counts = OperationCounts::default();
+    let mut counting = Counting::new(&counter, bench, variant, &uniforms);
 
     // A loop, because a map over the array would be compiled three times for each method.
     let mut corners = [const { Vec::new() }; 3];
     for (i, corner) in corners.iter_mut().enumerate() {
-        counter.take();
-        let normal = match row.needs.shading_rate {
-            ShadingRate::Polygon => face,
-            ShadingRate::PolygonMean => {
-                let [a, b, c] = bench.normals.map(vec3);
-                three(((a + b + c) * (1.0 / 3.0)).array()).unit()
-            }
-            ShadingRate::Vertex | ShadingRate::Pixel => three(bench.normals[i]),
-        };
-        let lit = lit.at(three(bench.points[i]));
-        let varying = carried::<CarriesOf<M>, _>(&uniforms, &lit, normal);
-        put(varying, corner);
-        if extras.point {
-            corner.extend(bench.points[i].map(value));
-        }
-        if extras.weight {
-            corner.push(value(1.0));
-        }
+        let (lit, normal) = counting.corner(i);
+        put(carried::<CarriesOf<M>, _>(&uniforms, &lit, normal), corner);
+        counting.add_extras(i, corner);
     }
-    if !is_polygon {
-        counts.vertex = counter.take();
-    }
-    if row.needs.local == Local::PerPolygon && bench.is_local() {
-        // Computes light and eye as the polygon sees them.
-        let uniforms = variant.uniforms(&bench.lighting, 1.0);
-        let lit = LightAt::new(uniforms.stored(), zero, true).at(three(bench.points[0]));
-        lit.lights().count();
-    }
-    counts.polygon = counter.take();
+    counting.take_vertex();
 
-    let polygon = bench.polygon(SpanBench::LENGTH, value);
+    let polygon = counting.polygon();
     let corners_of_polygon = polygon.corners();
     counter.take();
-    let chosen = method.polygon(&lit, &corners_of_polygon);
+    let chosen = method.polygon(&counting.lit, &corners_of_polygon);
     let planned = counter.take();
     if M::NEEDS.reads_span() || !M::Kinds::NAMES.is_empty() {
-        counts.polygon = planned;
+        counting.counts.polygon = planned;
     }
 
-    let [a, b, c] = &corners;
-    let [t0, dt] = SpanBench::EDGE.map(value);
-    let vector = |values: &[_]| vec3([values[0], values[1], values[2]]);
-    let ends: [Vec<Counted<'_>>; 2];
-    if M::NEEDS.great_circles() {
-        let circle = |from, to| GreatCircle::new(face, [from, to], t0, dt);
-        let [left, right] = [a, b].map(|corner| circle(vector(corner), vector(c)));
-        counter.take();
-        circle(vector(a), vector(c));
-        counts.edge = counter.take();
-        left.sines.clone().next();
-        counts.edge_step = counter.take();
-        ends = [left, right].map(|circle| circle.normal().array().to_vec());
-    } else {
-        let ramps = |from: &[_], to: &[_]| -> Vec<_> {
-            let ends = from.iter().zip(to);
-            ends.map(|(a, b)| ramp(*a, *b, t0, dt)).collect()
-        };
-        let mut left = ramps(a, c);
-        counts.edge = counter.take();
-        let at: Vec<_> = left.iter().map(|ramp| ramp[0]).collect();
-        left.iter_mut().for_each(|[at, step]| *at = *at + *step);
-        counts.edge_step = counter.take();
-        let right = ramps(b, c).iter().map(|ramp| ramp[0]).collect();
-        counter.take();
-        ends = [at, right];
-    }
-    if is_polygon {
-        // Lit once per polygon: nothing is interpolated.
-        counter.take();
-        (counts.edge, counts.edge_step) = Default::default();
-    }
-
-    let [t0, dt] = SpanBench::SPAN.map(value);
-    let pairs = ends[0].iter().zip(&ends[1]);
-    let [mut first, mut second] = [Vec::new(), Vec::new()];
-    for (a, b) in pairs {
-        let [at, step] = match is_polygon {
-            true => [*a, zero],
-            false => M::NEEDS.start([*a, *b], t0, dt),
-        };
-        first.push(at);
-        second.push(step);
-    }
+    let ends = counting.ends_of_span(M::NEEDS, &corners);
+    let [first, second] = counting.start(M::NEEDS, &ends);
     let mut planned = Vec::new();
     let kind = M::Kinds::put(chosen, |_, value| planned.push(*value));
     let start = RunStart {
         values: [&first, &second],
         x: 0,
         pixels: SpanBench::PIXELS,
-        place: M::NEEDS.reads_span().then_some(SpanPlace {
+        place: M::NEEDS.reads_span().then(|| counting.place()),
+        constants: &planned,
+    };
+    let mut colour = [0.0; 3];
+    let run = CountedRun {
+        counter: &counter,
+        counts: &mut counting.counts,
+        colour: &mut colour,
+        lit: counting.lit,
+        start,
+        own: first.len() - counting.extras.count(),
+        extras: counting.extras,
+        zero: counting.zero,
+    };
+    method.kinds().visit(kind, run);
+    CountedSpan {
+        operations: counting.counts,
+        colour,
+    }
+}
+
+/// The parts of a count that are equal for all methods: the engines' work on vertices, edges and
+/// the start of a span.
+struct Counting<'a> {
+    counter: &'a Counter,
+    bench: &'a SpanBench,
+    variant: &'a Variant,
+    extras: Extras,
+    /// True if a polygon is lit once, so that nothing is interpolated.
+    is_polygon: bool,
+    lit: LightAt<'a, Counted<'a>>,
+    zero: Counted<'a>,
+    counts: OperationCounts,
+}
+
+impl<'a> Counting<'a> {
+    #[inline(never)]
+    fn new(
+        counter: &'a Counter,
+        bench: &'a SpanBench,
+        variant: &'a Variant,
+        uniforms: &'a Uniforms,
+    ) -> Self {
+        let zero = counter.counted(0.0);
+        Counting {
+            counter,
+            bench,
+            variant,
+            extras: bench.extras(variant),
+            is_polygon: matches!(
+                variant.row().needs.shading_rate,
+                ShadingRate::Polygon | ShadingRate::PolygonMean
+            ),
+            lit: LightAt::new(uniforms.stored(), zero, uniforms.model.is_general),
+            zero,
+            counts: OperationCounts::default(),
+        }
+    }
+
+    /// Makes a vector that counts.
+    fn vector(&self, v: [f32; 3]) -> Vec3<Counted<'a>> {
+        vec3(v.map(|x| self.counter.counted(x)))
+    }
+
+    /// Returns the light at a corner of the triangle, and the normal by which the corner is lit.
+    /// Begins to count.
+    #[inline(never)]
+    fn corner(&self, i: usize) -> (LightAt<'a, Counted<'a>>, Vec3<Counted<'a>>) {
+        self.counter.take();
+        let normal = match self.variant.row().needs.shading_rate {
+            ShadingRate::Polygon => self.vector(SpanBench::FACE),
+            ShadingRate::PolygonMean => {
+                let [a, b, c] = self.bench.normals.map(vec3);
+                self.vector(((a + b + c) * (1.0 / 3.0)).array()).unit()
+            }
+            ShadingRate::Vertex | ShadingRate::Pixel => self.vector(self.bench.normals[i]),
+        };
+        (self.lit.at(self.vector(self.bench.points[i])), normal)
+    }
+
+    /// Appends the varyings that engines add to a corner's own.
+    fn add_extras(&self, i: usize, corner: &mut Vec<Counted<'a>>) {
+        if self.extras.point {
+            corner.extend(self.vector(self.bench.points[i]).array());
+        }
+        if self.extras.weight {
+            corner.push(self.counter.counted(1.0));
+        }
+    }
+
+    /// Takes the counts of the last corner as those of a vertex, or of the polygon if it is lit
+    /// once, with the light that the polygon sees.
+    #[inline(never)]
+    fn take_vertex(&mut self) {
+        if !self.is_polygon {
+            self.counts.vertex = self.counter.take();
+        }
+        if self.variant.row().needs.local == Local::PerPolygon && self.bench.is_local() {
+            let uniforms = self.variant.uniforms(&self.bench.lighting, 1.0);
+            let lit = LightAt::new(uniforms.stored(), self.zero, true);
+            lit.at(self.vector(self.bench.points[0])).lights().count();
+        }
+        self.counts.polygon = self.counter.take();
+    }
+
+    #[inline(never)]
+    fn polygon(&self) -> BenchPolygon<Counted<'a>> {
+        (self.bench).polygon(SpanBench::LENGTH, |x| self.counter.counted(x))
+    }
+
+    /// Returns the varyings at both ends of the span, between the edges from the first two corners
+    /// to the third. Counts an edge and its step, and begins to count the span.
+    #[inline(never)]
+    fn ends_of_span(
+        &mut self,
+        needs: Needs,
+        [a, b, c]: &[Vec<Counted<'a>>; 3],
+    ) -> [Vec<Counted<'a>>; 2] {
+        let counter = self.counter;
+        let [t0, dt] = SpanBench::EDGE.map(|x| counter.counted(x));
+        let (edge, step, ends);
+        if needs.great_circles() {
+            let face = self.vector(SpanBench::FACE);
+            let vector = |values: &[_]| vec3([values[0], values[1], values[2]]);
+            let circles = [a, b].map(|corner| {
+                counter.take();
+                GreatCircle::new(face, [vector(corner), vector(c)], t0, dt)
+            });
+            edge = counter.take();
+            circles[0].sines.clone().next();
+            step = counter.take();
+            // Each span pays for the normals at its ends, so they are counted.
+            ends = circles.map(|circle| circle.normal().array().to_vec());
+        } else {
+            let ramps = |from: &[_]| -> Vec<_> {
+                let ends = from.iter().zip(c);
+                ends.map(|(a, b)| ramp(*a, *b, t0, dt)).collect()
+            };
+            let starts = |ramps: &[[_; 2]]| ramps.iter().map(|ramp| ramp[0]).collect();
+            counter.take();
+            let mut left = ramps(a);
+            edge = counter.take();
+            let first = starts(&left);
+            left.iter_mut().for_each(|[at, step]| *at = *at + *step);
+            step = counter.take();
+            ends = [first, starts(&ramps(b))];
+            counter.take();
+        }
+        if self.is_polygon {
+            counter.take();
+        } else {
+            (self.counts.edge, self.counts.edge_step) = (edge, step);
+        }
+        ends
+    }
+
+    /// Returns the two values from which each varying starts on the span.
+    #[inline(never)]
+    fn start(&self, needs: Needs, [left, right]: &[Vec<Counted<'a>>; 2]) -> [Vec<Counted<'a>>; 2] {
+        let SpanPlace { t0, dt, .. } = self.place();
+        let mut values = [Vec::new(), Vec::new()];
+        for (a, b) in left.iter().zip(right) {
+            let start = if self.is_polygon {
+                [*a, self.zero]
+            } else {
+                needs.start([*a, *b], t0, dt)
+            };
+            for (values, value) in values.iter_mut().zip(start) {
+                values.push(value);
+            }
+        }
+        values
+    }
+
+    /// Returns the place of the run on its span.
+    fn place(&self) -> SpanPlace<Counted<'a>> {
+        let [t0, dt] = SpanBench::SPAN.map(|x| self.counter.counted(x));
+        SpanPlace {
             y: 0,
             t0,
             dt,
             start: 0,
             pixels: 50,
-        }),
-        constants: &planned,
-    };
-    let own = first.len() - extras.count();
-    let mut colour = [0.0; 3];
-    let run = CountedRun {
-        counter: &counter,
-        counts: &mut counts,
-        colour: &mut colour,
-        lit,
-        start,
-        own,
-        extras,
-        zero,
-    };
-    method.kinds().visit(kind, run);
-    CountedSpan {
-        operations: counts,
-        colour,
+        }
     }
 }
 

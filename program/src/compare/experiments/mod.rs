@@ -3,21 +3,18 @@
 //! - `Speedups` measures how much faster all methods are than naive Phong, in scalar and SIMD
 //!   arithmetic, for shading only and for whole frames: the gain of fast Phong when it was
 //!   invented, and today.
-//! - `Scaling` measures how the time of a frame grows with triangles and with pixels, and fits the
-//!   costs of a vertex, a triangle, a span and a pixel.
+//! - `Scaling` measures how the time of a frame grows with triangles and with pixels.
 //! - `climb` searches for the triangle and lights on which a method has the largest error.
 //!
 //! The first two use the threads of rayon's current pool. It should have one thread if the times
 //! are to be compared with others.
 
-mod fit;
 mod scaling;
 mod speedups;
 #[cfg(test)]
 mod tests;
 mod worst;
 
-use fit::{Observation, fit};
 pub(crate) use scaling::{Scaling, ScalingOptions};
 #[cfg(test)]
 pub(crate) use speedups::{MethodSpeedups, SpeedCorner, Speedup, Work};

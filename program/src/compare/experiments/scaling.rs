@@ -1,9 +1,9 @@
 //! How the time of a frame grows with the triangles of a sphere and with the pixels of its picture.
 //!
-//! [`Scaling::measure`] draws and times spheres, then fits the costs of a vertex, a triangle, a
-//! span and a pixel.
+//! [`Scaling::measure`] draws and times spheres of more and more triangles, and one sphere on more
+//! and more pixels.
 
-use super::{Canvas, ExperimentError, Observation, chosen, fit, prepared_sphere, sphere};
+use super::{Canvas, ExperimentError, chosen, prepared_sphere, sphere};
 use crate::compare::comparison::BASELINE;
 use crate::compare::timing::{Candidate, TimeLimits, Timing, time_interleaved};
 use alloc::format;
@@ -12,17 +12,12 @@ use alloc::vec::Vec;
 use core::time::Duration;
 use fastphong::frame::{Frame, PreparedScene};
 use fastphong::raster::{Renderer, coverage};
-use fastphong::scene::Projection;
 use fastphong::shading::Variant;
 use serde::Serialize;
 
 /// The methods that are drawn: the cheapest one, the one that the lecture starts from, and the
 /// fastest with the same picture.
 const METHODS: [&str; 3] = ["gouraud", BASELINE, "phong-rsqrt"];
-
-/// How many times smaller the sphere is in the frames that separate the cost of covered pixels from
-/// the cost of the others.
-const AWAY: f64 = 4.0;
 
 /// The meshes and pictures to draw, and the time to spend.
 #[derive(Clone, Debug)]
@@ -68,61 +63,23 @@ impl Default for ScalingOptions {
     }
 }
 
-/// A frame that was timed: the counts of everything that costs time, and the time of projecting.
+/// A frame that was timed: the counts that cost time, and the time of projecting.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScalingPoint {
     /// The number of triangles asked for.
     pub asked: usize,
     /// The width and height of the picture in pixels.
     pub size: [u32; 2],
-    /// True if the sphere is smaller, as if it were farther away.
-    pub away: bool,
     /// Vertices of the mesh.
     pub vertices: usize,
     /// Triangles of the mesh.
     pub triangles: usize,
     /// Triangles of the frame: those that face the eye.
     pub drawn: usize,
-    /// Spans: runs of pixels that a triangle covers on a scanline, including hidden ones.
-    pub spans: usize,
-    /// Pixels in spans.
+    /// Pixels that triangles cover, including hidden ones.
     pub pixels: usize,
     /// The times of projecting only.
     pub projection: Timing,
-}
-
-/// The fitted costs, in nanoseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Costs {
-    /// The cost of a vertex of the mesh: it is projected, and its share of the triangles is culled
-    /// or kept.
-    pub vertex_ns: f64,
-    /// The cost of a triangle of the frame: its set-up and the lighting of its vertices.
-    pub triangle_ns: f64,
-    /// The cost of a span.
-    pub span_ns: f64,
-    /// The cost of a pixel of a span.
-    pub pixel_ns: f64,
-    /// The cost of a pixel of the picture, covered or not: it is cleared and stored.
-    pub background_ns: f64,
-    /// The relative error with the largest magnitude: measured time / sum of the costs − 1.
-    pub worst: f64,
-    /// The index of the point with that error.
-    pub worst_point: usize,
-}
-
-impl Costs {
-    /// Returns the time that the costs predict for a point, in nanoseconds.
-    pub fn explain(&self, point: &ScalingPoint) -> f64 {
-        let costs = [
-            self.triangle_ns,
-            self.span_ns,
-            self.pixel_ns,
-            self.background_ns,
-        ];
-        let sum: f64 = point.counts().iter().zip(costs).map(|(n, ns)| n * ns).sum();
-        sum + self.vertex_ns * point.vertices as f64
-    }
 }
 
 /// The times of one method by one renderer.
@@ -136,8 +93,6 @@ pub struct Curve {
     pub level: &'static str,
     /// The times of whole frames, one for each point; `None` for points that were left out.
     pub times: Vec<Option<Timing>>,
-    /// The costs that explain the times best; `None` if the points cannot tell the costs apart.
-    pub costs: Option<Costs>,
 }
 
 /// The result of the experiment.
@@ -157,9 +112,6 @@ pub struct Scaling {
 
 /// The method and renderer of a curve, and the largest mesh that they draw, in triangles.
 type Way = (Variant, Renderer, usize);
-
-/// The size of a picture, and true if the sphere is small in it.
-type SphereView = ([u32; 2], bool);
 
 impl Scaling {
     /// Draws and times the methods of [`METHODS`] that are among `variants`, and always naive
@@ -198,32 +150,25 @@ impl Scaling {
         for triangles in meshes {
             progress(done / all, &format!("{triangles} triangles"));
             let mut scene = prepared_sphere(triangles, options.at)?;
-            for view in options.views(triangles) {
-                measured.add(&mut scene, triangles, view, &ways, options.limits)?;
+            for size in options.sizes_of(triangles) {
+                measured.add(&mut scene, triangles, size, &ways, options.limits)?;
             }
             done += weight(triangles);
         }
-        measured.explain();
         progress(1.0, "done");
         Ok(measured)
     }
 
-    /// Draws and times one view of a mesh, and adds the point.
+    /// Draws and times a mesh in one size, and adds the point.
     fn add(
         &mut self,
         scene: &mut PreparedScene,
         asked: usize,
-        (size, away): SphereView,
+        size: [u32; 2],
         ways: &[Way],
         limits: TimeLimits,
     ) -> Result<(), ExperimentError> {
         scene.set_size(size[0], size[1]);
-        let near = *scene.camera();
-        let mut camera = near;
-        if let (Projection::Orthographic { half_height }, true) = (&mut camera.projection, away) {
-            *half_height *= AWAY;
-        }
-        scene.set_camera(camera);
         let canvas = Canvas::new(scene)?;
         let mut candidates: Vec<Candidate<'_>> = Vec::from([canvas.draws(scene, None)]);
         for (variant, renderer, most) in ways {
@@ -237,19 +182,14 @@ impl Scaling {
         if self.curves.is_empty() {
             self.curves = ways.iter().map(|way| Curve::new(way, frame)).collect();
         }
-        let (mut spans, mut pixels) = (0, 0);
-        coverage(frame, |_, _, span| {
-            spans += usize::from(!span.is_empty());
-            pixels += span.len();
-        });
+        let mut pixels = 0;
+        coverage(frame, |_, _, span| pixels += span.len());
         self.points.push(ScalingPoint {
             asked,
             size,
-            away,
             vertices: frame.vertices().len(),
             triangles: frame.stats().polygons,
             drawn: frame.polygons().len(),
-            spans,
             pixels,
             projection: timings.next().expect("a timing a candidate"),
         });
@@ -257,16 +197,7 @@ impl Scaling {
             let is_drawn = asked <= *most;
             curve.times.push(is_drawn.then(|| timings.next()).flatten());
         }
-        scene.set_camera(near);
         Ok(())
-    }
-
-    /// Finds the costs of each curve.
-    pub(super) fn explain(&mut self) {
-        let vertex = vertex_cost(&self.points);
-        for curve in &mut self.curves {
-            curve.costs = vertex.and_then(|vertex| costs(vertex, &self.points, &curve.times));
-        }
     }
 }
 
@@ -279,75 +210,17 @@ impl Curve {
             engine: renderer.engine().name(),
             level: renderer.level().name(),
             times: Vec::new(),
-            costs: None,
         }
     }
 }
 
 impl ScalingOptions {
-    /// Returns the views in which to draw a mesh of this many triangles.
-    fn views(&self, triangles: usize) -> Vec<SphereView> {
-        let mut views = Vec::from([(self.at, false)]);
+    /// Returns the sizes in which to draw a mesh of this many triangles.
+    fn sizes_of(&self, triangles: usize) -> Vec<[u32; 2]> {
+        let mut sizes = Vec::from([self.at]);
         if triangles == self.of {
-            let is_other = |size: &&[u32; 2]| **size != self.at;
-            let others = self.sizes.iter().filter(is_other);
-            views.extend(others.map(|size| (*size, false)));
-            views.push((self.at, true));
-            let pixels = |size: &&[u32; 2]| u64::from(size[0]) * u64::from(size[1]);
-            let largest = self.sizes.iter().max_by_key(pixels).filter(is_other);
-            views.extend(largest.map(|size| (*size, true)));
+            sizes.extend(self.sizes.iter().filter(|size| **size != self.at));
         }
-        views
+        sizes
     }
-}
-
-impl ScalingPoint {
-    /// Returns how often each cost occurs, without vertices: triangles, spans, pixels of spans,
-    /// pixels of the picture.
-    fn counts(&self) -> [f64; 4] {
-        let picture = f64::from(self.size[0]) * f64::from(self.size[1]);
-        let [drawn, spans, pixels] = [self.drawn, self.spans, self.pixels].map(|n| n as f64);
-        [drawn, spans, pixels, picture]
-    }
-}
-
-/// Fits the time of projecting a vertex. Projecting is timed separately, because spheres have
-/// triangles in proportion to vertices: a fit to whole frames could not tell the two costs apart.
-fn vertex_cost(points: &[ScalingPoint]) -> Option<f64> {
-    let observe = |point: &ScalingPoint| Observation {
-        counts: [point.vertices as f64],
-        total: point.projection.min_ns,
-        scale: point.projection.min_ns,
-    };
-    let observations: Vec<_> = points.iter().map(observe).collect();
-    fit(&observations).map(|[vertex]| vertex)
-}
-
-/// Fits the costs other than `vertex_ns` to the times. Uses the least time of each point, because
-/// points are not interleaved and disturbances only add time.
-fn costs(vertex_ns: f64, points: &[ScalingPoint], times: &[Option<Timing>]) -> Option<Costs> {
-    let timed = (0..).zip(points).zip(times);
-    let timed = timed.filter_map(|((i, p), t)| Some((i, p, t.as_ref()?.min_ns)));
-    let timed: Vec<(usize, &ScalingPoint, f64)> = timed.collect();
-    let observe = |&(_, point, ns): &(usize, &ScalingPoint, f64)| Observation {
-        counts: point.counts(),
-        total: ns - point.projection.min_ns,
-        scale: ns,
-    };
-    let observations: Vec<_> = timed.iter().map(observe).collect();
-    let [triangle_ns, span_ns, pixel_ns, background_ns] = fit(&observations)?;
-    let mut costs = Costs {
-        vertex_ns,
-        triangle_ns,
-        span_ns,
-        pixel_ns,
-        background_ns,
-        worst: 0.0,
-        worst_point: 0,
-    };
-    let error =
-        |(i, point, ns): &(usize, &ScalingPoint, f64)| (ns / costs.explain(point) - 1.0, *i);
-    let errors = timed.iter().map(error);
-    (costs.worst, costs.worst_point) = errors.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-    Some(costs)
 }

@@ -1,12 +1,11 @@
 //! Gouraud shading in integers.
 
-use crate::integer::{self, Halfway, Highlight, NoHighlight, Reflection, Rgb888};
+use crate::integer::{self, Halfway, Highlight, NoHighlight, Reflection, Rgb888, Vector};
 use crate::number::{Num, Vec3, vec3};
 use crate::reference::Model;
 use crate::scene::SpecularModel;
 use crate::shading::kernels::{Pixels, Vertices};
-use crate::shading::light::Uniforms;
-use crate::shading::methods::integers::{self, sum};
+use crate::shading::methods::integers::{self, Lights, sum};
 use crate::shading::{
     Approximation, Colour, Constant, Family, Fit, Info, Kernels, LightAt, Local, MethodRow, Needs,
     On, Perspective, Pixel, Shader, ShadingRate, Span, Spans, Tier,
@@ -124,19 +123,19 @@ fn vertices(job: &Vertices<'_>, out: &mut [f32]) {
         SpecularModel::Phong => colour::<Reflection>,
         SpecularModel::Blinn => colour::<Halfway>,
     };
+    let lights = Lights::new(job.uniforms);
     for (normal, out) in job.normals.iter().zip(out.chunks_exact_mut(3)) {
-        out.copy_from_slice(&channels(colour(job.uniforms, vec3(*normal))));
+        out.copy_from_slice(&channels(colour(&lights, integers::vector(vec3(*normal)))));
     }
 }
 
 /// Returns the colour of a normal, in fields.
-fn colour<H: Highlight>(uniforms: &Uniforms, normal: Vec3<f32>) -> u32 {
-    let n = integers::vector(normal);
-    match uniforms.lights.len() {
-        0 | 1 => integer::colour::<Rgb888, H, 1>(&integers::lights(uniforms), n),
-        2 => integer::colour::<Rgb888, H, 2>(&integers::lights(uniforms), n),
-        3 => integer::colour::<Rgb888, H, 3>(&integers::lights(uniforms), n),
-        _ => integer::colour::<Rgb888, H, 4>(&integers::lights(uniforms), n),
+fn colour<H: Highlight>(lights: &Lights<'_>, normal: Vector) -> u32 {
+    match lights.count {
+        1 => integer::colour::<Rgb888, H, 1>(lights.first(), normal),
+        2 => integer::colour::<Rgb888, H, 2>(lights.first(), normal),
+        3 => integer::colour::<Rgb888, H, 3>(lights.first(), normal),
+        _ => integer::colour::<Rgb888, H, 4>(lights.first(), normal),
     }
 }
 

@@ -39,7 +39,6 @@ use crate::shading::{
     Stepped, UniformsIndex, Value, Variant, Vertices,
 };
 use alloc::vec::Vec;
-use core::ops::Range;
 use fixed::types::U16F16;
 
 /// How many pixels of a span are shaded at once.
@@ -243,41 +242,56 @@ pub(crate) fn materials(lighting: &Lighting) -> Vec<Material<Rgb888>> {
         .collect()
 }
 
-/// Makes the lights of uniforms that hold integer tables.
-pub(crate) fn lights<const L: usize>(uniforms: &Uniforms) -> [Light<'_, Rgb888>; L] {
-    let direction = |place: Place<Vec3<f32>>| match place {
-        Place::Infinite(v) | Place::Local(v) => vector(v),
-    };
-    let eye = direction(uniforms.model.eye);
-    core::array::from_fn(|i| {
-        let toward = uniforms.lights.get(i).map(|light| direction(light.place));
-        Light::new(
-            toward.unwrap_or_default(),
-            eye,
-            &uniforms.materials[i.min(uniforms.materials.len() - 1)],
-        )
-    })
+/// The lights of uniforms that hold integer tables.
+pub(crate) struct Lights<'a> {
+    all: [Light<'a, Rgb888>; LIGHTS],
+    count: usize,
+}
+
+impl<'a> Lights<'a> {
+    /// Makes the lights. There is at least one, because a dark material has a table, too.
+    pub fn new(uniforms: &'a Uniforms) -> Lights<'a> {
+        let direction = |place: Place<Vec3<f32>>| match place {
+            Place::Infinite(v) | Place::Local(v) => vector(v),
+        };
+        let eye = direction(uniforms.model.eye);
+        let light = |i: usize| {
+            let toward = uniforms.lights.get(i).map(|light| direction(light.place));
+            Light::new(toward.unwrap_or_default(), eye, &uniforms.materials[i])
+        };
+        let mut all = [light(0); LIGHTS];
+        let count = uniforms.lights.len().clamp(1, LIGHTS);
+        for (i, next) in all[..count].iter_mut().enumerate().skip(1) {
+            *next = light(i);
+        }
+        Lights { all, count }
+    }
+
+    /// Returns the first `L` lights.
+    #[inline(always)]
+    pub fn first<const L: usize>(&self) -> &[Light<'a, Rgb888>; L] {
+        debug_assert!(L <= self.count, "a loop for more lights than there are");
+        self.all.first_chunk().expect("at most four lights")
+    }
 }
 
 /// Shades runs by the loop `M`, between normals that are linear on the screen.
 pub(crate) fn pixels<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
-    let along = |index: usize, t: f32| {
+    shade(job, out, draw_line::<M>, |index, t| {
         let [a, b] = ends(job, index);
         vector(a + (b - a) * t)
-    };
-    shade::<M>(job, out, &along);
+    });
 }
 
 /// Shades runs by the loop `M`, between normals on great circles.
 pub(crate) fn circles<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
-    let along = |index: usize, t: f32| {
+    shade(job, out, draw_line::<M>, |index, t| {
         let values = &job.constants.values;
         let polygon = job.list.runs[index].polygon as usize;
         let face = vec3([0, 1, 2].map(|i| values[3 * polygon + i]));
         let circle = GreatCircle::new(face, ends(job, index), t, 0.0);
         vector(circle.normal())
-    };
-    shade::<M>(job, out, &along);
+    });
 }
 
 /// Returns the varyings at both ends of a run's span.
@@ -286,38 +300,44 @@ pub(crate) fn ends(job: &Pixels<'_>, index: usize) -> [Vec3<f32>; 2] {
     ends.map(|end| vec3([end[0], end[1], end[2]]))
 }
 
-/// Runs with the same uniforms, and the pixels to write.
-struct Group<'a, 'o, A> {
-    job: &'a Pixels<'a>,
-    uniforms: &'a Uniforms,
-    runs: Range<usize>,
-    out: &'o mut [[f32; 3]],
-    /// Returns the normal of a run's span at a parameter.
-    along: &'a A,
+/// A loop that is compiled for a kind of highlight and a count of lights: shades at most [`MOST`]
+/// pixels of a span. The first argument holds the method's parameters.
+type DrawLine = fn(&[Value], integer::Span, &mut [Rgb888], &Lights<'_>);
+
+/// Returns the loop `M` for a material.
+fn draw_line<M: Line>(uniforms: &Uniforms) -> DrawLine {
+    let lights = uniforms.lights.len();
+    match uniforms.model.specular {
+        _ if is_dull(uniforms) => by_lights::<M, NoHighlight>(lights),
+        SpecularModel::Phong => by_lights::<M, Reflection>(lights),
+        SpecularModel::Blinn => by_lights::<M, Halfway>(lights),
+    }
 }
 
-/// Shades runs by the loop `M`. `along` returns the normal of a run's span, by the run's index and
-/// a parameter.
-fn shade<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]], along: &impl Fn(usize, f32) -> Vector) {
-    let (mut first, mut rest) = (0, out);
-    for runs in (job.list.runs).chunk_by(|a, b| a.uniforms == b.uniforms) {
-        let pixels = runs.iter().map(|run| run.pixels as usize).sum();
-        let (here, others) = rest.split_at_mut(pixels);
-        rest = others;
-        let group = Group {
-            job,
-            uniforms: &job.uniforms[runs[0].uniforms.0 as usize],
-            runs: first..first + runs.len(),
-            out: here,
-            along,
-        };
-        first += runs.len();
-        match group.uniforms.model.specular {
-            _ if is_dull(group.uniforms) => group.by_lights::<M, NoHighlight>(),
-            SpecularModel::Phong => group.by_lights::<M, Reflection>(),
-            SpecularModel::Blinn => group.by_lights::<M, Halfway>(),
-        }
+/// Returns the loop `M` for this many lights, or for one if it supports no more.
+fn by_lights<M: Line, H: Highlight>(lights: usize) -> DrawLine {
+    // A constant condition: the compiler leaves the other loops out.
+    if const { M::LIGHTS == 1 } {
+        return line::<M, H, 1>;
     }
+    match lights {
+        0 | 1 => line::<M, H, 1>,
+        2 => line::<M, H, 2>,
+        3 => line::<M, H, 3>,
+        _ => line::<M, H, 4>,
+    }
+}
+
+/// Shades a line: see [`DrawLine`].
+fn line<M: Line, H: Highlight, const L: usize>(
+    parameters: &[Value],
+    span: integer::Span,
+    line: &mut [Rgb888],
+    lights: &Lights<'_>,
+) {
+    // So that the compiler leaves out what cuts longer lines.
+    assert!(line.len() <= MOST, "a piece of a span");
+    M::shade::<H, L>(parameters, span, line, lights.first());
 }
 
 /// True if a material has no highlights.
@@ -325,33 +345,27 @@ pub(crate) fn is_dull(uniforms: &Uniforms) -> bool {
     (uniforms.lights.iter()).all(|light| light.specular.array() == [0.0; 3])
 }
 
-impl<A: Fn(usize, f32) -> Vector> Group<'_, '_, A> {
-    /// Shades the runs by the loop that is compiled for this many lights.
-    fn by_lights<M: Line, H: Highlight>(self) {
-        match self.uniforms.lights.len() {
-            0 | 1 => self.shade::<M, H, 1>(),
-            2 => self.shade::<M, H, 2>(),
-            3 => self.shade::<M, H, 3>(),
-            _ => self.shade::<M, H, 4>(),
-        }
-    }
-
-    fn shade<M: Line, H: Highlight, const L: usize>(self) {
-        let (lights, mut rest) = (lights::<L>(self.uniforms), self.out);
-        for index in self.runs {
-            let pixels = self.job.list.runs[index].pixels as usize;
-            let (here, others) = rest.split_at_mut(pixels);
+/// Shades runs by the loop that `draw_line` returns for their uniforms. `along` returns the normal
+/// of a run's span, by the run's index and a parameter.
+fn shade(
+    job: &Pixels<'_>,
+    out: &mut [[f32; 3]],
+    draw_line: fn(&Uniforms) -> DrawLine,
+    along: impl Fn(usize, f32) -> Vector,
+) {
+    let (mut index, mut rest) = (0, out);
+    for runs in (job.list.runs).chunk_by(|a, b| a.uniforms == b.uniforms) {
+        let uniforms = &job.uniforms[runs[0].uniforms.0 as usize];
+        let (draw, lights) = (draw_line(uniforms), Lights::new(uniforms));
+        for run in runs {
+            let (here, others) = rest.split_at_mut(run.pixels as usize);
             rest = others;
-            shade_run(
-                self.job,
-                index,
-                here,
-                |t| (self.along)(index, t),
-                |line, first, end| {
-                    let span = integer::Span::new(first, end);
-                    M::shade::<H, L>(self.job.parameters, span, line, &lights);
-                },
-            );
+            let at = |t| along(index, t);
+            shade_run(job, index, here, at, |line, first, end| {
+                let span = integer::Span::new(first, end);
+                draw(job.parameters, span, line, &lights);
+            });
+            index += 1;
         }
     }
 }
