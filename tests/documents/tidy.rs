@@ -424,8 +424,9 @@ fn commands_in_the_documents_exist() {
                     "{document}: {command}"
                 );
             } else if let Some(start) = words.iter().position(|w| *w == "--" || *w == "fastphong") {
-                let is_ours = words[start] == "fastphong" || words.starts_with(&["cargo", "run"]);
-                if is_ours && words.get(1) != Some(&"install") {
+                // Other commands of cargo name the package.
+                let is_ours = words[0] != "cargo" || words[1] == "run";
+                if is_ours {
                     check_usage(document, &command, &words[start + 1..]);
                 }
             } else if words[0].starts_with("./") || words[0].starts_with(".ci") {

@@ -180,8 +180,8 @@ pub struct MethodRow {
     /// The difference from the Phong reference: see [`WHAT_IS_COMPARED`].
     pub error: Difference,
     /// The difference from its own closed form ([`fastphong::shading::Info::model`]), which shows
-    /// how well it computes what it is meant to. For the barycentric renderer, the closed form is on
-    /// triangles.
+    /// how well it computes what it is meant to. For the barycentric renderer, the closed form is
+    /// on triangles.
     pub own: Difference,
     /// The largest `own.max` that rounding and the method's approximation by design can cause on
     /// this frame: [`fastphong::shading::Variant::bound`].
