@@ -157,7 +157,6 @@ interface Scaling {
 	curves: {
 		engine: string;
 		method: string;
-		costs: Record<string, number> | null;
 		times: (Timing | null)[];
 	}[];
 }

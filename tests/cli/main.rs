@@ -5,6 +5,7 @@ mod bench;
 mod defaults;
 mod diagnose;
 mod diff;
+mod doors;
 mod engines;
 mod figure;
 mod files;
