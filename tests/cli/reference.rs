@@ -107,7 +107,7 @@ fn pictures_of_other_size_or_coverage_differ() {
     ended
         .prints("the sizes differ: the reference has 64x48 pixels, the picture 32x24")
         .prints("ref.actual.png")
-        .prints("difference of the upper left part that both have");
+        .prints("; the map shows the upper left part that both have, 32x24");
     let map = picture(&folder.path("ref.diff.png"));
     assert_eq!((map.width(), map.height()), (32, 24));
     // Black on black: the colours agree, but the coverage differs.
@@ -189,7 +189,7 @@ fn a_reference_counts_in_the_encoding_that_it_states() {
     folder
         .run(&format!("{linear} --reference ref.png {near}"))
         .done()
-        .prints("ref.png is linear, the picture srgb: the linear one is encoded");
+        .prints("encodings: ref.png states linear; the picture states srgb; the linear picture was encoded");
 }
 
 /// Depth is infinite where nothing is visible. The depth picture still equals itself, and no other.

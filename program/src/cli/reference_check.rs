@@ -1,57 +1,20 @@
 //! `render --reference`: compares a picture with the one that was accepted before.
 
 use super::contents::Contents;
+use super::diff::comparison::{
+    self, Comparison, Perceived, SCALE, alpha_text, encodings_text, failed_text, has_two_encodings,
+    sizes_text,
+};
 use super::drawing::RenderJob;
 use super::output::{ForceFlag, Output};
-use super::text::{counted, measured};
+use super::text::counted;
 use super::tolerance::{Judged, Levels, Tolerance};
 use super::{CliError, Outcome, files};
 use crate::report::shell_word;
-use fastphong::compare::metrics::compare_where;
-use fastphong::compare::metrics::judgement::{Selection, judged_map};
+use fastphong::compare::metrics::Difference;
 use fastphong::picture::Encoding;
-use fastphong::picture::image_file::{AlphaUse, FilePicture, Format, Pair};
-use std::fmt;
+use fastphong::picture::image_file::{FilePicture, Format, Pair};
 use std::path::{Path, PathBuf};
-
-/// How many grey levels the light end of a difference map stands for.
-pub const SCALE: f32 = 16.0;
-
-/// Returns the end of the sentence "the pictures differ …", for pixels that are finite in only one
-/// of them.
-pub fn not_finite_text(pixels: usize) -> String {
-    let (one, more) = ("pixel that is", "pixels that are");
-    let pixels = counted(pixels, one, more);
-    format!("in {pixels} infinite or not a number in one of them, which no threshold allows")
-}
-
-/// True if the pictures have different encodings, so that the linear one is encoded before they are
-/// compared.
-pub fn has_two_encodings(pair: &Pair<'_>) -> bool {
-    let [reference, actual] = pair.encodings().map(|used| used.encoding);
-    reference != actual
-}
-
-/// Returns a note on alpha if only one of the pictures has it. `names` are the names of the
-/// reference and the other picture.
-pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<String> {
-    let (of_reference, done) = match pair.alpha() {
-        AlphaUse::Absent | AlphaUse::Compared => return None,
-        AlphaUse::Flattened { of_reference } => {
-            (of_reference, "is drawn over the background that it states")
-        }
-        AlphaUse::Opaque { of_reference } => {
-            let done =
-                "states no background to draw it over, and is compared with an opaque picture";
-            (of_reference, done)
-        }
-    };
-    let [reference, actual] = names;
-    Some(match of_reference {
-        true => format!("{actual} has no alpha: {reference} {done}"),
-        false => format!("{reference} has no alpha: {actual} {done}"),
-    })
-}
 
 /// A picture to compare with the one that was accepted.
 pub struct ReferenceCheck<'a> {
@@ -87,59 +50,33 @@ impl ReferenceCheck<'_> {
         let pair = Pair::new(&accepted, &actual, actual.encoding);
         let notes = accepted.notes.iter();
         let mut notes: String = notes.map(|note| format!("{shown}: {note}\n")).collect();
-        if let Some(text) = alpha_text(&pair, [shown.to_string().as_str(), "the picture"]) {
+        let names = [&shown.to_string(), "the picture"];
+        if let Some(text) = alpha_text(&pair, names) {
             notes += &format!("{text}\n");
         }
         if has_two_encodings(&pair) {
-            let [of_reference, of_actual] = pair.encodings().map(|used| used.encoding.name());
-            let found = format!("{shown} is {of_reference}, the picture {of_actual}");
-            notes += &format!("{found}: the linear one is encoded before they are compared\n");
+            notes += &encodings_text(&pair, names);
         }
-        let found = match pair.is_one_size() {
-            true => Some(self.judge(&pair)?),
-            false => None,
-        };
-        if let Some(judged) = found.as_ref().filter(|judged| !judged.fails) {
+        let found = Comparison::of(&pair, self.tolerance, Perceived::Nothing)?.result;
+        if let Some((_, judged)) = found.as_ref().filter(|(_, judged)| !judged.fails) {
             let text = self.passed_text(judged);
             return Ok((Outcome::Done, format!("{notes}{shown}: {text}\n")));
         }
         let candidate = self.keep(&actual)?;
+        let map = comparison::map(&pair, self.tolerance, SCALE)?;
         let map_path = sibling(&candidate, reference, "diff", Format::Png);
         self.beside(map_path.clone(), Format::Png)
-            .write_encoded(&self.map(&pair)?)?;
-        let (found, part) = match &found {
-            Some(judged) => (self.failed_text(judged, &pair)?, ""),
-            None => {
-                let ([rw, rh], [aw, ah]) = (accepted.size(), actual.size());
-                let sizes = format!("the reference has {rw}x{rh} pixels, the picture {aw}x{ah}");
-                let part = " of the upper left part that both have";
-                (format!("the sizes differ: {sizes}\n"), part)
-            }
+            .write_encoded(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
+        let found = match &found {
+            Some((difference, judged)) => self.failed_text(difference, judged),
+            None => sizes_text(&pair, [accepted.size(), actual.size()], true),
         };
         let accept = self.how_to_accept(&candidate);
         let (candidate, map_path) = (candidate.display(), map_path.display());
         let scale = format!("{SCALE} levels from black to yellow");
-        let files = format!("actual: {candidate}\ndifference{part}, {scale}: {map_path}\n");
+        let files = format!("actual: {candidate}\ndifference, {scale}: {map_path}\n");
         let text = format!("{notes}{shown}: {found}{files}{accept}");
         Ok((Outcome::Differs, text))
-    }
-
-    /// Judges a pair of one size.
-    fn judge(&self, pair: &Pair<'_>) -> Result<Judged, CliError> {
-        let [r, a] = pair.compared();
-        let selection = self.tolerance.selection(pair.common_size())?;
-        self.tolerance.judge(&r, &a, &selection)
-    }
-
-    /// Draws the map. If the sizes differ, it shows the upper left part that both pictures have.
-    fn map(&self, pair: &Pair<'_>) -> Result<FilePicture, CliError> {
-        let [r, a] = pair.compared();
-        let selection = match pair.is_one_size() {
-            true => self.tolerance.selection(pair.common_size())?,
-            false => Selection::whole(pair.common_size()),
-        };
-        let map = judged_map(&r, &a, SCALE, self.tolerance.radius(), &selection)?;
-        Ok(FilePicture::stored(map).encoded(Encoding::Srgb))
     }
 
     /// Returns the files that may be written: the map, and the picture unless
@@ -210,22 +147,8 @@ impl ReferenceCheck<'_> {
 
     /// Describes the difference in a line, the spread of differences, and a line on the largest
     /// region.
-    fn failed_text(&self, judged: &Judged, pair: &Pair<'_>) -> Result<String, CliError> {
-        let (found, most) = (&judged.judgement, self.threshold());
-        let (count, allowed) = (judged.count_text(), judged.allowed_text());
-        let mut text = match found.largest.is_finite() {
-            true => {
-                let by = measured(found.largest);
-                format!("differs by {by} grey levels, more than {most}, in {count}{allowed}")
-            }
-            false => {
-                let pixels = not_finite_text(found.histogram.not_finite);
-                format!("the pictures differ {pixels}; {count} are over {most} levels{allowed}")
-            }
-        };
-        let [r, a] = pair.compared();
-        let selection = self.tolerance.selection(pair.common_size())?;
-        let difference = compare_where(&r, &a, |x, y| selection.includes(x, y))?;
+    fn failed_text(&self, difference: &Difference, judged: &Judged) -> String {
+        let mut text = format!("differs {}", failed_text(judged, self.tolerance));
         if difference.coverage_mismatches > 0 {
             let covered = counted(
                 difference.coverage_mismatches,
@@ -234,15 +157,12 @@ impl ReferenceCheck<'_> {
             );
             text += &format!(" ({covered})");
         }
-        if let Some([x, y]) = found.worst {
+        if let Some([x, y]) = judged.judgement.worst {
             let differ = counted(difference.differing, "pixel differs", "pixels differ");
             text += &format!("; {differ}, most at column {x}, row {y}");
         }
-        Ok(format!(
-            "{text}\n{}{}",
-            judged.spread_text(),
-            judged.region_text()
-        ))
+        let (spread, region) = (judged.spread_text(), judged.region_text());
+        format!("{text}\n{spread}{region}")
     }
 }
 

@@ -1,11 +1,11 @@
 //! The comparison of one pair of pictures from two folders.
 
-use super::super::reference_check::alpha_text;
 use super::super::text::{counted, grouped};
 use super::super::tolerance::{Judged, Levels, Tolerance};
 use super::super::{CliError, files, memory};
+use super::DiffArgs;
+use super::comparison::{Comparison, Perceived, alpha_text};
 use super::pairing::Named;
-use super::{Comparison, DiffArgs};
 use fastphong::picture::image_file::{FilePicture, Pair};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -157,7 +157,7 @@ fn judge(
     one.notes
         .extend(alpha_text(&pair, ["the reference", "the picture"]));
     memory::check_pair(&pair)?;
-    let found = Comparison::of(&pair, tolerance, false)?;
+    let found = Comparison::of(&pair, tolerance, Perceived::Metrics)?;
     let sizes = [reference.size(), actual.size()];
     found.add_to(&mut one.fields, &pair, sizes);
     let Some((difference, judged)) = found.result else {

@@ -1,14 +1,31 @@
-//! The comparison of two pictures: their metrics, and the judgement by a tolerance.
+//! The comparison of two pictures for `diff` and for `render --reference`: metrics, the judgement by
+//! a tolerance, the map, and sentences about them.
 
 use super::super::CliError;
-use super::super::reference_check::has_two_encodings;
+use super::super::text::{counted, measured};
 use super::super::tolerance::{Judged, Tolerance};
+use fastphong::compare::metrics::judgement::{Selection, judged_map};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare_where, flip_map, mean_flip, ssim,
 };
-use fastphong::picture::Picture;
-use fastphong::picture::image_file::Pair;
+use fastphong::picture::image_file::{AlphaUse, Pair};
+use fastphong::picture::{Picture, Picture8};
 use serde_json::{Value, json};
+use std::fmt;
+
+/// How many grey levels the light end of a difference map stands for.
+pub const SCALE: f32 = 16.0;
+
+/// Which metrics of perceived difference to compute. They are slow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Perceived {
+    /// None of them.
+    Nothing,
+    /// SSIM and FLIP, unless there are too many pixels.
+    Metrics,
+    /// Also the map of FLIP.
+    Map,
+}
 
 /// The result of a comparison.
 pub struct Comparison {
@@ -20,16 +37,16 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares a pair. `maps_flip` asks for a map of FLIP; for pictures of different sizes, only
-    /// this map is computed.
+    /// Compares a pair. For pictures of different sizes, at most the map of FLIP is computed.
     ///
     /// # Errors
     /// If there are too many pixels for a map of FLIP, or the mask or region does not fit the size.
     pub fn of(
         pair: &Pair<'_>,
         tolerance: &Tolerance<'_>,
-        maps_flip: bool,
+        perceived: Perceived,
     ) -> Result<Comparison, CliError> {
+        let maps_flip = perceived == Perceived::Map;
         let [width, height] = pair.common_size();
         let is_perceived = width * height <= MAX_PERCEIVED;
         if maps_flip && !is_perceived {
@@ -46,7 +63,9 @@ impl Comparison {
         let [r, a] = pair.compared();
         let mut difference = compare_where(&r, &a, |x, y| selection.includes(x, y))?;
         let mut flip = None;
-        if difference.equal && !has_two_encodings(pair) && !maps_flip {
+        if perceived == Perceived::Nothing {
+            // Only the judgement is asked for.
+        } else if difference.equal && !has_two_encodings(pair) && !maps_flip {
             // Equal pictures look equal on a screen too: FLIP, the slowest metric, is 0. SSIM is 1,
             // as `compare_where` found.
             difference.flip = is_perceived.then_some(0.0);
@@ -92,6 +111,117 @@ impl Comparison {
             None => add_nothing(object),
         }
     }
+}
+
+/// Draws the map of differences, with `scale` grey levels at its light end. If the sizes differ, it
+/// shows the upper left part that both pictures have.
+///
+/// # Errors
+/// As [`selection`].
+pub fn map(pair: &Pair<'_>, tolerance: &Tolerance<'_>, scale: f32) -> Result<Picture8, CliError> {
+    let ([r, a], selection) = (pair.compared(), selection(pair, tolerance)?);
+    Ok(judged_map(&r, &a, scale, tolerance.radius(), &selection)?)
+}
+
+/// Returns the pixels that a map shows: those that the tolerance selects, or all that both pictures
+/// have if their sizes differ.
+///
+/// # Errors
+/// If the mask or region does not fit the size.
+pub fn selection<'t>(
+    pair: &Pair<'_>,
+    tolerance: &'t Tolerance<'_>,
+) -> Result<Selection<'t>, CliError> {
+    if pair.is_one_size() {
+        tolerance.selection(pair.common_size())
+    } else {
+        Ok(Selection::whole(pair.common_size()))
+    }
+}
+
+/// Returns the end of the sentence "the pictures differ …", for pictures that fail.
+pub fn failed_text(judged: &Judged, tolerance: &Tolerance<'_>) -> String {
+    let most = tolerance.threshold().unwrap_or(0.0);
+    let (count, allowed) = (judged.count_text(), judged.allowed_text());
+    let largest = judged.judgement.largest;
+    if largest.is_finite() {
+        let by = measured(largest);
+        format!("by {by} grey levels, more than {most}, in {count}{allowed}")
+    } else {
+        let pixels = not_finite_text(judged.judgement.histogram.not_finite);
+        format!("{pixels}; {count} are over {most} levels{allowed}")
+    }
+}
+
+/// Returns the end of the sentence "the pictures differ …", for pixels that are finite in only one
+/// of them.
+pub fn not_finite_text(pixels: usize) -> String {
+    let (one, more) = ("pixel that is", "pixels that are");
+    let pixels = counted(pixels, one, more);
+    format!("in {pixels} infinite or not a number in one of them, which no threshold allows")
+}
+
+/// Returns the line for pictures of different sizes. If `is_mapped`, it says which part the map
+/// shows.
+pub fn sizes_text(pair: &Pair<'_>, sizes: [[usize; 2]; 2], is_mapped: bool) -> String {
+    let sizes = [sizes[0], sizes[1], pair.common_size()];
+    let [reference, actual, common] = sizes.map(|[width, height]| format!("{width}x{height}"));
+    let found = format!("the reference has {reference} pixels, the picture {actual}");
+    let mapped = if is_mapped {
+        format!("; the map shows the upper left part that both have, {common}")
+    } else {
+        String::new()
+    };
+    format!("the sizes differ: {found}{mapped}\n")
+}
+
+/// True if the pictures have different encodings, so that the linear one is encoded before they are
+/// compared.
+pub fn has_two_encodings(pair: &Pair<'_>) -> bool {
+    let [reference, actual] = pair.encodings().map(|used| used.encoding);
+    reference != actual
+}
+
+/// Returns the line about the encodings of the pictures, stated or assumed. `names` are the names
+/// of the reference and the other picture.
+pub fn encodings_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> String {
+    let [reference, actual] = [0, 1].map(|i| {
+        let (name, used) = (&names[i], pair.encodings()[i]);
+        let encoding = used.encoding.name();
+        if used.is_stated {
+            format!("{name} states {encoding}")
+        } else {
+            format!("{name} states none, {encoding} is assumed")
+        }
+    });
+    let encoded = if has_two_encodings(pair) {
+        "; the linear picture was encoded as srgb, unrounded"
+    } else {
+        ""
+    };
+    format!("encodings: {reference}; {actual}{encoded}\n")
+}
+
+/// Returns a note on alpha if only one of the pictures has it. `names` are the names of the
+/// reference and the other picture.
+pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<String> {
+    let (of_reference, done) = match pair.alpha() {
+        AlphaUse::Absent | AlphaUse::Compared => return None,
+        AlphaUse::Flattened { of_reference } => {
+            (of_reference, "is drawn over the background that it states")
+        }
+        AlphaUse::Opaque { of_reference } => {
+            let done =
+                "states no background to draw it over, and is compared with an opaque picture";
+            (of_reference, done)
+        }
+    };
+    let [reference, actual] = names;
+    Some(if of_reference {
+        format!("{actual} has no alpha: {reference} {done}")
+    } else {
+        format!("{reference} has no alpha: {actual} {done}")
+    })
 }
 
 /// Adds the fields of [`Judged::add_to`] for pictures that were not judged.

@@ -2,20 +2,22 @@
 //! a map.
 
 mod compared;
-mod comparison;
+pub(super) mod comparison;
 mod folders;
 mod junit;
 mod page;
 mod pairing;
 
 use super::output::{self, Output, print_beside};
-use super::reference_check::{SCALE, alpha_text, has_two_encodings, not_finite_text};
 use super::text::measured;
-use super::tolerance::{Judged, Tolerance, ToleranceFlags};
+use super::tolerance::{Tolerance, ToleranceFlags};
 use super::{CliError, Log, Outcome, files, memory, values};
 use crate::compare::table::aligned;
-use comparison::Comparison;
-use fastphong::compare::metrics::judgement::{Selection, draw_frame, draw_left_out, judged_map};
+use comparison::{
+    Comparison, Perceived, SCALE, alpha_text, encodings_text, failed_text, not_finite_text,
+    selection, sizes_text,
+};
+use fastphong::compare::metrics::judgement::{draw_frame, draw_left_out};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, flip_colours, signed_difference_map,
 };
@@ -158,7 +160,12 @@ impl DiffArgs {
             log.warning(&text);
         }
         memory::check_pair(&pair)?;
-        let found = Comparison::of(&pair, &tolerance, self.flip)?;
+        let perceived = if self.flip {
+            Perceived::Map
+        } else {
+            Perceived::Metrics
+        };
+        let found = Comparison::of(&pair, &tolerance, perceived)?;
         if let Some(output) = &output {
             let map = self.map(&pair, &found, &tolerance)?;
             output.write_encoded(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
@@ -175,7 +182,8 @@ impl DiffArgs {
                 Outcome::Differs
             }
             Some((_, judged)) if judged.fails => {
-                log.note(&format!("the pictures differ {}", self.failed_text(judged)));
+                let found = failed_text(judged, &tolerance);
+                log.note(&format!("the pictures differ {found}"));
                 Outcome::Differs
             }
             Some(_) => Outcome::Done,
@@ -185,7 +193,8 @@ impl DiffArgs {
     /// Returns the result as lines of text.
     fn text(&self, found: &Comparison, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
         let Some((difference, judged)) = &found.result else {
-            return self.encodings_text(pair) + &self.sizes_text(pair, sizes);
+            let sizes = sizes_text(pair, sizes, self.output.is_some());
+            return encodings_text(pair, self.paths().map(Path::display)) + &sizes;
         };
         let mut text = table(difference);
         if difference.flip.is_none() {
@@ -194,7 +203,7 @@ impl DiffArgs {
         if !difference.equal || self.fail_above.is_some() {
             text += &judged.text();
         }
-        text + &self.encodings_text(pair)
+        text + &encodings_text(pair, self.paths().map(Path::display))
     }
 
     /// Refuses `--radius` with a map that ignores it.
@@ -213,22 +222,6 @@ impl DiffArgs {
         }
     }
 
-    /// Returns the end of the sentence that says how a picture fails.
-    fn failed_text(&self, judged: &Judged) -> String {
-        let most = self.fail_above.unwrap_or_default();
-        let (count, allowed) = (judged.count_text(), judged.allowed_text());
-        match judged.judgement.largest {
-            found if found.is_finite() => {
-                let by = measured(found);
-                format!("by {by} grey levels, more than {most}, in {count}{allowed}")
-            }
-            _ => {
-                let pixels = not_finite_text(judged.judgement.histogram.not_finite);
-                format!("{pixels}; {count} are over {most} levels{allowed}")
-            }
-        }
-    }
-
     /// Draws the map. If the sizes differ, it shows the upper left part that both pictures have.
     fn map(
         &self,
@@ -237,17 +230,12 @@ impl DiffArgs {
         tolerance: &Tolerance<'_>,
     ) -> Result<Picture8, CliError> {
         let [r, a] = pair.compared();
-        let size = pair.common_size();
-        let selection = match pair.is_one_size() {
-            true => tolerance.selection(size)?,
-            false => Selection::whole(size),
-        };
         let mut map = match (&found.flip, self.signed) {
             (Some(flip), _) if self.flip => flip_colours(flip),
             (_, true) => signed_difference_map(&r, &a, self.scale)?,
-            (_, false) => judged_map(&r, &a, self.scale, tolerance.radius(), &selection)?,
+            (_, false) => comparison::map(pair, tolerance, self.scale)?,
         };
-        draw_left_out(&mut map, &selection);
+        draw_left_out(&mut map, &selection(pair, tolerance)?);
         let judged = found.result.as_ref().map(|(_, judged)| judged);
         let region = judged.and_then(|judged| judged.judgement.region);
         if let (true, Some(region)) = (self.frame, region) {
@@ -258,35 +246,6 @@ impl DiffArgs {
 
     fn paths(&self) -> [&Path; 2] {
         [&self.reference, &self.actual]
-    }
-
-    /// Returns the line about the encodings of the pictures, stated or assumed.
-    fn encodings_text(&self, pair: &Pair<'_>) -> String {
-        let [reference, actual] = [0, 1].map(|i| {
-            let (path, used) = (self.paths()[i].display(), pair.encodings()[i]);
-            let name = used.encoding.name();
-            match used.is_stated {
-                true => format!("{path} states {name}"),
-                false => format!("{path} states none, {name} is assumed"),
-            }
-        });
-        let encoded = match has_two_encodings(pair) {
-            true => "; the linear picture was encoded as srgb, unrounded",
-            false => "",
-        };
-        format!("encodings: {reference}; {actual}{encoded}\n")
-    }
-
-    /// Returns the line for pictures of different sizes, and which part a map shows.
-    fn sizes_text(&self, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
-        let sizes = [sizes[0], sizes[1], pair.common_size()];
-        let [reference, actual, common] = sizes.map(|[width, height]| format!("{width}x{height}"));
-        let found = format!("the reference has {reference} pixels, the picture {actual}");
-        let mapped = match self.output {
-            Some(_) => format!("; the map shows the upper left part that both have, {common}"),
-            None => String::new(),
-        };
-        format!("the sizes differ: {found}{mapped}\n")
     }
 
     /// Returns the result as JSON. Pictures of different sizes have no metrics.

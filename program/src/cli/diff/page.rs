@@ -1,10 +1,10 @@
 //! The page that `--html` writes: all pairs of two folders, with pictures and maps.
 
 use super::super::CliError;
-use super::super::reference_check::SCALE;
 use super::super::tolerance::Tolerance;
 use super::DiffArgs;
 use super::compared::{Compared, Status, summary};
+use super::comparison::SCALE;
 use crate::report::pairs_page::{PairsPage, ShownPair};
 use fastphong::compare::metrics::judgement::{Selection, judged_map};
 use fastphong::picture::image_file::{FilePicture, Format, Pair};
