@@ -461,8 +461,8 @@ fn creased(
 }
 
 impl AveragedRun {
-    /// Adds the normals of the corners in `fan`, which lie on `count` surfaces. `surfaces` holds the
-    /// surface of each corner.
+    /// Adds the normals of the corners in `fan`, which lie on `count` surfaces. `surfaces` holds
+    /// the surface of each corner.
     fn add_creased(
         &mut self,
         fan: &[FanCorner],

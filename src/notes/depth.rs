@@ -70,8 +70,8 @@ fn normal_at(frame: &Frame, vertex: u32) -> [f32; 3] {
     }
 }
 
-/// Notes if perspective makes much of a difference to attributes interpolated on the screen. Whoever
-/// chose the interpolation knows what it does.
+/// Notes if perspective makes much of a difference to attributes interpolated on the screen.
+/// Whoever chose the interpolation knows what it does.
 pub(super) fn screen_interpolation(frame: &Frame, notes: &mut Notes) {
     let is_perspective = matches!(frame.depth_range(), DepthRange::Perspective { .. });
     if !is_perspective || frame.interpolation() == Interpolation::Perspective {

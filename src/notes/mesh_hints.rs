@@ -83,9 +83,8 @@ pub fn lies_on_its_side(mesh: &PolygonMesh) -> Option<Note> {
     const KIND: &str = "mesh/lies";
     /// The fraction of the size that counts as zero.
     const NEAR: f64 = 1e-3;
-    match mesh.up_by_custom() {
-        Some(_) => return mesh.up_note(),
-        None => {}
+    if mesh.up_by_custom().is_some() {
+        return mesh.up_note();
     }
     let (low, high) = mesh.bounds()?;
     let (low, high) = (low.to_array(), high.to_array());

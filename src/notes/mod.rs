@@ -50,8 +50,8 @@ pub enum Cost {
     Samples,
 }
 
-/// Returns the notes about `frame`, which shows `scene`: polygons left out, light that is clamped or
-/// reaches nothing, depths that rounding cannot tell apart.
+/// Returns the notes about `frame`, which shows `scene`: polygons left out, light that is clamped
+/// or reaches nothing, depths that rounding cannot tell apart.
 ///
 /// `frame` must be made from this scene ([`Scene::frame`]), or from the scene with other settings
 /// but the same objects.

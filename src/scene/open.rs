@@ -42,8 +42,8 @@ pub struct Overlay {
 }
 
 impl Overlay {
-    /// Makes an overlay. A material of the scene counts for every object, whatever materials its mesh
-    /// has.
+    /// Makes an overlay. A material of the scene counts for every object, whatever materials its
+    /// mesh has.
     pub fn new(scene: SceneTable, mut every_object: SceneTable) -> Overlay {
         if let Some(material) = scene.get("material") {
             let material = material.clone();

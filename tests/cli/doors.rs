@@ -97,7 +97,7 @@ fn every_note_reaches_every_command() {
             let told = ended.err + &ended.out;
             for note in &notes {
                 // `compare` looks at the mesh in another light, which may change what is clamped.
-                let is_lit = note.kind.starts_with("light/") && size != "";
+                let is_lit = note.kind.starts_with("light/") && !size.is_empty();
                 // `info` leaves out the name of a mesh that it describes.
                 let text = note.text(&Gaps);
                 let text = text.rsplit_once(": ").map_or(&*text, |(_, text)| text);

@@ -243,7 +243,8 @@ impl clap::FromArgMatches for SceneFlags {
 }
 
 impl SceneFlags {
-    /// Opens the scene that `input` names, with the changes by flags, and prints the notes about it.
+    /// Opens the scene that `input` names, with the changes by flags, and prints the notes about
+    /// it.
     ///
     /// # Errors
     /// If there is no such input, or it cannot be used.
@@ -281,8 +282,8 @@ impl SceneFlags {
     }
 }
 
-/// Prints the notes about a scene and its meshes, and with `--verbose` where its vertex normals come
-/// from.
+/// Prints the notes about a scene and its meshes, and with `--verbose` where its vertex normals
+/// come from.
 pub fn note_scene(opened: &Opened, log: Log) {
     if log == Log::Quiet {
         return;

@@ -142,8 +142,8 @@ impl SceneFile {
         scene.map_err(|error| error.within(&self.source))
     }
 
-    /// Returns the view that the file describes of objects whose polygons use these positions in the
-    /// world ([`Scene::world_points`]). It loads nothing.
+    /// Returns the view that the file describes of objects whose polygons use these positions in
+    /// the world ([`Scene::world_points`]). It loads nothing.
     ///
     /// # Errors
     /// [`SceneError`] as [`SceneFile::resolve`], for everything that is not about objects.

@@ -1,5 +1,5 @@
-//! The comparison of two pictures for `diff` and for `render --reference`: metrics, the judgement by
-//! a tolerance, the map, and sentences about them.
+//! The comparison of two pictures for `diff` and for `render --reference`: metrics, the judgement
+//! by a tolerance, the map, and sentences about them.
 
 use super::super::CliError;
 use super::super::text::{counted, measured};
