@@ -24,6 +24,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 mod flip;
+#[doc(hidden)]
 pub mod judgement;
 mod list;
 mod map;
