@@ -4,7 +4,7 @@
 //! The notes of a scene itself come with it ([`Opened::notes`](crate::scene::open::Opened::notes)).
 //! Nothing here is computed unless somebody asks, so a renderer at 60 Hz pays nothing.
 //!
-//! **To add a note about frames**, write a function that takes a [`DrawnScene`] and pushes to
+//! **To add a note about frames**, write a function that takes a `DrawnScene` and pushes to
 //! [`Notes`], call it in [`of_frame`], and add a row to `tests/doors.json`. The program, the Python
 //! package and the page then show it.
 //!
