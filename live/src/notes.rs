@@ -19,7 +19,7 @@ impl Studio {
             let of_frame = of_frame(&loaded.shown(), frame, Cost::Samples);
             notes.append(of_frame.without_stated(|key| loaded.file.states(key)));
         }
-        let lines = [Level::Warning, Level::Note].map(|level| notes.texts(level, &SceneKeys));
+        let lines = [Level::Warning, Level::Remark].map(|level| notes.texts(level, &SceneKeys));
         self.say(lines.concat().join("\n"))
     }
 }

@@ -222,7 +222,7 @@ impl Scene {
     /// Returns notes on what the scene leaves unused and on what it chose automatically.
     #[getter]
     fn notes(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(texts(self.all_notes(py)?, Level::Note))
+        Ok(texts(self.all_notes(py)?, Level::Remark))
     }
 
     /// Returns the width and the height of the scene's pictures.

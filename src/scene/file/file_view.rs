@@ -10,6 +10,7 @@ use crate::note::{Note, Setting};
 use crate::scene::ranges::{COORDINATE, FOVY};
 use std::format;
 use std::string::String;
+#[cfg(feature = "gltf")]
 use std::vec::Vec;
 
 impl SceneFile {
