@@ -147,7 +147,7 @@ impl Figure {
     /// Draws and measures the figure.
     ///
     /// # Errors
-    /// [`FigureError`] if one of its meshes, scenes or frames cannot be made.
+    /// An error if one of its meshes, scenes or frames cannot be made.
     pub fn make(&self) -> Result<FigureContent> {
         let mut content = FigureContent::default();
         self.parts.iter().try_for_each(|part| part(&mut content))?;

@@ -152,7 +152,7 @@ impl Report {
     /// of pictures.
     ///
     /// # Errors
-    /// As [`parse`].
+    /// [`DocumentError`] if the text is not JSON, has another schema, or lacks a field.
     pub fn read(text: String) -> Result<Report, DocumentError> {
         let mut data = parse(&text)?;
         data["figures"] = json!([]);
