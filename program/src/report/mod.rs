@@ -152,7 +152,7 @@ impl Report {
     /// of pictures.
     ///
     /// # Errors
-    /// [`DocumentError`] if the text is not JSON, has another schema, or lacks a field.
+    /// An error if the text is not JSON, has another schema, or lacks a field.
     pub fn read(text: String) -> Result<Report, DocumentError> {
         let mut data = parse(&text)?;
         data["figures"] = json!([]);
