@@ -401,7 +401,9 @@ fn commands_in_the_documents_exist() {
     for document in ["README.md", "CONTRIBUTING.md"] {
         for command in commands(&read(document)) {
             checked += 1;
-            let words: Vec<&str> = command.split(' ').collect();
+            // Variables of the environment come before the program.
+            let is_variable = |word: &&str| word.contains('=') && !word.starts_with('-');
+            let words: Vec<&str> = command.split(' ').skip_while(is_variable).collect();
             let after = |word: &str| {
                 words
                     .iter()

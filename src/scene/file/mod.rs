@@ -24,6 +24,7 @@ pub mod diagnostics;
 mod file_view;
 mod lights;
 mod normal_source;
+mod overlay;
 #[doc(hidden)]
 pub mod resolve;
 #[doc(hidden)]
@@ -38,6 +39,7 @@ mod viewpoint;
 mod visibility;
 
 pub use diagnostics::SceneError;
+pub use overlay::Overlay;
 pub use resolve::{Resolved, UnusableMesh, View};
 pub use value::SceneTable;
 

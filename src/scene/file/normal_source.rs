@@ -1,13 +1,13 @@
 //! Where vertex normals come from, as a scene file says, and notes on what it leaves unused in a
 //! mesh file.
 
+use super::Overlay;
 use super::check::Section;
 use super::diagnostics::{Origin, SceneError};
 use super::value::{Data, SceneTable};
 use crate::mesh::PolygonMesh;
 use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
 use crate::note::{Note, Notes, Setting};
-use crate::scene::open::Overlay;
 use crate::scene::ranges::CREASE;
 use std::format;
 use std::string::ToString;

@@ -22,6 +22,7 @@
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
+mod bench_polygon;
 pub(crate) mod gbuffer_cell;
 pub(crate) mod operation_counts;
 pub(crate) mod runs;

@@ -1,9 +1,9 @@
 //! Operation counts: the same code that draws, run on values that count their operations.
 
 use crate::number::{Counted, Counter, Counts, Real, Vec3, vec3};
+use crate::shading::kernels::bench_polygon::BenchPolygon;
 use crate::shading::kernels::colour;
 use crate::shading::kernels::runs::RunStart;
-use crate::shading::kernels::sample_span::BenchPolygon;
 use crate::shading::light::eye_frame::carried;
 use crate::shading::light::{LightAt, Uniforms};
 use crate::shading::walks::values::each;

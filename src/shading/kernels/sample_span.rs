@@ -1,12 +1,13 @@
 //! A single span, on which operations are counted and kernels are timed.
 
 use crate::mesh::Material;
-use crate::number::{Num, Vec3, vec3};
+use crate::number::{Num, vec3};
 use crate::scene::{Falloff, Interpolation, Light, Lighting, Place, Power};
+use crate::shading::kernels::bench_polygon::BenchPolygon;
 use crate::shading::light::Uniforms;
 use crate::shading::methods::integers;
 use crate::shading::walks::GreatCircle;
-use crate::shading::{Carried, Corner, Corners, Extras, Local, On, OperationCounts, Variant, ramp};
+use crate::shading::{Carried, Corner, Extras, Local, On, OperationCounts, Variant, ramp};
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -161,27 +162,6 @@ impl SpanBench {
     pub(crate) fn extras(&self, variant: &Variant) -> Extras {
         let row = variant.row();
         row.extras(self.is_local(), self.perspective, false)
-    }
-}
-
-/// The triangle of a bench.
-pub(crate) struct BenchPolygon<F> {
-    corners: [Corner<F>; 3],
-    normals: [Vec3<F>; 3],
-    face: Vec3<F>,
-}
-
-impl<F: Num> BenchPolygon<F> {
-    /// Returns the polygon as methods read it.
-    pub fn corners(&self) -> Corners<'_, F> {
-        let [a, b, c] = self.normals;
-        Corners {
-            all: &self.corners,
-            face: self.face,
-            is_whole: true,
-            whole: &self.normals,
-            mean: (a + b + c) * (1.0 / 3.0),
-        }
     }
 }
 
