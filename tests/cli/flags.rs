@@ -169,11 +169,11 @@ fn invalid_flags_are_rejected_by_name() {
         ("-m refrence", &["did you mean `reference`?"]),
         (
             "-m reference:model=fong",
-            &["`model=fong`: expected one of model=flat"],
+            &["unknown closed form `fong`: did you mean `phong`?"],
         ),
         (
-            "-m reference:phong",
-            &["`phong`: expected one of model=flat"],
+            "-m reference:model=x",
+            &["unknown closed form `x`: expected one of `flat`"],
         ),
         (
             "-m fast-phong:steps=9",

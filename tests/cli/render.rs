@@ -42,6 +42,7 @@ fn every_method_draws_and_is_near_the_reference() {
         assert_eq!(covered(&drawn), covered(&phong), "{method:?}");
     }
     assert!(sphere("-m reference:model=phong") == phong);
+    assert!(sphere("-m reference:phong") == phong);
     assert!(sphere("-m reference:model=flat") != phong);
     // Use the span engine: blocks of eight compute true roots on spans this short, whatever the
     // steps.
