@@ -42,9 +42,10 @@ pub fn run(bytes: &[u8]) {
         let name = name.strip_prefix("builtin:").filter(|_| !is_large);
         let mesh = builtin(name.unwrap_or("cube"));
         let mesh = mesh.map_err(|error| UnusableMesh::new(error.to_string()))?;
-        match mesh.polygon_count() > MOST_POLYGONS {
-            true => Err(UnusableMesh::new("more polygons than are drawn here")),
-            false => Ok((Arc::new(mesh), Default::default())),
+        if mesh.polygon_count() > MOST_POLYGONS {
+            Err(UnusableMesh::new("more polygons than are drawn here"))
+        } else {
+            Ok((Arc::new(mesh), Default::default()))
         }
     };
     let mut scene = match file.resolve(load) {

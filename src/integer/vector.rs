@@ -42,9 +42,10 @@ impl Vector {
         let [x, y, z] = components.map(f64::from);
         let length = libm::sqrt(x * x + y * y + z * z);
         // Rounding adds up to √3/2 units of 2⁻¹⁵ to a length.
-        let scale = match length > 1.0 + 1.0 / 65536.0 {
-            true => 32768.0 / length,
-            false => 32768.0,
+        let scale = if length > 1.0 + 1.0 / 65536.0 {
+            32768.0 / length
+        } else {
+            32768.0
         };
         (length.is_finite()).then(|| Self([x, y, z].map(|c| libm::rint(c * scale) as i32)))
     }

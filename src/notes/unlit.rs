@@ -151,9 +151,10 @@ fn no_light(drawn: &DrawnScene, lit: &LitObjects) -> Option<String> {
                 n => format!("none of the {n} lights reaches"),
             };
             let why = "surfaces face away, or light or surfaces are black";
-            let left = match has_ambient {
-                true => "only ambient light is drawn",
-                false => "there is no ambient light, so everything visible is black",
+            let left = if has_ambient {
+                "only ambient light is drawn"
+            } else {
+                "there is no ambient light, so everything visible is black"
             };
             Some(format!("{lights} anything visible: {why}; {left}"))
         }

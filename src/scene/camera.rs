@@ -138,8 +138,9 @@ impl Camera {
 /// that is in range is returned unchanged.
 fn in_range(vector: DVec3) -> DVec3 {
     let size = vector.abs().max_element();
-    match (1e-100..=1e100).contains(&size) {
-        true => vector,
-        false => vector / size,
+    if (1e-100..=1e100).contains(&size) {
+        vector
+    } else {
+        vector / size
     }
 }

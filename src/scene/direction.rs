@@ -34,8 +34,9 @@ pub(crate) fn is_unit(vector: DVec3) -> bool {
 /// that has no direction is returned unchanged.
 pub(crate) fn as_unit(vector: DVec3) -> DVec3 {
     let has_direction = vector.is_finite() && vector != DVec3::ZERO;
-    match is_unit(vector) || !has_direction {
-        true => vector,
-        false => unit(vector),
+    if is_unit(vector) || !has_direction {
+        vector
+    } else {
+        unit(vector)
     }
 }

@@ -104,9 +104,10 @@ impl InputFormat {
         let equals = first.iter().position(|byte| *byte == b'=');
         let key = first[..equals.unwrap_or(0)].trim_ascii();
         let has_key = !key.is_empty() && !key.iter().any(u8::is_ascii_whitespace);
-        match has_key || first.starts_with(b"[") {
-            true => InputFormat::Toml,
-            false => InputFormat::Mesh,
+        if has_key || first.starts_with(b"[") {
+            InputFormat::Toml
+        } else {
+            InputFormat::Mesh
         }
     }
 }
@@ -134,9 +135,10 @@ pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
     }
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     let known = read.entry(path.to_owned()).or_insert_with(|| {
-        let bytes = match is_input {
-            true => read_to_end(io::stdin().lock()),
-            false => fs::File::open(path).and_then(read_to_end),
+        let bytes = if is_input {
+            read_to_end(io::stdin().lock())
+        } else {
+            fs::File::open(path).and_then(read_to_end)
         };
         bytes.map_err(|error| error.to_string())
     });
@@ -147,12 +149,13 @@ pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
 fn read_to_end(pipe: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     pipe.take(MOST_PIPED + 1).read_to_end(&mut bytes)?;
-    match bytes.len() as u64 > MOST_PIPED {
-        true => Err(io::Error::other(format!(
+    if bytes.len() as u64 > MOST_PIPED {
+        Err(io::Error::other(format!(
             "more than {} MiB come from it",
             MOST_PIPED >> 20
-        ))),
-        false => Ok(bytes),
+        )))
+    } else {
+        Ok(bytes)
     }
 }
 

@@ -62,13 +62,13 @@ impl Scene {
             near: 0.0,
             far: 2.0,
         });
-        let own = mesh
-            .materials()
-            .is_empty()
-            .then(|| match mesh.has_lit_colours() {
-                true => Material::NEUTRAL,
-                false => Material::default(),
-            });
+        let own = mesh.materials().is_empty().then(|| {
+            if mesh.has_lit_colours() {
+                Material::NEUTRAL
+            } else {
+                Material::default()
+            }
+        });
         let two_sided = mesh.was_read() && WindingDoubts::of(&mesh).any();
         Scene {
             width,
@@ -81,9 +81,10 @@ impl Scene {
                 material: own,
                 ..Object::new(mesh)
             }],
-            culling: match two_sided {
-                true => Culling::None,
-                false => Culling::Back,
+            culling: if two_sided {
+                Culling::None
+            } else {
+                Culling::Back
             },
             two_sided,
             colours: true,

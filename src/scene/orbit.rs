@@ -198,9 +198,10 @@ fn toward_first(lights: &[Light], target: DVec3) -> Option<DVec3> {
 /// Turns lights around `target`.
 fn turned_about(target: DVec3, turn: DMat3, lights: &[Light]) -> Vec<Light> {
     let turned = |light: &Light| {
-        let place = match light.place.is_local() {
-            true => light.place.map(|at| target + turn * (at - target)),
-            false => light.place.map(|toward| (turn * toward).normalize()),
+        let place = if light.place.is_local() {
+            light.place.map(|at| target + turn * (at - target))
+        } else {
+            light.place.map(|toward| (turn * toward).normalize())
         };
         Light { place, ..*light }
     };

@@ -86,9 +86,10 @@ impl Power {
         if let Power::Table { size } = self {
             // For n below 2 the second derivative grows toward t = 0. The table begins where tⁿ is
             // 2⁻²⁴ or more, which bounds it.
-            let steepest = match n < 2.0 {
-                true => libm::pow(2.0, 24.0 * (2.0 - n) / n),
-                false => 1.0,
+            let steepest = if n < 2.0 {
+                libm::pow(2.0, 24.0 * (2.0 - n) / n)
+            } else {
+                1.0
             };
             let h = 1.0 / f64::from(size);
             return f64::min(1.0, n * (n - 1.0) * steepest * h * h / 8.0);

@@ -102,12 +102,13 @@ impl Aov {
                     (d.min(a), d.max(b))
                 });
                 let range = if far > near { far - near } else { 1.0 };
-                depth.map(|depth| match depth.is_finite() {
-                    true => {
+                depth.map(|depth| {
+                    if depth.is_finite() {
                         let grey = quantise(1.0 - (depth - near) / range);
                         [grey, grey, grey, 255]
+                    } else {
+                        [0; 4]
                     }
-                    false => [0; 4],
                 })
             }
             Aov::Polygon => raster::polygon_indices(frame).map(|index| {

@@ -99,9 +99,10 @@ impl BenchArgs {
     /// # Errors
     /// If the engine and the instruction sets contradict each other.
     fn renderers(&self) -> Result<Vec<Renderer>, CliError> {
-        let default = match self.frame_times {
-            true => Renderer::fastest(),
-            false => Renderer::LECTURE,
+        let default = if self.frame_times {
+            Renderer::fastest()
+        } else {
+            Renderer::LECTURE
         };
         let Some(list) = &self.simd else {
             return Ok(vec![renderer(self.engine, None, default)?]);

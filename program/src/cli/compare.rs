@@ -53,13 +53,15 @@ impl CompareArgs {
             outputs: &[],
         };
         let comparisons = self.timing.compare(&measurement, perceives)?;
-        let kind = match self.all_columns {
-            true => TableKind::Compare,
-            false => TableKind::Short,
+        let kind = if self.all_columns {
+            TableKind::Compare
+        } else {
+            TableKind::Short
         };
-        let text = match self.json {
-            true => Document::new(command_line(), comparisons).to_text(),
-            false => comparisons.iter().map(|c| table(c, kind)).collect(),
+        let text = if self.json {
+            Document::new(command_line(), comparisons).to_text()
+        } else {
+            comparisons.iter().map(|c| table(c, kind)).collect()
         };
         let outcome = done(&text)?;
         if renderer == Renderer::LECTURE {

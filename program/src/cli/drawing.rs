@@ -233,9 +233,10 @@ impl RenderJob {
     pub fn picture(&mut self, format: Format) -> FilePicture {
         let has_alpha = format == Format::Png;
         let is_straight = has_alpha && !self.opaque;
-        self.frame.set_alpha(match is_straight {
-            true => Alpha::Straight,
-            false => Alpha::Flattened,
+        self.frame.set_alpha(if is_straight {
+            Alpha::Straight
+        } else {
+            Alpha::Flattened
         });
         let mut picture = self.drawn(format == Format::Pfm);
         picture.has_alpha = has_alpha;

@@ -39,9 +39,10 @@ fn at_positions_span(lights: usize) -> SpanBench {
 impl ExplainArgs {
     /// Prints the explanation.
     pub fn run(&self) -> Result<Outcome, CliError> {
-        done(&match self.json {
-            true => format!("{:#}\n", self.json()?),
-            false => self.text()?,
+        done(&if self.json {
+            format!("{:#}\n", self.json()?)
+        } else {
+            self.text()?
         })
     }
 
@@ -60,9 +61,10 @@ impl ExplainArgs {
             let s = if lights == 1 { "" } else { "s" };
             let there = " and eye at positions";
             let eye = if at_positions { there } else { "" };
-            let how = match self.method.row().is_integer {
-                true => "spans and pixels read off their loops",
-                false => "as counted",
+            let how = if self.method.row().is_integer {
+                "spans and pixels read off their loops"
+            } else {
+                "as counted"
             };
             let title = format!("operations with {lights} light{s}{eye}, {how}");
             section(&title, &costs(&self.operations(lights, at_positions)));

@@ -36,9 +36,10 @@ pub struct FigureArgs {
 impl FigureArgs {
     /// Draws and measures the figures, and writes the page.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
-        let figures = match self.all {
-            true => FIGURES.to_vec(),
-            false => distinct(self.names.clone()),
+        let figures = if self.all {
+            FIGURES.to_vec()
+        } else {
+            distinct(self.names.clone())
         };
         if figures.is_empty() {
             return Err(

@@ -142,9 +142,10 @@ pub fn will_read_of_scene(path: &Path) {
 /// Reads a file of a scene, by its name in the scene.
 fn read_of_scene(name: &Path) -> io::Result<Vec<u8>> {
     let path = path_behind(name);
-    match name.as_os_str() == STANDARD_INPUT {
-        true => will_read_stdin("the input"),
-        false => will_read_of_scene(&path),
+    if name.as_os_str() == STANDARD_INPUT {
+        will_read_stdin("the input")
+    } else {
+        will_read_of_scene(&path)
     }
     read_input(&path)
 }

@@ -103,9 +103,10 @@ impl InfoArgs {
             method: Variant::auto(&frame, Renderer::fastest()),
             too_bright: too_bright.map(|note| note.text(&Flags)),
         };
-        done(&match self.json {
-            true => format!("{:#}\n", facts.json()),
-            false => facts.text(),
+        done(&if self.json {
+            format!("{:#}\n", facts.json())
+        } else {
+            facts.text()
         })
     }
 }
@@ -238,9 +239,10 @@ impl ObjectFacts<'_> {
         ];
         let odd = odd.iter().filter(|(count, _)| *count > 0);
         let odd = odd.map(|(count, kind)| format!("{} {kind}", grouped(*count)));
-        let closed = match facts.closed {
-            true => "closed".to_owned(),
-            false => odd.collect::<Vec<_>>().join(", "),
+        let closed = if facts.closed {
+            "closed".to_owned()
+        } else {
+            odd.collect::<Vec<_>>().join(", ")
         };
         let closed = match (facts.inside_out, facts.closed) {
             (0, _) => closed,
@@ -279,11 +281,10 @@ impl ObjectFacts<'_> {
             0 => String::new(),
             n => format!(", {} that cross themselves, their areas cancel", grouped(n)),
         };
-        let colours = match facts.colours {
-            true => {
-                "\n  colours     one for each position; --colours off leaves them out of the light"
-            }
-            false => "",
+        let colours = if facts.colours {
+            "\n  colours     one for each position; --colours off leaves them out of the light"
+        } else {
+            ""
         };
         let hints = self
             .hints

@@ -47,9 +47,12 @@ pub fn escaped(path: &OsStr) -> String {
 
 /// Writes each control character as `\x1B`, so that a file name cannot control the terminal.
 pub fn printable(text: &str) -> String {
-    let letter = |letter: char| match letter.is_control() {
-        true => format!("\\x{:02X}", letter as u32),
-        false => letter.to_string(),
+    let letter = |letter: char| {
+        if letter.is_control() {
+            format!("\\x{:02X}", letter as u32)
+        } else {
+            letter.to_string()
+        }
     };
     text.chars().map(letter).collect()
 }
@@ -68,9 +71,10 @@ pub fn path_behind(name: &Path) -> PathBuf {
         // not match here.
         let is_some = !stand_in.as_os_str().is_empty();
         let rest = name.strip_prefix(stand_in).ok().filter(|_| is_some)?;
-        Some(match rest.as_os_str().is_empty() {
-            true => behind.clone(),
-            false => behind.join(rest),
+        Some(if rest.as_os_str().is_empty() {
+            behind.clone()
+        } else {
+            behind.join(rest)
         })
     });
     found.unwrap_or_else(|| name.to_owned())

@@ -52,9 +52,10 @@ enum Subject {
 impl ListArgs {
     /// Prints the list.
     pub fn run(&self) -> Result<Outcome, CliError> {
-        done(&match self.json {
-            true => format!("{:#}\n", json(self.subject, self.all)?),
-            false => text(self.subject, self.all)?,
+        done(&if self.json {
+            format!("{:#}\n", json(self.subject, self.all)?)
+        } else {
+            text(self.subject, self.all)?
         })
     }
 }

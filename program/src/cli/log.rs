@@ -35,9 +35,10 @@ impl Log {
 
     /// Writes a warning: something that the user should know before trusting the result.
     pub fn warning(self, text: &str) {
-        self.note(&match colour() {
-            true => format!("\x1b[1;33mwarning\x1b[0m: {text}"),
-            false => format!("warning: {text}"),
+        self.note(&if colour() {
+            format!("\x1b[1;33mwarning\x1b[0m: {text}")
+        } else {
+            format!("warning: {text}")
         });
     }
 

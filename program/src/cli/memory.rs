@@ -138,9 +138,10 @@ pub fn check_stored(frame: &Frame, name: &str) -> Result<(), CliError> {
 pub fn check_pair(pair: &Pair<'_>) -> Result<(), CliError> {
     let size = pair.common_size();
     let pixels = pixels(size);
-    let flip = match pixels <= MAX_PERCEIVED as u64 {
-        true => FLIP_PIXEL * pixels.min(FLIP_PIXELS) + 4 * pixels,
-        false => 0,
+    let flip = if pixels <= MAX_PERCEIVED as u64 {
+        FLIP_PIXEL * pixels.min(FLIP_PIXELS) + 4 * pixels
+    } else {
+        0
     };
     check_size(size, "comparing", flip + 4 * pixels)
 }
@@ -169,9 +170,10 @@ fn pixels([width, height]: [usize; 2]) -> u64 {
 fn drawing(frame: &Frame) -> u64 {
     let polygons = frame.polygons().len() as u64;
     let [own, a_light] = LIT_POLYGON;
-    let lit = match frame.is_local() {
-        true => own + a_light * frame.light_count() as u64,
-        false => 0,
+    let lit = if frame.is_local() {
+        own + a_light * frame.light_count() as u64
+    } else {
+        0
     };
     polygons.saturating_mul(DRAWN_POLYGON + lit)
 }
@@ -188,9 +190,10 @@ fn check_free(needed: u64, needs: &str, expected: &str) -> Result<(), CliError> 
     let mut all: Vec<u8> = Vec::new();
     let is_there = usize::try_from(needed).is_ok_and(|size| all.try_reserve_exact(size).is_ok());
     black_box(&mut all);
-    match is_there {
-        true => Ok(()),
-        false => Err(format!("{needs} of memory, but there is less: expected {expected}").into()),
+    if is_there {
+        Ok(())
+    } else {
+        Err(format!("{needs} of memory, but there is less: expected {expected}").into())
     }
 }
 

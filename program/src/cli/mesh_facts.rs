@@ -89,9 +89,10 @@ impl MeshFacts {
             *facts.polygons_by_sides.entry(corners.len()).or_default() += 1;
             facts.polygons_without_material += usize::from(mesh.polygon_material(p).is_none());
             let Some(normal) = unit_normal(polygon_normal(mesh, p)) else {
-                match areas_cancel(mesh, p) {
-                    true => facts.cancelling += 1,
-                    false => facts.degenerate += 1,
+                if areas_cancel(mesh, p) {
+                    facts.cancelling += 1
+                } else {
+                    facts.degenerate += 1
                 }
                 continue;
             };

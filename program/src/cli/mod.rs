@@ -170,9 +170,10 @@ pub fn main() -> ExitCode {
 /// Returns the text of a message from clap, with colours if `is_coloured`.
 fn text(message: &clap::Error, is_coloured: bool) -> String {
     let text = message.render();
-    match is_coloured {
-        true => text.ansi().to_string(),
-        false => text.to_string(),
+    if is_coloured {
+        text.ansi().to_string()
+    } else {
+        text.to_string()
     }
 }
 

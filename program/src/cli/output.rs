@@ -90,9 +90,10 @@ impl Output {
             let expected = "expected `-o FILE`, or `-o -` into a pipe or a file";
             return Err(format!("a terminal cannot show a picture file: {expected}").into());
         }
-        let by_path = match is_stdout {
-            true => Ok(Format::Png),
-            false => Format::of_path(path),
+        let by_path = if is_stdout {
+            Ok(Format::Png)
+        } else {
+            Format::of_path(path)
         };
         let contents = Contents::Picture(format.map_or(by_path, Ok)?);
         Ok(Output {
@@ -226,12 +227,11 @@ impl Output {
 /// # Errors
 /// If it is `-`, which means standard output everywhere.
 pub fn folder<'a>(name: &str, path: &'a Path) -> Result<&'a Path, CliError> {
-    match path.as_os_str() == "-" {
-        false => Ok(path),
-        true => {
-            let problem = format!("{name}: `-` is standard output, not a folder");
-            Err(format!("{problem}: expected a folder").into())
-        }
+    if path.as_os_str() == "-" {
+        let problem = format!("{name}: `-` is standard output, not a folder");
+        Err(format!("{problem}: expected a folder").into())
+    } else {
+        Ok(path)
     }
 }
 
@@ -280,12 +280,11 @@ pub fn written(outputs: &[&Output]) -> String {
 /// # Errors
 /// As [`to_stdout`].
 pub fn print_beside(outputs: &[&Output], text: &str) -> Result<(), CliError> {
-    match outputs.iter().any(|output| output.is_stdout()) {
-        true => {
-            to_stderr(text);
-            Ok(())
-        }
-        false => to_stdout(text),
+    if outputs.iter().any(|output| output.is_stdout()) {
+        to_stderr(text);
+        Ok(())
+    } else {
+        to_stdout(text)
     }
 }
 

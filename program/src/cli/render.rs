@@ -101,9 +101,10 @@ impl RenderArgs {
     /// Draws the picture, once or with `--watch` again and again.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let draw = || self.threads.install(|| self.draw(log))?;
-        match self.watch {
-            true => watch(&self.input, log, draw),
-            false => draw(),
+        if self.watch {
+            watch(&self.input, log, draw)
+        } else {
+            draw()
         }
     }
 

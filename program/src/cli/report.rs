@@ -142,9 +142,10 @@ impl ReportArgs {
         let inputs: &[&str] = if first.is_some() { &[] } else { &names };
         let scenes = inputs.iter().map(load).collect::<Result<Vec<_>, _>>()?;
         let outputs = self.outputs()?;
-        match first.is_some() {
-            true => output::check(&outputs.all())?,
-            false => output::check_places(&outputs.all())?,
+        if first.is_some() {
+            output::check(&outputs.all())?
+        } else {
+            output::check_places(&outputs.all())?
         }
         outputs.page.make_folder()?;
         let mut report = match first {
@@ -231,9 +232,10 @@ impl ReportArgs {
         }
         let join = |(mut reports, parts): (Vec<Report>, Vec<PartOf>)| {
             check_whole(&parts)?;
-            Ok(match parts.is_empty() {
-                true => reports.swap_remove(0),
-                false => Report::joined(reports),
+            Ok(if parts.is_empty() {
+                reports.swap_remove(0)
+            } else {
+                Report::joined(reports)
             })
         };
         groups.into_iter().map(join).collect()

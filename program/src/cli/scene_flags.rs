@@ -58,9 +58,10 @@ fn arg(key: &'static Key, flag: Flag) -> Arg {
         .action(ArgAction::Set)
         .value_parser(parser)
         .allow_hyphen_values(!is_switch);
-    let arg = match is_switch {
-        true => arg.num_args(0).default_missing_value(""),
-        false => arg.value_name(flag.value_name),
+    let arg = if is_switch {
+        arg.num_args(0).default_missing_value("")
+    } else {
+        arg.value_name(flag.value_name)
     };
     match flag.name {
         "resolution" => arg.visible_alias("size"),
@@ -150,9 +151,10 @@ fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
     let (place, more) = third.map_or((text, ""), |(at, _)| text.split_at(at));
     let mut settings = vec![(key, data(key, place).ok()?)];
     if let Some(more) = more.strip_prefix(',') {
-        let key = match more.contains(',') {
-            true => "light.colour",
-            false => "light.intensity",
+        let key = if more.contains(',') {
+            "light.colour"
+        } else {
+            "light.intensity"
         };
         settings.push((key, data(key, more).ok()?));
     }

@@ -112,9 +112,10 @@ impl SearchArgs {
         let json_to = self.json.as_deref();
         let json_to = json_to.map(|path| Output::new("--json", path, Contents::Json));
         output::check(&json_to.iter().collect::<Vec<_>>())?;
-        let document = match read.is_empty() {
-            true => self.search(log),
-            false => Document::joined(read, &self.from)?,
+        let document = if read.is_empty() {
+            self.search(log)
+        } else {
+            Document::joined(read, &self.from)?
         };
         let mut json = serde_json::to_string_pretty(&document)?;
         json.push('\n');

@@ -138,9 +138,10 @@ fn pictures(report: &Report) -> String {
         .iter()
         .any(|figure| figure.get("live").is_some());
     // The page contains the module only if it has something to move.
-    let module = match has_handles || !live.is_empty() {
-        true => element("live-module".into(), &live::module()),
-        false => String::new(),
+    let module = if has_handles || !live.is_empty() {
+        element("live-module".into(), &live::module())
+    } else {
+        String::new()
     };
     let uris = |figure: &Vec<Vec<u8>>| figure.iter().map(|png| data_uri(png)).collect();
     let files: Value = report

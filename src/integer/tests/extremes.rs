@@ -139,9 +139,10 @@ fn shone(n: V, toward: V, eye: V, ambient: f64, bound: &ErrorBound) -> f64 {
     let (j, k) = (dot(toward, n), dot(eye, n));
     let cosine = (2.0 * j * k - dot(toward, eye)).max(0.0);
     let power = cosine.powi(bound.shininess as i32);
-    let lit = match j > 0.0 {
-        true => ambient + bound.diffuse * j + bound.highlight * power,
-        false => ambient,
+    let lit = if j > 0.0 {
+        ambient + bound.diffuse * j + bound.highlight * power
+    } else {
+        ambient
     };
     255.0 * lit.min(1.0)
 }
@@ -361,9 +362,10 @@ fn no_constructor_makes_a_vector_that_is_too_long() {
         let any = [(); 3].map(|()| bits() >> (random.next() * 32.0) as u32);
         let made = float(Vector::new(any.map(I17F15::from_bits)));
         let before = any.map(|x| f64::from(x) / 32768.0);
-        let expected = match dot(before, before) <= limit {
-            true => before,
-            false => normalized(before),
+        let expected = if dot(before, before) <= limit {
+            before
+        } else {
+            normalized(before)
         };
         for i in 0..3 {
             assert!((expected[i] - made[i]).abs() < 1.0 / 16384.0, "{any:?}");

@@ -172,9 +172,10 @@ fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
             .windows(7)
             .take(1 << 20)
             .any(|part| part == b"\"asset\"");
-        return Some(match has_asset {
-            true => "a glTF file (JSON)",
-            false => "a JSON document",
+        return Some(if has_asset {
+            "a glTF file (JSON)"
+        } else {
+            "a JSON document"
         });
     }
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));

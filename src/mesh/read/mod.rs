@@ -213,9 +213,10 @@ fn read_beside(
                 return Err(cause(&path, error));
             };
             let bytes = read(&found).map_err(|_| error)?;
-            let what = match has_ending(Path::new(name), "bin") {
-                true => "buffer",
-                false => "material library",
+            let what = if has_ending(Path::new(name), "bin") {
+                "buffer"
+            } else {
+                "material library"
             };
             let name = error::quote(name);
             let found = found.display();
@@ -231,9 +232,10 @@ fn read_beside(
 /// Returns the only file in `folder` whose name equals `name` if the case of ASCII letters is
 /// ignored.
 fn in_any_case(folder: &Path, name: &OsStr) -> Option<PathBuf> {
-    let folder = match folder.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => folder,
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
     };
     let entries = fs::read_dir(folder).ok()?.flatten();
     let mut found = entries.filter(|entry| entry.file_name().eq_ignore_ascii_case(name));

@@ -253,9 +253,10 @@ fn face_colour(values: &[f64]) -> Option<DVec3> {
     let (&[r, g, b] | &[r, g, b, _]) = values else {
         return None;
     };
-    let full = match [r, g, b].iter().any(|channel| *channel > 1.0) {
-        true => 255.0,
-        false => 1.0,
+    let full = if [r, g, b].iter().any(|channel| *channel > 1.0) {
+        255.0
+    } else {
+        1.0
     };
     Some(DVec3::new(r, g, b) / full)
 }

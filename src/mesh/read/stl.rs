@@ -46,9 +46,10 @@ impl MeshFormat for Stl {
 
     fn read(&self, bytes: &[u8], _: Beside) -> Result<Parts, Refusal> {
         let text = text_end(bytes);
-        let soup = match is_text(text) && !is_binary_stl(bytes) {
-            true => read_text(text)?,
-            false => read_binary(bytes)?,
+        let soup = if is_text(text) && !is_binary_stl(bytes) {
+            read_text(text)?
+        } else {
+            read_binary(bytes)?
         };
         if soup.ends.is_empty() {
             let expected = "expected triangles, binary or as `facet` statements";
@@ -220,18 +221,20 @@ fn read_text(bytes: &[u8]) -> Result<Soup, Refusal> {
                 end_facet(&mut soup, &words)?;
             }
             _ => {
-                let expected = match is_inside {
-                    true => "`outer loop`, `vertex`, `endloop` or `endfacet`",
-                    false => "`facet`, `solid` or `endsolid`",
+                let expected = if is_inside {
+                    "`outer loop`, `vertex`, `endloop` or `endfacet`"
+                } else {
+                    "`facet`, `solid` or `endsolid`"
                 };
                 let problem = format!("`{}`: expected {expected}", quote(&text(word)));
                 return Err(Refusal::at(words.place(), problem));
             }
         }
     }
-    match is_inside {
-        true => Err(words.ends_before("`endfacet`")),
-        false => Ok(soup),
+    if is_inside {
+        Err(words.ends_before("`endfacet`"))
+    } else {
+        Ok(soup)
     }
 }
 

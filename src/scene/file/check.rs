@@ -114,12 +114,11 @@ impl<'a> Section<'a> {
         let Some(&Data::Number(value)) = self.data(key) else {
             return Ok(None);
         };
-        match is_valid(value) {
-            true => Ok(Some(value)),
-            false => {
-                let problem = format!("is {}", Written(value));
-                Err(self.error(key, &problem, format!("expected {expected}")))
-            }
+        if is_valid(value) {
+            Ok(Some(value))
+        } else {
+            let problem = format!("is {}", Written(value));
+            Err(self.error(key, &problem, format!("expected {expected}")))
         }
     }
 
@@ -150,9 +149,10 @@ impl<'a> Section<'a> {
             return Ok(values);
         };
         let is_one = values.is_some_and(|v| v.to_array().map(f64::to_bits) == [wrong.to_bits(); 3]);
-        let problem = match is_one {
-            true => format!("is {}", Written(wrong)),
-            false => format!("has {name} = {}", Written(wrong)),
+        let problem = if is_one {
+            format!("is {}", Written(wrong))
+        } else {
+            format!("has {name} = {}", Written(wrong))
         };
         Err(self.error(key, &problem, format!("expected {}", range.expected)))
     }

@@ -156,9 +156,10 @@ impl SceneError {
         if let Some(help) = &error.help {
             group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
-        match colour {
-            true => Renderer::styled().render(&[group]),
-            false => Renderer::plain().render(&[group]),
+        if colour {
+            Renderer::styled().render(&[group])
+        } else {
+            Renderer::plain().render(&[group])
         }
     }
 

@@ -278,9 +278,10 @@ impl SceneFile {
         // Check everything that needs no mesh first, before loading one costs time.
         let placed = file.sections("object", "object").map(|section| {
             let own = section.section("material", "object.material");
-            let own = match section.has("material") {
-                true => Some(material(&own, &default)?),
-                false => None,
+            let own = if section.has("material") {
+                Some(material(&own, &default)?)
+            } else {
+                None
             };
             let weld = section.number("weld", &WELD)?;
             Ok((
@@ -315,17 +316,19 @@ impl SceneFile {
             let [Some(loaded), with_default] = mesh else {
                 unreachable!("a mesh is there once it was loaded");
             };
-            let usual = match is_named_in_file(&section) {
-                true => NormalRule::default(),
-                false => loaded.normal_rule(),
+            let usual = if is_named_in_file(&section) {
+                NormalRule::default()
+            } else {
+                loaded.normal_rule()
             };
             let has_default = own.is_none() && lacks_material(loaded);
             let own = own.or(loaded.materials().is_empty().then_some(default));
-            let mesh = match own.is_some() || given.table.entries.is_empty() {
-                true => loaded.clone(),
-                false => with_default
+            let mesh = if own.is_some() || given.table.entries.is_empty() {
+                loaded.clone()
+            } else {
+                with_default
                     .get_or_insert_with(|| with_default_material(loaded.clone(), default))
-                    .clone(),
+                    .clone()
             };
             let mesh = match weld {
                 None => mesh,
@@ -358,9 +361,10 @@ impl SceneFile {
             if !object.world_points().all(|p| COORDINATE.holds_all(p)) {
                 let problem = format!("`{spec}` reaches too far");
                 let expected = "expected coordinates between -1e15 and 1e15 after the transform";
-                return Err(match is_named_in_file(&section) {
-                    true => section.error("mesh", &problem, expected),
-                    false => SceneError::new(Origin::Program, problem, expected),
+                return Err(if is_named_in_file(&section) {
+                    section.error("mesh", &problem, expected)
+                } else {
+                    SceneError::new(Origin::Program, problem, expected)
                 });
             }
             objects.push(object);
@@ -438,9 +442,10 @@ fn is_named_in_file(object: &Section) -> bool {
 /// Makes the error for a mesh that could not be loaded; the caret stands under its name.
 fn mesh_error(object: &Section, mesh: &str, why: &UnusableMesh) -> SceneError {
     let reason = why.reason.as_str();
-    let error = match is_named_in_file(object) {
-        true => object.error("mesh", &format!("`{mesh}` cannot be used"), reason),
-        false => SceneError::new(Origin::Program, reason, ""),
+    let error = if is_named_in_file(object) {
+        object.error("mesh", &format!("`{mesh}` cannot be used"), reason)
+    } else {
+        SceneError::new(Origin::Program, reason, "")
     };
     if why.notes.is_empty() {
         error

@@ -243,10 +243,13 @@ fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
     };
     match (kind, value.get_ref()) {
         (ValueKind::Text, DeValue::String(text)) => Ok(Data::Text(text.clone().into_owned())),
-        (ValueKind::Word(words), DeValue::String(word)) => match words.contains(&&**word) {
-            true => Ok(Data::Text(word.clone().into_owned())),
-            false => Err(unknown("word", word, value.span(), words)),
-        },
+        (ValueKind::Word(words), DeValue::String(word)) => {
+            if words.contains(&&**word) {
+                Ok(Data::Text(word.clone().into_owned()))
+            } else {
+                Err(unknown("word", word, value.span(), words))
+            }
+        }
         (ValueKind::Switch, DeValue::Boolean(switch)) => Ok(Data::Switch(*switch)),
         (ValueKind::Whole, _) => {
             let whole = whole(value.get_ref()).map(Data::Whole);

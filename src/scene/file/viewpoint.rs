@@ -164,9 +164,10 @@ fn stand(section: &Section, turn: DMat3) -> Result<(Option<[DVec3; 2]>, DVec3), 
         if eye == target {
             let expected = "expected two different points";
             let error = section.error("eye", "is the point that the camera looks at", expected);
-            return Err(match section.has("target") {
-                true => section.pointing_at("target", "target is here", error),
-                false => error.help("`target` is the origin by default: set it, too"),
+            return Err(if section.has("target") {
+                section.pointing_at("target", "target is here", error)
+            } else {
+                error.help("`target` is the origin by default: set it, too")
             });
         }
         let fixed = (!section.has("fit")).then_some([eye, target]);

@@ -86,12 +86,11 @@ impl DiagnoseArgs {
             progress.at(share, "drawing mistakes");
         });
         let found = found.map_err(|error| self.error(&error, picture.size()))?;
-        let text = match self.json {
-            true => format!("{:#}\n", json::json(self, scene, &found, started.elapsed())),
-            false => {
-                let own = [own_size, [scene.width, scene.height]];
-                text::text(self, &found, own)
-            }
+        let text = if self.json {
+            format!("{:#}\n", json::json(self, scene, &found, started.elapsed()))
+        } else {
+            let own = [own_size, [scene.width, scene.height]];
+            text::text(self, &found, own)
         };
         if let Some(output) = &output {
             progress.at(1.0, "drawing the pictures");
@@ -102,9 +101,10 @@ impl DiagnoseArgs {
         }
         drop(progress);
         print_beside(&outputs, &text)?;
-        Ok(match found.is_correct() {
-            true => Outcome::Done,
-            false => Outcome::Differs,
+        Ok(if found.is_correct() {
+            Outcome::Done
+        } else {
+            Outcome::Differs
         })
     }
 

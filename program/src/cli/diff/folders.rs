@@ -46,13 +46,15 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
         output.make_folder()?;
         output.write_text(&junit::xml(args, &compared))?;
     }
-    let approved = match args.approve {
-        true => approve(&compared)?,
-        false => Vec::new(),
+    let approved = if args.approve {
+        approve(&compared)?
+    } else {
+        Vec::new()
     };
-    let text = match args.json {
-        true => format!("{:#}\n", json(args, &compared, &tolerance, &approved)),
-        false => text(&compared, &approved, log),
+    let text = if args.json {
+        format!("{:#}\n", json(args, &compared, &tolerance, &approved))
+    } else {
+        text(&compared, &approved, log)
     };
     print_beside(&outputs_list, &text)?;
     let failed = compared.iter().filter(|one| one.status.fails()).count();
@@ -63,9 +65,10 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
     {
         log.note("`--approve` copies pictures that differ or are new over the references");
     }
-    Ok(match failed > approved.len() {
-        true => Outcome::Differs,
-        false => Outcome::Done,
+    Ok(if failed > approved.len() {
+        Outcome::Differs
+    } else {
+        Outcome::Done
     })
 }
 

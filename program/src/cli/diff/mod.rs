@@ -140,9 +140,10 @@ impl DiffArgs {
         }
         let parts = [(paths[0], "the reference"), (paths[1], "the picture")];
         for (path, part) in parts {
-            match path.as_os_str() == "-" {
-                true => files::will_read_stdin(part),
-                false => files::will_read(path, part),
+            if path.as_os_str() == "-" {
+                files::will_read_stdin(part)
+            } else {
+                files::will_read(path, part)
             }
         }
         self.check_flags()?;
@@ -171,9 +172,10 @@ impl DiffArgs {
             output.write_encoded(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
         }
         let sizes = [reference.size(), actual.size()];
-        let text = match self.json {
-            true => format!("{:#}\n", self.json(&found, &pair, sizes, &tolerance)),
-            false => self.text(&found, &pair, sizes),
+        let text = if self.json {
+            format!("{:#}\n", self.json(&found, &pair, sizes, &tolerance))
+        } else {
+            self.text(&found, &pair, sizes)
         };
         print_beside(&outputs, &text)?;
         Ok(match &found.result {

@@ -118,12 +118,13 @@ fn fill(
     };
     let pair = Pair::new(reference, actual, args.assume);
     // Pictures of different sizes are shown whole, each in its own encoding.
-    let [r, a] = match pair.is_one_size() {
-        true => pair.displayed(),
-        false => [reference, actual].map(|picture| {
+    let [r, a] = if pair.is_one_size() {
+        pair.displayed()
+    } else {
+        [reference, actual].map(|picture| {
             let [shown, _] = alone(picture, args).displayed();
             shown
-        }),
+        })
     };
     shown.reference = packed(&r, step)?;
     if one.status == Status::Equal {

@@ -221,9 +221,10 @@ impl Shown {
                 self.redraw();
             }
             _ => {
-                window.set_cursor(match self.is_on_divider() {
-                    true => CursorIcon::EwResize,
-                    false => CursorIcon::Default,
+                window.set_cursor(if self.is_on_divider() {
+                    CursorIcon::EwResize
+                } else {
+                    CursorIcon::Default
                 });
             }
         }

@@ -180,9 +180,10 @@ impl Buffers {
             *place = decode(element);
             replaced += 1;
         }
-        match replaced == sparse.count() {
-            true => Ok(()),
-            false => Err(beyond(accessor)),
+        if replaced == sparse.count() {
+            Ok(())
+        } else {
+            Err(beyond(accessor))
         }
     }
 
@@ -217,9 +218,10 @@ fn checked<'a>(bytes: &'a [u8], accessor: &Accessor, stride: usize) -> Result<&'
     let before = accessor.count().saturating_sub(1).checked_mul(stride);
     let needed = before.and_then(|before| before.checked_add(size));
     let is_there = needed.is_some_and(|needed| needed <= bytes.len()) && stride >= size;
-    match accessor.count() == 0 || is_there {
-        true => Ok(bytes),
-        false => Err(beyond(accessor)),
+    if accessor.count() == 0 || is_there {
+        Ok(bytes)
+    } else {
+        Err(beyond(accessor))
     }
 }
 

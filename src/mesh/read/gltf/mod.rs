@@ -72,11 +72,10 @@ impl MeshFormat for Gltf {
             reader.node(&node, &pose, &buffers)?;
         }
         if reader.polygons.count() == 0 {
-            let problem = match reader.polygons.notes.has(POINTS_OR_LINES) {
-                true => {
-                    "has points or lines but no triangle: expected a scene with meshes of triangles"
-                }
-                false => "has no triangle: expected a scene with meshes",
+            let problem = if reader.polygons.notes.has(POINTS_OR_LINES) {
+                "has points or lines but no triangle: expected a scene with meshes of triangles"
+            } else {
+                "has no triangle: expected a scene with meshes"
             };
             return Err(Refusal::whole(problem));
         }
@@ -87,18 +86,22 @@ impl MeshFormat for Gltf {
 /// Reads and checks the JSON.
 fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Refusal> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let bytes = match bytes.starts_with(GLB) {
-        true => bytes,
-        false => text_end(bytes),
+    let bytes = if bytes.starts_with(GLB) {
+        bytes
+    } else {
+        text_end(bytes)
     };
     if bytes.is_empty() {
         return Err(Refusal::whole("is empty: expected a glTF file"));
     }
     check_lengths(bytes)?;
     let read = gltf::Gltf::from_slice_without_validation(bytes);
-    let read = read.map_err(|error| match is_version_1(bytes) {
-        true => Refusal::whole("is glTF 1.0: expected glTF 2.0 (`gltf-pipeline` converts it)"),
-        false => refusal(error, bytes),
+    let read = read.map_err(|error| {
+        if is_version_1(bytes) {
+            Refusal::whole("is glTF 1.0: expected glTF 2.0 (`gltf-pipeline` converts it)")
+        } else {
+            refusal(error, bytes)
+        }
     })?;
     let bin = read.blob;
     let mut json = read.document.into_json();
@@ -107,11 +110,10 @@ fn parse(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Refusal> {
     let lacking = json.extensions_required.iter();
     let mut lacking = lacking.filter(|name| *name != "KHR_lights_punctual");
     if let Some(name) = lacking.next() {
-        let advice = match name.contains("draco") || name.contains("meshopt") {
-            true => {
-                ": expected a file that is not compressed (`gltf-transform copy`, or an export from Blender, writes one)"
-            }
-            false => ": expected a file that does without it",
+        let advice = if name.contains("draco") || name.contains("meshopt") {
+            ": expected a file that is not compressed (`gltf-transform copy`, or an export from Blender, writes one)"
+        } else {
+            ": expected a file that does without it"
         };
         let name = quote(name);
         let problem = format!("requires the extension {name}, which is not read{advice}");
@@ -218,9 +220,10 @@ fn refusal(error: gltf::Error, bytes: &[u8]) -> Refusal {
                 }
                 _ => format!("{}: expected the JSON of glTF 2.0", long_quote(what)),
             };
-            match bytes.starts_with(GLB) || error.line() == 0 {
-                true => Refusal::whole(problem),
-                false => Refusal::at(Place::Line(error.line()), problem),
+            if bytes.starts_with(GLB) || error.line() == 0 {
+                Refusal::whole(problem)
+            } else {
+                Refusal::at(Place::Line(error.line()), problem)
             }
         }
         gltf::Error::Validation(errors) => {
@@ -365,9 +368,10 @@ impl Pose {
                 sum += weight;
             }
         }
-        match sum > 0.0 {
-            true => DAffine3::from_mat3_translation(matrix * (1.0 / sum), translation / sum),
-            false => self.transform,
+        if sum > 0.0 {
+            DAffine3::from_mat3_translation(matrix * (1.0 / sum), translation / sum)
+        } else {
+            self.transform
         }
     }
 }
@@ -445,9 +449,12 @@ impl Reader {
         if material.emissive_factor() != [0.0; 3] {
             self.warn("material/emission", "emission is not drawn");
         }
-        let channel = |channel: f32| match channel.is_finite() {
-            true => channel.clamp(0.0, 1.0),
-            false => 1.0,
+        let channel = |channel: f32| {
+            if channel.is_finite() {
+                channel.clamp(0.0, 1.0)
+            } else {
+                1.0
+            }
         };
         let own: Material = coloured([r, g, b].map(channel));
         let name = material.name().map(quote).unwrap_or_default();
@@ -542,9 +549,10 @@ impl Reader {
     fn finish(mut self) -> Parts {
         if self.flat > 0 {
             let (flat, all) = (self.flat, self.primitives);
-            let which = match flat == all {
-                true => "the file has no normals".into(),
-                false => format!("{flat} of {all} parts have no normals"),
+            let which = if flat == all {
+                "the file has no normals".into()
+            } else {
+                format!("{flat} of {all} parts have no normals")
             };
             let text = format!("{which}: drawn flat, as glTF says; ");
             let note = Note::warning("normals-missing", text)

@@ -114,9 +114,10 @@ fn middle(nodes: &[(Node, DAffine3)]) -> DVec3 {
             }
         }
     }
-    match low.is_finite() && high.is_finite() {
-        true => 0.5 * (low + high),
-        false => DVec3::ZERO,
+    if low.is_finite() && high.is_finite() {
+        0.5 * (low + high)
+    } else {
+        DVec3::ZERO
     }
 }
 
@@ -150,9 +151,10 @@ fn camera(node: &Node, placed: &DAffine3, middle: DVec3) -> Option<Result<FileCa
         up,
         fovy: f64::from(yfov).to_degrees(),
     };
-    Some(match camera.eye.is_finite() && camera.target.is_finite() {
-        true => Ok(camera),
-        false => Err(flat()),
+    Some(if camera.eye.is_finite() && camera.target.is_finite() {
+        Ok(camera)
+    } else {
+        Err(flat())
     })
 }
 

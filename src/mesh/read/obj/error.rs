@@ -79,9 +79,10 @@ fn slash_hint(corner: &str) -> &'static str {
     let is_of_numbers = corner
         .chars()
         .all(|c| c.is_ascii_digit() || "-/\\".contains(c));
-    match is_of_numbers && corner.contains('\\') {
-        true => " with `/` between them, not `\\`",
-        false => "",
+    if is_of_numbers && corner.contains('\\') {
+        " with `/` between them, not `\\`"
+    } else {
+        ""
     }
 }
 

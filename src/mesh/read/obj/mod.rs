@@ -70,9 +70,10 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
     };
     let text = lines::decode(bytes);
     if text.trim().is_empty() {
-        let problem = match bytes.contains(&b'\0') {
-            true => ObjProblem::NotText,
-            false => ObjProblem::Empty,
+        let problem = if bytes.contains(&b'\0') {
+            ObjProblem::NotText
+        } else {
+            ObjProblem::Empty
         };
         return Err(failed(None, problem, Notes::default()));
     }
@@ -178,9 +179,10 @@ fn groups<'a, K: Eq + Hash>(
         of_polygons[*start..end].fill(*indices.entry(key).or_insert(new));
     }
     let is_one = of_polygons.iter().all(|&group| group == of_polygons[0]);
-    match is_one && of_polygons[0] != PolygonMesh::FACETED {
-        true => Vec::new(),
-        false => of_polygons,
+    if is_one && of_polygons[0] != PolygonMesh::FACETED {
+        Vec::new()
+    } else {
+        of_polygons
     }
 }
 

@@ -202,14 +202,11 @@ impl Library {
                 ("newmtl", _) => {
                     open = !rest.is_empty();
                     is_nameless = !open;
-                    match open {
-                        true => {
-                            self.define(rest, place);
-                            continue;
-                        }
-                        false => {
-                            "is ignored with all statements up to the next `newmtl`: expected a name"
-                        }
+                    if open {
+                        self.define(rest, place);
+                        continue;
+                    } else {
+                        "is ignored with all statements up to the next `newmtl`: expected a name"
                     }
                 }
                 (_, false) if is_nameless => continue,
@@ -227,9 +224,10 @@ impl Library {
             });
         }
         if self.definitions.len() == before {
-            let why = match has_nul {
-                true => "holds binary data",
-                false => "has no `newmtl` line with a name",
+            let why = if has_nul {
+                "holds binary data"
+            } else {
+                "has no `newmtl` line with a name"
             };
             return Err(why.to_string());
         }

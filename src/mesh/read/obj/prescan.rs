@@ -117,9 +117,10 @@ pub(super) fn prescan(text: &str, limits: MeshLimits) -> Result<Prescan, Refusal
     // A file that names normals past its last one is scanned again with their count known. Nearly
     // no file does. A file without any normals may name some, as other loaders allow, and needs no
     // second pass.
-    match scan.named_normals > normals && normals > 0 {
-        true => self::scan(text, limits, Some(normals)),
-        false => Ok(scan),
+    if scan.named_normals > normals && normals > 0 {
+        self::scan(text, limits, Some(normals))
+    } else {
+        Ok(scan)
     }
 }
 

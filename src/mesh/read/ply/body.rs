@@ -121,9 +121,10 @@ impl<'a> Body<'a> {
             Body::Binary { .. } => place,
         };
         if count.fract() != 0.0 || !(0.0..4e9).contains(&count) {
-            let expected = match count.fract() == 0.0 && count > 0.0 {
-                true => "less than 4000000000",
-                false => "a whole number",
+            let expected = if count.fract() == 0.0 && count > 0.0 {
+                "less than 4000000000"
+            } else {
+                "a whole number"
             };
             let problem = format!("a list of {count} entries: expected {expected}");
             return Err(Refusal::at(place, problem));
@@ -197,9 +198,12 @@ fn ends_early(bytes: &[u8]) -> Refusal {
 /// Decodes a value. `bytes` must be as long as its type; a NaN stands for any other length.
 #[inline]
 pub(super) fn decode(bytes: &[u8], kind: Type, is_big: bool) -> f64 {
-    let four = |four: [u8; 4]| match is_big {
-        true => u32::from_be_bytes(four),
-        false => u32::from_le_bytes(four),
+    let four = |four: [u8; 4]| {
+        if is_big {
+            u32::from_be_bytes(four)
+        } else {
+            u32::from_le_bytes(four)
+        }
     };
     match (kind, bytes) {
         (Type::F32, &[a, b, c, d]) => f64::from(f32::from_bits(four([a, b, c, d]))),
@@ -208,9 +212,10 @@ pub(super) fn decode(bytes: &[u8], kind: Type, is_big: bool) -> f64 {
         (Type::I32, &[a, b, c, d]) => f64::from(four([a, b, c, d]) as i32),
         (Type::U32, &[a, b, c, d]) => f64::from(four([a, b, c, d])),
         (Type::I16 | Type::U16, &[a, b]) => {
-            let two = match is_big {
-                true => u16::from_be_bytes([a, b]),
-                false => u16::from_le_bytes([a, b]),
+            let two = if is_big {
+                u16::from_be_bytes([a, b])
+            } else {
+                u16::from_le_bytes([a, b])
             };
             match kind {
                 Type::I16 => f64::from(two as i16),

@@ -128,9 +128,10 @@ impl Reading {
             }
             ["element", name, count] => {
                 let is_whole = count.bytes().all(|byte| byte.is_ascii_digit());
-                let expected = match is_whole {
-                    true => "`element`, a name and a count below 2^64",
-                    false => "`element`, a name and a count, a whole number",
+                let expected = if is_whole {
+                    "`element`, a name and a count below 2^64"
+                } else {
+                    "`element`, a name and a count, a whole number"
                 };
                 let count = count.parse();
                 self.elements.push(Element {

@@ -269,9 +269,10 @@ fn read_index(
     if index == -1.0 {
         return Ok(None);
     }
-    match index.fract() == 0.0 && index >= 0.0 && index < vertices as f64 {
-        true => Ok(Some(index as u32)),
-        false => Err(body.no_index(index, vertices)),
+    if index.fract() == 0.0 && index >= 0.0 && index < vertices as f64 {
+        Ok(Some(index as u32))
+    } else {
+        Err(body.no_index(index, vertices))
     }
 }
 

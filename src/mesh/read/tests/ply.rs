@@ -30,9 +30,12 @@ pub(super) fn square(coding: &str) -> Vec<u8> {
         return bytes;
     }
     let is_big = coding == "binary_big_endian";
-    let mut add = |value: &[u8]| match is_big {
-        true => bytes.extend(value.iter().rev()),
-        false => bytes.extend(value),
+    let mut add = |value: &[u8]| {
+        if is_big {
+            bytes.extend(value.iter().rev())
+        } else {
+            bytes.extend(value)
+        }
     };
     for (x, y) in corners {
         add(&(x as f32).to_le_bytes());

@@ -399,9 +399,10 @@ pub(crate) fn shade_run<T: Copy>(
         let line = &mut line[..count];
         // The loop needs the value at the pixel after the last. After the span's last pixel there
         // is none, so this pixel is a piece of its own, whose both values are its own.
-        let inner = match first + count < all {
-            true => count,
-            false => count - 1,
+        let inner = if first + count < all {
+            count
+        } else {
+            count - 1
         };
         let end = at(first + inner);
         let (inner, last) = line.split_at_mut(inner);

@@ -480,9 +480,10 @@ fn one_library_by_two_names_is_read_once_and_several_paths_are_several_files() {
         let text = format!("{POINTS}{lines}\nusemtl m\nf 1 2 3\n");
         let loaded = parse_mesh("t.obj", text.as_bytes(), |name| {
             asked.borrow_mut().push(name.to_string());
-            match name.ends_with("b.mtl") {
-                true => Ok(b"Kd 9 9 9\nnewmtl n\n".to_vec()),
-                false => Ok(b"Kd 9 9 9\nnewmtl m\nKd 1 0 0\n".to_vec()),
+            if name.ends_with("b.mtl") {
+                Ok(b"Kd 9 9 9\nnewmtl n\n".to_vec())
+            } else {
+                Ok(b"Kd 9 9 9\nnewmtl m\nKd 1 0 0\n".to_vec())
             }
         });
         let told = loaded.unwrap().notes.iter().count();
