@@ -169,11 +169,11 @@ fn invalid_flags_are_rejected_by_name() {
         ("-m refrence", &["did you mean `reference`?"]),
         (
             "-m reference:model=fong",
-            &["unknown closed form `fong`: did you mean `phong`?"],
+            &["unknown closed form `fong`: expected one of `flat`"],
         ),
         (
-            "-m reference:model=x",
-            &["unknown closed form `x`: expected one of `flat`"],
+            "-m reference:model=phung",
+            &["unknown closed form `phung`: did you mean `phong`?"],
         ),
         (
             "-m fast-phong:steps=9",
