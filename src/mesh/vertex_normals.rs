@@ -165,7 +165,6 @@ pub(crate) fn corner_normals(
 
 /// The normals and smoothing groups of a mesh that a [`NormalSource`] uses, and those that it
 /// leaves unused.
-#[cfg(any(feature = "io", test))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub struct NormalUse {
@@ -181,7 +180,6 @@ pub struct NormalUse {
     pub leaves_groups: bool,
 }
 
-#[cfg(any(feature = "io", test))]
 impl NormalUse {
     /// Finds out what `source` uses of `mesh`.
     pub fn of(mesh: &PolygonMesh, source: NormalSource) -> NormalUse {
