@@ -365,6 +365,7 @@ fn every_metric_states_its_value_and_names_are_unique() {
     assert!(MetricInfo::named("loudness").is_none());
 }
 
+#[cfg(feature = "io")]
 #[test]
 fn differences_survive_json() {
     let [reference, actual] = pair(12, 12, |x, _, _| x);
