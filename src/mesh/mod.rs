@@ -95,6 +95,9 @@ pub struct PolygonMesh {
     smoothing_groups: Vec<u32>,
     /// True if the mesh's file says which polygons are smooth, even if it only says that all are.
     states_smoothing: bool,
+    /// True if polygons are faceted only because the file has no normals for them. Nobody decided
+    /// that they are, so whoever asks for averages gets them.
+    is_flat_for_lack: bool,
     given_normals: Option<GivenNormals>,
     colours: Vec<Vec3>,
     attributes: Vec<[f32; 4]>,
@@ -184,6 +187,12 @@ impl PolygonMesh {
     /// True if the mesh has smoothing groups, or its file puts all polygons into one of them.
     pub fn states_smoothing(&self) -> bool {
         self.states_smoothing || self.has_smoothing_groups()
+    }
+
+    /// True if [`NormalSource::Averaged`](vertex_normals::NormalSource::Averaged) obeys the
+    /// smoothing groups.
+    pub(crate) fn averages_by_groups(&self) -> bool {
+        !self.is_flat_for_lack
     }
 
     /// Returns the normals that came with the mesh, if it has some.
@@ -431,6 +440,7 @@ impl MeshBuilder {
                 parts: Vec::new(),
                 smoothing_groups: Vec::new(),
                 states_smoothing: false,
+                is_flat_for_lack: false,
                 given_normals: None,
                 colours: Vec::new(),
                 attributes: Vec::new(),
@@ -545,6 +555,13 @@ impl MeshBuilder {
     #[cfg(feature = "io")]
     pub(crate) fn stating_smoothing(&mut self, states: bool) -> &mut Self {
         self.mesh.states_smoothing = states;
+        self
+    }
+
+    /// Says that polygons are faceted only because the file has no normals for them.
+    #[cfg(feature = "gltf")]
+    pub(crate) fn flat_without_normals(&mut self) -> &mut Self {
+        self.mesh.is_flat_for_lack = true;
         self
     }
 

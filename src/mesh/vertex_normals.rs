@@ -38,7 +38,8 @@ use weight::{Sum, Term, Weights};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum NormalSource {
     /// The normalised sum of the unit normals of all polygons around a position (L21 3.1) that are
-    /// on one surface and, if the mesh has smoothing groups, in one group.
+    /// on one surface and, if the mesh has smoothing groups, in one group. Polygons of a glTF file
+    /// that are flat only because it has no normals for them are averaged too.
     #[default]
     Averaged,
     /// The mesh's own normal for each corner that has one; averages as [`NormalSource::Averaged`]
@@ -159,6 +160,7 @@ pub(crate) fn corner_normals(
             CornerNormals::ByCorner(creased(mesh, degrees, polygons, weight))
         }
         (NormalSource::Given, None) => averaged(Smoothing::Surfaces),
+        (NormalSource::Averaged, _) if !mesh.averages_by_groups() => averaged(Smoothing::Surfaces),
         (NormalSource::Averaged, _) | (NormalSource::Auto, None) => averaged(Smoothing::Groups),
     }
 }
@@ -193,7 +195,11 @@ impl NormalUse {
         // A corner's own normal wins over its smoothing group. If all corners have one, no group
         // could have mattered.
         let matters = mesh.has_smoothing_groups() && own < mesh.corners().len();
-        let obeys = matches!(source, NormalSource::Auto | NormalSource::Averaged);
+        let obeys = match source {
+            NormalSource::Auto => true,
+            NormalSource::Averaged => mesh.averages_by_groups(),
+            _ => false,
+        };
         NormalUse {
             given,
             averaged: mesh.corners().len() - given,

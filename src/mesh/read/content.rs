@@ -167,7 +167,11 @@ fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
     if text.starts_with(b"<") {
         return foreign_markup(text);
     }
-    if text.starts_with(b"{") {
+    let is_object = || {
+        let inside = text[1..].trim_ascii_start().first();
+        matches!(inside, Some(b'"' | b'}'))
+    };
+    if text.starts_with(b"{") && is_object() {
         let has_asset = text
             .windows(7)
             .take(1 << 20)
@@ -191,7 +195,11 @@ fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
     // a dimension.
     let off = word.strip_suffix(b"OFF");
     match word {
-        b"ply" if words.next().is_none() => Some("a PLY file"),
+        b"ply" if words.next().is_none() => Some(if bytes.starts_with(word) {
+            "a PLY file"
+        } else {
+            "a PLY file whose first line is not `ply`"
+        }),
         b"COFF" => Some("an OFF file with colours (COFF)"),
         _ if off.is_some_and(|kind| kind.iter().all(|letter| b"STCN4n".contains(letter))) => {
             Some("an OFF file")

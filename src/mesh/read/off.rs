@@ -2,7 +2,7 @@
 //! colours of faces.
 
 use super::error::{Place, Refusal, quote};
-use super::polygons::{Polygons, is_position};
+use super::polygons::Polygons;
 use super::words::{Words, number, text};
 use super::{Beside, MeshFormat, Parts};
 use glam::DVec3;
@@ -37,7 +37,7 @@ impl MeshFormat for Off {
             let problem = "has no polygon: expected faces of at least three corners";
             return Err(Refusal::whole(problem));
         }
-        Ok(polygons.finish())
+        polygons.finish()
     }
 }
 
@@ -129,7 +129,7 @@ fn read_count(words: &mut Words, glued: &[u8], what: &str) -> Result<usize, Refu
 }
 
 /// Reads the next line that is not blank into `values`, and returns its place. It must hold at
-/// least `least` numbers.
+/// least `least` numbers, which need not be finite.
 fn read_line(
     words: &mut Words,
     least: usize,
@@ -139,7 +139,7 @@ fn read_line(
     values.clear();
     let mut word = words.next();
     while let Some(found) = word {
-        match number(found).filter(|value| value.is_finite()) {
+        match number(found) {
             Some(value) => values.push(value),
             // After the values that matter, the line may hold anything.
             None if values.len() >= least => break,
@@ -171,7 +171,7 @@ fn read_vertices(
     let colour = normal + 3 * usize::from(kind.has_normals);
     let least = colour + 3 * usize::from(kind.has_colours);
     let mut values = Vec::new();
-    let (mut colours, mut is_in_bytes) = (Vec::new(), false);
+    let mut colours = Vec::new();
     for _ in 0..count {
         let place = read_line(words, least, "its last vertex", &mut values)?;
         let mut position = DVec3::from_slice(&values);
@@ -183,26 +183,18 @@ fn read_vertices(
             }
             position /= values[3];
         }
-        if !is_position(position) {
-            let [x, y, z] = position.to_array();
-            let problem = format!("a vertex at {x}, {y}, {z}: expected numbers of at most 3.4e38");
-            return Err(Refusal::at(place, problem));
-        }
-        polygons.positions.push(position);
+        polygons.push_position(position, place);
         if kind.has_normals {
             let own = DVec3::from_slice(&values[normal..]);
             polygons.normals.push(own);
         }
         if kind.has_colours {
-            let own = DVec3::from_slice(&values[colour..]);
-            is_in_bytes |= own.max_element() > 1.0;
-            colours.push(own);
+            colours.push(DVec3::from_slice(&values[colour..]));
         }
     }
-    // Colours are 0 to 255 or 0 to 1, and only the whole file tells which: a single vertex may be
-    // black.
-    let full = if is_in_bytes { 255.0 } else { 1.0 };
-    let colours = colours.iter().map(|own: &DVec3| (*own / full).as_vec3());
+    let is_in_bytes = are_in_bytes(colours.iter().copied());
+    let colours = colours.into_iter();
+    let colours = colours.map(|own| scaled(own, is_in_bytes).as_vec3());
     polygons.colours = colours.collect();
     Ok(())
 }
@@ -216,6 +208,8 @@ fn read_faces(
     polygons: &mut Polygons,
 ) -> Result<(), Refusal> {
     const LAST: &str = "the end of its last face";
+    // The polygon of each colour, and the colour.
+    let mut colours: Vec<(usize, DVec3)> = Vec::new();
     let mut colour = Vec::new();
     for _ in 0..count {
         let sides = words.finite(LAST)?;
@@ -240,23 +234,42 @@ fn read_faces(
         let is_kept = polygons.end_polygon(words.place())?;
         words.end_line();
         if let (true, Some(colour)) = (is_kept, face_colour(&colour)) {
-            polygons.set_colour(colour);
+            colours.push((polygons.count() - 1, colour));
         }
+    }
+    let is_in_bytes = are_in_bytes(colours.iter().map(|(_, colour)| *colour));
+    for (polygon, colour) in colours {
+        polygons.set_colour_of(polygon, scaled(colour, is_in_bytes));
     }
     Ok(())
 }
 
-/// Returns the colour behind a face's corners. It has three or four values, either 0 to 1 or 0
-/// to 255. A single value would be an index into a table that the file does not have, and means no
-/// colour.
+/// Returns the colour behind a face's corners, as the file says it. It has three or four values. A
+/// single value would be an index into a table that the file does not have, and means no colour.
 fn face_colour(values: &[f64]) -> Option<DVec3> {
     let (&[r, g, b] | &[r, g, b, _]) = values else {
         return None;
     };
-    let full = if [r, g, b].iter().any(|channel| *channel > 1.0) {
-        255.0
+    Some(DVec3::new(r, g, b))
+}
+
+/// True if colours of whole numbers are 0 to 255. Only all of them together tell, because a single
+/// one may be black.
+fn are_in_bytes(mut colours: impl Iterator<Item = DVec3>) -> bool {
+    colours.any(|colour| is_whole(colour) && colour.max_element() > 1.0)
+}
+
+fn is_whole(colour: DVec3) -> bool {
+    colour.fract() == DVec3::ZERO
+}
+
+/// Returns a colour scaled to 0 to 1. Colours with a fraction are so already, up to rounding, unless
+/// a channel is so large that they must be averages of bytes.
+fn scaled(colour: DVec3, is_in_bytes: bool) -> DVec3 {
+    let is_byte = if is_whole(colour) {
+        is_in_bytes
     } else {
-        1.0
+        colour.max_element() > 8.0
     };
-    Some(DVec3::new(r, g, b) / full)
+    if is_byte { colour / 255.0 } else { colour }
 }

@@ -18,6 +18,8 @@ use std::vec::Vec;
 #[derive(Default)]
 pub(super) struct Polygons {
     pub positions: Vec<DVec3>,
+    /// The index and the place of each position that a mesh cannot have.
+    unusable: Vec<(u32, Place)>,
     /// One normal of any length per position; empty if the file has none.
     pub normals: Vec<DVec3>,
     /// One linear colour per position; empty if the file has none.
@@ -51,6 +53,43 @@ impl Polygons {
     /// Returns how many corners whole polygons have.
     fn whole(&self) -> usize {
         self.ends.last().map_or(0, |&end| end as usize)
+    }
+
+    /// Adds a position. If a mesh cannot have it, no polygon may use it.
+    pub(super) fn push_position(&mut self, position: DVec3, place: Place) {
+        if !is_position(position) {
+            self.unusable.push((self.positions.len() as u32, place));
+        }
+        self.positions.push(position);
+    }
+
+    /// Adds a note about positions that a mesh cannot have. Depth cameras write them for pixels
+    /// without a depth, and no polygon uses them.
+    ///
+    /// # Errors
+    /// If a polygon uses one.
+    fn check_positions(&mut self) -> Result<(), Refusal> {
+        if self.unusable.is_empty() {
+            return Ok(());
+        }
+        let mut is_used = vec![false; self.positions.len()];
+        let whole = &self.corners[..self.whole()];
+        for &corner in whole {
+            is_used[corner as usize] = true;
+        }
+        let mut unusable = self.unusable.iter();
+        if let Some(&(index, place)) = unusable.find(|(index, _)| is_used[*index as usize]) {
+            let [x, y, z] = self.positions[index as usize].to_array();
+            let problem =
+                format!("vertex {index} is {x}, {y}, {z}: expected finite numbers, at most 3.4e38");
+            return Err(Refusal::at(place, problem));
+        }
+        for _ in &self.unusable {
+            let text = "a vertex that no face uses is not finite: it is left out";
+            let kind = "vertex-not-finite";
+            self.notes.count(kind, 0, || Note::warning(kind, text));
+        }
+        Ok(())
     }
 
     /// Ends the polygon whose corners were pushed. A corner that repeats the one before it is left
@@ -121,15 +160,28 @@ impl Polygons {
 
     /// Sets the material of the last polygon.
     pub(super) fn set_material(&mut self, material: u32) {
-        self.of_polygons.resize(self.ends.len(), NONE);
-        if let Some(last) = self.of_polygons.last_mut() {
-            *last = material;
+        if let Some(last) = self.ends.len().checked_sub(1) {
+            self.set_material_of(last, material);
         }
     }
 
-    /// Sets the last polygon's material to one of a linear colour. A colour that is not finite is
-    /// ignored; one that is out of range is clamped.
+    fn set_material_of(&mut self, polygon: usize, material: u32) {
+        let count = self.of_polygons.len().max(polygon + 1);
+        self.of_polygons.resize(count, NONE);
+        self.of_polygons[polygon] = material;
+    }
+
+    /// Sets the last polygon's material to one of a linear colour, as
+    /// [`set_colour_of`](Self::set_colour_of).
     pub(super) fn set_colour(&mut self, colour: DVec3) {
+        if let Some(last) = self.ends.len().checked_sub(1) {
+            self.set_colour_of(last, colour);
+        }
+    }
+
+    /// Sets a polygon's material to one of a linear colour. A colour that is not finite is ignored;
+    /// one that is out of range is clamped.
+    pub(super) fn set_colour_of(&mut self, polygon: usize, colour: DVec3) {
         if !colour.is_finite() {
             let text = "a colour of a face is not three finite numbers: the face has none";
             let kind = "face-colour-not-finite";
@@ -143,7 +195,7 @@ impl Polygons {
             self.notes.count(kind, 0, || Note::warning(kind, text));
         }
         let material = self.material_of_colour(within.as_vec3().to_array());
-        self.set_material(material);
+        self.set_material_of(polygon, material);
     }
 
     /// Marks the last polygon as flat or smooth.
@@ -157,27 +209,30 @@ impl Polygons {
     }
 
     /// Makes the mesh of these polygons.
-    pub(super) fn finish(mut self) -> Parts {
+    ///
+    /// # Errors
+    /// If a polygon uses a position that a mesh cannot have.
+    pub(super) fn finish(mut self) -> Result<Parts, Refusal> {
+        self.check_positions()?;
         self.drop_unused();
         let mut builder = MeshBuilder::from_f64(&self.positions);
         builder.read_from_file();
+        let of_flat = self.positions_of_flat();
         builder.set_polygons(take(&mut self.corners), take(&mut self.ends));
         if !self.normals.is_empty() {
             let unit = |normal: &DVec3| unit_normal(*normal).map_or(Vec3::ZERO, |n| n.as_vec3());
             let values: Vec<Vec3> = self.normals.iter().map(unit).collect();
+            let zeros = values.iter().filter(|normal| **normal == Vec3::ZERO);
             // A glTF file with flat polygons has zeros for their vertices, which are no fault of
             // the file.
-            let is_flat = !self.groups.is_empty();
-            let zeros = values.iter().filter(|normal| **normal == Vec3::ZERO);
-            let zeros = if is_flat { 0 } else { zeros.count() };
-            if zeros == values.len() {
+            let (zeros, own) = (zeros.count() - of_flat, values.len() - of_flat);
+            if zeros == own {
                 let text = "the normals of the file have length zero: they are not used";
                 self.notes.push(Note::warning("normals-all-zero", text));
             } else {
                 if zeros > 0 {
                     let text = format!(
-                        "{zeros} of {} normals of the file have length zero: their corners count as without a normal",
-                        values.len()
+                        "{zeros} of {own} normals of the file have length zero: their corners count as without a normal"
                     );
                     self.notes.push(Note::warning("normals-zero", text));
                 }
@@ -198,11 +253,27 @@ impl Polygons {
                 builder.material_names(self.material_names);
             }
         }
-        Parts {
+        Ok(Parts {
             builder,
             positions: self.positions,
             notes: self.notes,
+        })
+    }
+
+    /// Returns how many positions have no normal because their polygons are flat. Flat and smooth
+    /// polygons share none.
+    fn positions_of_flat(&self) -> usize {
+        let mut is_flat = vec![false; self.positions.len()];
+        let mut start = 0;
+        for (&end, &group) in self.ends.iter().zip(&self.groups) {
+            if group == PolygonMesh::FACETED {
+                for &corner in &self.corners[start..end as usize] {
+                    is_flat[corner as usize] = true;
+                }
+            }
+            start = end as usize;
         }
+        is_flat.into_iter().filter(|is_flat| *is_flat).count()
     }
 
     /// Passes the colours of positions to the builder if all are finite.
@@ -367,7 +438,7 @@ mod tests {
         let red = polygons.material_of_colour([1.0, 0.0, 0.0]);
         polygons.set_material(red);
         assert_eq!(polygons.material_of_colour([1.0, -0.0, 0.0]), red);
-        let parts = polygons.finish();
+        let parts = polygons.finish().expect("a mesh");
         let mesh = parts.builder.finish().expect("a mesh");
         let found: Vec<&[u32]> = mesh.polygons().collect();
         assert_eq!(found, [&[0, 1, 2], &[1, 2, 3]]);

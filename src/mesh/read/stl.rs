@@ -7,7 +7,7 @@
 
 use super::content::is_binary_stl;
 use super::error::{Place, Refusal, quote};
-use super::polygons::Polygons;
+use super::polygons::{Polygons, is_position};
 use super::words::{Words, number, text, text_end};
 use super::{Beside, MeshFormat, Parts};
 use crate::mesh::PolygonMesh;
@@ -55,7 +55,7 @@ impl MeshFormat for Stl {
             let expected = "expected triangles, binary or as `facet` statements";
             return Err(Refusal::whole(format!("has no triangle: {expected}")));
         }
-        let mut parts = soup.welded()?.finish();
+        let mut parts = soup.welded()?.finish()?;
         parts.builder.normal_rule(NormalRule {
             source: NormalSource::Crease(CREASE),
             weight: NormalWeight::Angle,
@@ -113,11 +113,12 @@ fn begins_with_solid(bytes: &[u8]) -> bool {
     first.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
-/// True if a file is text: it begins with `solid` and has no zero byte near its start. Some binary
-/// files begin with `solid` too, but their headers are filled with zeros.
+/// True if a file is text: it begins with `solid` and has no zero byte near its start, or a `facet`.
+/// Some binary files begin with `solid` too, but their headers are filled with zeros.
 fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(1024)];
-    begins_with_solid(bytes) && !head.contains(&0)
+    let is_facet = |word: &[u8]| word.eq_ignore_ascii_case(b"facet");
+    begins_with_solid(bytes) && (!head.contains(&0) || head.windows(5).any(is_facet))
 }
 
 /// Reads the triangles of a binary file.
@@ -213,7 +214,14 @@ fn read_text(bytes: &[u8]) -> Result<Soup, Refusal> {
                 for value in &mut vertex {
                     *value = words.finite("the end of a vertex")?;
                 }
-                soup.positions.push(DVec3::from_array(vertex));
+                let position = DVec3::from_array(vertex);
+                if !is_position(position) {
+                    let [x, y, z] = vertex;
+                    let problem =
+                        format!("a vertex at {x}, {y}, {z}: expected numbers of at most 3.4e38");
+                    return Err(Refusal::at(words.place(), problem));
+                }
+                soup.positions.push(position);
             }
             Some(Keyword::Loop) if is_inside => {}
             Some(Keyword::EndFacet) if is_inside => {

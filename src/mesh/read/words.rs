@@ -4,7 +4,8 @@ use super::error::{Place, Refusal, hint, quote};
 use std::format;
 use std::string::String;
 
-/// A cursor over the words of a text. CR, LF and CR LF each end a line.
+/// A cursor over the words of a text. CR, LF and CR LF each end a line. NUL counts as a blank: some
+/// programs write the end of a C string too.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
@@ -65,7 +66,7 @@ impl<'a> Words<'a> {
     /// Returns the next word of this line; `None` at its end.
     pub(super) fn next_in_line(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.at..];
-        let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c);
+        let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0);
         let start = rest.iter().position(|byte| !is_blank(byte))?;
         self.at += start;
         let rest = &rest[start..];

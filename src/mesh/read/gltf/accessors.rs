@@ -1,16 +1,15 @@
 //! The binary data of a glTF file. An accessor describes values, a view is a range of bytes, and a
-//! buffer is a file or a part of this one.
+//! buffer is a file or a part of this one. Only what is asked for is read.
 
 use super::super::Beside;
 use super::super::error::{Refusal, quote};
+use super::document::{Accessor, Document, Sparse, SparsePart, compression, entry, unread};
 use base64::Engine;
 use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
-use gltf::accessor::DataType;
-use gltf::accessor::sparse::IndexType;
-use gltf::buffer::{Source, View};
-use gltf::{Accessor, Document};
+use std::borrow::Cow;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::format;
 use std::string::String;
 use std::vec;
@@ -18,71 +17,177 @@ use std::vec::Vec;
 
 /// The most bytes that all buffers may have together. Many buffers may name one file.
 const MOST: usize = 1 << 30;
+/// The most elements that an accessor without bytes may have if the buffers are short. It would be
+/// all zeros.
+const ZEROS: usize = 1 << 16;
 
 /// The buffers of a file.
-pub(super) struct Buffers {
-    bytes: HashMap<usize, Vec<u8>>,
-    /// The bytes of all buffers. It also limits accessors that have no bytes and would be all
-    /// zeros.
+pub(super) struct Buffers<'a> {
+    document: &'a Document,
+    /// The binary chunk of a GLB file.
+    bin: Option<&'a [u8]>,
+    beside: Beside<'a>,
+    /// The buffers that were read so far.
+    bytes: HashMap<usize, Cow<'a, [u8]>>,
+    /// How many bytes these have.
     total: usize,
 }
 
-impl Buffers {
-    /// Reads the buffers of `document`. `bin` is the one inside a GLB file.
-    ///
-    /// # Errors
-    /// If one cannot be read, or all together are over the limit.
-    pub(super) fn read(
-        document: &Document,
-        bin: Option<Vec<u8>>,
-        beside: Beside,
-    ) -> Result<Buffers, Refusal> {
-        let mut bin = bin;
-        let mut buffers = Buffers {
-            bytes: HashMap::new(),
-            total: 0,
-        };
-        for buffer in document.buffers() {
-            let index = buffer.index();
-            let bytes = match buffer.source() {
-                Source::Bin => bin.take().ok_or_else(|| {
-                    let expected = "expected a binary chunk or a `uri`";
-                    Refusal::whole(format!("buffer {index} has no bytes: {expected}"))
-                })?,
-                Source::Uri(uri) => read_uri(index, uri, beside)?,
-            };
-            buffers.total = buffers.total.saturating_add(bytes.len());
-            if buffers.total > MOST {
-                let most = MOST >> 20;
-                let problem = format!("its buffers are over {most} MiB: expected at most that");
+/// The form of a value in a buffer.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl Form {
+    /// Returns the form with this number.
+    fn of(number: usize, accessor: usize) -> Result<Form, Refusal> {
+        Ok(match number {
+            5120 => Form::I8,
+            5121 => Form::U8,
+            5122 => Form::I16,
+            5123 => Form::U16,
+            5125 => Form::U32,
+            5126 => Form::F32,
+            _ => {
+                let problem = format!(
+                    "accessor {accessor} has values of type {number}: expected 5120, 5121, 5122, 5123, 5125 or 5126"
+                );
                 return Err(Refusal::whole(problem));
             }
-            buffers.bytes.insert(index, bytes);
+        })
+    }
+
+    fn size(self) -> usize {
+        match self {
+            Form::I8 | Form::U8 => 1,
+            Form::I16 | Form::U16 => 2,
+            Form::U32 | Form::F32 => 4,
         }
-        Ok(buffers)
     }
 
-    /// Returns the bytes of a view from `offset` on, as far as they exist.
-    fn view(&self, view: &View, offset: usize) -> &[u8] {
-        let all = self.bytes.get(&view.buffer().index());
-        let all = all.map_or(&[][..], |bytes| &bytes[..]);
-        let own = all.get(view.offset()..).unwrap_or_default();
-        let own = &own[..own.len().min(view.length())];
-        own.get(offset..).unwrap_or_default()
+    /// Returns what a normalised integer is divided by.
+    fn full(self) -> f64 {
+        match self {
+            Form::I8 => 127.0,
+            Form::U8 => 255.0,
+            Form::I16 => 32_767.0,
+            Form::U16 => 65_535.0,
+            Form::U32 | Form::F32 => 1.0,
+        }
     }
 
-    /// Checks that a view lies within its buffer.
-    fn check_view(&self, view: &View) -> Result<(), Refusal> {
-        let held = self.bytes.get(&view.buffer().index()).map_or(0, Vec::len);
-        match view.offset().checked_add(view.length()) {
-            Some(end) if end <= held => Ok(()),
-            _ => {
-                let index = view.index();
-                let expected = format!("expected it to end within {held} bytes");
-                let problem = format!("buffer view {index} reaches beyond its buffer: {expected}");
-                Err(Refusal::whole(problem))
+    /// Decodes a little-endian value.
+    #[inline]
+    fn decode(self, bytes: &[u8]) -> f64 {
+        match (self, bytes) {
+            (Form::I8, &[a, ..]) => f64::from(a as i8),
+            (Form::U8, &[a, ..]) => f64::from(a),
+            (Form::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
+            (Form::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
+            (Form::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+            (Form::F32, &[a, b, c, d, ..]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+            _ => 0.0,
+        }
+    }
+}
+
+/// Returns how many values an element has.
+fn width(kind: &str, accessor: usize) -> Result<usize, Refusal> {
+    Ok(match kind {
+        "SCALAR" => 1,
+        "VEC2" => 2,
+        "VEC3" => 3,
+        "VEC4" | "MAT2" => 4,
+        "MAT3" => 9,
+        "MAT4" => 16,
+        _ => {
+            let kind = quote(kind);
+            let problem = format!(
+                "accessor {accessor} has elements of type `{kind}`: expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4"
+            );
+            return Err(Refusal::whole(problem));
+        }
+    })
+}
+
+impl<'a> Buffers<'a> {
+    /// Prepares to read the buffers of `document`. `bin` is the one inside a GLB file.
+    pub(super) fn new(document: &'a Document, bin: Option<&'a [u8]>, beside: Beside<'a>) -> Self {
+        Buffers {
+            document,
+            bin,
+            beside,
+            bytes: HashMap::new(),
+            total: 0,
+        }
+    }
+
+    /// Returns the bytes of a buffer.
+    ///
+    /// # Errors
+    /// If it cannot be read, or all buffers together are over the limit.
+    fn buffer(&mut self, index: usize) -> Result<&[u8], Refusal> {
+        let unread = match self.bytes.entry(index) {
+            Entry::Occupied(known) => return Ok(&*known.into_mut()),
+            Entry::Vacant(unread) => unread,
+        };
+        let buffers = &self.document.buffers;
+        let bytes = match &entry(buffers, index, "buffer")?.uri {
+            Some(uri) => Cow::Owned(read_uri(index, uri, self.beside)?),
+            None => {
+                let is_first = buffers[..index].iter().all(|before| before.uri.is_some());
+                let bin = self.bin.filter(|_| is_first).ok_or_else(|| {
+                    let expected = "expected a binary chunk or a `uri`";
+                    Refusal::whole(format!("buffer {index} has no bytes: {expected}"))
+                })?;
+                Cow::Borrowed(bin)
             }
+        };
+        self.total = self.total.saturating_add(bytes.len());
+        if self.total > MOST {
+            let most = MOST >> 20;
+            let problem = format!("its buffers are over {most} MiB: expected at most that");
+            return Err(Refusal::whole(problem));
         }
+        Ok(&*unread.insert(bytes))
+    }
+
+    /// Returns the bytes of a view, and the distance of its elements; 0 if it says none.
+    ///
+    /// # Errors
+    /// If they are compressed, or not within their buffer.
+    fn view(&mut self, index: usize) -> Result<(&[u8], usize), Refusal> {
+        let document = self.document;
+        let view = entry(&document.buffer_views, index, "buffer view")?;
+        // A buffer that stands for what compressed views unpack to may have no bytes.
+        let buffer = entry(&document.buffers, view.buffer, "buffer")?;
+        let is_empty = buffer.uri.is_none() && compression(&buffer.extensions).is_some();
+        if let Some(name) = compression(&view.extensions).filter(|_| is_empty) {
+            return Err(unread(name));
+        }
+        let all = self.buffer(view.buffer)?;
+        let end = view.byte_offset.checked_add(view.byte_length);
+        let own = end.and_then(|end| all.get(view.byte_offset..end));
+        let own = own.ok_or_else(|| {
+            let held = all.len();
+            let expected = format!("expected it to end within {held} bytes");
+            Refusal::whole(format!(
+                "buffer view {index} reaches beyond its buffer: {expected}"
+            ))
+        })?;
+        Ok((own, view.byte_stride))
+    }
+
+    /// True if an accessor has no bytes.
+    pub(super) fn is_all_zeros(&self, index: usize) -> bool {
+        let accessor = self.document.accessors.get(index);
+        accessor.is_some_and(|own| own.buffer_view.is_none() && own.sparse.is_none())
     }
 
     /// Reads the elements of an accessor as `N` values each. Normalised integers become fractions.
@@ -90,159 +195,130 @@ impl Buffers {
     /// # Errors
     /// If an element has fewer values, or elements reach beyond their view.
     pub(super) fn read_vectors<const N: usize>(
-        &self,
-        accessor: &Accessor,
+        &mut self,
+        index: usize,
     ) -> Result<Vec<[f32; N]>, Refusal> {
-        let found = accessor.dimensions().multiplicity();
-        if found < N {
-            let index = accessor.index();
-            let problem = format!("accessor {index} has {found} values per element: expected {N}");
-            return Err(Refusal::whole(problem));
-        }
-        let kind = accessor.data_type();
-        let divisor = match (accessor.normalized(), kind) {
-            (true, DataType::I8) => 127.0,
-            (true, DataType::U8) => 255.0,
-            (true, DataType::I16) => 32_767.0,
-            (true, DataType::U16) => 65_535.0,
-            _ => 1.0,
-        };
-        let size = kind.size();
-        let decode = |element: &[u8]| {
-            let mut values = [0.0; N];
-            for (decoded, bytes) in values.iter_mut().zip(element.chunks_exact(size)) {
-                let value = (value(kind, bytes) / divisor) as f32;
-                // The smallest signed integer is one below −divisor and also means −1.
-                *decoded = if divisor > 1.0 {
-                    value.max(-1.0)
-                } else {
-                    value
-                };
-            }
-            values
-        };
-        let mut elements: Vec<[f32; N]> = match accessor.view() {
-            Some(view) => {
-                self.check_view(&view)?;
-                let stride = view.stride().unwrap_or(accessor.size());
-                let bytes = self.view(&view, accessor.offset());
-                let bytes = checked(bytes, accessor, stride)?;
-                let elements = bytes.chunks(stride.max(1)).take(accessor.count());
-                elements.map(decode).collect()
-            }
-            None if accessor.count() > self.total => {
-                let (index, count) = (accessor.index(), accessor.count());
-                let problem = format!(
-                    "accessor {index} says {count} elements and has no bytes: expected a buffer view"
-                );
-                return Err(Refusal::whole(problem));
-            }
-            None => vec![[0.0; N]; accessor.count()],
-        };
-        self.replace_sparse(accessor, &mut elements, decode)?;
-        Ok(elements)
-    }
-
-    /// Replaces the elements that a sparse accessor lists one by one.
-    fn replace_sparse<const N: usize>(
-        &self,
-        accessor: &Accessor,
-        elements: &mut [[f32; N]],
-        decode: impl Fn(&[u8]) -> [f32; N],
-    ) -> Result<(), Refusal> {
-        let Some(sparse) = accessor.sparse() else {
-            return Ok(());
-        };
-        let (indices, values) = (sparse.indices(), sparse.values());
-        let (kind, width) = match indices.index_type() {
-            IndexType::U8 => (DataType::U8, 1),
-            IndexType::U16 => (DataType::U16, 2),
-            IndexType::U32 => (DataType::U32, 4),
-        };
-        let stride = indices.view().stride().unwrap_or(width);
-        let places = self.view(&indices.view(), indices.offset());
-        let own = self.view(&values.view(), values.offset());
-        let own_stride = values.view().stride().unwrap_or(accessor.size());
-        let places = places.chunks(stride.max(1)).filter(|n| n.len() >= width);
-        let own = own.chunks(own_stride.max(1));
-        let own = own.filter(|element| element.len() >= accessor.size());
-        let mut replaced = 0;
-        for (place, element) in places.zip(own).take(sparse.count()) {
-            let replaced_index = value(kind, &place[..width]) as usize;
-            let count = elements.len();
-            let Some(place) = elements.get_mut(replaced_index) else {
-                let index = accessor.index();
-                let problem = format!(
-                    "accessor {index} replaces element {replaced_index}: expected an element below {count}"
-                );
-                return Err(Refusal::whole(problem));
-            };
-            *place = decode(element);
-            replaced += 1;
-        }
-        if replaced == sparse.count() {
-            Ok(())
+        let accessor = entry(&self.document.accessors, index, "accessor")?;
+        let form = Form::of(accessor.component_type, index)?;
+        let full = if accessor.normalized {
+            form.full()
         } else {
-            Err(beyond(accessor))
-        }
+            1.0
+        };
+        self.read(index, accessor, |value| match full > 1.0 {
+            // The smallest signed integer is one below −full and also means −1.
+            true => (value / full).max(-1.0) as f32,
+            false => value as f32,
+        })
     }
 
     /// Reads the elements of an accessor as indices.
     ///
     /// # Errors
     /// If they are not unsigned integers, or reach beyond their view.
-    pub(super) fn read_indices(&self, accessor: &Accessor) -> Result<Vec<u32>, Refusal> {
-        let kind = accessor.data_type();
-        let view = accessor.view();
-        let is_whole = matches!(kind, DataType::U8 | DataType::U16 | DataType::U32);
-        let (true, Some(view)) = (is_whole && accessor.sparse().is_none(), view) else {
-            let index = accessor.index();
+    pub(super) fn read_indices(&mut self, index: usize) -> Result<Vec<u32>, Refusal> {
+        let accessor = entry(&self.document.accessors, index, "accessor")?;
+        let form = Form::of(accessor.component_type, index)?;
+        if !matches!(form, Form::U8 | Form::U16 | Form::U32) {
             let problem =
                 format!("accessor {index} has no indices: expected whole numbers from 0 on");
             return Err(Refusal::whole(problem));
+        }
+        let elements: Vec<[u32; 1]> = self.read(index, accessor, |value| value as u32)?;
+        Ok(elements.into_flattened())
+    }
+
+    /// Reads the elements of accessor `index` as `N` values each.
+    fn read<const N: usize, T: Copy + Default>(
+        &mut self,
+        index: usize,
+        accessor: &Accessor,
+        convert: impl Fn(f64) -> T,
+    ) -> Result<Vec<[T; N]>, Refusal> {
+        let (count, form) = (accessor.count, Form::of(accessor.component_type, index)?);
+        let found = width(&accessor.kind, index)?;
+        if found < N {
+            let problem = format!("accessor {index} has {found} values per element: expected {N}");
+            return Err(Refusal::whole(problem));
+        }
+        let size = form.size();
+        let element = |bytes: &[u8]| {
+            let mut values = [T::default(); N];
+            for (decoded, bytes) in values.iter_mut().zip(bytes.chunks_exact(size)) {
+                *decoded = convert(form.decode(bytes));
+            }
+            values
         };
-        let size = kind.size();
-        self.check_view(&view)?;
-        let stride = view.stride().unwrap_or(size);
-        let bytes = checked(self.view(&view, accessor.offset()), accessor, stride)?;
-        let elements = bytes.chunks(stride.max(1)).take(accessor.count());
-        Ok(elements
-            .map(|own| value(kind, &own[..size]) as u32)
-            .collect())
+        let beyond = || {
+            Refusal::whole(format!(
+                "accessor {index} of {count} elements reaches beyond its buffer view: expected all of them in it"
+            ))
+        };
+        let mut elements: Vec<[T; N]> = match accessor.buffer_view {
+            Some(view) => {
+                let own = self.elements(view, accessor.byte_offset, found * size, count)?;
+                own.ok_or_else(beyond)?.map(element).collect()
+            }
+            None if count > self.total.max(ZEROS) => {
+                let problem = format!(
+                    "accessor {index} says {count} elements and has no bytes: expected a buffer view"
+                );
+                return Err(Refusal::whole(problem));
+            }
+            None => vec![[T::default(); N]; count],
+        };
+        let Some(sparse) = &accessor.sparse else {
+            return Ok(elements);
+        };
+        let places = self.places(index, sparse)?.ok_or_else(beyond)?;
+        let SparsePart {
+            buffer_view,
+            byte_offset,
+            ..
+        } = sparse.values;
+        let own = self.elements(buffer_view, byte_offset, found * size, sparse.count)?;
+        for (place, own) in places.into_iter().zip(own.ok_or_else(beyond)?) {
+            let replaced = elements.get_mut(place).ok_or_else(|| {
+                let expected = format!("expected an element below {count}");
+                Refusal::whole(format!(
+                    "accessor {index} replaces element {place}: {expected}"
+                ))
+            })?;
+            *replaced = element(own);
+        }
+        Ok(elements)
     }
-}
 
-/// Returns `bytes` if they hold all elements of an accessor.
-fn checked<'a>(bytes: &'a [u8], accessor: &Accessor, stride: usize) -> Result<&'a [u8], Refusal> {
-    let size = accessor.size();
-    let before = accessor.count().saturating_sub(1).checked_mul(stride);
-    let needed = before.and_then(|before| before.checked_add(size));
-    let is_there = needed.is_some_and(|needed| needed <= bytes.len()) && stride >= size;
-    if accessor.count() == 0 || is_there {
-        Ok(bytes)
-    } else {
-        Err(beyond(accessor))
+    /// Returns which elements a sparse accessor replaces; `None` if they reach beyond their view.
+    fn places(&mut self, index: usize, sparse: &Sparse) -> Result<Option<Vec<usize>>, Refusal> {
+        let part = &sparse.indices;
+        let form = Form::of(part.component_type, index)?;
+        let all = self.elements(
+            part.buffer_view,
+            part.byte_offset,
+            form.size(),
+            sparse.count,
+        )?;
+        Ok(all.map(|all| all.map(|bytes| form.decode(bytes) as usize).collect()))
     }
-}
 
-/// Makes the error for an accessor whose view is too short.
-fn beyond(accessor: &Accessor) -> Refusal {
-    let (index, count) = (accessor.index(), accessor.count());
-    Refusal::whole(format!(
-        "accessor {index} of {count} elements reaches beyond its buffer view: expected all of them in it"
-    ))
-}
-
-/// Decodes a little-endian value.
-fn value(kind: DataType, bytes: &[u8]) -> f64 {
-    match (kind, bytes) {
-        (DataType::I8, &[a, ..]) => f64::from(a as i8),
-        (DataType::U8, &[a, ..]) => f64::from(a),
-        (DataType::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
-        (DataType::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
-        (DataType::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
-        (DataType::F32, &[a, b, c, d, ..]) => f64::from(f32::from_le_bytes([a, b, c, d])),
-        _ => 0.0,
+    /// Returns `count` elements of `size` bytes each, which begin `offset` bytes into a view;
+    /// `None` if they reach beyond it.
+    fn elements(
+        &mut self,
+        view: usize,
+        offset: usize,
+        size: usize,
+        count: usize,
+    ) -> Result<Option<impl Iterator<Item = &[u8]>>, Refusal> {
+        let (bytes, stride) = self.view(view)?;
+        let stride = if stride == 0 { size } else { stride };
+        let before = count.saturating_sub(1).checked_mul(stride);
+        let needed = before.and_then(|before| before.checked_add(size));
+        let bytes = bytes.get(offset..).unwrap_or_default();
+        let is_there = needed.is_some_and(|needed| needed <= bytes.len()) && stride >= size;
+        let elements = bytes.chunks(stride).take(count);
+        Ok((count == 0 || is_there).then_some(elements))
     }
 }
 

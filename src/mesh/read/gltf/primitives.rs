@@ -3,10 +3,14 @@
 use super::super::error::Refusal;
 use super::super::polygons::{indices_of_used, keep};
 use super::accessors::Buffers;
-use gltf::mesh::Mode;
-use gltf::{Primitive, Semantic};
+use super::document::{Primitive, compression, unread};
 use std::format;
 use std::vec::Vec;
+
+/// The numbers of the modes that make triangles.
+const TRIANGLES: usize = 4;
+const STRIP: usize = 5;
+const FAN: usize = 6;
 
 /// Triangles and the attributes of their vertices. Every vertex is used.
 #[derive(Default)]
@@ -16,65 +20,76 @@ pub(super) struct Triangles {
     pub normals: Vec<[f32; 3]>,
     /// One linear colour per vertex; empty if the primitive has none.
     pub colours: Vec<[f32; 3]>,
-    /// Up to four joints of a skin per vertex; empty if the primitive has none.
+    /// The joints of a skin. Most skins have one set.
+    pub joints: Vec<JointSet>,
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Four joints of a skin per vertex.
+pub(super) struct JointSet {
     pub joints: Vec<[f32; 4]>,
     /// The weight of each of these joints.
     pub weights: Vec<[f32; 4]>,
-    pub triangles: Vec<[u32; 3]>,
 }
 
 /// Returns the triangles of a primitive; `None` for points and lines.
 ///
 /// # Errors
 /// If its accessors do not fit together, or an index names no vertex.
-pub(super) fn read(primitive: &Primitive, buffers: &Buffers) -> Result<Option<Triangles>, Refusal> {
-    let mode = primitive.mode();
-    if !matches!(
-        mode,
-        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
-    ) {
+pub(super) fn read(
+    primitive: &Primitive,
+    buffers: &mut Buffers,
+) -> Result<Option<Triangles>, Refusal> {
+    let mode = primitive.mode.unwrap_or(TRIANGLES);
+    if !matches!(mode, TRIANGLES | STRIP | FAN) {
         return Ok(None);
     }
-    let Some(positions) = primitive.get(&Semantic::Positions) else {
+    let attribute = |name: &str| primitive.attributes.get(name).copied();
+    let Some(positions) = attribute("POSITION") else {
         return Ok(Some(Triangles::default()));
     };
-    let positions = buffers.read_vectors::<3>(&positions)?;
+    let compression = compression(&primitive.extensions);
+    if let Some(name) = compression.filter(|_| buffers.is_all_zeros(positions)) {
+        return Err(unread(name));
+    }
+    let positions = buffers.read_vectors::<3>(positions)?;
     let vertices = positions.len();
-    let one_each = |semantic: Semantic| {
-        let accessor = primitive.get(&semantic);
-        let read =
-            accessor.map(|accessor| (accessor.index(), buffers.read_vectors::<3>(&accessor)));
-        match read {
-            None => Ok(Vec::new()),
-            Some((_, Err(refusal))) => Err(refusal),
-            Some((_, Ok(values))) if values.len() == vertices => Ok(values),
-            Some((index, Ok(values))) => {
-                let found = values.len();
-                let problem = format!(
-                    "accessor {index} has {found} elements: expected one for each of {vertices} vertices"
-                );
-                Err(Refusal::whole(problem))
-            }
+    let mut one_each = |name: &str| {
+        let Some(accessor) = attribute(name) else {
+            return Ok(Vec::new());
+        };
+        let values = buffers.read_vectors::<3>(accessor)?;
+        let found = values.len();
+        if found == vertices {
+            Ok(values)
+        } else {
+            Err(Refusal::whole(format!(
+                "accessor {accessor} has {found} elements: expected one for each of {vertices} vertices"
+            )))
         }
     };
-    let normals = one_each(Semantic::Normals)?;
-    let colours = one_each(Semantic::Colors(0))?;
-    let four = |semantic: Semantic| {
-        let accessor = primitive.get(&semantic);
-        let read = accessor.map(|accessor| buffers.read_vectors::<4>(&accessor));
-        read.transpose().map(Option::unwrap_or_default)
-    };
-    let (mut joints, mut weights) = (four(Semantic::Joints(0))?, four(Semantic::Weights(0))?);
-    if joints.len() != vertices || weights.len() != vertices {
-        (joints, weights) = (Vec::new(), Vec::new());
+    let (normals, colours) = (one_each("NORMAL")?, one_each("COLOR_0")?);
+    let mut joints = Vec::new();
+    for set in 0..primitive.attributes.len() {
+        let own = [format!("JOINTS_{set}"), format!("WEIGHTS_{set}")];
+        let [Some(own), Some(weights)] = own.map(|name| attribute(&name)) else {
+            break;
+        };
+        let own = JointSet {
+            joints: buffers.read_vectors::<4>(own)?,
+            weights: buffers.read_vectors::<4>(weights)?,
+        };
+        if own.joints.len() == vertices && own.weights.len() == vertices {
+            joints.push(own);
+        }
     }
-    let corners = match primitive.indices() {
+    let corners = match primitive.indices {
         Some(accessor) => {
-            let indices = buffers.read_indices(&accessor)?;
+            let indices = buffers.read_indices(accessor)?;
             if let Some(index) = indices.iter().find(|&&index| index as usize >= vertices) {
-                let (of, last) = (accessor.index(), vertices.saturating_sub(1));
+                let last = vertices.saturating_sub(1);
                 let problem = format!(
-                    "vertex index {index} in accessor {of} is out of range: expected 0 to {last}"
+                    "vertex index {index} in accessor {accessor} is out of range: expected 0 to {last}"
                 );
                 return Err(Refusal::whole(problem));
             }
@@ -88,15 +103,14 @@ pub(super) fn read(primitive: &Primitive, buffers: &Buffers) -> Result<Option<Tr
         normals,
         colours,
         joints,
-        weights,
     };
     Ok(Some(all.without_unused()))
 }
 
 /// Returns the triangles of `corners`, whose order `mode` says.
-fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
+fn triangles(mode: usize, corners: &[u32]) -> Vec<[u32; 3]> {
     match mode {
-        Mode::TriangleStrip => {
+        STRIP => {
             let three = corners.windows(3).enumerate();
             // Every second triangle of a strip is turned around, so that all face one way.
             let turned = |(i, three): (usize, &[u32])| match i % 2 {
@@ -105,7 +119,7 @@ fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
             };
             three.map(turned).collect()
         }
-        Mode::TriangleFan => {
+        FAN => {
             let two = corners.get(1..).unwrap_or_default().windows(2);
             two.map(|two| [corners[0], two[0], two[1]]).collect()
         }
@@ -127,8 +141,9 @@ impl Triangles {
         for values in [&mut self.positions, &mut self.normals, &mut self.colours] {
             keep(values, &new);
         }
-        for values in [&mut self.joints, &mut self.weights] {
-            keep(values, &new);
+        for set in &mut self.joints {
+            keep(&mut set.joints, &new);
+            keep(&mut set.weights, &new);
         }
         let corners = self.triangles.as_flattened_mut().iter_mut();
         corners.for_each(|corner| *corner = new[*corner as usize]);

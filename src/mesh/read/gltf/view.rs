@@ -1,12 +1,12 @@
 //! The camera and the lights of a glTF file. A scene made from only this file uses them.
 
-use super::{parse, placed};
+use super::container;
+use super::document::{self, Document, numbers, whole};
+use super::nodes::{Placed, placed};
 use crate::picture::Rgb;
 use core::f64::consts::PI;
-use glam::{DAffine3, DVec3};
-use gltf::camera::Projection;
-use gltf::khr_lights_punctual::Kind;
-use gltf::{Node, Semantic};
+use glam::DVec3;
+use serde_json::Value;
 use std::format;
 use std::string::String;
 use std::vec::Vec;
@@ -45,9 +45,10 @@ pub(crate) struct FileLight {
 /// Returns the camera and the lights of the glTF file `bytes`; `None` if it has neither or is no
 /// glTF file.
 pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
-    let (document, _) = parse(bytes).ok()?;
+    let file = container::open(bytes).ok()?;
+    let document = document::parse(file.json, file.is_glb).ok()?;
     let nodes = placed(&document).ok()?;
-    let middle = middle(&nodes);
+    let middle = middle(&document, &nodes);
     let mut left_out = Vec::new();
     let mut leave_out = |why: String| {
         if !left_out.contains(&why) {
@@ -56,7 +57,7 @@ pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
     };
     let cameras = nodes
         .iter()
-        .filter_map(|(node, placed)| camera(node, placed, middle));
+        .filter_map(|placed| camera(&document, placed, middle));
     let mut used = None;
     for camera in cameras {
         match camera {
@@ -68,10 +69,7 @@ pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
         }
     }
     let mut lights = Vec::new();
-    for light in nodes
-        .iter()
-        .filter_map(|(node, placed)| light(node, placed))
-    {
+    for light in nodes.iter().filter_map(|placed| light(&document, placed)) {
         match light {
             Ok(light) => lights.push(light),
             Err(why) => leave_out(why),
@@ -88,19 +86,15 @@ pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
 
 /// Returns the middle of the box around all meshes. The accessors of their positions state the
 /// boxes.
-fn middle(nodes: &[(Node, DAffine3)]) -> DVec3 {
+fn middle(document: &Document, nodes: &[Placed]) -> DVec3 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for (node, placed) in nodes {
-        for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
-            let Some(accessor) = primitive.get(&Semantic::Positions) else {
-                continue;
-            };
-            let vector = |value: Option<gltf::json::Value>| -> Option<DVec3> {
-                let value = value?;
-                let of = |axis: usize| value.get(axis)?.as_f64();
-                Some(DVec3::new(of(0)?, of(1)?, of(2)?))
-            };
-            if let (Some(least), Some(most)) = (vector(accessor.min()), vector(accessor.max())) {
+    for placed in nodes.iter().filter(|placed| placed.is_visible) {
+        let mesh = placed.node.mesh.and_then(|mesh| document.meshes.get(mesh));
+        let primitives = mesh.iter().flat_map(|mesh| &mesh.primitives);
+        let positions = primitives.filter_map(|primitive| primitive.attributes.get("POSITION"));
+        for accessor in positions.filter_map(|index| document.accessors.get(*index)) {
+            let vector = |value: &Value| numbers(value).map(DVec3::from_array);
+            if let (Some(least), Some(most)) = (vector(&accessor.min), vector(&accessor.max)) {
                 // Bit `axis` of `corner` picks the upper end along that axis.
                 for corner in 0..8 {
                     let pick = |axis: usize| match corner >> axis & 1 {
@@ -108,7 +102,7 @@ fn middle(nodes: &[(Node, DAffine3)]) -> DVec3 {
                         _ => most[axis],
                     };
                     let corner = DVec3::new(pick(0), pick(1), pick(2));
-                    let corner = placed.transform_point3(corner);
+                    let corner = placed.world.transform_point3(corner);
                     (low, high) = (low.min(corner), high.max(corner));
                 }
             }
@@ -121,15 +115,23 @@ fn middle(nodes: &[(Node, DAffine3)]) -> DVec3 {
     }
 }
 
-/// Returns the perspective camera of a node, or the reason why it cannot be used. It looks along
+/// Returns the camera of a node, or the reason why it cannot be used. It looks along
 /// −z, and its target is as far away as the middle of the scene.
-fn camera(node: &Node, placed: &DAffine3, middle: DVec3) -> Option<Result<FileCamera, String>> {
-    let camera = node.camera()?;
-    let Projection::Perspective(lens) = camera.projection() else {
-        return None;
+fn camera(
+    document: &Document,
+    placed: &Placed,
+    middle: DVec3,
+) -> Option<Result<FileCamera, String>> {
+    let index = placed.node.camera?;
+    let camera = document.cameras.get(index)?;
+    let name = format!("the file's camera {index}");
+    let Some(yfov) = camera["perspective"]["yfov"].as_f64() else {
+        return Some(Err(format!(
+            "{name} is left out: only perspective cameras are used"
+        )));
     };
-    let name = format!("the file's camera {}", camera.index());
-    let yfov = lens.yfov();
+    let yfov = yfov as f32;
+    let placed = placed.world;
     if !(yfov > 0.0 && f64::from(yfov) < PI) {
         let expected = "expected an angle over 0 and under 3.14159";
         return Some(Err(format!(
@@ -164,25 +166,29 @@ fn camera(node: &Node, placed: &DAffine3, middle: DVec3) -> Option<Result<FileCa
 /// In glTF a white diffuse surface shows 1/π of the light that falls on it; in this crate a light
 /// of strength 1 shows it as 1. So intensities are divided by π. Lights that are black or negative
 /// are left out.
-fn light(node: &Node, placed: &DAffine3) -> Option<Result<FileLight, String>> {
-    let light = node.light()?;
-    let left_out = |why: String| {
-        let index = light.index();
-        Some(Err(format!("the file's light {index} is left out: {why}")))
+fn light(document: &Document, placed: &Placed) -> Option<Result<FileLight, String>> {
+    const LIGHTS: &str = "KHR_lights_punctual";
+    let index = whole(&placed.node.extensions[LIGHTS]["light"])?;
+    let light = document.extensions[LIGHTS]["lights"].get(index)?;
+    let left_out = |why: String| Some(Err(format!("the file's light {index} is left out: {why}")));
+    let placed = placed.world;
+    let toward = match light["type"].as_str() {
+        Some("directional") => {
+            let toward = placed.matrix3.z_axis.try_normalize();
+            if toward.is_none() {
+                return left_out("its node flattens its direction".into());
+            }
+            toward
+        }
+        _ => None,
     };
-    let toward = match light.kind() {
-        Kind::Directional => placed.matrix3.z_axis.try_normalize(),
-        Kind::Point | Kind::Spot { .. } => None,
-    };
-    if toward.is_none() && matches!(light.kind(), Kind::Directional) {
-        return left_out("its node flattens its direction".into());
-    }
-    let strength = f64::from(light.intensity()) / PI;
-    let colour = light
-        .color()
-        .map(|channel| (f64::from(channel) * strength) as f32);
+    let intensity = light["intensity"].as_f64().unwrap_or(1.0) as f32;
+    let [r, g, b] = numbers(&light["color"])
+        .unwrap_or([1.0; 3])
+        .map(|c| c as f32);
+    let strength = f64::from(intensity) / PI;
+    let colour = [r, g, b].map(|channel| (f64::from(channel) * strength) as f32);
     let place = placed.translation;
-    let (intensity, [r, g, b]) = (light.intensity(), light.color());
     let facts = format!("its intensity is {intensity}, its colour {r},{g},{b}");
     let is_sound = |value: f32| value.is_finite() && value >= 0.0;
     if ![intensity, r, g, b].into_iter().chain(colour).all(is_sound) || !place.is_finite() {

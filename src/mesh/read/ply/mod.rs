@@ -7,8 +7,8 @@
 mod body;
 mod header;
 
-use super::error::{Place, Refusal};
-use super::polygons::{Polygons, is_position};
+use super::error::Refusal;
+use super::polygons::Polygons;
 use super::{Beside, MeshFormat, Parts};
 use crate::note::Note;
 use body::{Body, decode};
@@ -68,7 +68,7 @@ impl MeshFormat for Ply {
             let text = "textures are not drawn";
             polygons.notes.push(Note::warning("texture", text));
         }
-        Ok(polygons.finish())
+        polygons.finish()
     }
 }
 
@@ -169,19 +169,6 @@ fn row_size(element: &Element) -> Option<usize> {
     sizes.sum()
 }
 
-/// Makes the error for a vertex whose position a mesh cannot have. `place` is the vertex's first
-/// byte in a binary file.
-fn no_position(body: &Body, place: Place, index: usize, position: DVec3) -> Refusal {
-    let [x, y, z] = position.to_array();
-    let problem =
-        format!("vertex {index} is {x}, {y}, {z}: expected finite numbers, at most 3.4e38");
-    let place = match body {
-        Body::Text { words, .. } => words.place(),
-        Body::Binary { .. } => place,
-    };
-    Refusal::at(place, problem)
-}
-
 /// Returns the value of each slot of a vertex whose bytes are `row`; 0 for a slot that the file
 /// does not have.
 #[inline]
@@ -241,10 +228,11 @@ fn read_vertices(
         };
         let [x, y, z, nx, ny, nz, r, g, b] = values;
         let position = DVec3::new(x, y, z);
-        if !is_position(position) {
-            return Err(no_position(body, place, polygons.positions.len(), position));
-        }
-        polygons.positions.push(position);
+        let place = match body {
+            Body::Text { words, .. } => words.place(),
+            Body::Binary { .. } => place,
+        };
+        polygons.push_position(position, place);
         if has_normals {
             polygons.normals.push(DVec3::new(nx, ny, nz));
         }

@@ -113,7 +113,7 @@ fn nodes_place_triangles_with_normals_colours_and_materials() {
 fn triangles_without_normals_are_flat_with_a_warning() {
     let bare = json(&data(), r#"}, "indices": 2"#, "", "");
     let loaded = parse(&bare).expect("a mesh");
-    let said = "the file has no normals: drawn flat, as glTF says; `object.normals = \"averaged\"` or `object.crease = 40` smooths";
+    let said = "the file has no normals: flat, as glTF says, unless `object.normals = \"averaged\"` or `object.crease = 40` smooths";
     assert_eq!(sentences(&loaded.notes), [said]);
     assert_eq!(loaded.mesh.smoothing_group(0), Some(PolygonMesh::FACETED));
     let two = bare.replace(
@@ -222,7 +222,7 @@ fn files_are_refused_with_what_is_wrong() {
         .expect_err("no scene")
         .to_string();
     assert!(
-        error.starts_with("t: is no valid glTF 2.0: scene: "),
+        error.starts_with("t: uses scene 7: expected 0 to 0"),
         "{error}"
     );
     let error = parse(text.replace(r#""meshes": ["#, r#""meshes": [,"#)).expect_err("no JSON");
@@ -384,4 +384,159 @@ fn no_buffer_outside_the_folder_is_read() {
         "{problem}"
     );
     assert_eq!(asked, ["secret"]);
+}
+
+/// What is not drawn may be of any form.
+#[test]
+fn parts_that_are_not_drawn_never_refuse_a_file() {
+    let whole = json(&data(), ALL, "", "");
+    let mesh = parse(&whole).expect("a mesh").mesh;
+    let without_box = whole.replace(r#", "min": [0, 0, 0], "max": [1, 1, 0]"#, "");
+    assert_ne!(without_box, whole);
+    let of_file = |more: &str| json(&data(), ALL, "", more);
+    let of_primitive = |more: &str| json(&data(), &format!("{more}{ALL}"), "", "");
+    for text in [
+        of_primitive(r#", "_HEAT": 1, "TANGENT": 99"#),
+        of_file(r#", "extras": "a", "animations": [{"channels": [{"target": {}}]}, 7]"#),
+        of_file(r#", "textures": [{}], "samplers": [{"wrapS": 10242}], "images": 3"#),
+        of_file(r#", "extensionsRequired": ["EXT_texture_webp", "KHR_animation_pointer"]"#),
+        whole.replace(r#""count": 3"#, r#""count": 3.0"#),
+        whole
+            .replace(
+                r#""buffers": ["#,
+                r#""buffers": [{"byteLength": 9}, {"uri": "a.bin"}, "#,
+            )
+            .replace(r#""buffer": 0"#, r#""buffer": 2"#),
+        whole
+            .replace(
+                r#""accessors": ["#,
+                r#""accessors": [{"count": 1, "componentType": 1, "type": ""}, "#,
+            )
+            .replace(
+                ALL,
+                r#", "NORMAL": 2, "COLOR_0": 4}, "indices": 3, "material": 0"#,
+            )
+            .replace(r#""POSITION": 0"#, r#""POSITION": 1"#),
+        whole.replace(
+            r#"{"name": "red", "#,
+            r#"{"name": "red", "normalTexture": {"index": "b"}, "#,
+        ),
+        without_box,
+    ] {
+        let found = parse(&text);
+        assert_eq!(
+            found.map(|loaded| loaded.mesh).as_ref(),
+            Ok(&mesh),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn glb_files_may_have_no_binary_chunk_other_chunks_and_any_padding() {
+    let mesh = parse(json(&data(), ALL, "", "")).expect("a mesh").mesh;
+    let in_text = glb(&json(&data(), ALL, "", ""), b"");
+    let mut without_bin = in_text[..in_text.len() - 8].to_vec();
+    let length = without_bin.len() as u32;
+    without_bin[8..12].copy_from_slice(&length.to_le_bytes());
+    let mut behind = without_bin.clone();
+    behind.push(0);
+    let mut other = without_bin.clone();
+    other.extend(b"\x04\0\0\0abcdefgh");
+    let padded = glb(&format!("{}\0\0\0", json("", ALL, "", "")), &buffer());
+    for bytes in [in_text, without_bin, behind, other, padded] {
+        assert_eq!(parse(&bytes).expect("a mesh").mesh, mesh);
+    }
+    let said = "t: has no JSON chunk: expected one of glTF 2.0";
+    assert_refused(b"glTF\x02\0\0\0\x14\0\0\0\0\0\0\0abcd", said);
+}
+
+#[test]
+fn compressed_parts_are_named_though_no_extension_is_required() {
+    let text = json(&data(), r#"}, "indices": 2"#, "", "");
+    let draco = text.replacen(r#"{"bufferView": 0, "#, "{", 1).replace(
+        r#""primitives": [{"#,
+        r#""primitives": [{"extensions": {"KHR_draco_mesh_compression": {}}, "#,
+    );
+    let problem = parse(draco).expect_err("compressed").problem;
+    assert!(
+        problem.starts_with("requires the extension KHR_draco_mesh_compression"),
+        "{problem}"
+    );
+    let meshopt = text
+        .replace(
+            &data(),
+            r#", "extensions": {"EXT_meshopt_compression": {"fallback": true}}"#,
+        )
+        .replacen(
+            r#"{"buffer": 0"#,
+            r#"{"extensions": {"EXT_meshopt_compression": {}}, "buffer": 0"#,
+            1,
+        );
+    let problem = parse(meshopt).expect_err("compressed").problem;
+    assert!(
+        problem.starts_with("requires the extension EXT_meshopt_compression"),
+        "{problem}"
+    );
+}
+
+#[test]
+fn instances_place_a_mesh_and_hidden_nodes_do_not() {
+    let of = |node: &str| json(&data(), r#"}, "indices": 2"#, node, "");
+    // The three positions serve as translations.
+    let many = parse(of(
+        r#", "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}"#,
+    ));
+    let mesh = many.expect("a mesh").mesh;
+    let firsts: Vec<Vec3> = (0..3)
+        .map(|p| mesh.positions()[mesh.polygon(p)[0] as usize])
+        .collect();
+    let z = Vec3::new(0.0, 0.0, 5.0);
+    assert_eq!(firsts, [z, z + Vec3::X, z + Vec3::Y]);
+    let hidden = of(r#", "extensions": {"KHR_node_visibility": {"visible": false}}"#);
+    assert_refused(hidden, "t: has no triangle: expected a scene with meshes");
+}
+
+#[test]
+fn a_part_without_material_beside_others_is_white() {
+    let text = json(&data(), ALL, "", "").replace(
+        r#""primitives": ["#,
+        r#""primitives": [{"attributes": {"POSITION": 0}}, "#,
+    );
+    let mesh = parse(&text).expect("a mesh").mesh;
+    let diffuse = [0, 1].map(|p| {
+        mesh.polygon_material(p)
+            .map(|m| mesh.materials()[m].diffuse)
+    });
+    assert_eq!(diffuse, [Some([0.8; 3]), Some([0.8, 0.0, 0.0])]);
+    let bare = parse(json(&data(), "}", "", "")).expect("a mesh").mesh;
+    assert_eq!(bare.polygon_material(0), None);
+}
+
+#[test]
+fn normals_of_length_zero_are_told() {
+    // The second positions are (1, 0, 0), the first ones zero.
+    let text = json(&data(), r#", "NORMAL": 0}, "indices": 2"#, "", "");
+    let said =
+        "1 of 3 normals of the file have length zero: their corners count as without a normal";
+    assert_eq!(sentences(&parse(text).expect("a mesh").notes), [said]);
+}
+
+#[test]
+fn averages_smooth_what_is_flat_only_for_lack_of_normals() {
+    // Two triangles around the edge from (1, 0, 0) to (0, 1, 0), the second one raised.
+    let text = json(&data(), r#"}, "mode": 5"#, "", "");
+    let text = text.replacen(r#""byteLength": 36}"#, r#""byteLength": 48}"#, 1);
+    let mesh = parse(text.replacen(r#""count": 3"#, r#""count": 4"#, 1))
+        .expect("a mesh")
+        .mesh;
+    let values = |source| {
+        let normals = vertex_normals::vertex_normals(&mesh, source);
+        normals.corners[1..4]
+            .iter()
+            .map(|n| normals.values[*n as usize])
+            .collect::<Vec<Vec3>>()
+    };
+    assert_eq!(values(NormalSource::Auto)[0], Vec3::Z);
+    assert_ne!(values(NormalSource::Averaged)[0], Vec3::Z);
 }

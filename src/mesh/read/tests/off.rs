@@ -124,3 +124,43 @@ fn files_are_refused_with_their_line() {
         "t: has no polygon: expected faces of at least three corners",
     );
 }
+
+#[test]
+fn the_whole_file_tells_if_colours_are_bytes() {
+    let of = |colours: [&str; 2]| {
+        let [a, b] = colours;
+        let text = std::format!("OFF\n4 2\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 {a}\n3 2 1 3 {b}\n");
+        let mesh = parse(text).expect("a mesh").mesh;
+        [0, 1].map(|p| mesh.materials()[mesh.polygon_material(p).expect("a material")])
+    };
+    let byte = 1.0 / 255.0;
+    for (colours, expected) in [
+        (["255 0 0", "1 1 1"], [[1.0, 0.0, 0.0], [byte; 3]]),
+        (["1 0 0", "1 1 1"], [[1.0, 0.0, 0.0], [1.0; 3]]),
+        (["0.5 0.5 0.5", "1.0002 0.5 0"], [[0.5; 3], [1.0, 0.5, 0.0]]),
+        (["127.5 0 0", "0 0 0"], [[0.5, 0.0, 0.0], [0.0; 3]]),
+    ] {
+        assert_eq!(of(colours), expected.map(coloured), "{colours:?}");
+    }
+}
+
+#[test]
+fn positions_that_no_face_uses_may_be_anything() {
+    let text = "OFF\n4 1\nnan nan nan\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n";
+    let loaded = parse(text).expect("a mesh");
+    assert_eq!(loaded.mesh.positions().len(), 3);
+    let said = "a vertex that no face uses is not finite: it is left out";
+    assert_eq!(sentences(&loaded.notes), [said]);
+    assert_refused(
+        text.replace("3 1 2 3", "3 0 2 3"),
+        "t:3: vertex 0 is NaN, NaN, NaN: expected finite numbers, at most 3.4e38",
+    );
+}
+
+#[test]
+fn nul_counts_as_a_blank() {
+    let text = "OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    assert_eq!(polygons(text.replace('\n', "\0\n")), [[0, 1, 2]]);
+    let stl = "solid a\0b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\0\nvertex 0 1 0\nendloop\nendfacet\n";
+    assert_eq!(polygons(stl), [[0, 1, 2]]);
+}
