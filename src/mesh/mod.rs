@@ -98,6 +98,8 @@ pub struct PolygonMesh {
     /// True if polygons are faceted only because the file has no normals for them. Nobody decided
     /// that they are, so whoever asks for averages gets them.
     is_flat_for_lack: bool,
+    /// True if the file says of a material in use that its polygons are seen from both sides.
+    is_double_sided: bool,
     given_normals: Option<GivenNormals>,
     colours: Vec<Vec3>,
     attributes: Vec<[f32; 4]>,
@@ -189,10 +191,16 @@ impl PolygonMesh {
         self.states_smoothing || self.has_smoothing_groups()
     }
 
-    /// True if [`NormalSource::Averaged`](vertex_normals::NormalSource::Averaged) obeys the
-    /// smoothing groups.
-    pub(crate) fn averages_by_groups(&self) -> bool {
-        !self.is_flat_for_lack
+    /// True if polygons are faceted only because the file has no normals for them.
+    /// [`NormalSource::Averaged`](vertex_normals::NormalSource::Averaged) smooths them.
+    pub(crate) fn is_flat_for_lack(&self) -> bool {
+        self.is_flat_for_lack
+    }
+
+    /// True if the file says of a material in use that its polygons are seen from both sides.
+    #[cfg(feature = "io")]
+    pub(crate) fn is_double_sided(&self) -> bool {
+        self.is_double_sided
     }
 
     /// Returns the normals that came with the mesh, if it has some.
@@ -441,6 +449,7 @@ impl MeshBuilder {
                 smoothing_groups: Vec::new(),
                 states_smoothing: false,
                 is_flat_for_lack: false,
+                is_double_sided: false,
                 given_normals: None,
                 colours: Vec::new(),
                 attributes: Vec::new(),
@@ -562,6 +571,13 @@ impl MeshBuilder {
     #[cfg(feature = "gltf")]
     pub(crate) fn flat_without_normals(&mut self) -> &mut Self {
         self.mesh.is_flat_for_lack = true;
+        self
+    }
+
+    /// Says that the file wants polygons to be seen from both sides.
+    #[cfg(feature = "gltf")]
+    pub(crate) fn double_sided(&mut self) -> &mut Self {
+        self.mesh.is_double_sided = true;
         self
     }
 

@@ -160,7 +160,7 @@ pub(crate) fn corner_normals(
             CornerNormals::ByCorner(creased(mesh, degrees, polygons, weight))
         }
         (NormalSource::Given, None) => averaged(Smoothing::Surfaces),
-        (NormalSource::Averaged, _) if !mesh.averages_by_groups() => averaged(Smoothing::Surfaces),
+        (NormalSource::Averaged, _) if mesh.is_flat_for_lack() => averaged(Smoothing::Surfaces),
         (NormalSource::Averaged, _) | (NormalSource::Auto, None) => averaged(Smoothing::Groups),
     }
 }
@@ -197,7 +197,7 @@ impl NormalUse {
         let matters = mesh.has_smoothing_groups() && own < mesh.corners().len();
         let obeys = match source {
             NormalSource::Auto => true,
-            NormalSource::Averaged => mesh.averages_by_groups(),
+            NormalSource::Averaged => !mesh.is_flat_for_lack(),
             _ => false,
         };
         NormalUse {
@@ -205,7 +205,7 @@ impl NormalUse {
             averaged: mesh.corners().len() - given,
             obeys_groups: mesh.has_smoothing_groups() && obeys && given < mesh.corners().len(),
             leaves_normals: own > given,
-            leaves_groups: matters && !obeys,
+            leaves_groups: matters && !obeys && !mesh.is_flat_for_lack(),
         }
     }
 }

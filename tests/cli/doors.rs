@@ -143,7 +143,9 @@ const OF_SCENES: &[&str] = &[
     "mesh/up",
     "mesh/weld",
     "no-effect",
+    "normals-missing",
     "normals-unused",
+    "view-left-out",
     "view-of-file",
     "winding",
 ];

@@ -715,3 +715,51 @@ fn normals_of_a_mesh_file_are_weighted_by_angle_unless_a_flag_says_otherwise() {
     let printed = folder.run("render cube.obj --print-scene").done();
     printed.prints("normals = \"auto\"\nnormals_weight = \"angle\"\n");
 }
+
+#[test]
+fn a_gltf_file_without_normals_is_flat_until_somebody_smooths_it() {
+    let folder = Folder::new();
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../fuzz/corpus/gltf/double-sided-room"
+    );
+    let room = std::fs::read(path).expect("the corpus");
+    folder.write("room.gltf", room).write(
+        "scene.toml",
+        "[[object]]\nmesh = 'room.gltf'\n[camera]\neye = [2, 3, 4]\nfit = 0.8\n",
+    );
+    let said = "the file has no normals: drawn flat, as glTF says";
+    let view = "--azimuth 30 --elevation 20 --size 64x48";
+    let drawn = |command: String, is_told: bool| {
+        let ended = folder.run(&format!("render {command} -o a.png")).done();
+        assert_eq!(
+            ended.err.contains(said),
+            is_told,
+            "{command}: {}",
+            ended.err
+        );
+        folder.read("a.png")
+    };
+    let mesh = |how: &str| format!("room.gltf {view} {how}");
+    let flat = drawn(mesh(""), true);
+    assert!(drawn(mesh("--normals averaged"), false) != flat);
+    // The walls of a room meet at 90 degrees.
+    assert_eq!(drawn(mesh("--normals crease=40"), false), flat);
+    assert!(drawn(mesh("--normals crease=95"), false) != flat);
+    let scene = |how: &str| format!("scene.toml --size 64x48 {how}");
+    let smooth = drawn(scene(""), false);
+    assert!(drawn(scene("--normals auto"), true) != smooth);
+}
+
+#[test]
+fn all_sets_of_joints_move_a_vertex() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../fuzz/corpus/gltf/joints-of-two-sets"
+    );
+    let folder = Folder::new();
+    folder.write("a.gltf", std::fs::read(path).expect("the corpus"));
+    // Half of all weights are those of a joint that moves x by 2.
+    let bounds = "bounds      (1.0000, 0.0000, 0.0000) to (2.0000, 1.0000, 0.0000)";
+    assert!(folder.run("info a.gltf").done().out.contains(bounds));
+}

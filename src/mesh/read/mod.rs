@@ -37,7 +37,7 @@ mod words;
 
 pub use error::{Place, ReadError};
 #[cfg(feature = "gltf")]
-pub(crate) use gltf::{FileLight, FileView, view};
+pub(crate) use gltf::{FileLens, FileLight, FileView, view};
 
 use super::{MeshBuilder, PolygonMesh};
 use crate::note::{Note, Notes};

@@ -4,10 +4,10 @@ use super::SceneFile;
 #[cfg(feature = "gltf")]
 use super::value::SceneTable;
 #[cfg(feature = "gltf")]
-use crate::mesh::read::{FileLight, FileView};
+use crate::mesh::read::{FileLens, FileLight, FileView};
 use crate::note::{Note, Setting};
 #[cfg(feature = "gltf")]
-use crate::scene::ranges::{COORDINATE, FOVY};
+use crate::scene::ranges::{COORDINATE, FOVY, HALF_HEIGHT};
 use std::format;
 use std::string::String;
 #[cfg(feature = "gltf")]
@@ -26,16 +26,21 @@ impl SceneFile {
         );
         if let Some(camera) = view.camera {
             let is_near = COORDINATE.holds_all(camera.eye) && COORDINATE.holds_all(camera.target);
-            if is_near && FOVY.holds(camera.fovy) {
+            let (key, size, range) = match camera.lens {
+                FileLens::Fovy(fovy) => ("fovy", fovy, FOVY),
+                FileLens::HalfHeight(half) => ("half_height", half, HALF_HEIGHT),
+            };
+            if is_near && range.holds(size) {
                 let [eye, target, up] =
                     [camera.eye, camera.target, camera.up].map(|v| v.to_array());
-                let fovy = camera.fovy;
                 text = format!(
-                    "camera = {{ eye = {eye:?}, target = {target:?}, up = {up:?}, fovy = {fovy:?} }}\n"
+                    "camera = {{ eye = {eye:?}, target = {target:?}, up = {up:?}, {key} = {size:?} }}\n"
                 );
             } else {
-                let why = "expected coordinates up to 1e15 and 0.001 to 179.999 degrees";
-                let text = format!("the file's camera is left out: {why}");
+                let text = format!(
+                    "the file's camera is left out: expected coordinates up to 1e15 and a `{key}` of {}",
+                    range.expected
+                );
                 self.notes.push(Note::remark("view-left-out", text));
             }
         }

@@ -82,9 +82,34 @@ pub(super) fn spell_out(rule: NormalRule, object: &mut SceneTable) -> bool {
 }
 
 /// Adds a note, once, if `source` does not use the normals or the smoothing groups of the mesh file
-/// `name`.
-pub(super) fn note_unused(name: &str, mesh: &PolygonMesh, source: NormalSource, notes: &mut Notes) {
+/// `name`, or leaves polygons flat for which the file has no normals.
+pub(super) fn note_normals(
+    name: &str,
+    mesh: &PolygonMesh,
+    source: NormalSource,
+    notes: &mut Notes,
+) {
     let used = NormalUse::of(mesh, source);
+    if mesh.is_flat_for_lack() && used.obeys_groups {
+        let all = mesh.polygon_count();
+        let is_flat =
+            |polygon: &usize| mesh.smoothing_group(*polygon) == Some(PolygonMesh::FACETED);
+        let flat = (0..all).filter(is_flat).count();
+        let which = if flat == all {
+            "the file has no normals".into()
+        } else {
+            format!("{flat} of {all} polygons have no normals")
+        };
+        let note = Note::warning(
+            "normals-missing",
+            format!("{which}: drawn flat, as glTF says; "),
+        )
+        .set(Setting::word("object.normals", "averaged"))
+        .say(" or ")
+        .set(Setting::number("object.crease", "40"))
+        .say(" smooths");
+        notes.push(note.about(name));
+    }
     let by = match source {
         NormalSource::Auto => "normals = \"auto\"".to_string(),
         NormalSource::Averaged => "normals = \"averaged\"".to_string(),

@@ -4,7 +4,7 @@ use super::check::Section;
 use super::colours::take_neutral_material;
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
-use super::normal_source::{StatedNormals, note_unused, spell_out};
+use super::normal_source::{StatedNormals, note_normals, spell_out};
 use super::sides::Sides;
 use super::upright::turn;
 use super::value::{Data, SceneTable};
@@ -123,6 +123,14 @@ impl<'a> StatedView<'a> {
     }
 }
 
+/// True if `eye` is in the box around `points`.
+fn is_within(eye: DVec3, points: &[DVec3]) -> bool {
+    let around = |low: DVec3, high: DVec3| low.cmple(eye).all() && eye.cmple(high).all();
+    let low = points.iter().copied().reduce(DVec3::min);
+    let high = points.iter().copied().reduce(DVec3::max);
+    low.zip(high).is_some_and(|(low, high)| around(low, high))
+}
+
 impl SceneFile {
     /// Returns the scene that the file describes.
     ///
@@ -188,7 +196,11 @@ impl SceneFile {
         let hidden_surfaces = hidden_surfaces(&file, &mut notes)?;
         let mut objects = self.objects(&file, load_mesh, &mut notes)?;
         let colours = file.table.text("colours") == Some("on");
-        let mut sides = Sides::new(&file, self.mesh_alone(&file, &objects), &mut notes);
+        let points: Vec<DVec3> = objects.iter().flat_map(Object::world_points).collect();
+        let view = stated.view(&file, &points, &mut notes)?;
+        let alone = self.mesh_alone(&file, &objects);
+        let is_within = is_within(view.camera.eye, &points);
+        let mut sides = Sides::new(&file, alone, is_within, &mut notes);
         let is_named = file
             .sections("object", "object")
             .any(|object| is_named_in_file(&object));
@@ -215,7 +227,7 @@ impl SceneFile {
             if !looked_at.insert((Arc::as_ptr(&object.mesh), normals)) {
                 continue;
             }
-            note_unused(name, &object.mesh, object.normals.source, &mut notes);
+            note_normals(name, &object.mesh, object.normals.source, &mut notes);
             let outside = match sides.culling {
                 Culling::Back => "so that its outside is not drawn",
                 // Its outside is shown, and lit on both sides.
@@ -224,8 +236,6 @@ impl SceneFile {
             };
             warn_of_inside_out(name, &object.mesh, outside, &mut notes);
         }
-        let points: Vec<DVec3> = objects.iter().flat_map(Object::world_points).collect();
-        let view = stated.view(&file, &points, &mut notes)?;
         let mut chosen = sides.chosen;
         if let Some(tables) = normals_spelt_out(&file, &objects) {
             chosen.set("object", Data::Tables(tables), Origin::Program);

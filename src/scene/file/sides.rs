@@ -24,8 +24,14 @@ pub(super) struct Sides {
 impl Sides {
     /// Reads the keys of `scene`. `alone` is the name and the mesh of a file that no scene file
     /// names. For such a mesh, absent keys depend on its winding: if it is doubtful, both sides are
-    /// drawn and lit, and a note says why.
-    pub fn new(scene: &Section, alone: Option<(&str, &PolygonMesh)>, notes: &mut Notes) -> Sides {
+    /// drawn and lit, and a note says why. They also are if the file has double-sided materials and
+    /// the eye is within its box. From outside only front sides of a closed mesh are seen.
+    pub fn new(
+        scene: &Section,
+        alone: Option<(&str, &PolygonMesh)>,
+        is_eye_within: bool,
+        notes: &mut Notes,
+    ) -> Sides {
         let mut sides = Sides {
             culling: scene.word("cull"),
             two_sided: scene.is_on("two_sided"),
@@ -36,7 +42,11 @@ impl Sides {
         if let Some((name, mesh)) = alone.filter(|_| is_open) {
             let doubts = WindingDoubts::of(mesh);
             if doubts.any() {
-                notes.push(sides.choose(scene, shown(name), &doubts));
+                notes.push(sides.choose(scene, shown(name), &reasons(&doubts)));
+            } else if is_eye_within && mesh.is_double_sided() {
+                let why =
+                    "materials of the file are double-sided, and the eye is among its polygons";
+                notes.push(sides.choose(scene, shown(name), why));
             }
         }
         if sides.two_sided && sides.culling == Culling::Back {
@@ -49,10 +59,9 @@ impl Sides {
         sides
     }
 
-    /// Chooses the keys that `scene` leaves open for a mesh with doubtful winding. Returns the note
+    /// Chooses the keys that `scene` leaves open for a mesh that needs both sides. Returns the note
     /// about it.
-    fn choose(&mut self, scene: &Section, name: &str, doubts: &WindingDoubts) -> Note {
-        let why = reasons(doubts);
+    fn choose(&mut self, scene: &Section, name: &str, why: &str) -> Note {
         let mut note = Note::remark(
             "winding",
             format!("{why}: its polygons are lit on the side that is seen"),

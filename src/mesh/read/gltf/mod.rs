@@ -12,7 +12,7 @@ mod primitives;
 mod reader;
 mod view;
 
-pub(crate) use view::{FileLight, FileView, view};
+pub(crate) use view::{FileLens, FileLight, FileView, view};
 
 use super::error::Refusal;
 use super::{Beside, MeshFormat, Parts};

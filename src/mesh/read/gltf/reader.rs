@@ -8,7 +8,7 @@ use super::document::{Document, Node, entry, numbers};
 use super::nodes::Pose;
 use super::primitives::{self, Triangles};
 use crate::mesh::{Material, PolygonMesh};
-use crate::note::{Note, Setting};
+use crate::note::Note;
 use glam::{DVec3, Vec3};
 use serde_json::Value;
 use std::collections::HashMap;
@@ -28,10 +28,8 @@ pub(super) struct Reader<'a> {
     materials: HashMap<Option<usize>, u32>,
     has_normals: bool,
     has_colours: bool,
-    /// How many primitives were placed.
-    primitives: usize,
-    /// How many of them have no normals.
-    flat: usize,
+    /// True if a material in use is seen from both sides.
+    is_double_sided: bool,
 }
 
 impl<'a> Reader<'a> {
@@ -47,8 +45,7 @@ impl<'a> Reader<'a> {
             materials: HashMap::new(),
             has_normals: false,
             has_colours: false,
-            primitives: 0,
-            flat: 0,
+            is_double_sided: false,
         }
     }
 
@@ -111,20 +108,69 @@ impl<'a> Reader<'a> {
         } else {
             (&specular["diffuseFactor"], &specular["diffuseTexture"])
         };
-        if !texture.is_null() || !material["normalTexture"].is_null() {
+        let emission = &material["emissiveFactor"];
+        let [mode, is_double_sided] = ["alphaMode", "doubleSided"].map(|key| &material[key]);
+        let is_some = |value: &Value| !value.is_null();
+        for (value, is_right, expected) in [
+            (material, material.is_object(), "an object"),
+            (
+                colour,
+                numbers::<4>(colour).is_some(),
+                "a colour of four numbers",
+            ),
+            (
+                emission,
+                numbers::<3>(emission).is_some(),
+                "an emission of three numbers",
+            ),
+            (mode, mode.is_string(), "an `alphaMode` in quotes"),
+            (
+                is_double_sided,
+                is_double_sided.is_boolean(),
+                "a `doubleSided` of true or false",
+            ),
+        ] {
+            if is_some(value) && !is_right {
+                let index = index.unwrap_or_default();
+                let text = format!(
+                    "material {index} has something else where glTF has {expected}: it is ignored"
+                );
+                let kind = "material/wrong-type";
+                self.polygons
+                    .notes
+                    .count(kind, 0, || Note::warning(kind, text));
+            }
+        }
+        if is_some(texture) || is_some(&material["normalTexture"]) {
             self.warn("material/texture", "textures are not drawn");
         }
-        if material["alphaMode"].as_str().unwrap_or("OPAQUE") != "OPAQUE" {
+        let colour @ [r, g, b, alpha] = numbers(colour).unwrap_or([1.0; 4]);
+        let is_opaque = match mode.as_str() {
+            Some("BLEND") => alpha >= 1.0 && !is_some(texture),
+            Some("MASK") => {
+                let cutoff = material["alphaCutoff"].as_f64().unwrap_or(0.5);
+                alpha >= cutoff && !is_some(texture)
+            }
+            _ => true,
+        };
+        if !is_opaque {
             let text = "transparency is not drawn, all surfaces are opaque";
             self.warn("material/transparency", text);
         }
-        if numbers(&material["emissiveFactor"]).unwrap_or([0.0; 3]) != [0.0; 3] {
+        if numbers(emission).unwrap_or([0.0; 3]) != [0.0; 3] {
             self.warn("material/emission", "emission is not drawn");
         }
-        if !extensions["KHR_materials_unlit"].is_null() {
+        if is_some(&extensions["KHR_materials_unlit"]) {
             self.warn("material/unlit", "unlit materials are drawn lit");
         }
-        let [r, g, b, _] = numbers(colour).unwrap_or([1.0; 4]);
+        self.is_double_sided |= is_double_sided == true;
+        if colour.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
+            let kind = "material/clamped";
+            let text = "a colour of a material is out of 0 to 1 and is clamped to it";
+            self.polygons
+                .notes
+                .count(kind, 0, || Note::warning(kind, text));
+        }
         let own: Material = coloured([r, g, b].map(|channel| channel.clamp(0.0, 1.0) as f32));
         let name = material["name"].as_str().map(quote).unwrap_or_default();
         let added = self.polygons.add_material(own, name);
@@ -157,8 +203,6 @@ impl<'a> Reader<'a> {
         }
         self.place_vertices(own, pose)?;
         let is_flat = own.normals.is_empty();
-        self.primitives += 1;
-        self.flat += usize::from(is_flat);
         // A mirroring transform turns the winding around, so its triangles are turned back.
         let is_mirrored = pose.of_vertex(own, 0).matrix3.determinant() < 0.0;
         let polygons = &mut self.polygons;
@@ -229,25 +273,13 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// If a triangle uses a position that a mesh cannot have.
-    pub(super) fn finish(mut self) -> Result<Parts, Refusal> {
-        if self.flat > 0 {
-            let (flat, all) = (self.flat, self.primitives);
-            let which = if flat == all {
-                "the file has no normals".into()
-            } else {
-                format!("{flat} of {all} parts have no normals")
-            };
-            let text = format!("{which}: flat, as glTF says, unless ");
-            let note = Note::warning("normals-missing", text)
-                .set(Setting::word("object.normals", "averaged"))
-                .say(" or ")
-                .set(Setting::number("object.crease", "40"))
-                .say(" smooths");
-            self.polygons.notes.push(note);
-        }
+    pub(super) fn finish(self) -> Result<Parts, Refusal> {
         let mut parts = self.polygons.finish()?;
         parts.builder.up_by_custom('y');
         parts.builder.flat_without_normals();
+        if self.is_double_sided {
+            parts.builder.double_sided();
+        }
         Ok(parts)
     }
 }

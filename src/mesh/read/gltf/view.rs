@@ -14,22 +14,30 @@ use std::vec::Vec;
 /// The camera and the lights of a mesh file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct FileView {
-    /// The first perspective camera.
+    /// The first camera that can be used.
     pub camera: Option<FileCamera>,
     /// The lights that shine.
     pub lights: Vec<FileLight>,
-    /// One sentence for each camera or light that cannot be used, with the reason.
+    /// One sentence for each kind of camera or light that cannot be used as the file means it.
     pub left_out: Vec<String>,
 }
 
-/// A perspective camera.
+/// A camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FileCamera {
     pub eye: DVec3,
     pub target: DVec3,
     pub up: DVec3,
-    /// The vertical field of view in degrees.
-    pub fovy: f64,
+    pub lens: FileLens,
+}
+
+/// What a camera shows from bottom to top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum FileLens {
+    /// A perspective projection's vertical field of view in degrees.
+    Fovy(f64),
+    /// Half the height of an orthographic projection.
+    HalfHeight(f64),
 }
 
 /// A light at a position or in a direction.
@@ -71,7 +79,12 @@ pub(crate) fn view(bytes: &[u8]) -> Option<FileView> {
     let mut lights = Vec::new();
     for light in nodes.iter().filter_map(|placed| light(&document, placed)) {
         match light {
-            Ok(light) => lights.push(light),
+            Ok((light, is_spot)) => {
+                lights.push(light);
+                if is_spot {
+                    leave_out("spot lights of the file shine all around".into());
+                }
+            }
             Err(why) => leave_out(why),
         }
     }
@@ -125,19 +138,21 @@ fn camera(
     let index = placed.node.camera?;
     let camera = document.cameras.get(index)?;
     let name = format!("the file's camera {index}");
-    let Some(yfov) = camera["perspective"]["yfov"].as_f64() else {
-        return Some(Err(format!(
-            "{name} is left out: only perspective cameras are used"
-        )));
+    let left_out = |why: String| Some(Err(format!("{name} is left out: {why}")));
+    let (lens, size, expected) = match camera["type"].as_str() {
+        Some("orthographic") => ("orthographic", "ymag", "a number over 0"),
+        _ => ("perspective", "yfov", "an angle over 0 and under 3.14159"),
     };
-    let yfov = yfov as f32;
+    let value = &camera[lens][size];
+    let lens = match (value.as_f64(), size) {
+        (Some(half), "ymag") if half > 0.0 => FileLens::HalfHeight(half),
+        (Some(angle), "yfov") if angle > 0.0 && angle < PI => {
+            // In `f32`, as files state it.
+            FileLens::Fovy(f64::from(angle as f32).to_degrees())
+        }
+        _ => return left_out(format!("its `{size}` is {value}: expected {expected}")),
+    };
     let placed = placed.world;
-    if !(yfov > 0.0 && f64::from(yfov) < PI) {
-        let expected = "expected an angle over 0 and under 3.14159";
-        return Some(Err(format!(
-            "{name} is left out: its `yfov` is {yfov}: {expected}"
-        )));
-    }
     let flat = || format!("{name} is left out: its node flattens it");
     let eye = placed.translation;
     let axis = |axis: DVec3| axis.try_normalize();
@@ -151,7 +166,7 @@ fn camera(
         eye,
         target: eye + distance * forward,
         up,
-        fovy: f64::from(yfov).to_degrees(),
+        lens,
     };
     Some(if camera.eye.is_finite() && camera.target.is_finite() {
         Ok(camera)
@@ -160,19 +175,20 @@ fn camera(
     })
 }
 
-/// Returns the light of a node, or the reason why it is left out. A light with a direction shines
-/// along −z.
+/// Returns the light of a node and if it is a spot light, or the reason why it is left out. A light
+/// with a direction shines along −z.
 ///
 /// In glTF a white diffuse surface shows 1/π of the light that falls on it; in this crate a light
 /// of strength 1 shows it as 1. So intensities are divided by π. Lights that are black or negative
 /// are left out.
-fn light(document: &Document, placed: &Placed) -> Option<Result<FileLight, String>> {
+fn light(document: &Document, placed: &Placed) -> Option<Result<(FileLight, bool), String>> {
     const LIGHTS: &str = "KHR_lights_punctual";
     let index = whole(&placed.node.extensions[LIGHTS]["light"])?;
     let light = document.extensions[LIGHTS]["lights"].get(index)?;
     let left_out = |why: String| Some(Err(format!("the file's light {index} is left out: {why}")));
     let placed = placed.world;
-    let toward = match light["type"].as_str() {
+    let kind = &light["type"];
+    let toward = match kind.as_str() {
         Some("directional") => {
             let toward = placed.matrix3.z_axis.try_normalize();
             if toward.is_none() {
@@ -180,12 +196,21 @@ fn light(document: &Document, placed: &Placed) -> Option<Result<FileLight, Strin
             }
             toward
         }
-        _ => None,
+        Some("point" | "spot") => None,
+        _ => {
+            let expected = "expected \"directional\", \"point\" or \"spot\"";
+            return left_out(format!("its `type` is {kind}: {expected}"));
+        }
     };
-    let intensity = light["intensity"].as_f64().unwrap_or(1.0) as f32;
-    let [r, g, b] = numbers(&light["color"])
-        .unwrap_or([1.0; 3])
-        .map(|c| c as f32);
+    let (intensity, colour) = (&light["intensity"], &light["color"]);
+    if !(intensity.is_null() || intensity.is_number()) {
+        return left_out(format!("its `intensity` is {intensity}: expected a number"));
+    }
+    if !(colour.is_null() || numbers::<3>(colour).is_some()) {
+        return left_out(format!("its `color` is {colour}: expected three numbers"));
+    }
+    let intensity = intensity.as_f64().unwrap_or(1.0) as f32;
+    let [r, g, b] = numbers(colour).unwrap_or([1.0; 3]).map(|c| c as f32);
     let strength = f64::from(intensity) / PI;
     let colour = [r, g, b].map(|channel| (f64::from(channel) * strength) as f32);
     let place = placed.translation;
@@ -197,11 +222,12 @@ fn light(document: &Document, placed: &Placed) -> Option<Result<FileLight, Strin
     if colour == [0.0; 3] {
         return left_out(format!("{facts}, so it does not shine"));
     }
-    Some(Ok(FileLight {
+    let light = FileLight {
         toward,
         place,
         colour,
-    }))
+    };
+    Some(Ok((light, kind == "spot")))
 }
 
 /// Scales all lights down by one factor if they sum to more than 1 at the middle of the scene. A

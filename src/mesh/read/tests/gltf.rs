@@ -1,6 +1,7 @@
 //! glTF and GLB files.
 
 use super::*;
+use crate::mesh::read::FileLens;
 use crate::mesh::{PolygonMesh, vertex_normals};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -110,18 +111,16 @@ fn nodes_place_triangles_with_normals_colours_and_materials() {
 }
 
 #[test]
-fn triangles_without_normals_are_flat_with_a_warning() {
+fn triangles_without_normals_are_flat() {
     let bare = json(&data(), r#"}, "indices": 2"#, "", "");
     let loaded = parse(&bare).expect("a mesh");
-    let said = "the file has no normals: flat, as glTF says, unless `object.normals = \"averaged\"` or `object.crease = 40` smooths";
-    assert_eq!(sentences(&loaded.notes), [said]);
+    assert!(loaded.mesh.is_flat_for_lack());
     assert_eq!(loaded.mesh.smoothing_group(0), Some(PolygonMesh::FACETED));
     let two = bare.replace(
         r#""primitives": ["#,
         r#""primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}}, "#,
     );
     let loaded = parse(&two).expect("a mesh");
-    assert!(sentences(&loaded.notes)[0].starts_with("1 of 2 parts have no normals"));
     let mesh = &loaded.mesh;
     let groups = [0, 1].map(|p| mesh.smoothing_group(p));
     assert_eq!(
@@ -250,7 +249,7 @@ fn cameras_and_lights_are_where_their_nodes_are() {
     // The middle of the triangle's box is (0.5, 0.5, 0).
     let distance = 81.5f64.sqrt();
     assert!((camera.target - glam::DVec3::new(0.0, 0.0, 9.0 - distance)).length() < 1e-12);
-    assert!((camera.fovy - 0.5f64.to_degrees()).abs() < 1e-6);
+    assert_eq!(camera.lens, FileLens::Fovy(0.5f64.to_degrees()));
     assert_eq!((camera.eye.z, camera.up), (9.0, glam::DVec3::Y));
     let [sun, lamp] = view.lights[..] else {
         panic!("{:?}", view.lights)
@@ -539,4 +538,72 @@ fn averages_smooth_what_is_flat_only_for_lack_of_normals() {
     };
     assert_eq!(values(NormalSource::Auto)[0], Vec3::Z);
     assert_ne!(values(NormalSource::Averaged)[0], Vec3::Z);
+}
+
+/// Returns the mesh and the notes of a triangle with this material.
+fn with_material(material: &str) -> LoadedMesh {
+    let more = format!(r#", "materials": [{material}]"#);
+    let text = json(
+        &data(),
+        r#", "NORMAL": 1}, "indices": 2, "material": 0"#,
+        "",
+        &more,
+    );
+    parse(text).expect("a mesh")
+}
+
+#[test]
+fn what_is_wrong_in_a_material_is_told_and_ignored() {
+    let ignored = |expected: &str| {
+        format!("material 0 has something else where glTF has {expected}: it is ignored")
+    };
+    for (material, said) in [
+        ("7", "an object"),
+        (
+            r#"{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0]}}"#,
+            "a colour of four numbers",
+        ),
+        (
+            r#"{"emissiveFactor": "red"}"#,
+            "an emission of three numbers",
+        ),
+        (r#"{"alphaMode": 3}"#, "an `alphaMode` in quotes"),
+        (
+            r#"{"doubleSided": "no"}"#,
+            "a `doubleSided` of true or false",
+        ),
+    ] {
+        let loaded = with_material(material);
+        assert_eq!(sentences(&loaded.notes), [ignored(said)], "{material}");
+        assert_eq!(loaded.mesh.materials()[0].diffuse, [0.8; 3]);
+    }
+    let bright = r#"{"pbrMetallicRoughness": {"baseColorFactor": [2, 0, 0, 1]}}"#;
+    let said = "a colour of a material is out of 0 to 1 and is clamped to it";
+    assert_eq!(sentences(&with_material(bright).notes), [said]);
+}
+
+#[test]
+fn only_what_may_be_transparent_is_told() {
+    let of = |mode: &str, alpha: &str, texture: &str| {
+        let loaded = with_material(&format!(
+            r#"{{"alphaMode": "{mode}", "pbrMetallicRoughness": {{"baseColorFactor": [1, 1, 1, {alpha}]{texture}}}}}"#
+        ));
+        loaded.notes.has("material/transparency")
+    };
+    let texture = r#", "baseColorTexture": {"index": 0}"#;
+    for (mode, alpha, texture, is_told) in [
+        ("BLEND", "1", "", false),
+        ("BLEND", "0.9", "", true),
+        ("BLEND", "1", texture, true),
+        ("MASK", "0.6", "", false),
+        ("MASK", "0.4", "", true),
+        ("MASK", "1", texture, true),
+        ("OPAQUE", "0.1", texture, false),
+    ] {
+        assert_eq!(
+            of(mode, alpha, texture),
+            is_told,
+            "{mode} {alpha} {texture}"
+        );
+    }
 }
