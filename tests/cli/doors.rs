@@ -149,3 +149,48 @@ const OF_SCENES: &[&str] = &[
     "view-of-file",
     "winding",
 ];
+
+/// Returns the flags with their values that a sentence of the program suggests.
+fn suggested(line: &str) -> Vec<String> {
+    let words: Vec<&str> = line.split(' ').collect();
+    let end = |word: &str| word.trim_end_matches([')', ',', ';', ':', '.']).to_string();
+    let pairs = words.windows(2).filter_map(|pair| {
+        let flag = pair[0].trim_start_matches('(');
+        // A flag without a value ends its part of the sentence.
+        let is_flag = flag.starts_with("--");
+        is_flag.then(|| {
+            if end(flag) == flag {
+                format!("{flag} {}", end(pair[1]))
+            } else {
+                end(flag)
+            }
+        })
+    });
+    pairs.collect()
+}
+
+#[test]
+fn what_a_note_suggests_changes_the_picture_or_ends_the_note() {
+    let mut tried = 0;
+    for Situation { input, files, .. } in situations() {
+        let folder = Folder::new();
+        for (file, text) in &files {
+            folder.write(file, text);
+        }
+        let draw = |name: &str, more: &str| {
+            let size = "--size 32x24 --method gouraud";
+            let told = folder.run(&format!("render {input} -o {name} {size} {more}"));
+            told.done().err
+        };
+        let told = draw("as-it-is.png", "");
+        for line in told.lines() {
+            for flag in suggested(line) {
+                let told = draw("as-suggested.png", &flag);
+                let is_same = folder.read("as-it-is.png") == folder.read("as-suggested.png");
+                assert!(!is_same || !told.contains(line), "{line}: {flag}\n{told}");
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 10, "{tried}");
+}

@@ -205,10 +205,13 @@ impl<'a> Buffers<'a> {
         } else {
             1.0
         };
-        self.read(index, accessor, |value| match full > 1.0 {
-            // The smallest signed integer is one below −full and also means −1.
-            true => (value / full).max(-1.0) as f32,
-            false => value as f32,
+        self.read(index, accessor, |value| {
+            if full > 1.0 {
+                // The smallest signed integer is one below −full and also means −1.
+                (value / full).max(-1.0) as f32
+            } else {
+                value as f32
+            }
         })
     }
 
