@@ -154,13 +154,14 @@ const OF_SCENES: &[&str] = &[
 fn suggested(line: &str) -> Vec<String> {
     let words: Vec<&str> = line.split(' ').collect();
     let end = |word: &str| word.trim_end_matches([')', ',', ';', ':', '.']).to_string();
-    let pairs = words.windows(2).filter_map(|pair| {
-        let flag = pair[0].trim_start_matches('(');
-        // A flag without a value ends its part of the sentence.
-        let is_flag = flag.starts_with("--");
-        is_flag.then(|| {
+    let pairs = words.windows(3).filter_map(|three| {
+        let flag = three[1].trim_start_matches('(');
+        // "but --viewer local computes", "or leave out --viewer local" speak of a flag that is set.
+        let is_advice = flag.starts_with("--") && !matches!(three[0], "but" | "out");
+        is_advice.then(|| {
+            // A flag without a value ends its part of the sentence.
             if end(flag) == flag {
-                format!("{flag} {}", end(pair[1]))
+                format!("{flag} {}", end(three[2]))
             } else {
                 end(flag)
             }

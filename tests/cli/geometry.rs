@@ -729,7 +729,7 @@ fn a_gltf_file_without_normals_is_flat_until_somebody_smooths_it() {
         "[[object]]\nmesh = 'room.gltf'\n[camera]\neye = [2, 3, 4]\nfit = 0.8\n",
     );
     let said = "the file has no normals: drawn flat, as glTF says";
-    let view = "--azimuth 30 --elevation 20 --size 64x48";
+    let view = "--view 30,20 --size 64x48";
     let drawn = |command: String, is_told: bool| {
         let ended = folder.run(&format!("render {command} -o a.png")).done();
         assert_eq!(
