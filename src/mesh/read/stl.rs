@@ -102,8 +102,8 @@ impl Soup {
     }
 }
 
-/// True if the first word is `solid`, or the first two are `facet normal`, because some programs
-/// leave `solid` out.
+/// True if the first word is `solid`, or the first two are `facet normal`: some programs leave
+/// `solid` out.
 fn begins_as_text(bytes: &[u8]) -> bool {
     // Some programs write comments first, though the format has none.
     let mut words = Words::new(&bytes[..bytes.len().min(1 << 12)], 0, 1).with_comments();
@@ -112,12 +112,14 @@ fn begins_as_text(bytes: &[u8]) -> bool {
         || first.eq_ignore_ascii_case(b"facet") && second.eq_ignore_ascii_case(b"normal")
 }
 
-/// True if a file is text: it has no zero byte near its start, or begins as text and has a `vertex`.
-/// Some binary files begin with `solid` too, but their headers are filled with zeros.
+/// True if a file is text: it has no zero byte near its start, or begins as text and has the word
+/// `vertex` three times. Some binary files begin with `solid` too, but their headers are filled with
+/// zeros.
 fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(1024)];
-    let is_vertex = |word: &[u8]| word.eq_ignore_ascii_case(b"vertex");
-    !head.contains(&0) || begins_as_text(bytes) && head.windows(6).any(is_vertex)
+    let is_vertex = |word: &&[u8]| word.eq_ignore_ascii_case(b"vertex");
+    let mut vertices = head.windows(6).filter(is_vertex);
+    !head.contains(&0) || begins_as_text(bytes) && vertices.nth(2).is_some()
 }
 
 /// Returns the vertices of a triangle of a binary file.
@@ -128,6 +130,14 @@ fn vertices(triangle: &[u8; TRIANGLE]) -> [DVec3; 3] {
     };
     // The first 12 bytes are the normal, which is ignored.
     [12, 24, 36].map(|at| DVec3::new(value(at), value(at + 4), value(at + 8)))
+}
+
+/// True if a triangle behind those that the header states is one, and no text. The least lower-case
+/// letters as a number are 2e20, and a scene does not reach farther than 1e15.
+fn is_plausible(triangle: &[u8; TRIANGLE]) -> bool {
+    const FARTHEST: f64 = 1e15;
+    let is_near = |vertex: &DVec3| vertex.is_finite() && vertex.abs().max_element() <= FARTHEST;
+    vertices(triangle).iter().all(is_near)
 }
 
 /// True if the vertices of a triangle are finite.
@@ -154,7 +164,7 @@ fn triangle_count(body: &[u8], stated: u32, notes: &mut Notes) -> usize {
     if is_padding {
         return count;
     }
-    let (text, count) = if is_unstated || others.is_empty() && rest.iter().all(is_finite) {
+    let (text, count) = if is_unstated || others.is_empty() && rest.iter().all(is_plausible) {
         (format!("all {held} in the file are read"), held)
     } else {
         let bytes = body.len() - TRIANGLE * count;

@@ -4,9 +4,9 @@ use super::error::{Place, Refusal, hint, quote};
 use std::format;
 use std::string::String;
 
-/// A cursor over the words of a text. CR, LF and CR LF each end a line. NUL, the end-of-file byte of
-/// DOS and the mark of UTF-8 count as blanks: some programs write the end of a C string too, or join
-/// files.
+/// A cursor over the words of a text. CR, LF and CR LF each end a line. NUL, the end-of-file byte
+/// of DOS and the mark of UTF-8 count as blanks: some programs write the end of a C string too, and
+/// some users join files.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
     bytes: &'a [u8],

@@ -51,8 +51,8 @@ const MARK: char = '\u{feff}';
 const LATIN_MARK: &str = "\u{ef}\u{bb}\u{bf}";
 
 /// Returns a line without meaningless characters around it: blanks, the NUL of a C string, the
-/// vertical tab, the end-of-file byte of DOS, and the byte-order mark of a file that was appended to
-/// another.
+/// vertical tab, the end-of-file byte of DOS, and the byte-order mark of a file that was appended
+/// to another.
 fn bare(line: &str) -> &str {
     let is_nothing =
         |c: char| c.is_ascii_whitespace() || matches!(c, '\0' | '\x0b' | '\x1a' | MARK);

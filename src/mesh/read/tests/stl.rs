@@ -94,7 +94,8 @@ fn triangles_behind_a_count_that_is_too_small_are_read() {
     assert_eq!(sentences(&loaded.notes), [said]);
     // Other bytes are no triangles.
     let nan = [f32::NAN.to_le_bytes(); 13].concat();
-    for (more, left) in [(&b"abc"[..], 53), (&nan[..50], 100)] {
+    let text = b"{ \"made by\": \"hand\", \"units\": \"mm\", \"version\": 1 }";
+    for (more, left) in [(&b"abc"[..], 53), (&nan[..50], 100), (&text[..50], 100)] {
         let loaded = read_stl(&own(more)).expect("a mesh");
         assert_eq!(loaded.mesh.polygon_count(), 1);
         let said = format!("the header says 1 triangles: {left} bytes after them are ignored");
@@ -114,7 +115,7 @@ fn text_is_known_by_its_words() {
     ] {
         assert_eq!(polygons(&text), [[0, 1, 2]], "{text:?}");
     }
-    let mut named = binary(b"solid facet of a thing", 1, &SQUARE);
+    let mut named = binary(b"solid facet and vertex", 1, &SQUARE);
     named.push(0);
     assert_eq!(parse(named).expect("a mesh").mesh.polygon_count(), 1);
     assert_refused(
