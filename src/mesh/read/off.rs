@@ -152,7 +152,7 @@ fn read_count(words: &mut Words, glued: &[u8], what: &str) -> Result<usize, Refu
 }
 
 /// The meaning of line breaks in a file.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 struct Layout {
     /// True if each vertex has its own line, where further values may follow.
     has_vertex_lines: bool,
@@ -302,8 +302,9 @@ fn read_vertices(
     };
     let mut values = Vec::new();
     let mut colours = Vec::new();
-    // The first line with values behind those that must be there.
-    let mut first_behind = None;
+    let named = if head.has_colours { 4 } else { 0 };
+    // The first line with values that the keyword does not name.
+    let mut first_unnamed = None;
     for _ in 0..head.vertices {
         let place = read_values(words, least, layout.has_vertex_lines, &mut values)?;
         let mut position = vector(&values);
@@ -320,24 +321,30 @@ fn read_vertices(
         if head.has_normals {
             polygons.normals.push(vector(&values[normal..]));
         }
-        // Many programs write colours without the `C` in the keyword.
         let behind = &values[colour..];
         let others = behind.len().saturating_sub(texture);
+        // Many programs write colours without the `C` in the keyword.
         if head.has_colours || matches!(others, 3 | 4) {
             colours.push(Colour::new(behind));
         }
-        if others > 0 {
-            first_behind = first_behind.or(Some(place));
+        if others > named {
+            first_unnamed = first_unnamed.or(Some(place));
         }
     }
     let is_colour = |colour: &Colour| colour.value.min_element() >= 0.0;
     let are_colours = colours.len() == head.vertices && colours.iter().all(is_colour);
-    if let (false, Some(place)) = (head.has_colours || are_colours, first_behind) {
+    if !head.has_colours && are_colours {
+        return Ok(colours);
+    }
+    if let Some(place) = first_unnamed {
         let text = "values that the keyword does not name follow a vertex: they are ignored";
         count(&mut polygons.notes, "vertex-values", place, text);
-        colours.clear();
     }
-    Ok(colours)
+    Ok(if head.has_colours {
+        colours
+    } else {
+        Vec::new()
+    })
 }
 
 /// Reads faces, and returns the polygons that have colours, with these as the file writes them. A
@@ -418,7 +425,7 @@ impl Colour {
 }
 
 /// The range of the channels of colours.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 enum Range {
     /// 0 to 1.
     Unit,

@@ -157,20 +157,18 @@ fn triangle_count(body: &[u8], stated: u32, notes: &mut Notes) -> usize {
     }
     // A program that writes to a pipe cannot go back to fill in the count.
     let is_unstated = stated == 0 || stated == u32::MAX;
-    let is_padding = !is_unstated
-        && body[TRIANGLE * count..]
-            .iter()
-            .all(|byte| *byte == rest[0][0]);
-    if is_padding {
+    let behind = body.get(TRIANGLE * count..).unwrap_or_default();
+    if !is_unstated && behind.iter().all(|byte| *byte == behind[0]) {
+        // The file is padded.
         return count;
     }
     let (text, count) = if is_unstated || others.is_empty() && rest.iter().all(is_plausible) {
         (format!("all {held} in the file are read"), held)
     } else {
-        let bytes = body.len() - TRIANGLE * count;
-        (format!("{bytes} bytes after them are ignored"), count)
+        (format!("{} bytes behind are ignored", behind.len()), count)
     };
-    let text = format!("the header says {stated} triangles: {text}");
+    let noun = if stated == 1 { "triangle" } else { "triangles" };
+    let text = format!("the header says {stated} {noun}: {text}");
     notes.push(Note::warning("triangle-count", text));
     count
 }

@@ -265,6 +265,15 @@ fn vertices_may_have_colours_that_the_keyword_does_not_name() {
 }
 
 #[test]
+fn more_values_than_a_colour_has_are_reported() {
+    let text = "COFF\n3 1\n0 0 0 255 0 0 255 7\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n";
+    let loaded = parse(text).expect("a mesh");
+    assert_eq!(loaded.mesh.colours(), [Vec3::X; 3]);
+    let said = "values that the keyword does not name follow a vertex: they are ignored (line 3)";
+    assert_eq!(sentences(&loaded.notes), [said]);
+}
+
+#[test]
 fn what_the_counts_leave_out_is_reported() {
     let text = "OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7 8\n3 2 1 0\n";
     let said = [

@@ -90,7 +90,7 @@ fn triangles_behind_a_count_that_is_too_small_are_read() {
     let own = |more: &[u8]| [binary(b"x", 1, &SQUARE), more.to_vec()].concat();
     let loaded = read_stl(&own(b"")).expect("a mesh");
     assert_eq!(loaded.mesh.polygon_count(), 2);
-    let said = "the header says 1 triangles: all 2 in the file are read";
+    let said = "the header says 1 triangle: all 2 in the file are read";
     assert_eq!(sentences(&loaded.notes), [said]);
     // Other bytes are no triangles.
     let nan = [f32::NAN.to_le_bytes(); 13].concat();
@@ -98,7 +98,7 @@ fn triangles_behind_a_count_that_is_too_small_are_read() {
     for (more, left) in [(&b"abc"[..], 53), (&nan[..50], 100), (&text[..50], 100)] {
         let loaded = read_stl(&own(more)).expect("a mesh");
         assert_eq!(loaded.mesh.polygon_count(), 1);
-        let said = format!("the header says 1 triangles: {left} bytes after them are ignored");
+        let said = format!("the header says 1 triangle: {left} bytes behind are ignored");
         assert_eq!(sentences(&loaded.notes), [said]);
     }
     let padded = [binary(b"x", 2, &SQUARE), vec![0; 512]].concat();
