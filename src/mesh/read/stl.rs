@@ -113,8 +113,7 @@ fn begins_as_text(bytes: &[u8]) -> bool {
 }
 
 /// True if a file is text: it has no zero byte near its start, or begins as text and has the word
-/// `vertex` three times. Some binary files begin with `solid` too, but their headers are filled with
-/// zeros.
+/// `vertex` three times. Some binary files begin with `solid` too, but zeros fill their headers.
 fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(1024)];
     let is_vertex = |word: &&[u8]| word.eq_ignore_ascii_case(b"vertex");
