@@ -159,6 +159,7 @@ impl Polygons {
     }
 
     /// Sets the material of the last polygon.
+    #[cfg(feature = "gltf")]
     pub(super) fn set_material(&mut self, material: u32) {
         if let Some(last) = self.ends.len().checked_sub(1) {
             self.set_material_of(last, material);
@@ -460,7 +461,7 @@ mod tests {
         }
         assert_eq!(kept, [true, false, false, true, false]);
         let red = polygons.material_of_colour([1.0, 0.0, 0.0]);
-        polygons.set_material(red);
+        polygons.set_material_of(1, red);
         assert_eq!(polygons.material_of_colour([1.0, -0.0, 0.0]), red);
         let parts = polygons.finish().expect("a mesh");
         let mesh = parts.builder.finish().expect("a mesh");
