@@ -195,11 +195,7 @@ fn foreign_text(bytes: &[u8]) -> Option<&'static str> {
     // a dimension.
     let off = word.strip_suffix(b"OFF");
     match word {
-        b"ply" if words.next().is_none() => Some(if bytes.starts_with(word) {
-            "a PLY file"
-        } else {
-            "a PLY file whose first line is not `ply`"
-        }),
+        b"ply" if words.next().is_none() => Some("a PLY file"),
         b"COFF" => Some("an OFF file with colours (COFF)"),
         _ if off.is_some_and(|kind| kind.iter().all(|letter| b"STCN4n".contains(letter))) => {
             Some("an OFF file")

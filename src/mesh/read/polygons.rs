@@ -85,7 +85,7 @@ impl Polygons {
             return Err(Refusal::at(place, problem));
         }
         for _ in &self.unusable {
-            let text = "a vertex that no face uses is not finite: it is left out";
+            let text = "a vertex that no face uses is not finite, or over 3.4e38: it is left out";
             let kind = "vertex-not-finite";
             self.notes.count(kind, 0, || Note::warning(kind, text));
         }
@@ -159,6 +159,7 @@ impl Polygons {
     }
 
     /// Sets the material of the last polygon.
+    #[cfg(feature = "gltf")]
     pub(super) fn set_material(&mut self, material: u32) {
         if let Some(last) = self.ends.len().checked_sub(1) {
             self.set_material_of(last, material);
@@ -240,6 +241,7 @@ impl Polygons {
                 builder.normals(GivenNormals { values, corners });
             }
         }
+        self.choose_colours();
         self.add_colours(&mut builder);
         builder.stating_smoothing(!self.groups.is_empty());
         if self.groups.contains(&PolygonMesh::FACETED) {
@@ -274,6 +276,23 @@ impl Polygons {
             start = end as usize;
         }
         is_flat.into_iter().filter(|is_flat| *is_flat).count()
+    }
+
+    /// Drops the colours of faces, or those of vertices, if the file has both: their product would
+    /// be the colour of neither. Vertices of one colour are what programs write that colour faces.
+    fn choose_colours(&mut self) {
+        let are_finite = self.colours.iter().all(|colour| colour.is_finite());
+        if self.of_colours.is_empty() || self.colours.is_empty() || !are_finite {
+            return;
+        }
+        let text = if self.colours.iter().all(|colour| *colour == self.colours[0]) {
+            self.colours.clear();
+            "vertices and faces have colours: those of the faces are used, as all vertices have one"
+        } else {
+            self.of_polygons.clear();
+            "vertices and faces have colours: those of the faces are not used"
+        };
+        self.notes.push(Note::warning("colours-of-both", text));
     }
 
     /// Passes the colours of positions to the builder if all are finite.
@@ -345,6 +364,12 @@ pub(super) fn count_repeated_corner(notes: &mut Notes, line: usize) {
     let text = "a corner that repeats the one before it is left out";
     let kind = "face-corner-repeated";
     notes.count(kind, line, || Note::warning(kind, text));
+}
+
+/// Returns the note about values behind the last face.
+pub(super) fn file_goes_on() -> Note {
+    let text = "the file goes on after the last face that it counts: the rest is ignored";
+    Note::warning("file-goes-on", text)
 }
 
 /// The kind of [`points_or_lines`].
@@ -436,7 +461,7 @@ mod tests {
         }
         assert_eq!(kept, [true, false, false, true, false]);
         let red = polygons.material_of_colour([1.0, 0.0, 0.0]);
-        polygons.set_material(red);
+        polygons.set_material_of(1, red);
         assert_eq!(polygons.material_of_colour([1.0, -0.0, 0.0]), red);
         let parts = polygons.finish().expect("a mesh");
         let mesh = parts.builder.finish().expect("a mesh");
@@ -448,10 +473,11 @@ mod tests {
             mesh.given_normals().map(|given| given.values.len()),
             Some(4)
         );
-        assert_eq!([0, 1].map(|p| mesh.polygon_material(p)), [None, Some(0)]);
+        assert_eq!([0, 1].map(|p| mesh.polygon_material(p)), [None; 2]);
         let told = [
             "a face of fewer than three different corners is left out (3 times)",
             "a corner that repeats the one before it is left out",
+            "vertices and faces have colours: those of the faces are not used",
         ];
         let notes: Vec<String> = parts.notes.iter().map(ToString::to_string).collect();
         assert_eq!(notes, told);

@@ -8,7 +8,7 @@
 use super::content::is_binary_stl;
 use super::error::{Place, Refusal, quote};
 use super::polygons::{Polygons, is_position};
-use super::words::{Words, number, text, text_end};
+use super::words::{Words, number, text};
 use super::{Beside, MeshFormat, Parts};
 use crate::mesh::PolygonMesh;
 use crate::mesh::origin::origin;
@@ -41,13 +41,12 @@ impl MeshFormat for Stl {
     }
 
     fn recognises(&self, bytes: &[u8]) -> bool {
-        is_binary_stl(bytes) || begins_with_solid(bytes)
+        is_binary_stl(bytes) || begins_as_text(bytes)
     }
 
     fn read(&self, bytes: &[u8], _: Beside) -> Result<Parts, Refusal> {
-        let text = text_end(bytes);
-        let soup = if is_text(text) && !is_binary_stl(bytes) {
-            read_text(text)?
+        let soup = if is_text(bytes) && !is_binary_stl(bytes) {
+            read_text(bytes)?
         } else {
             read_binary(bytes)?
         };
@@ -103,22 +102,74 @@ impl Soup {
     }
 }
 
-/// True if the first word is `solid`.
-fn begins_with_solid(bytes: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+/// True if the first word is `solid`, or the first two are `facet normal`: some programs leave
+/// `solid` out.
+fn begins_as_text(bytes: &[u8]) -> bool {
     // Some programs write comments first, though the format has none.
-    let first = Words::new(&bytes[..bytes.len().min(1 << 12)], 0, 1)
-        .with_comments()
-        .next();
-    first.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+    let mut words = Words::new(&bytes[..bytes.len().min(1 << 12)], 0, 1).with_comments();
+    let [first, second] = [(); 2].map(|()| words.next().unwrap_or_default());
+    first.eq_ignore_ascii_case(b"solid")
+        || first.eq_ignore_ascii_case(b"facet") && second.eq_ignore_ascii_case(b"normal")
 }
 
-/// True if a file is text: it begins with `solid` and has no zero byte near its start, or a `facet`.
-/// Some binary files begin with `solid` too, but their headers are filled with zeros.
+/// True if a file is text: it has no zero byte near its start, or begins as text and has the word
+/// `vertex` three times. Some binary files begin with `solid` too, but zeros fill their headers.
 fn is_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(1024)];
-    let is_facet = |word: &[u8]| word.eq_ignore_ascii_case(b"facet");
-    begins_with_solid(bytes) && (!head.contains(&0) || head.windows(5).any(is_facet))
+    let is_vertex = |word: &&[u8]| word.eq_ignore_ascii_case(b"vertex");
+    let mut vertices = head.windows(6).filter(is_vertex);
+    !head.contains(&0) || begins_as_text(bytes) && vertices.nth(2).is_some()
+}
+
+/// Returns the vertices of a triangle of a binary file.
+fn vertices(triangle: &[u8; TRIANGLE]) -> [DVec3; 3] {
+    let value = |at: usize| {
+        let four = triangle[at..].first_chunk().copied().unwrap_or_default();
+        f64::from(f32::from_le_bytes(four))
+    };
+    // The first 12 bytes are the normal, which is ignored.
+    [12, 24, 36].map(|at| DVec3::new(value(at), value(at + 4), value(at + 8)))
+}
+
+/// True if a triangle behind those that the header states is one, and no text. The least lower-case
+/// letters as a number are 2e20, and a scene does not reach farther than 1e15.
+fn is_plausible(triangle: &[u8; TRIANGLE]) -> bool {
+    const FARTHEST: f64 = 1e15;
+    let is_near = |vertex: &DVec3| vertex.is_finite() && vertex.abs().max_element() <= FARTHEST;
+    vertices(triangle).iter().all(is_near)
+}
+
+/// True if the vertices of a triangle are finite.
+fn is_finite(triangle: &[u8; TRIANGLE]) -> bool {
+    vertices(triangle).iter().all(|vertex| vertex.is_finite())
+}
+
+/// Returns how many triangles of a binary file are read. The header states a number, which may be
+/// wrong. The bytes behind that many triangles are triangles if the file ends with one.
+fn triangle_count(body: &[u8], stated: u32, notes: &mut Notes) -> usize {
+    let (triangles, others) = body.as_chunks();
+    let held = triangles.len();
+    let count = stated as usize;
+    let rest = triangles.get(count..).unwrap_or_default();
+    if rest.is_empty() && stated != u32::MAX {
+        return count;
+    }
+    // A program that writes to a pipe cannot go back to fill in the count.
+    let is_unstated = stated == 0 || stated == u32::MAX;
+    let behind = body.get(TRIANGLE * count..).unwrap_or_default();
+    if !is_unstated && behind.iter().all(|byte| *byte == behind[0]) {
+        // The file is padded.
+        return count;
+    }
+    let (text, count) = if is_unstated || others.is_empty() && rest.iter().all(is_plausible) {
+        (format!("all {held} in the file are read"), held)
+    } else {
+        (format!("{} bytes behind are ignored", behind.len()), count)
+    };
+    let noun = if stated == 1 { "triangle" } else { "triangles" };
+    let text = format!("the header says {stated} {noun}: {text}");
+    notes.push(Note::warning("triangle-count", text));
+    count
 }
 
 /// Reads the triangles of a binary file.
@@ -129,20 +180,11 @@ fn read_binary(bytes: &[u8]) -> Result<Soup, Refusal> {
             "is {length} bytes long: expected text that begins with `solid`, or a binary file of at least {START} bytes"
         )));
     };
-    let stated = u32::from_le_bytes(*stated);
     let body = &bytes[START..];
-    let held = body.len() / TRIANGLE;
     let mut notes = Notes::default();
-    let count = match stated {
-        // A program that writes to a pipe cannot go back to fill in the count.
-        0 | u32::MAX if held > 0 => {
-            let text =
-                format!("the header says {stated} triangles: all {held} in the file are read");
-            notes.push(Note::warning("triangle-count", text));
-            held
-        }
-        _ => stated as usize,
-    };
+    let count = triangle_count(body, u32::from_le_bytes(*stated), &mut notes);
+    let (triangles, _) = body.as_chunks();
+    let held = triangles.len();
     if count > held {
         let problem = format!(
             "the file ends in triangle {} of {count}: expected all of them",
@@ -156,29 +198,16 @@ fn read_binary(bytes: &[u8]) -> Result<Soup, Refusal> {
             "too many polygons: expected at most {most}"
         )));
     }
-    let mut positions = Vec::with_capacity(3 * count);
-    let mut has_attributes = false;
-    for (i, triangle) in body.chunks_exact(TRIANGLE).take(count).enumerate() {
-        // The first 12 bytes are the normal, which is ignored.
-        for corner in triangle[12..48].chunks_exact(12) {
-            let mut vertex = [0.0; 3];
-            for (value, four) in vertex.iter_mut().zip(corner.chunks_exact(4)) {
-                *value = f64::from(f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
-            }
-            positions.push(DVec3::from_array(vertex));
-        }
-        let last = &positions[3 * i..];
-        if !last.iter().all(|p| p.is_finite()) {
-            let place = Place::Byte(START + TRIANGLE * i);
-            let problem = format!(
-                "triangle {} has a coordinate that is not finite: expected finite numbers",
-                i + 1
-            );
-            return Err(Refusal::at(place, problem));
-        }
-        has_attributes |= triangle[48..] != [0, 0];
+    let triangles = &triangles[..count];
+    if let Some(i) = triangles.iter().position(|triangle| !is_finite(triangle)) {
+        let problem = format!(
+            "triangle {} has a coordinate that is not finite: expected finite numbers",
+            i + 1
+        );
+        return Err(Refusal::at(Place::Byte(START + TRIANGLE * i), problem));
     }
-    if has_attributes {
+    let positions = triangles.iter().flat_map(vertices).collect();
+    if triangles.iter().any(|triangle| triangle[48..] != [0, 0]) {
         let text =
             "the two bytes after each triangle, where some programs store colours, are not read";
         notes.push(Note::warning("triangle-attributes", text));
@@ -194,12 +223,7 @@ fn read_binary(bytes: &[u8]) -> Result<Soup, Refusal> {
 /// Reads the facets of a text word by word. Line ends matter only after names, and keywords may be
 /// in any case.
 fn read_text(bytes: &[u8]) -> Result<Soup, Refusal> {
-    let start = if bytes.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    };
-    let mut words = Words::new(bytes, start, 1).with_comments();
+    let mut words = Words::new(bytes, 0, 1).with_comments();
     let mut soup = Soup::default();
     let mut is_inside = false;
     while let Some(word) = words.next() {

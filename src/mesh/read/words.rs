@@ -4,8 +4,9 @@ use super::error::{Place, Refusal, hint, quote};
 use std::format;
 use std::string::String;
 
-/// A cursor over the words of a text. CR, LF and CR LF each end a line. NUL counts as a blank: some
-/// programs write the end of a C string too.
+/// A cursor over the words of a text. CR, LF and CR LF each end a line. NUL, the end-of-file byte
+/// of DOS and the mark of UTF-8 count as blanks: some programs write the end of a C string too, and
+/// some users join files.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
@@ -65,11 +66,16 @@ impl<'a> Words<'a> {
 
     /// Returns the next word of this line; `None` at its end.
     pub(super) fn next_in_line(&mut self) -> Option<&'a [u8]> {
-        let rest = &self.bytes[self.at..];
-        let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0);
-        let start = rest.iter().position(|byte| !is_blank(byte))?;
-        self.at += start;
-        let rest = &rest[start..];
+        let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0 | 0x1a);
+        let rest = loop {
+            let rest = &self.bytes[self.at..];
+            self.at += rest.iter().position(|byte| !is_blank(byte))?;
+            let rest = &self.bytes[self.at..];
+            if !rest.starts_with(MARK) {
+                break rest;
+            }
+            self.at += MARK.len();
+        };
         let is_end = |byte: &u8| is_blank(byte) || matches!(byte, b'\n' | b'\r');
         let length = rest.iter().position(is_end).unwrap_or(rest.len());
         let word = &rest[..length];
@@ -127,6 +133,9 @@ impl<'a> Words<'a> {
         Refusal::at(self.place(), problem)
     }
 }
+
+/// The byte-order mark of UTF-8.
+const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Returns `bytes` without the bytes that may end a text: blanks, the NUL of a C string, and the
 /// end-of-file byte of DOS.

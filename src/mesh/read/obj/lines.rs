@@ -51,9 +51,11 @@ const MARK: char = '\u{feff}';
 const LATIN_MARK: &str = "\u{ef}\u{bb}\u{bf}";
 
 /// Returns a line without meaningless characters around it: blanks, the NUL of a C string, the
-/// end-of-file byte of DOS, and the byte-order mark of a file that was appended to another.
+/// vertical tab, the end-of-file byte of DOS, and the byte-order mark of a file that was appended
+/// to another.
 fn bare(line: &str) -> &str {
-    let is_nothing = |c: char| c.is_ascii_whitespace() || matches!(c, '\0' | '\x1a' | MARK);
+    let is_nothing =
+        |c: char| c.is_ascii_whitespace() || matches!(c, '\0' | '\x0b' | '\x1a' | MARK);
     let line = line.trim_matches(is_nothing);
     match line.strip_prefix(LATIN_MARK) {
         Some(rest) => bare(rest),
@@ -139,7 +141,7 @@ impl<'a> Statements<'a> {
             line: 0,
             backslashes: text.contains('\\'),
             // '\u{bf}' is the last character of the mark in Latin-1.
-            has_odd_ends: ['\0', '\x1a', MARK, '\u{bf}']
+            has_odd_ends: ['\0', '\x0b', '\x1a', MARK, '\u{bf}']
                 .iter()
                 .any(|c| text.contains(*c)),
         }

@@ -129,7 +129,7 @@ fn read_limited(bytes: &[u8], mut load_mtl: Beside, limits: MeshLimits) -> Resul
     // Libraries are read even if no face uses a material, because a caller that copies the mesh's
     // files must learn of all of them. Their notes matter only if a material is used.
     let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut notes);
-    if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
+    if !scan.material_runs.is_empty() {
         let (named, of_polygons) = assign_materials(&scan, &mut library, &mut notes);
         notes.append(library.notes());
         let (materials, names) = named.into_iter().unzip();
@@ -201,18 +201,25 @@ fn assign_materials(
     let starts = scan.material_runs.iter().map(|(start, _)| *start);
     let ends = starts.skip(1).chain([scan.polygons]);
     for ((start, name), end) in scan.material_runs.iter().zip(ends) {
-        let Some(name) = name.as_ref().filter(|_| *start < end) else {
+        if *start == end {
             continue;
-        };
+        }
         let index = *indices
             .entry(name)
             .or_insert_with(|| match library.use_material(name) {
                 Some(material) => {
-                    materials.push((material, error::quote(name)));
+                    let name = match &name[..] {
+                        "" => String::new(),
+                        name => error::quote(name),
+                    };
+                    materials.push((material, name));
                     materials.len() as u32 - 1
                 }
                 None => {
-                    unknown.push(format!("`{}`", error::quote(name)));
+                    unknown.push(match &name[..] {
+                        "" => "a material without a name".into(),
+                        name => format!("`{}`", error::quote(name)),
+                    });
                     NONE
                 }
             });

@@ -184,9 +184,8 @@ impl Library {
         let (file, before) = (self.files.len(), self.definitions.len());
         let mut ignored = Vec::new();
         self.files.push(name.to_string());
-        // `open` is true inside a definition. After a `newmtl` without a name all statements are
-        // ignored with it, which is reported once.
-        let (mut open, mut is_nameless) = (false, false);
+        // True inside a definition.
+        let mut is_open = false;
         for (line, statement) in Statements::new(&text) {
             let (word, rest) = keyword(&statement);
             if word.is_empty() || word.starts_with('#') {
@@ -198,36 +197,28 @@ impl Library {
                 line,
                 statement: quote(format!("{word} {values}").trim_ascii_end()),
             };
-            let why = match (&*word.to_ascii_lowercase(), open) {
-                ("newmtl", _) => {
-                    open = !rest.is_empty();
-                    is_nameless = !open;
-                    if open {
-                        self.define(rest, place);
-                        continue;
-                    } else {
-                        "is ignored with all statements up to the next `newmtl`: expected a name"
-                    }
+            match &*word.to_ascii_lowercase() {
+                // The name may be empty, as in `usemtl`.
+                "newmtl" => {
+                    is_open = true;
+                    self.define(rest, place);
                 }
-                (_, false) if is_nameless => continue,
-                (_, false) => "before any `newmtl` is ignored",
-                (word, true) => {
+                word if is_open => {
                     let definition = self.definitions.last_mut().expect("a definition is open");
                     definition.read(word, values, place);
-                    continue;
                 }
-            };
-            ignored.push(Remark {
-                place,
-                kind: IGNORED,
-                why,
-            });
+                _ => ignored.push(Remark {
+                    place,
+                    kind: IGNORED,
+                    why: "before any `newmtl` is ignored",
+                }),
+            }
         }
         if self.definitions.len() == before {
             let why = if has_nul {
                 "holds binary data"
             } else {
-                "has no `newmtl` line with a name"
+                "has no `newmtl` line"
             };
             return Err(why.to_string());
         }

@@ -54,8 +54,8 @@ pub(super) struct Prescan {
     pub object_runs: Vec<(usize, String)>,
     /// Each `s`: the first polygon that it applies to, and the group; 0 for `off`.
     pub smoothing_runs: Vec<(usize, u64)>,
-    /// Each `usemtl`: the first polygon that it applies to, and the name; `None` if it has none.
-    pub material_runs: Vec<(usize, Option<String>)>,
+    /// Each `usemtl`: the first polygon that it applies to, and the name, which may be empty.
+    pub material_runs: Vec<(usize, String)>,
     /// The line of each `mtllib`, and the rest of the statement.
     pub libraries: Vec<(usize, String)>,
     limits: MeshLimits,
@@ -303,10 +303,7 @@ impl Prescan {
             "vt" => self.texture_coordinates += 1,
             // Version 2 of the format wrote faces as `fo`.
             "f" | "fo" => self.face(line, rest, corners)?,
-            "usemtl" => {
-                let name = (!rest.is_empty()).then(|| rest.into());
-                self.material_runs.push((self.polygons, name));
-            }
+            "usemtl" => self.material_runs.push((self.polygons, rest.into())),
             "mtllib" => self.libraries.push((line, rest.into())),
             "o" => self.object_runs.push((self.polygons, rest.into())),
             "s" => {

@@ -1,7 +1,7 @@
 //! A cursor over the values of a PLY file, which are words of a text or bytes.
 
 use super::super::error::{Place, Refusal, quote};
-use super::super::words::{Words, number, text};
+use super::super::words::{Words, number, text, text_end};
 use super::header::{Coding, Element, Header, Property, Type};
 use std::format;
 
@@ -61,11 +61,11 @@ impl<'a> Body<'a> {
         matches!(self, Body::Text { by_lines: true, .. })
     }
 
-    /// True if no value is left.
+    /// True if nothing is left, or only bytes that may end a text.
     pub(super) fn is_at_its_end(&self) -> bool {
         match self {
             Body::Text { words, .. } => words.clone().next().is_none(),
-            Body::Binary { bytes, at, .. } => *at >= bytes.len(),
+            Body::Binary { bytes, at, .. } => text_end(&bytes[*at..]).is_empty(),
         }
     }
 

@@ -2,6 +2,8 @@
 
 use super::super::error::{Place, Refusal, quote};
 use super::super::words::text;
+use crate::note::{Note, Notes};
+use crate::number::suggest::nearest;
 use std::format;
 use std::string::String;
 use std::vec::Vec;
@@ -86,6 +88,8 @@ pub(super) struct Header {
     pub elements: Vec<Element>,
     /// True if a comment names a texture.
     pub has_texture: bool,
+    /// Notes about lines that are ignored.
+    pub notes: Notes,
     /// The first byte after the header and its line.
     pub end: (usize, usize),
 }
@@ -105,14 +109,15 @@ struct Reading {
     coding: Option<Coding>,
     elements: Vec<Element>,
     has_texture: bool,
+    notes: Notes,
 }
 
 impl Reading {
-    /// Reads the words of a line. Returns true for the last line of the header.
+    /// Reads the words of line `line`. Returns true for the last line of the header.
     ///
     /// # Errors
     /// The text that was expected instead.
-    fn line(&mut self, words: &[&str]) -> Result<bool, &'static str> {
+    fn line(&mut self, words: &[&str], line: usize) -> Result<bool, &'static str> {
         match *words {
             ["comment" | "obj_info", ref rest @ ..] => {
                 self.has_texture |= rest.first().is_some_and(|word| *word == "TextureFile");
@@ -148,6 +153,11 @@ impl Reading {
                 element.properties.push(property.ok_or(expected)?);
             }
             ["end_header"] => return Ok(true),
+            _ if is_remark(words) => {
+                let text = "a line of the header is no statement and is ignored";
+                let kind = "header-line";
+                self.notes.count(kind, line, || Note::warning(kind, text));
+            }
             _ => return Err("format, comment, element, property or end_header"),
         }
         Ok(false)
@@ -159,7 +169,10 @@ impl Reading {
 /// # Errors
 /// For the first line that is wrong, and for a file that ends before `end_header`.
 pub(super) fn read(bytes: &[u8]) -> Result<Header, Refusal> {
-    let first = bytes.iter().position(|b| matches!(b, b'\n' | b'\r'));
+    let blank = bytes.len() - bytes.trim_ascii_start().len();
+    let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
+    let first = bytes[blank..].iter().position(is_end);
+    let first = first.map(|at| blank + at);
     let is_lone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
     let end = match first {
         Some(at) if is_lone(at) => b'\r',
@@ -167,12 +180,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, Refusal> {
     };
     let (mut at, mut line) = (0, 0);
     let mut reading = Reading::default();
+    let mut has_begun = false;
     while at < bytes.len() {
         let (statement, length) = split_line(&bytes[at..], end);
         at += length;
         line += 1;
-        // The first line is `ply`, which was checked before.
-        if line == 1 {
+        // The first line that is not blank is `ply`, which was checked before.
+        if !has_begun {
+            has_begun = words(&text(statement)).next().is_some();
             continue;
         }
         let statement = text(statement);
@@ -180,19 +195,37 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, Refusal> {
             let problem = format!("`{}`: expected {expected}", quote(statement.trim()));
             Refusal::at(Place::Line(line), problem)
         };
-        let words: Vec<&str> = statement.split_ascii_whitespace().collect();
-        if reading.line(&words).map_err(wrong)? {
+        let words: Vec<&str> = words(&statement).collect();
+        if reading.line(&words, line).map_err(wrong)? {
             let expected = "`format` before the end of the header";
             return Ok(Header {
                 coding: reading.coding.ok_or_else(|| wrong(expected))?,
                 elements: reading.elements,
                 has_texture: reading.has_texture,
+                notes: reading.notes,
                 end: (at, line + 1),
             });
         }
     }
     let problem = "the file ends in its header: expected `end_header`";
-    Err(Refusal::at(Place::Line(line.max(1)), problem))
+    Err(Refusal {
+        notes: reading.notes,
+        ..Refusal::at(Place::Line(line.max(1)), problem)
+    })
+}
+
+/// Returns the words of a line. The bytes that other readers take for blanks are blanks here, too.
+pub(super) fn words(line: &str) -> impl Iterator<Item = &str> {
+    let is_blank =
+        |c: char| c.is_ascii_whitespace() || matches!(c, '\x0b' | '\0' | '\x1a' | '\u{feff}');
+    line.split(is_blank).filter(|word| !word.is_empty())
+}
+
+/// True if a line is a comment without the word `comment`. A statement with a slip, which decides
+/// how values are read, is none.
+fn is_remark(words: &[&str]) -> bool {
+    let statements = ["ply", "format", "element", "property", "end_header"];
+    nearest(words[0], statements).is_none() && words.iter().all(|word| Type::named(word).is_none())
 }
 
 /// Reads the words of a property.

@@ -8,7 +8,8 @@ mod body;
 mod header;
 
 use super::error::Refusal;
-use super::polygons::Polygons;
+use super::polygons::{Polygons, file_goes_on};
+use super::words::Words;
 use super::{Beside, MeshFormat, Parts};
 use crate::note::Note;
 use body::{Body, decode};
@@ -30,14 +31,11 @@ impl MeshFormat for Ply {
     }
 
     fn recognises(&self, bytes: &[u8]) -> bool {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let head = &bytes[..bytes.len().min(80)];
-        let first = head.split(|byte| matches!(byte, b'\n' | b'\r')).next();
-        first.is_some_and(|line| line.trim_ascii() == b"ply")
+        let mut words = Words::new(&bytes[..bytes.len().min(1 << 12)], 0, 1);
+        words.next() == Some(b"ply") && words.next_in_line().is_none()
     }
 
     fn read(&self, bytes: &[u8], _: Beside) -> Result<Parts, Refusal> {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if bytes.is_empty() {
             return Err(Refusal::whole("is empty: expected a PLY file"));
         }
@@ -60,10 +58,17 @@ impl MeshFormat for Ply {
             by_lines.notes.push(Note::warning("words-left-over", text));
             polygons = Ok((by_lines, true));
         }
-        let (mut polygons, _) = polygons?;
+        let (mut polygons, is_whole) = polygons.map_err(|refusal| Refusal {
+            notes: header.notes.clone(),
+            ..refusal
+        })?;
         if polygons.count() == 0 {
             return Err(no_polygon(&polygons));
         }
+        if !is_whole {
+            polygons.notes.push(file_goes_on());
+        }
+        polygons.notes.append(header.notes);
         if header.has_texture {
             let text = "textures are not drawn";
             polygons.notes.push(Note::warning("texture", text));

@@ -93,14 +93,18 @@ fn stl() {
 #[test]
 fn ply() {
     let codings = ["ascii", "binary_little_endian", "binary_big_endian"];
-    try_mutants("ply", &codings.map(super::ply::square));
+    let mut files = codings.map(super::ply::square).to_vec();
+    files.push([b"\n", &files[1][..]].concat());
+    try_mutants("ply", &files);
 }
 
 #[test]
 fn off() {
     let text =
         "COFF\n3 2 0\n0 0 0 1 0 0 1\n1 0 0 0 1 0 1\n0 1 0 0 0 1 1\n3 0 1 2 255 0 0\n3 2 1 0\n";
-    try_mutants("off", &[text.into()]);
+    let free = "OFF 4 2 0 0 0 0 1 0 0\n1 1 0 0 1\n0 3 0 1 2 3\n0 2 3";
+    let behind = "OFF\n3 1 0\n0 0 0 0.5 1 0\n1 0 0 1 0 0\n0 1 0 0 1.0 0\n3 0 1 2 1 0 0\n";
+    try_mutants("off", &[text, free, behind].map(Vec::from));
 }
 
 #[cfg(feature = "gltf")]

@@ -5,7 +5,7 @@ use crate::mesh::PolygonMesh;
 use crate::mesh::read::polygons::coloured;
 use glam::Vec3;
 use std::format;
-use std::string::String;
+use std::string::{String, ToString};
 
 /// Returns a header for four vertices, with more properties, and one face.
 pub(super) fn header(coding: &str, more: &str) -> String {
@@ -112,8 +112,8 @@ fn files_are_refused_with_their_line_or_byte() {
     );
     change(
         "end_header",
-        "ende",
-        "t:19: `ende`: expected format, comment, element, property or end_header",
+        "end_heder",
+        "t:19: `end_heder`: expected format, comment, element, property or end_header",
     );
     change(
         "vertex 4",
@@ -188,4 +188,79 @@ fn counts_past_a_limit_are_reported_with_the_limit() {
         problem.ends_with("expected `element`, a name and a count below 2^64"),
         "{problem}"
     );
+}
+
+#[test]
+fn headers_may_have_blank_lines_and_remarks() {
+    let text = String::from_utf8(square("ascii")).expect("text");
+    let read = |text: String| parse(text).expect("a mesh");
+    for text in [
+        format!("\n \r\n{text}"),
+        format!("\r{text}"),
+        text.replace('\n', "\0\n"),
+        text.replace("end_header", "\n\nend_header \0"),
+    ] {
+        assert!(read(text.clone()).notes.is_empty(), "{text:?}");
+    }
+    for coding in ["ascii", "binary_little_endian"] {
+        let mut bytes = square(coding);
+        let at = "ply\n".len();
+        bytes.splice(at..at, *b"Created by hand\n");
+        let loaded = parse(bytes).expect("a mesh");
+        let said = "a line of the header is no statement and is ignored (line 2)";
+        assert_eq!(sentences(&loaded.notes), [said]);
+    }
+    let error = parse(text.replace("end_header", "and")).expect_err("no mesh");
+    assert_eq!(
+        error.problem,
+        "the file ends in its header: expected `end_header`"
+    );
+    let said = "a line of the header is no statement and is ignored (7 times, first in line 19)";
+    assert_eq!(sentences(&error.notes), [said]);
+    // A statement with a slip decides how values are read.
+    for line in [
+        "propery float w",
+        "elment edge 0",
+        "double w",
+        "Property int w",
+    ] {
+        let error = parse(text.replace("comment by hand", line)).expect_err("no mesh");
+        let said =
+            format!("t:3: `{line}`: expected format, comment, element, property or end_header");
+        assert_eq!(error.to_string(), said);
+    }
+}
+
+#[test]
+fn what_the_counts_leave_out_is_reported() {
+    let said = "the file goes on after the last face that it counts: the rest is ignored";
+    for coding in ["ascii", "binary_little_endian"] {
+        let mut bytes = square(coding);
+        bytes.extend(b"\n\0");
+        assert!(parse(&bytes).expect("a mesh").notes.is_empty());
+        bytes.extend(b"4 0 1 2 3 9\n");
+        assert_eq!(sentences(&parse(&bytes).expect("a mesh").notes), [said]);
+    }
+}
+
+/// The product of both would be black here.
+#[test]
+fn colours_of_faces_and_vertices_are_not_multiplied() {
+    let text = String::from_utf8(square("ascii")).expect("text");
+    let text = text.replace(
+        "uchar flags",
+        "uchar red\nproperty uchar green\nproperty uchar blue",
+    );
+    let text = text.replace("4 0 1 2 3 9", "4 0 1 2 3 0 0 255");
+    let loaded = parse(&text).expect("a mesh");
+    assert!(loaded.mesh.colours().is_empty());
+    assert_eq!(loaded.mesh.materials(), [coloured([0.0, 0.0, 1.0])]);
+    let said =
+        "vertices and faces have colours: those of the faces are used, as all vertices have one";
+    assert_eq!(sentences(&loaded.notes), [said]);
+    let loaded = parse(text.replacen("255 51 0", "0 51 0", 1)).expect("a mesh");
+    assert_eq!(loaded.mesh.colours().len(), 4);
+    assert_eq!(loaded.mesh.polygon_material(0), None);
+    let said = "vertices and faces have colours: those of the faces are not used";
+    assert_eq!(sentences(&loaded.notes), [said]);
 }

@@ -4,6 +4,7 @@ use super::*;
 use crate::mesh::vertex_normals::{NormalSource, NormalWeight};
 use std::format;
 use std::string::String;
+use std::vec;
 
 /// The vertices of two triangles of a unit square.
 const SQUARE: [[f32; 9]; 2] = [
@@ -71,8 +72,10 @@ fn the_triangle_count_may_be_wrong() {
         error(&cut),
         "t.stl: byte 184: the file ends in triangle 3 of 3: expected all of them"
     );
-    let short = "t.stl: is 3 bytes long: expected text that begins with `solid`, or a binary file of at least 84 bytes";
-    assert_eq!(error(b"abc"), short);
+    let short = "t.stl: is 4 bytes long: expected text that begins with `solid`, or a binary file of at least 84 bytes";
+    assert_eq!(error(b"ab\0c"), short);
+    let said = "t.stl:1: `abc`: expected `facet`, `solid` or `endsolid`";
+    assert_eq!(error(b"abc"), said);
     let none = "t.stl: has no triangle: expected triangles, binary or as `facet` statements";
     assert_eq!(error(&binary(b"x", 0, &[])), none);
     let mut nan = SQUARE;
@@ -80,6 +83,45 @@ fn the_triangle_count_may_be_wrong() {
     let said =
         "t.stl: byte 134: triangle 2 has a coordinate that is not finite: expected finite numbers";
     assert_eq!(error(&binary(b"x", 2, &nan)), said);
+}
+
+#[test]
+fn triangles_behind_a_count_that_is_too_small_are_read() {
+    let own = |more: &[u8]| [binary(b"x", 1, &SQUARE), more.to_vec()].concat();
+    let loaded = read_stl(&own(b"")).expect("a mesh");
+    assert_eq!(loaded.mesh.polygon_count(), 2);
+    let said = "the header says 1 triangle: all 2 in the file are read";
+    assert_eq!(sentences(&loaded.notes), [said]);
+    // Other bytes are no triangles.
+    let nan = [f32::NAN.to_le_bytes(); 13].concat();
+    let text = b"{ \"made by\": \"hand\", \"units\": \"mm\", \"version\": 1 }";
+    for (more, left) in [(&b"abc"[..], 53), (&nan[..50], 100), (&text[..50], 100)] {
+        let loaded = read_stl(&own(more)).expect("a mesh");
+        assert_eq!(loaded.mesh.polygon_count(), 1);
+        let said = format!("the header says 1 triangle: {left} bytes behind are ignored");
+        assert_eq!(sentences(&loaded.notes), [said]);
+    }
+    let padded = [binary(b"x", 2, &SQUARE), vec![0; 512]].concat();
+    assert!(read_stl(&padded).expect("a mesh").notes.is_empty());
+}
+
+#[test]
+fn text_is_known_by_its_words() {
+    let own = facet("0 0 0,1 0 0,0 1 0");
+    for text in [
+        format!("solid a\0{}\n{own}", "\0".repeat(70)),
+        own.clone(),
+        format!("solid a\n{own}endsolid a\n\u{feff}solid b\n"),
+    ] {
+        assert_eq!(polygons(&text), [[0, 1, 2]], "{text:?}");
+    }
+    let mut named = binary(b"solid facet and vertex", 1, &SQUARE);
+    named.push(0);
+    assert_eq!(parse(named).expect("a mesh").mesh.polygon_count(), 1);
+    assert_refused(
+        format!("solid a\n{}", facet("0 0 0,1e39 0 0,0 1 0")),
+        "t:5: a vertex at 1000000000000000000000000000000000000000, 0, 0: expected numbers of at most 3.4e38",
+    );
 }
 
 #[test]

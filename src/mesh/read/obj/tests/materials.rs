@@ -129,15 +129,9 @@ fn lines_that_cannot_be_read_are_reported_and_ignored() {
     }
     let (found, warnings) = material("Kd 1 0 0\nnewmtl m\nnewmtl\nKd 1 0 0\n");
     assert_eq!(found, Some(PLAIN));
-    assert_eq!(warnings.len(), 2);
+    assert_eq!(warnings.len(), 1);
     assert!(
         warnings[0].starts_with("a.mtl:1: `Kd 1 0 0` before any `newmtl`"),
-        "{warnings:?}"
-    );
-    assert!(
-        warnings[1].starts_with(
-            "a.mtl:3: `newmtl` is ignored with all statements up to the next `newmtl`: expected"
-        ),
         "{warnings:?}"
     );
     // A file with other content must not fill the screen.
@@ -274,19 +268,15 @@ fn a_library_that_is_not_mtl_text_is_named() {
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
         .collect();
-    let files: [(&[u8], &str); 9] = [
+    let files: [(&[u8], &str); 8] = [
         (&utf16, "is UTF-16 text (not UTF-8)"),
         (&utf16[2..], "is UTF-16 text (not UTF-8)"),
         (b"\x89PNG\r\n\x1a\n\0\0", "is a PNG picture"),
         (b"<!doctype html><title>404</title>", "is a page of HTML"),
         (b"\x7fELF\0", "holds binary data"),
         (b"", "is empty"),
-        (b"404: Not Found\n", "has no `newmtl` line with a name"),
-        (b"newmtl\nKd 1 0 0\n", "has no `newmtl` line with a name"),
-        (
-            b"# Blender MTL File: None\nKd 1\n",
-            "has no `newmtl` line with a name",
-        ),
+        (b"404: Not Found\n", "has no `newmtl` line"),
+        (b"# Blender MTL File: None\nKd 1\n", "has no `newmtl` line"),
     ];
     for (bytes, told) in files {
         let text = format!("{POINTS}mtllib a.mtl\nusemtl m\nf 1 2 3\n");
@@ -318,6 +308,20 @@ fn each_polygon_has_its_material() {
         warning(&loaded),
         "no material library defines `none`: the default material is used"
     );
+}
+
+#[test]
+fn a_material_may_lack_a_name() {
+    let obj = "mtllib a.mtl\nusemtl\nf 1 2 3\n";
+    let loaded = load(obj, &[("a.mtl", "newmtl red\nKd 0\nnewmtl \nKd 1 0 0\n")]);
+    let diffuse = [1.0, 0.0, 0.0];
+    assert_eq!(loaded.mesh.materials(), [Material { diffuse, ..PLAIN }]);
+    assert!(loaded.notes.is_empty(), "{}", loaded.notes);
+    let said =
+        "no material library defines a material without a name: the default material is used";
+    assert_eq!(warning(&load("usemtl\nf 1 2 3\n", &[])), said);
+    let loaded = load(obj, &[("a.mtl", "newmtl red\nKd 0\n")]);
+    assert_eq!(warning(&loaded), said);
 }
 
 #[test]
@@ -400,7 +404,7 @@ fn no_library_and_no_name() {
     assert!(loaded.mesh.materials().is_empty());
     assert_eq!(
         warning(&loaded),
-        "no material library defines `a`, `b`: the default material is used"
+        "no material library defines `a`, `b`, a material without a name: the default material is used"
     );
     let many: String = (0..9).map(|i| format!("usemtl m{i}\nf 1 2 3\n")).collect();
     assert!(warning(&load(&many, &[])).contains("`m4` and 4 more"));
