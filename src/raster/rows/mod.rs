@@ -158,15 +158,21 @@ pub(super) fn draw(
     each_band: &mut EachBand<'_>,
 ) {
     // Supersampled pixels are averaged as linear floats and become levels later.
-    let is_scaled = is_levels && frame.samples() == 1;
-    let scale = if is_scaled { 255.0 } else { 1.0 };
+    let is_levels = is_levels && frame.samples() == 1;
+    let scale = if is_levels {
+        let row = variant.row().on(frame);
+        row.kernels(frame.light_count(), frame.is_local())
+            .scale_of_bytes()
+    } else {
+        1.0
+    };
     let [memory, packed] = BUFFERS.with_borrow_mut(|buffers| {
         [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take)
     });
     let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
-    let kept = if is_scaled { rows.pack(packed) } else { packed };
+    let kept = if is_levels { rows.pack(packed) } else { packed };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|index, band, target| {
         BUFFERS.with_borrow_mut(|buffers| {

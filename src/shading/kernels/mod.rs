@@ -348,6 +348,12 @@ impl Kernels {
 }
 
 impl Kernels {
+    /// Returns the factor of all lights where SIMD kernels write bytes. A method that does not sum
+    /// lights has its colours multiplied instead.
+    pub fn scale_of_bytes(&self) -> f32 {
+        if self.needs.sums_lights { 255.0 } else { 1.0 }
+    }
+
     /// Makes the kernels of a method that does not compute on a [`Num`], as those in integers.
     /// Vertices are lit as by `M`, and `pixels` shades. They are scalar only, for the reason `why`.
     pub(crate) const fn of_functions<M: Method>(pixels: PixelKernel, why: &'static str) -> Kernels {
@@ -368,6 +374,8 @@ impl Kernels {
 const fn needs<M: Method>() -> Needs {
     let needs = M::NEEDS;
     Needs {
+        // The kind that SIMD shades by decides.
+        sums_lights: <First<M> as Shader>::NEEDS.sums_lights,
         scalar_only: match needs.scalar_only {
             None if !M::Kinds::NAMES.is_empty() => {
                 Some("each kind of polygon has its own loop, and a block of pixels has one for all")
@@ -818,9 +826,16 @@ fn shade_blocks<M: Shader, S: Token>(
         let mut colour = colour(method, lit, extras, (pixel, extra)).array();
         match out {
             RowColours::Bytes(to, background) => {
-                if general {
+                if !M::NEEDS.sums_lights {
+                    // The lights were not multiplied: see `Kernels::scale_of_bytes`.
+                    colour = colour.map(
+                        #[inline(always)]
+                        |channel| channel * 255.0,
+                    );
+                }
+                if general || !M::NEEDS.sums_lights {
                     // A value that an `i32` cannot hold would be converted to the least one, so
-                    // clamp first. On the fast path no colour is that large.
+                    // clamp first. On the fast path no sum of lights is that large.
                     let [r, g, b] = colour;
                     colour = [at_most(r, 255.0), at_most(g, 255.0), at_most(b, 255.0)];
                 }
