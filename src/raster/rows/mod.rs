@@ -74,8 +74,9 @@ use crate::picture::encoding::quantise;
 use crate::shading::light::Uniforms;
 use crate::shading::{CellLayout, ShadingRate, SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
+use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::cell::RefCell;
+use core::cell::Cell;
 use core::ops::Range;
 use quads::QuadBatch;
 use runs::RunQueue;
@@ -126,7 +127,16 @@ struct Buffers {
 }
 
 std::thread_local! {
-    static BUFFERS: RefCell<Buffers> = RefCell::default();
+    static BUFFERS: Cell<Option<Box<Buffers>>> = const { Cell::new(None) };
+}
+
+/// Lends this thread's buffers to `work`. They are taken out meanwhile: a shader that draws inside
+/// finds none and makes others, and after a panic none are left that hold half a tile.
+fn with_buffers<T>(work: impl FnOnce(&mut Buffers) -> T) -> T {
+    let mut buffers = BUFFERS.take().unwrap_or_default();
+    let result = work(&mut buffers);
+    BUFFERS.set(Some(buffers));
+    result
 }
 
 /// A method on a frame, and the layout of its pixels.
@@ -166,7 +176,7 @@ pub(super) fn draw(
     } else {
         1.0
     };
-    let [memory, packed] = BUFFERS.with_borrow_mut(|buffers| {
+    let [memory, packed] = with_buffers(|buffers| {
         [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take)
     });
     let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
@@ -175,7 +185,7 @@ pub(super) fn draw(
     let kept = if is_levels { rows.pack(packed) } else { packed };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|index, band, target| {
-        BUFFERS.with_borrow_mut(|buffers| {
+        with_buffers(|buffers| {
             rows.fill_tile(&bins, index, &band, buffers);
             for row in 0..band.len() {
                 rows.shade(row, buffers, target);
@@ -188,7 +198,7 @@ pub(super) fn draw(
         } else {
             (values, kept)
         };
-        BUFFERS.with_borrow_mut(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
+        with_buffers(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
     }
 }
 
@@ -212,7 +222,7 @@ pub(super) fn polygon_indices(variant: &Variant, frame: &Frame, level: SimdLevel
         &|start, pixels: &mut [u32]| {
             let index = start / a_band;
             let band = index * HEIGHT..((index + 1) * HEIGHT).min(frame.height());
-            BUFFERS.with_borrow_mut(|buffers| {
+            with_buffers(|buffers| {
                 rows.fill_tile(&bins, index, &band, buffers);
                 for (row, to) in pixels.chunks_exact_mut(frame.width()).enumerate() {
                     rows.take_indices(row, &mut buffers.tile, to);
