@@ -87,6 +87,8 @@ pub mod painter_conflicts;
 mod render;
 #[cfg(feature = "simd")]
 mod rows;
+#[cfg(feature = "simd")]
+mod second_pass;
 mod setup;
 mod spans;
 mod target;

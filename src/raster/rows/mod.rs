@@ -115,6 +115,8 @@ use with_level;
 #[derive(Debug, Default)]
 struct Buffers {
     tile: Tile,
+    /// The depths of the tile's pixels, where another engine finds them.
+    depths: Tile,
     batch: Batch,
     quads: QuadBatch,
     fragments: Fragments,
@@ -155,16 +157,20 @@ struct RowEngine<'a> {
     only: Option<UniformsIndex>,
     /// True if a polygon's packed colour is the only varying: see `packed.rs`.
     is_packed: bool,
+    /// Finds the depths that are compared with the caller's and stored there, if this engine draws
+    /// triangles by runs. Depths of runs are rounded otherwise than those of planes, and a second
+    /// pass by another method must find its own.
+    depths: Option<Box<RowEngine<'a>>>,
     background: [u8; 4],
 }
 
 /// Draws a method on a frame, tile by tile. `is_levels` says that the picture stores levels of
-/// linear intensity.
+/// linear intensity, `has_depth` that there is a caller's depth buffer.
 pub(super) fn draw(
     variant: &Variant,
     frame: &Frame,
     level: SimdLevel,
-    is_levels: bool,
+    [is_levels, has_depth]: [bool; 2],
     each_band: &mut EachBand<'_>,
 ) {
     // Supersampled pixels are averaged as linear floats and become levels later.
@@ -182,6 +188,9 @@ pub(super) fn draw(
     let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
+    if has_depth && !rows.is_planar {
+        rows.depths = Some(Box::new(RowEngine::of_depths(frame, level)));
+    }
     let kept = if is_levels { rows.pack(packed) } else { packed };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|index, band, target| {
@@ -199,6 +208,32 @@ pub(super) fn draw(
             (values, kept)
         };
         with_buffers(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
+    }
+}
+
+/// The depths that every method of the row engine stores in a caller's buffer.
+pub(super) struct RowDepths<'a>(RowEngine<'a>);
+
+impl<'a> RowDepths<'a> {
+    pub fn new(frame: &'a Frame, level: SimdLevel) -> Self {
+        RowDepths(RowEngine::of_depths(frame, level))
+    }
+
+    /// Returns the depth of a polygon at pixels of scanline `row` that it covers.
+    pub fn at<const N: usize>(&self, polygon: u32, row: usize, pixels: [usize; N]) -> [f32; N] {
+        let frame = self.0.setup.frame;
+        let top = row / HEIGHT * HEIGHT;
+        let band = top..(top + HEIGHT).min(frame.height());
+        let polygons = [Listed::new(frame, polygon)];
+        with_buffers(|buffers| {
+            buffers.tile.prepare(HEIGHT, frame.width(), self.0.cell);
+            buffers.queue.prepare(0);
+            with_level!(self.0.level, S => self.0.rasterise::<S>(&polygons, &band, buffers));
+            let tile = &mut buffers.tile;
+            let depths = pixels.map(|x| tile.depth(row - top, x));
+            (0..band.len()).for_each(|row| tile.clear_row(row));
+            depths
+        })
     }
 }
 
@@ -291,12 +326,32 @@ impl<'a> RowEngine<'a> {
             is_planar: walk.is_none() && cell.count() <= MOST,
             cell,
             is_packed: false,
+            depths: None,
             only,
             background: [r, g, b, 0],
             kernels,
             walk,
             setup,
         })
+    }
+
+    /// Makes an engine that finds depths as methods do that draw triangles by plane equations.
+    fn of_depths(frame: &'a Frame, level: SimdLevel) -> RowEngine<'a> {
+        let setup = SetUp::of_depths(frame);
+        let kernels = (setup.kernels.simd)(level);
+        RowEngine {
+            level,
+            kernels: kernels.expect("flat shading has loops for each instruction set"),
+            setup,
+            walk: None,
+            is_planar: true,
+            test: SampleDepth::new(frame),
+            cell: CellLayout::default(),
+            is_packed: false,
+            depths: None,
+            only: None,
+            background: [0; 4],
+        }
     }
 
     /// Changes the engine so that pixels hold the index of their polygon in place of varyings and
@@ -332,6 +387,11 @@ impl<'a> RowEngine<'a> {
 
     /// Prepares an empty tile and rasterises all polygons of a band into it.
     fn fill_tile(&self, bins: &Bins, index: usize, band: &Range<usize>, buffers: &mut Buffers) {
+        if let Some(depths) = &self.depths {
+            core::mem::swap(&mut buffers.tile, &mut buffers.depths);
+            depths.fill_tile(bins, index, band, buffers);
+            core::mem::swap(&mut buffers.tile, &mut buffers.depths);
+        }
         let width = self.setup.frame.width();
         buffers.tile.prepare(HEIGHT, width, self.cell);
         buffers.queue.prepare(self.setup.varyings.count);
