@@ -101,7 +101,7 @@ impl Variant {
     /// engine cannot draw it, the span engine does, with a reason. Where the method refuses the
     /// frame, none does.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
-        if let Some(reason) = (self.row().fit)(On::Frame(frame)).refused() {
+        if let Some(reason) = self.row().refuses(On::Frame(frame)) {
             return Plan::Refused(reason);
         }
         let depth = SampleDepth::new(frame);

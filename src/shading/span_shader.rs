@@ -155,7 +155,7 @@ impl SpanShader {
         interpolation: Interpolation,
     ) -> Result<Self, SpanShaderError> {
         let lighting = &guard::lit(lighting, 0).map_err(SpanShaderError::Lighting)?;
-        if let Some(reason) = (variant.row().fit)(On::Spans(lighting, interpolation)).refused() {
+        if let Some(reason) = variant.row().refuses(On::Spans(lighting, interpolation)) {
             return Err(SpanShaderError::Refused(reason));
         }
         let (row, lights) = (variant.row(), lighting.lights.len());

@@ -4,12 +4,13 @@ use crate::support::renderers::{name, renderers};
 use fastphong::frame::Frame;
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
-use fastphong::number::{Num, Vec3, vec3};
+use fastphong::number::{Num, Real, Vec3, vec3};
 use fastphong::picture::{Encoding, Picture8, PictureMut};
-use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::scene::{Light, Scene, SpecularModel};
+use fastphong::raster::{DrawError, DrawOptions, Renderer};
+use fastphong::scene::{Interpolation, Light, Scene, SpecularModel};
 use fastphong::shading::{
-    Carries, Info, LightAt, Linear, MethodRow, Needs, Normal, Pixel, Shader, ShadingRate, Span,
+    Carries, Constant, Corners, Info, LightAt, Linear, MethodRow, Needs, Normal, Pixel,
+    ProductsAndNormal, Shader, ShadingRate, Span, SpanShader, SpanShaderError, SpanVertex, Varying,
     methods,
 };
 use glam::DVec3;
@@ -280,4 +281,110 @@ fn a_shader_may_draw_inside() {
         assert!(pixels.into_iter().all(|(a, b)| a[0].abs_diff(b[0]) <= 1));
     }
     assert!(pictures[0].get(32, 24)[0] > 0);
+}
+
+/// A method with one value per light, compiled for up to `L` lights.
+#[derive(Clone, Copy, Default)]
+struct Narrow<const L: usize>;
+
+static NARROW: [MethodRow; 2] = [MethodRow::of::<Narrow<2>>(), MethodRow::of::<Narrow<8>>()];
+
+impl<const L: usize> Shader for Narrow<L> {
+    const INFO: Info = Info {
+        name: "narrow",
+        ..Info::OF_PIXELS
+    };
+    type Constants<F: Num> = ();
+    type Carries = ProductsAndNormal<L>;
+    type Walk<F: Num> = Linear<Varying<Self, F>>;
+
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        span.linear()
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, ((j, _), _): Pixel<Self, F>) -> Vec3<F> {
+        lit.lights().fold(lit.ambient(), |colour, light| {
+            lit.add_diffuse(colour, &light, j.values[light.index].max(0.0))
+        })
+    }
+}
+
+/// A method refuses frames and spans with more lights than it has values for.
+#[test]
+fn a_method_refuses_more_lights_than_it_was_compiled_for() {
+    let why = "it has values for fewer lights";
+    for (row, most) in NARROW.iter().zip([2, 8]) {
+        for lights in [0, 1, most, most + 1, 64] {
+            let frame = ball(|scene| scene.lights = vec![scene.lights[0]; lights]);
+            let expected = (lights > most).then_some(why);
+            for renderer in renderers() {
+                let drawn = row.variant().render_with(&frame, renderer).err();
+                assert_eq!(drawn, expected.map(DrawError::Refused), "{lights} lights");
+            }
+            let shader =
+                SpanShader::new(&row.variant(), &frame.lightings()[0], Interpolation::Screen);
+            assert_eq!(shader.err(), expected.map(SpanShaderError::Refused));
+        }
+    }
+}
+
+/// A method with a constant per polygon that says nothing about its spans.
+#[derive(Clone, Copy, Default)]
+struct ByPolygon;
+
+static CONSTANT: MethodRow = MethodRow::of::<ByPolygon>();
+
+impl Shader for ByPolygon {
+    const INFO: Info = Info {
+        name: "by-polygon",
+        ..Info::OF_PIXELS
+    };
+    type Constants<F: Num> = Vec3<F>;
+    type Carries = Normal;
+    type Walk<F: Num> = Constant<Vec3<F>>;
+
+    #[inline(always)]
+    fn polygon<R: Real>(self, _: &LightAt<'_, R>, polygon: &Corners<'_, R>) -> Vec3<R> {
+        polygon.face
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, lit: &LightAt<'_, F>, span: Span<'_, Self, F>) -> Self::Walk<F> {
+        let Vec3 { x, y, z } = span.constants();
+        let zero = lit.zero();
+        Constant(vec3([x, y, z].map(|c| zero.of_each(|_| c))))
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &LightAt<'_, F>, face: Vec3<F>) -> Vec3<F> {
+        lit.shade(face)
+    }
+}
+
+/// The row engine leaves a method to the span engine if its blocks would lack what it reads.
+#[test]
+fn a_method_with_constants_of_polygons_is_drawn_by_every_renderer() {
+    let frame = ball(|_| ());
+    let variant = CONSTANT.variant();
+    for renderer in renderers() {
+        let picture = variant.render_with(&frame, renderer);
+        assert_eq!(picture, variant.render(&frame));
+        let mut shader = SpanShader::new(&variant, &frame.lightings()[0], Interpolation::Screen)
+            .expect("any light")
+            .with_simd(renderer.level());
+        let end = shader.vertex(SpanVertex::of_normal([0.0, 0.0, 1.0]));
+        shader.polygon(&Corners {
+            all: &[],
+            face: vec3([0.0, 0.0, 1.0]),
+            is_whole: true,
+            whole: &[],
+            mean: vec3([0.0, 0.0, 1.0]),
+        });
+        let mut colours = [[0.0; 3]; 9];
+        shader.shade([(0.0, &end), (9.0, &end)], [0, 0], &mut colours);
+        assert!(
+            colours
+                .iter()
+                .all(|colour| *colour == colours[0] && colour[0] > 0.0)
+        );
+    }
 }

@@ -43,7 +43,7 @@ use crate::shading::light::UniformsRef;
 use crate::shading::light::at_most;
 use crate::shading::light::eye_frame::carried;
 use crate::shading::light::{LightAt, LightModel, Uniforms};
-use crate::shading::walks::values::{Values, count, each, scaled};
+use crate::shading::walks::values::{Values, count, each, least, scaled};
 use crate::shading::walks::{Linear, Walk};
 use crate::shading::{
     Carried, Carries, CarriesOf, Corners, Kinds, Method, Needs, Pixel, PolygonConstants, Run,
@@ -288,6 +288,8 @@ pub(crate) struct Kernels {
     /// Returns how many values a varying, a pixel and a polygon's constants take for this many
     /// lights.
     pub(crate) counts: fn(usize) -> [usize; 3],
+    /// The most lights that its groups of values have room for.
+    pub(crate) lights: usize,
     pub(crate) needs: Needs,
     pub(crate) carries: Carried,
     pub(crate) kinds: &'static [&'static str],
@@ -330,6 +332,11 @@ impl Kernels {
                 let pixel = count::<Pixel<First<M>, f32>>(lights);
                 [varyings, pixel, M::Kinds::constants(lights)]
             },
+            lights: least(&[
+                <CarriesOf<M> as Carries>::Varying::<f32>::LIGHTS,
+                Pixel::<First<M>, f32>::LIGHTS,
+                <First<M> as Shader>::Constants::<f32>::LIGHTS,
+            ]),
             needs: needs::<M>(),
             carries: <CarriesOf<M> as Carries>::FROM,
             kinds: M::Kinds::NAMES,
@@ -370,7 +377,8 @@ impl Kernels {
 }
 
 /// Returns the needs of a method. Those of a method of several kinds are scalar only, as the
-/// G-buffer does not store kinds.
+/// G-buffer does not store kinds, and so are those of one whose pixels lack the constants of their
+/// polygon there.
 const fn needs<M: Method>() -> Needs {
     let needs = M::NEEDS;
     Needs {
@@ -379,6 +387,11 @@ const fn needs<M: Method>() -> Needs {
         scalar_only: match needs.scalar_only {
             None if !M::Kinds::NAMES.is_empty() => {
                 Some("each kind of polygon has its own loop, and a block of pixels has one for all")
+            }
+            None if size_of::<<First<M> as Shader>::Constants<f32>>() > 0
+                && !needs.reads_span() =>
+            {
+                Some("only methods that read their span get the constants of a polygon on SIMD")
             }
             why => why,
         },
