@@ -16,12 +16,13 @@ use crate::frame::Frame;
 use crate::number::SimdLevel;
 use alloc::vec::Vec;
 
-/// How many polygons are looked at, at most. Some are hidden, and at some pixels all engines round
-/// alike.
-const POLYGONS: usize = 32;
+/// How many spans are looked at, and at how many pixels of each. Some are hidden, and at some pixels
+/// engines round alike.
+const SPANS: usize = 32;
+const PIXELS: usize = 7;
 
-/// Returns the other engine, if `stored` holds depths that it finds for polygons of `frame`, and
-/// `renderer` finds others there.
+/// Returns the other engine, if `stored` holds more depths that only it finds for polygons of
+/// `frame` than depths that only the engine of `renderer` finds.
 pub(super) fn other_engine(
     frame: &Frame,
     renderer: Renderer,
@@ -51,38 +52,47 @@ pub(super) fn other_engine(
         value.to_bits()
     };
     let polygons = frame.polygons().len();
-    let is_other = (0..POLYGONS.min(polygons)).any(|k| {
-        let polygon = (k * polygons / POLYGONS.min(polygons)) as u32;
-        let Some((row, span)) = middle_span(frame, polygon) else {
-            return false;
+    // How many samples hold the depth that only the span engine finds, and that only the row engine
+    // finds. Where polygons touch, the depth of one may be another's by accident.
+    let mut held = [0, 0];
+    for k in 0..SPANS.min(SPANS * polygons) {
+        // Spans of different polygons, or of different scanlines where there are few polygons.
+        let polygon = k * polygons / SPANS;
+        let first = (polygon * SPANS).div_ceil(polygons);
+        let share = (k - first + 1) as f64 / (SPANS / polygons + 2) as f64;
+        let Some((row, span)) = span_of(frame, polygon as u32, share) else {
+            continue;
         };
-        let width = span.end - span.start;
-        let pixels = [1, 2, 3].map(|quarter| (span.start + quarter * width / 4) as usize);
+        let width = (span.end - span.start) as usize;
+        let pixels: [usize; PIXELS] =
+            core::array::from_fn(|i| span.start as usize + (i + 1) * width / (PIXELS + 1));
         let by_spans = pixels.map(|x| depth_of_span(&span, x));
-        let by_rows = rows.at(polygon, row, pixels);
-        let [own, others] = match renderer {
-            Renderer::Row(_) => [by_rows, by_spans],
-            Renderer::Span => [by_spans, by_rows],
-        };
-        let found = pixels.map(|x| stored[row * frame.width() + x].to_bits());
-        (0..pixels.len()).any(|i| value(others[i]) == found[i] && value(own[i]) != found[i])
-    });
-    is_other.then_some(match renderer {
-        Renderer::Row(_) => Engine::Span,
-        Renderer::Span => Engine::Row,
-    })
+        let by_rows = rows.at(polygon as u32, row, pixels);
+        for i in 0..PIXELS {
+            let [by_span, by_row] = [value(by_spans[i]), value(by_rows[i])];
+            let found = stored[row * frame.width() + pixels[i]].to_bits();
+            if by_span != by_row {
+                held[0] += u32::from(found == by_span);
+                held[1] += u32::from(found == by_row);
+            }
+        }
+    }
+    match renderer {
+        Renderer::Row(_) => (held[0] > held[1]).then_some(Engine::Span),
+        Renderer::Span => (held[1] > held[0]).then_some(Engine::Row),
+    }
 }
 
-/// Returns the first span of a polygon on its middle scanline, as the span engine finds it, and the
-/// scanline; `None` if it covers no pixel there.
-fn middle_span(frame: &Frame, polygon: u32) -> Option<(usize, PolygonSpan)> {
+/// Returns the first span of a polygon on a scanline, as the span engine finds it, and the scanline,
+/// which is at a `share` of its height; `None` if the polygon covers no pixel there.
+fn span_of(frame: &Frame, polygon: u32, share: f64) -> Option<(usize, PolygonSpan)> {
     let corners = frame.corners(&frame.polygons()[polygon as usize]).iter();
     let rows = corners.map(|&v| first_centre(frame.vertices()[v as usize].y));
     let height = frame.height() as i32;
     let (top, bottom) = rows.fold((height, 0), |(top, bottom), row| {
         (top.min(row.max(0)), bottom.max(row.min(height)))
     });
-    let row = top + (bottom - top) / 2;
+    let row = top + (f64::from(bottom - top) * share) as i32;
     let mut edges = Vec::new();
     for_each_edge(frame, 0..height, polygon, |first, edge| {
         edges.push((first, edge))

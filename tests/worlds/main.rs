@@ -16,6 +16,7 @@ mod doors;
 mod files;
 mod mesh;
 mod numbers;
+mod passes;
 mod properties;
 mod scene;
 mod wild;
@@ -114,6 +115,7 @@ fn everything_holds_in_random_worlds() {
     assert!(tally.seen * 2 > worlds, "{tally:?}");
     assert!(tally.pixels_in_bound > 200 * worlds, "{tally:?}");
     assert!(tally.simple_polygons > worlds, "{tally:?}");
+    assert!(tally.second_passes > worlds, "{tally:?}");
 }
 
 /// Numbers that are not finite, overflow or vanish must lead to an error or a picture.

@@ -182,9 +182,8 @@ pub(super) fn draw(
     } else {
         1.0
     };
-    let [memory, packed] = with_buffers(|buffers| {
-        [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take)
-    });
+    let [memory, packed] =
+        with_buffers(|buffers| [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take));
     let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };

@@ -6,7 +6,9 @@ use super::upright::turn;
 use crate::note::{Note, Notes};
 use crate::number::Written;
 use crate::scene::direction::unit;
-use crate::scene::ranges::{self, COORDINATE, FAR, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, TILT};
+use crate::scene::ranges::{
+    self, COORDINATE, FAR, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, TILT,
+};
 use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::{DMat3, DVec3};
 use std::format;
