@@ -65,6 +65,7 @@
 //! | fill rule, by edge functions | `Batch::edge` in `rows/triangles.rs`; `EdgeFunction` in `barycentric.rs` |
 //! | depth at a sample | `depth.rs` |
 //! | samples at which rounding decides the depth test | `depth_ties.rs` |
+//! | second passes over a caller's depths | `second_pass.rs` |
 //! | depth test | `VisibleLine::draw` in `spans/line.rs`; `Writer` in `rows/tile.rs`; `SampleDepth::seen` in `depth.rs` |
 //!
 //! Start reading at `spans/mod.rs`. `render.rs` chooses the engine. Before the first scanline
