@@ -11,7 +11,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion
 use fastphong::number::{Num, Vec3};
 use fastphong::picture::Picture;
 use fastphong::raster::{DrawOptions, Renderer};
-use fastphong::shading::{Info, LightAt, Linear, MethodRow, Normal, Shader, Span};
+use fastphong::shading::{Info, LightAt, Linear, MethodRow, Needs, Normal, Shader, Span};
 use std::hint::black_box;
 
 /// A copy of `src/shading/methods/roots/naive_phong.rs`.
@@ -23,6 +23,10 @@ impl Shader for Outside {
         name: "outside",
         title: "naive Phong shading, compiled outside the crate",
         ..Info::OF_PIXELS
+    };
+    const NEEDS: Needs = Needs {
+        sums_lights: true,
+        ..Needs::PIXELS
     };
     type Constants<F: Num> = ();
     type Carries = Normal;

@@ -13,7 +13,8 @@
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;
 use fastphong::shading::{
-    Info, LightAt, LightModel, Linear, MethodParameter, MethodRow, Normal, Shader, Span, Value,
+    Info, LightAt, LightModel, Linear, MethodParameter, MethodRow, Needs, Normal, Shader, Span,
+    Value,
 };
 use std::io::Write;
 
@@ -37,6 +38,12 @@ impl Shader for Toon {
         // Three bands by default, at least 1 and at most 8.
         parameters: &[MethodParameter::whole("bands", "bands of light", 3, [1, 8])],
         ..Info::OF_PIXELS
+    };
+    // Each term below has a light as its factor, so engines may multiply the lights by 255 where
+    // pictures store bytes. Leave this out if your colours are not sums of lights.
+    const NEEDS: Needs = Needs {
+        sums_lights: true,
+        ..Needs::PIXELS
     };
     // A vertex carries only its normal, so engines need not call the method for vertices.
     type Constants<F: Num> = (); // nothing is set up per polygon

@@ -61,6 +61,8 @@ impl Shader for Textured {
     // at each pixel.
     const NEEDS: Needs = Needs {
         perspective: Perspective::Divides,
+        // Ambient and diffuse light times the picture's colour, plus highlights.
+        sums_lights: true,
         ..Needs::PIXELS
     };
     type Constants<F: Num> = ();

@@ -12,6 +12,8 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 mod mesh;
 #[path = "../../tests/worlds/numbers.rs"]
 mod numbers;
+#[path = "../../tests/worlds/passes.rs"]
+mod passes;
 #[path = "../../tests/worlds/properties.rs"]
 #[allow(dead_code)]
 mod properties;

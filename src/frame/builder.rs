@@ -153,9 +153,9 @@ impl FrameBuilder {
     }
 
     /// Sets the distances from the eye at which depth is 0 and 1. By default they are 0 and 1,
-    /// orthographic.
+    /// orthographic. A far distance of infinity, as in matrices without a far plane, stands for 10²⁰.
     pub fn depth_range(&mut self, range: DepthRange) -> &mut Self {
-        self.frame.depth_range = range;
+        self.frame.depth_range = range.bounded();
         self
     }
 
@@ -603,7 +603,13 @@ impl Frame {
             let item = FrameItem::Polygon(index);
             guard::check_all(item, names, mean.position, &DISTANCE)?;
             guard::check_all(item, NORMAL_MEAN, mean.normal, &FINITE)?;
-            guard::check_all(item, guard::COLOUR, mean.colour, &FINITE)?;
+            let material = self.polygons.get(index).map(|p| p.material as usize);
+            let lighting = material.and_then(|material| self.lightings.get(material));
+            let colours = match lighting {
+                Some(lighting) if lighting.vertex_colours => &STRENGTH,
+                _ => &FINITE,
+            };
+            guard::check_all(item, guard::COLOUR, mean.colour, colours)?;
         }
         Ok(())
     }

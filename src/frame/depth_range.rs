@@ -1,7 +1,7 @@
 //! The depth range: the distances between which depth goes from 0 to 1.
 
 use super::guard::{self, Checked};
-use crate::scene::{Camera, Projection};
+use crate::scene::{Camera, Projection, ranges};
 
 /// The distances along the line of sight at which depth is 0 and 1: the near and the far plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +56,20 @@ impl DepthRange {
         }
     }
 
+    /// Returns the range with a far plane at infinity moved to the largest distance.
+    pub(super) fn bounded(self) -> Self {
+        match self {
+            DepthRange::Orthographic { near, far } => DepthRange::Orthographic {
+                near,
+                far: ranges::far(far),
+            },
+            DepthRange::Perspective { near, far } => DepthRange::Perspective {
+                near,
+                far: ranges::far(far),
+            },
+        }
+    }
+
     /// Checks that both distances are in their ranges and in order.
     pub(super) fn check(self) -> Checked {
         let (near, far) = self.ends();
@@ -67,7 +81,7 @@ impl DepthRange {
 impl From<&Camera> for DepthRange {
     /// Returns the range between the near and the far plane of `camera`.
     fn from(camera: &Camera) -> Self {
-        let Camera { near, far, .. } = *camera;
+        let [near, far] = camera.planes();
         match camera.projection {
             Projection::Orthographic { .. } => DepthRange::Orthographic { near, far },
             Projection::Perspective { .. } => DepthRange::Perspective { near, far },

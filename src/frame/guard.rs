@@ -11,12 +11,12 @@ use crate::mesh::Material;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::scene::direction::{self, as_unit, is_unit};
 use crate::scene::ranges::{
-    COORDINATE, CREASE, DISTANCE, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, SIZE, STRENGTH,
+    COORDINATE, CREASE, DISTANCE, FAR, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, SIZE, STRENGTH,
     TILT, VOLUME,
 };
 use crate::scene::{
-    Camera, Falloff, Light, LightTerm, Lighting, Object, Place, Projection, Scene, stands_at,
-    volume,
+    Camera, Falloff, Light, LightTerm, Lighting, Object, Place, Projection, Scene, ranges,
+    stands_at, volume,
 };
 use glam::DVec3;
 
@@ -124,8 +124,8 @@ pub(super) fn planes([near, far]: [f64; 2], is_perspective: bool) -> Checked {
     const ITEM: FrameItem = FrameItem::Camera;
     let range = if is_perspective { &NEAR } else { &PLANE };
     check(ITEM, "the near distance", near, range)?;
-    check(ITEM, "the far distance", far, &PLANE)?;
-    if near < far {
+    check(ITEM, "the far distance", far, &FAR)?;
+    if near < ranges::far(far) {
         Ok(())
     } else {
         Err(no_depth(far))

@@ -6,6 +6,8 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+#[cfg(feature = "threads")]
+use core::cell::Cell;
 
 /// A slice, or several slices of one length, that can be split in two at an index.
 pub trait Parts: Sized + Send {
@@ -43,14 +45,36 @@ impl<A: Parts, B: Parts> Parts for (A, B) {
     }
 }
 
+#[cfg(feature = "threads")]
+std::thread_local! {
+    /// True while this thread works on a part.
+    static IS_AT_WORK: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Work on a part, until it is dropped, by a panic too. Holds if the thread was at work before.
+#[cfg(feature = "threads")]
+struct AtWork(bool);
+
+#[cfg(feature = "threads")]
+impl Drop for AtWork {
+    fn drop(&mut self) {
+        IS_AT_WORK.set(self.0);
+    }
+}
+
 /// Runs both closures, in parallel if there is a second thread.
+///
+/// Within a part they run one after the other. A thread that waits for the other one takes up any
+/// work meanwhile: were a shader to draw its texture in a `LazyLock`, this could be another part of
+/// the picture that needs the texture.
 pub(crate) fn join<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
 ) -> (A, B) {
     #[cfg(feature = "threads")]
-    return rayon::join(a, b);
-    #[cfg(not(feature = "threads"))]
+    if !IS_AT_WORK.get() {
+        return rayon::join(a, b);
+    }
     (a(), b())
 }
 
@@ -90,6 +114,8 @@ fn from<P: Parts>(first: usize, all: P, size: usize, work: &(dyn Fn(usize, P) + 
     let chunks = all.len().div_ceil(size);
     if chunks <= 1 {
         if chunks == 1 {
+            #[cfg(feature = "threads")]
+            let _at_work = AtWork(IS_AT_WORK.replace(true));
             work(first, all);
         }
         return;

@@ -33,6 +33,13 @@ impl Listed {
     /// Marks a polygon of any other shape in place of corners.
     pub const OTHER: [u32; 3] = [u32::MAX; 3];
 
+    /// Lists polygon `index` of a frame.
+    #[cfg(feature = "simd")]
+    pub fn new(frame: &Frame, index: u32) -> Self {
+        let (corners, _) = read(frame, &frame.polygons()[index as usize]);
+        Listed { index, corners }
+    }
+
     /// True if the polygon is a triangle.
     #[inline(always)]
     pub fn is_triangle(&self) -> bool {

@@ -163,14 +163,18 @@ pub enum DepthTest {
     /// Draws a sample if its depth is less: it is nearer.
     #[default]
     Less,
-    /// Draws a sample if its depth is less or equal. Use it to draw over the same frame again, as
-    /// for a second light, or over a coplanar one.
+    /// Draws a sample if its depth is less or equal. Use it to draw the same polygons again, as for
+    /// a second light: by any method, with the renderer that
+    /// [`Variant::draw`](crate::shading::Variant::draw) returned. Engines round depths differently,
+    /// so `draw` refuses this test where the buffer holds another engine's depths. The depths of
+    /// other polygons in the same plane differ by roundings, too.
     LessOrEqual,
     /// Draws a sample if its value is greater, in a reversed buffer: it is nearer. Values are 1/w
     /// under perspective, else they go from 1 at the near plane down to 0 at the far one. An empty
     /// sample holds −∞ or 0.
     Greater,
-    /// Draws a sample if its value is greater or equal, in a reversed buffer.
+    /// Draws a sample if its value is greater or equal, in a reversed buffer. As for `LessOrEqual`,
+    /// draw all passes with one renderer.
     GreaterOrEqual,
 }
 
@@ -197,6 +201,12 @@ impl CallersTest {
         CallersTest { test, end }
     }
 
+    /// Returns a depth as the caller's buffer holds it.
+    #[inline(always)]
+    pub fn value<const REVERSED: bool>(self, depth: f32) -> f32 {
+        if REVERSED { self.end - depth } else { depth }
+    }
+
     /// Compares a pixel's depth with the caller's. If the pixel passes, stores its depth in the
     /// caller's buffer. Else makes the pixel's depth infinite, as if nothing had been drawn there.
     /// Returns true if the pixel is hidden.
@@ -208,7 +218,7 @@ impl CallersTest {
         depth: &mut f32,
         stored: &mut f32,
     ) -> bool {
-        let own = if REVERSED { self.end - *depth } else { *depth };
+        let own = self.value::<REVERSED>(*depth);
         let is_seen = match (REVERSED, EQUAL) {
             (false, false) => own < *stored,
             (false, true) => own <= *stored,

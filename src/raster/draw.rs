@@ -2,7 +2,9 @@
 //! drawn.
 
 use super::depth::DepthTest;
-use super::engine::Renderer;
+use super::engine::{Engine, Renderer};
+#[cfg(feature = "simd")]
+use super::second_pass;
 use super::target::{Argb, Bgra, Eight, Floats, Format, Rgba, Rows, Surface};
 use crate::frame::Frame;
 use crate::picture::encoding::Encoder;
@@ -124,6 +126,9 @@ pub enum DrawError {
     /// A depth buffer was passed for a frame that rounds depth to fewer than 32 bits. Holds the
     /// frame's bits.
     DepthRounded(DepthBits),
+    /// The test is for equal depths, but the depth buffer holds what another engine found for the
+    /// frame's polygons, and engines round depths otherwise. Holds that engine.
+    DepthOfEngine(Engine),
     /// The method refuses this frame: see [`Shader::on`](crate::shading::Shader::on). Holds the
     /// reason.
     Refused(&'static str),
@@ -158,6 +163,11 @@ impl fmt::Display for DrawError {
                 f,
                 "the frame rounds depth to {} bits: give it a depth buffer of 32",
                 bits.most().map_or(32, u32::count_ones)
+            ),
+            DrawError::DepthOfEngine(engine) => write!(
+                f,
+                "the depth buffer holds the frame's depths from the {} engine, which rounds them otherwise: draw all passes with one engine, or test for less or greater",
+                engine.name()
             ),
             DrawError::Refused(reason) => write!(f, "the method is not for this frame: {reason}"),
         }
@@ -255,8 +265,8 @@ impl Variant {
     ///   nothing shall be drawn (+∞ if it is reversed), with [`Background::Kept`].
     ///
     /// # Errors
-    /// [`DrawError`] if picture, depth buffer and frame do not fit together, or the method refuses
-    /// the frame.
+    /// [`DrawError`] if picture, depth buffer and frame do not fit together, the method refuses the
+    /// frame, or a test for equal depths meets depths of another engine.
     pub fn draw<'p>(
         &self,
         frame: &Frame,
@@ -268,6 +278,13 @@ impl Variant {
         let plan = self.plan(frame, options.renderer);
         let refused = || DrawError::Refused(plan.reason().unwrap_or_default());
         let renderer = plan.renderer().ok_or_else(refused)?;
+        #[cfg(feature = "simd")]
+        if let Some(stored) = options.depth.as_deref() {
+            let other = second_pass::other_engine(frame, renderer, options.depth_test, stored);
+            if let Some(engine) = other {
+                return Err(DrawError::DepthOfEngine(engine));
+            }
+        }
         let encoder = (frame.encoding() == Encoding::Srgb).then(Encoder::srgb);
         let drawing = Drawing {
             variant: self,

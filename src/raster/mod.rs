@@ -65,6 +65,7 @@
 //! | fill rule, by edge functions | `Batch::edge` in `rows/triangles.rs`; `EdgeFunction` in `barycentric.rs` |
 //! | depth at a sample | `depth.rs` |
 //! | samples at which rounding decides the depth test | `depth_ties.rs` |
+//! | second passes over a caller's depths | `second_pass.rs` |
 //! | depth test | `VisibleLine::draw` in `spans/line.rs`; `Writer` in `rows/tile.rs`; `SampleDepth::seen` in `depth.rs` |
 //!
 //! Start reading at `spans/mod.rs`. `render.rs` chooses the engine. Before the first scanline
@@ -87,6 +88,8 @@ pub mod painter_conflicts;
 mod render;
 #[cfg(feature = "simd")]
 mod rows;
+#[cfg(feature = "simd")]
+mod second_pass;
 mod setup;
 mod spans;
 mod target;

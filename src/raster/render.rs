@@ -101,7 +101,7 @@ impl Variant {
     /// engine cannot draw it, the span engine does, with a reason. Where the method refuses the
     /// frame, none does.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
-        if let Some(reason) = (self.row().fit)(On::Frame(frame)).refused() {
+        if let Some(reason) = self.row().refuses(On::Frame(frame)) {
             return Plan::Refused(reason);
         }
         let depth = SampleDepth::new(frame);
@@ -175,10 +175,10 @@ impl Variant {
         let frame = surface.frame;
         #[cfg(feature = "simd")]
         if let Renderer::Row(level) = renderer {
+            let kinds = [surface.format.is_levels(), rows.depth.is_some()];
             // The closure is called once, which its type does not say.
             let mut rows = Some(rows);
-            let is_levels = surface.format.is_levels();
-            return super::rows::draw(self, frame, level, is_levels, &mut |height, draw| {
+            return super::rows::draw(self, frame, level, kinds, &mut |height, draw| {
                 if let Some(rows) = rows.take() {
                     draw_bands(surface, height, 0, rows, draw);
                 }
@@ -225,9 +225,9 @@ impl Variant {
         if let Some(Renderer::Row(level)) = plan.renderer() {
             let encoder = (frame.encoding() == Encoding::Srgb).then(Encoder::srgb);
             let surface = Surface::new(frame, Eight::<Rgba>::new(encoder));
-            let is_levels = surface.format.is_levels();
+            let kinds = [surface.format.is_levels(), false];
             let mut taken = Ok(());
-            super::rows::draw(self, frame, level, is_levels, &mut |height, draw| {
+            super::rows::draw(self, frame, level, kinds, &mut |height, draw| {
                 let mut take = |pixels: &[[u8; 4]]| {
                     taken = take(pixels);
                     taken.is_ok()

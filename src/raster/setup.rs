@@ -8,6 +8,8 @@ use crate::number::parallel::for_each_chunk;
 use crate::number::{BLOCK, SimdLevel, Vec3, vec3};
 use crate::scene::Interpolation;
 use crate::shading::light::Uniforms;
+#[cfg(feature = "simd")]
+use crate::shading::methods;
 use crate::shading::walks::GreatCircle;
 use crate::shading::{
     Carried, Corner, Corners, Extras, Kernels, Local, Pixels, PolygonConstants, RunList,
@@ -186,6 +188,23 @@ impl<'a> SetUp<'a> {
         };
         all.constants = all.set_up_polygons();
         all
+    }
+
+    /// Returns a set-up without varyings and light, to find depths only. Its method shades nothing.
+    #[cfg(feature = "simd")]
+    pub fn of_depths(frame: &'a Frame) -> Self {
+        let kernels = methods::FLAT.kernels(frame.light_count(), false);
+        SetUp {
+            frame,
+            kernels,
+            parameters: &[],
+            extras: Extras::default(),
+            uniforms: Vec::new(),
+            is_by_polygon: true,
+            varyings: Varyings::none(),
+            constants: PolygonConstants::default(),
+            light: kernels.vertices,
+        }
     }
 
     /// Computes the method's constants for every polygon, if it has any.

@@ -1,6 +1,7 @@
 //! The camera: the transform from world space to clip space, and the scene's one view vector.
 
 use super::direction::{as_unit, length};
+use super::ranges;
 use glam::{DMat4, DVec3, DVec4};
 
 /// How the camera projects points onto the picture.
@@ -33,7 +34,8 @@ pub struct Camera {
     pub projection: Projection,
     /// The distance of the near plane along the line of sight. Above 0 under perspective.
     pub near: f64,
-    /// The distance of the far plane along the line of sight, greater than `near`.
+    /// The distance of the far plane along the line of sight, greater than `near`. Infinity
+    /// stands for 10²⁰.
     pub far: f64,
 }
 
@@ -68,6 +70,11 @@ impl Camera {
         in_range(self.eye - self.target).normalize()
     }
 
+    /// Returns the distances of the near and the far plane, as they are computed with.
+    pub(crate) fn planes(&self) -> [f64; 2] {
+        [self.near, ranges::far(self.far)]
+    }
+
     /// Returns unit vectors to the right, upward and forward. The camera is right-handed and looks
     /// along `forward`.
     pub fn axes(&self) -> [DVec3; 3] {
@@ -80,12 +87,13 @@ impl Camera {
     /// and from bottom to top, and z in 0..=w from near to far. `aspect` is the picture's width
     /// over its height.
     pub fn clip_matrix(&self, aspect: f64) -> DMat4 {
-        let depth = self.far - self.near;
+        let [near, far] = self.planes();
+        let depth = far - near;
         self.matrix(
             aspect,
             match self.projection {
-                Projection::Orthographic { .. } => [1.0 / depth, -self.near / depth],
-                Projection::Perspective { .. } => [self.far / depth, -self.far * self.near / depth],
+                Projection::Orthographic { .. } => [1.0 / depth, -near / depth],
+                Projection::Perspective { .. } => [far / depth, -far * near / depth],
             },
         )
     }
@@ -95,10 +103,11 @@ impl Camera {
     /// near near plane, the z of [`Camera::clip_matrix`] is w but for rounding, and clipping could
     /// not find the far plane by it.
     pub(crate) fn precise_clip_matrix(&self, aspect: f64) -> DMat4 {
-        let depth = self.far - self.near;
+        let [near, far] = self.planes();
+        let depth = far - near;
         match self.projection {
             Projection::Orthographic { .. } => self.clip_matrix(aspect),
-            Projection::Perspective { .. } => self.matrix(aspect, [-1.0 / depth, self.far / depth]),
+            Projection::Perspective { .. } => self.matrix(aspect, [-1.0 / depth, far / depth]),
         }
     }
 

@@ -12,6 +12,8 @@ use glam::DVec3;
 pub(crate) struct NumberRange {
     least: f64,
     most: f64,
+    /// True if infinity is in the range, too. It stands for `most`.
+    has_infinity: bool,
     pub expected: &'static str,
 }
 
@@ -20,13 +22,14 @@ impl NumberRange {
         NumberRange {
             least,
             most,
+            has_infinity: false,
             expected,
         }
     }
 
     /// True if `value` is in the range. NaN never is.
     pub(crate) fn holds(&self, value: f64) -> bool {
-        (self.least..=self.most).contains(&value)
+        (self.least..=self.most).contains(&value) || self.has_infinity && value == f64::INFINITY
     }
 
     /// True if all three coordinates are in the range.
@@ -46,15 +49,34 @@ pub(crate) const COORDINATE: NumberRange =
 pub(crate) const DISTANCE: NumberRange =
     NumberRange::new(-1e16, 1e16, "numbers between -1e16 and 1e16");
 
-/// Distances of the near and the far plane. The limit is beyond everything that they can have
-/// between them.
+/// The largest distance of the near and the far plane, beyond everything that they can have between
+/// them.
+const FARTHEST: f64 = 1e20;
+
+/// Distances of the near plane.
 pub(crate) const PLANE: NumberRange =
-    NumberRange::new(-1e20, 1e20, "numbers between -1e20 and 1e20");
+    NumberRange::new(-FARTHEST, FARTHEST, "numbers between -1e20 and 1e20");
+
+/// Distances of the far plane, which matrices without one have at infinity.
+pub(crate) const FAR: NumberRange = NumberRange {
+    has_infinity: true,
+    expected: "numbers between -1e20 and 1e20, or infinity",
+    ..PLANE
+};
+
+/// Returns the distance that is computed with in place of a distance of the far plane.
+pub(crate) fn far(distance: f64) -> f64 {
+    if distance == f64::INFINITY {
+        FARTHEST
+    } else {
+        distance
+    }
+}
 
 /// The distance of the near plane under perspective.
 pub(crate) const NEAR: NumberRange = NumberRange::new(
     f64::from_bits(1),
-    1e20,
+    FARTHEST,
     "a number over 0 (up to 1e20), as the camera is a perspective one",
 );
 

@@ -117,7 +117,7 @@ pub struct MethodRow {
     pub needs: Needs,
     /// Decides if the method draws a frame, or spans of a material:
     /// [`Shader::on`](super::Shader::on).
-    pub(crate) fit: fn(On<'_>) -> Fit,
+    fit: fn(On<'_>) -> Fit,
     /// True if the method computes in integers, for processors without a floating-point unit.
     pub is_integer: bool,
     directional: ByLights,
@@ -227,6 +227,19 @@ impl MethodRow {
     /// Returns the row of the method with this name.
     pub fn named(name: &str) -> Option<&'static MethodRow> {
         METHODS.iter().find(|row| row.info.name == name)
+    }
+
+    /// Returns the reason why the method does not draw a frame, or spans of a material; `None` if it
+    /// does.
+    pub(crate) fn refuses(&self, on: On<'_>) -> Option<&'static str> {
+        let (lights, is_local) = match on {
+            On::Frame(frame) => (frame.light_count(), frame.is_local()),
+            On::Spans(lighting, _) => (lighting.lights.len(), lighting.is_local()),
+        };
+        if lights > self.kernels(lights, is_local).lights {
+            return Some("it has values for fewer lights");
+        }
+        (self.fit)(on).refused()
     }
 
     /// Returns the row whose kernels draw a frame: this one, or the one to which it leaves the

@@ -18,6 +18,12 @@ pub struct Needs {
     pub perspective: Perspective,
     /// What its walk starts from.
     pub spans: Spans,
+    /// True if colours are sums of ambient light and of terms that have a light as their factor, so
+    /// that twice the light is twice the colour. Where pictures store levels, the row engine then
+    /// multiplies the lights by 255, once per material. Otherwise it multiplies what `shade`
+    /// returns, three products a block: leave it false for emission, tone curves and normals shown
+    /// as colours.
+    pub sums_lights: bool,
     /// True if the method supports only general light, as by N·H or from positions: no fast loop is
     /// compiled for it.
     pub general_only: bool,
@@ -33,6 +39,7 @@ impl Needs {
         local: Local::PerPixel,
         perspective: Perspective::Free,
         spans: Spans::Pixels,
+        sums_lights: false,
         general_only: false,
         scalar_only: None,
     };

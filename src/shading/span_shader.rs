@@ -129,7 +129,7 @@ struct SimdSpans {
     /// True if the method remembers the pixel before: its walk then runs first.
     is_walked: bool,
     cell: CellLayout,
-    /// The pixels of the walk: all first values, then all second ones, and so on.
+    /// The pixels of the walk, and the extras: all first values, then all second ones, and so on.
     walked: Vec<f32>,
     /// The line in the layout of a row of the G-buffer.
     cells: Vec<f32>,
@@ -155,7 +155,7 @@ impl SpanShader {
         interpolation: Interpolation,
     ) -> Result<Self, SpanShaderError> {
         let lighting = &guard::lit(lighting, 0).map_err(SpanShaderError::Lighting)?;
-        if let Some(reason) = (variant.row().fit)(On::Spans(lighting, interpolation)).refused() {
+        if let Some(reason) = variant.row().refuses(On::Spans(lighting, interpolation)) {
             return Err(SpanShaderError::Refused(reason));
         }
         let (row, lights) = (variant.row(), lighting.lights.len());
@@ -201,10 +201,10 @@ impl SpanShader {
         let is_walked = (self.kernels.walks_along_runs)(self.variant.parameters(), model);
         let [_, pixel, _] = (self.kernels.counts)(self.uniforms[0].lights.len());
         let extras = self.extras.count();
-        let (varyings, extras) = if is_walked {
-            (pixel, 0)
+        let varyings = if is_walked {
+            pixel
         } else {
-            (self.varyings - extras, extras)
+            self.varyings - extras
         };
         self.simd = kernels.map(|kernels| SimdSpans {
             level,
@@ -236,7 +236,7 @@ impl SpanShader {
     }
 
     /// True if you must call [`SpanShader::polygon`] for each polygon before its vertices. Slerp
-    /// methods, `six-point` and `adaptive-phong` need it; So do methods that light a polygon from
+    /// methods, `six-point` and `adaptive-phong` need it; so do methods that light a polygon from
     /// its mean, if a light or the eye has a position.
     pub fn wants_polygons(&self) -> bool {
         self.is_by_polygon || !self.constants.values.is_empty() || !self.kernels.kinds.is_empty()
@@ -311,7 +311,7 @@ impl SpanShader {
     ) {
         assert!(
             !self.wants_polygon,
-            "`{}` wants every polygon to be set up",
+            "`{}` sets up each polygon: call `SpanShader::polygon` before its vertices",
             self.variant
         );
         let [(x1, left), (x2, right)] = ends;
@@ -320,6 +320,12 @@ impl SpanShader {
             "an end has {} varyings",
             self.varyings
         );
+        if colours.is_empty() {
+            return;
+        }
+        // Sums of columns must not overflow. An `f32` does not tell so large ones apart.
+        let pixels = colours.len() as u32;
+        let first = first.min((u32::MAX - STEP as u32).saturating_sub(pixels));
         // A line without width has the varyings of its left end.
         let dt = if x2 > x1 { 1.0 / (x2 - x1) } else { 0.0 };
         // The parameter at the centre of the first pixel.
@@ -328,12 +334,12 @@ impl SpanShader {
         // Returns the first column whose centre is not left of `x`. The requested pixels lie
         // between both ends.
         let centre = |x: f32| libm::ceilf(x - 0.5).max(0.0) as u32;
-        let (last, start) = (first + colours.len() as u32, centre(x1).min(first));
+        let (last, start) = (first + pixels, centre(x1).min(first));
         let run = Run {
             uniforms: UniformsIndex(0),
             polygon: 0,
             x: first,
-            pixels: colours.len() as u32,
+            pixels,
         };
         let place = SpanPlace {
             y: row,
@@ -404,11 +410,12 @@ impl SimdSpans {
 
     /// Walks along the run, and copies its pixels into the layout of the G-buffer.
     fn walk(&mut self, walk: WalkKernel, job: &Pixels<'_>, length: usize) {
-        self.walked.resize(self.cell.varyings * length, 0.0);
+        let count = self.cell.varyings + self.cell.extras;
+        self.walked.resize(count * length, 0.0);
         walk(job, &mut self.walked);
         let blocks = self.cells.chunks_exact_mut(self.cell.stride());
         for (index, block) in blocks.take(length / BLOCK).enumerate() {
-            for i in 0..self.cell.varyings {
+            for i in 0..count {
                 let from = &self.walked[i * length + index * BLOCK..][..BLOCK];
                 block[BLOCK * CellLayout::varying(i)..][..BLOCK].copy_from_slice(from);
             }

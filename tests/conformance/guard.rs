@@ -361,6 +361,79 @@ fn a_builder_refuses_values_out_of_range_and_names_the_vertex() {
 }
 
 /// Without positions, a positional light would light every point as if it were at 0.
+/// A stated mean has the colours that vertices may have: none below 0 where they multiply a
+/// material.
+#[test]
+fn a_mean_has_no_colour_below_0_where_colours_multiply_the_material() {
+    let with_mean = |vertex_colours: bool, red: f32| {
+        let mut lighting = plain_lighting();
+        lighting.vertex_colours = vertex_colours;
+        built(lighting, CORNERS[2], Z, |b| {
+            let [x, y, z] = [0, 1, 2].map(|corner| b.vertex(CORNERS[corner]));
+            b.mean(Mean {
+                position: [0.0; 3],
+                normal: Z,
+                colour: [red, 0.5, 0.5],
+            });
+            b.polygon(&[x, y, z], Z, 1);
+        })
+    };
+    assert_eq!(
+        with_mean(true, -0.5).expect_err("no colour").to_string(),
+        "polygon 1: red of its colour is -0.5: expected 0 or more, up to 3.4e38"
+    );
+    assert!(with_mean(true, 0.5).is_ok() && with_mean(false, -0.5).is_ok());
+}
+
+/// A far plane at infinity, which matrices without one have, draws the picture of the farthest
+/// plane.
+#[test]
+fn a_far_plane_at_infinity_is_the_farthest_one() {
+    let picture = |frame: &Frame| methods::GOURAUD.variant().render(frame).expect("any frame");
+    for projection in [
+        Projection::Perspective { fovy: 40.0 },
+        Projection::Orthographic { half_height: 2.0 },
+    ] {
+        let drawn = |far: f64| {
+            let mut scene = scene();
+            (scene.camera.projection, scene.camera.far) = (projection, far);
+            assert!(scene.camera.clip_matrix(1.5).is_finite());
+            picture(&scene.frame().expect("a frame"))
+        };
+        assert!(drawn(f64::INFINITY) == drawn(1e20));
+    }
+    let drawn = |far: f64| {
+        let mut builder = FrameBuilder::new(16, 16);
+        builder
+            .depth_range(DepthRange::Perspective { near: 0.1, far })
+            .lighting(plain_lighting());
+        let corners = [
+            [-3.0, -3.0, 0.0, 4.0],
+            [90.0, -3.0, 0.0, 100.0],
+            [-3.0, 90.0, 0.0, -1.0],
+        ]
+        .map(|place| builder.vertex_from_clip(place, Z, 0));
+        builder.polygon(&corners, Z, 0);
+        let frame = builder.finish().expect("a frame");
+        assert!(frame.stats().clipped == 1 && frame.depth_range().z(-1.0 / 4.0).is_finite());
+        picture(&frame)
+    };
+    assert!(drawn(f64::INFINITY) == drawn(1e20));
+    let refused = |near: f64, far: f64| {
+        let mut scene = scene();
+        (scene.camera.near, scene.camera.far) = (near, far);
+        scene.frame().expect_err("no depth").to_string()
+    };
+    assert_eq!(
+        refused(1.0, f64::NEG_INFINITY),
+        "the camera: the far distance is -inf: expected numbers between -1e20 and 1e20, or infinity"
+    );
+    assert_eq!(
+        refused(f64::INFINITY, f64::INFINITY),
+        "the camera: the near distance is inf: expected a number over 0 (up to 1e20), as the camera is a perspective one"
+    );
+}
+
 #[test]
 fn a_light_at_a_position_needs_the_positions_of_vertices() {
     let near = [Light::positional(DVec3::Z, [1.0; 3])];

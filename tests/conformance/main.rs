@@ -20,6 +20,7 @@ mod hidden_surfaces;
 mod lecture;
 mod lights;
 mod ndc_cube;
+mod own_shaders;
 mod pins;
 mod positional;
 mod published;

@@ -7,8 +7,11 @@ use fastphong::mesh::Material;
 use fastphong::number::{SimdLevel, vec3};
 use fastphong::raster::Renderer;
 use fastphong::scene::{Interpolation, Light, Lighting};
-use fastphong::shading::{Corner, Corners, SpanShader, SpanShaderError, SpanVertex, Variant};
+use fastphong::shading::{
+    Corner, Corners, METHODS, SpanShader, SpanShaderError, SpanVertex, Variant,
+};
 use glam::{DVec3, Vec3};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 #[allow(dead_code)] // its `main`
 #[path = "../../examples/own_rasterizer.rs"]
@@ -26,6 +29,11 @@ struct Rectangle {
 }
 
 const FACE: [f32; 3] = [0.0, 0.0, 1.0];
+
+/// The colours of the vertices. They are equal along both sides.
+const COLOURS: [[f32; 3]; 4] = [LEFT, LEFT, RIGHT, RIGHT];
+const LEFT: [f32; 3] = [0.9, 0.2, 0.5];
+const RIGHT: [f32; 3] = [0.1, 0.8, 0.5];
 
 impl Rectangle {
     fn new(lights: &[Light], interpolation: Interpolation) -> Self {
@@ -59,15 +67,29 @@ impl Rectangle {
     }
 
     fn frame(&self) -> Frame {
+        let colours = self.lighting.vertex_colours.then_some(COLOURS);
         let mut builder = FrameBuilder::new(WIDTH, 4);
         builder.interpolation(self.interpolation);
         builder.lighting(self.lighting.clone());
         let numbers = self.vertices.map(|vertex| builder.vertex(vertex));
         for (number, position) in numbers.into_iter().zip(self.positions) {
             builder.position(number, position);
+            if let Some(colours) = colours {
+                builder.colour(number, colours[number as usize]);
+            }
         }
         builder.polygon(&numbers, FACE, 0);
         builder.finish().expect("a frame")
+    }
+
+    /// Returns the methods that draw the frame and its spans: some leave vertex colours to others.
+    fn variants(&self, frame: &Frame) -> Vec<Variant> {
+        let all = floats_on(frame).map(|entry| entry.variant());
+        let draws = |variant: &Variant| {
+            !self.lighting.vertex_colours
+                || SpanShader::new(variant, &self.lighting, self.interpolation).is_ok()
+        };
+        all.filter(draws).collect()
     }
 
     fn corners(&self) -> [Corner<f32>; 4] {
@@ -117,6 +139,11 @@ impl Rectangle {
         let ends = [[0, 1], [3, 2]].map(|sides: [usize; 2]| {
             let [upper, lower] = sides.map(|i| {
                 let Vertex { normal, inv_w, .. } = self.vertices[i];
+                let middle = [0, 1, 2].map(|c| 0.5 * (LEFT[c] + RIGHT[c]));
+                let colour = match variant.info().name {
+                    "flat" | "flat-average" => middle,
+                    _ => COLOURS[i],
+                };
                 let normal = match variant.info().name {
                     "flat" => FACE,
                     "flat-average" => mean.unit().array(),
@@ -125,7 +152,7 @@ impl Rectangle {
                 shader.vertex(SpanVertex {
                     normal,
                     position: self.positions[i],
-                    attributes: [1.0; 4],
+                    attributes: [colour[0], colour[1], colour[2], 1.0],
                     inv_w: inv_w as f32,
                 })
             });
@@ -144,12 +171,17 @@ fn span_colours_equal_the_engines() {
         Light::directional(DVec3::new(-0.5, 0.1, 0.7).normalize(), [0.4; 3]),
     ];
     let near = [Light::positional(DVec3::new(0.3, 0.5, 2.0), [0.6; 3])];
+    let all = [&directional[..1], &directional[..], &near[..]];
     let mut compared = 0;
-    for lights in [&directional[..1], &directional[..], &near[..]] {
+    for (lights, coloured) in [false, true]
+        .into_iter()
+        .flat_map(|coloured| all.map(|lights| (lights, coloured)))
+    {
         for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
-            let rectangle = Rectangle::new(lights, interpolation);
+            let mut rectangle = Rectangle::new(lights, interpolation);
+            rectangle.lighting.vertex_colours = coloured;
             let frame = rectangle.frame();
-            for variant in floats_on(&frame).map(|entry| entry.variant()) {
+            for variant in rectangle.variants(&frame) {
                 let picture = variant
                     .render_linear(&frame)
                     .expect("a method for the frame");
@@ -198,11 +230,16 @@ fn simd_colours_equal_those_of_scalar_code() {
     let levels = renderers().into_iter().map(|renderer| renderer.level());
     let (mut same, mut other, mut scalar) = (0, 0, 0);
     for level in levels {
-        for lights in [&directional[..1], &directional[..], &near[..]] {
+        let all = [&directional[..1], &directional[..], &near[..]];
+        for (lights, coloured) in [false, true]
+            .into_iter()
+            .flat_map(|coloured| all.map(|lights| (lights, coloured)))
+        {
             for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
-                let rectangle = Rectangle::new(lights, interpolation);
+                let mut rectangle = Rectangle::new(lights, interpolation);
+                rectangle.lighting.vertex_colours = coloured;
                 let frame = rectangle.frame();
-                for variant in floats_on(&frame).map(|entry| entry.variant()) {
+                for variant in rectangle.variants(&frame) {
                     let mut shader = SpanShader::new(&variant, &rectangle.lighting, interpolation)
                         .expect("a method for any light")
                         .with_simd(level);
@@ -219,7 +256,9 @@ fn simd_colours_equal_those_of_scalar_code() {
                             let off = (0..3)
                                 .map(|c| (found[c] - expected[c]).abs())
                                 .fold(0.0, f32::max);
-                            let who = format!("{variant} on {level}, {interpolation:?}");
+                            let who = format!(
+                                "{variant} on {level}, {interpolation:?}, coloured: {coloured}"
+                            );
                             assert!(off <= most, "{who}: {off:e} at {x} from {first}");
                             *[&mut other, &mut same][usize::from(off == 0.0)] += 1;
                         }
@@ -277,15 +316,63 @@ fn a_reused_shader_allocates_nothing() {
     }
 }
 
+/// A method that needs polygons says which call is missing.
 #[test]
-#[should_panic(expected = "wants every polygon to be set up")]
 fn a_shader_that_needs_polygons_panics_without_one() {
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z);
-    let variant = Variant::parse("slerp-phong").expect("a method");
-    let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen)
-        .expect("a method for any light");
-    let end = shader.vertex(SpanVertex::of_normal(FACE));
-    shader.shade([(0.0, &end), (1.0, &end)], [0, 0], &mut [[0.0; 3]]);
+    for name in ["slerp-phong", "six-point", "adaptive-phong"] {
+        let variant = Variant::parse(name).expect("a method");
+        let mut shader = SpanShader::new(&variant, &lighting, Interpolation::Screen)
+            .expect("a method for any light");
+        let end = shader.vertex(SpanVertex::of_normal(FACE));
+        let shaded = catch_unwind(AssertUnwindSafe(|| {
+            shader.shade([(0.0, &end), (1.0, &end)], [0, 0], &mut [[0.0; 3]]);
+        }));
+        let message = shaded.expect_err("no polygon");
+        let expected = format!(
+            "`{name}` sets up each polygon: call `SpanShader::polygon` before its vertices"
+        );
+        assert_eq!(message.downcast_ref::<String>(), Some(&expected));
+    }
+}
+
+/// No method fails on a line without pixels, on a line that ends with the last column, or between
+/// ends that are no numbers.
+#[test]
+fn a_line_may_be_empty_or_anywhere() {
+    let lights = [Light::directional(DVec3::Z, [0.6; 3])];
+    for coloured in [false, true] {
+        let mut rectangle = Rectangle::new(&lights, Interpolation::Screen);
+        rectangle.lighting.vertex_colours = coloured;
+        for variant in METHODS.iter().map(|row| row.variant()) {
+            let Ok(shader) = SpanShader::new(&variant, &rectangle.lighting, Interpolation::Screen)
+            else {
+                continue; // integer methods have no vertex colours
+            };
+            for level in SimdLevel::available() {
+                let mut shader = shader.clone().with_simd(level);
+                for pixels in [0, 1, 7, 8, 9] {
+                    for first in [0, 8, u32::MAX - 9, u32::MAX - 3, u32::MAX] {
+                        let mut colours = vec![[9.0; 3]; pixels];
+                        rectangle.shade_by(&mut shader, &variant, first, &mut colours);
+                        let is_shaded = |c: &[f32; 3]| c.iter().all(|c| *c != 9.0);
+                        let who = format!("{variant} on {level}: {pixels} from {first}");
+                        assert!(colours.iter().all(is_shaded), "{who}");
+                    }
+                    let ends = [8.0, 56.0].map(|_| vec![0.1; shader.varyings()]);
+                    for [from, to] in [
+                        [56.0, 8.0],
+                        [f32::NAN, 8.0],
+                        [f32::NEG_INFINITY, f32::INFINITY],
+                        [1e30, -1e30],
+                    ] {
+                        let ends = [(from, &ends[0][..]), (to, &ends[1][..])];
+                        shader.shade(ends, [8, 2], &mut vec![[9.0; 3]; pixels]);
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// A builder that is used again makes its second frame without a single allocation, from vertices

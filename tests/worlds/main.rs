@@ -12,10 +12,12 @@
 //! makes the world as small as possible and prints it as the files of a scene. Make a test from
 //! these files, and let its name say the situation.
 
+mod builders;
 mod doors;
 mod files;
 mod mesh;
 mod numbers;
+mod passes;
 mod properties;
 mod scene;
 mod wild;
@@ -114,6 +116,7 @@ fn everything_holds_in_random_worlds() {
     assert!(tally.seen * 2 > worlds, "{tally:?}");
     assert!(tally.pixels_in_bound > 200 * worlds, "{tally:?}");
     assert!(tally.simple_polygons > worlds, "{tally:?}");
+    assert!(tally.second_passes > worlds, "{tally:?}");
 }
 
 /// Numbers that are not finite, overflow or vanish must lead to an error or a picture.
@@ -153,4 +156,19 @@ fn both_doors_refuse_and_draw_the_same_scenes() {
     assert_none(&failures);
     let worlds = worlds as usize;
     assert!(10 * refused > worlds && 2 * equal > worlds);
+}
+
+/// A program may build frames of any values: polygons of 0 to 200 corners, vertices on the screen and
+/// in clip space, lights and eyes anywhere, pictures of one pixel.
+#[test]
+fn no_frame_that_a_program_builds_makes_it_panic() {
+    let frames = 2 * setting("FASTPHONG_WORLDS", WORLDS);
+    let drawn = Cell::new(0);
+    let failures = try_all(&builders::choices(), frames, |numbers| {
+        drawn.set(drawn.get() + u32::from(builders::draw(&numbers)?));
+        Ok(())
+    });
+    println!("{frames} frames, {} of them drawn", drawn.get());
+    assert_none(&failures);
+    assert!(drawn.get() * 5 > frames, "{} are drawn", drawn.get());
 }

@@ -1,5 +1,6 @@
 //! The properties that must hold in every world.
 
+use super::passes;
 use super::renderers::{depth_rounding, distinct, name, renderers};
 use fastphong::frame::{DepthRange, Frame, FrameBuilder, FrameError};
 use fastphong::mesh::Material;
@@ -31,6 +32,8 @@ pub struct Tally {
     pub pixels_in_bound: usize,
     /// Pictures that were drawn on one thread and on three.
     pub threads: usize,
+    /// Second passes over the same depths that drew what the first one drew.
+    pub second_passes: usize,
 }
 
 impl AddAssign for Tally {
@@ -41,6 +44,7 @@ impl AddAssign for Tally {
         self.simple_polygons += other.simple_polygons;
         self.pixels_in_bound += other.pixels_in_bound;
         self.threads += other.threads;
+        self.second_passes += other.second_passes;
     }
 }
 
@@ -74,6 +78,7 @@ pub fn check(scene: &Scene) -> Result<Tally, String> {
             tally.threads += 1;
         }
     }
+    tally.second_passes = passes::check(&frame)?;
     check_views(&frame)?;
     check_trace(&frame)?;
     Ok(tally)

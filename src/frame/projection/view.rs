@@ -4,7 +4,7 @@
 use super::clip::Plane;
 use crate::frame::{DepthRange, Frame, FrameError, ScreenVertex, SubPixel, guard, sub_pixel};
 use crate::scene::{
-    Camera, Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
+    Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Projection, Scene,
 };
 use glam::{DMat4, DVec4};
 
@@ -61,7 +61,7 @@ impl<'a> View<'a> {
             in_front: true,
             w: None,
         };
-        let Camera { near, far, .. } = scene.camera;
+        let [near, far] = scene.camera.planes();
         let (z_scale, [near, far]) = match scene.camera.projection {
             Projection::Orthographic { .. } => {
                 let plane = |normal| Plane {

@@ -74,8 +74,9 @@ use crate::picture::encoding::quantise;
 use crate::shading::light::Uniforms;
 use crate::shading::{CellLayout, ShadingRate, SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
+use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::cell::RefCell;
+use core::cell::Cell;
 use core::ops::Range;
 use quads::QuadBatch;
 use runs::RunQueue;
@@ -114,6 +115,8 @@ use with_level;
 #[derive(Debug, Default)]
 struct Buffers {
     tile: Tile,
+    /// The depths of the tile's pixels, where another engine finds them.
+    depths: Tile,
     batch: Batch,
     quads: QuadBatch,
     fragments: Fragments,
@@ -126,7 +129,16 @@ struct Buffers {
 }
 
 std::thread_local! {
-    static BUFFERS: RefCell<Buffers> = RefCell::default();
+    static BUFFERS: Cell<Option<Box<Buffers>>> = const { Cell::new(None) };
+}
+
+/// Lends this thread's buffers to `work`. They are taken out meanwhile: a shader that draws inside
+/// finds none and makes others, and after a panic none are left that hold half a tile.
+fn with_buffers<T>(work: impl FnOnce(&mut Buffers) -> T) -> T {
+    let mut buffers = BUFFERS.take().unwrap_or_default();
+    let result = work(&mut buffers);
+    BUFFERS.set(Some(buffers));
+    result
 }
 
 /// A method on a frame, and the layout of its pixels.
@@ -145,31 +157,43 @@ struct RowEngine<'a> {
     only: Option<UniformsIndex>,
     /// True if a polygon's packed colour is the only varying: see `packed.rs`.
     is_packed: bool,
+    /// Finds the depths that are compared with the caller's and stored there, if this engine draws
+    /// triangles by runs. Depths of runs are rounded otherwise than those of planes, and a second
+    /// pass by another method must find its own.
+    depths: Option<Box<RowEngine<'a>>>,
     background: [u8; 4],
 }
 
 /// Draws a method on a frame, tile by tile. `is_levels` says that the picture stores levels of
-/// linear intensity.
+/// linear intensity, `has_depth` that there is a caller's depth buffer.
 pub(super) fn draw(
     variant: &Variant,
     frame: &Frame,
     level: SimdLevel,
-    is_levels: bool,
+    [is_levels, has_depth]: [bool; 2],
     each_band: &mut EachBand<'_>,
 ) {
     // Supersampled pixels are averaged as linear floats and become levels later.
-    let is_scaled = is_levels && frame.samples() == 1;
-    let scale = if is_scaled { 255.0 } else { 1.0 };
-    let [memory, packed] = BUFFERS.with_borrow_mut(|buffers| {
-        [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take)
-    });
+    let is_levels = is_levels && frame.samples() == 1;
+    let scale = if is_levels {
+        let row = variant.row().on(frame);
+        row.kernels(frame.light_count(), frame.is_local())
+            .scale_of_bytes()
+    } else {
+        1.0
+    };
+    let [memory, packed] =
+        with_buffers(|buffers| [&mut buffers.varyings, &mut buffers.packed].map(core::mem::take));
     let Some(mut rows) = RowEngine::new(variant, frame, level, scale, memory) else {
         unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
-    let kept = if is_scaled { rows.pack(packed) } else { packed };
+    if has_depth && !rows.is_planar {
+        rows.depths = Some(Box::new(RowEngine::of_depths(frame, level)));
+    }
+    let kept = if is_levels { rows.pack(packed) } else { packed };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|index, band, target| {
-        BUFFERS.with_borrow_mut(|buffers| {
+        with_buffers(|buffers| {
             rows.fill_tile(&bins, index, &band, buffers);
             for row in 0..band.len() {
                 rows.shade(row, buffers, target);
@@ -182,7 +206,33 @@ pub(super) fn draw(
         } else {
             (values, kept)
         };
-        BUFFERS.with_borrow_mut(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
+        with_buffers(|buffers| (buffers.varyings, buffers.packed) = (varyings, packed));
+    }
+}
+
+/// The depths that every method of the row engine stores in a caller's buffer.
+pub(super) struct RowDepths<'a>(RowEngine<'a>);
+
+impl<'a> RowDepths<'a> {
+    pub fn new(frame: &'a Frame, level: SimdLevel) -> Self {
+        RowDepths(RowEngine::of_depths(frame, level))
+    }
+
+    /// Returns the depth of a polygon at pixels of scanline `row` that it covers.
+    pub fn at<const N: usize>(&self, polygon: u32, row: usize, pixels: [usize; N]) -> [f32; N] {
+        let frame = self.0.setup.frame;
+        let top = row / HEIGHT * HEIGHT;
+        let band = top..(top + HEIGHT).min(frame.height());
+        let polygons = [Listed::new(frame, polygon)];
+        with_buffers(|buffers| {
+            buffers.tile.prepare(HEIGHT, frame.width(), self.0.cell);
+            buffers.queue.prepare(0);
+            with_level!(self.0.level, S => self.0.rasterise::<S>(&polygons, &band, buffers));
+            let tile = &mut buffers.tile;
+            let depths = pixels.map(|x| tile.depth(row - top, x));
+            (0..band.len()).for_each(|row| tile.clear_row(row));
+            depths
+        })
     }
 }
 
@@ -206,7 +256,7 @@ pub(super) fn polygon_indices(variant: &Variant, frame: &Frame, level: SimdLevel
         &|start, pixels: &mut [u32]| {
             let index = start / a_band;
             let band = index * HEIGHT..((index + 1) * HEIGHT).min(frame.height());
-            BUFFERS.with_borrow_mut(|buffers| {
+            with_buffers(|buffers| {
                 rows.fill_tile(&bins, index, &band, buffers);
                 for (row, to) in pixels.chunks_exact_mut(frame.width()).enumerate() {
                     rows.take_indices(row, &mut buffers.tile, to);
@@ -275,12 +325,32 @@ impl<'a> RowEngine<'a> {
             is_planar: walk.is_none() && cell.count() <= MOST,
             cell,
             is_packed: false,
+            depths: None,
             only,
             background: [r, g, b, 0],
             kernels,
             walk,
             setup,
         })
+    }
+
+    /// Makes an engine that finds depths as methods do that draw triangles by plane equations.
+    fn of_depths(frame: &'a Frame, level: SimdLevel) -> RowEngine<'a> {
+        let setup = SetUp::of_depths(frame);
+        let kernels = (setup.kernels.simd)(level);
+        RowEngine {
+            level,
+            kernels: kernels.expect("flat shading has loops for each instruction set"),
+            setup,
+            walk: None,
+            is_planar: true,
+            test: SampleDepth::new(frame),
+            cell: CellLayout::default(),
+            is_packed: false,
+            depths: None,
+            only: None,
+            background: [0; 4],
+        }
     }
 
     /// Changes the engine so that pixels hold the index of their polygon in place of varyings and
@@ -316,6 +386,11 @@ impl<'a> RowEngine<'a> {
 
     /// Prepares an empty tile and rasterises all polygons of a band into it.
     fn fill_tile(&self, bins: &Bins, index: usize, band: &Range<usize>, buffers: &mut Buffers) {
+        if let Some(depths) = &self.depths {
+            core::mem::swap(&mut buffers.tile, &mut buffers.depths);
+            depths.fill_tile(bins, index, band, buffers);
+            core::mem::swap(&mut buffers.tile, &mut buffers.depths);
+        }
         let width = self.setup.frame.width();
         buffers.tile.prepare(HEIGHT, width, self.cell);
         buffers.queue.prepare(self.setup.varyings.count);

@@ -28,9 +28,14 @@ pub(crate) struct RowBuffers {
 impl RowEngine<'_> {
     /// Shades row `row` of a tile into `target`, and empties the row.
     pub(super) fn shade(&self, row: usize, buffers: &mut Buffers, target: &mut dyn Target) {
-        let Buffers { tile, line, .. } = buffers;
+        let Buffers {
+            tile, depths, line, ..
+        } = buffers;
         let width = self.setup.frame.width();
         if let Some(stored) = target.depth(row) {
+            if self.depths.is_some() {
+                tile.take_depths(row, depths);
+            }
             tile.hide_behind(row, stored);
         }
         let (blocks, background) = (tile.drawn(), self.background);

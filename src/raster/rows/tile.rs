@@ -80,6 +80,19 @@ impl Tile {
         &self.values[first..first + blocks.len() * self.stride()]
     }
 
+    /// Takes the depths of a row over from a tile of the same pixels, and empties the row there.
+    pub fn take_depths(&mut self, row: usize, from: &mut Tile) {
+        let (drawn, stride) = (self.drawn(), self.stride());
+        let first = (row * self.blocks + drawn.start) * stride;
+        let blocks = self.values[first..][..drawn.len() * stride].chunks_exact_mut(stride);
+        let others = from.row(row, drawn).chunks_exact(from.stride());
+        let depths = BLOCK * CellLayout::DEPTH..BLOCK * (CellLayout::DEPTH + 1);
+        for (block, other) in blocks.zip(others) {
+            block[depths.clone()].copy_from_slice(&other[depths.clone()]);
+        }
+        from.clear_row(row);
+    }
+
     /// Empties the pixels of a row that fail the test against the caller's depth. Stores the depths
     /// of the other pixels in the caller's buffer.
     pub fn hide_behind(&mut self, row: usize, depth: CallersDepth<'_>) {
@@ -108,6 +121,12 @@ impl Tile {
                 test.hide::<REVERSED, EQUAL>(depth, stored);
             }
         }
+    }
+
+    /// Returns the depth at pixel `x` of a row.
+    pub fn depth(&self, row: usize, x: usize) -> f32 {
+        let block = self.row(row, x / BLOCK..x / BLOCK + 1);
+        block[BLOCK * CellLayout::DEPTH + x % BLOCK]
     }
 
     /// Stores the value at `index` of pixel `x` of the first row.

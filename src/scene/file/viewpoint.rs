@@ -6,7 +6,9 @@ use super::upright::turn;
 use crate::note::{Note, Notes};
 use crate::number::Written;
 use crate::scene::direction::unit;
-use crate::scene::ranges::{COORDINATE, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, TILT};
+use crate::scene::ranges::{
+    self, COORDINATE, FAR, FOVY, HALF_HEIGHT, NEAR, NumberRange, PLANE, TILT,
+};
 use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::{DMat3, DVec3};
 use std::format;
@@ -145,7 +147,7 @@ fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     } else {
         section.number("near", &PLANE)?
     };
-    let far = section.number("far", &PLANE)?;
+    let far = section.number("far", &FAR)?.map(ranges::far);
     match (near, far) {
         (Some(near), Some(far)) if far <= near => {
             let expected = format!("expected more than near = {}", Written(near));

@@ -43,7 +43,7 @@ use crate::shading::light::UniformsRef;
 use crate::shading::light::at_most;
 use crate::shading::light::eye_frame::carried;
 use crate::shading::light::{LightAt, LightModel, Uniforms};
-use crate::shading::walks::values::{Values, count, each, scaled};
+use crate::shading::walks::values::{Values, count, each, least, scaled};
 use crate::shading::walks::{Linear, Walk};
 use crate::shading::{
     Carried, Carries, CarriesOf, Corners, Kinds, Method, Needs, Pixel, PolygonConstants, Run,
@@ -288,6 +288,8 @@ pub(crate) struct Kernels {
     /// Returns how many values a varying, a pixel and a polygon's constants take for this many
     /// lights.
     pub(crate) counts: fn(usize) -> [usize; 3],
+    /// The most lights that its groups of values have room for.
+    pub(crate) lights: usize,
     pub(crate) needs: Needs,
     pub(crate) carries: Carried,
     pub(crate) kinds: &'static [&'static str],
@@ -330,6 +332,11 @@ impl Kernels {
                 let pixel = count::<Pixel<First<M>, f32>>(lights);
                 [varyings, pixel, M::Kinds::constants(lights)]
             },
+            lights: least(&[
+                <CarriesOf<M> as Carries>::Varying::<f32>::LIGHTS,
+                Pixel::<First<M>, f32>::LIGHTS,
+                <First<M> as Shader>::Constants::<f32>::LIGHTS,
+            ]),
             needs: needs::<M>(),
             carries: <CarriesOf<M> as Carries>::FROM,
             kinds: M::Kinds::NAMES,
@@ -348,6 +355,12 @@ impl Kernels {
 }
 
 impl Kernels {
+    /// Returns the factor of all lights where SIMD kernels write bytes. A method that does not sum
+    /// lights has its colours multiplied instead.
+    pub fn scale_of_bytes(&self) -> f32 {
+        if self.needs.sums_lights { 255.0 } else { 1.0 }
+    }
+
     /// Makes the kernels of a method that does not compute on a [`Num`], as those in integers.
     /// Vertices are lit as by `M`, and `pixels` shades. They are scalar only, for the reason `why`.
     pub(crate) const fn of_functions<M: Method>(pixels: PixelKernel, why: &'static str) -> Kernels {
@@ -364,13 +377,21 @@ impl Kernels {
 }
 
 /// Returns the needs of a method. Those of a method of several kinds are scalar only, as the
-/// G-buffer does not store kinds.
+/// G-buffer does not store kinds, and so are those of one whose pixels lack the constants of their
+/// polygon there.
 const fn needs<M: Method>() -> Needs {
     let needs = M::NEEDS;
     Needs {
+        // The kind that SIMD shades by decides.
+        sums_lights: <First<M> as Shader>::NEEDS.sums_lights,
         scalar_only: match needs.scalar_only {
             None if !M::Kinds::NAMES.is_empty() => {
                 Some("each kind of polygon has its own loop, and a block of pixels has one for all")
+            }
+            None if size_of::<<First<M> as Shader>::Constants<f32>>() > 0
+                && !needs.reads_span() =>
+            {
+                Some("only methods that read their span get the constants of a polygon on SIMD")
             }
             why => why,
         },
@@ -818,9 +839,16 @@ fn shade_blocks<M: Shader, S: Token>(
         let mut colour = colour(method, lit, extras, (pixel, extra)).array();
         match out {
             RowColours::Bytes(to, background) => {
-                if general {
+                if !M::NEEDS.sums_lights {
+                    // The lights were not multiplied: see `Kernels::scale_of_bytes`.
+                    colour = colour.map(
+                        #[inline(always)]
+                        |channel| channel * 255.0,
+                    );
+                }
+                if general || !M::NEEDS.sums_lights {
                     // A value that an `i32` cannot hold would be converted to the least one, so
-                    // clamp first. On the fast path no colour is that large.
+                    // clamp first. On the fast path no sum of lights is that large.
                     let [r, g, b] = colour;
                     colour = [at_most(r, 255.0), at_most(g, 255.0), at_most(b, 255.0)];
                 }

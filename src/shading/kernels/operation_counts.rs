@@ -357,7 +357,7 @@ mod tests {
             let frame = frame(bench, *interpolation);
             for row in METHODS {
                 let variant = row.variant();
-                if (row.fit)(On::Frame(&frame)).refused().is_some() {
+                if row.refuses(On::Frame(&frame)).is_some() {
                     continue;
                 }
                 let counted = row.count(bench, &variant);

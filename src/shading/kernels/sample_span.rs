@@ -134,7 +134,7 @@ impl SpanBench {
         } else {
             Interpolation::Screen
         };
-        (variant.row().fit)(On::Spans(&self.lighting, interpolation)).refused()
+        (variant.row()).refuses(On::Spans(&self.lighting, interpolation))
     }
 
     /// Returns the uniforms of a method with its default power function, at scale 1. They were made

@@ -113,9 +113,9 @@ impl SpanRow {
     /// If `pixels` is not a multiple of 16.
     pub fn new(variant: &Variant, bench: &SpanBench, pixels: usize) -> SpanRow {
         assert!(pixels.is_multiple_of(2 * BLOCK), "whole blocks");
-        let uniforms = bench.uniforms(variant, 255.0);
-        let lights = uniforms.lights.len();
+        let lights = bench.lighting.lights.len();
         let kernels = variant.row().kernels(lights, bench.is_local());
+        let uniforms = bench.uniforms(variant, kernels.scale_of_bytes());
         let [varyings, planes, _] = (kernels.counts)(lights);
         let planes = planes.max(varyings) + bench.extras(variant).count();
         SpanRow {

@@ -92,7 +92,8 @@ pub(crate) struct Uniforms {
 /// compiler would load them again after every store if they were behind a reference.
 #[derive(Clone, Copy, Debug)]
 pub struct LightModel {
-    /// The factor in all colours: 255 if they become bytes, otherwise 1.
+    /// The factor in all lights: 255 if colours become bytes and the method
+    /// [sums lights](super::Needs::sums_lights), otherwise 1.
     pub scale: f32,
     ambient: Vec3<f32>,
     /// The unit vector toward the eye, or its position.

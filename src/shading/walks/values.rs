@@ -5,6 +5,8 @@ use crate::number::{Num, Vec3};
 
 /// A group of values: one value, a vector, a tuple of groups, or one value per light.
 pub trait Values<F: Num>: Copy {
+    /// The most lights that the group has values for.
+    const LIGHTS: usize = usize::MAX;
     /// Makes a group for `lights` lights whose values are all `value`.
     fn filled(lights: usize, value: F) -> Self;
     /// Passes the values to `to` in order, to be read or changed. Their indices begin at `next`,
@@ -58,6 +60,7 @@ impl<F: Num> Values<F> for () {
 }
 
 impl<F: Num, P: Values<F>, const N: usize> Values<F> for [P; N] {
+    const LIGHTS: usize = P::LIGHTS;
     #[inline(always)]
     fn filled(lights: usize, value: F) -> Self {
         [P::filled(lights, value); N]
@@ -92,10 +95,23 @@ impl<F: Num> Values<F> for F {
     }
 }
 
+/// Returns the least of some counts.
+pub(crate) const fn least(mut counts: &[usize]) -> usize {
+    let mut least = usize::MAX;
+    while let [count, rest @ ..] = counts {
+        if *count < least {
+            least = *count;
+        }
+        counts = rest;
+    }
+    least
+}
+
 /// Implements [`Values`] for a structure, with its fields in order.
 macro_rules! values {
     ([$($parameter:ident),*] $name:ty, { $($field:tt: $kind:ty),+ }, $make:expr) => {
         impl<F: Num, $($parameter: Values<F>),*> Values<F> for $name {
+            const LIGHTS: usize = $crate::shading::walks::values::least(&[$(<$kind as Values<F>>::LIGHTS),+]);
             #[inline(always)]
             fn filled(lights: usize, value: F) -> Self {
                 #[allow(clippy::redundant_closure_call)] // the fields in order
@@ -150,6 +166,7 @@ impl<F: Copy, const L: usize> PerLight<F, L> {
 }
 
 impl<F: Num, const L: usize> Values<F> for PerLight<F, L> {
+    const LIGHTS: usize = L;
     #[inline(always)]
     fn filled(lights: usize, value: F) -> Self {
         Self::new(lights, value)

@@ -5,5 +5,6 @@ mod agreement;
 mod coverage;
 mod frames;
 mod memory;
+mod second_passes;
 mod streamed;
 mod threads;

@@ -263,6 +263,16 @@ fn fit_rule() {
     );
 }
 
+/// A far plane at infinity stands for the farthest one, also where it is printed.
+#[test]
+fn a_far_plane_at_infinity() {
+    let far = |far: &str| {
+        let camera = format!("[camera]\neye = [0, 0, 5]\nfovy = 40\nnear = 1\nfar = {far}");
+        resolve(&with_object(&camera)).scene.camera.far
+    };
+    assert_eq!([far("inf"), far("+inf"), far("1e20")], [1e20; 3]);
+}
+
 #[test]
 fn camera_at_a_given_place() {
     let camera = resolve(&with_object(

@@ -34,7 +34,10 @@ impl<const L: usize> Shader for SlerpPhong<L> {
                 division each; the picture of a triangle depends on how it lies; opposite normals have no great circle",
         ..Info::OF_PIXELS
     };
-    const NEEDS: Needs = Needs::GREAT_CIRCLES;
+    const NEEDS: Needs = Needs {
+        sums_lights: true,
+        ..Needs::GREAT_CIRCLES
+    };
     type Constants<F: Num> = Vec3<F>; // the polygon's normal
     type Carries = Normal;
     type Walk<F: Num> = GreatCircle<F, (PerLight<F, L>, F)>;

@@ -31,6 +31,7 @@ impl Shader for Flat {
     const NEEDS: Needs = Needs {
         shading_rate: ShadingRate::Polygon,
         perspective: Perspective::Unaffected,
+        sums_lights: true,
         ..Needs::PIXELS_BY_POLYGON
     };
     type Constants<F: Num> = ();

@@ -35,6 +35,7 @@ impl Shader for Gouraud {
         shading_rate: ShadingRate::Vertex,
         local: Local::PerVertex,
         perspective: Perspective::Divides,
+        sums_lights: true,
         ..Needs::PIXELS
     };
     type Constants<F: Num> = ();

@@ -49,6 +49,7 @@ impl<const L: usize, const FAST: bool> Shader for DuffPhong<L, FAST> {
         } else {
             Local::PerPixel
         },
+        sums_lights: true,
         ..Needs::PIXELS
     };
     type Constants<F: Num> = ();
@@ -159,6 +160,7 @@ impl<const L: usize> Shader for DuffPhongLocal<L> {
     const INFO: Info = DUFF_PHONG;
     const NEEDS: Needs = Needs {
         general_only: true,
+        sums_lights: true,
         ..Needs::PIXELS
     };
     type Constants<F: Num> = ();

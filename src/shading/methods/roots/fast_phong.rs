@@ -56,7 +56,10 @@ impl<const L: usize> Shader for FastPhong<L> {
         ))],
         ..Info::OF_PIXELS
     };
-    const NEEDS: Needs = Needs::PIXELS_BY_POLYGON;
+    const NEEDS: Needs = Needs {
+        sums_lights: true,
+        ..Needs::PIXELS_BY_POLYGON
+    };
     type Constants<F: Num> = ();
     type Carries = ProductsAndNormal<L>;
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Newton<F>);

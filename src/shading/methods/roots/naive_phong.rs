@@ -3,7 +3,7 @@
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::shading::{
-    Info, LightAt, Linear, Normal, Pixel, Roundings, Shader, Span, Stepped, Tier,
+    Info, LightAt, Linear, Needs, Normal, Pixel, Roundings, Shader, Span, Stepped, Tier,
 };
 
 /// Naive Phong shading: three additions per pixel for N, then a root, a division and equation 2.1
@@ -35,6 +35,10 @@ impl Shader for NaivePhong {
                      along N is lost when N is normalised",
         fails: "where normals cancel inside a span; the slope of the intensity still jumps at edges (Duff 1979)",
         ..Info::OF_PIXELS
+    };
+    const NEEDS: Needs = Needs {
+        sums_lights: true,
+        ..Needs::PIXELS
     };
     type Constants<F: Num> = ();
     type Carries = Normal;

@@ -4,7 +4,7 @@
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 use crate::shading::{
-    Info, LightAt, Linear, Normal, Pixel, Roundings, Shader, Span, Stepped, Tier,
+    Info, LightAt, Linear, Needs, Normal, Pixel, Roundings, Shader, Span, Stepped, Tier,
 };
 
 /// Naive Phong shading without vectors at the light: three additions per pixel for N, then
@@ -31,6 +31,10 @@ impl Shader for PhongRsqrt {
                      products with r and R.V half each",
         fails: "as naive-phong",
         ..Info::OF_PIXELS
+    };
+    const NEEDS: Needs = Needs {
+        sums_lights: true,
+        ..Needs::PIXELS
     };
     type Constants<F: Num> = ();
     type Carries = Normal;
