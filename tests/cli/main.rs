@@ -9,6 +9,7 @@ mod doors;
 mod engines;
 mod figure;
 mod files;
+mod flag_pairs;
 mod flags;
 mod folders;
 mod formats;

@@ -29,7 +29,7 @@ pub struct CompareArgs {
     #[arg(long, conflicts_with = "all_columns")]
     json: bool,
     /// Compare the ways to weight vertex normals instead of methods
-    #[arg(long, conflicts_with_all = ["all_columns", "json", "methods", "normals-weight"])]
+    #[arg(long, conflicts_with_all = ["all_columns", "json", "methods", "time_budget", "engine", "simd", "threads", "normals-weight"])]
     weights: bool,
     #[command(flatten)]
     scene: SceneFlags,

@@ -26,15 +26,16 @@ const WHAT_IS_TIMED: &str = "from the prepared scene to the stored picture in RG
 /// The largest number of frames per method.
 const MOST_FRAMES: usize = 1_000_000;
 
-/// The flags for how many frames to draw.
+/// The flags for how many frames to draw. clap waives `requires` if the required flag conflicts
+/// with one that is given, so both name those conflicts, too.
 #[derive(clap::Args, Clone, Copy, Debug, Serialize)]
 pub struct FrameCount {
     /// Number of frames to time for each method, 1 to 1000000
-    #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times")]
+    #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times", conflicts_with = "time_budget")]
     frames: usize,
     /// Number of frames to draw first for each method, 0 to 1000000, until caches and the clock
     /// frequency have settled
-    #[arg(long, value_name = "N", default_value = "5", value_parser = |text: &str| frames(text, 0), allow_hyphen_values = true, requires = "frame_times")]
+    #[arg(long, value_name = "N", default_value = "5", value_parser = |text: &str| frames(text, 0), allow_hyphen_values = true, requires = "frame_times", conflicts_with = "time_budget")]
     warmup: usize,
 }
 
