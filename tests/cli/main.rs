@@ -2,6 +2,7 @@
 
 mod aov;
 mod bench;
+mod bench_json;
 mod defaults;
 mod diagnose;
 mod diff;
