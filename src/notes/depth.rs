@@ -1,12 +1,13 @@
 //! Notes about depth: polygons whose depths rounding cannot tell apart, and polygons that
 //! interpolation on the screen distorts.
 
-use crate::frame::{DepthRange, Frame};
+use crate::frame::{DepthRange, Frame, Polygon};
 use crate::note::{Note, Notes, Setting};
 use crate::number::counted::{counted, grouped};
 use crate::raster::depth_ties::{DepthTies, depth_ties};
 use crate::scene::{HiddenSurfaces, Interpolation};
 use alloc::format;
+use alloc::vec::Vec;
 
 /// The share of covered samples decided by rounding from which on the user is warned.
 const SHARE: f64 = 0.001;
@@ -61,12 +62,12 @@ fn ties_note(frame: &Frame, ties: DepthTies) -> Note {
 /// interpolation on the screen. At 2, half-way on the screen is 1/3 of the way in space.
 const RATIO: f64 = 2.0;
 
-/// Returns the normal of a vertex. A vertex made by clipping has none: this returns the normal at
-/// one end of its edge.
-fn normal_at(frame: &Frame, vertex: u32) -> [f32; 3] {
+/// Returns the normal and the colour of a vertex. A vertex made by clipping has none: this returns
+/// those at both ends of its edge.
+fn varyings_at(frame: &Frame, vertex: u32) -> Vec<[[f32; 3]; 2]> {
     match frame.clip_corner(vertex) {
-        Some(cut) => normal_at(frame, cut.a),
-        None => frame.normal(vertex),
+        Some(cut) => [cut.a, cut.b].map(|end| varyings_at(frame, end)).concat(),
+        None => Vec::from([[frame.normal(vertex), frame.colour(vertex)]]),
     }
 }
 
@@ -77,18 +78,24 @@ pub(super) fn screen_interpolation(frame: &Frame, notes: &mut Notes) {
     if !is_perspective || frame.interpolation() == Interpolation::Perspective {
         return;
     }
-    let is_bent = |corners: &[u32]| {
+    let is_bent = |polygon: &&Polygon| {
+        let corners = frame.corners(polygon);
         let inv_w = |v: &u32| -frame.vertices()[*v as usize].depth;
         let least = corners.iter().map(inv_w).fold(f64::INFINITY, f64::min);
         let largest = corners.iter().map(inv_w).fold(0.0, f64::max);
-        let normal = normal_at(frame, corners[0]);
-        let varies = || corners.iter().any(|&v| normal_at(frame, v) != normal);
+        let has_colours = frame.lightings()[polygon.material as usize].vertex_colours;
+        let varies = || {
+            let all: Vec<_> = corners
+                .iter()
+                .flat_map(|v| varyings_at(frame, *v))
+                .collect();
+            let [normal, colour] = all[0];
+            all.iter()
+                .any(|[n, c]| *n != normal || has_colours && *c != colour)
+        };
         largest > RATIO * least && (frame.is_local() || varies())
     };
-    let polygons = frame.polygons().iter();
-    let bent = polygons
-        .filter(|polygon| is_bent(frame.corners(polygon)))
-        .count();
+    let bent = frame.polygons().iter().filter(is_bent).count();
     if bent > 0 {
         let one = "polygon is more than twice as far away at one corner as at another";
         let more = "polygons are more than twice as far away at one corner as at another";

@@ -67,6 +67,9 @@ fn nothing_drawn(frame: &Frame, cost: Cost) -> Option<Note> {
         let is_empty = cost == Cost::Samples && !is_anything_covered(frame);
         return is_empty.then(|| Note::warning(KIND, text));
     }
+    if s.polygons == 0 {
+        return Some(Note::warning(KIND, "nothing is drawn: there is no polygon"));
+    }
     // Polygons without area, or that cannot be projected, were reported already.
     let reasons = [
         (

@@ -103,3 +103,67 @@ fn eye_beyond(drawn: &DrawnScene, notes: &mut Notes) {
         .set(local);
     notes.push(note);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::builtin::builtin;
+    use crate::mesh::{MeshBuilder, PolygonMesh};
+    use crate::scene::Light;
+    use alloc::string::ToString;
+    use alloc::vec::Vec;
+    use glam::Vec3;
+
+    /// Returns the mesh of polygons with these corners, over four positions in the plane z = 0. The
+    /// last lies between the first two.
+    fn mesh(polygons: &[&[u32]]) -> PolygonMesh {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0]];
+        let position = |[x, y]: [f32; 2]| Vec3::new(x, y, 0.0);
+        let mut builder = MeshBuilder::new(corners.map(position).to_vec());
+        for polygon in polygons {
+            builder.polygon(polygon);
+        }
+        builder.finish().expect("a mesh")
+    }
+
+    /// A program that builds its scene without a file learns what users of files learn.
+    #[test]
+    fn scenes_that_a_program_builds_have_all_notes() {
+        let cube = || Scene::of_mesh(builtin("cube").expect("a cube"));
+        let triangle = || Scene::of_mesh(mesh(&[&[0, 1, 2]]));
+        let lit_from = |place: [f64; 3]| {
+            let mut scene = triangle();
+            let toward = DVec3::from_array(place).normalize();
+            scene.lights = Vec::from([Light::directional(toward, [1.0; 3])]);
+            scene
+        };
+        let mut dark = lit_from([0.0, 0.0, 1.0]);
+        dark.lights[0].colour = [1e-9; 3];
+        let mut bright = lit_from([0.0, 0.0, 1.0]);
+        bright.lights[0].colour = [9.0; 3];
+        let mut turned = cube();
+        turned.camera.target = 2.0 * turned.camera.eye - turned.camera.target;
+        for (name, scene, told) in [
+            ("right", cube(), ""),
+            ("empty", Scene::of_mesh(mesh(&[])), "there is no polygon"),
+            (
+                "without area",
+                Scene::of_mesh(mesh(&[&[0, 1, 3]])),
+                "has no area",
+            ),
+            (
+                "doubled",
+                Scene::of_mesh(mesh(&[&[0, 1, 2], &[1, 2, 0]])),
+                "earlier one",
+            ),
+            ("out of view", turned, "nothing is drawn"),
+            ("lit from behind", lit_from([0.0, 0.0, -1.0]), "face away"),
+            ("too dark", dark, "too dark to show"),
+            ("too bright", bright, "is clamped"),
+        ] {
+            let notes = of_frame(&scene, &scene.frame().expect("a frame"), Cost::Samples);
+            assert!(notes.to_string().contains(told), "{name}: {notes}");
+            assert_eq!(notes.is_empty(), told.is_empty(), "{name}: {notes}");
+        }
+    }
+}

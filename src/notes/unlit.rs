@@ -1,10 +1,11 @@
 //! Warns of lights that light nothing, and of pictures that no light reaches.
 
 use super::drawn_scene::DrawnScene;
+use crate::frame::{Frame, Polygon};
 use crate::mesh::orientation::is_inside_closed_surface;
 use crate::note::{Note, Notes};
 use crate::number::counted::counted;
-use crate::scene::{LightTerm, Place};
+use crate::scene::{Falloff, LightTerm, Place};
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
@@ -27,13 +28,16 @@ pub(super) fn unlit(drawn: &DrawnScene, notes: &mut Notes) {
     }
 }
 
+/// The reasons why a light reaches nothing.
+const WHY: &str = "surfaces face away, or light or surfaces are black or too dark to show";
+
 /// The visible objects, and which lights fall on them.
 struct LitObjects {
     lights: usize,
     is_seen: Vec<bool>,
     /// For each object and each light: true if the light falls on a corner that is drawn.
     is_lit: Vec<bool>,
-    /// True if a material that is drawn reflects ambient light.
+    /// True if a material that is drawn reflects ambient light that shows.
     has_ambient: bool,
 }
 
@@ -50,11 +54,12 @@ impl LitObjects {
         // How many lights of each object are not known to fall on it yet. Most drop out at its
         // first polygons, so that the other polygons are skipped.
         let mut open = vec![lights; objects];
+        let least = least_shown(frame);
         for polygon in frame.polygons() {
             let (object, _) = drawn.place(polygon.source);
             let lighting = &frame.lightings()[polygon.material as usize];
             lit.is_seen[object] = true;
-            lit.has_ambient |= lighting.ambient != [0.0; 3];
+            lit.has_ambient |= brightest(lighting.ambient) >= least;
             if open[object] == 0 {
                 continue;
             }
@@ -62,12 +67,13 @@ impl LitObjects {
             let unknown = lighting.lights.iter().zip(of_object);
             for (light, is_lit) in unknown.filter(|(_, is_lit)| !**is_lit) {
                 let mut corners = frame.corners(polygon).iter();
-                *is_lit = corners.any(|&corner| {
-                    // A corner made by clipping has no normal. Assume that it is lit, so as not to
-                    // warn without reason.
-                    frame.clip_corner(corner).is_some()
-                        || falls(light, frame.normal(corner), frame.position(corner))
-                });
+                *is_lit = strongest(light, frame, polygon) >= least
+                    && corners.any(|&corner| {
+                        // A corner made by clipping has no normal. Assume that it is lit, so as not
+                        // to warn without reason.
+                        frame.clip_corner(corner).is_some()
+                            || falls(light, frame.normal(corner), frame.position(corner))
+                    });
                 open[object] -= usize::from(*is_lit);
             }
         }
@@ -80,18 +86,54 @@ impl LitObjects {
     }
 }
 
+/// Returns the light, in a channel, under which a pixel may be stored as black: half a level,
+/// shared by all lights and the ambient light.
+fn least_shown(frame: &Frame) -> f64 {
+    frame.encoding().decode(0.5 / 255.0) / (frame.light_count() + 1) as f64
+}
+
+/// Returns the largest channel of a colour.
+fn brightest(colour: [f32; 3]) -> f64 {
+    colour.into_iter().fold(0.0, f32::max).into()
+}
+
+/// Returns the most light that a light can give a polygon in a channel.
+fn strongest(light: &LightTerm, frame: &Frame, polygon: &Polygon) -> f64 {
+    let full = brightest(light.diffuse) + brightest(light.specular);
+    let corners = frame.corners(polygon);
+    let Place::Local(at) = light.place.map(wide) else {
+        return full;
+    };
+    // A corner made by clipping has no position.
+    let is_cut = |corner: &u32| frame.clip_corner(*corner).is_some();
+    if corners.iter().any(is_cut) {
+        return full;
+    }
+    let places = corners.iter().map(|corner| wide(frame.position(*corner)));
+    let low = places.clone().fold(DVec3::INFINITY, DVec3::min);
+    let high = places.fold(DVec3::NEG_INFINITY, DVec3::max);
+    // No point of the polygon is nearer than its bounding box.
+    let square = at.distance_squared(at.clamp(low, high));
+    full * match light.falloff {
+        Falloff::None => 1.0,
+        Falloff::Attenuation(k) => 1.0 / (1.0 + f64::from(k) * square),
+        Falloff::InverseSquare => 1.0 / square,
+        Falloff::Inverse => 1.0 / libm::sqrt(square),
+    }
+}
+
+/// Converts a vector to double precision.
+fn wide(v: [f32; 3]) -> DVec3 {
+    DVec3::from_array(v.map(f64::from))
+}
+
 /// True if light falls on a surface with this normal.
 fn falls(light: &LightTerm, normal: [f32; 3], position: [f32; 3]) -> bool {
-    let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let toward = match light.place {
         Place::Infinite(direction) => wide(direction),
         Place::Local(at) => wide(at) - wide(position),
     };
-    let is_bright = [light.diffuse, light.specular]
-        .concat()
-        .iter()
-        .any(|c| *c > 0.0);
-    is_bright && toward.dot(wide(normal)) > 0.0
+    toward.dot(wide(normal)) > 0.0
 }
 
 /// Returns a warning for each light at a position inside a closed surface that it does not light.
@@ -150,13 +192,12 @@ fn no_light(drawn: &DrawnScene, lit: &LitObjects) -> Option<String> {
                 1 => "the light does not reach".to_owned(),
                 n => format!("none of the {n} lights reaches"),
             };
-            let why = "surfaces face away, or light or surfaces are black";
             let left = if has_ambient {
                 "only ambient light is drawn"
             } else {
                 "there is no ambient light, so everything visible is black"
             };
-            Some(format!("{lights} anything visible: {why}; {left}"))
+            Some(format!("{lights} anything visible: {WHY}; {left}"))
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod aov;
 mod bench;
+mod bench_json;
 mod defaults;
 mod diagnose;
 mod diff;
@@ -9,6 +10,7 @@ mod doors;
 mod engines;
 mod figure;
 mod files;
+mod flag_pairs;
 mod flags;
 mod folders;
 mod formats;

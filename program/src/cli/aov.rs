@@ -55,6 +55,36 @@ impl Aov {
         format!("{self:?}").to_lowercase()
     }
 
+    /// Returns the flags of a scene that do not change this quantity.
+    pub fn unused_flags(self) -> Vec<&'static str> {
+        const LIGHT: &[&str] = &[
+            "light",
+            "light-at",
+            "attenuation",
+            "falloff",
+            "no-lights",
+            "ambient",
+            "ka",
+            "kd",
+            "ks",
+            "shininess",
+            "viewer",
+            "specular",
+            "shininess-for",
+            "specular-gate",
+        ];
+        const OF_VERTICES: &[&str] = &["normals", "normals-weight", "interpolation", "colours"];
+        const COLOUR: &[&str] = &["background", "encoding"];
+        match self {
+            Aov::Depth | Aov::Polygon => [LIGHT, OF_VERTICES, COLOUR].concat(),
+            Aov::Kind => COLOUR.to_vec(),
+            Aov::Normal => [LIGHT, &["colours", "encoding"]].concat(),
+            Aov::Colours | Aov::Checkerboard => {
+                [LIGHT, &["normals", "normals-weight", "colours"]].concat()
+            }
+        }
+    }
+
     /// Returns the quantity as floats. Depth is infinite where no polygon is visible.
     pub fn linear(self, frame: &Frame, subject: &Subject) -> LinearPicture {
         let grey = |value: f32, seen: bool| [value, value, value, f32::from(u8::from(seen))];

@@ -33,7 +33,7 @@ pub struct BenchArgs {
     frame_times: bool,
     /// Time single spans of 1 to 1024 pixels with one light and with four, shaded by the methods'
     /// scalar loops without an engine
-    #[arg(long, conflicts_with_all = ["inputs", "frame_times", "time_budget", "engine", "simd"])]
+    #[arg(long, conflicts_with_all = SceneFlags::and(&["inputs", "frame_times", "time_budget", "frames", "warmup", "engine", "simd", "threads"]))]
     spans: bool,
     #[command(flatten)]
     count: FrameCount,

@@ -3,8 +3,7 @@
 use super::engines::LectureFlags;
 use super::input_name;
 use super::measured::{Measurement, TimingFlags, command_line};
-use super::memory;
-use super::scene_flags::SceneFlags;
+use super::scene_flags::{SceneFlags, frame_of};
 use super::{CliError, Log, Outcome, done, weights};
 use crate::compare::comparison::{TableKind, table};
 use crate::report::Document;
@@ -30,7 +29,7 @@ pub struct CompareArgs {
     #[arg(long, conflicts_with = "all_columns")]
     json: bool,
     /// Compare the ways to weight vertex normals instead of methods
-    #[arg(long, conflicts_with_all = ["all_columns", "json", "methods", "normals-weight"])]
+    #[arg(long, conflicts_with_all = ["all_columns", "json", "methods", "time_budget", "engine", "simd", "threads", "normals-weight"])]
     weights: bool,
     #[command(flatten)]
     scene: SceneFlags,
@@ -73,7 +72,7 @@ impl CompareArgs {
     /// Prints the table that compares the weights of vertex normals.
     fn compare_weights(&self, log: Log) -> Result<Outcome, CliError> {
         let opened = self.scene.open(&self.input, Look::Compared, log)?;
-        memory::check_frame(&opened.scene)?;
+        frame_of(&opened, log)?;
         done(&weights::table(shown(&self.input), &opened.scene)?)
     }
 }

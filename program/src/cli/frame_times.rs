@@ -11,7 +11,6 @@ use fastphong::picture::Picture8;
 use fastphong::raster::{DrawOptions, Plan, Renderer};
 use fastphong::shading::Variant;
 use serde::Serialize;
-use serde_json::json;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -26,15 +25,16 @@ const WHAT_IS_TIMED: &str = "from the prepared scene to the stored picture in RG
 /// The largest number of frames per method.
 const MOST_FRAMES: usize = 1_000_000;
 
-/// The flags for how many frames to draw.
+/// The flags for how many frames to draw. clap waives `requires` if the required flag conflicts
+/// with one that is given, so both name those conflicts, too.
 #[derive(clap::Args, Clone, Copy, Debug, Serialize)]
 pub struct FrameCount {
     /// Number of frames to time for each method, 1 to 1000000
-    #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times")]
+    #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times", conflicts_with = "time_budget")]
     frames: usize,
     /// Number of frames to draw first for each method, 0 to 1000000, until caches and the clock
     /// frequency have settled
-    #[arg(long, value_name = "N", default_value = "5", value_parser = |text: &str| frames(text, 0), allow_hyphen_values = true, requires = "frame_times")]
+    #[arg(long, value_name = "N", default_value = "5", value_parser = |text: &str| frames(text, 0), allow_hyphen_values = true, requires = "frame_times", conflicts_with = "time_budget")]
     warmup: usize,
 }
 
@@ -97,7 +97,7 @@ pub fn frame_times(
         }
         Ok(())
     })?;
-    Ok((times.iter().map(FrameTime::line).collect(), json(&times)))
+    Ok((times.iter().map(FrameTime::line).collect(), json(&times)?))
 }
 
 impl FrameTime {
@@ -158,16 +158,14 @@ impl FrameTime {
     }
 }
 
-/// Returns the times as JSON, with each method on its own line.
-fn json(times: &[FrameTime]) -> String {
-    let head = [
-        ("schema", json!(SCHEMA)),
-        ("command_line", json!(command_line())),
-        ("machine", json!(Machine::this())),
-        ("timed", json!(WHAT_IS_TIMED)),
-    ];
-    let head = head.map(|(name, value)| format!("  \"{name}\": {value},\n"));
-    let lines = times.iter().map(|time| format!("    {}", json!(time)));
-    let (head, lines) = (head.concat(), lines.collect::<Vec<_>>().join(",\n"));
-    format!("{{\n{head}  \"frame_times\": [\n{lines}\n  ]\n}}\n")
+/// Returns the times as JSON, with each method on its own line. `json!` would sort the fields.
+fn json(times: &[FrameTime]) -> Result<String, CliError> {
+    let command_line = serde_json::to_string(&command_line())?;
+    let machine = serde_json::to_string(&Machine::this())?;
+    let lines = times.iter().map(serde_json::to_string);
+    let lines = lines.collect::<Result<Vec<String>, _>>()?.join(",\n    ");
+    Ok(format!(
+        "{{\n  \"schema\": \"{SCHEMA}\",\n  \"command_line\": {command_line},\n  \"machine\": {machine},\n  \
+         \"timed\": \"{WHAT_IS_TIMED}\",\n  \"frame_times\": [\n    {lines}\n  ]\n}}\n"
+    ))
 }

@@ -13,6 +13,7 @@ use super::scene_flags::{SceneFlags, note_frame, note_scene};
 use super::tolerance::{Tolerance, ToleranceFlags};
 use super::watch::watch;
 use super::{CliError, Log, Outcome, files, memory, values};
+use clap::ArgGroup;
 use fastphong::drawing::Drawing;
 use fastphong::frame::Frame;
 use fastphong::notes::{Cost, of_polygons};
@@ -32,7 +33,8 @@ use std::time::Instant;
 #[command(
     override_usage = "fastphong render [OPTIONS] --output <FILE> <INPUT>\n       \
                       fastphong render [OPTIONS] --reference <FILE> <INPUT>\n       \
-                      fastphong render [OPTIONS] <--stats|--print-scene> <INPUT>"
+                      fastphong render [OPTIONS] <--stats|--print-scene> <INPUT>",
+    group = ArgGroup::new("picture").args(["output", "reference"]).multiple(true)
 )]
 pub struct RenderArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard
@@ -51,27 +53,27 @@ pub struct RenderArgs {
     /// `auto` chooses the fastest method with naive Phong's picture; `fastphong info` shows which
     /// one that is. `reference` draws the f64 closed form of Phong shading, or of another model
     /// with `reference:model=flat|gouraud|phong|slerp`
-    #[arg(short, long, default_value = Drawing::AUTO, value_parser = Drawing::from_str)]
+    #[arg(short, long, default_value = Drawing::AUTO, value_parser = Drawing::from_str, requires = "picture")]
     method: Drawing,
     /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time; `row`, with
     /// SIMD; `auto`, which is `row` if it can draw the scene, else `span`; `barycentric`, also with
     /// `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See
     /// `fastphong list engines`
-    #[arg(long, default_value = "auto", value_parser = engines::engine)]
+    #[arg(long, default_value = "auto", value_parser = engines::engine, requires = "picture")]
     engine: EngineFlag,
     /// Instruction set of the pixel loops: `auto` (the best on this machine) or one of
     /// `fastphong list simd`. `scalar` selects the span engine (one thread, the same bytes on every
     /// platform), any other the row engine
-    #[arg(long, value_name = "ISA", default_value = "auto", value_parser = engines::simd)]
+    #[arg(long, value_name = "ISA", default_value = "auto", value_parser = engines::simd, requires = "picture")]
     simd: Simd,
     #[command(flatten)]
     threads: ThreadFlags,
     /// Show a quantity other than colour
     #[arg(long, value_enum, conflicts_with_all = ["engine", "simd"])]
     aov: Option<Aov>,
-    /// Side of a square of `--aov checkerboard`, in world units
-    #[arg(long, value_name = "UNITS", default_value = "1", value_parser = values::length, allow_hyphen_values = true, requires = "aov")]
-    square: f64,
+    /// Side of a square of `--aov checkerboard`, in world units [default: 1]
+    #[arg(long, value_name = "UNITS", value_parser = values::length, allow_hyphen_values = true, requires = "aov", conflicts_with_all = ["engine", "simd"])]
+    square: Option<f64>,
     /// Print the scene, flags included, as a scene file
     #[arg(long)]
     print_scene: bool,
@@ -110,6 +112,10 @@ impl RenderArgs {
 
     /// Loads the scene, then draws, writes and compares the picture.
     fn draw(&self, log: Log) -> Result<Outcome, CliError> {
+        if let (Some(aov), Some(_)) = (self.aov.filter(|a| *a != Aov::Checkerboard), self.square) {
+            let problem = format!("`--square` is for squares, not for `--aov {}`", aov.name());
+            return Err(format!("{problem}: expected `--aov checkerboard`").into());
+        }
         let mut output = self.output()?;
         let tolerance = self.tolerance()?;
         let beside: Vec<Output> = output.iter().cloned().collect();
@@ -132,7 +138,9 @@ impl RenderArgs {
         let mut opened = self.scene.open_file(file, look)?;
         if self.aov.is_some() && std::mem::replace(&mut opened.scene.samples, 1) > 1 {
             // The mean of several depths, normals or polygon indices has no meaning.
-            progress.aside(|| log.note("--aov shows a single sample per pixel, in its middle"));
+            progress.aside(|| {
+                log.note("--aov shows a single sample per pixel, in its middle (--samples 1)")
+            });
         }
         if self.aov == Some(Aov::Colours) {
             opened.notes.remove("colours-unused");
@@ -175,7 +183,11 @@ impl RenderArgs {
             match self.aov {
                 None => note_frame(&opened, &frame, log),
                 // Other quantities have no light.
-                Some(_) => log.notes(&of_polygons(&frame, Cost::Samples)),
+                Some(aov) => {
+                    log.notes(&of_polygons(&frame, Cost::Samples));
+                    let shown = format!("--aov {}", aov.name());
+                    log.notes(&self.scene.unused(&shown, &aov.unused_flags()));
+                }
             }
             if self.stats {
                 return print_beside(&beside, &stats_text(&frame));
@@ -193,6 +205,10 @@ impl RenderArgs {
         })?;
         if let Some(output) = &mut output {
             self.name(output, &job)?;
+            if let Some(format @ (Format::Ppm | Format::Pfm)) = output.format() {
+                let shown = format!("{} files, which have no alpha", format.ending());
+                progress.aside(|| log.notes(&self.scene.unused(&shown, &["alpha"])));
+            }
         }
         let check = tolerance
             .as_ref()
@@ -305,7 +321,7 @@ impl RenderArgs {
     fn job(&self, frame: Frame, renderer: Renderer, log: Log) -> Result<RenderJob, CliError> {
         if let Some(aov) = self.aov {
             let subject = Subject {
-                square: self.square,
+                square: self.square.unwrap_or(1.0),
                 variant: self.method_of(aov)?,
             };
             if aov == Aov::Kind {

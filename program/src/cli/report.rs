@@ -60,11 +60,11 @@ pub struct ReportArgs {
     full: bool,
     /// Compare saved `--json` files of several machines or commits side by side, without drawing.
     /// The files of all parts of one run (`--shard`) are joined. `-` is standard input
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["inputs", "figures", "studies", "full", "shard"])]
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = SceneFlags::and(&["inputs", "figures", "studies", "full", "shard", "methods", "time_budget", "engine", "simd", "threads"]))]
     from: Vec<PathBuf>,
     /// Do part K of N of the scenes, with errors but without times; `--from` joins the `--json`
     /// files of all parts
-    #[arg(long, value_name = "K/N", value_parser = Shard::parse, conflicts_with_all = ["figures", "studies"])]
+    #[arg(long, value_name = "K/N", value_parser = Shard::parse, conflicts_with_all = ["figures", "studies", "time_budget"])]
     shard: Option<Shard>,
     /// Also write README.md and its pictures beside the page
     #[arg(long)]

@@ -7,8 +7,10 @@ use super::{CliError, Log, files, memory};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::frame::Frame;
-use fastphong::note::{Door, SceneKeys, Setting as Suggestion};
+use fastphong::mesh::vertex_normals::NormalUse;
+use fastphong::note::{Door, Note, Notes, SceneKeys, Setting as Suggestion};
 use fastphong::notes::{self, Cost};
+use fastphong::scene::Projection;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::schema::{self, AXES, Flag, KEYS, Key, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
@@ -66,7 +68,8 @@ fn arg(key: &'static Key, flag: Flag) -> Arg {
     match flag.name {
         "resolution" => arg.visible_alias("size"),
         "light" | "light-at" => arg.action(ArgAction::Append),
-        "attenuation" | "falloff" => arg.requires("light-at"),
+        // clap waives `requires` beside a flag that excludes the required one.
+        "attenuation" | "falloff" => arg.requires("light-at").conflicts_with("no-lights"),
         "no-lights" => arg.conflicts_with_all(["light", "light-at"]),
         _ => arg,
     }
@@ -165,6 +168,8 @@ fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
 #[derive(Clone, Debug, Default)]
 pub struct SceneFlags {
     over: Overlay,
+    /// The names of the flags that are given.
+    given: Vec<&'static str>,
     /// The format of standard input; `None` if its bytes decide.
     input_format: Option<InputFormat>,
 }
@@ -204,9 +209,11 @@ impl clap::FromArgMatches for SceneFlags {
         let mut lights: Vec<SceneTable> = Vec::new();
         // The keys that every light of `--light-at` gets.
         let mut near = SceneTable::default();
+        let mut names = Vec::new();
         for (_, flag) in keys_with_flags() {
             let origin = Origin::Flag(format!("--{}", flag.name));
             let given = matches.get_many::<Vec<Setting>>(flag.name);
+            names.extend(given.is_some().then_some(flag.name));
             for settings in given.into_iter().flatten() {
                 if matches!(flag.name, "light" | "light-at") {
                     lights.push(SceneTable::default());
@@ -234,6 +241,7 @@ impl clap::FromArgMatches for SceneFlags {
         }
         Ok(SceneFlags {
             over: Overlay::new(scene, every_object),
+            given: names,
             input_format: matches.get_one(INPUT_FORMAT).copied(),
         })
     }
@@ -245,6 +253,13 @@ impl clap::FromArgMatches for SceneFlags {
 }
 
 impl SceneFlags {
+    /// Returns the names of all flags with `others`, for a flag that leaves none of them an effect.
+    pub fn and(others: &[&'static str]) -> Vec<&'static str> {
+        let of_keys = keys_with_flags().map(|(_, flag)| flag.name);
+        let own = [INPUT_FORMAT].into_iter().chain(of_keys);
+        own.chain(others.iter().copied()).collect()
+    }
+
     /// Opens the scene that `input` names, with the changes by flags, and prints the notes about
     /// it.
     ///
@@ -262,7 +277,9 @@ impl SceneFlags {
     /// # Errors
     /// If it cannot be used.
     pub fn open_file(&self, file: SceneFile, look: Look) -> Result<Opened, CliError> {
-        files::open(file, &self.over, look)
+        let mut opened = files::open(file, &self.over, look)?;
+        opened.notes.append(self.all_unused(&opened));
+        Ok(opened)
     }
 
     /// Loads the scene that `input` names, without the changes by flags.
@@ -276,6 +293,42 @@ impl SceneFlags {
             return Err(format!("{problem}: {expected}").into());
         }
         Ok(files::load(input, self.input_format)?)
+    }
+
+    /// Returns a note that names the flags among `names` that are given, but have no effect `on`
+    /// something; no note if none is given.
+    pub fn unused(&self, on: &str, names: &[&str]) -> Notes {
+        let unused = self.given.iter().filter(|name| names.contains(name));
+        let unused: Vec<String> = unused.map(|name| format!("--{name}")).collect();
+        let text = format!("no effect on {on}: {}", unused.join(", "));
+        let note = (!unused.is_empty()).then(|| Note::remark("no-effect", text));
+        note.into_iter().collect()
+    }
+
+    /// Returns notes about flags from which other settings of the scene take their effect.
+    fn all_unused(&self, opened: &Opened) -> Notes {
+        let scene = &opened.scene;
+        let mut notes = Notes::default();
+        if scene.lights.is_empty() {
+            let mut names = vec!["viewer", "specular", "shininess-for", "specular-gate"];
+            names.extend(["normals", "normals-weight"]);
+            // A material that replaces the file's changes the ambient light.
+            if !opened.notes.has("material-replaced") {
+                names.extend(["kd", "ks", "shininess"]);
+            }
+            notes.append(self.unused("pictures without lights", &names));
+        }
+        if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
+            notes.append(self.unused("parallel views", &["interpolation"]));
+        }
+        let averaged = scene.objects.iter().map(|object| {
+            let used = NormalUse::of(&object.mesh, object.normals.source);
+            used.averaged
+        });
+        if averaged.sum::<usize>() == 0 {
+            notes.append(self.unused("normals of files", &["normals-weight"]));
+        }
+        notes
     }
 
     /// Returns the changes by flags.

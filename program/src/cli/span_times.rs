@@ -9,7 +9,6 @@ use crate::compare::table::Table;
 use crate::compare::timing::{Candidate, Machine, TimeLimits, time_interleaved};
 use fastphong::shading::{SpanBench, Variant};
 use serde::Serialize;
-use serde_json::json;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -31,6 +30,17 @@ struct SpanTimes {
     lights: usize,
     /// Nanoseconds per span, for each length.
     ns: Vec<f64>,
+}
+
+/// The data, with its fields in the order of `docs/bench-json.md`.
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: &'static str,
+    command_line: Vec<String>,
+    machine: Machine,
+    degrees: f32,
+    lengths: [usize; LENGTHS.len()],
+    spans: &'a [SpanTimes],
 }
 
 /// Times spans with one light and with four; returns the times as text and as JSON.
@@ -69,11 +79,15 @@ pub fn span_times(methods: &[Variant], log: Log) -> Result<(String, String), Cli
     for (times, timings) in all.iter_mut().zip(timings.chunks(LENGTHS.len())) {
         times.ns = timings.iter().map(|timing| timing.min_ns).collect();
     }
-    let head = json!({
-        "schema": SCHEMA, "command_line": command_line(), "machine": Machine::this(),
-        "degrees": DEGREES, "lengths": LENGTHS, "spans": all,
-    });
-    let json = format!("{head:#}\n");
+    let document = Document {
+        schema: SCHEMA,
+        command_line: command_line(),
+        machine: Machine::this(),
+        degrees: DEGREES,
+        lengths: LENGTHS,
+        spans: &all,
+    };
+    let json = serde_json::to_string_pretty(&document)? + "\n";
     Ok((table(&all), json))
 }
 
