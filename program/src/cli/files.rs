@@ -441,6 +441,20 @@ pub fn is_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| found.is_file())
 }
 
+/// Removes a plain file, if there is one.
+///
+/// # Errors
+/// If it cannot be removed, or the command reads it.
+pub fn remove(path: &Path) -> Result<(), CliError> {
+    if !fs::symlink_metadata(path).is_ok_and(|found| found.is_file()) {
+        return Ok(());
+    }
+    let name = "the file to remove";
+    check(&[Destination { name, path }])?;
+    let failed = |error| format!("{}: cannot be removed: {error}", path.display());
+    Ok(fs::remove_file(path).map_err(failed)?)
+}
+
 /// True if both paths lead to the same plain file, or would if it existed.
 fn is_one_file(a: &Path, b: &Path) -> bool {
     place(a) == place(b) && fs::metadata(a).map_or(true, |found| found.is_file())
