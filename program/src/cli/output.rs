@@ -206,15 +206,6 @@ impl Output {
         self.write(|out| out.write_all(bytes))
     }
 
-    /// Removes the file at a path that the command chose, if fastphong made it.
-    ///
-    /// # Errors
-    /// If it cannot be removed.
-    pub fn remove(&self) -> Result<(), CliError> {
-        let own = self.path().filter(|path| self.contents.is_own(path));
-        own.map_or(Ok(()), files::remove)
-    }
-
     /// Writes the output with `write`. A file is written whole or not at all.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! `render --reference`: compares a picture with the one that was accepted before.
 
-use super::contents::Contents;
+use super::contents::{self, Contents};
 use super::diff::comparison::{
     self, Comparison, Perceived, SCALE, alpha_text, encoding_text, encodings_text, failed_text,
     has_two_encodings, sizes_text,
@@ -12,8 +12,8 @@ use super::tolerance::{Judged, Levels, Tolerance};
 use super::{CliError, Outcome, files};
 use crate::report::shell_word;
 use fastphong::compare::metrics::Difference;
-use fastphong::picture::Encoding;
 use fastphong::picture::image_file::{FilePicture, Format, Pair};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Prints a warning.
@@ -81,8 +81,9 @@ impl ReferenceCheck<'_> {
             text += &format!("{why}\n");
         }
         let candidate = self.keep(format, &actual, warn);
-        let map = FilePicture::stored(map).encoded(Encoding::Srgb);
-        let map = self.write(self.map_path(format), Format::Png, &map, warn);
+        let map = self.write(self.map_path(format), Format::Png, warn, |out| {
+            contents::write_map(map, out)
+        });
         if let Some(path) = &candidate {
             text += &format!("actual: {}\n", path.display());
         }
@@ -121,10 +122,13 @@ impl ReferenceCheck<'_> {
         sibling(beside, self.reference, "diff", Format::Png)
     }
 
-    /// Removes the map of an earlier failure, which would contradict the outcome.
+    /// Removes the map of an earlier failure, which would contradict the outcome. Another picture of
+    /// this name stays: it may be the reference of another scene.
     fn remove_map(&self, format: Format, warn: Warn<'_>) {
-        let map = self.beside(self.map_path(format), Format::Png);
-        if let Err(error) = map.remove() {
+        let path = self.map_path(format);
+        if contents::is_map(&path)
+            && let Err(error) = files::remove(&path)
+        {
             warn(&format!("{error}: it shows an earlier difference"));
         }
     }
@@ -153,18 +157,20 @@ impl ReferenceCheck<'_> {
         if let Some(path) = self.written_as(format) {
             return Some(path.to_owned());
         }
-        self.write(self.candidate_path(format), format, actual, warn)
+        self.write(self.candidate_path(format), format, warn, |out| {
+            actual.write_to(format, out)
+        })
     }
 
-    /// Writes a picture, and returns its path, or warns if that fails.
+    /// Writes a picture with `write`, and returns its path, or warns if that fails.
     fn write(
         &self,
         path: PathBuf,
         format: Format,
-        picture: &FilePicture,
         warn: Warn<'_>,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Option<PathBuf> {
-        let written = self.beside(path.clone(), format).write_encoded(picture);
+        let written = self.beside(path.clone(), format).write(write);
         if let Err(error) = &written {
             warn(&error.to_string());
         }
