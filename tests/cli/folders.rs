@@ -294,7 +294,7 @@ fn what_could_not_be_judged_is_not_approved() {
 }
 
 /// A file that changes after it was compared does not become the reference: the bytes that were
-/// compared do. The program waits for a reader of its XML, so that there is time to change the file.
+/// compared do. The program waits for a reader of its XML, which leaves time to change the file.
 #[cfg(unix)]
 #[test]
 fn the_bytes_that_were_compared_are_approved() {

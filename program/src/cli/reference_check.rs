@@ -122,8 +122,8 @@ impl ReferenceCheck<'_> {
         sibling(beside, self.reference, "diff", Format::Png)
     }
 
-    /// Removes the map of an earlier failure, which would contradict the outcome. Another picture of
-    /// this name stays: it may be the reference of another scene.
+    /// Removes the map of an earlier failure, which would contradict the outcome. Another picture
+    /// of this name stays: it may be the reference of another scene.
     fn remove_map(&self, format: Format, warn: Warn<'_>) {
         let path = self.map_path(format);
         if contents::is_map(&path)
