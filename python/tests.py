@@ -772,6 +772,16 @@ class Differences(unittest.TestCase):
         with self.assertRaises(AssertionError):
             found.assert_below(0)
 
+    def test_a_comparison_of_no_pixel_does_not_pass(self):
+        a = np.zeros((6, 8, 4), np.uint8)
+        fp.diff(a, a.copy()).assert_below(1)
+        b = a.copy()
+        b[..., 0] = 200
+        found = fp.diff(a, b)
+        self.assertEqual((found.equal, found.compared), (False, 0))
+        with self.assertRaisesRegex(AssertionError, "nothing is compared"):
+            found.assert_below(1)
+
     def test_pictures_that_differ(self):
         a = measured("builtin:sphere")
         b = a.copy()

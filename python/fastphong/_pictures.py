@@ -111,6 +111,8 @@ class Difference:
 
     def assert_below(self, levels: float) -> None:
         """Raise an `AssertionError` unless every pixel is off by less than `levels` grey levels."""
+        if not self.compared and not self.equal:
+            raise AssertionError("nothing is compared: neither picture covers a pixel, and their values differ")
         if self.max < levels:
             return
         x, y = self.worst or (0, 0)

@@ -1,8 +1,8 @@
 //! `fastphong diff FOLDER FOLDER`: pairs, page, JUnit XML, and approving.
 
 use super::{Ended, Folder};
-use fastphong::picture::Picture8;
 use fastphong::picture::image_file::{FilePicture, write_picture};
+use fastphong::picture::{Encoding, Picture8};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -61,7 +61,7 @@ fn pairs_are_compared_by_name_and_failures_are_listed_first() {
     let ended = folder.run("diff ref now --fail-above 2").differs();
     let expected = [
         "differs  c.png         up to 50 grey levels; over 2 levels 1 of 48 compared pixels (2.08 %); largest region: 1 pixel within 1x1 at column 3, row 2, most at column 3, row 2: 50 grey levels",
-        "missing  in/gone.png   no picture in/gone.png in now",
+        "missing  in/gone.png   no picture in/gone.png in now: expected one, or no reference: remove ref/in/gone.png",
         "new      in/new/e.png  no reference ref/in/new/e.png yet",
         "within   b.png         up to 1 grey level; over 2 levels 0 of 48 compared pixels (0.00 %)",
         "6 pictures: 2 equal, 1 within what is allowed, 1 new, 1 missing, 1 differs",
@@ -146,7 +146,10 @@ fn folders_that_cannot_be_compared_are_refused() {
         .refused(&["no pictures in empty and empty2: expected files"]);
     folder
         .run("diff ref gone")
-        .refused(&["ref is a folder, but gone is not"]);
+        .refused(&["there is no gone: expected a folder of pictures"]);
+    folder.run("diff gone now").refused(&[
+        "there is no gone: expected a folder of references, which may be empty: `--approve` fills it",
+    ]);
     folder
         .run("diff - ref")
         .refused(&["ref is a folder, but - is not"]);
@@ -183,8 +186,7 @@ fn json_has_every_pair() {
         .differs()
         .json();
     assert_eq!(json["schema"], "fastphong.diff-folders/1");
-    let counts =
-        json!({ "unreadable": 0, "differs": 1, "missing": 1, "new": 1, "within": 1, "equal": 2 });
+    let counts = json!({ "unreadable": 0, "differs": 1, "encoding": 0, "missing": 1, "new": 1, "within": 1, "equal": 2 });
     assert_eq!((&json["counts"], &json["failed"]), (&counts, &json!(true)));
     assert_eq!(
         (&json["fail_above"], &json["approved"]),
@@ -252,14 +254,167 @@ fn approving_copies_changed_and_new_pictures_and_removes_nothing() {
     folder.run("diff ref now --fail-above 2").done();
     let ended = folder.run("diff ref now --fail-above 2 --approve").done();
     assert!(!ended.out.contains("approved"), "{}", ended.out);
-    // An unreadable picture is not approved, but a picture with an unreadable reference is.
-    folder.write("now/c.png", "text").write("ref/a.png", "text");
-    let ended = folder
-        .run("diff ref now --fail-above 2 --approve --json")
-        .differs();
+}
+
+/// A pair that cannot be judged keeps its reference, whatever the reason. Without its reference,
+/// the picture is new.
+#[test]
+fn what_could_not_be_judged_is_not_approved() {
+    let folder = Folder::new();
+    for name in ["a.png", "b.png", "c.png"] {
+        write(&folder, &format!("ref/{name}"), 0);
+        write(&folder, &format!("now/{name}"), 9);
+    }
+    write_picture(
+        &folder.path("small.png"),
+        &FilePicture::stored(Picture8::new(3, 3, [255; 4])),
+    )
+    .unwrap();
+    let before = all_files(&folder.path("ref"));
+    for flags in ["--mask small.png", "--region 50,50,2,2"] {
+        let command = format!("diff ref now --fail-above 2 {flags} --approve --junit j.xml");
+        folder
+            .run(&command)
+            .differs()
+            .prints("3 pictures: 3 unreadable\n")
+            .says("the reference of another one, once removed, makes its picture new");
+        assert_eq!(all_files(&folder.path("ref")), before, "{flags}");
+    }
+    folder.write("ref/a.png", "text").write("now/b.png", "text");
+    folder.write("now/new.png", "text");
+    let approve = "diff ref now --fail-above 2 --approve --json";
+    let ended = folder.run(approve).differs();
+    assert_eq!(ended.json()["approved"], json!(["c.png"]));
+    assert_eq!(folder.read("ref/a.png"), b"text");
+    assert_eq!(folder.read("ref/b.png"), before[1].1);
+    assert!(!folder.path("ref/new.png").exists());
+    fs::remove_file(folder.path("ref/a.png")).unwrap();
+    let ended = folder.run(approve).differs();
     assert_eq!(ended.json()["approved"], json!(["a.png"]));
-    assert_eq!(folder.read("ref/a.png"), folder.read("now/a.png"));
-    assert_ne!(folder.read("ref/c.png"), folder.read("now/c.png"));
+}
+
+/// A file that changes after it was compared does not become the reference: the bytes that were
+/// compared do. The program waits for a reader of its XML, which leaves time to change the file.
+#[cfg(unix)]
+#[test]
+fn the_bytes_that_were_compared_are_approved() {
+    use std::time::{Duration, Instant};
+    let folder = Folder::new();
+    for name in ["ref", "now"] {
+        fs::create_dir(folder.path(name)).unwrap();
+    }
+    let compared = [b"P6 40 40 255\n".as_slice(), &[7; 4800]].concat();
+    folder.write("now/a.ppm", &compared);
+    let pipe = folder.path("j.xml");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.expect("mkfifo runs").success());
+    let mut child = folder
+        .command("diff ref now --approve --junit j.xml")
+        .spawn()
+        .unwrap();
+    // A program that copies only after it has written the XML never makes a draft here.
+    let started = Instant::now();
+    let has_draft = || fs::read_dir(folder.path("ref")).unwrap().next().is_some();
+    while !has_draft() && started.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let file = fs::File::options()
+        .write(true)
+        .open(folder.path("now/a.ppm"));
+    file.unwrap().set_len(400).unwrap();
+    fs::read(&pipe).expect("what was written");
+    assert!(child.wait().unwrap().success());
+    assert_eq!(folder.read("ref/a.ppm"), compared);
+}
+
+/// The same stored values, but only one file states that they are linear: the commonest false
+/// alarm.
+#[test]
+fn a_pair_that_lacks_its_encoding_says_so_and_is_not_approved() {
+    let folder = Folder::new();
+    let picture = || FilePicture::stored(Picture8::new(8, 6, [100, 50, 10, 255]));
+    let stated = |encoding| picture().encoded(encoding);
+    for (name, reference, actual) in [
+        ("one.png", stated(Encoding::Linear), picture()),
+        ("other.png", picture(), stated(Encoding::Linear)),
+        ("both.png", stated(Encoding::Linear), stated(Encoding::Srgb)),
+    ] {
+        for (place, picture) in [("ref", reference), ("now", actual)] {
+            fs::create_dir_all(folder.path(place)).unwrap();
+            write_picture(&folder.path(place).join(name), &picture).unwrap();
+        }
+    }
+    let before = all_files(&folder.path("ref"));
+    let agree = "only the encodings differ, and the stored values agree";
+    for flags in ["", "--fail-above 2 --approve"] {
+        folder
+            .run(&format!("diff ref now {flags} --html p.html"))
+            .differs()
+            .prints(&format!("encoding  one.png    {agree}: the reference states linear, the picture counts as srgb: expected `--assume linear`\n"))
+            .prints("the reference counts as srgb, the picture states linear: expected `--assume linear`\n")
+            .prints("the reference states linear, the picture states srgb: expected files that state one encoding\n")
+            .prints("3 pictures: 3 in another encoding\n");
+    }
+    assert_eq!(all_files(&folder.path("ref")), before);
+    folder
+        .run("diff ref now --assume linear")
+        .differs()
+        .prints("3 pictures: 2 equal, 1 in another encoding\n");
+    // Two files say the same.
+    folder
+        .run("diff ref/one.png now/one.png --fail-above 2")
+        .differs()
+        .says(agree)
+        .says("expected `--assume linear`");
+    // With other values, it is a difference like any other.
+    write(&folder, "now/one.png", 0);
+    folder
+        .run("diff ref now")
+        .differs()
+        .prints("differs   one.png");
+}
+
+#[test]
+fn nothing_that_is_compared_is_not_equal() {
+    let folder = Folder::new();
+    let write = |name: &str, colour: u8, alpha: u8| {
+        let mut picture = Picture8::new(8, 6, [colour, 1, 1, 0]);
+        picture.row_mut(2)[3] = [colour, 9, 9, alpha];
+        fs::create_dir_all(folder.path(name).parent().unwrap()).unwrap();
+        write_picture(&folder.path(name), &FilePicture::stored(picture)).unwrap();
+    };
+    for (name, colours, alpha) in [("a.png", [1, 200], 0), ("b.png", [3, 3], 0)] {
+        write(&format!("ref/{name}"), colours[0], alpha);
+        write(&format!("now/{name}"), colours[1], alpha);
+    }
+    let nothing = "nothing is compared: neither picture covers a pixel";
+    for flags in ["", "--fail-above 1", "--fail-above 255 --allow 100%"] {
+        let command = format!("diff ref/a.png now/a.png -o map.png {flags}");
+        folder.run(&command).refused(&[nothing]);
+    }
+    assert!(!folder.path("map.png").exists());
+    // The same values everywhere are equal.
+    folder
+        .run("diff ref/b.png now/b.png --fail-above 0")
+        .done()
+        .prints("the pictures are equal");
+    folder
+        .run("diff ref now")
+        .differs()
+        .prints(&format!("unreadable  a.png  {nothing}"))
+        .prints("2 pictures: 1 equal, 1 unreadable\n");
+    // A mask or a region may leave only pixels that neither picture covers.
+    write("ref/a.png", 1, 255);
+    write("now/a.png", 200, 255);
+    let mut mask = Picture8::new(8, 6, [255; 4]);
+    mask.row_mut(2)[3] = [0; 4];
+    write_picture(&folder.path("mask.png"), &FilePicture::stored(mask)).unwrap();
+    for flags in ["--mask mask.png", "--region 0,0,3,6"] {
+        let command = format!("diff ref/a.png now/a.png --fail-above 1 {flags}");
+        folder
+            .run(&command)
+            .refused(&[nothing, "of those that are not left out"]);
+    }
 }
 
 #[cfg(unix)]
@@ -279,8 +434,10 @@ fn approving_changes_nothing_if_one_reference_cannot_be_replaced() {
     );
     // The reference links to a picture of the other folder, or to another reference.
     for (target, problem) in [
-        ("../now/b.png", "leads to a picture that is to be approved"),
-        ("b.png", "leads to the same file as another reference"),
+        ("../now/b.png", "leads to the file of a picture, now/b.png"),
+        // This reference is equal to its picture, and would not be approved.
+        ("a.png", "leads to the file of a reference, ref/a.png"),
+        ("b.png", "leads to the file of a reference, ref/"),
     ] {
         fs::remove_file(&read_only).unwrap();
         std::os::unix::fs::symlink(target, &read_only).unwrap();
@@ -290,6 +447,20 @@ fn approving_changes_nothing_if_one_reference_cannot_be_replaced() {
             .refused(&["ref/c.png", problem]);
         assert_eq!(all_files(&folder.path("ref")), before);
     }
+    // A link to a folder hides references, which are not replaced unseen.
+    fs::remove_file(&read_only).unwrap();
+    write(&folder, "store/f.png", 7);
+    write(&folder, "now/hidden/f.png", 9);
+    std::os::unix::fs::symlink("../store", folder.path("ref/hidden")).unwrap();
+    let before = folder.read("store/f.png");
+    folder
+        .run("diff ref now --approve")
+        .differs()
+        .prints("unreadable  hidden/f.png  ref/hidden/f.png is there, but was not listed")
+        .says("1 file is left out");
+    assert_eq!(folder.read("store/f.png"), before);
+    fs::remove_file(folder.path("ref/hidden")).unwrap();
+    fs::remove_dir_all(folder.path("now/hidden")).unwrap();
     // The tool follows a link to a file elsewhere.
     fs::remove_file(&read_only).unwrap();
     write(&folder, "store/c.png", 7);
@@ -317,7 +488,9 @@ fn links_to_folders_are_not_followed_and_names_may_hold_any_bytes() {
     ended
         .prints("new         caf\\xE9 <&\">\\x01.png")
         .prints("unreadable  broken.png")
-        .prints("8 pictures: ");
+        .prints("8 pictures: ")
+        // The link to the folder, and the device.
+        .says("2 files are left out");
     let xml = String::from_utf8(folder.read("out/j.xml")).unwrap();
     // XML cannot hold the control character of the path. The message shows it unchanged.
     for part in [
@@ -356,10 +529,81 @@ fn junit_has_a_case_for_each_pair() {
         xml.contains("type=\"differs\" message=\"up to 50 grey levels; "),
         "{xml}"
     );
+    assert!(xml.contains("in now: expected one, or no reference: remove ref/in/gone.png"));
     let piped = folder
         .run("diff ref now --fail-above 2 --junit -")
         .differs();
     assert!(piped.out.starts_with("<?xml ") && piped.err.contains("6 pictures: "));
+}
+
+#[test]
+fn junit_has_no_failure_after_all_were_approved() {
+    let folder = folders();
+    fs::remove_file(folder.path("ref/in/gone.png")).unwrap();
+    let approve = "diff ref now --fail-above 2 --approve --junit j.xml --html p.html --json";
+    let ended = folder.run(approve).done();
+    let pairs = ended.json()["pairs"].clone();
+    assert!(
+        pairs
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|pair| pair["failed"] == false)
+    );
+    let xml = String::from_utf8(folder.read("j.xml")).unwrap();
+    assert_eq!(xml.matches("failures=\"0\" errors=\"0\"").count(), 2);
+    assert!(
+        !xml.contains("<failure") && !xml.contains("<error"),
+        "{xml}"
+    );
+    let page = String::from_utf8(folder.read("p.html")).unwrap();
+    assert!(!page.contains("data-fails=\"true\""));
+}
+
+/// References stay if one of them cannot be written, and the XML says what was found.
+#[test]
+fn junit_has_the_failures_if_nothing_could_be_approved() {
+    let folder = folders();
+    fs::create_dir_all(folder.path("ref/in/new/e.png")).unwrap();
+    folder
+        .run("diff ref now --approve --junit j.xml")
+        .refused(&["ref/in/new/e.png: cannot be written"]);
+    let xml = String::from_utf8(folder.read("j.xml")).unwrap();
+    assert!(xml.contains("failures=\"4\" errors=\"0\""), "{xml}");
+}
+
+#[cfg(unix)]
+#[test]
+fn different_names_are_different_cases() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = Folder::new();
+    let names: [&[u8]; 8] = [
+        b"a.b/n.png",
+        b"a/b/n.png",
+        b"\n.png",
+        b"\\x0A.png",
+        b"\xC2\x85.png",
+        b"\x85.png",
+        "\u{fffe}.png".as_bytes(),
+        "\u{ffff}.png".as_bytes(),
+    ];
+    write(&folder, "x.png", 0);
+    for name in names {
+        let path = folder.path("ref").join(std::ffi::OsStr::from_bytes(name));
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::copy(folder.path("x.png"), path).unwrap();
+    }
+    fs::create_dir(folder.path("now")).unwrap();
+    let ended = folder.run("diff ref now --junit j.xml --json").differs();
+    let xml = String::from_utf8(folder.read("j.xml")).unwrap();
+    let cases = xml.split("<testcase ").skip(1);
+    let cases = cases.filter_map(|case| case.split(" time=").next());
+    let cases: std::collections::BTreeSet<&str> = cases.collect();
+    assert_eq!(cases.len(), names.len(), "{cases:?}");
+    let pairs = ended.json()["pairs"].clone();
+    let listed = pairs.as_array().unwrap().iter().map(|pair| &pair["name"]);
+    let listed: std::collections::BTreeSet<String> = listed.map(Value::to_string).collect();
+    assert_eq!(listed.len(), names.len(), "{listed:?}");
 }
 
 #[test]

@@ -143,9 +143,6 @@ fn references_that_cannot_be_read_are_errors() {
     folder
         .run(&format!("render {SPHERE} --reference-threshold 1 -o a.png"))
         .refused(&["--reference <FILE>"]);
-    folder
-        .run(&format!("render {SPHERE} --reference gone/ref.png"))
-        .refused(&["gone/ref.actual.png: cannot be written"]);
     for same in ["ref.png", "./ref.png"] {
         let refused = folder.run(&format!("render {SPHERE} --reference ref.png -o {same}"));
         refused.refused(&["`--output` is the reference itself"]);
@@ -204,4 +201,88 @@ fn a_reference_that_is_not_finite_equals_only_itself() {
         .run(&format!("{depth} --fit 0.5 {check} 1e9"))
         .differs()
         .prints("infinite or not a number in one of them, which no threshold allows");
+}
+
+/// A pair that passes has no map: the one of an earlier failure goes. Another picture of this name
+/// stays, even if fastphong drew it.
+#[test]
+fn a_picture_that_passes_removes_the_map_of_an_earlier_failure() {
+    let folder = Folder::new();
+    let check = format!("render {SPHERE} --reference ref.png");
+    for name in ["ref.png", "ref.diff.png"] {
+        folder.run(&format!("render {SPHERE} -o {name}")).done();
+    }
+    folder.run(&check).done();
+    assert_eq!(folder.read("ref.diff.png"), folder.read("ref.png"));
+    folder.write("ref.diff.png", "mine");
+    folder.run(&format!("{check} --force")).done();
+    assert_eq!(folder.read("ref.diff.png"), b"mine");
+    std::fs::remove_file(folder.path("ref.diff.png")).unwrap();
+    for output in ["", "-o out/mine.png"] {
+        std::fs::create_dir_all(folder.path("out")).unwrap();
+        let ended = folder.run(&format!("{check} --kd 0 {output}")).differs();
+        let map = if output.is_empty() {
+            "ref.diff.png"
+        } else {
+            "out/ref.diff.png"
+        };
+        ended.prints(map);
+        assert!(folder.path(map).exists());
+        assert_eq!(picture(&folder.path(map)).width(), 64);
+        folder.run(&format!("{check} {output}")).done();
+        assert!(!folder.path(map).exists(), "{map}");
+    }
+    assert!(folder.path("ref.actual.png").exists());
+}
+
+/// Folders stand where the extra pictures would be, so that these cannot be written.
+#[test]
+fn the_verdict_stands_if_the_extra_pictures_cannot_be_written() {
+    let folder = Folder::new();
+    folder.run(&format!("render {SPHERE} -o ref.png")).done();
+    for name in ["ref.actual.png", "ref.diff.png", "new.actual.png"] {
+        std::fs::create_dir(folder.path(name)).unwrap();
+    }
+    let check = format!("render {SPHERE} --reference");
+    folder
+        .run(&format!("{check} ref.png"))
+        .done()
+        .prints("equal within 1 grey levels");
+    let ended = folder.run(&format!("{check} ref.png --kd 0")).differs();
+    assert!(!ended.out.contains("cp "), "{}", ended.out);
+    ended
+        .prints("ref.png: differs by ")
+        .prints("largest region: ")
+        .says("warning: ref.actual.png: cannot be written")
+        .says("warning: ref.diff.png: cannot be written");
+    for missing in ["new.png", "gone/ref.png"] {
+        let ended = folder.run(&format!("{check} {missing}")).differs();
+        assert_eq!(ended.out, format!("no reference {missing} yet\n"));
+        ended.says("actual.png: cannot be written");
+    }
+}
+
+#[test]
+fn a_reference_without_a_pixel_to_compare_is_an_error() {
+    let folder = Folder::new();
+    let empty = format!("render {SPHERE} --half-height 1 --eye 0,0,9 --target 0,9,0");
+    folder.run(&format!("{empty} -o ref.png")).done();
+    assert!(
+        picture(&folder.path("ref.png"))
+            .pixels()
+            .iter()
+            .all(|pixel| pixel[3] == 0)
+    );
+    folder.run(&format!("{empty} --reference ref.png")).done();
+    let coloured = fastphong::picture::Picture8::new(64, 48, [200, 0, 0, 0]);
+    write_picture(&folder.path("ref.png"), &FilePicture::stored(coloured)).unwrap();
+    let check = format!("{empty} --reference ref.png --reference-threshold 255");
+    folder
+        .run(&check)
+        .refused(&["nothing is compared: neither picture covers a pixel"]);
+    folder
+        .run(&format!(
+            "render {SPHERE} --reference ref.png --region 0,0,1,1"
+        ))
+        .refused(&["nothing is compared"]);
 }

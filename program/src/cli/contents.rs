@@ -7,8 +7,10 @@
 //! of rasterizers write expect none.
 
 use super::files;
-use fastphong::picture::image_file::Format;
+use fastphong::picture::image_file::{FilePicture, Format};
+use fastphong::picture::{Encoding, Picture8};
 use std::fmt;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// How many bytes at the beginning of a file are searched for its mark.
@@ -16,6 +18,31 @@ const BEGINNING: u64 = 1 << 14;
 
 /// The type and the data of the PNG chunk that names the software (ISO/IEC 15948, 11.3.3.3).
 const SOFTWARE: &[u8] = b"tEXtSoftware\0fastphong";
+
+/// The PNG chunk that marks the map of a difference: its length, type, data and checksum.
+const MAP: &[u8] = b"\0\0\0\x10tEXtTitle\0Difference\xe9\x05\x92\x12";
+
+/// How many bytes of a PNG file stand before its second chunk.
+const PNG_HEADER: usize = 33;
+
+/// Writes the map of a difference as a marked PNG file.
+///
+/// # Errors
+/// As [`FilePicture::encode`], and any error of `out`.
+pub fn write_map(map: Picture8, out: &mut dyn Write) -> io::Result<()> {
+    let map = FilePicture::stored(map).encoded(Encoding::Srgb);
+    let bytes = map.encode(Format::Png)?;
+    let (header, rest) = bytes.split_at(PNG_HEADER);
+    [header, MAP, rest]
+        .iter()
+        .try_for_each(|part| out.write_all(part))
+}
+
+/// True if [`write_map`] wrote the file at `path`.
+pub fn is_map(path: &Path) -> bool {
+    let bytes = files::beginning(path, BEGINNING).unwrap_or_default();
+    bytes.windows(MAP.len()).any(|part| part == MAP)
+}
 
 /// The kind of a file's contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,13 +14,14 @@ use super::input_name::{is_stand_in, path_behind};
 use super::{CliError, memory, signals};
 use fastphong::mesh::read::mesh_endings;
 use fastphong::picture::image_file::{
-    FilePicture, ImageFileError, place, read_picture, write_file_by, write_files_by,
+    FilePicture, ImageFileError, Replacements, place, read_picture, read_picture_from,
+    write_file_by,
 };
 use fastphong::scene::file::SceneError;
 use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
 use fastphong::scene::input::{self, InputFormat, has_ending, read_input};
 use fastphong::scene::open::{Look, Opened, Overlay, open_by};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::fmt;
 use std::fs;
 use std::io::{self, Read, Write};
@@ -248,13 +249,13 @@ pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
             let kind = entry.file_type().map_err(refused)?;
             // A broken link counts as a picture, so that reading it reports an error. Reading a
             // pipe would block.
-            let target = fs::metadata(entry.path());
-            let is_file = target.as_ref().map_or(true, fs::Metadata::is_file);
-            match (kind.is_dir(), target.is_ok_and(|target| target.is_dir())) {
-                (true, _) => open.push(name),
-                (_, true) => {}
-                _ if is_picture && is_file => found.names.push(name),
-                _ => found.others += 1,
+            let is_file = fs::metadata(entry.path()).map_or(true, |target| target.is_file());
+            if kind.is_dir() {
+                open.push(name);
+            } else if is_picture && is_file {
+                found.names.push(name);
+            } else {
+                found.others += 1;
             }
         }
     }
@@ -262,40 +263,54 @@ pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
     Ok(found)
 }
 
-/// A file to copy, and the path to copy it to, whether or not a file is there.
-#[derive(Clone, Copy, Debug)]
-pub struct Copy<'a> {
-    pub from: &'a Path,
-    pub to: &'a Path,
+/// References that are going to be replaced, all of them or none. This is the only way to write
+/// files that were read: the user asked for it.
+#[derive(Default)]
+pub struct Approval {
+    files: Replacements,
+    /// The references, as the user names them.
+    references: Vec<PathBuf>,
 }
 
-/// Copies files, all of them or none. This is the only way to write files that were read: the user
-/// asked to replace references.
-///
-/// # Errors
-/// If a copy would replace a file that is itself to be copied, two copies would replace the same
-/// file, or a file cannot be read or written.
-pub fn copy_all(copies: &[Copy<'_>]) -> Result<(), CliError> {
-    let sources: BTreeSet<PathBuf> = copies.iter().map(|copy| place(copy.from)).collect();
-    let mut places = BTreeSet::new();
-    for copy in copies {
-        let (to, end) = (copy.to.display(), place(copy.to));
-        if sources.contains(&end) {
-            let problem = format!("{to} leads to a picture that is to be approved");
-            return Err(OneFileError(format!("{problem}: expected a separate reference")).into());
-        }
-        if !places.insert(end) {
-            let problem = format!("{to} leads to the same file as another reference");
-            return Err(OneFileError(format!("{problem}: expected a file for each")).into());
-        }
+impl Approval {
+    /// Writes the new contents of a reference to a draft, whether or not the reference exists.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn add(&mut self, reference: &Path, bytes: &[u8]) -> Result<(), CliError> {
+        signals::remove_drafts_at_the_end();
+        self.references.push(reference.to_owned());
+        Ok(self.files.add(reference, bytes)?)
     }
-    signals::remove_drafts_at_the_end();
-    let places: Vec<&Path> = copies.iter().map(|copy| copy.to).collect();
-    write_files_by(&places, |i, out| {
-        let mut from = fs::File::open(copies[i].from)?;
-        io::copy(&mut from, out).map(|_| ())
-    })?;
-    Ok(())
+
+    /// Replaces the references in `folder`. If two programs do so at once, one waits.
+    ///
+    /// # Errors
+    /// If a reference leads to another file that was read, or to the file of another reference, or
+    /// cannot be replaced.
+    pub fn finish(self, folder: &Path) -> Result<(), CliError> {
+        let read = files().read.clone();
+        let read = read.iter().map(|file| (&file.path, file.part));
+        let new = self.references.iter().map(|path| (path, "a reference"));
+        let mut at: HashMap<PathBuf, Vec<(&PathBuf, &str)>> = HashMap::new();
+        for (path, part) in read.chain(new) {
+            at.entry(place(path)).or_default().push((path, part));
+        }
+        for reference in &self.references {
+            let mut others = at[&place(reference)].iter();
+            if let Some((path, part)) = others.find(|(path, _)| *path != reference) {
+                let (reference, path) = (reference.display(), path.display());
+                let problem = format!("{reference} leads to the file of {part}, {path}");
+                let expected = "expected a file of its own, so nothing was approved";
+                return Err(OneFileError(format!("{problem}: {expected}")).into());
+            }
+        }
+        // Not every system can lock a folder.
+        let lock = fs::File::open(folder).and_then(|folder| folder.lock().map(|()| folder));
+        self.files.finish()?;
+        drop(lock);
+        Ok(())
+    }
 }
 
 /// Reads a picture. `part` is its role in the command, for messages.
@@ -305,6 +320,25 @@ pub fn copy_all(copies: &[Copy<'_>]) -> Result<(), CliError> {
 pub fn picture(path: &Path, part: &'static str) -> Result<FilePicture, ImageFileError> {
     will_read(path, part);
     read_picture(path)
+}
+
+/// Reads a picture as [`picture`] does, with the bytes of its file.
+///
+/// # Errors
+/// As [`picture`], and if there is too little memory for the file.
+pub fn picture_and_file(
+    path: &Path,
+    part: &'static str,
+) -> Result<(FilePicture, Vec<u8>), CliError> {
+    will_read(path, part);
+    if let Ok(found) = fs::metadata(path) {
+        memory::check_file(path, found.len())?;
+    }
+    let bytes = fs::read(path).map_err(|cause| ImageFileError::Read {
+        path: path.to_owned(),
+        cause,
+    })?;
+    Ok((read_picture_from(&*bytes, path)?, bytes))
 }
 
 /// The largest document that is read, in bytes. One of all shipped scenes has about 1 MB.
@@ -400,6 +434,25 @@ pub fn write(
     write_file_by(to.path, write)?;
     files().written.push(to.path.to_owned());
     Ok(())
+}
+
+/// True if there is a plain file at `path`, or behind a link.
+pub fn is_file(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| found.is_file())
+}
+
+/// Removes a plain file, if there is one.
+///
+/// # Errors
+/// If it cannot be removed, or the command reads it.
+pub fn remove(path: &Path) -> Result<(), CliError> {
+    if !fs::symlink_metadata(path).is_ok_and(|found| found.is_file()) {
+        return Ok(());
+    }
+    let name = "the file to remove";
+    check(&[Destination { name, path }])?;
+    let failed = |error| format!("{}: cannot be removed: {error}", path.display());
+    Ok(fs::remove_file(path).map_err(failed)?)
 }
 
 /// True if both paths lead to the same plain file, or would if it existed.

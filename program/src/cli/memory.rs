@@ -146,6 +146,15 @@ pub fn check_pair(pair: &Pair<'_>) -> Result<(), CliError> {
     check_size(size, "comparing", flip + 4 * pixels)
 }
 
+/// Checks that there is enough memory to hold a file of `length` bytes.
+///
+/// # Errors
+/// If there is not.
+pub fn check_file(path: &Path, length: u64) -> Result<(), CliError> {
+    let needs = format!("{}: it needs about {}", path.display(), bytes(length));
+    check_free(length, &needs, "a smaller file")
+}
+
 /// Checks that there is enough memory for the rows that `--radius` keeps around each pixel.
 ///
 /// # Errors

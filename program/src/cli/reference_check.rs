@@ -1,9 +1,9 @@
 //! `render --reference`: compares a picture with the one that was accepted before.
 
-use super::contents::Contents;
+use super::contents::{self, Contents};
 use super::diff::comparison::{
-    self, Comparison, Perceived, SCALE, alpha_text, encodings_text, failed_text, has_two_encodings,
-    sizes_text,
+    self, Comparison, Perceived, SCALE, alpha_text, encoding_text, encodings_text, failed_text,
+    has_two_encodings, sizes_text,
 };
 use super::drawing::RenderJob;
 use super::output::{ForceFlag, Output};
@@ -12,9 +12,12 @@ use super::tolerance::{Judged, Levels, Tolerance};
 use super::{CliError, Outcome, files};
 use crate::report::shell_word;
 use fastphong::compare::metrics::Difference;
-use fastphong::picture::Encoding;
 use fastphong::picture::image_file::{FilePicture, Format, Pair};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+/// Prints a warning.
+type Warn<'a> = &'a dyn Fn(&str);
 
 /// A picture to compare with the one that was accepted.
 pub struct ReferenceCheck<'a> {
@@ -30,24 +33,28 @@ pub struct ReferenceCheck<'a> {
 
 impl ReferenceCheck<'_> {
     /// Compares the picture with its reference, and returns the outcome and the lines to print. If
-    /// they differ, writes the picture and a map beside the reference.
+    /// they differ, writes the picture and a map beside the reference, and warns if that fails: it
+    /// changes nothing about the outcome. If not, removes the map of an earlier failure.
     ///
     /// # Errors
-    /// If the reference exists but cannot be read, or a picture cannot be written.
-    pub fn run(&self, job: &mut RenderJob) -> Result<(Outcome, String), CliError> {
+    /// If the reference exists but cannot be read, or nothing can be compared.
+    pub fn run(&self, job: &mut RenderJob, warn: Warn<'_>) -> Result<(Outcome, String), CliError> {
         let (reference, shown) = (self.reference, self.reference.display());
         let format = Format::of_path(reference)?;
-        let actual = job.picture(format);
+        let mut actual = job.picture(format);
         let unreadable = |error| format!("{shown}: cannot be read: {error}");
         if !reference.try_exists().map_err(unreadable)? {
-            let candidate = self.keep(&actual)?;
+            let Some(candidate) = self.keep(format, &actual, warn) else {
+                return Ok((Outcome::Differs, format!("no reference {shown} yet\n")));
+            };
             let (path, accept) = (candidate.display(), self.how_to_accept(&candidate));
             let text = format!("no reference {shown} yet: the picture is in {path}\n{accept}");
             return Ok((Outcome::Differs, text));
         }
         let accepted = files::picture(reference, "the reference")?;
         // A reference that states no encoding is taken to have the encoding of the picture.
-        let pair = Pair::new(&accepted, &actual, actual.encoding);
+        let assumed = actual.encoding;
+        let pair = Pair::new(&accepted, &actual, assumed);
         let notes = accepted.notes.iter();
         let mut notes: String = notes.map(|note| format!("{shown}: {note}\n")).collect();
         let names = [&shown.to_string(), "the picture"];
@@ -57,25 +64,36 @@ impl ReferenceCheck<'_> {
         if has_two_encodings(&pair) {
             notes += &encodings_text(&pair, names);
         }
-        let found = Comparison::of(&pair, self.tolerance, Perceived::Nothing)?.result;
-        if let Some((_, judged)) = found.as_ref().filter(|(_, judged)| !judged.fails) {
+        let found = Comparison::of(&pair, self.tolerance, Perceived::Nothing)?;
+        if let Some((_, judged)) = found.result.as_ref().filter(|(_, judged)| !judged.fails) {
+            self.remove_map(format, warn);
             let text = self.passed_text(judged);
             return Ok((Outcome::Done, format!("{notes}{shown}: {text}\n")));
         }
-        let candidate = self.keep(&actual)?;
-        let map = comparison::map(&pair, self.tolerance, SCALE)?;
-        let map_path = sibling(&candidate, reference, "diff", Format::Png);
-        self.beside(map_path.clone(), Format::Png)
-            .write_encoded(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
-        let found = match &found {
+        let text = match &found.result {
             Some((difference, judged)) => self.failed_text(difference, judged),
             None => sizes_text(&pair, [accepted.size(), actual.size()], true),
         };
-        let accept = self.how_to_accept(&candidate);
-        let (candidate, map_path) = (candidate.display(), map_path.display());
-        let scale = format!("{SCALE} levels from black to yellow");
-        let files = format!("actual: {candidate}\ndifference, {scale}: {map_path}\n");
-        let text = format!("{notes}{shown}: {found}{files}{accept}");
+        let mut text = format!("{notes}{shown}: {text}");
+        let map = comparison::map(&pair, self.tolerance, SCALE)?;
+        let found = Some(&found);
+        if let Some(why) = encoding_text(found, &accepted, &mut actual, assumed, self.tolerance) {
+            text += &format!("{why}\n");
+        }
+        let candidate = self.keep(format, &actual, warn);
+        let map = self.write(self.map_path(format), Format::Png, warn, |out| {
+            contents::write_map(map, out)
+        });
+        if let Some(path) = &candidate {
+            text += &format!("actual: {}\n", path.display());
+        }
+        if let Some(path) = map {
+            let path = path.display();
+            text += &format!("difference, {SCALE} levels from black to yellow: {path}\n");
+        }
+        if let Some(path) = &candidate {
+            text += &self.how_to_accept(path);
+        }
         Ok((Outcome::Differs, text))
     }
 
@@ -86,14 +104,33 @@ impl ReferenceCheck<'_> {
     /// If the ending of the reference names no format.
     pub fn outputs(&self) -> Result<Vec<Output>, CliError> {
         let format = Format::of_path(self.reference)?;
-        let written = self.written_as(format);
-        let candidate = sibling(self.reference, self.reference, "actual", format);
-        let is_new = written.is_none();
-        let map = written.unwrap_or(&candidate);
-        let map = sibling(map, self.reference, "diff", Format::Png);
-        let candidate = is_new.then(|| self.beside(candidate, format));
-        let map = self.beside(map, Format::Png);
+        let is_new = self.written_as(format).is_none();
+        let candidate = is_new.then(|| self.beside(self.candidate_path(format), format));
+        let map = self.beside(self.map_path(format), Format::Png);
         Ok(candidate.into_iter().chain([map]).collect())
+    }
+
+    /// Returns the path of the picture beside the reference.
+    fn candidate_path(&self, format: Format) -> PathBuf {
+        sibling(self.reference, self.reference, "actual", format)
+    }
+
+    /// Returns the path of the map: beside the picture that was written in the reference's
+    /// `format`, or else beside the reference.
+    fn map_path(&self, format: Format) -> PathBuf {
+        let beside = self.written_as(format).unwrap_or(self.reference);
+        sibling(beside, self.reference, "diff", Format::Png)
+    }
+
+    /// Removes the map of an earlier failure, which would contradict the outcome. Another picture
+    /// of this name stays: it may be the reference of another scene.
+    fn remove_map(&self, format: Format, warn: Warn<'_>) {
+        let path = self.map_path(format);
+        if contents::is_map(&path)
+            && let Err(error) = files::remove(&path)
+        {
+            warn(&format!("{error}: it shows an earlier difference"));
+        }
     }
 
     /// Returns the output of a picture beside the reference.
@@ -115,15 +152,29 @@ impl ReferenceCheck<'_> {
     }
 
     /// Returns the file that holds the picture in the format of the reference. Writes one beside
-    /// the reference if there is none.
-    fn keep(&self, actual: &FilePicture) -> Result<PathBuf, CliError> {
-        let format = Format::of_path(self.reference)?;
+    /// the reference if there is none, or warns if that fails.
+    fn keep(&self, format: Format, actual: &FilePicture, warn: Warn<'_>) -> Option<PathBuf> {
         if let Some(path) = self.written_as(format) {
-            return Ok(path.to_owned());
+            return Some(path.to_owned());
         }
-        let path = sibling(self.reference, self.reference, "actual", format);
-        self.beside(path.clone(), format).write_encoded(actual)?;
-        Ok(path)
+        self.write(self.candidate_path(format), format, warn, |out| {
+            actual.write_to(format, out)
+        })
+    }
+
+    /// Writes a picture with `write`, and returns its path, or warns if that fails.
+    fn write(
+        &self,
+        path: PathBuf,
+        format: Format,
+        warn: Warn<'_>,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Option<PathBuf> {
+        let written = self.beside(path.clone(), format).write(write);
+        if let Err(error) = &written {
+            warn(&error.to_string());
+        }
+        written.is_ok().then_some(path)
     }
 
     fn threshold(&self) -> f64 {

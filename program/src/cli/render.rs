@@ -236,7 +236,8 @@ impl RenderArgs {
         let Some(check) = check else {
             return Ok(Outcome::Done);
         };
-        let (outcome, text) = check.run(&mut job)?;
+        let warn = |text: &str| progress.aside(|| log.warning(text));
+        let (outcome, text) = check.run(&mut job, &warn)?;
         progress.aside(|| print_beside(&beside, &text))?;
         Ok(outcome)
     }

@@ -26,6 +26,9 @@ pub struct PairsPage {
     pub pairs: Vec<ShownPair>,
 }
 
+/// How many bytes of markup a pair has, at most, if its texts need none.
+const MARKUP: usize = 1500;
+
 /// A pair of pictures on the page. Pictures are PNG files, and empty if there is none.
 #[derive(Clone, Debug, Default)]
 pub struct ShownPair {
@@ -85,9 +88,14 @@ impl PairsPage {
 }
 
 impl ShownPair {
-    /// Returns how many bytes its pictures have.
+    /// Returns about how many bytes of a page it takes.
     pub fn bytes(&self) -> usize {
-        self.reference.len() + self.actual.len() + self.map.len()
+        let pictures = [&self.reference, &self.actual, &self.map];
+        // Base64 writes three bytes as four letters.
+        let pictures: usize = pictures.map(|png| png.len().div_ceil(3) * 4).iter().sum();
+        let texts = [&self.name, &self.text, &self.region_text];
+        let texts: usize = texts.into_iter().chain(&self.notes).map(String::len).sum();
+        MARKUP + pictures + texts
     }
 
     fn html(&self, index: usize) -> String {

@@ -58,6 +58,8 @@ pub const MAX_PERCEIVED: usize = 1 << 26;
 #[non_exhaustive]
 pub struct Difference {
     /// True if the pictures have the same colour and coverage at every pixel that is not excluded.
+    /// If no pixel is compared, true only if all samples of both pictures are the same, also the
+    /// excluded ones and colours under alpha 0: nothing is equal because nobody looked.
     pub equal: bool,
     /// The number of pixels of the frame, without excluded ones.
     pub frame: usize,
@@ -206,8 +208,10 @@ fn compare_selected(
     let mut percentile = Percentile::new(PERCENTILE);
     let mut ssim = MeanSsim::new(reference.size());
     let mut luminance = [(); 2].map(|()| Vec::new());
+    let mut is_same = true;
     for_each_row(reference, actual, |y, r_row, a_row| {
         luminance.iter_mut().for_each(Vec::clear);
+        is_same = is_same && r_row.iter().zip(a_row).all(|(&r, &a)| is_one_sample(r, a));
         for (x, (&r, &a)) in r_row.iter().zip(a_row).enumerate() {
             let difference = PixelDifference::new(r, a);
             let included = included(x, y);
@@ -240,7 +244,16 @@ fn compare_selected(
             }
         });
     });
-    Ok(sums.finish(p99, ssim.map(MeanSsim::finish)))
+    let found = sums.finish(p99, ssim.map(MeanSsim::finish));
+    Ok(Difference {
+        equal: found.equal && (found.compared > 0 || is_same),
+        ..found
+    })
+}
+
+/// True if two pixels have the same channels, whatever their alpha. NaN is the same as NaN.
+fn is_one_sample(reference: Levels, actual: Levels) -> bool {
+    reference == actual || channel_errors(reference, actual) == [0.0; 4]
 }
 
 /// The difference at a pixel that at least one picture covers.

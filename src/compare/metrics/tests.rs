@@ -164,6 +164,23 @@ fn nothing_at_all_is_equal_to_itself() {
 }
 
 #[test]
+fn pictures_without_a_compared_pixel_are_equal_only_if_all_samples_are() {
+    let reference = Picture8::new(4, 3, [9, 9, 9, 0]);
+    assert!(compare(&reference, &reference).unwrap().equal);
+    let mut actual = reference.clone();
+    actual.row_mut(2)[3] = [9, 9, 10, 0];
+    let d = compare(&reference, &actual).unwrap();
+    assert_eq!((d.compared, d.differing, d.equal), (0, 0, false));
+    // The only pixel that is covered is left out.
+    actual.row_mut(2)[3] = [1, 9, 9, 255];
+    let d = compare_where(&reference, &actual, |x, _| x < 3).unwrap();
+    assert_eq!((d.compared, d.equal), (0, false));
+    assert!(compare_where(&actual, &actual, |x, _| x < 3).unwrap().equal);
+    let nan = LinearPicture::new(2, 2, [f32::NAN, 0.0, 0.0, 0.0]);
+    assert!(compare(&nan, &nan.clone()).unwrap().equal);
+}
+
+#[test]
 fn background_does_not_dilute() {
     let mut reference = Picture8::new(10, 10, [9, 9, 9, 0]);
     reference.row_mut(4)[2] = [100, 100, 100, 255];

@@ -50,7 +50,7 @@ pub use netpbm::PpmWriter;
 pub use pair::{AlphaUse, Pair, UsedEncoding};
 pub use png::encode_png;
 #[doc(hidden)]
-pub use replace::{place, remove_drafts, write_file, write_file_by, write_files_by};
+pub use replace::{Replacements, place, remove_drafts, write_file, write_file_by};
 
 /// How many pixels the largest readable picture has: 16384 × 16384, the largest that is drawn. A
 /// larger file is more likely broken or hostile than intended.

@@ -14,7 +14,7 @@ use super::ImageFileError;
 /// How many links are followed one after the other: as many as Linux follows.
 const MOST_LINKS: usize = 40;
 
-/// The drafts on the disk, for [`remove_drafts`].
+/// The drafts on the disk, and folders that were made for them, for [`remove_drafts`].
 static DRAFTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Writes a file that is either complete or not there. A draft is written beside it first, and then
@@ -46,61 +46,65 @@ pub fn write_file_by(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), ImageFileError> {
-    replace(path, |file| write(file)).map_err(|cause| ImageFileError::Write {
-        path: path.to_owned(),
-        cause,
-    })
+    replace(path, |file| write(file)).map_err(|cause| unwritten(path, cause))
 }
 
-/// Writes several files, all or none. `write` writes the file of each index to a draft. Once all
-/// drafts are complete, they are renamed. Missing folders are created. If anything fails, every
-/// file is as it was before. A signal that makes the program call [`remove_drafts`] waits until all
-/// files have their names. A process that is killed between two renames leaves some files new and
-/// others old, each of them complete.
-///
-/// # Errors
-/// As for [`write_file_by`], with the path of the file.
-pub fn write_files_by(
-    paths: &[&Path],
-    mut write: impl FnMut(usize, &mut dyn Write) -> io::Result<()>,
-) -> Result<(), ImageFileError> {
-    let mut made = MadeFolders(Vec::new());
-    let mut waiting = Vec::new();
-    for (i, path) in paths.iter().enumerate() {
-        let file = Waiting::new(path, &mut made, |file| write(i, file));
-        let failed = |cause| ImageFileError::Write {
-            path: path.to_path_buf(),
-            cause,
-        };
-        waiting.push(file.map_err(failed)?);
+/// Files to write, all or none. Each is a draft until [`Replacements::finish`] renames them all.
+/// Missing folders are created. If anything fails, or this is dropped before, every file is as it
+/// was. A signal that makes the program call [`remove_drafts`] waits while drafts are renamed. A
+/// process that is killed between two renames leaves some files new and others old, each of them
+/// complete.
+#[derive(Default)]
+pub struct Replacements {
+    waiting: Vec<Waiting>,
+    // Dropped after the drafts, so that the folders are empty by then.
+    made: MadeFolders,
+}
+
+impl Replacements {
+    /// Writes the draft of a file.
+    ///
+    /// # Errors
+    /// As for [`write_file`].
+    pub fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
+        let file = Waiting::new(path, &mut self.made, |file| file.write_all(bytes));
+        self.waiting
+            .push(file.map_err(|cause| unwritten(path, cause))?);
+        Ok(())
     }
-    let named = name_all(&waiting);
-    named.map_err(|(i, cause)| ImageFileError::Write {
-        path: paths[i].to_owned(),
-        cause,
-    })?;
-    made.0.clear();
-    Ok(())
-}
 
-/// Renames all drafts, or none. On failure returns the index of the draft that could not be
-/// renamed.
-fn name_all(files: &[Waiting]) -> Result<(), (usize, io::Error)> {
-    // Holding the list makes a signal handler, which would remove drafts and backups, wait.
-    let _held = drafts();
-    for (i, file) in files.iter().enumerate() {
-        if let Err(error) = fs::rename(&file.draft.1, &file.place) {
-            for file in &files[..i] {
+    /// Renames all drafts, or none.
+    ///
+    /// # Errors
+    /// If one cannot be renamed.
+    pub fn finish(mut self) -> Result<(), ImageFileError> {
+        // Holding the list makes a signal handler, which would remove drafts and backups, wait.
+        let held = drafts();
+        for (i, file) in self.waiting.iter().enumerate() {
+            let Err(cause) = fs::rename(&file.draft.1, &file.place) else {
+                continue;
+            };
+            for file in &self.waiting[..i] {
                 // These renames and removals were possible a moment ago.
                 let _ = match &file.backup {
                     Some((_, backup)) => fs::rename(backup, &file.place),
                     None => fs::remove_file(&file.place),
                 };
             }
-            return Err((i, error));
+            return Err(unwritten(&file.place, cause));
         }
+        drop(held);
+        self.made.0.clear();
+        Ok(())
     }
-    Ok(())
+}
+
+/// Returns the error of a file that cannot be written.
+fn unwritten(path: &Path, cause: io::Error) -> ImageFileError {
+    ImageFileError::Write {
+        path: path.to_owned(),
+        cause,
+    }
 }
 
 /// A complete draft that waits to be renamed, with a backup of the file that it replaces.
@@ -139,8 +143,9 @@ impl Waiting {
     }
 }
 
-/// Folders that were created. They are removed again on drop.
-struct MadeFolders(Vec<PathBuf>);
+/// Folders that were created. They are removed again on drop, or by [`remove_drafts`].
+#[derive(Default)]
+struct MadeFolders(Vec<ListedDraft>);
 
 impl MadeFolders {
     /// Creates a folder and its missing parents.
@@ -150,8 +155,10 @@ impl MadeFolders {
             is_named && !above.exists()
         });
         for folder in missing.collect::<Vec<_>>().into_iter().rev() {
+            let mut drafts = drafts();
             fs::create_dir(folder)?;
-            self.0.push(folder.to_owned());
+            drafts.push(folder.to_owned());
+            self.0.push(ListedDraft(folder.to_owned()));
         }
         Ok(())
     }
@@ -161,7 +168,7 @@ impl Drop for MadeFolders {
     fn drop(&mut self) {
         for folder in self.0.iter().rev() {
             // A folder that is not empty now has files of other processes.
-            let _ = fs::remove_dir(folder);
+            let _ = fs::remove_dir(&folder.0);
         }
     }
 }
@@ -170,9 +177,10 @@ impl Drop for MadeFolders {
 /// the program. While the result lives, every thread that wants to write a file waits.
 pub fn remove_drafts() -> NoDrafts {
     let drafts = drafts();
-    for draft in drafts.iter() {
+    // A folder was listed before the drafts in it.
+    for draft in drafts.iter().rev() {
         // A draft that has just been renamed is not there any more.
-        let _ = fs::remove_file(draft);
+        let _ = fs::remove_file(draft).or_else(|_| fs::remove_dir(draft));
     }
     NoDrafts { _held: drafts }
 }
@@ -192,7 +200,11 @@ struct ListedDraft(PathBuf);
 
 impl Drop for ListedDraft {
     fn drop(&mut self) {
-        drafts().retain(|draft| *draft != self.0);
+        let mut drafts = drafts();
+        // The first of many drafts is dropped first.
+        if let Some(i) = drafts.iter().position(|draft| *draft == self.0) {
+            drafts.remove(i);
+        }
     }
 }
 
@@ -327,40 +339,34 @@ mod tests {
         fs::write(&old, "old").unwrap();
         fs::write(&other, "other").unwrap();
         let paths = [&*old, &*new, &*other];
+        let drafted = || {
+            let mut files = Replacements::default();
+            for path in paths {
+                files.add(path, b"x")?;
+            }
+            Ok::<_, ImageFileError>(files)
+        };
         let state = || (fs::read(&old).unwrap(), names(&directory).len());
-        // The last file fails while it is written.
-        let failed = write_files_by(&paths, |i, out| match i {
-            2 => Err(io::Error::other("full")),
-            _ => out.write_all(b"x"),
-        });
-        assert!(failed.unwrap_err().to_string().contains("other"));
-        assert_eq!(
-            state(),
-            (b"old".to_vec(), 2),
-            "folders that were made are gone"
-        );
-        // The last file fails while it is renamed, after the others.
-        let failed = write_files_by(&paths, |i, out| {
-            if i == 2 {
-                fs::remove_file(&other)?;
-            }
-            out.write_all(b"x")
-        });
-        assert!(failed.is_err(), "its old file cannot be kept");
-        assert_eq!(state(), (b"old".to_vec(), 1));
-        let failed = write_files_by(&paths, |i, out| {
-            if i == 2 {
-                fs::create_dir(&other)?;
-            }
-            out.write_all(b"x")
-        });
-        assert!(failed.is_err(), "a folder has its name");
+        // Drafts that get no names are removed, and so are the folders that were made for them.
+        drop(drafted().unwrap());
+        assert_eq!(state(), (b"old".to_vec(), 2));
+        // The last file cannot be drafted.
+        fs::remove_file(&other).unwrap();
+        fs::create_dir(&other).unwrap();
+        let failed = drafted().err().unwrap();
+        assert!(failed.to_string().contains("other"));
+        assert_eq!(state(), (b"old".to_vec(), 2));
+        // It cannot be renamed, after the others were.
+        fs::remove_dir(&other).unwrap();
+        let files = drafted().unwrap();
+        fs::create_dir(&other).unwrap();
+        assert!(files.finish().is_err(), "a folder has its name");
         assert_eq!(state(), (b"old".to_vec(), 2));
         assert!(!new.exists() && !path("in").exists() && other.is_dir());
         fs::remove_dir(&other).unwrap();
-        write_files_by(&paths, |i, out| write!(out, "{i}")).unwrap();
+        drafted().unwrap().finish().unwrap();
         let contents = paths.map(|path| fs::read_to_string(path).unwrap());
-        assert_eq!(contents, ["0", "1", "2"]);
+        assert_eq!(contents, ["x"; 3]);
         assert_eq!(names(&directory).len(), 3, "no draft and no backup is left");
         let is_ours = |draft: &PathBuf| draft.starts_with(directory.path());
         assert!(!drafts().iter().any(is_ours));

@@ -4,7 +4,7 @@ use super::super::text::{counted, grouped};
 use super::super::tolerance::{Judged, Levels, Tolerance};
 use super::super::{CliError, files, memory};
 use super::DiffArgs;
-use super::comparison::{Comparison, Perceived, alpha_text};
+use super::comparison::{Comparison, Perceived, alpha_text, encoding_text};
 use super::pairing::Named;
 use fastphong::picture::image_file::{FilePicture, Pair};
 use serde_json::{Value, json};
@@ -18,6 +18,8 @@ pub enum Status {
     Unreadable,
     /// The pictures differ by more than is allowed, or in size.
     Differs,
+    /// The stored values agree, but the pictures have different encodings.
+    Encoding,
     /// There is a reference, but no picture.
     Missing,
     /// There is a picture, but no reference.
@@ -30,17 +32,19 @@ pub enum Status {
 
 impl Status {
     /// All statuses, failures first.
-    pub const ALL: [Status; 6] = [
+    pub const ALL: [Status; 7] = [
         Status::Unreadable,
         Status::Differs,
+        Status::Encoding,
         Status::Missing,
         Status::New,
         Status::Within,
         Status::Equal,
     ];
 
-    /// True if a pair with this status makes the comparison of the folders fail.
-    pub fn fails(self) -> bool {
+    /// True if a pair with this status makes the comparison of the folders fail, unless it is
+    /// approved.
+    fn fails(self) -> bool {
         self < Status::Within
     }
 
@@ -48,6 +52,7 @@ impl Status {
         match self {
             Status::Unreadable => "unreadable",
             Status::Differs => "differs",
+            Status::Encoding => "encoding",
             Status::Missing => "missing",
             Status::New => "new",
             Status::Within => "within",
@@ -69,19 +74,21 @@ pub struct Compared {
     /// Warnings about the pair, and facts about its files.
     pub notes: Vec<String>,
     pub time: Duration,
-    /// True if the picture was read, so that it can be approved.
-    is_readable: bool,
+    /// The file of the picture, for `--approve`.
+    pub file: Vec<u8>,
+    /// True if the picture has become the reference.
+    pub is_approved: bool,
 }
 
 impl Compared {
-    /// True if `--approve` copies the picture over its reference.
-    pub fn is_approved(&self) -> bool {
-        let is_accepted = match self.status {
-            Status::Differs | Status::New => true,
-            Status::Unreadable => self.is_readable,
-            Status::Missing | Status::Within | Status::Equal => false,
-        };
-        is_accepted && self.is_readable
+    /// True if this pair makes the comparison of the folders fail.
+    pub fn fails(&self) -> bool {
+        self.status.fails() && !self.is_approved
+    }
+
+    /// True if `--approve` copies the picture over its reference: only what was judged.
+    pub fn can_be_approved(&self) -> bool {
+        matches!(self.status, Status::Differs | Status::New)
     }
 }
 
@@ -92,51 +99,59 @@ pub fn compare(
     pair: Named,
     tolerance: &Tolerance<'_>,
 ) -> (Compared, [Option<FilePicture>; 2]) {
-    let read = |path: &Option<_>, part| {
-        let path: Option<&PathBuf> = path.as_ref();
-        path.map(|path| files::picture(path, part)).transpose()
+    let mut file = Vec::new();
+    let mut errors = Vec::new();
+    let mut read = |path: &Option<PathBuf>, part, keeps_file: bool| {
+        let picture = path.as_ref().map(|path| {
+            if keeps_file {
+                let (picture, bytes) = files::picture_and_file(path, part)?;
+                file = bytes;
+                Ok(picture)
+            } else {
+                Ok(files::picture(path, part)?)
+            }
+        });
+        picture.and_then(|picture: Result<_, CliError>| {
+            picture.map_err(|error| errors.push(error.to_string())).ok()
+        })
     };
-    let reference = read(&pair.reference, "a reference");
-    let actual = read(&pair.actual, "a picture");
-    let is_readable = matches!(actual, Ok(Some(_)));
+    let mut pictures = [
+        read(&pair.reference, "a reference", false),
+        read(&pair.actual, "a picture", args.approve),
+    ];
     let mut one = Compared {
         status: Status::Unreadable,
-        text: String::new(),
+        text: errors.join("; "),
         judged: None,
         fields: json!({}),
         notes: Vec::new(),
         time: Duration::ZERO,
-        is_readable,
+        file,
+        is_approved: false,
         pair,
-    };
-    let pictures = match (reference, actual) {
-        (Ok(reference), Ok(actual)) => [reference, actual],
-        (Err(one_error), Err(other)) => {
-            one.text = format!("{one_error}; {other}");
-            [None, None]
-        }
-        (Err(error), Ok(actual)) => {
-            one.text = error.to_string();
-            [None, actual]
-        }
-        (Ok(reference), Err(error)) => {
-            one.text = error.to_string();
-            [reference, None]
-        }
     };
     for picture in pictures.iter().flatten() {
         one.notes.extend(picture.notes.iter().cloned());
     }
-    match &pictures {
+    match &mut pictures {
         _ if !one.text.is_empty() => {}
         [Some(reference), Some(actual)] => {
-            if let Err(error) = judge(args, &mut one, [reference, actual], tolerance) {
+            if let Err(error) = judge(args, &mut one, reference, actual, tolerance) {
                 one.text = error.to_string();
             }
         }
         [Some(_), None] => {
+            let (name, folder) = (&one.pair.name, args.actual.display());
+            let place = one.pair.place.display();
             one.status = Status::Missing;
-            one.text = format!("no picture {} in {}", one.pair.name, args.actual.display());
+            one.text = format!(
+                "no picture {name} in {folder}: expected one, or no reference: remove {place}"
+            );
+        }
+        _ if files::is_file(&one.pair.place) => {
+            let (place, problem) = (one.pair.place.display(), "is there, but was not listed");
+            let expected = "expected no link to a folder, and the same name";
+            one.text = format!("{place} {problem}: {expected}");
         }
         _ => {
             one.status = Status::New;
@@ -150,17 +165,31 @@ pub fn compare(
 fn judge(
     args: &DiffArgs,
     one: &mut Compared,
-    [reference, actual]: [&FilePicture; 2],
+    reference: &FilePicture,
+    actual: &mut FilePicture,
     tolerance: &Tolerance<'_>,
 ) -> Result<(), CliError> {
     let pair = Pair::new(reference, actual, args.assume);
     one.notes
         .extend(alpha_text(&pair, ["the reference", "the picture"]));
     memory::check_pair(&pair)?;
-    let found = Comparison::of(&pair, tolerance, Perceived::Metrics)?;
     let sizes = [reference.size(), actual.size()];
-    found.add_to(&mut one.fields, &pair, sizes);
-    let Some((difference, judged)) = found.result else {
+    let found = Comparison::of(&pair, tolerance, Perceived::Metrics);
+    if let Ok(found) = &found {
+        found.add_to(&mut one.fields, &pair, sizes);
+    }
+    let of_encoding = encoding_text(
+        found.as_ref().ok(),
+        reference,
+        actual,
+        args.assume,
+        tolerance,
+    );
+    if let Some(text) = of_encoding {
+        (one.status, one.text) = (Status::Encoding, text);
+        return Ok(());
+    }
+    let Some((difference, judged)) = found?.result else {
         let [[rw, rh], [aw, ah]] = sizes;
         one.status = Status::Differs;
         one.text =
@@ -201,6 +230,7 @@ pub fn summary(compared: &[Compared]) -> String {
             Status::Within => "within what is allowed",
             Status::Differs if pairs == 1 => "differs",
             Status::Differs => "differ",
+            Status::Encoding => "in another encoding",
             status => status.name(),
         };
         (pairs > 0).then(|| format!("{} {words}", grouped(pairs)))

@@ -8,8 +8,8 @@ use fastphong::compare::metrics::judgement::{Selection, judged_map};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare_where, flip_map, mean_flip, ssim,
 };
-use fastphong::picture::image_file::{AlphaUse, Pair};
-use fastphong::picture::{Picture, Picture8};
+use fastphong::picture::image_file::{AlphaUse, FilePicture, Pair};
+use fastphong::picture::{Encoding, Picture, Picture8};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -40,7 +40,8 @@ impl Comparison {
     /// Compares a pair. For pictures of different sizes, at most the map of FLIP is computed.
     ///
     /// # Errors
-    /// If there are too many pixels for a map of FLIP, or the mask or region does not fit the size.
+    /// If there are too many pixels for a map of FLIP, the mask or region does not fit the size, or
+    /// pictures that are not the same have no pixel to compare.
     pub fn of(
         pair: &Pair<'_>,
         tolerance: &Tolerance<'_>,
@@ -62,6 +63,15 @@ impl Comparison {
         let selection = tolerance.selection([width, height])?;
         let [r, a] = pair.compared();
         let mut difference = compare_where(&r, &a, |x, y| selection.includes(x, y))?;
+        if difference.compared == 0 && !difference.equal {
+            let of = match difference.excluded {
+                0 => "",
+                _ => " of those that are not left out",
+            };
+            let problem = format!("nothing is compared: neither picture covers a pixel{of}");
+            let expected = "expected pixels with alpha over 0, or the same values everywhere";
+            return Err(format!("{problem}: {expected}").into());
+        }
         let mut flip = None;
         if perceived == Perceived::Nothing {
             // Only the judgement is asked for.
@@ -78,6 +88,15 @@ impl Comparison {
         let judged = tolerance.judge(&r, &a, &selection)?;
         let result = Some((difference, judged));
         Ok(Comparison { result, flip })
+    }
+
+    /// True if the pictures agree: within the threshold, or to the bit if there is none.
+    fn agrees(&self, tolerance: &Tolerance<'_>) -> bool {
+        let result = self.result.as_ref();
+        result.is_some_and(|(difference, judged)| match tolerance.threshold() {
+            Some(_) => !judged.fails,
+            None => difference.equal,
+        })
     }
 
     /// Adds sizes, encodings and metrics to a JSON object. For pictures of different sizes, the
@@ -200,6 +219,46 @@ pub fn encodings_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> String 
         ""
     };
     format!("encodings: {reference}; {actual}{encoded}\n")
+}
+
+/// Returns what to do about pictures that do not agree, as `found` says, if their stored values do:
+/// then only the encodings differ. `assume` is the encoding of files that state none.
+pub fn encoding_text(
+    found: Option<&Comparison>,
+    reference: &FilePicture,
+    actual: &mut FilePicture,
+    assume: Option<Encoding>,
+    tolerance: &Tolerance<'_>,
+) -> Option<String> {
+    let pair = Pair::new(reference, actual, assume);
+    if !has_two_encodings(&pair) || found.is_some_and(|found| found.agrees(tolerance)) {
+        return None;
+    }
+    let used = pair.encodings();
+    let [one, two] = used.map(|used| {
+        let verb = if used.is_stated {
+            "states"
+        } else {
+            "counts as"
+        };
+        format!("{verb} {}", used.encoding.name())
+    });
+    let stated = actual.encoding.replace(used[0].encoding);
+    let pair = Pair::new(reference, actual, assume);
+    let as_stored = Comparison::of(&pair, tolerance, Perceived::Nothing);
+    actual.encoding = stated;
+    if !as_stored.is_ok_and(|found| found.agrees(tolerance)) {
+        return None;
+    }
+    let expected = match used.map(|used| used.is_stated) {
+        [true, true] => "expected files that state one encoding".to_owned(),
+        [false, true] => format!("expected `--assume {}`", used[1].encoding.name()),
+        [_, false] => format!("expected `--assume {}`", used[0].encoding.name()),
+    };
+    let problem = "only the encodings differ, and the stored values agree";
+    Some(format!(
+        "{problem}: the reference {one}, the picture {two}: {expected}"
+    ))
 }
 
 /// Returns a note on alpha if only one of the pictures has it. `names` are the names of the

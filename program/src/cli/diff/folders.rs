@@ -5,12 +5,15 @@ use super::super::output::{self, Output, print_beside};
 use super::super::progress::Progress;
 use super::super::text::{counted, part_of};
 use super::super::tolerance::Tolerance;
-use super::super::{CliError, Log, Outcome, contents::Contents, files, input_name::printable};
+use super::super::{
+    CliError, Log, Outcome, contents::Contents, files, files::Approval, input_name::printable,
+};
 use super::compared::{Compared, Status, compare, count, summary};
 use super::pairing::Pairing;
 use super::{DiffArgs, add, junit, page};
 use crate::compare::table::aligned;
 use serde_json::{Value, json};
+use std::mem;
 use std::time::Instant;
 
 /// Compares two folders as the flags say.
@@ -37,39 +40,55 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
         ));
     }
     let mut page = outputs.page.as_ref().map(|_| page::Page::default());
-    let compared = compare_all(args, pairing, &tolerance, page.as_mut(), log);
-    if let (Some(output), Some(page)) = (&outputs.page, page) {
-        output.make_folder()?;
-        output.write_text(&page.html(args, &compared, &tolerance))?;
+    let mut approval = args.approve.then(|| Ok(Approval::default()));
+    let mut compared = compare_all(
+        args,
+        pairing,
+        &tolerance,
+        page.as_mut(),
+        approval.as_mut(),
+        log,
+    );
+    let approved = approval.map(|approval| approval?.finish(&args.reference));
+    if let Some(Ok(())) = approved {
+        for one in &mut compared {
+            one.is_approved = one.can_be_approved();
+        }
     }
-    if let Some(output) = &outputs.junit {
-        output.make_folder()?;
-        output.write_text(&junit::xml(args, &compared))?;
-    }
-    let approved = if args.approve {
-        approve(&compared)?
-    } else {
-        Vec::new()
-    };
+    // The page and the XML say what has become of the references.
+    let written = outputs.write(args, page, &compared, &tolerance);
+    approved.transpose()?;
     let text = if args.json {
-        format!("{:#}\n", json(args, &compared, &tolerance, &approved))
+        format!("{:#}\n", json(args, &compared, &tolerance))
     } else {
-        text(&compared, &approved, log)
+        text(&compared, log)
     };
     print_beside(&outputs_list, &text)?;
-    let failed = compared.iter().filter(|one| one.status.fails()).count();
-    if !args.json
-        && failed > approved.len()
-        && approved.is_empty()
-        && compared.iter().any(Compared::is_approved)
-    {
-        log.note("`--approve` copies pictures that differ or are new over the references");
+    written?;
+    if !args.json {
+        note(args, &compared, log);
     }
-    Ok(if failed > approved.len() {
+    Ok(if compared.iter().any(Compared::fails) {
         Outcome::Differs
     } else {
         Outcome::Done
     })
+}
+
+/// Notes what to do about pairs that fail.
+fn note(args: &DiffArgs, compared: &[Compared], log: Log) {
+    let mut failed = compared.iter().filter(|one| one.fails());
+    let left = "the reference of another one, once removed, makes its picture new";
+    if args.approve {
+        let is_left = |one: &Compared| [Status::Unreadable, Status::Encoding].contains(&one.status);
+        if failed.any(is_left) {
+            log.note(&format!(
+                "`--approve` copies pictures that differ or are new: {left}"
+            ));
+        }
+    } else if failed.any(Compared::can_be_approved) {
+        log.note("`--approve` copies pictures that differ or are new over the references");
+    }
 }
 
 /// The files that are written.
@@ -90,17 +109,38 @@ impl Outputs {
         }
     }
 
+    /// Writes the page and the XML.
+    fn write(
+        &self,
+        args: &DiffArgs,
+        page: Option<page::Page>,
+        compared: &[Compared],
+        tolerance: &Tolerance<'_>,
+    ) -> Result<(), CliError> {
+        if let (Some(output), Some(page)) = (&self.page, page) {
+            output.make_folder()?;
+            output.write_text(&page.html(args, compared, tolerance))?;
+        }
+        if let Some(output) = &self.junit {
+            output.make_folder()?;
+            output.write_text(&junit::xml(args, compared))?;
+        }
+        Ok(())
+    }
+
     fn list(&self) -> Vec<&Output> {
         self.page.iter().chain(&self.junit).collect()
     }
 }
 
-/// Compares all pairs, one after the other, and adds their pictures to `page`.
+/// Compares all pairs, one after the other. Adds their pictures to `page`, and to `approval` those
+/// that can be approved, until one cannot be written.
 fn compare_all(
     args: &DiffArgs,
     pairing: Pairing,
     tolerance: &Tolerance<'_>,
     mut page: Option<&mut page::Page>,
+    mut approval: Option<&mut Result<Approval, CliError>>,
     log: Log,
 ) -> Vec<Compared> {
     let progress = Progress::watched(log);
@@ -115,6 +155,14 @@ fn compare_all(
         {
             one.notes.push(format!("not on the page: {error}"));
         }
+        let file = mem::take(&mut one.file);
+        if let Some(approval) = approval.as_deref_mut()
+            && let Ok(drafts) = approval
+            && one.can_be_approved()
+            && let Err(error) = drafts.add(&one.pair.place, &file)
+        {
+            *approval = Err(error);
+        }
         one.time = started.elapsed();
         progress.aside(|| {
             for note in &one.notes {
@@ -126,24 +174,9 @@ fn compare_all(
     compared
 }
 
-/// Copies the pictures that differ or are new over their references, all or none, and returns their
-/// names.
-fn approve(compared: &[Compared]) -> Result<Vec<String>, CliError> {
-    let approved: Vec<&Compared> = compared.iter().filter(|one| one.is_approved()).collect();
-    let copies = approved.iter().filter_map(|one| {
-        let from = one.pair.actual.as_deref()?;
-        Some(files::Copy {
-            from,
-            to: &one.pair.place,
-        })
-    });
-    files::copy_all(&copies.collect::<Vec<_>>())?;
-    Ok(approved.iter().map(|one| one.pair.name.clone()).collect())
-}
-
 /// Returns a row for each pair, the summary, and the approved pictures. Equal pairs are left out,
 /// unless `log` is verbose.
-fn text(compared: &[Compared], approved: &[String], log: Log) -> String {
+fn text(compared: &[Compared], log: Log) -> String {
     let mut shown: Vec<&Compared> = compared.iter().collect();
     shown.retain(|one| one.status != Status::Equal || log == Log::Verbose);
     shown.sort_by_key(|one| one.status);
@@ -163,6 +196,7 @@ fn text(compared: &[Compared], approved: &[String], log: Log) -> String {
     });
     let mut text = aligned(&rows.collect::<Vec<_>>(), &[0, 1, 2]);
     text += &format!("{}\n", summary(compared));
+    let approved = approved(compared);
     if !approved.is_empty() {
         let of = part_of(approved.len(), compared.len(), "picture");
         text += &format!("approved {of}:\n");
@@ -171,22 +205,23 @@ fn text(compared: &[Compared], approved: &[String], log: Log) -> String {
     text
 }
 
+/// Returns the names of the pictures that were approved.
+fn approved(compared: &[Compared]) -> Vec<&str> {
+    let approved = compared.iter().filter(|one| one.is_approved);
+    approved.map(|one| &*one.pair.name).collect()
+}
+
 /// Returns the result as JSON.
-fn json(
-    args: &DiffArgs,
-    compared: &[Compared],
-    tolerance: &Tolerance<'_>,
-    approved: &[String],
-) -> Value {
+fn json(args: &DiffArgs, compared: &[Compared], tolerance: &Tolerance<'_>) -> Value {
     let pair = |one: &Compared| {
         let mut object = json!({
             "name": one.pair.name,
             "status": one.status.name(),
-            "failed": one.status.fails(),
+            "failed": one.fails(),
             "text": one.text,
             "notes": one.notes,
             "seconds": one.time.as_secs_f64(),
-            "approved": approved.contains(&one.pair.name),
+            "approved": one.is_approved,
         });
         add(&mut object, one.fields.clone());
         object
@@ -194,7 +229,6 @@ fn json(
     let counts =
         Status::ALL.map(|status| (status.name().to_owned(), count(compared, status).into()));
     let counts: serde_json::Map<String, Value> = counts.into_iter().collect();
-    let failed = compared.iter().filter(|one| one.status.fails()).count();
     let mut object = json!({
         "schema": "fastphong.diff-folders/1",
         "reference": args.reference.display().to_string(),
@@ -202,8 +236,8 @@ fn json(
     });
     add(&mut object, tolerance.json());
     object["counts"] = counts.into();
-    object["approved"] = json!(approved);
-    object["failed"] = (failed > approved.len()).into();
+    object["approved"] = json!(approved(compared));
+    object["failed"] = compared.iter().any(Compared::fails).into();
     object["pairs"] = compared.iter().map(pair).collect();
     object
 }

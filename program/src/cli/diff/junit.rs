@@ -7,7 +7,7 @@ use super::compared::{Compared, Status, count};
 /// fails a `failure`.
 pub fn xml(args: &DiffArgs, compared: &[Compared]) -> String {
     let errors = count(compared, Status::Unreadable);
-    let failures = compared.iter().filter(|one| one.status.fails()).count() - errors;
+    let failures = compared.iter().filter(|one| one.fails()).count() - errors;
     let seconds: f64 = compared.iter().map(|one| one.time.as_secs_f64()).sum();
     let attributes = format!(
         "tests=\"{}\" failures=\"{failures}\" errors=\"{errors}\" skipped=\"0\" time=\"{seconds:.3}\"",
@@ -31,7 +31,12 @@ fn case(one: &Compared) -> String {
         .unwrap_or(("", &one.pair.name));
     let class = match folder {
         "" => "pictures".to_owned(),
-        folder => format!("pictures.{}", folder.replace('/', ".")),
+        // Servers read a dot as the end of a package. One in a folder's name is written otherwise,
+        // so that `a.b/n.png` and `a/b/n.png` stay two cases.
+        folder => format!(
+            "pictures.{}",
+            folder.replace('.', "\\x2E").replace('/', ".")
+        ),
     };
     let seconds = one.time.as_secs_f64();
     let head = format!(
@@ -39,10 +44,13 @@ fn case(one: &Compared) -> String {
         escaped(&class),
         escaped(file)
     );
-    let (element, kind) = match one.status {
-        Status::Within | Status::Equal => return format!("{head}/>\n"),
-        Status::Unreadable => ("error", one.status.name()),
-        Status::Differs | Status::Missing | Status::New => ("failure", one.status.name()),
+    if !one.fails() {
+        return format!("{head}/>\n");
+    }
+    let kind = one.status.name();
+    let element = match one.status {
+        Status::Unreadable => "error",
+        _ => "failure",
     };
     let region = one
         .judged

@@ -14,8 +14,8 @@ use super::tolerance::{Tolerance, ToleranceFlags};
 use super::{CliError, Log, Outcome, files, memory, values};
 use crate::compare::table::aligned;
 use comparison::{
-    Comparison, Perceived, SCALE, alpha_text, encodings_text, failed_text, not_finite_text,
-    selection, sizes_text,
+    Comparison, Perceived, SCALE, alpha_text, encoding_text, encodings_text, failed_text,
+    not_finite_text, selection, sizes_text,
 };
 use fastphong::compare::metrics::judgement::{draw_frame, draw_left_out};
 use fastphong::compare::metrics::{
@@ -75,8 +75,8 @@ pub struct DiffArgs {
     /// standard output
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Copy pictures that differ or are new over the references: all of them, or none if one fails.
-    /// Nothing is removed
+    /// Copy pictures that differ or are new over the references, as they were compared: all of
+    /// them, or none if one fails. Nothing is removed
     #[arg(long)]
     approve: bool,
 }
@@ -91,10 +91,27 @@ impl DiffArgs {
             [true, true] => folders::run(self, log),
             [false, false] => self.run_on_files(log),
             of_reference => {
-                let folder = self.paths()[usize::from(!of_reference[0])].display();
-                let other = self.paths()[usize::from(of_reference[0])].display();
-                let problem = format!("{folder} is a folder, but {other} is not");
-                Err(format!("{problem}: expected two files or two folders").into())
+                let [folder, other] = match of_reference {
+                    [true, _] => self.paths(),
+                    [false, _] => [&*self.actual, &*self.reference],
+                };
+                let is_missing = other.as_os_str() != "-" && !other.exists();
+                let (folder, other) = (folder.display(), other.display());
+                let (problem, expected) = match of_reference {
+                    [false, _] if is_missing => (
+                        format!("there is no {other}"),
+                        "expected a folder of references, which may be empty: `--approve` fills it",
+                    ),
+                    _ if is_missing => (
+                        format!("there is no {other}"),
+                        "expected a folder of pictures",
+                    ),
+                    _ => (
+                        format!("{folder} is a folder, but {other} is not"),
+                        "expected two files or two folders",
+                    ),
+                };
+                Err(format!("{problem}: {expected}").into())
             }
         }
     }
@@ -150,7 +167,7 @@ impl DiffArgs {
         let tolerance = self.tolerance.with(self.fail_above, "--fail-above")?;
         output::check(&outputs)?;
         let [reference, actual] = parts.map(|(path, part)| read(path, part));
-        let (reference, actual) = (reference?, actual?);
+        let (reference, mut actual) = (reference?, actual?);
         for (path, picture) in paths.iter().zip([&reference, &actual]) {
             for note in &picture.notes {
                 log.warning(&format!("{}: {note}", path.display()));
@@ -178,7 +195,11 @@ impl DiffArgs {
             self.text(&found, &pair, sizes)
         };
         print_beside(&outputs, &text)?;
-        Ok(match &found.result {
+        let found = Some(&found);
+        if let Some(text) = encoding_text(found, &reference, &mut actual, self.assume, &tolerance) {
+            log.note(&text);
+        }
+        Ok(match found.and_then(|found| found.result.as_ref()) {
             None => {
                 log.note("the pictures differ in size");
                 Outcome::Differs

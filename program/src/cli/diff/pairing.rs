@@ -1,17 +1,14 @@
 //! Pairs the pictures of two folders by name, including sub-folders.
 
-use super::super::{
-    CliError, files,
-    input_name::{escaped, printable},
-};
+use super::super::{CliError, files};
 use std::cmp::Ordering;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// The reference and the picture with the same name.
 #[derive(Debug)]
 pub struct Named {
-    /// The path within the folders, with `/` between its parts on every system. Control characters
-    /// and bytes that are not UTF-8 are written as `\xE9`.
+    /// The path within the folders, with `/` between its parts on every system: see [`written`].
     pub name: String,
     pub reference: Option<PathBuf>,
     pub actual: Option<PathBuf>,
@@ -69,6 +66,26 @@ fn check_apart(reference: &Path, actual: &Path) -> Result<(), CliError> {
     Err(format!("{within}: expected two folders, none within the other").into())
 }
 
+/// Writes a name in text that a terminal and XML can hold. Bytes of control characters, of `\`, and
+/// those that are not UTF-8 become `\xE9`, so that different names stay different.
+fn written(name: &OsStr) -> String {
+    let is_plain = |c: &char| !c.is_control() && !['\\', '\u{fffe}', '\u{ffff}'].contains(c);
+    let escape = |byte: &u8| format!("\\x{byte:02X}");
+    let mut text = String::new();
+    for chunk in name.as_encoded_bytes().utf8_chunks() {
+        for letter in chunk.valid().chars() {
+            if is_plain(&letter) {
+                text.push(letter);
+            } else {
+                let bytes = letter.encode_utf8(&mut [0; 4]).as_bytes().to_vec();
+                text.extend(bytes.iter().map(escape));
+            }
+        }
+        text.extend(chunk.invalid().iter().map(escape));
+    }
+    text
+}
+
 /// Merges two sorted lists of names into pairs.
 fn merged(
     reference: &Path,
@@ -79,7 +96,7 @@ fn merged(
     let mut pairs = Vec::new();
     let mut add = |name: &Path, is_reference: bool, is_actual: bool| {
         let place = reference.join(name);
-        let parts = name.iter().map(|part| printable(&escaped(part)));
+        let parts = name.iter().map(written);
         pairs.push(Named {
             name: parts.collect::<Vec<_>>().join("/"),
             reference: is_reference.then(|| place.clone()),
