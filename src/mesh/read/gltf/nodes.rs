@@ -114,7 +114,8 @@ pub(super) struct Pose {
     joints: Vec<DAffine3>,
 }
 
-/// Returns the poses of a visible node with a mesh: one, or one for each instance. `worlds` holds the transforms of all nodes.
+/// Returns the poses of a visible node with a mesh: one, or one for each instance. `worlds` holds
+/// the transforms of all nodes.
 ///
 /// # Errors
 /// If an accessor of the skin or of the instances cannot be read.
