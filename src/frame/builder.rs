@@ -153,7 +153,8 @@ impl FrameBuilder {
     }
 
     /// Sets the distances from the eye at which depth is 0 and 1. By default they are 0 and 1,
-    /// orthographic. A far distance of infinity, as in matrices without a far plane, stands for 10²⁰.
+    /// orthographic. A far distance of infinity, as in matrices without a far plane, stands for
+    /// 10²⁰.
     pub fn depth_range(&mut self, range: DepthRange) -> &mut Self {
         self.frame.depth_range = range.bounded();
         self

@@ -16,13 +16,15 @@ use crate::frame::Frame;
 use crate::number::SimdLevel;
 use alloc::vec::Vec;
 
-/// How many spans are looked at, and at how many pixels of each. Some are hidden, and at some pixels
-/// engines round alike.
+/// How many spans are looked at, and at how many pixels of each. Some are hidden, and at some
+/// pixels engines round alike.
 const SPANS: usize = 32;
 const PIXELS: usize = 7;
+/// How many of these samples may hold another engine's depth by accident, where polygons touch.
+const BY_ACCIDENT: u32 = 8;
 
-/// Returns the other engine, if `stored` holds more depths that only it finds for polygons of
-/// `frame` than depths that only the engine of `renderer` finds.
+/// Returns the other engine, if `stored` holds depths that only it finds for polygons of `frame`,
+/// and hardly any that only the engine of `renderer` finds.
 pub(super) fn other_engine(
     frame: &Frame,
     renderer: Renderer,
@@ -77,14 +79,15 @@ pub(super) fn other_engine(
             }
         }
     }
-    match renderer {
-        Renderer::Row(_) => (held[0] > held[1]).then_some(Engine::Span),
-        Renderer::Span => (held[1] > held[0]).then_some(Engine::Row),
-    }
+    let (own, others, other) = match renderer {
+        Renderer::Row(_) => (held[1], held[0], Engine::Span),
+        Renderer::Span => (held[0], held[1], Engine::Row),
+    };
+    (others > BY_ACCIDENT + 2 * own).then_some(other)
 }
 
-/// Returns the first span of a polygon on a scanline, as the span engine finds it, and the scanline,
-/// which is at a `share` of its height; `None` if the polygon covers no pixel there.
+/// Returns the first span of a polygon on a scanline, as the span engine finds it, and the
+/// scanline, which is at a `share` of its height; `None` if the polygon covers no pixel there.
 fn span_of(frame: &Frame, polygon: u32, share: f64) -> Option<(usize, PolygonSpan)> {
     let corners = frame.corners(&frame.polygons()[polygon as usize]).iter();
     let rows = corners.map(|&v| first_centre(frame.vertices()[v as usize].y));

@@ -229,8 +229,8 @@ impl MethodRow {
         METHODS.iter().find(|row| row.info.name == name)
     }
 
-    /// Returns the reason why the method does not draw a frame, or spans of a material; `None` if it
-    /// does.
+    /// Returns the reason why the method does not draw a frame, or spans of a material; `None` if
+    /// it does.
     pub(crate) fn refuses(&self, on: On<'_>) -> Option<&'static str> {
         let (lights, is_local) = match on {
             On::Frame(frame) => (frame.light_count(), frame.is_local()),

@@ -103,7 +103,7 @@ impl Choices<'_> {
 /// Builds a frame by random choices. Returns `None` if it is refused.
 fn frame(numbers: &[u32]) -> Option<Frame> {
     let mut of = Choices {
-        is_wild: numbers.len() % 2 == 0,
+        is_wild: numbers.len().is_multiple_of(2),
         rest: numbers.iter(),
     };
     let sides = [16, 1, 33, 2, 8];

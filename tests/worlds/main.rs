@@ -158,8 +158,8 @@ fn both_doors_refuse_and_draw_the_same_scenes() {
     assert!(10 * refused > worlds && 2 * equal > worlds);
 }
 
-/// A program may build frames of any values: polygons of 0 to 200 corners, vertices on the screen and
-/// in clip space, lights and eyes anywhere, pictures of one pixel.
+/// A program may build frames of any values: polygons of up to 200 corners, vertices on the screen
+/// and in clip space, lights and eyes anywhere, pictures of one pixel.
 #[test]
 fn no_frame_that_a_program_builds_makes_it_panic() {
     let frames = 2 * setting("FASTPHONG_WORLDS", WORLDS);
@@ -170,5 +170,5 @@ fn no_frame_that_a_program_builds_makes_it_panic() {
     });
     println!("{frames} frames, {} of them drawn", drawn.get());
     assert_none(&failures);
-    assert!(drawn.get() * 5 > frames, "{} are drawn", drawn.get());
+    assert!(drawn.get() * 8 > frames, "{} are drawn", drawn.get());
 }

@@ -1,5 +1,5 @@
-//! Drawing a frame by a shader from outside the crate, after one that panics, in a part of a picture,
-//! and over depths that were drawn before.
+//! Drawing a frame by a shader from outside the crate, after one that panics, in a part of a
+//! picture, and over depths that were drawn before.
 
 use super::renderers::{name, renderers};
 use fastphong::frame::Frame;
