@@ -268,6 +268,18 @@ fn invalid_flags_are_rejected_by_name() {
             "--falloff inverse",
             &["required arguments were not provided", "--light-at"],
         ),
+        (
+            "--no-lights --attenuation 1",
+            &["'--no-lights' cannot be used with '--attenuation"],
+        ),
+        (
+            "--square 2 --engine span",
+            &["'--square <UNITS>' cannot be used with '--engine"],
+        ),
+        (
+            "--square 2 --aov depth",
+            &["`--square` is for squares, not for `--aov depth`"],
+        ),
         ("--light-at 0,0,5 --falloff inverses", &["inverse-square"]),
         (
             "--light-at 0,0,5 --falloff inverse --attenuation 1",
