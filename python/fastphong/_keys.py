@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import numbers
+import operator
 import re
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex
 
 import numpy as np
 
@@ -47,7 +48,10 @@ def _lights(light: Any) -> list[Any]:
 
     if isinstance(light, Mapping):
         return [light]
-    light = list(light)
+    try:
+        light = list(light)
+    except TypeError:
+        raise TypeError(f"`light` is {light!r}: expected a direction, a mapping or a list") from None
     if len(light) == 3 and all(isinstance(c, numbers.Real) for c in light):
         return [table(light)]
     return [table(one) for one in light]
@@ -56,28 +60,38 @@ def _lights(light: Any) -> list[Any]:
 def _numbers(name: str, value: Any, count: int) -> list[float]:
     """Return `count` numbers, or raise a `TypeError` or `ValueError` that names the argument."""
     try:
-        found = [float(c) for c in value]
-    except (TypeError, ValueError):
+        found = [_number(name, c) for c in value]
+    except TypeError:
         raise TypeError(f"`{name}` is {value!r}: expected {count} numbers") from None
     if len(found) != count:
         raise ValueError(f"`{name}` is {value!r}: expected {count} numbers")
     return found
 
 
+def text(name: str, value: Any) -> str:
+    """Return a word."""
+    if not isinstance(value, str):
+        raise TypeError(f"`{name}` is {value!r}: expected a str")
+    return value
+
+
 def _number(name: str, value: Any) -> float:
-    if isinstance(value, (str, bytes)):
-        raise TypeError(f"`{name}` is {value!r}: expected a number")
     try:
-        return float(value)
+        if not isinstance(value, (str, bytes, bool, np.bool_)):
+            return float(value)
     except (TypeError, ValueError):
-        raise TypeError(f"`{name}` is {value!r}: expected a number") from None
+        pass
+    raise TypeError(f"`{name}` is {value!r}: expected a number")
 
 
-def whole(name: str, value: object) -> int:
+def whole(name: str, value: Any) -> int:
     """Return a whole number."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Integral):
-        raise TypeError(f"`{name}` is {value!r}: expected a whole number")
-    return int(value)
+    try:
+        if not isinstance(value, (bool, np.bool_)):
+            return operator.index(value)
+    except TypeError:
+        pass
+    raise TypeError(f"`{name}` is {value!r}: expected a whole number")
 
 
 def _normals(normals: Normals | None) -> dict[str, Any]:
@@ -99,14 +113,14 @@ def settings(
     size: Size | None = None,
     view: View | None = None,
     up: str | Vector | None = None,
-    fovy: float | None = None,
+    fovy: SupportsFloat | None = None,
     light: Light | None = None,
-    background: float | Vector | None = None,
+    background: SupportsFloat | Vector | None = None,
     normals: Normals | None = None,
     weight: str | None = None,
-    weld: float | None = None,
-    colours: bool | None = None,
-    samples: int | None = None,
+    weld: SupportsFloat | None = None,
+    colours: Any = None,
+    samples: SupportsIndex | None = None,
     scene: Keys | None = None,
 ) -> str:
     """Return the arguments of `render` as keys of a scene, in TOML."""
@@ -143,8 +157,9 @@ def settings(
     if light is not None:
         keys["light"] = _lights(light)
     if background is not None:
-        plain = isinstance(background, numbers.Real)
-        put("image", "background", background if plain else _numbers("background", background, 3))
+        is_colour = isinstance(background, (str, bytes)) or np.ndim(background) > 0  # type: ignore[arg-type]
+        put("image", "background", (_numbers("background", background, 3) if is_colour
+                                    else _number("background", background)))
         # Whoever sets a background wants to see it.
         keys["image"].setdefault("alpha", "opaque")
     if samples is not None:
@@ -153,7 +168,7 @@ def settings(
         keys["colours"] = "on" if colours else "off"
     every = _normals(normals)
     if weight is not None:
-        every["normals_weight"] = weight
+        every["normals_weight"] = text("weight", weight)
     if weld is not None:
         every["weld"] = _number("weld", weld)
     if every:

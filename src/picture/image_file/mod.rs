@@ -4,7 +4,9 @@
 //! |---|---|---|
 //! | `.png` | red, green, blue, straight alpha in 8 bits; the encoding, if the picture states it; the name of this program | fractions of a grey level |
 //! | `.ppm` | red, green, blue in 8 bits (P6) | fractions of a grey level, alpha, and the encoding |
-//! | `.pfm` | red, green, blue as floats (PF) | alpha |
+//! | `.pfm` | red, green, blue as linear floats (PF) | alpha |
+//!
+//! Formats without alpha hold the picture over the background that it states.
 //!
 //! [`read_picture`] reads PNG of all colour types and depths, PBM, PGM and PPM (P1 to P6), PAM (P7)
 //! and PFM as they are stored, in 8 bits, 16 bits or floats. It also reads BMP and Targa in 8 bits.
@@ -32,6 +34,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::string::String;
+use std::vec;
 use std::vec::Vec;
 
 use super::encoding::quantise;
@@ -220,30 +223,74 @@ impl FilePicture {
     /// # Errors
     /// As for [`FilePicture::encode`], and any error of `out`.
     pub fn write_to(&self, format: Format, out: &mut dyn Write) -> io::Result<()> {
-        match (format, &self.pixels) {
-            (Format::Png, FilePixels::Stored(picture)) => {
+        let without_alpha = match format {
+            Format::Png => None,
+            Format::Ppm | Format::Pfm => self.flattened(),
+        };
+        let picture = without_alpha.as_ref().unwrap_or(self);
+        match (format, &picture.pixels) {
+            (Format::Png, FilePixels::Stored(pixels)) => {
                 let stated = png::Stated {
                     encoding: self.encoding,
                     background: self.background,
                     software: true,
                 };
-                png::write(picture, stated, out)
+                png::write(pixels, stated, out)
             }
-            (Format::Ppm, FilePixels::Stored(picture)) => netpbm::write_ppm(picture, out),
-            (Format::Pfm, FilePixels::Linear(picture)) => netpbm::write_pfm(picture, out),
-            (Format::Pfm, _) => netpbm::write_pfm(&self.to_linear(), out),
+            (Format::Ppm, FilePixels::Stored(pixels)) => netpbm::write_ppm(pixels, out),
+            (Format::Pfm, FilePixels::Linear(pixels)) => netpbm::write_pfm(pixels, out),
+            (Format::Pfm, _) if picture.encoding == Some(Encoding::Srgb) => {
+                let linear = |[r, g, b, alpha]: [f32; 4]| {
+                    let [r, g, b] = [r, g, b].map(|c| Encoding::Srgb.decode(f64::from(c)) as f32);
+                    [r, g, b, alpha]
+                };
+                netpbm::write_pfm(&picture.to_linear().map(linear), out)
+            }
+            (Format::Pfm, _) => netpbm::write_pfm(&picture.to_linear(), out),
             (Format::Png | Format::Ppm, _) => {
-                let pixels = FilePixels::Stored(self.to_stored());
-                let (notes, background) = (Vec::new(), self.background);
+                let pixels = FilePixels::Stored(picture.to_stored());
+                let notes = Vec::new();
                 let picture = FilePicture {
                     pixels,
                     notes,
-                    background,
-                    ..*self
+                    ..*picture
                 };
                 picture.write_to(format, out)
             }
         }
+    }
+
+    /// Returns the picture over its background, for formats without alpha. Returns `None` if it
+    /// states no background, or every pixel is fully covered.
+    fn flattened(&self) -> Option<FilePicture> {
+        let background = self.background?;
+        if !self.has_alpha || pair::is_opaque(self) {
+            return None;
+        }
+        let encoding = self.encoding.unwrap_or(match self.pixels {
+            FilePixels::Linear(_) => Encoding::Linear,
+            FilePixels::Stored(_) | FilePixels::Deep { .. } => Encoding::Srgb,
+        });
+        let [width, height] = self.size();
+        let mut levels = vec![Levels([0.0; 4]); width];
+        let mut pixels = Vec::with_capacity(width * height);
+        for y in 0..height {
+            self.stored_levels(y, &mut levels);
+            pixels.extend(levels.iter().map(|pixel| {
+                let [r, g, b] = pair::flattened(*pixel, background, encoding);
+                [r, g, b, 255.0].map(|level| (level / 255.0) as f32)
+            }));
+        }
+        let linear = LinearPicture::from_pixels(width, height, pixels)?;
+        let mut picture = FilePicture {
+            encoding: self.encoding,
+            has_alpha: false,
+            ..FilePicture::linear(linear)
+        };
+        if !matches!(self.pixels, FilePixels::Linear(_)) {
+            picture.pixels = FilePixels::Stored(picture.to_stored());
+        }
+        Some(picture)
     }
 
     /// Writes the stored values of row `y` into `levels`.
