@@ -107,8 +107,13 @@ def picture(pixels: bytearray, width: int, height: int, encoding: Any, backgroun
 def read(path: PathLike, level: int = 1) -> Picture:
     """Read a picture file in 8 bits. `diff` compares files as they are stored, unrounded."""
     image = _fastphong.Image.read(os.fsdecode(path))
-    _warn([f"{os.fsdecode(path)}: {note}" for note in image.notes], level + 1)
+    _warn([f"{_name(path)}: {note}" for note in image.notes], level + 1)
     return picture(*image.pixels())
+
+
+def _name(path: PathLike) -> str:
+    """Return a path as text, also if it is not UTF-8."""
+    return os.fsencode(path).decode("utf-8", "replace")
 
 
 def _warn(texts: list[str], level: int) -> None:
@@ -142,7 +147,7 @@ class Difference:
     """
 
     def __init__(self, a: Image, b: Image, assume: Encoding | None = None, *, _level: int = 1) -> None:
-        names = [os.fsdecode(image) if isinstance(image, (str, bytes, os.PathLike)) else name
+        names = [_name(image) if isinstance(image, (str, bytes, os.PathLike)) else name
                  for name, image in (("a", a), ("b", b))]
         first = _image("a", a)
         second = _image("b", b, first.encoding)

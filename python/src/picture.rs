@@ -6,7 +6,9 @@ use crate::scene::Pixels;
 use fastphong::compare::metrics::difference_map as map;
 use fastphong::compare::metrics::{SizeMismatch, compare, ssim};
 use fastphong::memory::{check_size, pixels};
-use fastphong::picture::image_file::{self, FilePicture, FilePixels, Format, ImageFileError, Pair};
+use fastphong::picture::image_file::{
+    self, FilePicture, FilePixels, Format, ImageFileError, Pair, UsedEncoding,
+};
 use fastphong::picture::{Encoding, LevelRows, Levels, Picture8};
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyBytes, PyDict};
@@ -192,7 +194,9 @@ impl Comparison {
         with_pair(py, self, move |pair| {
             let both = || names.each_ref().map(String::as_str);
             let alpha = pair.alpha_text(both());
-            let is_assumed = pair.encodings().iter().any(|used| !used.is_stated);
+            // Everyone takes floats as linear. For bytes, sRGB is a guess.
+            let is_guess = |used: &UsedEncoding| !used.is_stated && used.encoding == Encoding::Srgb;
+            let is_assumed = pair.encodings().iter().any(is_guess);
             let text = || pair.encodings_text(both()).trim_end().to_owned();
             let encodings = (is_assumed && pair.has_two_encodings()).then(text);
             alpha.into_iter().chain(encodings).collect()

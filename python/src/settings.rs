@@ -38,9 +38,10 @@ fn argument(path: &str) -> Option<&'static str> {
 pub fn overlay(text: &str) -> PyResult<Overlay> {
     let mut scene = SceneTable::parse(text).map_err(|error| {
         // Each line of the text is one key.
-        let line = error.line_and_column().map_or(0, |(line, _)| line);
-        let line = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
-        let key = line.split(" = ").next().unwrap_or_default();
+        let mut lines = text.lines();
+        let wrong = lines.find(|line| SceneTable::parse(line).is_err());
+        let key = wrong.and_then(|line| line.split(" = ").next());
+        let key = key.unwrap_or_default();
         value_error(format!("`{key}`: {error}"))
     })?;
     name_arguments(&mut scene, "");
