@@ -389,6 +389,7 @@ class Meshes(unittest.TestCase):
             ((vertices, quads.astype(float)), TypeError, "faces: indices of float64: expected whole numbers"),
             ((vertices, quads == 0), TypeError, "faces: indices of bool"),
             ((vertices, [1, 2, 3]), TypeError, "faces: expected rows of indices"),
+            ((1e300 * vertices, quads), ValueError, "vertices: row 0 is .*: expected finite numbers up to 3.4e38"),
             ((np.zeros((0, 3)), quads), IndexError, "faces: row 0 has the index 0: there are no vertices"),
             ((vertices, quads, vertices[:3]), ValueError, "normals: 3 rows: expected one for each of 8 vertices"),
             ((vertices, quads, nan), ValueError, "normals: row 5 is"),
@@ -827,6 +828,18 @@ class OtherLibraries(unittest.TestCase):
         solid = self.meshio(("hexahedron", np.array([[0, 4, 6, 2, 1, 5, 7, 3]])), cell_data={"RGB": [colours[:1]]})
         same(self, fp.render(solid, size=SIZE), fp.render(CUBE, colours=np.tile(colours[:1], (8, 1)), size=SIZE))
 
+    def test_colours_of_cells_are_not_taken_for_those_of_points(self):
+        # A pyramid over a square has five points, four triangles and a square.
+        points = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 1)], float)
+        faces = [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+        colours = np.array([(9, 9, 9), (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)], np.uint8)
+        flat = np.concatenate([(len(face), *face) for face in faces])
+        for mesh in (types.SimpleNamespace(points=points, faces=flat, strips=None, point_data={},
+                                           cell_data={"RGB": colours}),
+                     self.meshio(("quad", faces[:1]), ("triangle", faces[1:]), points=points,
+                                 cell_data={"RGB": [colours[:1], colours[1:]]})):
+            self.assertEqual(len(fp.Mesh(mesh).vertices), sum(map(len, faces)))
+
     def test_arrays_that_are_neither_colours_nor_normals_refuse_no_mesh(self):
         vertices, quads = CUBE
         flat = np.insert(quads, 0, 4, axis=1).ravel()
@@ -835,7 +848,7 @@ class OtherLibraries(unittest.TestCase):
             ({"RGB": np.full((8, 3), 99.0)}, "`RGB` is not used as colours: row 0 is (99, 99, 99): expected 0 to 1"),
             ({"colors": np.zeros(8)}, "`colors` is not used as colours: an array of shape (8,): expected (n, 3) or (n, 4)"),
             ({"Normals": np.full((8, 3), np.nan)},
-             "`Normals` is not used as normals: row 0 is (nan, nan, nan): expected finite numbers"),
+             "`Normals` is not used as normals: row 0 is (nan, nan, nan): expected finite numbers up to 3.4e38"),
             ({"Normals": np.zeros((8, 2))}, "`Normals` is not used as normals: an array of shape (8, 2): expected (n, 3)"),
         ):
             for mesh in (types.SimpleNamespace(points=vertices, faces=flat, strips=None, point_data=data),
@@ -937,7 +950,9 @@ class Arguments(unittest.TestCase):
             ({"size": (0, 5)}, ValueError, "`size` is 0"),
             ({"size": 640}, TypeError, r"`size` is 640: expected \(width, height\)"),
             ({"size": (640.5, 480)}, TypeError, "`size` is 640.5: expected a whole number"),
-            ({"size": (10**30, 5)}, ValueError, "."),
+            ({"size": (10**30, 5)}, ValueError, "`size` is"),
+            ({"fovy": 10**400}, TypeError, "`fovy` is"),
+            ({"method": "\udcff"}, ValueError, "`method` is .*: expected text in UTF-8"),
             ({"fovy": 180}, ValueError, "`fovy` is 180"),
             ({"fovy": "wide"}, TypeError, "`fovy` is 'wide': expected a number"),
             ({"fovy": float("nan")}, ValueError, "`fovy`"),
@@ -1120,13 +1135,17 @@ class KeptScenes(unittest.TestCase):
     def test_ctrl_c_ends_a_picture_within_a_second(self):
         scene = fp.Scene("builtin:teapot", size=(2000, 1500))
         before = scene.render(size=SIZE)
-        timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
-        started = time.monotonic()
-        timer.start()
-        with self.assertRaises(KeyboardInterrupt):
-            while time.monotonic() < started + 60:
-                scene.render("reference")
-        self.assertLess(time.monotonic() - started, 0.2 + 1)
+        taken = []
+        # On a machine that is busy with something else, one try may take longer.
+        while len(taken) < 5 and min(taken, default=9) > 1:
+            timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+            started = time.monotonic()
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                while time.monotonic() < started + 60:
+                    scene.render("reference")
+            taken.append(time.monotonic() - started - 0.2)
+        self.assertLess(min(taken), 1)
         # Nothing waits for the picture that was given up.
         same(self, scene.render(size=SIZE), before)
 
@@ -1195,6 +1214,11 @@ class Differences(unittest.TestCase):
         self.assertEqual(int((found.map[..., :3] > 0).any(axis=2).sum()), 1)
         self.assertTrue(found._repr_png_().startswith(b"\x89PNG"))
         self.assertIn("1 of", repr(found))
+        for scale in (0, -1, float("nan")):
+            with self.assertRaisesRegex(ValueError, "`scale` is .*: expected grey levels over 0"):
+                found.draw(scale)
+        with self.assertRaisesRegex(ValueError, "`levels` is not a number"):
+            found.assert_below(float("nan"))
 
     def test_files_are_compared_as_they_are_stored(self):
         picture = measured("builtin:sphere", background=0.2)

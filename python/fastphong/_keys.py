@@ -26,6 +26,7 @@ def toml(value: object) -> str:
     if isinstance(value, numbers.Real):
         return repr(float(value))
     if isinstance(value, str):
+        text("scene", value)
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
         return "{" + ", ".join(_pair(*item) for item in value.items()) + "}"
@@ -69,9 +70,13 @@ def _numbers(name: str, value: Any, count: int) -> list[float]:
 
 
 def text(name: str, value: Any) -> str:
-    """Return a word."""
+    """Return a text."""
     if not isinstance(value, str):
         raise TypeError(f"`{name}` is {value!r}: expected a str")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"`{name}` is {value!r}: expected text in UTF-8") from None
     return value
 
 
@@ -79,7 +84,7 @@ def _number(name: str, value: Any) -> float:
     try:
         if not isinstance(value, (str, bytes, bool, np.bool_)):
             return float(value)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         pass
     raise TypeError(f"`{name}` is {value!r}: expected a number")
 
@@ -88,7 +93,9 @@ def whole(name: str, value: Any) -> int:
     """Return a whole number."""
     try:
         if not isinstance(value, (bool, np.bool_)):
-            return operator.index(value)
+            number = operator.index(value)
+            # Larger numbers are out of the range of every key, and too long for TOML.
+            return max(-(10 ** 17), min(number, 10 ** 17))
     except TypeError:
         pass
     raise TypeError(f"`{name}` is {value!r}: expected a whole number")

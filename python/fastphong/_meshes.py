@@ -30,8 +30,9 @@ class Mesh:
     `Mesh(mesh)` accepts whatever `render` accepts except scene files; `Mesh(vertices, faces)` accepts arrays.
     `faces` are rows of indices, (n, k), or a list of rows whose lengths differ. Polygons are never cut into
     triangles. `normals` are (n, 3), one for each vertex or one for each corner of all faces in order.
-    `colours` are (n, 3) or (n, 4), one for each vertex or one for each face. They are bytes, or linear floats
-    from 0 to 1; a mesh warns of alpha, which is not drawn. Meshes can be copied and pickled.
+    `colours` are (n, 3) or (n, 4), one for each vertex or, if there are not as many of both, one for each face. They
+    are bytes, or linear floats from 0 to 1; a mesh warns of alpha, which is not drawn. Meshes can be copied and
+    pickled.
     """
 
     _mesh: _fastphong.Mesh
@@ -58,7 +59,7 @@ class Mesh:
             if normals is not None:
                 parts.normals, parts.found_normals = normals, {}
             if colours is not None:
-                parts.colours, parts.found_colours = colours, {}
+                parts.colours, parts.found_colours, parts.found_face_colours = colours, {}, {}
             self._mesh = _packed(parts)
         if _level is not None:
             for text in self._mesh.warnings:
@@ -117,6 +118,8 @@ class _Parts:
     colours: Any = None
     found_normals: dict[str, Any] = field(default_factory=dict)
     found_colours: dict[str, Any] = field(default_factory=dict)
+    #: Colours of faces, which are used if there are none of vertices.
+    found_face_colours: dict[str, Any] = field(default_factory=dict)
     #: Materials, and for each face an index into them, -1 for none.
     materials: tuple[list[_fastphong.Material], Any] | None = None
     warnings: list[str] = field(default_factory=list)
@@ -293,7 +296,7 @@ def _poly_data(kind: str, mesh: Any) -> _Parts:
     parts.found_colours = _colours_in(points, getattr(points, "active_scalars_name", None))
     of_cells = getattr(mesh, "cell_data", {})
     found = _colours_in(of_cells, getattr(of_cells, "active_scalars_name", None))
-    parts.found_colours.update(_of_faces(parts, found, cells, count))
+    parts.found_face_colours = _of_faces(parts, found, cells, count)
     return parts
 
 
@@ -414,7 +417,7 @@ def _meshio(kind: str, mesh: Any) -> _Parts:
         for name, values in _colours_in(getattr(mesh, "cell_data", {})).items()
     }
     cells = np.concatenate([own for _, own in blocks]) if blocks else np.zeros(0, np.int64)
-    parts.found_colours.update(_of_faces(parts, found, cells, count))
+    parts.found_face_colours = _of_faces(parts, found, cells, count)
     return parts
 
 
@@ -444,13 +447,17 @@ def _packed(parts: _Parts) -> _fastphong.Mesh:
         except (TypeError, ValueError) as error:
             parts.warn(f"{name} is not used as normals: {_without_name(error)}")
     colours = None if parts.colours is None else _colours(parts, parts.colours, len(vertices), len(ends))
-    for name, array in parts.found_colours.items():
-        try:
-            if colours is None:
-                colours = _colours(parts, array, len(vertices), len(ends))
-        except (TypeError, ValueError) as error:
-            parts.warn(f"{name} is not used as colours: {_without_name(error)}")
-    if colours is not None and len(colours) != len(vertices):
+    is_by_face = colours is not None and len(colours) != len(vertices)
+    for found in (parts.found_colours, parts.found_face_colours):
+        for name, array in found.items():
+            is_of_faces = found is parts.found_face_colours
+            try:
+                if colours is None:
+                    colours = _colours(parts, array, len(ends) if is_of_faces else len(vertices))
+                    is_by_face = is_of_faces
+            except (TypeError, ValueError) as error:
+                parts.warn(f"{name} is not used as colours: {_without_name(error)}")
+    if colours is not None and is_by_face:
         # Colours of faces: each corner becomes a vertex. Corners at one position still share their normal.
         if normals is not None and len(normals) == len(vertices):
             normals = normals[corners]
@@ -481,12 +488,12 @@ def _normals(normals: Any, vertices: int, corners: int) -> Array:
     return found
 
 
-def _colours(parts: _Parts, colours: Any, vertices: int, faces: int) -> Array:
-    """Return linear colours, one for each vertex or for each face."""
+def _colours(parts: _Parts, colours: Any, *counts: int) -> Array:
+    """Return linear colours: as many as one of `counts`, those of vertices and of faces."""
     found, is_transparent = _linear(colours)
-    if len(found) not in (vertices, faces):
-        raise ValueError(f"colours: {len(found)} rows: expected one for each of {vertices} vertices "
-                         f"or {faces} faces")
+    if len(found) not in counts:
+        expected = " or ".join(f"{count} {noun}" for count, noun in zip(counts, ("vertices", "faces")))
+        raise ValueError(f"colours: {len(found)} rows: expected one for each of {expected}")
     if is_transparent:
         parts.warn(_NO_TRANSPARENCY)
     return found

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _fastphong
 from ._arrays import plain
+from ._keys import text
 
 if TYPE_CHECKING:
     from ._types import Encoding, Image, PathLike
@@ -156,7 +157,7 @@ class Difference:
         (w, h), (w2, h2) = first.size, second.size
         if (w, h) != (w2, h2):
             raise ValueError(f"the pictures are {w}x{h} and {w2}x{h2} pixels: expected the same size")
-        self._pair = _fastphong.Comparison(first, second, assume)
+        self._pair = _fastphong.Comparison(first, second, None if assume is None else text("assume", assume))
         found = self._pair.difference()
         self.equal = found["equal"]
         self.max = found["max"]
@@ -179,6 +180,8 @@ class Difference:
 
         Black pixels are equal, magenta ones are beyond the scale, and white ones are covered by only one picture.
         """
+        if not 0 < scale < float("inf"):
+            raise ValueError(f"`scale` is {scale!r}: expected grey levels over 0")
         return picture(*self._pair.map(float(scale)))
 
     @property
@@ -192,6 +195,8 @@ class Difference:
         Pixels that are infinite or not a number in only one picture are beyond all levels. Two pictures that cover
         no pixel are below only if they are the same in all their bytes.
         """
+        if levels != levels:
+            raise ValueError("`levels` is not a number: expected grey levels")
         if not (self.compared or self.equal):
             raise AssertionError("nothing is compared: the pictures cover no pixel, and are not the same")
         if self.max < levels and not self.not_finite:

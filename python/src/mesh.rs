@@ -17,7 +17,8 @@ use pyo3::types::PyBytes;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Bytes of memory per byte of an array while a mesh is made of it: for the values, and the mesh.
+/// Bytes of memory per byte of an array while a mesh is made of it: for a copy, the values, and the
+/// mesh.
 const ARRAY_BYTE: u64 = 4;
 
 /// A mesh whose arrays are checked.
@@ -113,10 +114,12 @@ impl Mesh {
         let needed = ARRAY_BYTE * size;
         let needs = format!("a mesh of these arrays needs about {}", shown(needed));
         check_free(needed, &needs, "a smaller mesh").map_err(memory_error)?;
-        let vertices: Vec<DVec3> = vectors(vertices).collect();
-        let (corners, ends) = (integers(corners), integers(ends));
-        let (normals, colours) = (normals.map(singles), colours.map(singles));
+        let [vertices, corners, ends] = [vertices, corners, ends].map(<[u8]>::to_vec);
+        let [normals, colours] = [normals, colours].map(|bytes| bytes.map(<[u8]>::to_vec));
         let made = run(py, move || {
+            let vertices: Vec<DVec3> = vectors(&vertices).collect();
+            let (corners, ends) = (integers(&corners), integers(&ends));
+            let [normals, colours] = [normals, colours].map(|bytes| bytes.as_deref().map(singles));
             let mut builder = MeshBuilder::from_f64(&vertices);
             // Arrays are no more reliable than a file, so sides and normals are chosen as for a
             // file.

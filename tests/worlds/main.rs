@@ -9,9 +9,9 @@
 //! ```
 //!
 //! and `FASTPHONG_WORLDS_SEED=2` tries others. The first worlds are written to `target/tmp/worlds`,
-//! where the tests of the Python package find them. If a property does not hold in a world, the test
-//! makes the world as small as possible and prints it as the files of a scene. Make a test from
-//! these files, and let its name say the situation.
+//! where the tests of the Python package find them. If a property does not hold in a world, the
+//! test makes the world as small as possible and prints it as the files of a scene. Make a test
+//! from these files, and let its name say the situation.
 
 mod doors;
 mod files;
