@@ -240,11 +240,8 @@ impl FilePicture {
             (Format::Ppm, FilePixels::Stored(pixels)) => netpbm::write_ppm(pixels, out),
             (Format::Pfm, FilePixels::Linear(pixels)) => netpbm::write_pfm(pixels, out),
             (Format::Pfm, _) if picture.encoding == Some(Encoding::Srgb) => {
-                let linear = |[r, g, b, alpha]: [f32; 4]| {
-                    let [r, g, b] = [r, g, b].map(|c| Encoding::Srgb.decode(f64::from(c)) as f32);
-                    [r, g, b, alpha]
-                };
-                netpbm::write_pfm(&picture.to_linear().map(linear), out)
+                let linear = |level: f64| Encoding::Srgb.decode(level / 255.0) as f32;
+                netpbm::write_pfm(&picture.map_levels(|pixel| pixel.rgb().map(linear)), out)
             }
             (Format::Pfm, _) => netpbm::write_pfm(&picture.to_linear(), out),
             (Format::Png | Format::Ppm, _) => {
@@ -271,17 +268,10 @@ impl FilePicture {
             FilePixels::Linear(_) => Encoding::Linear,
             FilePixels::Stored(_) | FilePixels::Deep { .. } => Encoding::Srgb,
         });
-        let [width, height] = self.size();
-        let mut levels = vec![Levels([0.0; 4]); width];
-        let mut pixels = Vec::with_capacity(width * height);
-        for y in 0..height {
-            self.stored_levels(y, &mut levels);
-            pixels.extend(levels.iter().map(|pixel| {
-                let [r, g, b] = pair::flattened(*pixel, background, encoding);
-                [r, g, b, 255.0].map(|level| (level / 255.0) as f32)
-            }));
-        }
-        let linear = LinearPicture::from_pixels(width, height, pixels)?;
+        let linear = self.map_levels(|pixel| {
+            let colour = pair::flattened(pixel, background, encoding);
+            colour.map(|level| (level / 255.0) as f32)
+        });
         let mut picture = FilePicture {
             encoding: self.encoding,
             has_alpha: false,
@@ -291,6 +281,21 @@ impl FilePicture {
             picture.pixels = FilePixels::Stored(picture.to_stored());
         }
         Some(picture)
+    }
+
+    /// Returns the opaque picture that `of` makes of the stored values.
+    fn map_levels(&self, of: impl Fn(Levels) -> [f32; 3]) -> LinearPicture {
+        let [width, height] = self.size();
+        let mut picture = LinearPicture::new(width, height, [1.0; 4]);
+        let mut levels = vec![Levels([0.0; 4]); width];
+        for y in 0..height {
+            self.stored_levels(y, &mut levels);
+            for (pixel, levels) in picture.row_mut(y).iter_mut().zip(&levels) {
+                let [r, g, b] = of(*levels);
+                *pixel = [r, g, b, 1.0];
+            }
+        }
+        picture
     }
 
     /// Writes the stored values of row `y` into `levels`.
