@@ -5,13 +5,16 @@ If trimesh, pyvista and meshio are installed, the tests draw their meshes, too.
 
 import ast
 import contextlib
+import copy
 import gzip
 import importlib.util
 import io
 import json
 import os
 import pathlib
+import pickle
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -20,6 +23,7 @@ import time
 import types
 import unittest
 import warnings
+import zlib
 
 import numpy as np
 
@@ -90,6 +94,27 @@ def same(test, a, b):
     test.assertTrue((np.asarray(a) == np.asarray(b)).all(), repr(fp.diff(a, b)))
 
 
+def forked(work):
+    """Run `work` in a child of this process. Return 0 if it worked, or `None` if it waits for ever."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        child = os.fork()
+    if child == 0:
+        try:
+            work()
+            os._exit(0)
+        finally:
+            os._exit(1)
+    for _ in range(600):
+        ended, status = os.waitpid(child, os.WNOHANG)
+        if ended:
+            return status
+        time.sleep(0.1)
+    os.kill(child, 9)
+    os.waitpid(child, 0)
+    return None
+
+
 class Pictures(unittest.TestCase):
     def test_a_picture_is_an_array_that_may_be_written_to(self):
         picture = fp.render("builtin:sphere", size=SIZE)
@@ -138,6 +163,26 @@ class Pictures(unittest.TestCase):
             path.write_bytes(b"nothing")
             with self.assertRaisesRegex(ValueError, "not a picture that can be read"):
                 fp.read_picture(path)
+
+    def test_files_without_alpha_show_the_picture_over_its_background(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.ppm")
+            clear = measured("builtin:sphere", samples=4, scene={"image": {"background": (0, 0.5, 1)}})
+            solid = measured("builtin:sphere", samples=4, background=(0, 0.5, 1))
+            self.assertEqual((clear.background, solid.background), ((0, 128, 255), None))
+            clear.save(path)
+            # The edge is rounded before it is put over the background, and the background, too: half a level each.
+            found = fp.diff(solid[..., :3], path, assume="linear")
+            self.assertLessEqual(found.max, 1)
+            self.assertGreater(int((clear[..., 3] % 255 > 0).sum()), 100)
+
+    def test_results_of_numpy_keep_the_encoding_of_their_pictures(self):
+        linear, shown = measured("builtin:sphere"), fp.render("builtin:sphere", size=SIZE)
+        self.assertEqual((linear.encoding, shown.encoding), ("linear", "srgb"))
+        for result in (linear[10:40], linear.copy(), np.hstack([linear, linear]), linear // 2):
+            self.assertEqual(result.encoding, "linear")
+        self.assertIsNone(np.hstack([linear, shown]).encoding)
+        self.assertIsNone(np.zeros_like(shown, shape=(4, 4, 4)).view(np.ndarray).view(fp.Picture).encoding)
 
     def test_a_background_makes_pictures_opaque(self):
         plain = measured("builtin:sphere")
@@ -214,9 +259,61 @@ class Pictures(unittest.TestCase):
                         shown = os.path.join(folder, "shown.png")
                         program = os.environ["FASTPHONG_PROGRAM"]
                         subprocess.run([program, "--quiet", "render", mesh, "-o", shown, "--force", *flags], check=True)
+                        own = os.path.join(folder, "own.png")
                         with warnings.catch_warnings():
                             warnings.simplefilter("ignore")
-                            same(self, fp.render(mesh, **arguments), fp.read_picture(shown))
+                            fp.render(mesh, **arguments).save(own)
+                        # The files are the same, also in what they state.
+                        self.assertEqual(pathlib.Path(own).read_bytes(), pathlib.Path(shown).read_bytes())
+
+    @unittest.skipUnless(os.environ.get("FASTPHONG_PROGRAM"), "FASTPHONG_PROGRAM names no program")
+    def test_random_worlds_are_the_programs(self):
+        # `cargo test --test worlds` writes them.
+        worlds = sorted((ROOT / "target" / "tmp" / "worlds").glob("*/world.toml"))
+        if not worlds:
+            self.skipTest("there are no random worlds")
+        drawn = 0
+        with tempfile.TemporaryDirectory() as folder:
+            shown, own, plain = (pathlib.Path(folder, name) for name in ("shown.png", "own.png", "plain.obj"))
+            for path in worlds:
+                with self.subTest(path.parent.name):
+                    command = [os.environ["FASTPHONG_PROGRAM"], "render", path, "-o", shown, "--force"]
+                    ran = subprocess.run(command, capture_output=True, text=True)
+                    said = [line for line in ran.stderr.splitlines() if line.startswith("warning: ")]
+                    if ran.returncode != 0:
+                        with self.assertRaises(ValueError) as refused:
+                            fp.render(path)
+                        self.assertIn(str(refused.exception).split(": ")[0], ran.stderr)
+                        continue
+                    self.assertEqual(len(told(lambda: fp.render(path).save(own))), len(said), ran.stderr)
+                    self.assertEqual(own.read_bytes(), shown.read_bytes())
+                    drawn += 1
+                    mesh = path.with_name("world.obj")
+                    if mesh.stat().st_size:
+                        self.check_arrays(mesh, plain)
+        # If most were refused, the test would show little.
+        self.assertGreater(2 * drawn, len(worlds))
+
+    def check_arrays(self, path, plain):
+        """Check that arrays draw what a file of these arrays draws, and that pickled meshes draw what the file draws."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                mesh = fp.Mesh(path)
+            except ValueError:
+                return
+            draw = lambda mesh: fp.render(mesh, size=(48, 36), view=(20, 30), normals=50)
+            vertices, faces = mesh.vertices, mesh.faces
+            plain.write_text("".join("v %r %r %r\n" % tuple(map(float, vertex)) for vertex in vertices)
+                             + "".join("f " + " ".join(str(corner + 1) for corner in face) + "\n" for face in faces))
+            try:
+                expected = draw(plain)
+            except ValueError:
+                with self.assertRaises(ValueError):
+                    draw((vertices, faces))
+                return
+            same(self, draw((vertices, faces)), expected)
+            same(self, draw(pickle.loads(pickle.dumps(mesh))), draw(path))
 
     def test_pictures_equal_those_that_the_project_stores(self):
         kept = ROOT / "tests" / "references"
@@ -292,6 +389,7 @@ class Meshes(unittest.TestCase):
             ((vertices, quads.astype(float)), TypeError, "faces: indices of float64: expected whole numbers"),
             ((vertices, quads == 0), TypeError, "faces: indices of bool"),
             ((vertices, [1, 2, 3]), TypeError, "faces: expected rows of indices"),
+            ((1e300 * vertices, quads), ValueError, "vertices: row 0 is .*: expected finite numbers up to 3.4e38"),
             ((np.zeros((0, 3)), quads), IndexError, "faces: row 0 has the index 0: there are no vertices"),
             ((vertices, quads, vertices[:3]), ValueError, "normals: 3 rows: expected one for each of 8 vertices"),
             ((vertices, quads, nan), ValueError, "normals: row 5 is"),
@@ -301,6 +399,110 @@ class Meshes(unittest.TestCase):
         ):
             with self.subTest(text), self.assertRaisesRegex(kind, text):
                 fp.render(mesh, size=SIZE)
+
+    def test_arrays_of_every_kind_are_read(self):
+        vertices, quads = CUBE
+        cube = fp.render(CUBE, size=SIZE)
+
+        class Array:
+            def __init__(self, array):
+                self.array = array
+
+            def __array__(self, dtype=None, copy=None):
+                return self.array
+
+        mixed = np.empty(6, object)
+        mixed[:] = [list(quad) for quad in quads]
+        for mesh in ((Array(vertices), Array(quads)), (np.ma.array(vertices), np.ma.array(quads)),
+                     (vertices.astype(object), quads.astype(object)), (vertices, mixed), (vertices, Array(mixed)),
+                     (vertices, (tuple(quad) for quad in quads))):
+            same(self, fp.render(mesh, size=SIZE), cube)
+        hidden = np.ma.masked_array(vertices, np.zeros((8, 3), bool))
+        hidden[3, 1] = np.ma.masked
+        for mesh, text in (
+            ((hidden, quads), "vertices: row 3 has a masked entry"),
+            ((vertices, np.ma.masked_equal(quads, 6)), "faces: row 1 has a masked entry"),
+            # What stands under the mask does not matter.
+            ((vertices, np.ma.masked_equal(np.where(quads == 6, -1, quads), -1)), "faces: row 1 has a masked entry"),
+            ((vertices, list(np.ma.masked_equal(quads, 6))), "faces: row 1 has a masked entry"),
+            ((vertices, quads, hidden), "normals: row 3 has a masked entry"),
+            (([[1, 2, 3], [1, 2]], quads), "vertices: .*inhomogeneous"),
+            ((vertices, quads, [[1, 2, 3], [1, 2]]), "normals: .*inhomogeneous"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                fp.render(mesh, size=SIZE)
+        with self.assertRaisesRegex(ValueError, "colours: row 3 has a masked entry"):
+            fp.Mesh(vertices, quads, colours=hidden)
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
+    def test_pandas_itself(self):
+        import pandas
+        vertices, quads = CUBE
+        cube = fp.render(CUBE, size=SIZE)
+        tables = pandas.DataFrame(vertices, columns=list("xyz")), pandas.DataFrame(quads)
+        for mesh in (tables, (tables[0].astype("Float64"), tables[1].astype("Int64")),
+                     (vertices, pandas.Series([list(quad) for quad in quads], index=list("abcdef")))):
+            same(self, fp.render(mesh, size=SIZE), cube)
+        with_none = tables[1].astype("Int64")
+        with_none.iloc[2, 1] = pandas.NA
+        with self.assertRaisesRegex(TypeError, "faces: indices of object"):
+            fp.render((vertices, with_none))
+
+    @unittest.skipUnless(sys.platform == "linux", "elsewhere paths are text")
+    def test_paths_need_not_be_text(self):
+        vertices, quads = CUBE
+        with tempfile.TemporaryDirectory() as folder:
+            folder = os.path.join(os.fsencode(folder), b"\xff")
+            os.mkdir(folder)
+            path = os.path.join(folder, b"\xe9.obj")
+            with open(os.path.join(folder, b"a.mtl"), "w") as file:
+                file.write("newmtl a\nKd 0.5 0 0\n")
+            with open(path, "w") as file:
+                file.write("mtllib a.mtl\nusemtl a\n" + "".join("v %g %g %g\n" % tuple(v) for v in vertices)
+                           + "".join("f %d %d %d %d\n" % tuple(quad + 1) for quad in quads))
+            with open(os.path.join(folder, b"\xe9.toml"), "w") as file:
+                file.write("image = { width = 8, height = 6 }\n[[object]]\nmesh = 'other.obj'\n")
+            picture = measured(path)
+            same(self, picture, measured(fp.Mesh(path)))
+            self.assertFalse((picture == measured(CUBE)).all())
+            with self.assertRaisesRegex(ValueError, "other.obj"):
+                fp.render(os.path.join(folder, b"\xe9.toml"))
+            os.rename(path, os.path.join(folder, b"other.obj"))
+            self.assertEqual(fp.Scene(os.path.join(folder, b"\xe9.toml")).size, (8, 6))
+            for read in (fp.render, fp.Mesh, fp.read_picture):
+                with self.assertRaises(FileNotFoundError):
+                    read(path)
+            saved = os.path.join(folder, b"\xe9.png")
+            picture.save(saved)
+            same(self, fp.read_picture(saved), picture)
+            self.assertTrue(fp.diff(saved, picture).equal)
+
+    def test_meshes_and_scenes_are_pickled(self):
+        vertices, quads = CUBE
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "a.obj")
+            path.with_suffix(".mtl").write_text("newmtl a\nKd 1 0 0\nd 0.5\n")
+            # Groups, parts, normals for some corners, a material for some faces.
+            path.write_text("mtllib a.mtl\n" + "".join("v %g %g %g\n" % tuple(v) for v in vertices) + "vn 0 0 1\n"
+                            + "s 1\no a\nf 1//1 2//1 4//1 3//1\nusemtl a\ns off\no b\nf 5 7 8 6\nhello\n")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                meshes = [fp.Mesh(CUBE), fp.Mesh(vertices + 1e6, quads, colours=np.ones((6, 4)) / 2), fp.Mesh(path),
+                          fp.Mesh("builtin:sphere"), fp.Mesh(vertices, quads, vertices[quads].reshape(-1, 3))]
+            path.unlink()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for mesh in meshes:
+                for copied in (pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)):
+                    self.assertEqual(copied.warnings, mesh.warnings)
+                    self.assertEqual(copied._mesh.stored, mesh._mesh.stored)
+                    same(self, fp.render(copied, size=SIZE, up="z"), fp.render(mesh, size=SIZE, up="z"))
+                    self.assertEqual(fp.Scene(copied).notes, fp.Scene(mesh).notes)
+            for scene in (fp.Scene("football", size=SIZE), fp.Scene(meshes[2], size=SIZE, view=(9, 9)),
+                          fp.Scene("builtin:sphere", size=SIZE, look="compared")):
+                same(self, pickle.loads(pickle.dumps(scene)).render(), scene.render())
+        picture = pickle.loads(pickle.dumps(measured("builtin:sphere")))
+        self.assertEqual((type(picture), picture.encoding, picture.background), (fp.Picture, "linear", (0, 0, 0)))
 
     def test_a_mesh_without_faces_is_an_error_that_says_so(self):
         for mesh in (([], []), (np.zeros((0, 3)), np.zeros((0, 3), int)), (CUBE[0], [])):
@@ -326,9 +528,24 @@ class Meshes(unittest.TestCase):
         self.assertTrue(lit[..., 0].any())
         self.assertFalse(lit[..., 1:3].any())
         # With and without alpha, by vertex and by face, as bytes and as floats: all draw the same picture.
-        for colours in (np.tile((255, 0, 0), (8, 1)), np.tile((1.0, 0, 0, 0.5), (6, 1)),
-                        np.tile(np.array((255, 0, 0, 7), np.uint8), (8, 1))):
-            same(self, measured(fp.Mesh(vertices, quads, colours=colours), scene=matt), lit)
+        for colours, warned in (
+            (np.tile((255, 0, 0), (8, 1)), []),
+            (np.tile((1.0, 0, 0, 1), (6, 1)), []),
+            (np.tile((1.0, 0, 0, 0.5), (6, 1)), ["transparency is not drawn, all surfaces are opaque"]),
+            (np.tile(np.array((255, 0, 0, 7), np.uint8), (8, 1)), ["transparency is not drawn, all surfaces are opaque"]),
+        ):
+            self.assertEqual(told(lambda: fp.Mesh(vertices, quads, colours=colours)), warned)
+            self.assertEqual(told(lambda: measured((vertices, quads), scene=matt, colours=colours)), warned)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                same(self, measured(fp.Mesh(vertices, quads, colours=colours), scene=matt), lit)
+                same(self, measured((vertices, quads), scene=matt, colours=colours), lit)
+        for mesh in ("builtin:cube", fp.Mesh(CUBE)):
+            with self.assertRaisesRegex(TypeError, "expected True or False|expected arrays"):
+                fp.render(mesh, colours=np.ones((8, 3)))
+        for wrong in ("red", 1, [0.5]):
+            with self.assertRaisesRegex(ValueError, "colours: an array of shape"):
+                fp.render(CUBE, colours=wrong)
         same(self, measured(red, colours=True, scene=matt), lit)
         same(self, measured(red, colours=False), measured(CUBE))
         # In grey the shades are the same.
@@ -451,6 +668,7 @@ class OtherLibraries(unittest.TestCase):
 
     def test_trimesh_with_colours(self):
         by_vertex = np.random.default_rng(1).integers(0, 256, (8, 4), dtype=np.uint8)
+        by_vertex[:, 3] = 255
         by_face = np.repeat(by_vertex[:6], 2, axis=0)
         for mesh, expected in (
             (self.trimesh("vertex", vertex_colors=by_vertex), 8),
@@ -495,15 +713,72 @@ class OtherLibraries(unittest.TestCase):
         self.assertTrue(taken._mesh.has_normals and taken._mesh.has_colours)
         self.assertTrue(np.allclose(fp.vertex_normals(taken), vertices, atol=1e-6))
 
-    def meshio(self, *cells, points=CUBE[0], **point_data):
+    def test_trimesh_with_materials(self):
+        vertices, faces = CUBE[0], triangles(CUBE[1])
+        grey = np.array([102, 102, 102, 255], np.uint8)
+        simple = types.SimpleNamespace(
+            kwargs={"kd": [0.8, 0.2, 0.1], "ks": [0.5, 0.5, 0.5], "ka": [0.1, 0.1, 0.1], "ns": 20.0},
+            diffuse=np.array([204, 51, 26, 255], np.uint8), ambient=grey, specular=grey, glossiness=1.0, image=None)
+        # As trimesh reads a file, and as a program makes it.
+        plain = types.SimpleNamespace(kwargs={}, diffuse=np.array([255, 0, 0, 255], np.uint8), ambient=grey,
+                                      specular=grey, glossiness=1.0, image=object())
+        pbr = types.SimpleNamespace(baseColorFactor=np.array([0, 0, 255, 100], np.uint8), emissiveFactor=[0, 0, 1],
+                                    alphaMode="BLEND", baseColorTexture=None)
+        none = types.SimpleNamespace(baseColorFactor=None)
+        several = types.SimpleNamespace(materials=[simple, plain])
+        red_file = "Kd 0.8 0.2 0.1\nKs 0.5 0.5 0.5\nKa 0.1 0.1 0.1\nNs 20"
+        no_texture, opaque, dark = ("textures are not drawn", "transparency is not drawn, all surfaces are opaque",
+                                    "emission is not drawn")
+        lines = ["v %g %g %g\n" % tuple(vertex) for vertex in vertices]
+        rows = ["f %d %d %d\n" % tuple(face + 1) for face in faces]
+        with tempfile.TemporaryDirectory() as folder:
+            for material, of_faces, first, second, warned in (
+                (simple, None, red_file, red_file, []),
+                (plain, None, "Kd 1 0 0", "Kd 1 0 0", [no_texture]),
+                (several, np.repeat([0, 1], 6), red_file, "Kd 1 0 0", [no_texture]),
+                # A base colour, as the reader of glTF takes it.
+                (pbr, None, *2 * ["Ka 0 0 0.1\nKd 0 0 0.8\nKs 0.1 0.1 0.1\nNs 32"], [opaque, dark]),
+                (none, None, *2 * ["Ka 0.1 0.1 0.1\nKd 0.8 0.8 0.8\nKs 0.1 0.1 0.1\nNs 32"], []),
+            ):
+                visual = types.SimpleNamespace(kind="texture", material=material, face_materials=of_faces)
+                mesh = types.SimpleNamespace(vertices=vertices, faces=faces, visual=visual)
+                pathlib.Path(folder, "a.mtl").write_text(f"newmtl a\n{first}\nnewmtl b\n{second}\n")
+                path = pathlib.Path(folder, "a.obj")
+                path.write_text("".join(["mtllib a.mtl\n", *lines, "usemtl a\n", *rows[:6], "usemtl b\n", *rows[6:]]))
+                dim = {"size": SIZE, "light": {"direction": (1, 2, 3), "intensity": 0.3}}
+                with self.subTest(first):
+                    self.assertEqual(told(lambda: same(self, fp.render(mesh, **dim), fp.render(path, **dim))), warned)
+
+    def test_a_scene_of_trimesh_keeps_each_meshs_colours_and_materials(self):
+        vertices, faces = CUBE[0], triangles(CUBE[1])
+        red = types.SimpleNamespace(kind="texture", material=types.SimpleNamespace(baseColorFactor=[1.0, 0, 0, 1]))
+        green = types.SimpleNamespace(kind="face", face_colors=np.tile((0, 255, 0, 255), (12, 1)))
+        blue = types.SimpleNamespace(kind="vertex", vertex_colors=np.tile((0, 0, 255, 255), (8, 1)))
+        meshes = [types.SimpleNamespace(vertices=vertices + (4 * i, 0, 0), faces=faces, visual=visual)
+                  for i, visual in enumerate((red, green, blue))]
+        path = types.SimpleNamespace(vertices=vertices, entities=[])
+        scene = types.SimpleNamespace(geometry={}, dump=lambda: [*meshes, path])
+        drawn = []
+        self.assertEqual(told(lambda: drawn.append(measured(scene, view=(0, 0)))), ["points and lines are not drawn"])
+        for third, channel in zip(np.split(drawn[0][30:42], 3, axis=1), range(3)):
+            seen = third[third[..., 3] == 255].max(axis=0)
+            self.assertEqual(int(seen[:3].argmax()), channel, seen)
+
+    def meshio(self, *cells, points=CUBE[0], cell_data={}, **point_data):
         cells = [types.SimpleNamespace(type=kind, data=data) for kind, data in cells]
-        return types.SimpleNamespace(points=points, cells=cells, point_data=point_data)
+        return types.SimpleNamespace(points=points, cells=cells, point_data=point_data, cell_data=cell_data)
 
     def test_meshio(self):
         vertices, quads = CUBE
         cube = fp.render(CUBE, size=SIZE)
-        same(self, fp.render(self.meshio(("line", quads[:, :2]), ("quad", quads)), size=SIZE), cube)
-        mixed = self.meshio(("quad", quads[:3]), ("triangle", triangles(quads[3:])), ("vertex", quads[:, :1]))
+        lines = fp.Mesh(self.meshio(("quad", quads)))
+        same(self, fp.render(lines, size=SIZE), cube)
+        for kind, count, text in (("line", 2, "points and lines are not drawn"),
+                                  ("vertex", 1, "points and lines are not drawn"),
+                                  ("hexahedron64", 4, "cells of hexahedron64 are not drawn")):
+            mesh = self.meshio((kind, quads[:, :count]), ("quad", quads))
+            self.assertEqual(told(lambda: same(self, fp.render(mesh, size=SIZE), cube)), [text])
+        mixed = self.meshio(("quad", quads[:3]), ("triangle", triangles(quads[3:])))
         same(self, fp.render(mixed, "flat", size=SIZE), fp.render(CUBE, "flat", size=SIZE))
         polygons = self.meshio(("polygon", [list(quad) for quad in quads]))
         same(self, fp.render(polygons, size=SIZE), cube)
@@ -530,6 +805,61 @@ class OtherLibraries(unittest.TestCase):
                 self.assertEqual(len(mesh.faces), count)
                 self.assertEqual(fp.Scene(mesh, normals=40).notes, [])
 
+    def test_colours_of_cells(self):
+        vertices, quads = CUBE
+        colours = np.random.default_rng(1).integers(0, 256, (6, 3), dtype=np.uint8)
+        expected = fp.render((vertices, quads), colours=colours, size=SIZE)
+        flat = np.insert(quads, 0, 4, axis=1).ravel()
+        more = np.concatenate([np.zeros((3, 3), np.uint8), colours])
+        # pyvista counts points and lines before polygons. A strip has one colour.
+        mesh = types.SimpleNamespace(points=vertices, faces=flat, strips=None, point_data={}, n_verts=1, n_lines=2,
+                                     cell_data={"RGB": more})
+        self.assertEqual(told(lambda: same(self, fp.render(mesh, size=SIZE), expected)),
+                         ["points and lines are not drawn"])
+        strip = types.SimpleNamespace(points=vertices, faces=flat[:25], strips=np.array([4, 1, 5, 3, 7]),
+                                      point_data={}, cell_data={"RGB": colours})
+        same(self, fp.render(strip, "flat", size=SIZE), fp.render((vertices, quads), "flat", colours=colours, size=SIZE))
+        for cell_data in ({"RGB": [colours[:2], np.zeros((1, 3), np.uint8), colours[2:]]},
+                          {name: [colours[:2, i], np.zeros(1, np.uint8), colours[2:, i]]
+                           for i, name in enumerate(("red", "green", "blue"))}):
+            mesh = self.meshio(("quad", quads[:2]), ("vertex", [[0]]), ("quad", quads[2:]), cell_data=cell_data)
+            self.assertEqual(told(lambda: same(self, fp.render(mesh, size=SIZE), expected)),
+                             ["points and lines are not drawn"])
+        solid = self.meshio(("hexahedron", np.array([[0, 4, 6, 2, 1, 5, 7, 3]])), cell_data={"RGB": [colours[:1]]})
+        same(self, fp.render(solid, size=SIZE), fp.render(CUBE, colours=np.tile(colours[:1], (8, 1)), size=SIZE))
+
+    def test_colours_of_cells_are_not_taken_for_those_of_points(self):
+        # A pyramid over a square has five points, four triangles and a square.
+        points = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 1)], float)
+        faces = [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+        colours = np.array([(9, 9, 9), (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)], np.uint8)
+        flat = np.concatenate([(len(face), *face) for face in faces])
+        for mesh in (types.SimpleNamespace(points=points, faces=flat, strips=None, point_data={},
+                                           cell_data={"RGB": colours}),
+                     self.meshio(("quad", faces[:1]), ("triangle", faces[1:]), points=points,
+                                 cell_data={"RGB": [colours[:1], colours[1:]]})):
+            self.assertEqual(len(fp.Mesh(mesh).vertices), sum(map(len, faces)))
+
+    def test_arrays_that_are_neither_colours_nor_normals_refuse_no_mesh(self):
+        vertices, quads = CUBE
+        flat = np.insert(quads, 0, 4, axis=1).ravel()
+        cube = fp.render(CUBE, size=SIZE)
+        for data, text in (
+            ({"RGB": np.full((8, 3), 99.0)}, "`RGB` is not used as colours: row 0 is (99, 99, 99): expected 0 to 1"),
+            ({"colors": np.zeros(8)}, "`colors` is not used as colours: an array of shape (8,): expected (n, 3) or (n, 4)"),
+            ({"Normals": np.full((8, 3), np.nan)},
+             "`Normals` is not used as normals: row 0 is (nan, nan, nan): expected finite numbers up to 3.4e38"),
+            ({"Normals": np.zeros((8, 2))}, "`Normals` is not used as normals: an array of shape (8, 2): expected (n, 3)"),
+        ):
+            for mesh in (types.SimpleNamespace(points=vertices, faces=flat, strips=None, point_data=data),
+                         self.meshio(("quad", quads), **data)):
+                with self.subTest(text):
+                    self.assertEqual(told(lambda: same(self, fp.render(mesh, size=SIZE), cube)), [text])
+        mesh = types.SimpleNamespace(points=vertices, faces=flat, strips=None, point_data={},
+                                     cell_data={"RGB": np.zeros((4, 3))})
+        self.assertEqual(told(lambda: same(self, fp.render(mesh, size=SIZE), cube)),
+                         ["`RGB` of cells is not used as colours: it has no row for each of 6 cells"])
+
     def test_colours_and_normals_of_meshio(self):
         vertices, faces = sphere()
         n = {"nx": vertices[:, 0], "ny": vertices[:, 1], "nz": vertices[:, 2]}
@@ -555,10 +885,18 @@ class OtherLibraries(unittest.TestCase):
         same(self, fp.render(ball, size=SIZE), fp.render((ball.vertices, ball.faces), size=SIZE))
         scene = trimesh.Scene([ball, trimesh.creation.box()])
         self.assertTrue(drawn(fp.render(scene, size=SIZE)).any())
-        ball.visual.vertex_colors = np.full((len(ball.vertices), 4), 200, np.uint8)
+        ball.visual.vertex_colors = np.tile(np.array([200, 200, 200, 255], np.uint8), (len(ball.vertices), 1))
         self.assertTrue(fp.Mesh(ball)._mesh.has_colours)
         with self.assertRaisesRegex(TypeError, "trimesh.PointCloud is no mesh"):
             fp.render(trimesh.PointCloud(ball.vertices))
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "a.mtl").write_text(
+                "newmtl a\nKd 0.8 0.2 0.1\nKs 0.5 0.5 0.5\nKa 0.1 0.1 0.1\nNs 20\nnewmtl b\nKd 0.1 0.2 0.8\n")
+            path = pathlib.Path(folder, "a.obj")
+            rows = ["f %d %d %d\n" % tuple(face + 1) for face in triangles(CUBE[1])]
+            path.write_text("".join(["mtllib a.mtl\n", *("v %g %g %g\n" % tuple(v) for v in CUBE[0]), "usemtl a\n",
+                                     *rows[:6], "usemtl b\n", *rows[6:]]))
+            same(self, fp.render(trimesh.load(path, process=False), size=SIZE), fp.render(path, size=SIZE))
 
     @unittest.skipUnless(importlib.util.find_spec("pyvista"), "pyvista is not installed")
     def test_pyvista_itself(self):
@@ -567,6 +905,10 @@ class OtherLibraries(unittest.TestCase):
                      pyvista.Dodecahedron(), pyvista.ImageData(dimensions=(3, 4, 5))):
             self.assertTrue(drawn(fp.render(mesh, size=SIZE, up="z")).any())
         self.assertTrue(fp.Mesh(pyvista.Sphere())._mesh.has_normals)
+        for mesh in (pyvista.Sphere().strip(), pyvista.ImageData(dimensions=(3, 4, 5)), pyvista.Cube()):
+            mesh.cell_data["RGB"] = np.tile(np.array([255, 0, 0], np.uint8), (mesh.n_cells, 1))
+            self.assertTrue(fp.Mesh(mesh)._mesh.has_colours)
+            self.assertFalse(measured(mesh, scene={"material": {"ks": 0}})[..., 1:3].any())
 
     @unittest.skipUnless(importlib.util.find_spec("meshio"), "meshio is not installed")
     def test_meshio_itself(self):
@@ -602,15 +944,15 @@ class Arguments(unittest.TestCase):
                 fp.render("builtin:sphere", name, size=SIZE)
         with self.assertRaises(TypeError):
             fp.render("builtin:sphere", 3)
-        with self.assertRaisesRegex(MemoryError, "the reference would take 80 bytes for each of 268435456 samples"):
-            fp.render("builtin:sphere", "reference", size=(16384, 16384))
 
     def test_errors_name_the_wrong_argument(self):
         for arguments, kind, text in (
             ({"size": (0, 5)}, ValueError, "`size` is 0"),
             ({"size": 640}, TypeError, r"`size` is 640: expected \(width, height\)"),
             ({"size": (640.5, 480)}, TypeError, "`size` is 640.5: expected a whole number"),
-            ({"size": (10**30, 5)}, ValueError, "."),
+            ({"size": (10**30, 5)}, ValueError, "`size` is"),
+            ({"fovy": 10**400}, TypeError, "`fovy` is"),
+            ({"method": "\udcff"}, ValueError, "`method` is .*: expected text in UTF-8"),
             ({"fovy": 180}, ValueError, "`fovy` is 180"),
             ({"fovy": "wide"}, TypeError, "`fovy` is 'wide': expected a number"),
             ({"fovy": float("nan")}, ValueError, "`fovy`"),
@@ -625,7 +967,7 @@ class Arguments(unittest.TestCase):
             ({"normals": "smooth"}, ValueError, "."),
             ({"normals": 200}, ValueError, "`normals` is 200"),
             ({"light": (0, 0, 0)}, ValueError, "`light`"),
-            ({"light": 3}, TypeError, "."),
+            ({"light": 3}, TypeError, "`light` is 3: expected a direction"),
             ({"scene": {"specula": 1}}, ValueError, "unknown key `specula`: expected one of"),
             ({"view": 3}, TypeError, "`view` is 3: expected 3 numbers"),
             ({"weight": "sine"}, ValueError, "expected one of `uniform`"),
@@ -637,6 +979,15 @@ class Arguments(unittest.TestCase):
             ({"scene": {"specular": object()}}, TypeError, "cannot be object"),
             ({"scene": {3: 1}}, TypeError, "cannot be int"),
             ({"wieght": 1}, TypeError, "unexpected keyword"),
+            ({"method": 3}, TypeError, "`method` is 3: expected a str"),
+            ({"look": 3}, TypeError, "`look` is 3: expected a str"),
+            ({"weight": 3}, TypeError, "`weight` is 3: expected a str"),
+            ({"light": "sun"}, TypeError, "`light` is 's': expected 3 numbers"),
+            ({"light": {"direction": (1, 0)}}, ValueError, "`light`: expected three numbers"),
+            ({"scene": {"ambient": "much"}}, ValueError, "`ambient`: expected"),
+            ({"background": True}, TypeError, "`background` is True: expected a number"),
+            ({"fovy": True}, TypeError, "`fovy` is True: expected a number"),
+            ({"view": "ab"}, TypeError, "`view` is 'ab': expected 2 numbers"),
         ):
             with self.subTest(str(arguments)), self.assertRaisesRegex(kind, text):
                 fp.render("builtin:cube", **{"size": SIZE, **arguments})
@@ -648,6 +999,8 @@ class Arguments(unittest.TestCase):
             ({"fovy": 40}, {"scene": {"camera": {"fovy": 40}}}),
             ({"view": (30, 20)}, {"scene": {"camera": {"azimuth": 30, "elevation": 20}}}),
             ({"view": np.array([1, 2, 3])}, {"view": (2.0, 4.0, 6.0)}),
+            ({"fovy": np.float32(40), "samples": np.int8(2)}, {"fovy": 40, "samples": 2}),
+            ({"background": np.array(0.5)}, {"background": 0.5}),
             ({"light": (1, 0, 0)}, {"light": [{"direction": (1, 0, 0)}]}),
             ({"light": [(1, 0, 0), (0, 1, 0)]},
              {"scene": {"light": [{"direction": [1, 0, 0]}, {"direction": [0, 1, 0]}]}}),
@@ -747,20 +1100,88 @@ class KeptScenes(unittest.TestCase):
     @unittest.skipUnless(hasattr(os, "fork"), "no processes are forked here")
     def test_a_forked_process_draws_too(self):
         picture = fp.render("builtin:sphere", size=SIZE)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)
-            child = os.fork()
-        if child == 0:
-            os._exit(0 if (fp.render("builtin:sphere", size=SIZE) == picture).all() else 1)
-        for _ in range(600):
-            ended, status = os.waitpid(child, os.WNOHANG)
-            if ended:
-                self.assertEqual(status, 0)
-                return
-            time.sleep(0.1)
-        os.kill(child, 9)
-        os.waitpid(child, 0)
-        self.fail("the child of a process that has drawn waits for ever")
+        self.assertEqual(forked(lambda: same(self, fp.render("builtin:sphere", size=SIZE), picture)), 0)
+
+    @unittest.skipUnless(hasattr(os, "fork"), "no processes are forked here")
+    def test_a_process_may_fork_while_a_thread_draws(self):
+        scene, picture = fp.Scene("builtin:teapot", size=(320, 240)), fp.render("builtin:sphere", size=SIZE)
+        vertices, faces = sphere(40, 80)
+        with tempfile.TemporaryDirectory() as folder:
+            saved = os.path.join(folder, "a.png")
+            for busy, child in (
+                (lambda: scene.render("reference"), lambda: scene.render(size=SIZE)),
+                (lambda: scene.render("reference"), lambda: fp.render("builtin:sphere", size=SIZE)),
+                (lambda: fp.Mesh(vertices, faces), lambda: fp.render((vertices, faces), size=SIZE)),
+                (lambda: fp.diff(picture, picture), lambda: fp.diff(picture, picture)),
+                (lambda: picture.save(saved), lambda: picture.save(saved + ".png")),
+            ):
+                is_done = threading.Event()
+
+                def work():
+                    while not is_done.is_set():
+                        busy()
+
+                thread = threading.Thread(target=work)
+                thread.start()
+                try:
+                    for pause in (0.05, 0.1, 0.003):
+                        time.sleep(pause)
+                        self.assertEqual(forked(child), 0)
+                finally:
+                    is_done.set()
+                    thread.join()
+
+    @unittest.skipUnless(hasattr(signal, "raise_signal") and os.name == "posix", "no signals here")
+    def test_ctrl_c_ends_a_picture_within_a_second(self):
+        scene = fp.Scene("builtin:teapot", size=(2000, 1500))
+        before = scene.render(size=SIZE)
+        taken = []
+        # On a machine that is busy with something else, one try may take longer.
+        while len(taken) < 5 and min(taken, default=9) > 1:
+            timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+            started = time.monotonic()
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                while time.monotonic() < started + 60:
+                    scene.render("reference")
+            taken.append(time.monotonic() - started - 0.2)
+        self.assertLess(min(taken), 1)
+        # Nothing waits for the picture that was given up.
+        same(self, scene.render(size=SIZE), before)
+
+    @unittest.skipUnless(sys.platform == "linux", "other systems do not say how much memory is free")
+    def test_what_does_not_fit_is_a_memory_error(self):
+        code = """if True:
+            import numpy as np, resource, fastphong as fp
+            fp.render("builtin:sphere", size=(64, 48))
+            vertices, faces = np.random.default_rng(1).random((3000, 3)), np.arange(1500000, dtype=np.int32)
+            scene = fp.Scene("builtin:sphere", size=(64, 48))
+            used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+            _, most = resource.getrlimit(resource.RLIMIT_AS)
+            resource.setrlimit(resource.RLIMIT_AS, (used + (150 << 20), most))
+            for draw in (
+                lambda: scene.render(size=(16384, 16384)),
+                lambda: fp.render("builtin:sphere", size=(9000, 9000)),
+                lambda: fp.render("builtin:sphere", "reference", size=(2000, 2000)),
+                lambda: fp.render("builtin:torus?polygons=9000000"),
+                lambda: fp.Scene((vertices, faces.reshape(-1, 3) % 3000), size=(64, 48)),
+            ):
+                try:
+                    draw()
+                except MemoryError as error:
+                    print(str(error).split(" of memory, but ")[0])
+            print(scene.render().shape)
+        """
+        ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=dict(os.environ))
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        lines = ran.stdout.splitlines()
+        self.assertEqual(lines[-1], "(48, 64, 4)", ran.stdout)
+        self.assertRegex(lines[0], "16384x16384: auto needs about .* GB")
+        self.assertRegex(lines[1], "9000x9000: auto needs about .* MB")
+        self.assertRegex(lines[2], "2000x2000: reference needs about .* GB")
+        self.assertRegex(lines[3], "its meshes need about .* GB")
+        self.assertRegex(lines[4], "mesh: its scene needs about .* MB")
+        self.assertEqual(len(lines), 6, ran.stdout)
 
 
 class Differences(unittest.TestCase):
@@ -803,6 +1224,83 @@ class Differences(unittest.TestCase):
         self.assertEqual(int((found.map[..., :3] > 0).any(axis=2).sum()), 1)
         self.assertTrue(found._repr_png_().startswith(b"\x89PNG"))
         self.assertIn("1 of", repr(found))
+        for scale in (0, -1, float("nan")):
+            with self.assertRaisesRegex(ValueError, "`scale` is .*: expected grey levels over 0"):
+                found.draw(scale)
+        with self.assertRaisesRegex(ValueError, "`levels` is not a number"):
+            found.assert_below(float("nan"))
+
+    def test_files_are_compared_as_they_are_stored(self):
+        picture = measured("builtin:sphere", background=0.2)
+        self.assertEqual(picture.encoding, "linear")
+        with tempfile.TemporaryDirectory() as folder:
+            path = lambda name: os.path.join(folder, name)
+            # A saved picture states its encoding, so that it can be compared with one in another.
+            shown = measured("builtin:sphere", background=0.2, scene={"image": {"encoding": "srgb"}})
+            shown.save(path("srgb.png"))
+            picture.save(path("linear.png"))
+            self.assertEqual([fp.read_picture(path(f"{name}.png")).encoding for name in ("srgb", "linear")],
+                             ["srgb", "linear"])
+            # A linear level near black is many levels of sRGB.
+            found = fp.diff(path("linear.png"), shown)
+            self.assertEqual((found.encoding, fp.diff(path("linear.png"), picture).max), ("srgb", 0))
+            self.assertLess(found.rms, 1.5)
+            self.assertGreater(fp.diff(np.asarray(picture), np.asarray(shown)).rms, 20)
+            # A plain array has the encoding of the other picture.
+            self.assertTrue(fp.diff(np.asarray(picture), picture).equal)
+            self.assertTrue(fp.diff(path("linear.png"), np.asarray(picture)).equal)
+            # PFM holds linear floats, and is not clamped.
+            picture.save(path("a.pfm"))
+            # A float between 1/2 and 1 is rounded by at most 2 ** -25.
+            self.assertLessEqual(fp.diff(picture, path("a.pfm")).max, 255 * 2 ** -25)
+            shown.save(path("b.pfm"))
+            # The slope of sRGB is at most 12.92.
+            self.assertLessEqual(fp.diff(shown, path("b.pfm")).max, 12.92 * 255 * 2 ** -25)
+            floats = lambda *values: b"PF\n2 1\n-1.0\n" + np.array(values, "<f4").tobytes()
+            pathlib.Path(path("1.pfm")).write_bytes(floats(3, 1, 1, 0, 0, 0))
+            pathlib.Path(path("2.pfm")).write_bytes(floats(2, 1, 1, 0, 0, 0))
+            pathlib.Path(path("nan.pfm")).write_bytes(floats(np.nan, 1, 1, 0, 0, 0))
+            self.assertEqual(fp.diff(path("1.pfm"), path("2.pfm")).max, 255)
+            lost = fp.diff(path("1.pfm"), path("nan.pfm"))
+            self.assertEqual((lost.not_finite, lost.worst), (1, (0, 0)))
+            with self.assertRaisesRegex(AssertionError, "infinite or not a number in one of them"):
+                lost.assert_below(1e9)
+            self.assertEqual(told(lambda: fp.read_picture(path("1.pfm"))),
+                             [path("1.pfm") + ": 1 channels are below 0, over 1 or not a number: they are clamped in 8 bits"])
+            # 16 bits: a step of 1/65535 is not rounded away.
+            for name, sample in (("a", b"\x80\x00"), ("b", b"\x80\x01")):
+                pathlib.Path(path(f"{name}.ppm")).write_bytes(b"P6\n1 1\n65535\n" + 3 * sample)
+            self.assertAlmostEqual(fp.diff(path("a.ppm"), path("b.ppm")).max, 255 / 65535)
+
+    def test_what_the_program_warns_of_python_warns_of(self):
+        picture = measured("builtin:sphere")
+        opaque = measured("builtin:sphere", background=0)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.png")
+            picture.save(path)
+            with open(path, "rb") as file:
+                png = file.read()
+            # An animation of one frame: acTL stands before IDAT.
+            chunk = b"acTL" + bytes([0, 0, 0, 1, 0, 0, 0, 0])
+            chunk = bytes([0, 0, 0, 8]) + chunk + zlib.crc32(chunk).to_bytes(4, "big")
+            at = png.index(b"IDAT") - 4
+            animated = os.path.join(folder, "animated.png")
+            with open(animated, "wb") as file:
+                file.write(png[:at] + chunk + png[at:])
+            for look in (lambda: fp.diff(animated, picture), lambda: fp.read_picture(animated)):
+                self.assertRegex("\n".join(told(look)), "animated.png: .*(anim|picture)")
+            self.assertEqual(told(lambda: fp.diff(path, picture)), [])
+            # A file that states no encoding, against a linear picture.
+            plain = os.path.join(folder, "plain.ppm")
+            opaque.save(plain)
+            self.assertEqual(told(lambda: fp.diff(opaque, plain)), [
+                f"encodings: a states linear; {plain} states none, srgb is assumed; the linear picture was encoded as "
+                "srgb, unrounded"])
+            self.assertEqual(told(lambda: self.assertTrue(fp.diff(opaque, plain, assume="linear").equal)), [])
+            self.assertEqual(told(lambda: fp.diff(picture, plain, assume="linear")), [
+                f"{plain} has no alpha: a is drawn over the background that it states"])
+            with self.assertRaisesRegex(ValueError, "`bright` is no encoding: expected linear or srgb"):
+                fp.diff(picture, plain, assume="bright")
 
     def test_arrays_that_are_not_pictures_are_refused(self):
         picture = fp.render("builtin:sphere", size=SIZE)
@@ -886,6 +1384,11 @@ class Notes(unittest.TestCase):
         # Every triangle has its own corners, which rounding has moved apart.
         moved = vertices[faces].reshape(-1, 3) * (1 + 1e-5 * np.random.default_rng(1).random((3 * len(faces), 1)))
         soup = (moved, np.arange(len(moved)).reshape(-1, 3))
+        normals = fp.vertex_normals(soup, weld=1e-4)
+        self.assertLess(abs(normals - fp.vertex_normals((vertices, faces))[faces].reshape(-1, 3)).max(), 1e-3)
+        self.assertGreater(abs(fp.vertex_normals(soup) - normals).max(), 1e-2)
+        with self.assertRaisesRegex(ValueError, "`weld` is 2: expected a fraction"):
+            fp.vertex_normals(soup, weld=2)
         flat, smooth, whole = measured(soup), measured(soup, weld=1e-4), measured((vertices, faces))
         self.assertLess(fp.diff(whole, smooth).rms, fp.diff(whole, flat).rms)
 

@@ -3,8 +3,8 @@
 
 use crate::frame::Frame;
 use crate::number::NameError;
-use crate::picture::encoding::store_f64;
-use crate::picture::{LinearPicture, Picture8, PictureMut};
+use crate::picture::encoding::{quantise, srgb_encode, store_f64};
+use crate::picture::{Encoding, LinearPicture, Picture8, PictureMut};
 use crate::raster::{DrawError, DrawOptions, Renderer};
 use crate::reference::{self, Model};
 use crate::shading::{METHODS, MethodRow, Variant};
@@ -91,6 +91,23 @@ impl Drawing {
         Ok(())
     }
 
+    /// Estimates the memory, in bytes, that [`Drawing::render`] takes beside the frame and the
+    /// engine.
+    #[doc(hidden)]
+    pub fn memory_needed(&self, frame: &Frame) -> u64 {
+        let samples = (frame.width() * frame.height()) as u64;
+        let pixels = (frame.picture_width() * frame.picture_height()) as u64;
+        let stored = 4;
+        if let Drawing::Reference(_) = self {
+            // The reference keeps the polygon, depth and gap of each sample; while it shades, there
+            // are two copies.
+            let filtered = if frame.samples() > 1 { 32 } else { 0 };
+            (32 + 2 * (4 + 8 + 8)) * samples + (filtered + 2 * stored) * pixels
+        } else {
+            stored * pixels
+        }
+    }
+
     /// Draws `frame` before rounding: channels are linear, in 0..=1.
     ///
     /// # Errors
@@ -151,6 +168,16 @@ impl fmt::Display for Drawing {
             Drawing::Variant(variant) => variant.fmt(f),
         }
     }
+}
+
+/// Returns the background of `frame` in the levels that a picture file stores.
+#[doc(hidden)]
+pub fn stored_background(frame: &Frame) -> [f64; 3] {
+    let level = |c: f32| match frame.encoding() {
+        Encoding::Linear => quantise(c),
+        Encoding::Srgb => quantise(srgb_encode(c)),
+    };
+    frame.background().map(|c| f64::from(level(c)))
 }
 
 #[cfg(test)]

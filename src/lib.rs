@@ -137,6 +137,9 @@ pub mod drawing;
 #[cfg(feature = "alloc")]
 pub mod frame;
 pub mod integer;
+#[cfg(feature = "io")]
+#[doc(hidden)]
+pub mod memory;
 #[cfg(feature = "alloc")]
 pub mod mesh;
 #[cfg(feature = "alloc")]

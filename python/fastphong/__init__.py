@@ -11,18 +11,18 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex
 
 import numpy as np
 
 from . import _fastphong, _keys
 from ._meshes import Mesh
-from ._pictures import Difference, Picture, picture as _picture, read as read_picture
+from ._pictures import Difference, Picture, picture as _picture, read as _read
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
-    from ._types import Image, Keys, Light, Look, MeshLike, Normals, Size, Vector, View
+    from ._types import Encoding, Image, Keys, Light, Look, MeshLike, Normals, PathLike, Size, Vector, View
 
 __all__ = [
     "Difference", "Mesh", "Picture", "Scene", "diff", "methods", "read_picture", "render", "vertex_normals",
@@ -39,8 +39,8 @@ def _warn(texts: Iterable[str], level: int) -> None:
 class Scene:
     """A mesh or a scene file that is prepared once and drawn many times.
 
-    It accepts the arguments of `render`. Several threads may draw a scene, which draws one picture at a time.
-    The first picture warns about everything in `warnings`.
+    It accepts the arguments of `render`. Several threads may draw a scene at the same time. The first picture warns
+    about everything in `warnings`. Scenes can be pickled: that of a file as the path, others with their mesh.
     """
 
     def __init__(
@@ -50,28 +50,43 @@ class Scene:
         size: Size | None = None,
         view: View | None = None,
         up: str | Vector | None = None,
-        fovy: float | None = None,
+        fovy: SupportsFloat | None = None,
         light: Light | None = None,
-        background: float | Vector | None = None,
+        background: SupportsFloat | Vector | None = None,
         normals: Normals | None = None,
         weight: str | None = None,
-        weld: float | None = None,
-        colours: bool | None = None,
-        samples: int | None = None,
+        weld: SupportsFloat | None = None,
+        colours: bool | ArrayLike | None = None,
+        samples: SupportsIndex | None = None,
         scene: Keys | None = None,
         look: Look = "shown",
     ) -> None:
+        _keys.text("look", look)
+        array = colours if colours is not None and not isinstance(colours, (bool, np.bool_)) else None
         settings = _keys.settings(
             size=size, view=view, up=up, fovy=fovy, light=light, background=background, normals=normals,
-            weight=weight, weld=weld, colours=colours, samples=samples, scene=scene)
-        # Warnings that the caller was given before, or None once all were given.
-        self._told: list[str] | None = []
+            weight=weight, weld=weld, colours=colours if array is None else None, samples=samples, scene=scene)
         if isinstance(mesh, (str, bytes, os.PathLike)):
-            self._scene = _fastphong.Scene.load(os.fsdecode(mesh), settings, look)
+            if array is not None:
+                raise TypeError("`colours` is for arrays, but a file has its own: expected True or False")
+            self._open(os.fsdecode(mesh), settings, look, [])
         else:
-            checked = Mesh(mesh)
-            self._told = checked.warnings
-            self._scene = _fastphong.Scene.of_mesh(checked._mesh, settings, look)
+            # The first picture tells the warnings of a mesh that is made here.
+            made = Mesh(mesh, colours=array, _level=None)
+            self._open(made, settings, look, made.warnings if isinstance(mesh, Mesh) else [])
+
+    def _open(self, source: str | Mesh, settings: str, look: Look, told: list[str] | None) -> None:
+        # What `pickle` keeps.
+        self._made = (source, settings, look)
+        # Warnings that the caller was given before, or None once all were given.
+        self._told = told
+        if isinstance(source, Mesh):
+            self._scene = _fastphong.Scene.of_mesh(source._mesh, settings, look)
+        else:
+            self._scene = _fastphong.Scene.load(source, settings, look)
+
+    def __reduce__(self) -> Any:
+        return _opened, (*self._made, self._told)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -98,9 +113,9 @@ class Scene:
         size: Size | None = None,
         view: View | None = None,
         up: str | Vector | None = None,
-        fovy: float | None = None,
+        fovy: SupportsFloat | None = None,
         light: Light | None = None,
-        samples: int | None = None,
+        samples: SupportsIndex | None = None,
         keep_scale: bool = False,
         _level: int = 1,
     ) -> Picture:
@@ -109,6 +124,7 @@ class Scene:
         The camera is fitted again, unless `keep_scale` is true: then it turns around its target, as for turntables.
         """
         settings = _keys.settings(size=size, view=view, up=up, fovy=fovy, light=light, samples=samples)
+        method = _keys.text("method", method)
         picture = _picture(*self._scene.render(method, settings, bool(keep_scale)))
         told, self._told = self._told, None
         if told is not None:
@@ -119,20 +135,27 @@ class Scene:
         return "<Scene: {}x{} pixels>".format(*self.size)
 
 
+def _opened(source: str | Mesh, settings: str, look: Look, told: list[str] | None) -> Scene:
+    """Return the scene that was pickled."""
+    scene = Scene.__new__(Scene)
+    scene._open(source, settings, look, told)
+    return scene
+
+
 def render(
     mesh: MeshLike,
     method: str = "auto",
     size: Size | None = None,
     view: View | None = None,
     up: str | Vector | None = None,
-    fovy: float | None = None,
+    fovy: SupportsFloat | None = None,
     light: Light | None = None,
-    background: float | Vector | None = None,
+    background: SupportsFloat | Vector | None = None,
     normals: Normals | None = None,
     weight: str | None = None,
-    weld: float | None = None,
-    colours: bool | None = None,
-    samples: int | None = None,
+    weld: SupportsFloat | None = None,
+    colours: bool | ArrayLike | None = None,
+    samples: SupportsIndex | None = None,
     scene: Keys | None = None,
     look: Look = "shown",
 ) -> Picture:
@@ -152,7 +175,7 @@ def render(
     weight: the weight of averaged normals: "uniform", "area", "angle" or "max".
     weld: merge vertices that are closer than this fraction of the mesh's size, as 1e-6, so that normals are averaged
         across them.
-    colours: true to light vertex colours, false to ignore them.
+    colours: true to light the mesh's colours, false to ignore them; or the colours of arrays, as for `Mesh`.
     samples: the samples per pixel along each side: 1, 2, 4 or 8.
     scene: a mapping with further keys of a scene file.
     look: how a mesh looks without a scene file. "shown" draws it as `fastphong render` does: two lights, a dark
@@ -166,23 +189,37 @@ def render(
     return kept.render(method, _level=2)
 
 
-def diff(a: Image, b: Image) -> Difference:
-    """Return the `Difference` of two pictures: arrays of bytes, or paths of picture files."""
-    return Difference(a, b)
+def read_picture(path: PathLike) -> Picture:
+    """Read a picture file in 8 bits. `diff` compares files as they are stored, unrounded."""
+    return _read(path, 2)
+
+
+def diff(a: Image, b: Image, assume: Encoding | None = None) -> Difference:
+    """Return the `Difference` of two pictures: arrays of bytes, or paths of picture files.
+
+    assume: the encoding of pictures that state none, "linear" or "srgb". Without it, files are sRGB, PFM files linear,
+        and arrays as the other picture.
+    """
+    return Difference(a, b, assume, _level=2)
 
 
 def vertex_normals(
-    mesh: MeshLike, normals: Normals | None = None, weight: str | None = None, *, per: str = "vertex"
+    mesh: MeshLike,
+    normals: Normals | None = None,
+    weight: str | None = None,
+    weld: SupportsFloat | None = None,
+    *,
+    per: str = "vertex",
 ) -> NDArray[np.float32]:
     """Return unit normals, (n, 3) floats: one for each vertex, or one for each corner of each face in order.
 
-    `normals` and `weight` are as in `render`. If the corners at a vertex have different normals, as at a crease,
+    `normals`, `weight` and `weld` are as in `render`. If the corners at a vertex have different normals, as at a crease,
     `per="vertex"` raises a `ValueError`.
     """
     if per not in ("vertex", "corner"):
         raise ValueError(f"`per` is {per!r}: expected 'vertex' or 'corner'")
     mesh = mesh if isinstance(mesh, Mesh) else Mesh(mesh, _level=2)
-    settings = _keys.settings(normals=normals, weight=weight)
+    settings = _keys.settings(normals=normals, weight=weight, weld=weld)
     values, entries = _fastphong.vertex_normals(mesh._mesh, settings)
     by_corner: NDArray[np.float32] = np.frombuffer(values, "<f4").reshape(-1, 3)[np.frombuffer(entries, "<u4")]
     if per == "corner":

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import numbers
+import operator
 import re
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex
 
 import numpy as np
 
@@ -25,6 +26,7 @@ def toml(value: object) -> str:
     if isinstance(value, numbers.Real):
         return repr(float(value))
     if isinstance(value, str):
+        text("scene", value)
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
         return "{" + ", ".join(_pair(*item) for item in value.items()) + "}"
@@ -47,7 +49,10 @@ def _lights(light: Any) -> list[Any]:
 
     if isinstance(light, Mapping):
         return [light]
-    light = list(light)
+    try:
+        light = list(light)
+    except TypeError:
+        raise TypeError(f"`light` is {light!r}: expected a direction, a mapping or a list") from None
     if len(light) == 3 and all(isinstance(c, numbers.Real) for c in light):
         return [table(light)]
     return [table(one) for one in light]
@@ -56,28 +61,44 @@ def _lights(light: Any) -> list[Any]:
 def _numbers(name: str, value: Any, count: int) -> list[float]:
     """Return `count` numbers, or raise a `TypeError` or `ValueError` that names the argument."""
     try:
-        found = [float(c) for c in value]
-    except (TypeError, ValueError):
+        found = [_number(name, c) for c in value]
+    except TypeError:
         raise TypeError(f"`{name}` is {value!r}: expected {count} numbers") from None
     if len(found) != count:
         raise ValueError(f"`{name}` is {value!r}: expected {count} numbers")
     return found
 
 
-def _number(name: str, value: Any) -> float:
-    if isinstance(value, (str, bytes)):
-        raise TypeError(f"`{name}` is {value!r}: expected a number")
+def text(name: str, value: Any) -> str:
+    """Return a text."""
+    if not isinstance(value, str):
+        raise TypeError(f"`{name}` is {value!r}: expected a str")
     try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"`{name}` is {value!r}: expected a number") from None
+        value.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"`{name}` is {value!r}: expected text in UTF-8") from None
+    return value
 
 
-def whole(name: str, value: object) -> int:
+def _number(name: str, value: Any) -> float:
+    try:
+        if not isinstance(value, (str, bytes, bool, np.bool_)):
+            return float(value)
+    except (OverflowError, TypeError, ValueError):
+        pass
+    raise TypeError(f"`{name}` is {value!r}: expected a number")
+
+
+def whole(name: str, value: Any) -> int:
     """Return a whole number."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Integral):
-        raise TypeError(f"`{name}` is {value!r}: expected a whole number")
-    return int(value)
+    try:
+        if not isinstance(value, (bool, np.bool_)):
+            number = operator.index(value)
+            # Larger numbers are out of the range of every key, and too long for TOML.
+            return max(-(10 ** 17), min(number, 10 ** 17))
+    except TypeError:
+        pass
+    raise TypeError(f"`{name}` is {value!r}: expected a whole number")
 
 
 def _normals(normals: Normals | None) -> dict[str, Any]:
@@ -99,14 +120,14 @@ def settings(
     size: Size | None = None,
     view: View | None = None,
     up: str | Vector | None = None,
-    fovy: float | None = None,
+    fovy: SupportsFloat | None = None,
     light: Light | None = None,
-    background: float | Vector | None = None,
+    background: SupportsFloat | Vector | None = None,
     normals: Normals | None = None,
     weight: str | None = None,
-    weld: float | None = None,
-    colours: bool | None = None,
-    samples: int | None = None,
+    weld: SupportsFloat | None = None,
+    colours: Any = None,
+    samples: SupportsIndex | None = None,
     scene: Keys | None = None,
 ) -> str:
     """Return the arguments of `render` as keys of a scene, in TOML."""
@@ -143,8 +164,9 @@ def settings(
     if light is not None:
         keys["light"] = _lights(light)
     if background is not None:
-        plain = isinstance(background, numbers.Real)
-        put("image", "background", background if plain else _numbers("background", background, 3))
+        is_colour = isinstance(background, (str, bytes)) or np.ndim(background) > 0  # type: ignore[arg-type]
+        put("image", "background", (_numbers("background", background, 3) if is_colour
+                                    else _number("background", background)))
         # Whoever sets a background wants to see it.
         keys["image"].setdefault("alpha", "opaque")
     if samples is not None:
@@ -153,7 +175,7 @@ def settings(
         keys["colours"] = "on" if colours else "off"
     every = _normals(normals)
     if weight is not None:
-        every["normals_weight"] = weight
+        every["normals_weight"] = text("weight", weight)
     if weld is not None:
         every["weld"] = _number("weld", weld)
     if every:

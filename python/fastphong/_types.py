@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, Protocol, Union
+from typing import Any, Literal, Protocol, SupportsFloat, SupportsIndex, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,7 +31,7 @@ class PolyDataLike(Protocol):
 
 
 class MeshioLike(Protocol):
-    """A `meshio.Mesh`, or one of pyvista's grids."""
+    """A `meshio.Mesh`."""
 
     @property
     def points(self) -> Any: ...
@@ -44,26 +44,44 @@ class TrimeshSceneLike(Protocol):
 
     @property
     def geometry(self) -> Any: ...
-    def to_mesh(self) -> Any: ...
+    def dump(self) -> Any: ...
 
 
-Faces = Union[ArrayLike, Sequence[Sequence[int]], Sequence[NDArray[Any]]]
-PathLike = Union[str, bytes, os.PathLike[str]]
+class GridLike(Protocol):
+    """One of pyvista's other data sets, which has a surface."""
+
+    @property
+    def points(self) -> Any: ...
+    def extract_surface(self) -> Any: ...
+
+
+class ArrayObject(Protocol):
+    """An object that numpy reads as an array, such as a picture of Pillow."""
+
+    @property
+    def __array_interface__(self) -> Any: ...
+
+
+Faces = Union[ArrayLike, Sequence[Sequence[int]], Sequence[NDArray[Any]], ArrayObject]
+PathLike = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 MeshLike = Union[
     PathLike,
     Mesh,
     "tuple[ArrayLike, Faces]",
     "tuple[ArrayLike, Faces, ArrayLike]",
+    "list[Any]",
     TrimeshLike,
     TrimeshSceneLike,
     PolyDataLike,
     MeshioLike,
+    GridLike,
 ]
-Vector = Union["tuple[float, float, float]", Sequence[float], NDArray[Any]]
-View = Union["tuple[float, float]", Vector]
+Vector = Union["Sequence[SupportsFloat]", NDArray[Any]]
+View = Vector
 Light = Union[Vector, Mapping[str, Any], Sequence[Any]]
 Look = Literal["shown", "compared"]
-Normals = Union[str, float]
-Size = Union["tuple[int, int]", Sequence[int]]
+Encoding = Literal["linear", "srgb"]
+Normals = Union[str, SupportsFloat]
+Size = Union["Sequence[SupportsIndex]", NDArray[Any]]
 Keys = Mapping[str, Any]
-Image = Union[NDArray[np.uint8], PathLike]
+Image = Union[NDArray[np.uint8], ArrayObject, PathLike]

@@ -1,8 +1,10 @@
 //! Turns the crate's errors into Python's.
 
+use fastphong::memory::TooLittleMemory;
 use pyo3::PyErr;
 use pyo3::exceptions::{
-    PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyPermissionError, PyValueError,
+    PyFileNotFoundError, PyIsADirectoryError, PyMemoryError, PyOSError, PyPermissionError,
+    PyValueError,
 };
 use std::fmt::Display;
 use std::io::ErrorKind;
@@ -11,6 +13,11 @@ use std::path::Path;
 /// Returns a `ValueError` with the crate's message.
 pub fn value_error(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// Returns a `MemoryError` that says how much memory is needed.
+pub fn memory_error(error: TooLittleMemory) -> PyErr {
+    PyMemoryError::new_err(error.to_string())
 }
 
 /// Returns an error about the input `path` with the crate's message: an `OSError` if the system

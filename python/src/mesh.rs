@@ -1,17 +1,25 @@
 //! Meshes from arrays, which arrive as bytes, or from files.
 
-use crate::errors::{input_error, value_error};
-use crate::pool::install;
+use crate::errors::{input_error, memory_error, value_error};
+use crate::inputs::Input;
+use crate::pool::run;
 use crate::settings::{overlay, texts};
+use crate::stored::Stored;
 use fastphong::glam::{DVec3, Vec3};
-use fastphong::mesh::vertex_normals as normals;
-use fastphong::mesh::{GivenNormals, MeshBuilder, MeshError, PolygonMesh};
-use fastphong::note::{Level, Notes};
+use fastphong::memory::{bytes as shown, check_free};
+use fastphong::mesh::read::coloured;
+use fastphong::mesh::vertex_normals::vertex_normals as normals;
+use fastphong::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
+use fastphong::note::{Level, Note, Notes};
 use fastphong::scene::input;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Bytes of memory per byte of an array while a mesh is made of it: for a copy, the values, and the
+/// mesh.
+const ARRAY_BYTE: u64 = 4;
 
 /// A mesh whose arrays are checked.
 #[pyclass(frozen, module = "fastphong._fastphong")]
@@ -19,80 +27,73 @@ pub struct Mesh {
     pub mesh: Arc<PolygonMesh>,
     /// The name of the mesh in messages.
     pub name: String,
-    /// Notes about the mesh's file.
+    /// Notes about the mesh's file or arrays.
     pub notes: Notes,
 }
 
 /// Returns the values that `bytes` hold, of `N` bytes each.
-fn numbers<const N: usize, T>(
+pub fn numbers<const N: usize, T>(
     bytes: &[u8],
     of: fn([u8; N]) -> T,
 ) -> impl ExactSizeIterator<Item = T> {
     bytes.as_chunks::<N>().0.iter().map(move |&bytes| of(bytes))
 }
 
+/// Returns the integers that `bytes` hold.
+pub fn integers(bytes: &[u8]) -> Vec<u32> {
+    numbers(bytes, u32::from_le_bytes).collect()
+}
+
 /// Returns the vectors that `bytes` hold, three `f64` each.
-fn vectors(bytes: &[u8]) -> Vec<DVec3> {
-    let numbers: Vec<f64> = numbers(bytes, f64::from_le_bytes).collect();
-    numbers
-        .as_chunks()
-        .0
-        .iter()
-        .map(|&v| DVec3::from_array(v))
-        .collect()
+fn vectors(bytes: &[u8]) -> impl Iterator<Item = DVec3> {
+    let vectors = bytes.as_chunks::<24>().0.iter();
+    vectors.map(|bytes| {
+        let mut numbers = numbers(bytes, f64::from_le_bytes);
+        DVec3::from_array([(); 3].map(|()| numbers.next().unwrap_or_default()))
+    })
 }
 
 /// Returns the vectors that `bytes` hold, three `f64` each, rounded to `f32`.
 fn singles(bytes: &[u8]) -> Vec<Vec3> {
-    vectors(bytes).iter().map(|v| v.as_vec3()).collect()
+    vectors(bytes).map(|v| v.as_vec3()).collect()
 }
 
-/// The arrays of a mesh, as little-endian bytes.
-struct Arrays<'a> {
-    /// Three `f64` per vertex.
-    vertices: &'a [u8],
-    /// A `u32` per corner.
-    corners: &'a [u8],
-    /// For each polygon the index behind its last corner, `u32`.
-    ends: &'a [u8],
-    /// Three `f64` per vertex, or per corner.
-    normals: Option<&'a [u8]>,
-    /// Three `f64` per vertex.
-    colours: Option<&'a [u8]>,
-}
+/// A material of another library: if it is only a base colour, and then ambient, diffuse and
+/// specular colour and the shininess, each of which may be missing.
+type GivenMaterial = (
+    bool,
+    Option<[f32; 3]>,
+    Option<[f32; 3]>,
+    Option<[f32; 3]>,
+    Option<f32>,
+);
 
-impl Arrays<'_> {
-    fn mesh(&self) -> Result<PolygonMesh, MeshError> {
-        let vertices = vectors(self.vertices);
-        let mut builder = MeshBuilder::from_f64(&vertices);
-        // Arrays are no more reliable than a file, so sides and normals are chosen as for a file.
-        builder.read_from_file();
-        let corners: Vec<u32> = numbers(self.corners, u32::from_le_bytes).collect();
-        let ends = numbers(self.ends, u32::from_le_bytes);
-        builder.reserve(ends.len(), corners.len());
-        let mut start = 0;
-        for end in ends {
-            let end = end as usize;
-            builder.polygon(corners.get(start..end).unwrap_or_default());
-            start = end;
+/// Returns a material as the readers of mesh files make it: glTF's from a base colour, MTL's from
+/// the rest.
+fn material((is_base, ambient, diffuse, specular, shininess): GivenMaterial) -> Material {
+    let usual = Material::MTL;
+    let diffuse = diffuse.unwrap_or(usual.diffuse);
+    if is_base {
+        coloured(diffuse)
+    } else {
+        Material {
+            ambient: ambient.unwrap_or(usual.ambient),
+            diffuse,
+            specular: specular.unwrap_or(usual.specular),
+            shininess: shininess.unwrap_or(usual.shininess),
         }
-        if let Some(values) = self.normals.map(singles) {
-            let is_by_vertex = values.len() == vertices.len();
-            let corners = (!is_by_vertex).then(|| (0..corners.len() as u32).collect());
-            builder.normals(GivenNormals { values, corners });
-        }
-        if let Some(colours) = self.colours {
-            builder.colours(singles(colours));
-        }
-        builder.finish()
     }
 }
 
 #[pymethods]
 impl Mesh {
-    /// Makes a mesh from arrays.
+    /// Makes a mesh from arrays of little-endian numbers: three `f64` per vertex, a `u32` per
+    /// corner, for each polygon the index behind its last corner, three `f64` per normal of a
+    /// vertex or a corner, three `f64` per vertex as its colour, and for each polygon the index of
+    /// its material. `warnings` are sentences about what the arrays leave out.
     #[new]
-    #[pyo3(signature = (name, vertices, corners, ends, normals, colours))]
+    #[pyo3(signature = (name, vertices, corners, ends, normals, colours, materials, warnings))]
+    #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
         name: String,
@@ -101,31 +102,81 @@ impl Mesh {
         ends: &[u8],
         normals: Option<&[u8]>,
         colours: Option<&[u8]>,
+        materials: Option<(Vec<GivenMaterial>, Vec<u8>)>,
+        warnings: Vec<String>,
     ) -> PyResult<Mesh> {
-        let arrays = Arrays {
-            vertices,
-            corners,
-            ends,
-            normals,
-            colours,
-        };
-        let mesh = py.detach(|| arrays.mesh()).map_err(value_error)?;
+        let arrays = [Some(vertices), Some(corners), Some(ends), normals, colours];
+        let size: u64 = arrays
+            .iter()
+            .flatten()
+            .map(|bytes| bytes.len() as u64)
+            .sum();
+        let needed = ARRAY_BYTE * size;
+        let needs = format!("a mesh of these arrays needs about {}", shown(needed));
+        check_free(needed, &needs, "a smaller mesh").map_err(memory_error)?;
+        let [vertices, corners, ends] = [vertices, corners, ends].map(<[u8]>::to_vec);
+        let [normals, colours] = [normals, colours].map(|bytes| bytes.map(<[u8]>::to_vec));
+        let made = run(py, move || {
+            let vertices: Vec<DVec3> = vectors(&vertices).collect();
+            let (corners, ends) = (integers(&corners), integers(&ends));
+            let [normals, colours] = [normals, colours].map(|bytes| bytes.as_deref().map(singles));
+            let mut builder = MeshBuilder::from_f64(&vertices);
+            // Arrays are no more reliable than a file, so sides and normals are chosen as for a
+            // file.
+            builder.read_from_file();
+            add_polygons(&mut builder, &corners, &ends);
+            if let Some(values) = normals {
+                let is_by_vertex = values.len() == vertices.len();
+                let corners = (!is_by_vertex).then(|| (0..corners.len() as u32).collect());
+                builder.normals(GivenNormals { values, corners });
+            }
+            if let Some(colours) = colours {
+                builder.colours(colours);
+            }
+            if let Some((materials, of_polygons)) = materials {
+                let materials = materials.into_iter().map(material).collect();
+                builder.materials(materials, integers(&of_polygons));
+            }
+            builder.finish()
+        });
+        let notes = warnings.into_iter();
         Ok(Mesh {
-            mesh: Arc::new(mesh),
+            mesh: Arc::new(made?.map_err(value_error)?),
             name,
-            notes: Notes::default(),
+            notes: notes.map(|text| Note::warning("arrays", text)).collect(),
         })
     }
 
     /// Reads a mesh file, or makes a built-in mesh.
     #[staticmethod]
-    fn load(py: Python<'_>, name: String) -> PyResult<Mesh> {
-        let loaded = py.detach(|| input::load_mesh(&name, Path::new("")));
-        let (mesh, notes) = loaded.map_err(|error| input_error(error, Path::new(&name)))?;
-        Ok(Mesh { mesh, name, notes })
+    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Mesh> {
+        let input = Input::new(path);
+        run(py, move || {
+            input.check_meshes([input.name.as_str()].into_iter(), Path::new(""))?;
+            let loaded =
+                input::load_mesh_by(&input.name, Path::new(""), &mut |path| input.read(path));
+            let (mesh, notes) = loaded.map_err(|error| input_error(error, &input.path))?;
+            Ok(Mesh {
+                mesh,
+                name: input.name,
+                notes,
+            })
+        })?
     }
 
-    /// Returns the warnings about the mesh's file.
+    /// Returns everything about the mesh, for pickle.
+    #[getter]
+    fn stored(&self) -> Stored {
+        Stored::new(self)
+    }
+
+    /// Makes the mesh that was stored.
+    #[staticmethod]
+    fn restored(py: Python<'_>, stored: Stored) -> PyResult<Mesh> {
+        run(py, move || stored.mesh())?
+    }
+
+    /// Returns the warnings about the mesh's file or arrays.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         texts(&self.notes, Level::Warning)
@@ -143,17 +194,13 @@ impl Mesh {
     /// Returns the vertex index of each corner, `u32`.
     #[getter]
     fn corners<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        let corners = self.mesh.corners().iter();
-        let bytes: Vec<u8> = corners.flat_map(|c| c.to_le_bytes()).collect();
-        PyBytes::new(py, &bytes)
+        PyBytes::new(py, &packed(self.mesh.corners()))
     }
 
     /// Returns for each polygon the index behind its last corner, `u32`.
     #[getter]
     fn ends<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        let ends = (0..self.mesh.polygon_count()).map(|p| self.mesh.corner_range(p).end as u32);
-        let bytes: Vec<u8> = ends.flat_map(u32::to_le_bytes).collect();
-        PyBytes::new(py, &bytes)
+        PyBytes::new(py, &packed(&ends(&self.mesh)))
     }
 
     /// True if the mesh has vertex colours.
@@ -169,6 +216,31 @@ impl Mesh {
     }
 }
 
+/// Adds polygons to a mesh. `ends` are the indices behind their last corners.
+pub fn add_polygons(builder: &mut MeshBuilder, corners: &[u32], ends: &[u32]) {
+    builder.reserve(ends.len(), corners.len());
+    let mut start = 0;
+    for &end in ends {
+        let end = end as usize;
+        builder.polygon(corners.get(start..end).unwrap_or_default());
+        start = end;
+    }
+}
+
+/// Returns for each polygon the index behind its last corner.
+pub fn ends(mesh: &PolygonMesh) -> Vec<u32> {
+    let polygons = 0..mesh.polygon_count();
+    polygons.map(|p| mesh.corner_range(p).end as u32).collect()
+}
+
+/// Returns integers as little-endian bytes.
+pub fn packed(values: &[u32]) -> Vec<u8> {
+    values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect()
+}
+
 /// Returns the unit normals, three `f32` each, and for each corner the index of its normal, `u32`.
 #[pyfunction]
 pub fn vertex_normals<'py>(
@@ -176,14 +248,18 @@ pub fn vertex_normals<'py>(
     mesh: &Mesh,
     settings: &str,
 ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
-    let rule = overlay(settings)?.normal_rule(mesh.mesh.normal_rule());
-    let rule = rule.map_err(value_error)?;
-    let (values, corners) = py.detach(|| {
-        let found = install(|| normals::vertex_normals(&mesh.mesh, rule))?;
+    let over = overlay(settings)?;
+    let mut own = mesh.mesh.clone();
+    let found = run(py, move || {
+        let rule = over.normal_rule(own.normal_rule()).map_err(value_error)?;
+        if let Some(part) = over.weld().map_err(value_error)? {
+            Arc::make_mut(&mut own).weld(part);
+        }
+        let found = normals(&own, rule);
         let values = found.values.iter().flat_map(|v| v.to_array());
         let values: Vec<u8> = values.flat_map(f32::to_le_bytes).collect();
-        let corners: Vec<u8> = found.corners.iter().flat_map(|c| c.to_le_bytes()).collect();
-        Ok::<_, PyErr>((values, corners))
-    })?;
+        Ok::<_, PyErr>((values, packed(&found.corners)))
+    });
+    let (values, corners) = found??;
     Ok((PyBytes::new(py, &values), PyBytes::new(py, &corners)))
 }

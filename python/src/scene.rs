@@ -1,47 +1,65 @@
 //! A scene that is prepared once and drawn many times.
 
-use crate::errors::{input_error, value_error};
+use crate::errors::{input_error, memory_error, value_error};
+use crate::inputs::Input;
 use crate::mesh::Mesh;
-use crate::pool::install;
+use crate::pool::{locked, run};
 use crate::settings::{look_named, overlay, texts};
-use fastphong::drawing::Drawing;
+use fastphong::drawing::{Drawing, stored_background};
 use fastphong::frame::{Frame, PreparedScene};
 use fastphong::glam::DVec3;
+use fastphong::memory::{bytes, check_frame, check_free, check_stored};
 use fastphong::note::{Level, Notes};
 use fastphong::notes::{Cost, of_frame, of_meshes};
-use fastphong::picture::Alpha;
+use fastphong::picture::{Alpha, Encoding};
 use fastphong::raster::Renderer;
+use fastphong::scene::Camera;
 use fastphong::scene::file::{SceneFile, View};
+use fastphong::scene::input::{load_by, load_file_by};
 use fastphong::scene::open::{Opened, Overlay, open_by};
-use fastphong::scene::{Camera, input};
-use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use std::path::Path;
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock};
 
-/// The most samples that the reference draws. It needs 80 bytes for each, 5 GB in all.
-const MOST_REFERENCE: usize = 1 << 26;
+/// Bytes of memory per polygon while the scene of a mesh is made: for its edges, its frame, and the
+/// order of its vertices. Separate triangles take 370, and a connected mesh 140.
+const SCENE_POLYGON: u64 = 400;
 
 /// A scene: meshes, lights and a camera.
 #[pyclass(frozen, module = "fastphong._fastphong")]
 pub struct Scene {
+    shown: Arc<Shown>,
+    /// All notes, once somebody has asked for them.
+    notes: OnceLock<Notes>,
+    /// The memory of pictures that are complete, for the next ones. There is one for each thread
+    /// that has drawn at the same time as others.
+    idle: Mutex<Vec<Kept>>,
+}
+
+/// A scene that was opened. It never changes.
+struct Shown {
     opened: Opened,
     /// The positions around which cameras are fitted.
     points: Vec<DVec3>,
     view: View,
-    /// All notes, once somebody has asked for them.
-    notes: OnceLock<Notes>,
-    kept: Mutex<Kept>,
 }
 
-/// The memory that all pictures of a scene share, so only one picture is drawn at a time.
+/// The memory of one picture at a time.
 struct Kept {
     prepared: PreparedScene,
     frame: Option<Frame>,
 }
 
 impl Kept {
+    fn new(scene: &fastphong::scene::Scene) -> PyResult<Kept> {
+        check_frame(scene).map_err(memory_error)?;
+        Ok(Kept {
+            prepared: scene.prepare().map_err(value_error)?,
+            frame: None,
+        })
+    }
+
     /// Returns the frame of `view`.
     fn frame(&mut self, view: &View) -> PyResult<&mut Frame> {
         self.prepared.set_camera(view.camera);
@@ -57,44 +75,40 @@ impl Kept {
     }
 }
 
-/// Draws `frame` into `pixels`.
-fn draw(
-    frame: &mut Frame,
-    drawing: &Drawing,
-    is_opaque: bool,
-    pixels: &mut [[u8; 4]],
-) -> PyResult<()> {
+/// A picture that was drawn.
+struct Drawn {
+    pixels: Vec<[u8; 4]>,
+    size: (usize, usize),
+    encoding: Encoding,
+    /// The background in stored levels, unless the picture is opaque.
+    background: Option<[f64; 3]>,
+}
+
+/// Draws `frame`.
+fn draw(frame: &mut Frame, drawing: &Drawing, is_opaque: bool) -> PyResult<Drawn> {
+    let size = (frame.picture_width(), frame.picture_height());
+    // Python gets a copy of the pixels.
+    check_stored(frame, drawing, 4).map_err(memory_error)?;
+    let mut pixels = vec![[0; 4]; size.0 * size.1];
     frame.set_alpha(if is_opaque {
         Alpha::Flattened
     } else {
         Alpha::Straight
     });
-    let drawn = drawing.render_into(frame, Renderer::fastest(), pixels);
+    let drawn = drawing.render_into(frame, Renderer::fastest(), &mut pixels);
     drawn.map_err(value_error)?;
     if is_opaque {
         pixels.iter_mut().for_each(|pixel| pixel[3] = 255);
     }
-    Ok(())
+    Ok(Drawn {
+        pixels,
+        size,
+        encoding: frame.encoding(),
+        background: (!is_opaque).then(|| stored_background(frame)),
+    })
 }
 
-impl Scene {
-    /// Prepares a scene that was opened.
-    fn new(opened: Opened) -> PyResult<Scene> {
-        let points = opened.scene.world_points();
-        let view = opened.views.view(&Overlay::default(), &points);
-        let prepared = opened.scene.prepare().map_err(value_error)?;
-        Ok(Scene {
-            view: view.map_err(value_error)?,
-            points,
-            notes: OnceLock::new(),
-            kept: Mutex::new(Kept {
-                prepared,
-                frame: None,
-            }),
-            opened,
-        })
-    }
-
+impl Shown {
     /// Returns the view with other settings. With `keeps_scale` the camera turns around the point
     /// that it looked at.
     fn view(&self, over: &Overlay, keeps_scale: bool) -> PyResult<View> {
@@ -105,14 +119,44 @@ impl Scene {
         }
         Ok(view)
     }
+}
 
-    /// Runs `work` on the pool, with the memory that pictures share.
-    fn with_kept<R: Send>(&self, work: impl FnOnce(&mut Kept) -> R + Send) -> PyResult<R> {
-        // Lock here, not on a thread of the pool. A pool thread that waits for others takes up
-        // other pictures, and would wait for its own lock.
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let kept = &mut *kept;
-        install(|| work(kept))
+impl Scene {
+    /// Prepares a scene that was opened.
+    fn new(opened: Opened) -> PyResult<Scene> {
+        let points = opened.scene.world_points();
+        let view = opened.views.view(&Overlay::default(), &points);
+        let kept = Kept::new(&opened.scene)?;
+        let shown = Shown {
+            view: view.map_err(value_error)?,
+            points,
+            opened,
+        };
+        Ok(Scene {
+            shown: Arc::new(shown),
+            notes: OnceLock::new(),
+            idle: Mutex::new(vec![kept]),
+        })
+    }
+
+    /// Runs `work` on the pool with the memory of a picture. If all memory is in use, or the thread
+    /// that used it is gone, the scene is prepared once more: nobody waits.
+    fn with_kept<R: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&Shown, &mut Kept) -> R + Send + 'static,
+    ) -> PyResult<R> {
+        let (idle, shown) = (locked(&self.idle).pop(), self.shown.clone());
+        let (kept, result) = run(py, move || {
+            let mut kept = match idle {
+                Some(kept) => kept,
+                None => Kept::new(&shown.opened.scene)?,
+            };
+            let result = work(&shown, &mut kept);
+            Ok::<_, PyErr>((kept, result))
+        })??;
+        locked(&self.idle).push(kept);
+        Ok(result)
     }
 
     /// Returns all notes about the scene, its meshes and its own view. The first call computes
@@ -121,18 +165,16 @@ impl Scene {
         if let Some(notes) = self.notes.get() {
             return Ok(notes);
         }
-        let scene = &self.opened.scene;
-        let found = py.detach(|| {
-            self.with_kept(|kept| {
-                let mut notes = self.opened.notes.clone();
-                notes.append(of_meshes(scene));
-                // A frame that cannot be made is an error of the picture.
-                if let Ok(frame) = kept.frame(&self.view) {
-                    let of_frame = of_frame(scene, frame, Cost::Samples);
-                    notes.append(of_frame.without_stated(|key| self.opened.file.states(key)));
-                }
-                notes
-            })
+        let found = self.with_kept(py, |shown, kept| {
+            let opened = &shown.opened;
+            let mut notes = opened.notes.clone();
+            notes.append(of_meshes(&opened.scene));
+            // A frame that cannot be made is an error of the picture.
+            if let Ok(frame) = kept.frame(&shown.view) {
+                let of_frame = of_frame(&opened.scene, frame, Cost::Samples);
+                notes.append(of_frame.without_stated(|key| opened.file.states(key)));
+            }
+            notes
         })?;
         Ok(self.notes.get_or_init(|| found))
     }
@@ -151,66 +193,84 @@ fn turned(own: &Camera, other: &Camera, points: &[DVec3]) -> Camera {
     camera
 }
 
+/// Pixels, four bytes each, width, height, the name of the encoding, and the background in stored
+/// levels, if the picture may be put over one.
+pub type Pixels<'py> = (
+    Bound<'py, PyByteArray>,
+    usize,
+    usize,
+    Option<&'static str>,
+    Option<[f64; 3]>,
+);
+
 #[pymethods]
 impl Scene {
     /// Makes a scene of one mesh.
     #[staticmethod]
     fn of_mesh(py: Python<'_>, mesh: &Mesh, settings: &str, look: &str) -> PyResult<Scene> {
         let (over, look) = (overlay(settings)?, look_named(look)?);
-        let made = || {
-            let file = SceneFile::for_mesh(mesh.name.clone());
-            let loaded = |_: &str, _: &Path| Ok((mesh.mesh.clone(), mesh.notes.clone()));
-            Scene::new(file.open(&over, look, loaded).map_err(value_error)?)
-        };
-        py.detach(|| install(made))?
+        let (own, name, notes) = (mesh.mesh.clone(), mesh.name.clone(), mesh.notes.clone());
+        run(py, move || {
+            let needed = SCENE_POLYGON * own.polygon_count() as u64;
+            let needs = format!("{name}: its scene needs about {}", bytes(needed));
+            check_free(needed, &needs, "fewer polygons").map_err(memory_error)?;
+            let loaded = |_: &str, _: &Path| Ok((own.clone(), notes.clone()));
+            let opened = SceneFile::for_mesh(name).open(&over, look, loaded);
+            Scene::new(opened.map_err(value_error)?)
+        })?
     }
 
     /// Makes a scene from an input: a scene file, a mesh file, a built-in mesh or a shipped scene.
     #[staticmethod]
-    fn load(py: Python<'_>, name: &str, settings: &str, look: &str) -> PyResult<Scene> {
+    fn load(py: Python<'_>, path: PathBuf, settings: &str, look: &str) -> PyResult<Scene> {
         let (over, look) = (overlay(settings)?, look_named(look)?);
-        let made = || {
-            let path = Path::new(name);
-            let file = input::load(name).map_err(|error| input_error(error, path))?;
-            let opened = open_by(file, &over, look, &mut input::read_input);
+        let input = Input::new(path);
+        run(py, move || {
+            let mut read = |path: &Path| input.read(path);
+            let file = if input.path.to_str().is_some() {
+                load_by(&input.name, &mut read)
+            } else {
+                load_file_by(&input.name, &input.path, &mut read)
+            };
+            let file = file.map_err(|error| input_error(error, &input.path))?;
+            let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+            input.check_meshes(file.meshes(), folder)?;
+            let opened = open_by(file, &over, look, &mut read);
             Scene::new(opened.map_err(value_error)?)
-        };
-        py.detach(|| install(made))?
+        })?
     }
 
-    /// Draws the scene. Returns the pixels, four bytes each, and width and height.
+    /// Draws the scene.
     fn render<'py>(
         &self,
         py: Python<'py>,
         method: &str,
         settings: &str,
         keeps_scale: bool,
-    ) -> PyResult<(Bound<'py, PyByteArray>, usize, usize)> {
+    ) -> PyResult<Pixels<'py>> {
         let drawing: Drawing = method.parse().map_err(value_error)?;
         let over = overlay(settings)?;
-        let view = if over.is_empty() {
-            self.view.clone()
-        } else {
-            py.detach(|| install(|| self.view(&over, keeps_scale)))??
-        };
-        let (width, height) = (view.width as usize, view.height as usize);
-        let samples = width * height * (view.samples * view.samples) as usize;
-        if matches!(drawing, Drawing::Reference(_)) && samples > MOST_REFERENCE {
-            let problem =
-                format!("the reference would take 80 bytes for each of {samples} samples");
-            let expected = format!("expected at most {MOST_REFERENCE} samples");
-            return Err(PyMemoryError::new_err(format!("{problem}: {expected}")));
-        }
-        let is_opaque = self.opened.file.is_opaque();
-        let pixels = PyByteArray::new_with(py, 4 * width * height, |bytes| {
-            py.detach(|| {
-                self.with_kept(|kept| {
-                    let frame = kept.frame(&view)?;
-                    draw(frame, &drawing, is_opaque, bytes.as_chunks_mut().0)
-                })?
-            })
+        let drawn = self.with_kept(py, move |shown, kept| {
+            let view = if over.is_empty() {
+                shown.view.clone()
+            } else {
+                shown.view(&over, keeps_scale)?
+            };
+            draw(kept.frame(&view)?, &drawing, shown.opened.file.is_opaque())
+        })??;
+        let pixels = drawn.pixels.as_flattened();
+        let copied = PyByteArray::new_with(py, pixels.len(), |copy| {
+            copy.copy_from_slice(pixels);
+            Ok(())
         })?;
-        Ok((pixels, width, height))
+        let encoding = Some(drawn.encoding.name());
+        Ok((
+            copied,
+            drawn.size.0,
+            drawn.size.1,
+            encoding,
+            drawn.background,
+        ))
     }
 
     /// Returns the warnings to read before trusting a picture.
@@ -228,6 +288,6 @@ impl Scene {
     /// Returns the width and the height of the scene's pictures.
     #[getter]
     fn size(&self) -> (u32, u32) {
-        (self.view.width, self.view.height)
+        (self.shown.view.width, self.shown.view.height)
     }
 }

@@ -36,7 +36,14 @@ fn argument(path: &str) -> Option<&'static str> {
 /// Reads keys as they stand in a scene file, to lay them over a scene. An object among them stands
 /// for all objects.
 pub fn overlay(text: &str) -> PyResult<Overlay> {
-    let mut scene = SceneTable::parse(text).map_err(value_error)?;
+    let mut scene = SceneTable::parse(text).map_err(|error| {
+        // Each line of the text is one key.
+        let mut lines = text.lines();
+        let wrong = lines.find(|line| SceneTable::parse(line).is_err());
+        let key = wrong.and_then(|line| line.split(" = ").next());
+        let key = key.unwrap_or_default();
+        value_error(format!("`{key}`: {error}"))
+    })?;
     name_arguments(&mut scene, "");
     let mut every_object = SceneTable::default();
     if let Some(objects) = scene.entries.remove("object")

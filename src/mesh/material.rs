@@ -16,6 +16,18 @@ pub struct Material {
 }
 
 impl Material {
+    /// The defaults of MTL files: ambient and diffuse as in J. Burkardt's description of the format
+    /// (people.sc.fsu.edu/~jburkardt/data/mtl/mtl.html). The format's own specular 1 and shininess
+    /// 0 would light half of the surface white; here there is no highlight instead.
+    #[cfg(feature = "io")]
+    #[doc(hidden)]
+    pub const MTL: Material = Material {
+        ambient: [0.2; 3],
+        diffuse: [0.8; 3],
+        specular: [0.0; 3],
+        shininess: 32.0,
+    };
+
     /// A grey surface for lit vertex colours. The coefficients sum to 1, so that colours up to 1 do
     /// not go over 1 under one light of strength 1.
     pub(crate) const NEUTRAL: Material = Material {

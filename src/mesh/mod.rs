@@ -242,7 +242,8 @@ impl PolygonMesh {
 
     /// True if the mesh was read from a file. Its polygons may then be wound either way, while a
     /// shape by formula is known to be counter-clockwise.
-    pub(crate) fn was_read(&self) -> bool {
+    #[doc(hidden)]
+    pub fn was_read(&self) -> bool {
         self.was_read
     }
 
@@ -438,7 +439,9 @@ impl MeshBuilder {
         MeshBuilder::around(origin, relative.collect())
     }
 
-    fn around(origin: DVec3, positions: Vec<Vec3>) -> Self {
+    /// Starts a mesh with positions relative to an origin.
+    #[doc(hidden)]
+    pub fn around(origin: DVec3, positions: Vec<Vec3>) -> Self {
         MeshBuilder {
             mesh: PolygonMesh {
                 origin,
@@ -534,14 +537,16 @@ impl MeshBuilder {
 
     /// Sets the rule for vertex normals: see [`PolygonMesh::normal_rule`].
     #[cfg(feature = "io")]
-    pub(crate) fn normal_rule(&mut self, rule: NormalRule) -> &mut Self {
+    #[doc(hidden)]
+    pub fn normal_rule(&mut self, rule: NormalRule) -> &mut Self {
         self.mesh.normal_rule = rule;
         self
     }
 
     /// Sets the axis that points up in files of this format.
     #[cfg(feature = "io")]
-    pub(crate) fn up_by_custom(&mut self, axis: char) -> &mut Self {
+    #[doc(hidden)]
+    pub fn up_by_custom(&mut self, axis: char) -> &mut Self {
         self.mesh.up_by_custom = Some(axis);
         self
     }
@@ -562,7 +567,8 @@ impl MeshBuilder {
 
     /// Sets if the mesh's file says which polygons are smooth.
     #[cfg(feature = "io")]
-    pub(crate) fn stating_smoothing(&mut self, states: bool) -> &mut Self {
+    #[doc(hidden)]
+    pub fn stating_smoothing(&mut self, states: bool) -> &mut Self {
         self.mesh.states_smoothing = states;
         self
     }
@@ -583,7 +589,8 @@ impl MeshBuilder {
 
     /// Sets the names of the materials, in the order of the materials.
     #[cfg(feature = "io")]
-    pub(crate) fn material_names(&mut self, names: Vec<String>) -> &mut Self {
+    #[doc(hidden)]
+    pub fn material_names(&mut self, names: Vec<String>) -> &mut Self {
         self.mesh.material_names = names;
         self
     }

@@ -202,7 +202,6 @@ pub fn load_by(
     input: &str,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<SceneFile, SceneError> {
-    let path = Path::new(input);
     if input == STANDARD_INPUT {
         return load_standard_input(None, read);
     }
@@ -212,6 +211,20 @@ pub fn load_by(
     if let Some(scene) = ShippedScene::named(input) {
         return scene.load();
     }
+    load_file_by(input, Path::new(input), read)
+}
+
+/// Reads the scene or mesh file at `path` as [`load_by`] does. `input` is its name in messages, and
+/// the name of the scene's mesh.
+///
+/// # Errors
+/// As for [`load_by`].
+#[doc(hidden)]
+pub fn load_file_by(
+    input: &str,
+    path: &Path,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> Result<SceneFile, SceneError> {
     let is_piped = match fs::metadata(path) {
         Err(error) => return Err(missing(input, path, error)),
         Ok(found) if found.is_dir() => {

@@ -113,5 +113,9 @@ pub(crate) const PIXEL: NumberRange = NumberRange::new(0.0, 1.0, "0 to 1");
 pub(crate) const STRENGTH: NumberRange =
     NumberRange::new(0.0, f32::MAX as f64, "0 or more, up to 3.4e38");
 
+/// The distance up to which positions are merged, as a fraction of the mesh's size.
+pub(crate) const WELD: NumberRange =
+    NumberRange::new(1e-12, 0.1, "a fraction of the mesh's size, 1e-12 to 0.1");
+
 /// The angle up to which vertex normals are averaged.
 pub(crate) const CREASE: NumberRange = NumberRange::new(0.0, 180.0, "degrees between 0 and 180");

@@ -31,6 +31,8 @@ const ROOMS: &[(&str, &str)] = &[
     ("raster", "picture number scene frame reference shading"),
     // One method or the reference, by name.
     ("drawing", "picture number frame reference shading raster"),
+    // Estimates of what stages need, for messages instead of a process that is killed.
+    ("memory", "number mesh scene frame drawing"),
     ("notes", "number note mesh scene frame reference raster"),
     (
         "compare",
@@ -55,7 +57,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("program/view", "picture mesh scene frame shading raster"),
     (
         "program/cli",
-        "picture number note mesh scene frame reference shading raster drawing notes compare \
+        "picture number note mesh scene frame reference shading raster drawing memory notes compare \
          program/compare program/diagnose program/lectures program/report program/view",
     ),
 ];

@@ -8,9 +8,10 @@
 //! FASTPHONG_WORLDS=100000 cargo test --release --test worlds -- --nocapture
 //! ```
 //!
-//! and `FASTPHONG_WORLDS_SEED=2` tries others. If a property does not hold in a world, the test
-//! makes the world as small as possible and prints it as the files of a scene. Make a test from
-//! these files, and let its name say the situation.
+//! and `FASTPHONG_WORLDS_SEED=2` tries others. The first worlds are written to `target/tmp/worlds`,
+//! where the tests of the Python package find them. If a property does not hold in a world, the
+//! test makes the world as small as possible and prints it as the files of a scene. Make a test
+//! from these files, and let its name say the situation.
 
 mod builders;
 mod doors;
@@ -33,6 +34,8 @@ use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 use std::cell::{Cell, RefCell};
 use std::fmt::Debug;
+use std::fs;
+use std::path::Path;
 use world::World;
 
 /// How many worlds a test run tries, unless the environment asks for more.
@@ -95,11 +98,28 @@ fn assert_none(failures: &[String]) {
     );
 }
 
+/// How many worlds are written down for the tests of other packages.
+const WRITTEN: u32 = 200;
+
+/// Writes a world to a numbered folder.
+fn write(number: u32, world: &World) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("worlds/{number}"));
+    fs::create_dir_all(&folder).expect("the target folder can be written to");
+    for (name, text) in world.files() {
+        fs::write(folder.join(name), text).expect("the target folder can be written to");
+    }
+}
+
 #[test]
 fn everything_holds_in_random_worlds() {
     let worlds = setting("FASTPHONG_WORLDS", WORLDS);
     let tally = RefCell::new(Tally::default());
+    let written = Cell::new(0);
     let failures = try_all(&scene::worlds(), worlds, |world: World| {
+        if written.get() < WRITTEN {
+            write(written.get(), &world);
+            written.set(written.get() + 1);
+        }
         let Ok(scene) = world.scene() else {
             tally.borrow_mut().refused += 1;
             return Ok(());

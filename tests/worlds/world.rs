@@ -23,6 +23,15 @@ pub struct World {
 }
 
 impl World {
+    /// Returns the names and the texts of the files.
+    pub fn files(&self) -> [(&'static str, &str); 3] {
+        [
+            ("world.toml", &self.scene),
+            ("world.obj", &self.mesh),
+            ("world.mtl", &self.materials),
+        ]
+    }
+
     /// Returns the scene, read as the program reads files.
     ///
     /// # Errors
@@ -47,14 +56,9 @@ impl World {
 
 impl fmt::Debug for World {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let files = [
-            ("toml", &self.scene),
-            ("obj", &self.mesh),
-            ("mtl", &self.materials),
-        ];
-        for (ending, text) in files {
+        for (name, text) in self.files() {
             if !text.is_empty() {
-                write!(f, "\n--- world.{ending}\n{text}")?;
+                write!(f, "\n--- {name}\n{text}")?;
             }
         }
         writeln!(f, "---")

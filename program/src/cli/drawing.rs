@@ -5,11 +5,11 @@ use super::engines::{ENGINES, EngineFlag, EngineInfo, Simd, cs171_shading};
 use super::text::{counted, grouped};
 use super::{CliError, Log};
 use crate::compare::comparison::DrawnBy;
-use fastphong::drawing::Drawing;
+use fastphong::drawing::{Drawing, stored_background};
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::SimdLevel;
-use fastphong::picture::encoding::{quantise, srgb_encode, store_f64};
+use fastphong::picture::encoding::store_f64;
 use fastphong::picture::image_file::{FilePicture, FilePixels, Format, PpmWriter};
 use fastphong::picture::{Alpha, Encoding, Picture};
 use fastphong::raster::{Edges, Plan, Renderer};
@@ -209,9 +209,9 @@ impl RenderJob {
             PictureContent::Barycentric(..) => [linear + 4, linear + stored],
             // First `f64` colours with a depth buffer, then `f32` colours, then stored ones.
             PictureContent::Cs171(..) => [32 + 8, filtered + linear + stored],
-            // The reference keeps the polygon, depth and gap of each sample; while it shades, there
-            // are two copies.
-            PictureContent::Reference(_) => [32 + 2 * (4 + 8 + 8), filtered + 2 * stored],
+            PictureContent::Reference(model) => {
+                return Drawing::Reference(*model).memory_needed(&self.frame);
+            }
             PictureContent::Aov(..) => [0, linear + 2 * stored],
         };
         a_sample * samples + a_pixel * pixels
@@ -247,12 +247,7 @@ impl RenderJob {
             picture.encoding = Some(self.stored_encoding());
         }
         if is_straight && !matches!(self.content, PictureContent::Aov(..)) {
-            let level = |c: f32| match self.frame.encoding() {
-                Encoding::Linear => quantise(c),
-                Encoding::Srgb => quantise(srgb_encode(c)),
-            };
-            let background = self.frame.background();
-            picture.background = Some(background.map(|c| f64::from(level(c))));
+            picture.background = Some(stored_background(&self.frame));
         }
         picture
     }

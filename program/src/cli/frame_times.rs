@@ -6,6 +6,7 @@ use super::scene_flags::note_frame;
 use super::values::number;
 use super::{CliError, Log, memory};
 use crate::compare::timing::{Machine, Timing};
+use fastphong::drawing::Drawing;
 use fastphong::frame::PreparedScene;
 use fastphong::picture::Picture8;
 use fastphong::raster::{DrawOptions, Plan, Renderer};
@@ -117,7 +118,7 @@ impl FrameTime {
             return Ok(None);
         }
         let drawn_by = plan.renderer().unwrap_or(renderer);
-        memory::check_stored(&frame, &variant.to_string())?;
+        memory::check_stored(&frame, &Drawing::Variant(variant.clone()), 0)?;
         let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         let mut samples = Vec::with_capacity(count.frames);
         for index in 0..count.warmup + count.frames {

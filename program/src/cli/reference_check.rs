@@ -2,8 +2,7 @@
 
 use super::contents::{self, Contents};
 use super::diff::comparison::{
-    self, Comparison, Perceived, SCALE, alpha_text, encoding_text, encodings_text, failed_text,
-    has_two_encodings, sizes_text,
+    self, Comparison, Perceived, SCALE, encoding_text, failed_text, sizes_text,
 };
 use super::drawing::RenderJob;
 use super::output::{ForceFlag, Output};
@@ -58,11 +57,11 @@ impl ReferenceCheck<'_> {
         let notes = accepted.notes.iter();
         let mut notes: String = notes.map(|note| format!("{shown}: {note}\n")).collect();
         let names = [&shown.to_string(), "the picture"];
-        if let Some(text) = alpha_text(&pair, names) {
+        if let Some(text) = pair.alpha_text(names) {
             notes += &format!("{text}\n");
         }
-        if has_two_encodings(&pair) {
-            notes += &encodings_text(&pair, names);
+        if pair.has_two_encodings() {
+            notes += &pair.encodings_text(names);
         }
         let found = Comparison::of(&pair, self.tolerance, Perceived::Nothing)?;
         if let Some((_, judged)) = found.result.as_ref().filter(|(_, judged)| !judged.fails) {

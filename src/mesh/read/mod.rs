@@ -38,6 +38,8 @@ mod words;
 pub use error::{Place, ReadError};
 #[cfg(feature = "gltf")]
 pub(crate) use gltf::{FileLens, FileLight, FileView, view};
+#[doc(hidden)]
+pub use polygons::coloured;
 
 use super::{MeshBuilder, PolygonMesh};
 use crate::note::{Note, Notes};

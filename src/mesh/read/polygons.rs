@@ -407,7 +407,7 @@ pub(super) fn is_position(position: DVec3) -> bool {
 
 /// Returns a material with a colour of the file and a faint highlight. The coefficients sum to 1
 /// for white, so that nothing is clamped under one light of strength 1.
-pub(super) fn coloured(colour: Rgb) -> Material {
+pub fn coloured(colour: Rgb) -> Material {
     const AMBIENT: f32 = 0.1;
     const DIFFUSE: f32 = 0.8;
     const SPECULAR: f32 = 0.1;

@@ -4,7 +4,9 @@
 //! |---|---|---|
 //! | `.png` | red, green, blue, straight alpha in 8 bits; the encoding, if the picture states it; the name of this program | fractions of a grey level |
 //! | `.ppm` | red, green, blue in 8 bits (P6) | fractions of a grey level, alpha, and the encoding |
-//! | `.pfm` | red, green, blue as floats (PF) | alpha |
+//! | `.pfm` | red, green, blue as linear floats (PF) | alpha |
+//!
+//! Formats without alpha hold the picture over the background that it states.
 //!
 //! [`read_picture`] reads PNG of all colour types and depths, PBM, PGM and PPM (P1 to P6), PAM (P7)
 //! and PFM as they are stored, in 8 bits, 16 bits or floats. It also reads BMP and Targa in 8 bits.
@@ -32,6 +34,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::string::String;
+use std::vec;
 use std::vec::Vec;
 
 use super::encoding::quantise;
@@ -220,30 +223,79 @@ impl FilePicture {
     /// # Errors
     /// As for [`FilePicture::encode`], and any error of `out`.
     pub fn write_to(&self, format: Format, out: &mut dyn Write) -> io::Result<()> {
-        match (format, &self.pixels) {
-            (Format::Png, FilePixels::Stored(picture)) => {
+        let without_alpha = match format {
+            Format::Png => None,
+            Format::Ppm | Format::Pfm => self.flattened(),
+        };
+        let picture = without_alpha.as_ref().unwrap_or(self);
+        match (format, &picture.pixels) {
+            (Format::Png, FilePixels::Stored(pixels)) => {
                 let stated = png::Stated {
                     encoding: self.encoding,
                     background: self.background,
                     software: true,
                 };
-                png::write(picture, stated, out)
+                png::write(pixels, stated, out)
             }
-            (Format::Ppm, FilePixels::Stored(picture)) => netpbm::write_ppm(picture, out),
-            (Format::Pfm, FilePixels::Linear(picture)) => netpbm::write_pfm(picture, out),
-            (Format::Pfm, _) => netpbm::write_pfm(&self.to_linear(), out),
+            (Format::Ppm, FilePixels::Stored(pixels)) => netpbm::write_ppm(pixels, out),
+            (Format::Pfm, FilePixels::Linear(pixels)) => netpbm::write_pfm(pixels, out),
+            (Format::Pfm, _) if picture.encoding == Some(Encoding::Srgb) => {
+                let linear = |level: f64| Encoding::Srgb.decode(level / 255.0) as f32;
+                netpbm::write_pfm(&picture.map_levels(|pixel| pixel.rgb().map(linear)), out)
+            }
+            (Format::Pfm, _) => netpbm::write_pfm(&picture.to_linear(), out),
             (Format::Png | Format::Ppm, _) => {
-                let pixels = FilePixels::Stored(self.to_stored());
-                let (notes, background) = (Vec::new(), self.background);
+                let pixels = FilePixels::Stored(picture.to_stored());
+                let notes = Vec::new();
                 let picture = FilePicture {
                     pixels,
                     notes,
-                    background,
-                    ..*self
+                    ..*picture
                 };
                 picture.write_to(format, out)
             }
         }
+    }
+
+    /// Returns the picture over its background, for formats without alpha. Returns `None` if it
+    /// states no background, or every pixel is fully covered.
+    fn flattened(&self) -> Option<FilePicture> {
+        let background = self.background?;
+        if !self.has_alpha || pair::is_opaque(self) {
+            return None;
+        }
+        let encoding = self.encoding.unwrap_or(match self.pixels {
+            FilePixels::Linear(_) => Encoding::Linear,
+            FilePixels::Stored(_) | FilePixels::Deep { .. } => Encoding::Srgb,
+        });
+        let linear = self.map_levels(|pixel| {
+            let colour = pair::flattened(pixel, background, encoding);
+            colour.map(|level| (level / 255.0) as f32)
+        });
+        let mut picture = FilePicture {
+            encoding: self.encoding,
+            has_alpha: false,
+            ..FilePicture::linear(linear)
+        };
+        if !matches!(self.pixels, FilePixels::Linear(_)) {
+            picture.pixels = FilePixels::Stored(picture.to_stored());
+        }
+        Some(picture)
+    }
+
+    /// Returns the opaque picture that `of` makes of the stored values.
+    fn map_levels(&self, of: impl Fn(Levels) -> [f32; 3]) -> LinearPicture {
+        let [width, height] = self.size();
+        let mut picture = LinearPicture::new(width, height, [1.0; 4]);
+        let mut levels = vec![Levels([0.0; 4]); width];
+        for y in 0..height {
+            self.stored_levels(y, &mut levels);
+            for (pixel, levels) in picture.row_mut(y).iter_mut().zip(&levels) {
+                let [r, g, b] = of(*levels);
+                *pixel = [r, g, b, 1.0];
+            }
+        }
+        picture
     }
 
     /// Writes the stored values of row `y` into `levels`.

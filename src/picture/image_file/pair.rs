@@ -2,6 +2,9 @@
 
 use super::{FilePicture, FilePixels};
 use crate::picture::{Encoding, LevelRows, Levels, over};
+use core::fmt;
+use std::format;
+use std::string::String;
 
 /// The encoding in which a picture is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,6 +120,57 @@ impl<'a> Pair<'a> {
         self.pictures[0].size() == self.pictures[1].size()
     }
 
+    /// True if the pictures have different encodings, so that the linear one is encoded before they
+    /// are compared.
+    #[doc(hidden)]
+    pub fn has_two_encodings(&self) -> bool {
+        self.encodings[0].encoding != self.encodings[1].encoding
+    }
+
+    /// Returns the line about the encodings of the pictures, stated or assumed. `names` are the
+    /// names of the reference and the other picture.
+    #[doc(hidden)]
+    pub fn encodings_text(&self, names: [impl fmt::Display; 2]) -> String {
+        let [reference, actual] = [0, 1].map(|i| {
+            let (name, used) = (&names[i], self.encodings[i]);
+            let encoding = used.encoding.name();
+            if used.is_stated {
+                format!("{name} states {encoding}")
+            } else {
+                format!("{name} states none, {encoding} is assumed")
+            }
+        });
+        let encoded = if self.has_two_encodings() {
+            "; the linear picture was encoded as srgb, unrounded"
+        } else {
+            ""
+        };
+        format!("encodings: {reference}; {actual}{encoded}\n")
+    }
+
+    /// Returns a note on alpha if only one of the pictures has it. `names` are the names of the
+    /// reference and the other picture.
+    #[doc(hidden)]
+    pub fn alpha_text(&self, names: [impl fmt::Display; 2]) -> Option<String> {
+        let (of_reference, done) = match self.alpha {
+            AlphaUse::Absent | AlphaUse::Compared => return None,
+            AlphaUse::Flattened { of_reference } => {
+                (of_reference, "is drawn over the background that it states")
+            }
+            AlphaUse::Opaque { of_reference } => {
+                let done =
+                    "states no background to draw it over, and is compared with an opaque picture";
+                (of_reference, done)
+            }
+        };
+        let [reference, actual] = names;
+        Some(if of_reference {
+            format!("{actual} has no alpha: {reference} {done}")
+        } else {
+            format!("{reference} has no alpha: {actual} {done}")
+        })
+    }
+
     /// Returns the reference and the actual picture as they are compared.
     pub fn compared(&self) -> [impl LevelRows + Copy + use<'a>; 2] {
         [0, 1].map(|i| LevelView {
@@ -178,7 +232,7 @@ impl<'a> Pair<'a> {
 }
 
 /// True if every pixel is fully covered.
-fn is_opaque(picture: &FilePicture) -> bool {
+pub(super) fn is_opaque(picture: &FilePicture) -> bool {
     match &picture.pixels {
         FilePixels::Stored(picture) => picture.pixels().iter().all(|pixel| pixel[3] == 255),
         FilePixels::Deep { picture, maximum } => {
@@ -216,22 +270,20 @@ struct LevelView<'a> {
     is_clamped: bool,
 }
 
-impl LevelView<'_> {
-    /// Puts a pixel over `background` in linear light, and returns its colour in the encoding of
-    /// the file.
-    fn flattened(&self, pixel: Levels, background: [f64; 3]) -> [f64; 3] {
-        let alpha = pixel.alpha();
-        if alpha == 0.0 {
-            return background;
-        }
-        if alpha == 255.0 {
-            return pixel.rgb();
-        }
-        let linear = |level: f64| self.from.decode(level / 255.0);
-        let [r, g, b] = pixel.rgb().map(linear);
-        let linear = over([r, g, b, alpha / 255.0], background.map(linear));
-        linear.map(|c| 255.0 * self.from.encode(c))
+/// Puts a pixel over `background` in linear light, and returns its colour in the encoding of the
+/// file.
+pub(super) fn flattened(pixel: Levels, background: [f64; 3], encoding: Encoding) -> [f64; 3] {
+    let alpha = pixel.alpha();
+    if alpha == 0.0 {
+        return background;
     }
+    if alpha == 255.0 {
+        return pixel.rgb();
+    }
+    let linear = |level: f64| encoding.decode(level / 255.0);
+    let [r, g, b] = pixel.rgb().map(linear);
+    let linear = over([r, g, b, alpha / 255.0], background.map(linear));
+    linear.map(|c| 255.0 * encoding.encode(c))
 }
 
 impl LevelRows for LevelView<'_> {
@@ -243,7 +295,7 @@ impl LevelRows for LevelView<'_> {
         self.picture.stored_levels(y, levels);
         for pixel in levels {
             let mut rgb = match self.background {
-                Some(background) => self.flattened(*pixel, background),
+                Some(background) => flattened(*pixel, background, self.from),
                 None => pixel.rgb(),
             };
             if let Some(whole) = &self.whole {

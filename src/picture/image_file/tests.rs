@@ -1110,3 +1110,34 @@ fn a_png_file_names_its_software() {
     assert!(named.windows(mark.len()).any(|part| part == mark));
     assert_eq!(decode_picture(&named).unwrap().to_stored(), stored());
 }
+
+#[test]
+fn formats_without_alpha_hold_a_picture_over_the_background_that_it_states() {
+    let stored = Picture8::from_pixels(3, 1, vec![[255, 0, 0, 255], [255, 0, 0, 51], [9; 4]]);
+    let mut stored = stored.unwrap();
+    stored.pixels_mut()[2][3] = 0;
+    let mut picture = FilePicture::stored(stored).encoded(Encoding::Linear);
+    let rgb = |picture: &FilePicture, format| {
+        let read = decode_picture(&picture.encode(format).unwrap()).unwrap();
+        read.to_stored().pixels().to_vec()
+    };
+    // Without a background, colours stay as they are.
+    let unchanged = [[255, 0, 0, 255], [255, 0, 0, 255], [9, 9, 9, 255]];
+    assert_eq!(rgb(&picture, Format::Ppm), unchanged);
+    picture.background = Some([0.0, 100.0, 200.0]);
+    // A fifth of red, four fifths of the background.
+    let over = [[255, 0, 0, 255], [51, 80, 160, 255], [0, 100, 200, 255]];
+    for format in [Format::Ppm, Format::Pfm] {
+        assert_eq!(rgb(&picture, format), over);
+    }
+    assert_eq!(rgb(&picture, Format::Png)[1], [255, 0, 0, 51]);
+}
+
+#[test]
+fn a_float_map_of_an_srgb_picture_holds_linear_floats() {
+    let stored = Picture8::from_pixels(1, 1, vec![[0, 128, 255, 255]]).unwrap();
+    let picture = FilePicture::stored(stored).encoded(Encoding::Srgb);
+    let read = decode_picture(&picture.encode(Format::Pfm).unwrap()).unwrap();
+    let expected = [0.0, 128.0 / 255.0, 1.0].map(|c| Encoding::Srgb.decode(c) as f32);
+    assert_eq!(read.to_linear().pixels()[0][..3], expected);
+}

@@ -8,7 +8,7 @@ use super::value::{Data, SceneTable};
 use crate::mesh::PolygonMesh;
 use crate::mesh::vertex_normals::{NormalRule, NormalSource, NormalUse, NormalWeight};
 use crate::note::{Note, Notes, Setting};
-use crate::scene::ranges::CREASE;
+use crate::scene::ranges::{CREASE, WELD};
 use std::format;
 use std::string::ToString;
 
@@ -52,6 +52,19 @@ impl Overlay {
             name: "object",
         };
         Ok(StatedNormals::new(&object)?.or(usual))
+    }
+
+    /// Returns the fraction of a mesh's size within which vertices are merged, if it is set.
+    ///
+    /// # Errors
+    /// [`SceneError`] if it is no fraction.
+    #[doc(hidden)]
+    pub fn weld(&self) -> Result<Option<f64>, SceneError> {
+        let object = Section {
+            table: &self.every_object,
+            name: "object",
+        };
+        object.number("weld", &WELD)
     }
 }
 

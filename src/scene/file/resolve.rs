@@ -17,7 +17,7 @@ use crate::mesh::{Material, PolygonMesh};
 use crate::note::{Note, Notes, Setting};
 use crate::number::Written;
 use crate::scene::direction::{length, unit};
-use crate::scene::ranges::{COORDINATE, NumberRange, PIXEL, SIZE, STRENGTH, VOLUME};
+use crate::scene::ranges::{COORDINATE, NumberRange, PIXEL, SIZE, STRENGTH, VOLUME, WELD};
 use crate::scene::{Camera, Culling, Light, Object, Scene, volume};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::btree_map::Entry;
@@ -499,10 +499,6 @@ fn tell_over_one(tables: &[Section], notes: &mut Notes) {
 fn lacks_material(mesh: &PolygonMesh) -> bool {
     (0..mesh.polygon_count()).any(|polygon| mesh.polygon_material(polygon).is_none())
 }
-
-/// The distance up to which positions are merged, as a fraction of the mesh's size.
-const WELD: NumberRange =
-    NumberRange::new(1e-12, 0.1, "a fraction of the mesh's size, 1e-12 to 0.1");
 
 /// The factors of a scale. [`SIZE`] also has room for the rounding of a rotation.
 const SCALE: NumberRange = NumberRange::new(1e-15, 1e15, SIZE.expected);

@@ -4,7 +4,7 @@ use super::super::text::{counted, grouped};
 use super::super::tolerance::{Judged, Levels, Tolerance};
 use super::super::{CliError, files, memory};
 use super::DiffArgs;
-use super::comparison::{Comparison, Perceived, alpha_text, encoding_text};
+use super::comparison::{Comparison, Perceived, encoding_text};
 use super::pairing::Named;
 use fastphong::picture::image_file::{FilePicture, Pair};
 use serde_json::{Value, json};
@@ -171,7 +171,7 @@ fn judge(
 ) -> Result<(), CliError> {
     let pair = Pair::new(reference, actual, args.assume);
     one.notes
-        .extend(alpha_text(&pair, ["the reference", "the picture"]));
+        .extend(pair.alpha_text(["the reference", "the picture"]));
     memory::check_pair(&pair)?;
     let sizes = [reference.size(), actual.size()];
     let found = Comparison::of(&pair, tolerance, Perceived::Metrics);

@@ -8,10 +8,9 @@ use fastphong::compare::metrics::judgement::{Selection, judged_map};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare_where, flip_map, mean_flip, ssim,
 };
-use fastphong::picture::image_file::{AlphaUse, FilePicture, Pair};
+use fastphong::picture::image_file::{FilePicture, Pair};
 use fastphong::picture::{Encoding, Picture, Picture8};
 use serde_json::{Value, json};
-use std::fmt;
 
 /// How many grey levels the light end of a difference map stands for.
 pub const SCALE: f32 = 16.0;
@@ -75,7 +74,7 @@ impl Comparison {
         let mut flip = None;
         if perceived == Perceived::Nothing {
             // Only the judgement is asked for.
-        } else if difference.equal && !has_two_encodings(pair) && !maps_flip {
+        } else if difference.equal && !pair.has_two_encodings() && !maps_flip {
             // Equal pictures look equal on a screen too: FLIP, the slowest metric, is 0. SSIM is 1,
             // as `compare_where` found.
             difference.flip = is_perceived.then_some(0.0);
@@ -194,33 +193,6 @@ pub fn sizes_text(pair: &Pair<'_>, sizes: [[usize; 2]; 2], is_mapped: bool) -> S
     format!("the sizes differ: {found}{mapped}\n")
 }
 
-/// True if the pictures have different encodings, so that the linear one is encoded before they are
-/// compared.
-pub fn has_two_encodings(pair: &Pair<'_>) -> bool {
-    let [reference, actual] = pair.encodings().map(|used| used.encoding);
-    reference != actual
-}
-
-/// Returns the line about the encodings of the pictures, stated or assumed. `names` are the names
-/// of the reference and the other picture.
-pub fn encodings_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> String {
-    let [reference, actual] = [0, 1].map(|i| {
-        let (name, used) = (&names[i], pair.encodings()[i]);
-        let encoding = used.encoding.name();
-        if used.is_stated {
-            format!("{name} states {encoding}")
-        } else {
-            format!("{name} states none, {encoding} is assumed")
-        }
-    });
-    let encoded = if has_two_encodings(pair) {
-        "; the linear picture was encoded as srgb, unrounded"
-    } else {
-        ""
-    };
-    format!("encodings: {reference}; {actual}{encoded}\n")
-}
-
 /// Returns what to do about pictures that do not agree, as `found` says, if their stored values do:
 /// then only the encodings differ. `assume` is the encoding of files that state none.
 pub fn encoding_text(
@@ -231,7 +203,7 @@ pub fn encoding_text(
     tolerance: &Tolerance<'_>,
 ) -> Option<String> {
     let pair = Pair::new(reference, actual, assume);
-    if !has_two_encodings(&pair) || found.is_some_and(|found| found.agrees(tolerance)) {
+    if !pair.has_two_encodings() || found.is_some_and(|found| found.agrees(tolerance)) {
         return None;
     }
     let used = pair.encodings();
@@ -259,28 +231,6 @@ pub fn encoding_text(
     Some(format!(
         "{problem}: the reference {one}, the picture {two}: {expected}"
     ))
-}
-
-/// Returns a note on alpha if only one of the pictures has it. `names` are the names of the
-/// reference and the other picture.
-pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<String> {
-    let (of_reference, done) = match pair.alpha() {
-        AlphaUse::Absent | AlphaUse::Compared => return None,
-        AlphaUse::Flattened { of_reference } => {
-            (of_reference, "is drawn over the background that it states")
-        }
-        AlphaUse::Opaque { of_reference } => {
-            let done =
-                "states no background to draw it over, and is compared with an opaque picture";
-            (of_reference, done)
-        }
-    };
-    let [reference, actual] = names;
-    Some(if of_reference {
-        format!("{actual} has no alpha: {reference} {done}")
-    } else {
-        format!("{reference} has no alpha: {actual} {done}")
-    })
 }
 
 /// Adds the fields of [`Judged::add_to`] for pictures that were not judged.

@@ -14,8 +14,8 @@ use super::tolerance::{Tolerance, ToleranceFlags};
 use super::{CliError, Log, Outcome, files, memory, values};
 use crate::compare::table::aligned;
 use comparison::{
-    Comparison, Perceived, SCALE, alpha_text, encoding_text, encodings_text, failed_text,
-    not_finite_text, selection, sizes_text,
+    Comparison, Perceived, SCALE, encoding_text, failed_text, not_finite_text, selection,
+    sizes_text,
 };
 use fastphong::compare::metrics::judgement::{draw_frame, draw_left_out};
 use fastphong::compare::metrics::{
@@ -174,7 +174,7 @@ impl DiffArgs {
             }
         }
         let pair = Pair::new(&reference, &actual, self.assume);
-        if let Some(text) = alpha_text(&pair, paths.map(Path::display)) {
+        if let Some(text) = pair.alpha_text(paths.map(Path::display)) {
             log.warning(&text);
         }
         memory::check_pair(&pair)?;
@@ -217,7 +217,7 @@ impl DiffArgs {
     fn text(&self, found: &Comparison, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
         let Some((difference, judged)) = &found.result else {
             let sizes = sizes_text(pair, sizes, self.output.is_some());
-            return encodings_text(pair, self.paths().map(Path::display)) + &sizes;
+            return pair.encodings_text(self.paths().map(Path::display)) + &sizes;
         };
         let mut text = table(difference);
         if difference.flip.is_none() {
@@ -226,7 +226,7 @@ impl DiffArgs {
         if !difference.equal || self.fail_above.is_some() {
             text += &judged.text();
         }
-        text + &encodings_text(pair, self.paths().map(Path::display))
+        text + &pair.encodings_text(self.paths().map(Path::display))
     }
 
     /// Refuses `--radius` with a map that ignores it.

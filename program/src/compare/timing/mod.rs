@@ -6,13 +6,11 @@
 //! Every round samples each of them once, and `Ratio::paired` compares two candidates round by
 //! round, when both met the machine in the same state.
 
-mod free_memory;
 mod machine;
 mod rounds;
 mod statistics;
 
 pub use fastphong::shading::SpanRow;
-pub(crate) use free_memory::free_memory;
 pub(crate) use machine::Machine;
 pub(crate) use rounds::{Candidate, TimeLimits, time_interleaved};
 pub(crate) use statistics::{Ratio, Timing};

@@ -15,14 +15,6 @@ use std::{format, io, mem, vec};
 /// The most ignored lines of one file that are shown one by one.
 const IGNORED_SHOWN: usize = 8;
 
-// The MTL format's defaults: Ka and Kd as in J. Burkardt's description of the format
-// (people.sc.fsu.edu/~jburkardt/data/mtl/mtl.html).
-const AMBIENT: Rgb = [0.2; 3];
-const DIFFUSE: Rgb = [0.8; 3];
-// The format's own Ks = 1 and Ns = 0 would light half of the surface white. Without `Ks` there is
-// no highlight instead.
-const SPECULAR: Rgb = [0.0; 3];
-
 /// A statement in one of the libraries.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Place {
@@ -451,10 +443,10 @@ impl Definition {
         let matte = matches!(self.illumination, Some(0 | 1));
         let specular = self.specular.filter(|_| !matte);
         Material {
-            ambient: self.ambient.unwrap_or(AMBIENT),
-            diffuse: self.diffuse.unwrap_or(DIFFUSE),
-            specular: specular.unwrap_or(SPECULAR),
-            shininess: self.shininess.unwrap_or(Material::default().shininess),
+            ambient: self.ambient.unwrap_or(Material::MTL.ambient),
+            diffuse: self.diffuse.unwrap_or(Material::MTL.diffuse),
+            specular: specular.unwrap_or(Material::MTL.specular),
+            shininess: self.shininess.unwrap_or(Material::MTL.shininess),
         }
     }
 }
