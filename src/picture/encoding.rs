@@ -90,6 +90,9 @@ pub fn srgb_encode(c: f32) -> f32 {
 pub(crate) fn srgb_encode_f64(c: f64) -> f64 {
     if c <= 0.003_130_8 {
         12.92 * c
+    } else if c == 1.0 {
+        // The formula gives the number just below it, and white would differ from white.
+        1.0
     } else {
         1.055 * libm::pow(c, 1.0 / 2.4) - 0.055
     }
@@ -281,6 +284,7 @@ mod tests {
     fn srgb_encode_meets_known_values() {
         assert_eq!(srgb_encode(0.0), 0.0);
         assert_eq!(srgb_encode(1.0), 1.0);
+        assert_eq!(srgb_encode_f64(1.0), 1.0);
         // Each value is in 0.03..1, where floats are at most 2^-24 = 6e-8 apart. The input's own
         // rounding, at most half of that, is stretched by the slope, at most 12.92 (at the join).
         // Together: 4e-7.

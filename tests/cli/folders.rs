@@ -644,3 +644,31 @@ fn a_folder_in_place_of_a_reference_stops_approving_without_a_change() {
     ended.refused(&["ref/in/new/e.png: cannot be written"]);
     assert_eq!(all_files(&folder.path("ref")), before);
 }
+
+#[test]
+fn new_pictures_that_the_mask_or_the_region_does_not_fit_are_not_approved() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("r")).expect("a folder");
+    write(&folder, "n/new.png", 1);
+    let mask = FilePicture::stored(Picture8::new(1, 1, [255; 4]));
+    write_picture(&folder.path("mask.png"), &mask).expect("a mask");
+    for flag in ["--mask mask.png", "--region 100,100,5,5"] {
+        let ended = folder.run(&format!("diff r n {flag} --approve"));
+        ended.differs().prints("unreadable  new.png");
+        assert!(!folder.path("r/new.png").exists(), "{flag}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn new_pictures_behind_a_link_to_a_folder_are_not_approved() {
+    let folder = Folder::new();
+    for name in ["outside", "r"] {
+        fs::create_dir(folder.path(name)).expect("a folder");
+    }
+    write(&folder, "n/sub/new.png", 1);
+    std::os::unix::fs::symlink("../outside", folder.path("r/sub")).expect("a link");
+    let ended = folder.run("diff r n --approve");
+    ended.differs().prints("r/sub is a link: expected a folder");
+    assert!(!folder.path("outside/new.png").exists());
+}

@@ -138,10 +138,13 @@ impl Tolerance<'_> {
             return Err(format!("{problem}: expected a part of it").into());
         };
         if self.flags.first_given().is_some() && selection.left_out() == width * height {
-            let problem = "the mask leaves out every pixel, so that nothing is compared";
-            return Err(
-                format!("{problem}: expected a mask with pixels that are not black").into(),
-            );
+            let of_region = if area.is_some() { " of the region" } else { "" };
+            let problem =
+                format!("the mask leaves out every pixel{of_region}, so that nothing is compared");
+            return Err(format!(
+                "{problem}: expected a mask with pixels that are not black{of_region}"
+            )
+            .into());
         }
         Ok(selection)
     }

@@ -101,10 +101,10 @@ pub(super) fn write(picture: &Picture8, stated: Stated, out: impl Write) -> io::
 /// Decodes a PNG file of any colour type and depth. Of an animation, decodes the still picture.
 pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     // The decoder stops at the last pixel. A file without its end was cut off nevertheless.
-    if !has_end(bytes) {
+    let Some(behind) = behind_end(bytes) else {
         let problem = "it ends too early: expected an IEND chunk";
         return Err(DecodeError::malformed(NAME, problem));
-    }
+    };
     let mut decoder = Decoder::new(Cursor::new(bytes));
     decoder.set_ignore_text_chunk(true);
     let header = decoder.read_header_info().map_err(broken)?;
@@ -134,6 +134,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     };
     state(&mut picture, &reader, has_gamma_of_zero(bytes));
     note_orientation(&mut picture, bytes);
+    if !behind.is_empty() {
+        let note = format!("{} bytes behind its end are not read", behind.len());
+        picture.notes.push(note);
+    }
     Ok(picture)
 }
 
@@ -360,16 +364,17 @@ fn broken(error: png::DecodingError) -> DecodeError {
     DecodeError::malformed(NAME, problem)
 }
 
-/// True if the chunks lead to a complete IEND (ISO/IEC 15948, 5.3: length, type, data, CRC).
-fn has_end(bytes: &[u8]) -> bool {
+/// Returns the bytes behind a complete IEND, if the chunks lead to one (ISO/IEC 15948, 5.3: length,
+/// type, data, CRC).
+fn behind_end(bytes: &[u8]) -> Option<&[u8]> {
     let mut rest = &bytes[SIGNATURE.len()..];
     while let Some((&[a, b, c, d, ref kind @ ..], data)) = rest.split_first_chunk::<8>() {
         let length = u32::from_be_bytes([a, b, c, d]) as usize;
         match data.get(length..).and_then(|crc| crc.get(4..)) {
-            Some(_) if kind == b"IEND" => return true,
+            Some(behind) if kind == b"IEND" => return Some(behind),
             Some(next) => rest = next,
-            None => return false,
+            None => return None,
         }
     }
-    false
+    None
 }

@@ -1141,3 +1141,12 @@ fn a_float_map_of_an_srgb_picture_holds_linear_floats() {
     let expected = [0.0, 128.0 / 255.0, 1.0].map(|c| Encoding::Srgb.decode(c) as f32);
     assert_eq!(read.to_linear().pixels()[0][..3], expected);
 }
+
+#[test]
+fn bytes_behind_the_end_of_a_png_file_are_told() {
+    let mut bytes = encode_png(&Picture8::new(2, 1, [9; 4])).expect("a picture");
+    assert!(decode_picture(&bytes).unwrap().notes.is_empty());
+    bytes.extend(b"one more");
+    let told = decode_picture(&bytes).unwrap().notes;
+    assert_eq!(told, ["8 bytes behind its end are not read"]);
+}

@@ -8,7 +8,7 @@ use super::comparison::{Comparison, Perceived, encoding_text};
 use super::pairing::Named;
 use fastphong::picture::image_file::{FilePicture, Pair};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The outcome for a pair.
@@ -153,12 +153,31 @@ pub fn compare(
             let expected = "expected no link to a folder, and the same name";
             one.text = format!("{place} {problem}: {expected}");
         }
-        _ => {
-            one.status = Status::New;
-            one.text = format!("no reference {} yet", one.pair.place.display());
+        _ if let Some(link) = linked_folder(&args.reference, &one.pair.place) => {
+            let (place, link) = (one.pair.place.display(), link.display());
+            one.text = format!("no reference {place}, and {link} is a link: expected a folder");
+        }
+        [_, picture] => {
+            // A mask or a region that fits no picture must not wait for the first comparison.
+            let size = picture.as_ref().map(FilePicture::size);
+            match size.map(|size| tolerance.selection(size)) {
+                Some(Err(error)) => one.text = error.to_string(),
+                _ => {
+                    one.status = Status::New;
+                    one.text = format!("no reference {} yet", one.pair.place.display());
+                }
+            }
         }
     }
     (one, pictures)
+}
+
+/// Returns the link among the folders between `root` and `place`, if there is one. What is written
+/// behind it would be outside of `root`.
+fn linked_folder<'a>(root: &Path, place: &'a Path) -> Option<&'a Path> {
+    let folders = place.ancestors().skip(1);
+    let mut inner = folders.take_while(|folder| *folder != root);
+    inner.find(|folder| folder.is_symlink())
 }
 
 /// Judges a pair of pictures.
@@ -191,6 +210,7 @@ fn judge(
     }
     let Some((difference, judged)) = found?.result else {
         let [[rw, rh], [aw, ah]] = sizes;
+        tolerance.selection(sizes[1])?;
         one.status = Status::Differs;
         one.text =
             format!("the sizes differ: {rw}x{rh} in the reference, {aw}x{ah} in the picture");
