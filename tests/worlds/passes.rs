@@ -45,7 +45,8 @@ pub fn check(frame: &Frame) -> Result<usize, String> {
     for renderer in renderers() {
         let failing = || FAILING.variant().render_with(frame, renderer);
         let failed = catch_unwind(AssertUnwindSafe(failing)).is_err();
-        if failed != expected.pixels().iter().any(|pixel| pixel[3] > 0) {
+        // Rows are shaded by blocks, and a block may hold the edge of a polygon and no pixel of it.
+        if !failed && expected.pixels().iter().any(|pixel| pixel[3] > 0) {
             return Err(format!("a shader's panic is lost by {}", name(renderer)));
         }
         if in_part(&fixed, frame, renderer)? != expected {
