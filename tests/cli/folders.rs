@@ -327,6 +327,77 @@ fn the_bytes_that_were_compared_are_approved() {
     assert_eq!(folder.read("ref/a.ppm"), compared);
 }
 
+/// Starts an approval while another one holds the folder, and lets the other one finish first:
+/// `meanwhile` writes what it writes.
+#[cfg(unix)]
+fn approve_after(folder: &Folder, meanwhile: impl FnOnce()) -> Ended {
+    let lock = fs::File::open(folder.path("ref")).unwrap();
+    lock.lock().unwrap();
+    let mut command = folder.command("diff ref now --approve --json");
+    command.stdout(std::process::Stdio::piped());
+    command.stderr(std::process::Stdio::piped());
+    let child = command.spawn().unwrap();
+    let started = std::time::Instant::now();
+    let names = |name: &str| {
+        let entries = fs::read_dir(folder.path(name)).unwrap();
+        let entries = entries.map(|entry| entry.unwrap().file_name());
+        entries.filter(|name| name.as_encoded_bytes().starts_with(b".tmp"))
+    };
+    // The last draft is that of the new picture.
+    while !folder.path("ref/in/new").exists() || names("ref/in/new").count() == 0 {
+        assert!(started.elapsed().as_secs() < 120);
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    meanwhile();
+    lock.unlock().unwrap();
+    Ended::new("approve", child.wait_with_output().unwrap())
+}
+
+/// An approval that waited for another one judged references that are not there any more.
+#[cfg(unix)]
+#[test]
+fn references_that_changed_since_they_were_judged_are_not_replaced() {
+    for (name, is_there) in [("c.png", true), ("in/new/e.png", false)] {
+        let folder = folders();
+        let name = format!("ref/{name}");
+        assert_eq!(folder.path(&name).exists(), is_there);
+        let before = all_files(&folder.path("ref"));
+        let ended = approve_after(&folder, || {
+            folder.write(&name, "the other approval's");
+        });
+        ended.refused(&[&format!(
+            "{name} is not as it was when the folder was listed"
+        )]);
+        assert_eq!(folder.read(&name), b"the other approval's");
+        let mut after = all_files(&folder.path("ref"));
+        after.retain(|(left, _)| format!("ref/{left}") != name);
+        let mut before = before;
+        before.retain(|(left, _)| format!("ref/{left}") != name);
+        assert_eq!(after, before, "nothing else has changed");
+    }
+    // What was not to be replaced may change.
+    let folder = folders();
+    let ended = approve_after(&folder, || write(&folder, "ref/a.png", 3));
+    let approved = json!(["b.png", "c.png", "in/new/e.png"]);
+    assert_eq!(ended.differs().json()["approved"], approved);
+}
+
+/// The page and the XML would replace what was just approved.
+#[cfg(unix)]
+#[test]
+fn a_page_is_not_written_over_a_new_reference_behind_a_link() {
+    let folder = folders();
+    for (flag, name) in [("--html", "p.html"), ("--junit", "j.xml")] {
+        let link = folder.path(name);
+        std::os::unix::fs::symlink("ref/in/new/e.png", link).unwrap();
+        let before = all_files(&folder.path("ref"));
+        folder
+            .run(&format!("diff ref now --approve {flag} {name}"))
+            .refused(&[&format!("`{flag}` is a reference itself, ref/in/new/e.png")]);
+        assert_eq!(all_files(&folder.path("ref")), before);
+    }
+}
+
 /// The same stored values, but only one file states that they are linear: the commonest false
 /// alarm.
 #[test]

@@ -235,6 +235,26 @@ fn a_picture_that_passes_removes_the_map_of_an_earlier_failure() {
     assert!(folder.path("ref.actual.png").exists());
 }
 
+/// A picture of the map's name may be the reference of another scene. `--force` replaces it.
+#[test]
+fn a_map_replaces_only_a_map() {
+    let folder = Folder::new();
+    for name in ["ref.png", "ref.diff.png"] {
+        folder.run(&format!("render {SPHERE} -o {name}")).done();
+    }
+    let check = format!("render {SPHERE} --kd 0 --reference ref.png");
+    let ended = folder.run(&check).differs();
+    assert!(!ended.out.contains("ref.diff.png"), "{}", ended.out);
+    ended.says("warning: ref.diff.png is another picture, not a map: no map is written");
+    assert_eq!(folder.read("ref.diff.png"), folder.read("ref.png"));
+    let forced = folder.run(&format!("{check} --force")).differs();
+    forced.prints("ref.diff.png");
+    let map = folder.read("ref.diff.png");
+    let other = format!("{check} --ks 0 --ka 0");
+    folder.run(&other).differs().prints("ref.diff.png");
+    assert_ne!(folder.read("ref.diff.png"), map);
+}
+
 /// Folders stand where the extra pictures would be, so that these cannot be written.
 #[test]
 fn the_verdict_stands_if_the_extra_pictures_cannot_be_written() {

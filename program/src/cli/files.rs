@@ -263,50 +263,66 @@ pub fn pictures_in(folder: &Path) -> Result<PictureNames, CliError> {
     Ok(found)
 }
 
+/// True if a file that is registered has changed since, or has come or gone.
+pub fn has_changed(path: &Path) -> bool {
+    let files = files();
+    let file = files.read.iter().find(|file| file.path == path);
+    file.is_some_and(FileRead::has_changed)
+}
+
 /// References that are going to be replaced, all of them or none. This is the only way to write
 /// files that were read: the user asked for it.
 #[derive(Default)]
 pub struct Approval {
     files: Replacements,
     /// The references, as the user names them.
-    references: Vec<PathBuf>,
+    references: BTreeSet<PathBuf>,
 }
 
 impl Approval {
-    /// Writes the new contents of a reference to a draft, whether or not the reference exists.
+    /// Writes the new contents of a reference to a draft, whether or not the reference exists. It
+    /// was registered before it was judged.
     ///
     /// # Errors
     /// If it cannot be written.
     pub fn add(&mut self, reference: &Path, bytes: &[u8]) -> Result<(), CliError> {
         signals::remove_drafts_at_the_end();
-        self.references.push(reference.to_owned());
+        self.references.insert(reference.to_owned());
         Ok(self.files.add(reference, bytes)?)
     }
 
     /// Replaces the references in `folder`. If two programs do so at once, one waits.
     ///
     /// # Errors
-    /// If a reference leads to another file that was read, or to the file of another reference, or
-    /// cannot be replaced.
+    /// If a reference has changed since it was registered, leads to another file that was read or
+    /// to the file of another reference, or cannot be replaced.
     pub fn finish(self, folder: &Path) -> Result<(), CliError> {
+        // Not every system can lock a folder.
+        let lock = fs::File::open(folder).and_then(|folder| folder.lock().map(|()| folder));
         let read = files().read.clone();
-        let read = read.iter().map(|file| (&file.path, file.part));
-        let new = self.references.iter().map(|path| (path, "a reference"));
-        let mut at: HashMap<PathBuf, Vec<(&PathBuf, &str)>> = HashMap::new();
-        for (path, part) in read.chain(new) {
-            at.entry(place(path)).or_default().push((path, part));
+        let places: Vec<PathBuf> = read.iter().map(|file| place(&file.path)).collect();
+        let mut at: HashMap<&Path, Vec<&FileRead>> = HashMap::new();
+        for (file, place) in read.iter().zip(&places) {
+            at.entry(place).or_default().push(file);
         }
-        for reference in &self.references {
-            let mut others = at[&place(reference)].iter();
-            if let Some((path, part)) = others.find(|(path, _)| *path != reference) {
-                let (reference, path) = (reference.display(), path.display());
+        for (file, place) in read.iter().zip(&places) {
+            if !self.references.contains(&file.path) {
+                continue;
+            }
+            let reference = file.path.display();
+            let mut others = at[&**place].iter();
+            if let Some(other) = others.find(|other| other.path != file.path) {
+                let (part, path) = (other.part, other.path.display());
                 let problem = format!("{reference} leads to the file of {part}, {path}");
                 let expected = "expected a file of its own, so nothing was approved";
                 return Err(OneFileError(format!("{problem}: {expected}")).into());
             }
+            if file.has_changed() {
+                let problem = format!("{reference} is not as it was when the folder was listed");
+                let expected = "expected no change meanwhile, so nothing was approved";
+                return Err(format!("{problem}: {expected}").into());
+            }
         }
-        // Not every system can lock a folder.
-        let lock = fs::File::open(folder).and_then(|folder| folder.lock().map(|()| folder));
         self.files.finish()?;
         drop(lock);
         Ok(())
@@ -460,6 +476,13 @@ fn is_one_file(a: &Path, b: &Path) -> bool {
     place(a) == place(b) && fs::metadata(a).map_or(true, |found| found.is_file())
 }
 
+impl FileRead {
+    /// True if the file has changed since it was registered, or has come or gone.
+    fn has_changed(&self) -> bool {
+        State::of(&self.path) != self.state
+    }
+}
+
 impl State {
     /// Returns the state of a file, or `None` if it does not exist.
     fn of(path: &Path) -> Option<State> {
@@ -480,7 +503,7 @@ const PAUSE: Duration = Duration::from_millis(150);
 pub fn wait_for_change(waits: impl FnOnce(usize)) {
     let read = files().read.clone();
     waits(read.len());
-    while read.iter().all(|file| State::of(&file.path) == file.state) {
+    while !read.iter().any(FileRead::has_changed) {
         sleep(PAUSE);
     }
     // An editor may still be writing, if it saves several files or one file in several steps.

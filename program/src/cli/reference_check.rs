@@ -80,9 +80,15 @@ impl ReferenceCheck<'_> {
             text += &format!("{why}\n");
         }
         let candidate = self.keep(format, &actual, warn);
-        let map = self.write(self.map_path(format), Format::Png, warn, |out| {
-            contents::write_map(map, out)
-        });
+        let path = self.map_path(format);
+        let is_other = files::is_file(&path) && !contents::is_map(&path);
+        let map = if is_other && !self.force.force {
+            let problem = format!("{} is another picture, not a map", path.display());
+            warn(&format!("{problem}: no map is written without `--force`"));
+            None
+        } else {
+            self.write(path, Format::Png, warn, |out| contents::write_map(map, out))
+        };
         if let Some(path) = &candidate {
             text += &format!("actual: {}\n", path.display());
         }

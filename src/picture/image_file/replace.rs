@@ -76,8 +76,12 @@ impl Replacements {
     /// Renames all drafts, or none.
     ///
     /// # Errors
-    /// If one cannot be renamed.
+    /// If one cannot be renamed, or a file cannot be backed up before.
     pub fn finish(mut self) -> Result<(), ImageFileError> {
+        for file in &mut self.waiting {
+            let backup = backup(&file.place).map_err(|cause| unwritten(&file.place, cause));
+            file.backup = backup?;
+        }
         // Holding the list makes a signal handler, which would remove drafts and backups, wait.
         let held = drafts();
         for (i, file) in self.waiting.iter().enumerate() {
@@ -107,11 +111,11 @@ fn unwritten(path: &Path, cause: io::Error) -> ImageFileError {
     }
 }
 
-/// A complete draft that waits to be renamed, with a backup of the file that it replaces.
+/// A complete draft that waits to be renamed.
 struct Waiting {
     place: PathBuf,
     draft: (ListedDraft, TempPath),
-    /// A copy of the old file.
+    /// The old file, from the moment when the drafts are renamed.
     backup: Option<(ListedDraft, TempPath)>,
 }
 
@@ -128,19 +132,36 @@ impl Waiting {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         }
         made.make(folder(&place))?;
-        let draft = complete_draft(&place, old.as_ref(), write)?;
-        let backup = old.map(|old| {
-            complete_draft(&place, Some(&old), |file| {
-                io::copy(&mut File::open(&place)?, file).map(|_| ())
-            })
-        });
-        let paths = |(listed, file): (ListedDraft, NamedTempFile)| (listed, file.into_temp_path());
+        let (listed, draft) = complete_draft(&place, old.as_ref(), write)?;
         Ok(Waiting {
-            draft: paths(draft),
-            backup: backup.transpose()?.map(paths),
+            draft: (listed, draft.into_temp_path()),
+            backup: None,
             place,
         })
     }
+}
+
+/// Gives the file at `place`, if there is one, a second name, so that it can come back as it was,
+/// with its owner and its hard links. Copies it if the system refuses.
+fn backup(place: &Path) -> io::Result<Option<(ListedDraft, TempPath)>> {
+    let old = fs::symlink_metadata(place).ok();
+    // A folder cannot be replaced, so the rename will fail.
+    let Some(old) = old.filter(|old| !old.is_dir()) else {
+        return Ok(None);
+    };
+    let mut drafts = drafts();
+    if let Ok(link) = Builder::new().make_in(folder(place), |link| fs::hard_link(place, link)) {
+        drafts.push(link.path().to_owned());
+        return Ok(Some((
+            ListedDraft(link.path().to_owned()),
+            link.into_temp_path(),
+        )));
+    }
+    drop(drafts);
+    let (listed, copy) = complete_draft(place, Some(&old), |file| {
+        io::copy(&mut File::open(place)?, file).map(|_| ())
+    })?;
+    Ok(Some((listed, copy.into_temp_path())))
 }
 
 /// Folders that were created. They are removed again on drop, or by [`remove_drafts`].
@@ -346,7 +367,17 @@ mod tests {
             }
             Ok::<_, ImageFileError>(files)
         };
-        let state = || (fs::read(&old).unwrap(), names(&directory).len());
+        // The other name of a hard link shows whether the old file came back, or a copy.
+        let elsewhere = tempdir().unwrap();
+        let linked = elsewhere.path().join("linked");
+        fs::hard_link(&old, &linked).unwrap();
+        let state = || {
+            let mut file = OpenOptions::new().append(true).open(&linked).unwrap();
+            file.write_all(b"!").unwrap();
+            assert_eq!(fs::read(&old).unwrap(), fs::read(&linked).unwrap());
+            fs::write(&linked, "old").unwrap();
+            (fs::read(&old).unwrap(), names(&directory).len())
+        };
         // Drafts that get no names are removed, and so are the folders that were made for them.
         drop(drafted().unwrap());
         assert_eq!(state(), (b"old".to_vec(), 2));

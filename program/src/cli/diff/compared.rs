@@ -150,7 +150,11 @@ pub fn compare(
         }
         _ if files::is_file(&one.pair.place) => {
             let (place, problem) = (one.pair.place.display(), "is there, but was not listed");
-            let expected = "expected no link to a folder, and the same name";
+            let expected = if files::has_changed(&one.pair.place) {
+                "it came after that: expected no change meanwhile"
+            } else {
+                "expected no link to a folder, and the same name"
+            };
             one.text = format!("{place} {problem}: {expected}");
         }
         _ if let Some(link) = linked_folder(&args.reference, &one.pair.place) => {

@@ -23,9 +23,8 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
     let outputs_list: Vec<&Output> = outputs.list();
     let pairing = Pairing::of(&args.reference, &args.actual)?;
     for pair in &pairing.pairs {
-        if let Some(path) = &pair.reference {
-            files::will_read(path, "a reference");
-        }
+        // Also a reference that is new, so that nothing else becomes its file.
+        files::will_read(&pair.place, "a reference");
         if let Some(path) = &pair.actual {
             files::will_read(path, "a picture");
         }
