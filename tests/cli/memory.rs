@@ -132,3 +132,21 @@ fn pictures_that_do_not_fit_into_memory_are_one_error() {
     run_within(&folder, 250_000, "diff large.ppm large.ppm")
         .refused(&["large.ppm: there is not enough memory for 9000×9000 pixels"]);
 }
+
+/// A pair that does not fit stands on the page without its pictures.
+#[test]
+fn a_page_without_memory_for_its_pictures_says_so() {
+    let folder = Folder::new();
+    for (name, level) in [("ref", 1), ("now", 9)] {
+        std::fs::create_dir(folder.path(name)).expect("a folder");
+        let mut file = b"P6 3000 3000 255\n".to_vec();
+        file.resize(file.len() + 27_000_000, level);
+        folder.write(&format!("{name}/a.ppm"), file);
+    }
+    let said = "a.ppm: not on the page: 3000x3000: the page needs about 252.0 MB of memory";
+    run_within(&folder, 250_000, "diff ref now --html p.html")
+        .differs()
+        .says(said);
+    let page = String::from_utf8(folder.read("p.html")).expect("a page");
+    assert!(page.contains(said.split_at(7).1) && !page.contains("<img "));
+}

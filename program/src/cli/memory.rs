@@ -85,6 +85,28 @@ pub fn check_pair(pair: &Pair<'_>) -> Result<(), CliError> {
     Ok(check_size(size, "comparing", flip + 4 * pixels)?)
 }
 
+/// Checks that there is enough memory to pack a pair of pictures of `size` for a page, which shows
+/// them in the size `shown`.
+///
+/// # Errors
+/// If there is not.
+pub fn check_packing(size: [usize; 2], shown: [usize; 2]) -> Result<(), CliError> {
+    // The map; then a smaller picture, the files of three, and the space in which a list grows.
+    let needed = 4 * pixels(size) + (4 + 3 * 4 + 2 * 4) * pixels(shown);
+    Ok(check_size(size, "the page", needed)?)
+}
+
+/// Checks that there is enough memory to write a page of `length` bytes.
+///
+/// # Errors
+/// If there is not.
+pub fn check_page(length: u64) -> Result<(), CliError> {
+    // Its pairs and the page, each a text that grows, and the pair that is being written.
+    let needed = length.saturating_mul(2 + 2 + 1);
+    let needs = format!("a page of {} needs about {}", bytes(length), bytes(needed));
+    Ok(check_free(needed, &needs, "fewer or smaller pictures")?)
+}
+
 /// Checks that there is enough memory to hold a file of `length` bytes.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! The page that `--html` writes: all pairs of two folders, with pictures and maps.
 
-use super::super::CliError;
 use super::super::tolerance::Tolerance;
+use super::super::{CliError, memory};
 use super::DiffArgs;
 use super::compared::{Compared, Status, summary};
 use super::comparison::SCALE;
@@ -122,6 +122,13 @@ impl Page {
                 );
             }
         }
+        let bytes: usize = self.bytes.iter().sum();
+        if let Err(error) = memory::check_page(bytes as u64) {
+            remarks += &format!(" All pictures are left out: {error}.");
+            for (_, shown) in &mut pairs {
+                (shown.reference, shown.actual, shown.map) = Default::default();
+            }
+        }
         PairsPage {
             title: summary(compared),
             about: format!("{actual} against the references in {reference}. {remarks}"),
@@ -147,6 +154,7 @@ fn fill(
     let step = size[0].max(size[1]).div_ceil(most).max(1);
     shown.step = step;
     shown.size = size.map(|side| side.div_ceil(step));
+    memory::check_packing(size, shown.size)?;
     let [Some(reference), Some(actual)] = pictures else {
         let pack = |picture: &Option<FilePicture>| match picture {
             Some(picture) => {
