@@ -114,6 +114,7 @@ pub(crate) const STRENGTH: NumberRange =
     NumberRange::new(0.0, f32::MAX as f64, "0 or more, up to 3.4e38");
 
 /// The distance up to which positions are merged, as a fraction of the mesh's size.
+#[cfg(feature = "io")]
 pub(crate) const WELD: NumberRange =
     NumberRange::new(1e-12, 0.1, "a fraction of the mesh's size, 1e-12 to 0.1");
 
