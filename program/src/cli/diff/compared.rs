@@ -214,7 +214,9 @@ fn judge(
     }
     let Some((difference, judged)) = found?.result else {
         let [[rw, rh], [aw, ah]] = sizes;
-        tolerance.selection(sizes[1])?;
+        // A mask that fits neither picture is the fault.
+        let of_reference = tolerance.selection(sizes[0]);
+        of_reference.or_else(|_| tolerance.selection(sizes[1]))?;
         one.status = Status::Differs;
         one.text =
             format!("the sizes differ: {rw}x{rh} in the reference, {aw}x{ah} in the picture");
