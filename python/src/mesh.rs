@@ -93,7 +93,7 @@ impl Mesh {
     /// its material. `warnings` are sentences about what the arrays leave out.
     #[new]
     #[pyo3(signature = (name, vertices, corners, ends, normals, colours, materials, warnings))]
-    #[allow(clippy::too_many_arguments)]
+    #[allow(clippy::too_many_arguments)] // the boundary passes arrays one by one
     fn new(
         py: Python<'_>,
         name: String,

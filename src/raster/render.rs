@@ -1,7 +1,7 @@
 //! Rendering: from a method and a frame to a picture, with the engine that a renderer asks for.
 
 #[cfg(feature = "simd")]
-use super::bands::{draw_bands, stream_bands};
+use super::bands::{DrawBand, draw_bands, stream_bands};
 use super::barycentric::{self, Edges};
 use super::depth::SampleDepth;
 use super::draw::{DrawError, DrawOptions};
@@ -175,14 +175,15 @@ impl Variant {
         let frame = surface.frame;
         #[cfg(feature = "simd")]
         if let Renderer::Row(level) = renderer {
-            let kinds = [surface.format.is_levels(), rows.depth.is_some()];
+            let (is_levels, has_depth) = (surface.format.is_levels(), rows.depth.is_some());
             // The closure is called once, which its type does not say.
             let mut rows = Some(rows);
-            return super::rows::draw(self, frame, level, kinds, &mut |height, draw| {
+            let each_band = &mut |height: usize, draw: &DrawBand<'_>| {
                 if let Some(rows) = rows.take() {
                     draw_bands(surface, height, 0, rows, draw);
                 }
-            });
+            };
+            return super::rows::draw(self, frame, level, is_levels, has_depth, each_band);
         }
         let _ = renderer; // without SIMD there is one engine
         surface.clear(&mut rows);
@@ -225,15 +226,16 @@ impl Variant {
         if let Some(Renderer::Row(level)) = plan.renderer() {
             let encoder = (frame.encoding() == Encoding::Srgb).then(Encoder::srgb);
             let surface = Surface::new(frame, Eight::<Rgba>::new(encoder));
-            let kinds = [surface.format.is_levels(), false];
+            let is_levels = surface.format.is_levels();
             let mut taken = Ok(());
-            super::rows::draw(self, frame, level, kinds, &mut |height, draw| {
+            let each_band = &mut |height: usize, draw: &DrawBand<'_>| {
                 let mut take = |pixels: &[[u8; 4]]| {
                     taken = take(pixels);
                     taken.is_ok()
                 };
                 stream_bands(surface, height, &mut take, draw);
-            });
+            };
+            super::rows::draw(self, frame, level, is_levels, false, each_band);
             return Ok(taken);
         }
         match plan {

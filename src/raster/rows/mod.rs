@@ -170,7 +170,8 @@ pub(super) fn draw(
     variant: &Variant,
     frame: &Frame,
     level: SimdLevel,
-    [is_levels, has_depth]: [bool; 2],
+    is_levels: bool,
+    has_depth: bool,
     each_band: &mut EachBand<'_>,
 ) {
     // Supersampled pixels are averaged as linear floats and become levels later.
