@@ -13,9 +13,11 @@ pub struct Experiments {
     scaling: bool,
 }
 
+/// The names of all experiments.
+pub const NAMES: [&str; 2] = ["speedups", "scaling"];
+
 /// Reads experiments separated by commas, `all` or `none`.
 pub fn experiments(text: &str) -> Result<Experiments, String> {
-    const NAMES: [&str; 2] = ["speedups", "scaling"];
     let names = match text {
         "all" => NAMES.to_vec(),
         "none" => Vec::new(),

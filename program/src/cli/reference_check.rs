@@ -40,7 +40,7 @@ impl ReferenceCheck<'_> {
     pub fn run(&self, job: &mut RenderJob, warn: Warn<'_>) -> Result<(Outcome, String), CliError> {
         let (reference, shown) = (self.reference, self.reference.display());
         let format = Format::of_path(reference)?;
-        let mut actual = job.picture(format);
+        let actual = job.picture(format);
         let unreadable = |error| format!("{shown}: cannot be read: {error}");
         if !reference.try_exists().map_err(unreadable)? {
             let Some(candidate) = self.keep(format, &actual, warn) else {
@@ -76,7 +76,7 @@ impl ReferenceCheck<'_> {
         let mut text = format!("{notes}{shown}: {text}");
         let map = comparison::map(&pair, self.tolerance, SCALE)?;
         let found = Some(&found);
-        if let Some(why) = encoding_text(found, &accepted, &mut actual, assumed, self.tolerance) {
+        if let Some(why) = encoding_text(found, &pair, self.tolerance) {
             text += &format!("{why}\n");
         }
         let candidate = self.keep(format, &actual, warn);

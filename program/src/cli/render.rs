@@ -205,10 +205,6 @@ impl RenderArgs {
         })?;
         if let Some(output) = &mut output {
             self.name(output, &job)?;
-            if let Some(format @ (Format::Ppm | Format::Pfm)) = output.format() {
-                let shown = format!("{} files, which have no alpha", format.ending());
-                progress.aside(|| log.notes(&self.scene.unused(&shown, &["alpha"])));
-            }
         }
         let check = tolerance
             .as_ref()
@@ -229,6 +225,11 @@ impl RenderArgs {
             self.reference_format(),
         ];
         let [written, compared] = formats;
+        let has_alpha = formats.iter().flatten().any(|f| *f == Format::Png);
+        if !has_alpha && formats.iter().any(Option::is_some) {
+            let shown = "PPM and PFM files, which have no alpha";
+            progress.aside(|| log.notes(&self.scene.unused(shown, &["alpha"])));
+        }
         memory::check_picture(&job, written, compared)?;
         if let Some(output) = &output {
             write(&mut job, output, &progress, log)?;

@@ -316,7 +316,7 @@ impl SceneFlags {
             if !opened.notes.has("material-replaced") {
                 names.extend(["kd", "ks", "shininess"]);
             }
-            notes.append(self.unused("pictures without lights", &names));
+            notes.append(self.unused("colours without lights", &names));
         }
         if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
             notes.append(self.unused("parallel views", &["interpolation"]));

@@ -3,7 +3,7 @@
 
 use super::contents::Contents;
 use super::engines::{ENGINES, EngineFlag, ScanlineEngine, Simd, SimdList};
-use super::experiments::Experiments;
+use super::experiments::{self, Experiments};
 use super::figure::Figures;
 use super::log::to_stdout_by;
 use super::measured::Methods;
@@ -104,10 +104,16 @@ fn words(parser: &ValueParser) -> Option<Vec<&'static str>> {
         (TypeId::of::<&'static Figure>(), figures),
         (
             TypeId::of::<Experiments>(),
-            vec!["speedups", "scaling", "all", "none"],
+            [&["all", "none"], &experiments::NAMES[..]].concat(),
         ),
-        (TypeId::of::<Format>(), vec!["png", "ppm", "pfm"]),
-        (TypeId::of::<Encoding>(), vec!["linear", "srgb"]),
+        (
+            TypeId::of::<Format>(),
+            Format::ALL.map(Format::ending).to_vec(),
+        ),
+        (
+            TypeId::of::<Encoding>(),
+            Encoding::ALL.map(Encoding::name).to_vec(),
+        ),
     ];
     let of = parser.type_id();
     let found = all.into_iter().find(|(known, _)| of == *known);

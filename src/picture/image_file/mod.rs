@@ -238,11 +238,11 @@ impl FilePicture {
                 png::write(pixels, stated, out)
             }
             (Format::Ppm, FilePixels::Stored(pixels)) => netpbm::write_ppm(pixels, out),
-            (Format::Pfm, FilePixels::Linear(pixels)) => netpbm::write_pfm(pixels, out),
             (Format::Pfm, _) if picture.encoding == Some(Encoding::Srgb) => {
                 let linear = |level: f64| Encoding::Srgb.decode(level / 255.0) as f32;
                 netpbm::write_pfm(&picture.map_levels(|pixel| pixel.rgb().map(linear)), out)
             }
+            (Format::Pfm, FilePixels::Linear(pixels)) => netpbm::write_pfm(pixels, out),
             (Format::Pfm, _) => netpbm::write_pfm(&picture.to_linear(), out),
             (Format::Png | Format::Ppm, _) => {
                 let pixels = FilePixels::Stored(picture.to_stored());
@@ -264,23 +264,16 @@ impl FilePicture {
         if !self.has_alpha || pair::is_opaque(self) {
             return None;
         }
-        let encoding = self.encoding.unwrap_or(match self.pixels {
-            FilePixels::Linear(_) => Encoding::Linear,
-            FilePixels::Stored(_) | FilePixels::Deep { .. } => Encoding::Srgb,
-        });
+        let encoding = pair::UsedEncoding::of(self, None).encoding;
         let linear = self.map_levels(|pixel| {
             let colour = pair::flattened(pixel, background, encoding);
             colour.map(|level| (level / 255.0) as f32)
         });
-        let mut picture = FilePicture {
+        Some(FilePicture {
             encoding: self.encoding,
             has_alpha: false,
             ..FilePicture::linear(linear)
-        };
-        if !matches!(self.pixels, FilePixels::Linear(_)) {
-            picture.pixels = FilePixels::Stored(picture.to_stored());
-        }
-        Some(picture)
+        })
     }
 
     /// Returns the opaque picture that `of` makes of the stored values.

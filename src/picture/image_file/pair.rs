@@ -18,7 +18,7 @@ pub struct UsedEncoding {
 impl UsedEncoding {
     /// Returns the encoding that `picture` states. Otherwise returns `assumed`, or else linear for
     /// floats and sRGB for integers.
-    fn of(picture: &FilePicture, assumed: Option<Encoding>) -> UsedEncoding {
+    pub(super) fn of(picture: &FilePicture, assumed: Option<Encoding>) -> UsedEncoding {
         let usual = match picture.pixels {
             FilePixels::Linear(_) => Encoding::Linear,
             FilePixels::Stored(_) | FilePixels::Deep { .. } => Encoding::Srgb,
@@ -88,6 +88,15 @@ impl<'a> Pair<'a> {
             pictures,
             encodings: pictures.map(|picture| UsedEncoding::of(picture, assumed)),
             alpha,
+        }
+    }
+
+    /// Returns the pair as if both pictures had the encoding of the reference.
+    #[doc(hidden)]
+    pub fn as_stored(&self) -> Pair<'a> {
+        Pair {
+            encodings: [self.encodings[0]; 2],
+            ..*self
         }
     }
 

@@ -1131,6 +1131,19 @@ fn formats_without_alpha_hold_a_picture_over_the_background_that_it_states() {
         assert_eq!(rgb(&picture, format), over);
     }
     assert_eq!(rgb(&picture, Format::Png)[1], [255, 0, 0, 51]);
+    // PFM keeps 16 bits, too: 77 is between two of 255 levels.
+    let pixels = vec![[77, 0, 0, u16::MAX], [0; 4]];
+    let deep = FilePixels::Deep {
+        picture: Picture::from_pixels(2, 1, pixels).unwrap(),
+        maximum: u16::MAX,
+    };
+    let deep = FilePicture {
+        has_alpha: true,
+        background: Some([0.0; 3]),
+        ..FilePicture::of_pixels(deep)
+    };
+    let read = decode_picture(&deep.encode(Format::Pfm).unwrap()).unwrap();
+    assert_eq!(read.to_linear().pixels()[0][0], 77.0 / 65535.0);
 }
 
 #[test]

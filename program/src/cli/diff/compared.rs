@@ -115,7 +115,7 @@ pub fn compare(
             picture.map_err(|error| errors.push(error.to_string())).ok()
         })
     };
-    let mut pictures = [
+    let pictures = [
         read(&pair.reference, "a reference", false),
         read(&pair.actual, "a picture", args.approve),
     ];
@@ -133,7 +133,7 @@ pub fn compare(
     for picture in pictures.iter().flatten() {
         one.notes.extend(picture.notes.iter().cloned());
     }
-    match &mut pictures {
+    match &pictures {
         _ if !one.text.is_empty() => {}
         [Some(reference), Some(actual)] => {
             if let Err(error) = judge(args, &mut one, reference, actual, tolerance) {
@@ -189,7 +189,7 @@ fn judge(
     args: &DiffArgs,
     one: &mut Compared,
     reference: &FilePicture,
-    actual: &mut FilePicture,
+    actual: &FilePicture,
     tolerance: &Tolerance<'_>,
 ) -> Result<(), CliError> {
     let pair = Pair::new(reference, actual, args.assume);
@@ -201,14 +201,7 @@ fn judge(
     if let Ok(found) = &found {
         found.add_to(&mut one.fields, &pair, sizes);
     }
-    let of_encoding = encoding_text(
-        found.as_ref().ok(),
-        reference,
-        actual,
-        args.assume,
-        tolerance,
-    );
-    if let Some(text) = of_encoding {
+    if let Some(text) = encoding_text(found.as_ref().ok(), &pair, tolerance) {
         (one.status, one.text) = (Status::Encoding, text);
         return Ok(());
     }

@@ -8,8 +8,8 @@ use fastphong::compare::metrics::judgement::{Selection, judged_map};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare_where, flip_map, mean_flip, ssim,
 };
-use fastphong::picture::image_file::{FilePicture, Pair};
-use fastphong::picture::{Encoding, Picture, Picture8};
+use fastphong::picture::image_file::Pair;
+use fastphong::picture::{Picture, Picture8};
 use serde_json::{Value, json};
 
 /// How many grey levels the light end of a difference map stands for.
@@ -194,15 +194,12 @@ pub fn sizes_text(pair: &Pair<'_>, sizes: [[usize; 2]; 2], is_mapped: bool) -> S
 }
 
 /// Returns what to do about pictures that do not agree, as `found` says, if their stored values do:
-/// then only the encodings differ. `assume` is the encoding of files that state none.
+/// then only the encodings differ.
 pub fn encoding_text(
     found: Option<&Comparison>,
-    reference: &FilePicture,
-    actual: &mut FilePicture,
-    assume: Option<Encoding>,
+    pair: &Pair<'_>,
     tolerance: &Tolerance<'_>,
 ) -> Option<String> {
-    let pair = Pair::new(reference, actual, assume);
     if !pair.has_two_encodings() || found.is_some_and(|found| found.agrees(tolerance)) {
         return None;
     }
@@ -215,10 +212,7 @@ pub fn encoding_text(
         };
         format!("{verb} {}", used.encoding.name())
     });
-    let stated = actual.encoding.replace(used[0].encoding);
-    let pair = Pair::new(reference, actual, assume);
-    let as_stored = Comparison::of(&pair, tolerance, Perceived::Nothing);
-    actual.encoding = stated;
+    let as_stored = Comparison::of(&pair.as_stored(), tolerance, Perceived::Nothing);
     if !as_stored.is_ok_and(|found| found.agrees(tolerance)) {
         return None;
     }

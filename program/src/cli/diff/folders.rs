@@ -77,13 +77,12 @@ pub fn run(args: &DiffArgs, log: Log) -> Result<Outcome, CliError> {
 /// Notes what to do about pairs that fail.
 fn note(args: &DiffArgs, compared: &[Compared], log: Log) {
     let mut failed = compared.iter().filter(|one| one.fails());
-    let left = "the reference of another one, once removed, makes its picture new";
     if args.approve {
         let is_left = |one: &Compared| [Status::Unreadable, Status::Encoding].contains(&one.status);
         if failed.any(is_left) {
-            log.note(&format!(
-                "`--approve` copies pictures that differ or are new: {left}"
-            ));
+            log.note(
+                "`--approve` copies pictures that differ or are new, not those that are unreadable or in another encoding",
+            );
         }
     } else if failed.any(Compared::can_be_approved) {
         log.note("`--approve` copies pictures that differ or are new over the references");

@@ -167,7 +167,7 @@ impl DiffArgs {
         let tolerance = self.tolerance.with(self.fail_above, "--fail-above")?;
         output::check(&outputs)?;
         let [reference, actual] = parts.map(|(path, part)| read(path, part));
-        let (reference, mut actual) = (reference?, actual?);
+        let (reference, actual) = (reference?, actual?);
         for (path, picture) in paths.iter().zip([&reference, &actual]) {
             for note in &picture.notes {
                 log.warning(&format!("{}: {note}", path.display()));
@@ -196,7 +196,7 @@ impl DiffArgs {
         };
         print_beside(&outputs, &text)?;
         let found = Some(&found);
-        if let Some(text) = encoding_text(found, &reference, &mut actual, self.assume, &tolerance) {
+        if let Some(text) = encoding_text(found, &pair, &tolerance) {
             log.note(&text);
         }
         Ok(match found.and_then(|found| found.result.as_ref()) {

@@ -1,5 +1,6 @@
 //! The page that `--html` writes: all pairs of two folders, with pictures and maps.
 
+use super::super::text::counted;
 use super::super::tolerance::Tolerance;
 use super::super::{CliError, memory};
 use super::DiffArgs;
@@ -117,8 +118,9 @@ impl Page {
         let left_out = self.left_out.iter().sum();
         for (pairs, how) in [(self.left_small, "shown small"), (left_out, "left out")] {
             if pairs > 0 {
+                let pairs = counted(pairs, "pair", "pairs");
                 remarks += &format!(
-                    " The pictures of {pairs} pairs are {how}, because the page would be too large."
+                    " The pictures of {pairs} are {how}, because the page would be too large."
                 );
             }
         }

@@ -195,6 +195,10 @@ impl<'a> Reader<'a> {
         pose: &Pose,
         material: Option<u32>,
     ) -> Result<(), Refusal> {
+        // Then no vertex is left to tell the winding.
+        if own.triangles.is_empty() {
+            return Ok(());
+        }
         let before = self.polygons.positions.len();
         let most = PolygonMesh::MAX_CORNERS;
         if own.positions.len() > most - before {
