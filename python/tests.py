@@ -489,6 +489,10 @@ class Meshes(unittest.TestCase):
                 warnings.simplefilter("ignore")
                 meshes = [fp.Mesh(CUBE), fp.Mesh(vertices + 1e6, quads, colours=np.ones((6, 4)) / 2), fp.Mesh(path),
                           fp.Mesh("builtin:sphere"), fp.Mesh(vertices, quads, vertices[quads].reshape(-1, 3))]
+                # Flat for lack of normals, and double-sided.
+                room = HERE.parent / "fuzz/corpus/gltf/double-sided-room"
+                path.with_suffix(".gltf").write_bytes(room.read_bytes())
+                meshes.append(fp.Mesh(path.with_suffix(".gltf")))
             path.unlink()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -497,6 +501,9 @@ class Meshes(unittest.TestCase):
                     self.assertEqual(copied.warnings, mesh.warnings)
                     self.assertEqual(copied._mesh.stored, mesh._mesh.stored)
                     same(self, fp.render(copied, size=SIZE, up="z"), fp.render(mesh, size=SIZE, up="z"))
+                    inside = {"camera": {"eye": [0.2, 0.1, 0.5], "target": [0.2, 0.1, 0], "fovy": 57}}
+                    for keys in ({"normals": "averaged"}, {"scene": inside}):
+                        same(self, fp.render(copied, size=SIZE, **keys), fp.render(mesh, size=SIZE, **keys))
                     self.assertEqual(fp.Scene(copied).notes, fp.Scene(mesh).notes)
             for scene in (fp.Scene("football", size=SIZE), fp.Scene(meshes[2], size=SIZE, view=(9, 9)),
                           fp.Scene("builtin:sphere", size=SIZE, look="compared")):

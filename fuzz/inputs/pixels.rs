@@ -15,10 +15,10 @@ mod numbers;
 #[path = "../../tests/worlds/passes.rs"]
 mod passes;
 #[path = "../../tests/worlds/properties.rs"]
-#[allow(dead_code)]
+#[allow(dead_code)] // the worlds' tests use more of it
 mod properties;
 #[path = "../../tests/conformance/support/renderers.rs"]
-#[allow(dead_code)]
+#[allow(dead_code)] // conformance uses more of it
 mod renderers;
 #[path = "../../tests/worlds/scene.rs"]
 mod scene;

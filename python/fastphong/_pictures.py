@@ -152,7 +152,8 @@ class Difference:
                  for name, image in (("a", a), ("b", b))]
         first = _image("a", a)
         second = _image("b", b, first.encoding)
-        if first.encoding is None and second.encoding is not None:
+        is_array = not isinstance(a, (str, bytes, os.PathLike))
+        if is_array and first.encoding is None and second.encoding is not None:
             first = _image("a", a, second.encoding)
         (w, h), (w2, h2) = first.size, second.size
         if (w, h) != (w2, h2):

@@ -30,7 +30,8 @@ pub fn input_error(error: impl Display, path: &Path) -> PyErr {
         Err(cause) if cause.raw_os_error().is_some() => os_error(&cause, error.to_string(), path),
         Err(_) => value_error(error),
         Ok(_) if path.is_dir() => {
-            PyIsADirectoryError::new_err((libc_code(ErrorKind::IsADirectory), error.to_string()))
+            // EISDIR: no system error is behind this one.
+            PyIsADirectoryError::new_err((21, error.to_string()))
         }
         Ok(_) => value_error(error),
     }
@@ -52,9 +53,4 @@ pub fn os_error(cause: &std::io::Error, message: String, path: &Path) -> PyErr {
         ErrorKind::PermissionDenied => PyPermissionError::new_err((code, message, path)),
         _ => PyOSError::new_err((code, message, path)),
     }
-}
-
-/// Returns the code of an error that has no system error behind it.
-fn libc_code(kind: ErrorKind) -> i32 {
-    std::io::Error::from(kind).raw_os_error().unwrap_or(21)
 }

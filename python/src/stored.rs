@@ -49,6 +49,8 @@ pub struct Stored {
     material_names: Vec<String>,
     polygon_materials: Vec<u8>,
     was_read: bool,
+    is_flat_for_lack: bool,
+    is_double_sided: bool,
     up_by_custom: Option<char>,
     /// The source of normals, the angle of a crease, the weight.
     normal_rule: (usize, f64, usize),
@@ -127,6 +129,8 @@ impl Stored {
                 of_polygons(&|p| mesh.polygon_material(p).map_or(none, |m| m as u32))
             },
             was_read: mesh.was_read(),
+            is_flat_for_lack: mesh.is_flat_for_lack(),
+            is_double_sided: mesh.is_double_sided(),
             up_by_custom: mesh.up_by_custom(),
             normal_rule: (source, crease, weight.unwrap_or_default()),
         }
@@ -143,6 +147,12 @@ impl Stored {
         );
         if self.was_read {
             builder.read_from_file();
+        }
+        if self.is_flat_for_lack {
+            builder.flat_without_normals();
+        }
+        if self.is_double_sided {
+            builder.double_sided();
         }
         let (source, degrees, weight) = self.normal_rule;
         let source = SOURCES.get(source).copied();

@@ -57,17 +57,11 @@ impl DepthRange {
     }
 
     /// Returns the range with a far plane at infinity moved to the largest distance.
-    pub(super) fn bounded(self) -> Self {
-        match self {
-            DepthRange::Orthographic { near, far } => DepthRange::Orthographic {
-                near,
-                far: ranges::far(far),
-            },
-            DepthRange::Perspective { near, far } => DepthRange::Perspective {
-                near,
-                far: ranges::far(far),
-            },
-        }
+    pub(super) fn bounded(mut self) -> Self {
+        let (DepthRange::Orthographic { far, .. } | DepthRange::Perspective { far, .. }) =
+            &mut self;
+        *far = ranges::far(*far);
+        self
     }
 
     /// Checks that both distances are in their ranges and in order.

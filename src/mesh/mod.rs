@@ -193,13 +193,15 @@ impl PolygonMesh {
 
     /// True if polygons are faceted only because the file has no normals for them.
     /// [`NormalSource::Averaged`](vertex_normals::NormalSource::Averaged) smooths them.
-    pub(crate) fn is_flat_for_lack(&self) -> bool {
+    #[doc(hidden)]
+    pub fn is_flat_for_lack(&self) -> bool {
         self.is_flat_for_lack
     }
 
     /// True if the file says of a material in use that its polygons are seen from both sides.
     #[cfg(feature = "io")]
-    pub(crate) fn is_double_sided(&self) -> bool {
+    #[doc(hidden)]
+    pub fn is_double_sided(&self) -> bool {
         self.is_double_sided
     }
 
@@ -575,14 +577,16 @@ impl MeshBuilder {
 
     /// Says that polygons are faceted only because the file has no normals for them.
     #[cfg(feature = "gltf")]
-    pub(crate) fn flat_without_normals(&mut self) -> &mut Self {
+    #[doc(hidden)]
+    pub fn flat_without_normals(&mut self) -> &mut Self {
         self.mesh.is_flat_for_lack = true;
         self
     }
 
     /// Says that the file wants polygons to be seen from both sides.
     #[cfg(feature = "gltf")]
-    pub(crate) fn double_sided(&mut self) -> &mut Self {
+    #[doc(hidden)]
+    pub fn double_sided(&mut self) -> &mut Self {
         self.mesh.is_double_sided = true;
         self
     }

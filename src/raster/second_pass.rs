@@ -20,9 +20,10 @@ use alloc::vec::Vec;
 /// pixels engines round alike.
 const SPANS: usize = 32;
 const PIXELS: usize = 7;
-/// How many of these samples may hold another engine's depth by accident, where polygons touch. This
-/// is chosen, not derived: without it, random worlds (`tests/worlds/passes.rs`) had right passes
-/// refused. A larger number misses more wrong passes over small pictures.
+/// How many of these samples may hold another engine's depth by accident, where polygons touch.
+/// This is chosen, not derived: without it, random worlds (`tests/worlds/passes.rs`) had right
+/// passes refused. A larger number misses more wrong passes over small pictures. In a span of fewer
+/// than eight pixels, a pixel counts more than once.
 const BY_ACCIDENT: u32 = 8;
 
 /// Returns the other engine, if `stored` holds depths that only it finds for polygons of `frame`,

@@ -155,7 +155,7 @@ impl Camera {
 }
 
 /// Returns the smallest axis-aligned box around `points`, or `None` if there are none.
-fn bounds(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
+pub(super) fn bounds(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
     let first = points.next()?;
     Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
 }

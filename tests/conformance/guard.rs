@@ -360,7 +360,6 @@ fn a_builder_refuses_values_out_of_range_and_names_the_vertex() {
     assert!(built(plain_lighting(), Vertex { depth: 1.5, ..last }, Z, cube).is_ok());
 }
 
-/// Without positions, a positional light would light every point as if it were at 0.
 /// A stated mean has the colours that vertices may have: none below 0 where they multiply a
 /// material.
 #[test]
@@ -434,6 +433,7 @@ fn a_far_plane_at_infinity_is_the_farthest_one() {
     );
 }
 
+/// Without positions, a positional light would light every point as if it were at 0.
 #[test]
 fn a_light_at_a_position_needs_the_positions_of_vertices() {
     let near = [Light::positional(DVec3::Z, [1.0; 3])];

@@ -25,7 +25,7 @@ mod wild;
 mod world;
 
 #[path = "../conformance/support/renderers.rs"]
-#[allow(dead_code)]
+#[allow(dead_code)] // conformance uses more of it
 mod renderers;
 
 use doors::Outcome;

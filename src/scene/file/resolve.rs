@@ -16,6 +16,7 @@ use crate::mesh::vertex_normals::{NormalRule, NormalSource};
 use crate::mesh::{Material, PolygonMesh};
 use crate::note::{Note, Notes, Setting};
 use crate::number::Written;
+use crate::scene::camera_fit::bounds;
 use crate::scene::direction::{length, unit};
 use crate::scene::ranges::{COORDINATE, NumberRange, PIXEL, SIZE, STRENGTH, VOLUME, WELD};
 use crate::scene::{Camera, Culling, Light, Object, Scene, volume};
@@ -123,14 +124,6 @@ impl<'a> StatedView<'a> {
     }
 }
 
-/// True if `eye` is in the box around `points`.
-fn is_within(eye: DVec3, points: &[DVec3]) -> bool {
-    let around = |low: DVec3, high: DVec3| low.cmple(eye).all() && eye.cmple(high).all();
-    let low = points.iter().copied().reduce(DVec3::min);
-    let high = points.iter().copied().reduce(DVec3::max);
-    low.zip(high).is_some_and(|(low, high)| around(low, high))
-}
-
 impl SceneFile {
     /// Returns the scene that the file describes.
     ///
@@ -199,8 +192,11 @@ impl SceneFile {
         let points: Vec<DVec3> = objects.iter().flat_map(Object::world_points).collect();
         let view = stated.view(&file, &points, &mut notes)?;
         let alone = self.mesh_alone(&file, &objects);
-        let is_within = is_within(view.camera.eye, &points);
-        let mut sides = Sides::new(&file, alone, is_within, &mut notes);
+        let is_eye_within = || {
+            let (eye, around) = (view.camera.eye, bounds(points.iter().copied()));
+            around.is_some_and(|(low, high)| low.cmple(eye).all() && eye.cmple(high).all())
+        };
+        let mut sides = Sides::new(&file, alone, is_eye_within, &mut notes);
         let is_named = file
             .sections("object", "object")
             .any(|object| is_named_in_file(&object));

@@ -29,7 +29,7 @@ impl Sides {
     pub fn new(
         scene: &Section,
         alone: Option<(&str, &PolygonMesh)>,
-        is_eye_within: bool,
+        is_eye_within: impl FnOnce() -> bool,
         notes: &mut Notes,
     ) -> Sides {
         let mut sides = Sides {
@@ -43,7 +43,7 @@ impl Sides {
             let doubts = WindingDoubts::of(mesh);
             if doubts.any() {
                 notes.push(sides.choose(scene, shown(name), &reasons(&doubts)));
-            } else if is_eye_within && mesh.is_double_sided() {
+            } else if mesh.is_double_sided() && is_eye_within() {
                 let why =
                     "materials of the file are double-sided, and the eye is among its polygons";
                 notes.push(sides.choose(scene, shown(name), why));

@@ -257,6 +257,11 @@ impl<'a> Buffers<'a> {
                 "accessor {index} of {count} elements reaches beyond its buffer view: expected all of them in it"
             ))
         };
+        // First, because they tell how many bytes the buffers have.
+        let sparse = accessor.sparse.as_ref();
+        let places = sparse
+            .map(|sparse| self.places(index, sparse))
+            .transpose()?;
         let mut elements: Vec<[T; N]> = match accessor.buffer_view {
             Some(view) => {
                 let own = self.elements(view, accessor.byte_offset, found * size, count)?;
@@ -270,10 +275,10 @@ impl<'a> Buffers<'a> {
             }
             None => vec![[T::default(); N]; count],
         };
-        let Some(sparse) = &accessor.sparse else {
+        let Some((sparse, places)) = sparse.zip(places) else {
             return Ok(elements);
         };
-        let places = self.places(index, sparse)?.ok_or_else(beyond)?;
+        let places = places.ok_or_else(beyond)?;
         let SparsePart {
             buffer_view,
             byte_offset,

@@ -21,8 +21,8 @@ pub(super) struct Container<'a> {
     pub is_glb: bool,
 }
 
-/// Returns the parts of `bytes`. What follows the end that a GLB file states is ignored, and so are
-/// chunks of unknown types.
+/// Returns the parts of `bytes`. Chunks of unknown types are ignored, and so is what follows the
+/// end that a GLB file states, unless it is a whole chunk.
 ///
 /// # Errors
 /// If there is no JSON, or a chunk is longer than the file.
@@ -50,7 +50,7 @@ fn open_glb(bytes: &[u8]) -> Result<Container<'_>, Refusal> {
         let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
         four.map(|four| u32::from_le_bytes(*four))
     };
-    let (Some(version), Some(length)) = (u32_at(4), u32_at(8)) else {
+    let (Some(version), Some(stated)) = (u32_at(4), u32_at(8)) else {
         let problem =
             format!("the file ends after {have} bytes: expected {HEADER} of a GLB header");
         return Err(Refusal::at(Place::Byte(have), problem));
@@ -63,13 +63,13 @@ fn open_glb(bytes: &[u8]) -> Result<Container<'_>, Refusal> {
             return Err(Refusal::whole(problem));
         }
     }
-    if length as usize > have {
-        let problem = format!("the file says {length} bytes and has {have}: expected all of them");
+    if stated as usize > have {
+        let problem = format!("the file says {stated} bytes and has {have}: expected all of them");
         return Err(Refusal::at(Place::Byte(8), problem));
     }
     let least = HEADER + OF_CHUNK;
-    if (length as usize) < least {
-        let problem = format!("the file says {length} bytes: expected at least {least}");
+    if (stated as usize) < least {
+        let problem = format!("the file says {stated} bytes: expected at least {least}");
         return Err(Refusal::at(Place::Byte(8), problem));
     }
     let (mut json, mut bin, mut at) = (None, None, HEADER);
@@ -84,7 +84,7 @@ fn open_glb(bytes: &[u8]) -> Result<Container<'_>, Refusal> {
             (Some(chunk), _) => *slot = slot.or(Some(chunk)),
             // The last chunk has no type that matters, or these bytes are no chunk at all.
             (None, "") => break,
-            (None, _) if slot.is_some() => break,
+            (None, _) if slot.is_some() || at >= stated as usize => break,
             (None, name) => {
                 let left = rest.len();
                 let problem = format!(

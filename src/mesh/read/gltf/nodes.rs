@@ -171,7 +171,8 @@ fn instances(node: &Node, buffers: &mut Buffers) -> Result<Vec<DAffine3>, Refusa
             scales.get(i).map_or(DVec3::ONE, vector),
         )
     };
-    Ok((0..count).map(instance).collect())
+    // Attributes of applications alone place the mesh nowhere else.
+    Ok((0..count.max(1)).map(instance).collect())
 }
 
 impl Pose {

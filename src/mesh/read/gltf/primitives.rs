@@ -54,34 +54,18 @@ pub(super) fn read(
     }
     let positions = buffers.read_vectors::<3>(positions)?;
     let vertices = positions.len();
-    let mut one_each = |name: &str| {
-        let Some(accessor) = attribute(name) else {
-            return Ok(Vec::new());
-        };
-        let values = buffers.read_vectors::<3>(accessor)?;
-        let found = values.len();
-        if found == vertices {
-            Ok(values)
-        } else {
-            Err(Refusal::whole(format!(
-                "accessor {accessor} has {found} elements: expected one for each of {vertices} vertices"
-            )))
-        }
-    };
-    let (normals, colours) = (one_each("NORMAL")?, one_each("COLOR_0")?);
+    let normals = one_each(attribute("NORMAL"), vertices, buffers)?;
+    let colours = one_each(attribute("COLOR_0"), vertices, buffers)?;
     let mut joints = Vec::new();
     for set in 0..primitive.attributes.len() {
         let own = [format!("JOINTS_{set}"), format!("WEIGHTS_{set}")];
-        let [Some(own), Some(weights)] = own.map(|name| attribute(&name)) else {
+        let [own @ Some(_), weights @ Some(_)] = own.map(|name| attribute(&name)) else {
             break;
         };
-        let own = JointSet {
-            joints: buffers.read_vectors::<4>(own)?,
-            weights: buffers.read_vectors::<4>(weights)?,
-        };
-        if own.joints.len() == vertices && own.weights.len() == vertices {
-            joints.push(own);
-        }
+        joints.push(JointSet {
+            joints: one_each(own, vertices, buffers)?,
+            weights: one_each(weights, vertices, buffers)?,
+        });
     }
     let corners = match primitive.indices {
         Some(accessor) => {
@@ -105,6 +89,30 @@ pub(super) fn read(
         joints,
     };
     Ok(Some(all.without_unused()))
+}
+
+/// Returns the elements of an accessor, one for each vertex; none without an accessor.
+///
+/// # Errors
+/// If they cannot be read, or there are more or fewer.
+fn one_each<const N: usize>(
+    accessor: Option<usize>,
+    vertices: usize,
+    buffers: &mut Buffers,
+) -> Result<Vec<[f32; N]>, Refusal> {
+    let Some(accessor) = accessor else {
+        return Ok(Vec::new());
+    };
+    let values = buffers.read_vectors::<N>(accessor)?;
+    let found = values.len();
+    if found == vertices {
+        Ok(values)
+    } else {
+        let expected = format!("expected one for each of {vertices} vertices");
+        Err(Refusal::whole(format!(
+            "accessor {accessor} has {found} elements: {expected}"
+        )))
+    }
 }
 
 /// Returns the triangles of `corners`, whose order `mode` says.

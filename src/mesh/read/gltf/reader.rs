@@ -109,7 +109,8 @@ impl<'a> Reader<'a> {
             (&specular["diffuseFactor"], &specular["diffuseTexture"])
         };
         let emission = &material["emissiveFactor"];
-        let [mode, is_double_sided] = ["alphaMode", "doubleSided"].map(|key| &material[key]);
+        let [mode, cutoff, is_double_sided] =
+            ["alphaMode", "alphaCutoff", "doubleSided"].map(|key| &material[key]);
         let is_some = |value: &Value| !value.is_null();
         for (value, is_right, expected) in [
             (material, material.is_object(), "an object"),
@@ -124,6 +125,7 @@ impl<'a> Reader<'a> {
                 "an emission of three numbers",
             ),
             (mode, mode.is_string(), "an `alphaMode` in quotes"),
+            (cutoff, cutoff.is_number(), "an `alphaCutoff` of a number"),
             (
                 is_double_sided,
                 is_double_sided.is_boolean(),
@@ -147,10 +149,7 @@ impl<'a> Reader<'a> {
         let colour @ [r, g, b, alpha] = numbers(colour).unwrap_or([1.0; 4]);
         let is_opaque = match mode.as_str() {
             Some("BLEND") => alpha >= 1.0 && !is_some(texture),
-            Some("MASK") => {
-                let cutoff = material["alphaCutoff"].as_f64().unwrap_or(0.5);
-                alpha >= cutoff && !is_some(texture)
-            }
+            Some("MASK") => alpha >= cutoff.as_f64().unwrap_or(0.5) && !is_some(texture),
             _ => true,
         };
         if !is_opaque {

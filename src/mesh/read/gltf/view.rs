@@ -136,9 +136,11 @@ fn camera(
     middle: DVec3,
 ) -> Option<Result<FileCamera, String>> {
     let index = placed.node.camera?;
-    let camera = document.cameras.get(index)?;
     let name = format!("the file's camera {index}");
     let left_out = |why: String| Some(Err(format!("{name} is left out: {why}")));
+    let Some(camera) = document.cameras.get(index) else {
+        return left_out("there is none".into());
+    };
     let (lens, size, expected) = match camera["type"].as_str() {
         Some("orthographic") => ("orthographic", "ymag", "a number over 0"),
         _ => ("perspective", "yfov", "an angle over 0 and under 3.14159"),
@@ -184,8 +186,10 @@ fn camera(
 fn light(document: &Document, placed: &Placed) -> Option<Result<(FileLight, bool), String>> {
     const LIGHTS: &str = "KHR_lights_punctual";
     let index = whole(&placed.node.extensions[LIGHTS]["light"])?;
-    let light = document.extensions[LIGHTS]["lights"].get(index)?;
     let left_out = |why: String| Some(Err(format!("the file's light {index} is left out: {why}")));
+    let Some(light) = document.extensions[LIGHTS]["lights"].get(index) else {
+        return left_out("there is none".into());
+    };
     let placed = placed.world;
     let kind = &light["type"];
     let toward = match kind.as_str() {
