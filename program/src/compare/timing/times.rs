@@ -90,9 +90,9 @@ impl Times {
         }
     }
 
-    /// Returns the number of candidates.
-    pub fn len(&self) -> usize {
-        self.samples.len()
+    /// Returns the time of a call of each candidate.
+    pub fn timings(&self) -> impl Iterator<Item = Timing> {
+        (0..self.samples.len()).map(|candidate| self.timing(candidate))
     }
 
     /// Returns the clock that took the times.
@@ -177,9 +177,7 @@ impl Times {
         let of_ratios = others.filter_map(|(b, c)| Some(self.ratio(*b, *c)?.doubt()));
         let mut doubts: Vec<f64> = of_ratios.collect();
         if ratios.is_empty() {
-            doubts = (0..self.samples.len())
-                .map(|i| self.timing(i).doubt())
-                .collect();
+            doubts = self.timings().map(|timing| timing.doubt()).collect();
         }
         let all = self.samples.iter().flatten();
         let interrupted = all.clone().filter(|sample| sample.is_interrupted).count();
