@@ -403,8 +403,8 @@ fn tables_have_a_row_a_method() {
     for kind in [TableKind::Short, TableKind::Compare, TableKind::Bench] {
         let text = table(&comparison, kind);
         let shown = |name: &str| text.lines().any(|line| line.contains(name));
-        let tells_speed = [" ± ", "× naive-phong", "above 1 is faster"].map(shown);
-        assert_eq!(tells_speed, [false; 3], "{text}");
+        let tells_speed = [" ± ", "× naive-phong", "95 %", "above 1 is faster"].map(shown);
+        assert_eq!(tells_speed, [false; 4], "{text}");
         assert!(
             shown("  RMS") && shown("quiet: by word"),
             "errors are told: {text}"

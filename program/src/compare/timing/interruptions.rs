@@ -32,10 +32,19 @@ const LEAST_PAIRS: usize = 8;
 /// few samples show too large a cost.
 const MOST_COST_NS: f64 = 100_000.0;
 
-/// Returns the cost of an interruption in ns: the median difference between an interrupted sample
-/// and one of the same candidate and place in its turn that was not interrupted; 0 if too few show
-/// it.
-pub fn cost(candidates: &[Vec<Sample>]) -> f64 {
+/// The cost of an interruption.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// The cost in ns.
+    pub ns: f64,
+    /// The part of it, 0..=1, by which it may be wrong.
+    pub doubt: f64,
+}
+
+/// Returns the cost of an interruption: the median difference between an interrupted sample and one
+/// of the same candidate and place in its turn that was not interrupted. That may be wrong by half;
+/// if too few samples show it, it is anything up to the largest one.
+pub fn cost(candidates: &[Vec<Sample>]) -> Cost {
     let mut differences = Vec::new();
     for samples in candidates {
         let is_short = |sample: &&Sample| sample.is_interrupted && sample.ns < LONG_NS;
@@ -47,9 +56,15 @@ pub fn cost(candidates: &[Vec<Sample>]) -> f64 {
         }
     }
     if differences.len() < LEAST_PAIRS {
-        return 0.0;
+        return Cost {
+            ns: MOST_COST_NS / 2.0,
+            doubt: 1.0,
+        };
     }
-    quantile(&mut differences, 0.5).clamp(0.0, MOST_COST_NS)
+    Cost {
+        ns: quantile(&mut differences, 0.5).clamp(0.0, MOST_COST_NS),
+        doubt: 0.5,
+    }
 }
 
 #[cfg(test)]
@@ -65,8 +80,16 @@ mod tests {
         };
         let short = [false, false, false, true, true].map(|i| sample(1e6, i));
         let long = [true, true, true, true, false].map(|i| sample(3e6, i));
-        assert_eq!(cost(&[short.to_vec(), long.to_vec()]), 70e3);
-        assert_eq!(cost(&[vec![sample(1e6, true); 9]]), 0.0, "nothing shows it");
+        let found = Cost {
+            ns: 70e3,
+            doubt: 0.5,
+        };
+        assert_eq!(cost(&[short.to_vec(), long.to_vec()]), found);
+        assert_eq!(
+            cost(&[vec![sample(1e6, true); 9]]).doubt,
+            1.0,
+            "nothing shows it"
+        );
     }
 
     #[test]
@@ -82,7 +105,7 @@ mod tests {
                 list
             })
         };
-        assert_eq!(cost(&of(1.9e6)), MOST_COST_NS);
-        assert_eq!(cost(&of(0.9e6)), 0.0, "nothing becomes faster by it");
+        assert_eq!(cost(&of(1.9e6)).ns, MOST_COST_NS);
+        assert_eq!(cost(&of(0.9e6)).ns, 0.0, "nothing becomes faster by it");
     }
 }

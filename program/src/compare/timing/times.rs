@@ -1,7 +1,7 @@
 //! The times of all candidates of a run, and the ratios between them with their intervals.
 
 use super::clock::Clock;
-use super::interruptions::{Sample, cost};
+use super::interruptions::{Cost, Sample, cost};
 use super::statistics::{Ratio, Timing, quantile};
 use super::trust::Noise;
 use crate::split_mix::SplitMix;
@@ -35,12 +35,10 @@ pub struct Times {
     /// The calls in a sample of each candidate.
     calls: Vec<u64>,
     rounds: usize,
-    /// The cost of an interruption.
-    cost_ns: f64,
+    cost: Cost,
     /// The typical time of a sample of each candidate, in ns.
     typical: Vec<f64>,
-    /// How far each of these hangs on the cost of an interruption: half of what the cost takes off
-    /// it, as a part of it.
+    /// How far each of these may be wrong because the cost of an interruption is, as a part of it.
     by_cost: Vec<f64>,
     /// The samples of each round as multiples of their candidate's typical time: those of the
     /// candidates with one sample in a round, and of those with two.
@@ -62,25 +60,26 @@ impl Times {
         let rounds = samples.iter().flatten().map(|sample| sample.round + 1);
         let rounds = rounds.max().unwrap_or(0);
         // Nothing can be taken off the time that passed: it has the whole wait in it.
-        let cost_ns = if clock.is_own() { cost(&samples) } else { 0.0 };
+        let cost = if clock.is_own() {
+            cost(&samples)
+        } else {
+            Cost::default()
+        };
         let (mut typical, mut by_cost) = (Vec::new(), Vec::new());
         let mut deviations = [vec![Vec::new(); rounds], vec![Vec::new(); rounds]];
         for list in &samples {
             let undisturbed = |sample: &Sample| {
-                let cost = if sample.is_interrupted { cost_ns } else { 0.0 };
-                sample.ns - cost
+                let cost = if sample.is_interrupted { cost.ns } else { 0.0 };
+                // Samples of calls that take next to no time may be shorter than the cost.
+                (sample.ns - cost).max(sample.ns / 2.0)
             };
-            let least = quantile(
-                &mut list.iter().map(undisturbed).collect::<Vec<_>>(),
-                TYPICAL,
-            );
-            let with_cost = quantile(
-                &mut list.iter().map(|sample| sample.ns).collect::<Vec<_>>(),
-                TYPICAL,
-            );
+            let lowest = |ns: &dyn Fn(&Sample) -> f64| {
+                quantile(&mut list.iter().map(ns).collect::<Vec<_>>(), TYPICAL)
+            };
+            let (least, with_cost) = (lowest(&undisturbed), lowest(&|sample| sample.ns));
             typical.push(least);
             by_cost.push(if least > 0.0 {
-                (with_cost / least - 1.0) / 2.0
+                cost.doubt * (with_cost / least - 1.0)
             } else {
                 0.0
             });
@@ -95,7 +94,7 @@ impl Times {
             samples,
             calls,
             rounds,
-            cost_ns,
+            cost,
             typical,
             by_cost,
             deviations,
@@ -200,7 +199,7 @@ impl Times {
             self.clock,
             interrupted as f64 / all.count().max(1) as f64,
             self.rounds,
-            self.cost_ns,
+            self.cost.ns,
             quantile(&mut doubts, 0.5),
         )
     }
