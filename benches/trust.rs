@@ -165,15 +165,25 @@ impl Table {
     }
 }
 
+/// A ratio beside busy processes.
+struct Judged {
+    /// The difference from the quiet value, as a part of it.
+    error: f64,
+    /// True if the interval holds the quiet value.
+    holds: bool,
+    /// Half the interval, as a part of the ratio.
+    doubt: f64,
+    /// True if its table is too busy to tell.
+    is_too_busy: bool,
+}
+
 /// Counts over several tables.
 #[derive(Default)]
 struct Score {
     tables: usize,
     too_busy: usize,
     interrupted: f64,
-    /// For each ratio: its error as a part of the quiet value, whether its interval holds that, half
-    /// the interval, and whether its table is too busy.
-    ratios: Vec<(f64, bool, f64, bool)>,
+    ratios: Vec<Judged>,
     twins: usize,
     called_faster: usize,
 }
@@ -185,9 +195,12 @@ impl Score {
         self.too_busy += usize::from(is_too_busy);
         self.interrupted += table.noise.interrupted;
         for (ratio, quiet) in table.ratios.iter().zip(&quiet.ratios) {
-            let error = (ratio.typical / quiet.typical - 1.0).abs();
-            let holds = (ratio.low..=ratio.high).contains(&quiet.typical);
-            self.ratios.push((error, holds, ratio.doubt(), is_too_busy));
+            self.ratios.push(Judged {
+                error: (ratio.typical / quiet.typical - 1.0).abs(),
+                holds: (ratio.low..=ratio.high).contains(&quiet.typical),
+                doubt: ratio.doubt(),
+                is_too_busy,
+            });
         }
         self.twins += table.twins.len();
         self.called_faster += table.twins.iter().filter(|ratio| !ratio.tie).count();
@@ -203,31 +216,37 @@ impl Score {
     }
 
     fn line(&self) -> String {
-        let share = |of: &dyn Fn(&&(f64, bool, f64, bool)) -> bool, among_busy: bool| {
-            let among = || self.ratios.iter().filter(|r| among_busy || !r.3);
-            let count = among().count();
-            match count {
-                0 => "–".to_owned(),
-                _ => format!(
-                    "{:.0} %",
-                    100.0 * among().filter(of).count() as f64 / count as f64
-                ),
-            }
-        };
-        let mut halves: Vec<f64> = self.ratios.iter().map(|r| r.2).collect();
-        halves.sort_by(f64::total_cmp);
+        let is_near = |ratio: &Judged| ratio.error <= 0.03;
+        let mut doubts: Vec<f64> = self.ratios.iter().map(|ratio| ratio.doubt).collect();
+        doubts.sort_by(f64::total_cmp);
         format!(
             "{} | {} | {:.0} % | {} | {} | {} | {:.1} % | {} of {}",
             self.tables,
             self.too_busy,
             100.0 * self.interrupted / self.tables as f64,
-            share(&|r| r.0 <= 0.03, true),
-            share(&|r| r.0 <= 0.03, false),
-            share(&|r| r.1, true),
-            100.0 * halves[halves.len() / 2],
+            share(self.ratios.iter().map(is_near)),
+            share(
+                self.ratios
+                    .iter()
+                    .filter(|ratio| !ratio.is_too_busy)
+                    .map(is_near)
+            ),
+            share(self.ratios.iter().map(|ratio| ratio.holds)),
+            100.0 * doubts[doubts.len() / 2],
             self.called_faster,
             self.twins,
         )
+    }
+}
+
+/// Writes the share of true values.
+fn share(values: impl Iterator<Item = bool> + Clone) -> String {
+    match values.clone().count() {
+        0 => "–".to_owned(),
+        count => format!(
+            "{:.0} %",
+            100.0 * values.filter(|is| *is).count() as f64 / count as f64
+        ),
     }
 }
 
