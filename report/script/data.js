@@ -22,7 +22,7 @@ export function ratioText(q) {
 /* The geometric mean of ratios. */
 export function meanRatio(list) {
 	const [typical, low, high] = ["typical", "low", "high"].map(k => mean(list.map(q => q[k])));
-	return { typical, low, high, tie: low <= 1 && high >= 1 };
+	return { typical, low, high, tie: list.every(q => q.tie) || (low <= 1 && high >= 1) };
 }
 
 /* True if the machine was too busy for the times of a scene or an experiment. They are then not shown. */
