@@ -16,10 +16,9 @@ export function beside() {
 		)}`;
 	pick.onchange = beside;
 	const shared = pick.value ? [pick.value] : names.filter(n => DOCS.every(d => sceneOf(d, n)));
-	// Times are means over the same scenes on all machines.
-	const told = shared.filter(n =>
-		DOCS.every(d => pick.value || !isTooBusy(sceneOf(d, n))),
-	);
+	// Times are means over the same scenes on all machines, except those that tell no time at all.
+	const isTold = d => n => !isTooBusy(sceneOf(d, n));
+	const told = shared.filter(n => DOCS.every(d => isTold(d)(n) || !shared.some(isTold(d))));
 	write({ "beside-left": leftOut(shared.length - told.length, "scene") });
 	// Documents of the first schema took the polygons of the span engine as the truth for the row engine's errors.
 	const isFirst = d => d.schema.endsWith("/1");
@@ -30,8 +29,8 @@ export function beside() {
 		const rows = shared.map(rowIn);
 		if (!rows.length || !rows.every(Boolean)) return "–";
 		const worst = sameErrors(rows) ? num(Math.max(...rows.map(r => r.error.max * 255))) : "–";
-		const speeds = told.map(n => !isTooBusy(sceneOf(d, n)) && rowIn(n).speed);
-		if (!speeds.length || !speeds.every(s => s?.ratio_to_naive)) return `– · ${worst} levels`;
+		const speeds = told.map(n => isTold(d)(n) && rowIn(n).speed);
+		if (!speeds.length || !speeds.every(s => s && s.ratio_to_naive)) return `– · ${worst} levels`;
 		const ms = mean(speeds.map(s => s.timing.typical_ns / 1e6));
 		const ratio = meanRatio(speeds.map(s => s.ratio_to_naive));
 		return `${num(ms)} ms · ${ratioText(ratio)} · ${worst} levels`;

@@ -26,7 +26,7 @@ export function meanRatio(list) {
 }
 
 /* True if the machine was too busy for the times of a scene or an experiment. They are then not shown. */
-export const isTooBusy = ({ noise }) => noise?.trust === "too-busy";
+export const isTooBusy = of => of?.noise?.trust === "too-busy";
 
 /* Says how far times can be trusted, and how many are left out. */
 export const trustText = ({ noise }) => (noise ? `${sentence(noise.sentence)}.` : "");
