@@ -1,5 +1,5 @@
-//! `fastphong bench`: times methods against each other in interleaved rounds, or whole frames, one
-//! method after the other.
+//! `fastphong bench`: times methods against each other in rounds, or whole frames, one method after
+//! the other.
 
 use super::contents::Contents;
 use super::engines::{self, ScanlineEngine, Simd, SimdList, ThreadFlags, renderer};
@@ -17,7 +17,7 @@ use fastphong::number::SimdLevel;
 use fastphong::raster::Renderer;
 use std::path::PathBuf;
 
-/// Time methods on scenes: in interleaved rounds, with medians, spread and speed-ups; or whole
+/// Time methods on scenes: against each other, with speed-ups and how far to trust them; or whole
 /// frames
 #[derive(clap::Args, Debug)]
 pub struct BenchArgs {

@@ -38,7 +38,7 @@ pub struct ScalingOptions {
 
 impl Default for ScalingOptions {
     /// Returns options with a thousand to four million triangles, 160 × 120 to 3840 × 2160 pixels,
-    /// and a quarter of a second per point, but at least five rounds.
+    /// and a quarter of a second per point, but at least three rounds.
     fn default() -> Self {
         ScalingOptions {
             triangles: [1_000, 4_000, 16_000, 64_000, 256_000, 1_000_000, 4_000_000].into(),
