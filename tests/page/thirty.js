@@ -1,5 +1,5 @@
 /* Adds made-up methods to a page's data until there are 30, to try charts, lists and keys with many methods. The machine is made up, too: too busy
-   in the second scene, where it drew on several threads, and busy elsewhere. */
+   in the second scene, where it drew on several threads, and busy elsewhere. Another one beside it was too busy in the first scene. */
 {
   const element = document.getElementById("fastphong-data"), data = JSON.parse(element.textContent);
   const families = ["alpha", "bishop", "cubic", "delta", "eigen", "fourier", "hermite", "weimer"], sources = ["gouraud", "fast-phong", "duff-phong", "slerp-phong"];
@@ -29,6 +29,9 @@
   for (const { speed } of data.comparisons[1]?.rows ?? []) speed.work_to_naive = { ...speed.ratio_to_naive };
   if (data.speedups) data.speedups.noise = busy;
   data.scaling?.points.forEach((point, i) => { point.noise = i % 4 === 1 ? tooBusy : busy; });
+  const beside = structuredClone({ ...data, figures: [] });
+  beside.comparisons[0].noise = tooBusy;
+  data.beside = [beside];
   element.textContent = JSON.stringify(data);
   for (const pictures of document.querySelectorAll("script[id^=pictures-]")) {
     const stored = JSON.parse(pictures.textContent);
