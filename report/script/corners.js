@@ -2,7 +2,7 @@
 
 import { axisY, curves, line, logScale, scale, svg, text, textWidth, widthOf } from "./charts.js";
 import { isTooBusy, levelName, M, ratioText, STUDY } from "./data.js";
-import { MARKED, nameOf, shortName } from "./marks.js";
+import { MARKED, shortName } from "./marks.js";
 import { $, html } from "./markup.js";
 import { by, num, plural } from "./numbers.js";
 
@@ -27,7 +27,7 @@ export function fastest(c) {
 
 /* Draws a line for each method over some places. A place has a name, a note, and functions of a method: `values` returns [v, low, high],
    and `told` the value as text. */
-function slopes(id, label, list, panes, nameOf, gap = 20) {
+function slopes(id, label, list, panes, gap = 20) {
 	const el = $(id);
 	const W = widthOf(el);
 	const part = W < 460 ? W : W / panes.length;
@@ -39,11 +39,11 @@ function slopes(id, label, list, panes, nameOf, gap = 20) {
 		const values = list.flatMap(m => places.flatMap(p => p.values(m)));
 		const last = m => places[places.length - 1].told(m);
 		const valueAt = m => p => `${p.name} ${p.note} ${p.told(m)}`;
-		const tip = m => `${nameOf(m.method)}: ${places.map(valueAt(m)).join(", ")}`;
+		const tip = m => `${shortName(m.method)}: ${places.map(valueAt(m)).join(", ")}`;
 		const r =
 			part -
 			34 -
-			Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
+			Math.max(...list.map(m => textWidth(`${shortName(m.method)} ${last(m)}`, true)));
 		const x = scale(false, 0, places.length - 1, l + 30, r);
 		const y = logScale(values, 1.05, b, t);
 		return svg(
@@ -62,7 +62,7 @@ function slopes(id, label, list, panes, nameOf, gap = 20) {
 					y,
 					list.map(m => ({
 						method: m.method,
-						name: nameOf(m.method),
+						name: shortName(m.method),
 						value: last(m),
 						bold: MARKED.has(m.method),
 						kind: MARKED.has(m.method) ? "" : "thin",
@@ -94,7 +94,6 @@ export function corners(mode) {
 		"Speed of methods in the shading loop and in whole pictures",
 		list.filter(m => oneLight.every(c => ratioIn(m, c))),
 		[oneLight.map(placeOf)],
-		nameOf,
 	);
 	const kernels = [true, false]
 		.map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar))
@@ -114,7 +113,6 @@ export function corners(mode) {
 				told: m => num(m.corners[c.i].timing.typical_ns / STUDY.span, 2),
 			})),
 		),
-		shortName,
 		40,
 	);
 }
