@@ -50,6 +50,7 @@ interface Comparison {
 	renderer: { engine: string; level: string; threads: number };
 	rows: MethodRow[];
 	barycentric: MethodRow[];
+	noise: Noise | null;
 }
 
 /* A method on a scene. Errors are in parts of 1. */
@@ -63,6 +64,7 @@ interface MethodRow {
 		ns_per_covered_pixel: number;
 		ratio_to_naive: Ratio | null;
 		ratio_to_barycentric: Ratio | null;
+		work_to_naive?: Ratio | null;
 	} | null;
 	kinds?: { name: string; polygons: number }[];
 	clamped: number;
@@ -82,18 +84,26 @@ interface Errors {
 
 /* A time without its samples, which the page does not have. */
 interface Timing {
-	median_ns: number;
-	min_ns: number;
-	p25_ns: number;
-	p75_ns: number;
-	rounds: number;
+	typical_ns: number;
+	low_ns: number;
+	high_ns: number;
 }
 
 interface Ratio {
-	median: number;
+	typical: number;
 	low: number;
 	high: number;
 	tie: boolean;
+}
+
+/* How far times can be trusted. */
+interface Noise {
+	trust: "quiet" | "busy" | "too-busy";
+	clock: "thread" | "passed";
+	interrupted: number;
+	rounds: number;
+	doubt: number;
+	sentence: string;
 }
 
 interface Method {
@@ -116,7 +126,7 @@ interface Method {
 	scene?: any;
 	worst?: any;
 	max?: number;
-	speed?: number | null;
+	speed?: Ratio | null;
 }
 
 /* Operations of each kind that a method does once for each of these. */
@@ -136,6 +146,7 @@ interface Speedups {
 	span: number;
 	corners: { work: "frame" | "kernel"; scalar: boolean; level: string; lights: number }[];
 	methods: SpeedupRow[];
+	noise: Noise | null;
 }
 
 interface SpeedupRow {
@@ -153,6 +164,7 @@ interface Scaling {
 		pixels: number;
 		size: [number, number];
 		triangles: number;
+		noise: Noise | null;
 	}[];
 	curves: {
 		engine: string;

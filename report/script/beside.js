@@ -1,31 +1,39 @@
 /* Compares documents of several machines or commits side by side. */
 
-import { D, DOCS } from "./data.js";
+import { D, DOCS, isTooBusy, leftOut, meanRatio, ratioText } from "./data.js";
 import { named } from "./marks.js";
-import { $, html, table } from "./markup.js";
-import { mean, num, TIMES } from "./numbers.js";
+import { $, html, table, write } from "./markup.js";
+import { mean, num } from "./numbers.js";
 
 /* Draws the table of all documents: a column for each, headed by its processor. */
 export function beside() {
 	const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))];
 	const pick = $("#beside-scene");
-	const rowsOf = (d, name) => d.comparisons.find(c => c.name === name)?.rows;
+	const sceneOf = (d, name) => d.comparisons.find(c => c.name === name);
 	if (!pick.options.length)
 		pick.innerHTML = html`${[...(names.length > 1 ? [""] : []), ...names].map(
 			n => html`<option value="${n}">${n || "all scenes they share"}</option>`,
 		)}`;
 	pick.onchange = beside;
-	const shared = pick.value ? [pick.value] : names.filter(n => DOCS.every(d => rowsOf(d, n)));
-	// Older documents took the polygons of the span engine as the truth for the row engine's errors.
+	const shared = pick.value ? [pick.value] : names.filter(n => DOCS.every(d => sceneOf(d, n)));
+	// Times are means over the same scenes on all machines, except those that tell no time at all.
+	const isTold = d => n => !isTooBusy(sceneOf(d, n));
+	const told = shared.filter(n => DOCS.every(d => isTold(d)(n) || !shared.some(isTold(d))));
+	write({ "beside-left": leftOut(shared.length - told.length, "scene") });
+	// Documents of the first schema took the polygons of the span engine as the truth for the row engine's errors.
+	const isFirst = d => d.schema.endsWith("/1");
 	const sameErrors = rows =>
-		DOCS.every(d => d.schema === D.schema) || !rows.some(r => r.engine === "row");
+		DOCS.every(d => isFirst(d) === isFirst(D)) || !rows.some(r => r.engine === "row");
 	const cell = (d, m) => {
-		const rows = shared.map(n => rowsOf(d, n)?.find(r => r.variant === m));
-		if (!rows.length || rows.some(r => !r?.speed)) return "–";
-		const ms = mean(rows.map(r => r.speed.timing.median_ns / 1e6));
-		const ratio = mean(rows.map(r => r.speed.ratio_to_naive?.median ?? 1));
+		const rowIn = n => sceneOf(d, n)?.rows.find(r => r.variant === m);
+		const rows = shared.map(rowIn);
+		if (!rows.length || !rows.every(Boolean)) return "–";
 		const worst = sameErrors(rows) ? num(Math.max(...rows.map(r => r.error.max * 255))) : "–";
-		return `${num(ms)} ms · ${ratio.toFixed(2)}${TIMES} · ${worst} levels`;
+		const speeds = told.map(n => isTold(d)(n) && rowIn(n).speed);
+		if (!speeds.length || !speeds.every(s => s && s.ratio_to_naive)) return `– · ${worst} levels`;
+		const ms = mean(speeds.map(s => s.timing.typical_ns / 1e6));
+		const ratio = meanRatio(speeds.map(s => s.ratio_to_naive));
+		return `${num(ms)} ms · ${ratioText(ratio)} · ${worst} levels`;
 	};
 	const heads = DOCS.map(({ machine, date }) => {
 		const facts = [machine.version, machine.commit?.slice(0, 9), date].filter(Boolean);

@@ -1,13 +1,14 @@
 /* Charts of the study of speed. */
 
 import { axisY, curves, line, logScale, scale, svg, text, textWidth, widthOf } from "./charts.js";
-import { levelName, M, STUDY } from "./data.js";
-import { MARKED, nameOf, shortName } from "./marks.js";
+import { isTooBusy, levelName, M, ratioText, STUDY } from "./data.js";
+import { MARKED, shortName } from "./marks.js";
 import { $, html } from "./markup.js";
 import { by, num, plural } from "./numbers.js";
 
-/* What the study timed: the shading loop and whole pictures, in scalar code and in SIMD. */
-export const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [];
+/* What the study timed: the shading loop and whole pictures, in scalar code and in SIMD. Empty if the times tell nothing. */
+export const CORNERS =
+	STUDY && !isTooBusy(STUDY) ? STUDY.corners.map((c, i) => ({ ...c, i })) : [];
 export const oneLight = CORNERS.filter(c => c.lights === 1);
 
 export let cornerMode = "same";
@@ -17,12 +18,16 @@ const isSame = m => (M[m.method]?.max ?? m.levels_off) <= 1;
 export const WORKS = { kernel: "loop", frame: "picture" };
 export const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 
-/* The fastest method of a corner that draws naive Phong's picture. */
-export const fastest = c =>
-	STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
+/* The fastest methods of a corner that draw naive Phong's picture: the first, and those whose intervals are not apart from its interval. */
+export function fastest(c) {
+	const list = STUDY.methods.filter(m => isSame(m) && ratioIn(m, c));
+	const [first] = list.sort(by(m => -ratioIn(m, c).typical));
+	return list.filter(m => ratioIn(m, c).high >= ratioIn(first, c).low);
+}
 
-/* Draws a line for each method over some places. A place has a name, a note and a function `values` that returns [v, low, high]. */
-function slopes(id, label, list, panes, nameOf, format, gap = 20) {
+/* Draws a line for each method over some places. A place has a name, a note, and functions of a method: `values` returns [v, low, high],
+   and `told` the value as text. */
+function slopes(id, label, list, panes, gap = 20) {
 	const el = $(id);
 	const W = widthOf(el);
 	const part = W < 460 ? W : W / panes.length;
@@ -32,13 +37,13 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 	if (!W || !list.length) return;
 	const pane = places => {
 		const values = list.flatMap(m => places.flatMap(p => p.values(m)));
-		const last = m => format(places[places.length - 1].values(m)[0]);
-		const valueAt = m => p => `${p.name} ${p.note} ${num(p.values(m)[0])}`;
-		const tip = m => `${nameOf(m.method)}: ${places.map(valueAt(m)).join(", ")}`;
+		const last = m => places[places.length - 1].told(m);
+		const valueAt = m => p => `${p.name} ${p.note} ${p.told(m)}`;
+		const tip = m => `${shortName(m.method)}: ${places.map(valueAt(m)).join(", ")}`;
 		const r =
 			part -
 			34 -
-			Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
+			Math.max(...list.map(m => textWidth(`${shortName(m.method)} ${last(m)}`, true)));
 		const x = scale(false, 0, places.length - 1, l + 30, r);
 		const y = logScale(values, 1.05, b, t);
 		return svg(
@@ -57,7 +62,7 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 					y,
 					list.map(m => ({
 						method: m.method,
-						name: nameOf(m.method),
+						name: shortName(m.method),
 						value: last(m),
 						bold: MARKED.has(m.method),
 						kind: MARKED.has(m.method) ? "" : "thin",
@@ -77,15 +82,18 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 /* Draws both charts, with all methods or only those that draw naive Phong's picture. */
 export function corners(mode) {
 	cornerMode = mode;
-	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]);
+	const placeOf = c => ({
+		name: WORKS[c.work],
+		note: levelName(c),
+		values: m => ["typical", "low", "high"].map(k => ratioIn(m, c)[k]),
+		told: m => ratioText(ratioIn(m, c)),
+	});
 	const list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
 	slopes(
 		"#corners",
 		"Speed of methods in the shading loop and in whole pictures",
 		list.filter(m => oneLight.every(c => ratioIn(m, c))),
-		[oneLight.map(c => ({ name: WORKS[c.work], note: levelName(c), values: values(c) }))],
-		nameOf,
-		v => v.toFixed(2),
+		[oneLight.map(placeOf)],
 	);
 	const kernels = [true, false]
 		.map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar))
@@ -99,13 +107,12 @@ export function corners(mode) {
 				name: levelName(c),
 				note: plural(c.lights, "light"),
 				values: m =>
-					["median_ns", "p25_ns", "p75_ns"].map(
+					["typical_ns", "low_ns", "high_ns"].map(
 						k => m.corners[c.i].timing[k] / STUDY.span,
 					),
+				told: m => num(m.corners[c.i].timing.typical_ns / STUDY.span, 2),
 			})),
 		),
-		shortName,
-		v => num(v, 2),
 		40,
 	);
 }

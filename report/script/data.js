@@ -1,7 +1,7 @@
 /* The document that `fastphong report` wrote, in the form that the views need. */
 
-import { $, ROOT } from "./markup.js";
-import { TIMES } from "./numbers.js";
+import { $, ROOT, sentence } from "./markup.js";
+import { mean, plural, TIMES } from "./numbers.js";
 
 const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
 
@@ -9,9 +9,28 @@ const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
 export const levelName = ({ level }) =>
 	level === "scalar" ? level : (LEVELS[level] ?? level.toUpperCase());
 
-/* A ratio of speeds as text, with = before it if it may be a tie. */
-export const ratioText = q =>
-	q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
+/* A ratio of speeds as text, with the digits that its interval leaves known, and = before it if it may be a tie. */
+export function ratioText(q) {
+	const half = q && (q.high - q.low) / 2;
+	if (!q || half > 0.3 * q.typical) return "–";
+	const digits = half > 0.005 ? 1 : 2;
+	const isKnown = half <= 0.05 || (half <= 0.1 && q.typical < 10);
+	const tie = q.tie && half ? "= " : "";
+	return `${tie}${isKnown ? "" : "about "}${q.typical.toFixed(digits)}${TIMES}`;
+}
+
+/* The geometric mean of ratios. */
+export function meanRatio(list) {
+	const [typical, low, high] = ["typical", "low", "high"].map(k => mean(list.map(q => q[k])));
+	return { typical, low, high, tie: list.every(q => q.tie) || (low <= 1 && high >= 1) };
+}
+
+/* True if the machine was too busy for the times of a scene or an experiment. They are then not shown. */
+export const isTooBusy = of => of?.noise?.trust === "too-busy";
+
+/* Says how far times can be trusted, and how many are left out. */
+export const trustText = ({ noise }) => (noise ? `${sentence(noise.sentence)}.` : "");
+export const leftOut = (n, one) => (n ? `Too busy to time: ${plural(n, one)}.` : "");
 
 /* The document, and the documents to compare it with. */
 /** @type {ReportDocument} */
@@ -23,31 +42,20 @@ const BARY = "barycentric";
 
 /* A row of a comparison: errors in grey levels, times in ms. */
 /**
- * @param {string} scene
+ * @param {Comparison} c
  * @param {MethodRow} row
  */
-function rowOf(
-	scene,
-	{
-		variant,
-		engine,
-		error,
-		own,
-		speed,
-		kinds,
-		clamped,
-		within_bound: within,
-		other_polygon: other,
-	},
-) {
+function rowOf(c, row) {
+	const { variant, engine, error, own, kinds, clamped } = row;
+	const speed = isTooBusy(c) ? null : row.speed;
 	const time = key => speed && speed.timing[key] / 1e6;
 	return {
-		scene,
+		scene: c.name,
 		variant,
 		engine,
 		bary: engine === BARY,
-		within,
-		other,
+		within: row.within_bound,
+		other: row.other_polygon,
 		clamped,
 		kinds,
 		max: error.max * 255,
@@ -58,13 +66,13 @@ function rowOf(
 		psnr: error.psnr,
 		ssim: error.ssim,
 		worst: error.worst,
-		ms: time("median_ns"),
-		p25: time("p25_ns"),
-		p75: time("p75_ns"),
-		rounds: speed?.timing.rounds,
+		ms: time("typical_ns"),
+		msLow: time("low_ns"),
+		msHigh: time("high_ns"),
 		ns: speed?.ns_per_covered_pixel,
 		ratio: speed?.ratio_to_naive,
 		barycentric: speed?.ratio_to_barycentric,
+		work: row.speed?.work_to_naive,
 	};
 }
 
@@ -77,7 +85,7 @@ export const SCENES = (D.comparisons ?? []).map((c, number) => {
 	const rows = Object.fromEntries(
 		[...c.rows, ...c.barycentric].map(r => [
 			(r.engine === BARY ? "bary:" : "") + r.variant,
-			rowOf(c.name, r),
+			rowOf(c, r),
 		]),
 	);
 	return (S[id] = {
@@ -100,8 +108,10 @@ export const METHODS = D.methods ?? [];
 export const IDS = METHODS.map(m => m.name);
 export const M = Object.fromEntries(METHODS.map(m => [m.name, m]));
 
-/* What the document has: times, several scenes, figures, a study of speed, pictures. */
+/* What the document has: speeds that can be told, scenes without them, several scenes, figures, a study of speed, pictures. */
 export const TIMED = ROWS.some(q => q.ratio);
+export const UNTOLD = SCENES.filter(isTooBusy).length;
+export const NOISES = SCENES.map(s => s.noise).filter(Boolean);
 export const MANY = SCENES.length > 1;
 
 export const FIGURES = D.figures ?? [];

@@ -1,7 +1,7 @@
 /* Charts of the growth of cost. */
 
 import { axisX, axisY, curves, logScale, svg, text, widthOf } from "./charts.js";
-import { D } from "./data.js";
+import { D, isTooBusy } from "./data.js";
 import { hue, nameOf } from "./marks.js";
 import { $ } from "./markup.js";
 import { by } from "./numbers.js";
@@ -16,7 +16,7 @@ export function grow(id, keep, count, label) {
 	const { points, curves: all } = D.scaling;
 	const chosen = points
 		.map((p, i) => ({ ...p, i, n: count(p) }))
-		.filter(keep)
+		.filter(p => keep(p) && !isTooBusy(p))
 		.sort(by(p => p.n));
 	if (!W || chosen.length < 2) return;
 	const series = all
@@ -26,7 +26,12 @@ export function grow(id, keep, count, label) {
 			colour: curveHue(c),
 			kind: c.engine === "span" ? "dash1" : "",
 			tip: curveName(c),
-			points: chosen.filter(p => c.times[p.i]).map(p => [p.n, c.times[p.i].min_ns / 1e6]),
+			points: chosen
+				.filter(p => c.times[p.i])
+				.map(p => [
+					p.n,
+					...["typical_ns", "low_ns", "high_ns"].map(k => c.times[p.i][k] / 1e6),
+				]),
 		}))
 		.filter(s => s.points.length);
 	const ms = series.flatMap(s => s.points.map(p => p[1]));

@@ -288,27 +288,12 @@ export async function handsInto(el, name) {
 	if (!own) return;
 	const shown = v => (Array.isArray(v) ? `[${v.map(shown).join(", ")}]` : +v.toFixed(5));
 	const given = Object.entries(own.given).map(([key, v]) => html`<code>${key} = ${shown(v)}</code> `);
-	const rows = Math.max(...own.texts.map(t => t.split("\n").length)) + 1;
 	const key = `fastphong-hands-${name}`;
-	el.insertAdjacentHTML(
-		"beforeend",
-		html`
-			<div class="own">
-				<p class="given">Given: ${given}<br>Call <code>pixel(…)</code> once for each pixel.</p>
-				<div class="editor">
-					<div class="lines" aria-hidden="true"></div>
-					<textarea rows="${rows}" spellcheck="false" autocapitalize="off" wrap="off" aria-label="Your code, which calls pixel(${own.names.join(", ")}) for each pixel"></textarea>
-				</div>
-				<p class="acts">
-					<button data-do="run">Run</button>
-					<button data-do="anew">Start again</button>
-					<button data-do="solve" disabled>Show a solution</button>
-				</p>
-				<div class="chartbox"></div>
-				<p class="said" role="status"></p>
-			</div>`,
-	);
+	el.append($("#hands-parts").content.cloneNode(true));
 	const [area, lines, strip, said, solve] = ["textarea", ".lines", ".chartbox", ".said", "[data-do=solve]"].map(s => $(`.own ${s}`, el));
+	$(".given span", el).innerHTML = html`${given}`;
+	area.rows = Math.max(...own.texts.map(t => t.split("\n").length)) + 1;
+	area.ariaLabel = `Your code, which calls pixel(${own.names.join(", ")}) for each pixel`;
 	let mine = null;
 	const write = text => {
 		if (area.value !== text) area.value = text;

@@ -1,8 +1,8 @@
 /* Each method's name, key, colour and mark. */
 
-import { BASE, IDS, M, METHODS, SCENES } from "./data.js";
+import { BASE, IDS, isTooBusy, M, meanRatio, METHODS, SCENES } from "./data.js";
 import { $$, html } from "./markup.js";
-import { by, mean, round } from "./numbers.js";
+import { by, round } from "./numbers.js";
 
 /* Each family of methods has a hue and a shape, and each member a filling. Naive Phong's family is drawn in ink. */
 const FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
@@ -15,13 +15,13 @@ for (const m of METHODS) {
 	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
 	m.filling = members.indexOf(m) % 3;
 	m.head = members[0] === m;
-	// The worst error and the geometric mean of speeds, over all scenes.
+	// The worst error in all scenes, and the mean speed in those where it can be told.
 	const drawn = SCENES.filter(s => s.rows[m.name]);
-	const ratios = drawn.map(s => s.rows[m.name].ratio?.median).filter(Boolean);
+	const ratios = drawn.filter(s => !isTooBusy(s)).map(s => s.rows[m.name].ratio);
 	m.scene = [...drawn].sort(by(s => -s.rows[m.name].max))[0];
 	m.worst = m.scene?.rows[m.name];
 	m.max = m.worst?.max;
-	m.speed = ratios.length && ratios.length === drawn.length ? mean(ratios) : null;
+	m.speed = ratios.length && ratios.every(Boolean) ? meanRatio(ratios) : null;
 }
 
 /* Keys 1 to 9 go to the first method of each family, then to the most exact others. */
@@ -50,7 +50,7 @@ export const MARKED = new Set([BASE, BEST, ...NAMED]);
 /* A few methods: those that the answer names, then the fastest. */
 export const chosen = n =>
 	IDS.filter(m => m !== BASE && M[m].speed)
-		.sort(by(m => -M[m].speed))
+		.sort(by(m => -M[m].speed.typical))
 		.sort(by(m => Math.max(1, M[m].max)))
 		.sort(by(m => !MARKED.has(m)))
 		.slice(0, n);

@@ -1,9 +1,9 @@
 /* View: how it was measured. */
 
-import { BASE, D, DOCS, FINDINGS, levelName, ROWS, SCENES } from "./data.js";
+import { BASE, D, DOCS, FINDINGS, levelName, NOISES, ROWS, SCENES } from "./data.js";
 import { BEST } from "./marks.js";
 import { $, html, save, write } from "./markup.js";
-import { by, csv, num, plural } from "./numbers.js";
+import { csv, num, plural } from "./numbers.js";
 
 /* Quotes a word for a shell if it needs quotes. */
 const quoted = w => (/^[\w\-./:=,+@%]+$/.test(w) ? w : `'${w.replace(/'/g, "'\\''")}'`);
@@ -13,7 +13,16 @@ export function measured() {
 	const command = D.command_line.map(quoted).join(" ");
 	const { machine } = D;
 	const [scene] = SCENES;
-	const rounds = ROWS.map(q => q.rounds).filter(Boolean);
+	// The least and the most of a field of the scenes' noise, as text.
+	const range = (key, text) => {
+		const values = NOISES.map(n => n[key]);
+		const ends = [Math.min(...values), Math.max(...values)].map(text);
+		return [...new Set(ends)].join(" to ");
+	};
+	const trusts = ["quiet", "busy", "too-busy"].flatMap(trust => {
+		const count = NOISES.filter(n => n.trust === trust).length;
+		return count ? `${trust.replace("-", " ")} in ${plural(count, "scene")}` : [];
+	});
 	const about = ({ cpu, os, arch, rustc, version, commit }) =>
 		`${cpu}, ${os} ${arch}; ${rustc}; fastphong ${version}` +
 		(commit ? `, commit ${commit}` : "");
@@ -27,11 +36,7 @@ export function measured() {
 		["build", `${machine.profile}, opt-level ${machine.opt_level}, for ${features}`],
 		["date", D.date],
 		["whole run", D.seconds && `${num(D.seconds)} s`],
-		[
-			"rounds",
-			rounds.length &&
-				`${Math.min(...rounds)} to ${Math.max(...rounds)} of every method in a scene`,
-		],
+		["rounds", NOISES.length && `${range("rounds", num)} in a scene`],
 		[
 			"drawn by",
 			scene &&
@@ -41,11 +46,6 @@ export function measured() {
 		["command", html`<code>${command}</code>`],
 		...DOCS.slice(1).map((d, i) => [`beside it, ${i + 1}`, about(d.machine)]),
 	];
-	const spreads = ROWS.filter(q => q.p75)
-		.map(q => (q.p75 - q.p25) / q.ms)
-		.sort(by(v => v));
-	const typical = spreads[spreads.length >> 1] ?? 0;
-	$("#busy").hidden = typical < 0.1;
 	// The report adds lights to a bare mesh file, and `compare` does not, so no command is shown for it.
 	const again = [
 		command,
@@ -60,7 +60,8 @@ export function measured() {
 	write({
 		timed: D.timed,
 		compared: D.compared,
-		typical: num(typical * 100, 2),
+		interrupted: range("interrupted", v => num(v * 100, 2)),
+		trusts: trusts.join(", "),
 		again: again.filter(Boolean).join("\n"),
 	});
 	$("#get-json").onclick = () =>
@@ -69,14 +70,15 @@ export function measured() {
 		save(
 			"fastphong-report.csv",
 			csv(
-				ROWS.map(({ worst, ratio, barycentric, ...q }) => ({
+				ROWS.map(({ kinds, worst, ratio, barycentric, work, ...q }) => ({
 					...q,
 					x: worst?.[0],
 					y: worst?.[1],
-					speed: ratio?.median,
+					speed: ratio?.typical,
 					low: ratio?.low,
 					high: ratio?.high,
-					barycentric: barycentric?.median,
+					barycentric: barycentric?.typical,
+					work: work?.typical,
 				})),
 			),
 			"text/csv",

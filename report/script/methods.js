@@ -2,11 +2,13 @@
 
 import { folded, unfolded } from "./controls.js";
 import { CORNERS, ratioIn } from "./corners.js";
-import { IDS, levelName, MANY, METHODS, SCENES, STUDY } from "./data.js";
+import {
+	IDS, levelName, MANY, METHODS, ratioText, SCENES, STUDY, UNTOLD,
+} from "./data.js";
 import { formula } from "./formulas.js";
 import { mark, nameOf } from "./marks.js";
 import { $, $$, html, write } from "./markup.js";
-import { num, plural, sum, TIMES } from "./numbers.js";
+import { num, plural, sum } from "./numbers.js";
 import { crop } from "./pictures.js";
 
 /* Kinds of operations, in the order of the document. */
@@ -64,13 +66,10 @@ function article(m, most) {
 	);
 	const figures = [
 		m.speed && [
-			m.speed.toFixed(2) + TIMES,
-			`${MANY ? `${SCENES.length} scenes, ` : ""}${levelName(SCENES[0].renderer)}`,
+			ratioText(m.speed),
+			`${MANY ? `${plural(SCENES.length - UNTOLD, "scene")}, ` : ""}${levelName(SCENES[0].renderer)}`,
 		],
-		frame && [
-			frame.median.toFixed(2) + TIMES,
-			`whole picture of a sphere, ${levelName(corner)}`,
-		],
+		frame && [ratioText(frame), `whole picture of a sphere, ${levelName(corner)}`],
 		worst && [num(worst.max), "worst error, levels", bad],
 	].filter(Boolean);
 	const link = s && `#scenes/${s.id}?left=${encodeURIComponent(m.name)}&right=reference`;

@@ -3,7 +3,7 @@
 import { fromRoute, remember } from "./address.js";
 import { line, logScale, svg, text, widthOf } from "./charts.js";
 import { folded, onChoose, segments } from "./controls.js";
-import { FIGURES, FINDINGS, M, MANY, SCENES } from "./data.js";
+import { FIGURES, FINDINGS, leftOut, M, MANY, ratioText, SCENES, UNTOLD } from "./data.js";
 import { counts } from "./findings.js";
 import { BEST, chosen, named, nameOf, shape } from "./marks.js";
 import { $, $$, delay, html, timers, write } from "./markup.js";
@@ -17,7 +17,7 @@ function strip() {
 	const el = $("#strip");
 	const W = widthOf(el);
 	const few = chosen(4);
-	const value = (s, m) => s.rows[m]?.ratio?.median;
+	const value = (s, m) => s.rows[m]?.ratio?.typical;
 	if (!W || !few.length) return;
 	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(
 		by(s => -(value(s, few[0]) ?? 0)),
@@ -39,7 +39,7 @@ function strip() {
 		const y = t + (i + 0.5) * high;
 		const here = few.filter(m => value(s, m));
 		const at = here.map(m => x(value(s, m)));
-		const speeds = here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`);
+		const speeds = here.map(m => `${nameOf(m)} ${ratioText(s.rows[m].ratio)}`);
 		const title = s.title.length > most ? s.title.slice(0, most - 1) + "…" : s.title;
 		shown.push(html`
 			<a class="hit" href="#scenes/${s.id}">
@@ -54,7 +54,8 @@ function strip() {
 	el.innerHTML = html`
 		<div class="legend">${few.map(m => html`<span>${named(m)}</span>`)}</div>
 		${svg(W, H, label, shown, true)}
-		${more}`;
+		${more}
+		${UNTOLD > 0 && html`<p class="sub">${leftOut(UNTOLD, "scene")}</p>`}`;
 }
 
 /* Says how many findings confirm the lectures. */

@@ -8,8 +8,8 @@ import { $$ } from "./markup.js";
 import "./theme.js";
 import { FILLED } from "./views.js";
 
-/* Colours the methods in the answer, whose words Rust writes. */
-$$(".answer .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
+/* Colours the methods in the answers, whose words Rust writes. */
+$$(".lede .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
 
 $$("[data-scene]").forEach(a => {
 	const { scene, of } = a.dataset;

@@ -3,10 +3,10 @@
 import {
 	axisX, axisY, curve, line, logScale, place, scale, svg, text, textWidth, widthOf, zoomOf,
 } from "./charts.js";
-import { BASE, IDS, M, SCENES } from "./data.js";
+import { BASE, IDS, isTooBusy, leftOut, M, ratioText, SCENES, trustText, UNTOLD } from "./data.js";
 import { hue, MARKED, nameOf, shape } from "./marks.js";
 import { $, fill, html, write } from "./markup.js";
-import { clamp, num, TIMES } from "./numbers.js";
+import { clamp, num } from "./numbers.js";
 
 /* Draws the error of every method against its time, and a line through the methods that no other beats in both. It covers all scenes if
    `basis` is "all", else only the viewer's. */
@@ -15,10 +15,12 @@ export function pareto(v, basis) {
 	const s = v.source;
 	const isLive = s !== v.scene;
 	const all = basis === "all" && !v.scene.own;
+	const untold = all ? UNTOLD : +(!isLive && isTooBusy(s));
 	write({
 		"pareto-sub": all
-			? `Worst error in ${SCENES.length} scenes, mean time.`
-			: `${s.title}, ${s.w} × ${s.h}${isLive ? ", as turned here, on one thread of this browser" : ""}.`,
+			? `Worst error in ${SCENES.length} scenes, mean time. ${leftOut(untold, "scene")}`
+			: `${s.title}, ${s.w} × ${s.h}${isLive ? ", as turned here, on one thread of this browser" : ""}. ` +
+				(untold ? trustText(s) : ""),
 	});
 	const W = widthOf(el);
 	const H = Math.max(340, el.clientHeight / zoomOf());
@@ -30,11 +32,13 @@ export function pareto(v, basis) {
 	const has = m => (all ? M[m].max != null : s.rows[m] && !(isLive && !s.rows[m].ms));
 	/** @type {any[]} */
 	const points = IDS.filter(has).map(m => {
-		const { max, speed } = M[m];
-		const q = s.rows[m];
-		return all
-			? { m, error: max, time: speed && 1 / speed, ratio: speed }
-			: { m, error: q.max, time: q.ms, ratio: q.ratio?.median, low: q.p25, high: q.p75 };
+		if (!all) {
+			const q = s.rows[m];
+			return { m, error: q.max, time: q.ms, ratio: q.ratio, low: q.msLow, high: q.msHigh };
+		}
+		const { max, speed: ratio } = M[m];
+		const [time, low, high] = ["typical", "high", "low"].map(k => ratio && 1 / ratio[k]);
+		return { m, error: max, time, ratio, low, high };
 	});
 	if (!points.length) return;
 	const timed = points.every(p => p.time);
@@ -70,7 +74,9 @@ export function pareto(v, basis) {
 			H - 8,
 			timed
 				? "← faster   ·   " + (all ? "time as a multiple of naive Phong’s" : "ms a frame")
-				: "no times were taken",
+				: untold
+					? "the machine was too busy to tell times"
+					: "no times were taken",
 			"axis mid",
 		),
 		text(
@@ -99,7 +105,7 @@ export function pareto(v, basis) {
 	if (b - one > 24) shown.push(text(l + 8, one + 16, same, "tick halo washed"));
 	for (const p of points) {
 		[p.left, p.right] = [p.m === v.a, p.m === v.b];
-		p.value = p.ratio && (p.left || p.right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
+		p.value = p.ratio && (p.left || p.right || p.front) ? ratioText(p.ratio) : "";
 		p.priority = 3 * p.left + 2 * p.right + +!!p.front + +MARKED.has(p.m);
 		p.w = textWidth(`${nameOf(p.m)}  ${p.value}`, p.left) + 6;
 	}

@@ -2,9 +2,9 @@
 
 import { line, scale } from "./charts.js";
 import { folded } from "./controls.js";
-import { IDS, ratioText, TIMED } from "./data.js";
+import { IDS, ratioText, TIMED, trustText } from "./data.js";
 import { hue, named, shape } from "./marks.js";
-import { $, $$, bar, fill, html, save, table, toast } from "./markup.js";
+import { $, $$, bar, fill, html, save, table, toast, write } from "./markup.js";
 import { by, clamp, grouped, num } from "./numbers.js";
 
 /* How the table is sorted, and which optional parts it shows. */
@@ -26,21 +26,22 @@ const COLUMNS = [
 	["ns", "ns per pixel"],
 	["ratio", "speed, × naive Phong", 1],
 	["barycentric", "× barycentric"],
+	["work", "work, × naive Phong", 1],
 ];
 
 /* Columns in which larger is better. */
-const DESCENDING = ["ratio", "barycentric", "psnr", "ssim"];
+const DESCENDING = ["ratio", "barycentric", "work", "psnr", "ssim"];
 
-/* A speed as a multiple of naive Phong's: its interval on the scale `x`, and its median. */
+/* A speed as a multiple of naive Phong's: its interval on the scale `x`, and its typical value. */
 function speedBar(r, m, x, width) {
 	const ends = [r.low, r.high].map(v => line(x(v), 3, x(v), 15, "whisker"));
-	const verdict = r.tie ? "" : r.median > 1 ? "good" : "bad";
+	const verdict = r.tie ? "" : r.typical > 1 ? "good" : "bad";
 	const interval = `${r.low.toFixed(2)}–${r.high.toFixed(2)}`;
 	return html`
 		<span class="speed">
 			<svg style="color:${hue(m)}" width="${width}" height="18" aria-hidden="true">
 				${line(x(1), 0, x(1), 18)}
-				${shape(m, x(r.median), 9, 3.4)}
+				${shape(m, x(r.typical), 9, 3.4)}
 				${line(x(r.low), 9, x(r.high), 9, "whisker")}
 				${ends}
 			</svg>
@@ -50,13 +51,18 @@ function speedBar(r, m, x, width) {
 
 /* Draws the table of a viewer's scene. */
 export function sceneTable(v) {
+	const rows = Object.values(v.scene.rows).filter(q => options.bary || !q.bary);
+	// A column without values, for example of speeds that cannot be told, is left out.
+	const columns = COLUMNS.filter(
+		([key, , always]) => (options.cols || always) && rows.some(q => q[key] != null),
+	);
+	const all = [["name", "method"], ...columns];
+	const { key: sorted, up } = all.some(([key]) => key === sort.key) ? sort : { key: "max", up: true };
 	const value = q =>
-		sort.key === "name"
+		sorted === "name"
 			? IDS.indexOf(q.variant)
-			: (q[sort.key]?.median ?? q[sort.key] ?? (sort.key === "psnr" ? 1e9 : -1));
-	const rows = Object.values(v.scene.rows)
-		.filter(q => options.bary || !q.bary)
-		.sort(by(q => (sort.up ? 1 : -1) * value(q)));
+			: (q[sorted]?.typical ?? q[sorted] ?? (sorted === "psnr" ? 1e9 : -1));
+	rows.sort(by(q => (up ? 1 : -1) * value(q)));
 	const [shown, more] = folded(rows, 15, "rows");
 	const ratios = rows.map(q => q.ratio).filter(Boolean);
 	const slowest = Math.max(...rows.map(q => q.ms ?? 0));
@@ -82,17 +88,17 @@ export function sceneTable(v) {
 		other: grouped,
 		clamped: n => (n == null ? "–" : grouped(n)),
 		barycentric: ratioText,
+		work: ratioText,
 		psnr: v => v?.toFixed(1) ?? "∞",
 		ssim: v => v?.toFixed(4) ?? "–",
 		ratio: (r, q) => (r ? speedBar(r, q.variant, x, width) : "–"),
 	};
-	const columns = COLUMNS.filter(([, , always]) => options.cols || always);
-	const all = [["name", "method"], ...columns];
-	const arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
+	const arrow = key => sorted === key && (up ? " ↑" : " ↓");
 	const name = q => html`
 		<button class="name" data-key="row ${q.variant}">
 			${named(q.variant)}${q.bary && html` <small>barycentric</small>`}
 		</button>`;
+	write({ "scene-trust": trustText(v.scene) });
 	fill(
 		$("#table"),
 		html`${table(
@@ -104,7 +110,7 @@ export function sceneTable(v) {
 		)}${more}`,
 	);
 	$$("#table [scope=col]").forEach((th, i) => {
-		th.ariaSort = all[i][0] !== sort.key ? "none" : sort.up ? "ascending" : "descending";
+		th.ariaSort = all[i][0] !== sorted ? "none" : up ? "ascending" : "descending";
 	});
 	$$("#table tbody tr").forEach((tr, i) => {
 		tr.dataset.key = "row " + shown[i].variant;

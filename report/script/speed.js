@@ -2,20 +2,26 @@
 
 import { beside } from "./beside.js";
 import { segments } from "./controls.js";
-import { cornerMode, corners, fastest, oneLight, ratioIn, WORKS } from "./corners.js";
-import { D, DOCS, levelName, MANY, ratioText, SCENES, STUDY } from "./data.js";
+import { cornerMode, corners, CORNERS, fastest, oneLight, ratioIn, WORKS } from "./corners.js";
+import {
+	D, DOCS, isTooBusy, leftOut, levelName, MANY, ratioText, SCENES, STUDY, trustText,
+} from "./data.js";
 import { grow } from "./growth.js";
 import { nameOf } from "./marks.js";
 import { $, html, table, write } from "./markup.js";
-import { grouped } from "./numbers.js";
+import { by, grouped } from "./numbers.js";
 import { small } from "./small.js";
 
 /* #speed */
 export function speed() {
-	if (STUDY) {
-		const lecture = STUDY.methods.find(m => m.method === "fast-phong");
-		const entry = (m, c) =>
-			ratioIn(m, c) ? html`${nameOf(m.method)} <b>${ratioText(ratioIn(m, c))}</b>` : "–";
+	if (STUDY) write({ "study-trust": trustText(STUDY) });
+	if (CORNERS.length) {
+		const lecture = STUDY.methods.filter(m => m.method === "fast-phong");
+		const entry = (list, c) => {
+			const [first, ...others] = list.filter(m => ratioIn(m, c)).map(m => nameOf(m.method));
+			const name = others.length > 1 ? `${others.length} others` : others[0];
+			return html`${first}${name && ` or ${name}`} <b>${ratioText(ratioIn(list[0], c))}</b>`;
+		};
 		$("#speed-summary").innerHTML = table(
 			["", ...oneLight.map(c => `${WORKS[c.work]}, ${levelName(c)}`)],
 			[
@@ -36,6 +42,13 @@ export function speed() {
 	}
 	const growth = D.scaling;
 	if (growth) {
+		const told = growth.points.filter(p => !isTooBusy(p));
+		const worst = told.map(p => p.noise).sort(by(noise => -noise?.doubt))[0];
+		write({
+			"growth-trust":
+				(worst ? `Least certain point: ${worst.sentence}. ` : "") +
+				leftOut(growth.points.length - told.length, "point"),
+		});
 		grow(
 			"#grow-triangles",
 			p => p.size.join() === growth.at.join(),

@@ -6,87 +6,9 @@ import { QUESTIONS, wireAsk } from "./stop-ask.js";
 import { screenColour } from "./stop-stage.js";
 import { showsDepth, STRIP_TERMS } from "./stop-strip.js";
 import {
-	answerOf, ASKED, fixed, levels, plus, polygonHue, PROGRAM, REFERENCE, TELL, wordsOf,
+	answerOf, ASKED, fixed, levels, plus, polygonHue, REFERENCE, TELL, wordsOf,
 } from "./stop-words.js";
 import { formulaOf, term } from "./terms.js";
-
-/* The empty page of the figure. Icons are drawn, because not every machine has a font with them. */
-const ICON = {
-	"line-back": "M2 3h2v10H2zM14 3v10L8.7 8zM9 3v10L3.7 8z",
-	back: "M11.5 3v10L4.5 8z",
-	forth: "M4.5 3v10l7-5z",
-	"line-forth": "M12 3h2v10h-2zM2 3l5.3 5L2 13zM7 3l5.3 5L7 13z",
-};
-const drive = (what, label, key) => html`
-	<button class="s-go" data-do="${what}" title="${label} (${key})" aria-label="${label}">
-		<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${ICON[what]}"/></svg>
-	</button>`;
-
-const TRIES = [
-	[
-		"highlight",
-		"Where did the highlight go?",
-		"Finish the picture with Gouraud. Then let naive Phong draw it.",
-	],
-	[
-		"newton",
-		"Watch Newton run after the root",
-		"The normals of D are nearly opposite: d falls fast, and one step lags behind.",
-	],
-	["edge", "A centre exactly on an edge", "B and C both touch it. Who may draw the pixel?"],
-	["depth", "D pierces A", "Half of it is in front. Each pixel decides for itself."],
-];
-
-const speedButtons = ["slow", "brisk", "fast"].map(
-	(name, i) => html`<button data-speed="${i}">${name}</button>`,
-);
-
-export const STOP_PAGE = html`
-	<p class="s-answer"></p>
-	<div class="s-frame">
-		<div class="s-bar">
-			<div class="seg s-methods" role="group" aria-label="Method"></div>
-			<div class="s-variants"><span></span><div class="seg" role="group" aria-label="Newton’s steps a pixel"></div></div>
-			<span class="s-gap"></span>
-			<button data-do="bare" title="Only the figure, with larger type (T)" aria-pressed="false">Talk</button>
-			<button data-do="full">Full screen</button>
-		</div>
-		<div class="s-body">
-			<div class="s-stage"><svg role="group" aria-label="The picture, pixel by pixel, with its polygons; at the left is the edge table"></svg></div>
-			<div class="s-strip"><svg role="img" aria-label="Values along the scan line"></svg><div class="s-legend"></div></div>
-			<div class="s-time"><div class="s-track"></div><input type="range" min="0" aria-label="Step"></div>
-			<div class="s-side">
-				<div class="s-what">
-					<p class="s-kicker"></p>
-					<h3></h3>
-					<p class="s-text"></p>
-					<div class="s-eqs"></div>
-					<div class="s-ask" hidden></div>
-				</div>
-				<div class="s-sec">
-					<h4>Active edges <small></small></h4>
-					<div class="s-scroll" tabindex="0" role="region" aria-label="Active edges"><table class="s-active"></table></div>
-				</div>
-				<div class="s-sec"><h4>This pixel by each method <small>grey levels, of 255</small></h4><div class="s-four"></div></div>
-			</div>
-			<div class="s-sec s-fan" hidden>
-				<h4>Normals of this run <small></small></h4>
-				<svg viewBox="0 0 400 136" role="img" aria-label="The normals of the run in their plane, and the circle of length 1"></svg>
-			</div>
-			<div class="s-sec s-program"><h4>The program <small>at the right: equations of Lecture 21</small></h4><ol></ol></div>
-			<div class="s-keys" role="group" aria-label="Driving">
-				${drive("line-back", "Line before", "P")}${drive("back", "Step back", "←")}
-				<button class="s-go s-primary" data-do="play" title="Play or stop (space)">▶ Play</button>
-				${drive("forth", "Step", "→")}${drive("line-forth", "Next line", "N")}
-				<div class="seg" role="group" aria-label="Speed">${speedButtons}</div>
-				<button data-do="first">First corners</button>
-				<span class="s-where"></span>
-			</div>
-		</div>
-	</div>
-	<p class="s-hint"></p>
-	<div class="s-tries">${TRIES.map(([key, title, text]) => html`<button data-try="${key}"><b>${title}</b> ${text}</button>`)}</div>
-	<p class="s-say" aria-live="polite"></p>`;
 
 const variantLabel = v =>
 	v
@@ -130,10 +52,6 @@ export class Panel {
 		this.range = $(".s-time input", root);
 		this.drives = Object.fromEntries($$(".s-go", root).map(b => [b.dataset.do, b]));
 		this.speeds = $$("[data-speed]", root);
-		renew(
-			$("ol", this.program),
-			html`${PROGRAM.map(([code, number]) => html`<li><code>${code}</code><span>${number}</span></li>`)}`,
-		);
 		this.lines = $$("li", this.program);
 		wireAsk(this.ask, figure);
 	}

@@ -53,20 +53,6 @@ const equation = (formula, number, values, polygon) => html`
 	</div>`;
 const bold = (name, text) => html`<b data-term="${name}">${text}</b>`;
 
-/* The steps of the program beside the picture, and their equations. */
-export const PROGRAM = [
-	["put edges in buckets", "by first line"],
-	["for each line:", ""],
-	["  drop edges that end", ""],
-	["  x += Δx, values += Δ", "3.3, 3.6"],
-	["  add the line’s bucket", ""],
-	["  sort by crossing", ""],
-	["  for each pair: a span", "Δx = 1"],
-	["    nearer than the line?", "depth"],
-	["  for each visible run: Δ", "3.5"],
-	["    next = current + Δ", "3.6, 4.2"],
-];
-
 /* A grey level is 1/255. */
 export const levels = (a, b) => 255 * (a - b);
 export const isLate = (d, root) => Math.abs(d / root - 1) > 2e-3;

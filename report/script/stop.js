@@ -19,7 +19,7 @@ import { variantOf } from "./live.js";
 import { $, atNextFrame, create, focusOn, html, ROOT } from "./markup.js";
 import { by, clamp } from "./numbers.js";
 import { polygonOf, stepsOf } from "./steps.js";
-import { Panel, STOP_PAGE } from "./stop-panel.js";
+import { Panel } from "./stop-panel.js";
 import { CornerHands, screenColour, Stage } from "./stop-stage.js";
 import { Fan, Strip } from "./stop-strip.js";
 import { KNOWN, levels, REFERENCE, wordsOf } from "./stop-words.js";
@@ -82,11 +82,8 @@ class StopFigure {
 		this.chosen = Object.fromEntries(this.methods.map(m => [m, this.variantsOf(m)[0]]));
 		this.handles = f.live?.handles.filter(h => h.axis) ?? [];
 		this.canMove = CAN_DRAW && this.handles.length > 0;
-		const root = Object.assign(create("section"), {
-			className: "stop",
-			ariaLabel: f.title,
-			innerHTML: STOP_PAGE,
-		});
+		const root = Object.assign(create("section"), { className: "stop", ariaLabel: f.title });
+		root.append($("#stop-parts").content.cloneNode(true));
 		this.root = root;
 		this.stage = new Stage(this, $(".s-stage svg", root));
 		this.hands = new CornerHands(this);

@@ -2,8 +2,9 @@
    template, and a name in both lists here. */
 
 import { CHAPTERS, course } from "./course.js";
+import { CORNERS } from "./corners.js";
 import {
-	D, DOCS, FIGURES, FINDINGS, IDS, MANY, PICTURES, ROWS, SCENES, STUDY, TIMED,
+	D, DOCS, FIGURES, FINDINGS, IDS, MANY, NOISES, PICTURES, ROWS, SCENES, STUDY, TIMED,
 } from "./data.js";
 import { lectures } from "./lectures.js";
 import { chosen } from "./marks.js";
@@ -26,13 +27,17 @@ export const FILLED = {
 	overview: SCENES.length || FIGURES.length > 1,
 	speed: STUDY || D.scaling || D.small || DOCS.length > 1,
 	study: STUDY,
+	corners: CORNERS.length,
 	growth: D.scaling,
 	small: D.small,
 	beside: DOCS.length > 1,
 	many: MANY,
 	strip: MANY && chosen(1).length,
-	timed: TIMED,
-	untimed: !TIMED,
+	noise: NOISES.length,
+	own: NOISES.some(n => n.clock === "thread"),
+	passed: NOISES.some(n => n.clock === "passed"),
+	old: TIMED && !NOISES.length,
+	untimed: !TIMED && !NOISES.length,
 	measured: true,
 	numbers: !PICTURES,
 	debug: D.machine.profile !== "release",

@@ -278,6 +278,9 @@
     for (const el of document.querySelectorAll(".view.on :is(.hit, [role=button], .scroll, pre)")) if (seen(el)) check(`${where}: not reached by Tab: ${el.outerHTML.slice(0, 60)}`, el.tabIndex === 0 || el.matches("a"));
     document.activeElement.blur();
   };
+  const wasTooBusy = ({ noise }) => !!noise && noise.trust === "too-busy", leaves = n => n ? `Too busy to time: ${plural(n, "scene")}.` : "";
+  /* The columns of a scene's table that have values, if all are shown. */
+  const columns = s => COLUMNS.filter(([key]) => Object.values(s.rows).some(q => q[key] != null)).length;
   const link = async (what, hash, is) => { await visit("measured"); await visit(hash); await until(what, is); };
   const tell = async () => {
     await wait(300);
@@ -289,6 +292,10 @@
     return console.log("HANDS " + (await tell()).replaceAll("\n", "; "));
   }
   try {
+    // Ratios have as many digits as their intervals leave known.
+    for (const [typical, half, text] of [[1, 0, "1.00"], [0.2, 0.004, "0.20"], [1.43, 0.05, "1.4"], [1.43, 0.08, "1.4"], [1.43, 0.2, "about 1.4"], [12.3, 0.08, "about 12.3"], [12.3, 0.04, "12.3"], [1.43, 0.5, null]])
+      check(`digits of ${typical} ± ${half}`, ratioText({ typical, low: typical - half, high: typical + half }) === (text ? text + TIMES : "–"));
+    check("a tie is marked, and the baseline is not", ratioText({ typical: 1, low: 0.98, high: 1.02, tie: true }) === "= 1.0" + TIMES && ratioText({ typical: 1, low: 1, high: 1, tie: true }) === "1.00" + TIMES && ratioText(null) === "–");
     const scenes = SCENES.length, drawn = scenes && PICTURES;
     // The course may be long, because it is read in one scroll.
     if (IDS.length <= 11) for (const v in FILLED) if (FILLED[v] && v !== "course") {
@@ -309,26 +316,38 @@
         for (const b of document.querySelectorAll("#v1 .choices button")) { b.click(); await until("overview: a scene is chosen", () => shown(v1).startsWith(b.dataset.key + "|")); }
       }
       labels("overview");
-      const remark = document.querySelector("[data-scene]");
-      if (TIMED && MANY) {
-        const { scene, worst } = M[BEST], counted = SCENES.filter(s => s.rows[BEST].ratio?.median > 1 && !s.rows[BEST].ratio.tie).length;
-        check("overview: the worst scene of the answer is linked", remark?.textContent === scene.title && remark.getAttribute("href").startsWith(`#scenes/${scene.id}?left=${worst.variant}`));
-        check("overview: in how many scenes it gains", document.querySelector(".remarks")?.textContent.includes(` in ${counted} of ${scenes} scenes,`));
+      for (const a of document.querySelectorAll("[data-scene]")) {
+        const { scene } = M[a.dataset.of];
+        check(`overview: the worst scene of ${a.dataset.of} is linked`, a.textContent === scene.title && a.getAttribute("href").startsWith(`#scenes/${scene.id}?left=${a.dataset.of}&`));
+      }
+      const untold = SCENES.filter(wasTooBusy);
+      if (drawn && MANY) {
+        document.querySelector("#pareto-basis [data-key=all]").click();
+        check("overview: the chart says how many scenes have no times", document.querySelector("#pareto-sub").textContent.includes(leaves(untold.length)));
+        check("overview: the chart has no times if the machine was too busy everywhere", untold.length < scenes || document.querySelector("#pareto").textContent.includes("too busy"));
+      }
+      if (FILLED.strip) {
+        check("overview: the strip has no scene without times", untold.every(s => !document.querySelector(`#strip a[href="#scenes/${s.id}"]`)));
+        check("overview: the strip says how many are left out", document.querySelector("#strip").textContent.includes(leaves(untold.length)));
       }
       accessible("overview");
       const words = [...document.querySelectorAll("#overview p")].filter(p => p.offsetParent).map(p => p.textContent.trim()).join(" ").split(/\s+/).length;
-      // The spheres' sentences take forty of these words.
-      check(`overview: ${words} words of running text`, words < 160);
-      for (const s of [SCENES[0], SCENES[scenes - 1]]) {
+      // The spheres' sentences take forty of these words, and the answers' cards up to 120.
+      check(`overview: ${words} words of running text`, words < 220);
+      for (const s of new Set([SCENES[0], ...untold.slice(0, 1), SCENES[scenes - 1]])) {
         await visit(`scenes/${s.id}`);
         check(`${s.id}: title`, document.querySelector("#t-scenes").textContent === s.title);
         check(`${s.id}: a row for each method`, document.querySelectorAll("#table tbody tr").length >= Math.min(15, s.list.length));
         for (const b of ["cols", "bary"]) document.getElementById(b).click();
-        check(`${s.id}: more columns and rows`, document.querySelectorAll("#table thead th").length === 14 && (document.querySelector("#table .bary") || !s.barycentric.length || document.querySelector("#table .fold")));
+        check(`${s.id}: more columns and rows`, document.querySelectorAll("#table thead th").length === 1 + columns(s) && (document.querySelector("#table .bary") || !s.barycentric.length || document.querySelector("#table .fold")));
         accessible(`${s.id}: table`);
+        const heads = [...document.querySelectorAll("#table thead button")].map(b => b.dataset.key), isTold = s.list.some(m => s.rows[m].ratio);
+        check(`${s.id}: times and speeds only where they are known: ${heads}`, ["ms", "ratio"].every(k => heads.includes(k) === isTold) && !(isTold && untold.includes(s)));
+        check(`${s.id}: work on several threads`, heads.includes("work") === s.list.some(m => s.rows[m].work));
+        check(`${s.id}: how far times can be trusted`, document.querySelector("#scene-trust").textContent === (s.noise ? `${sentence(s.noise.sentence)}.` : ""));
         for (const b of ["cols", "bary"]) document.getElementById(b).click();
         if (TIMED) check(`${s.id}: speeds have whiskers`, [...document.querySelectorAll("#table .speed")].every(el => el.querySelectorAll(".whisker").length === 3) && document.querySelector(".tablebox .sub").textContent.includes("logarithmic"));
-        for (const k of ["name", "max", "rms", "ms", "ratio", "ratio"]) document.querySelector(`#table thead [data-key=${k}]`).click();
+        for (const k of ["name", "max", "rms", "ms", "ratio", "ratio"]) document.querySelector(`#table thead [data-key=${k}]`)?.click();
         if (!drawn) continue;
         await until(`${s.id}: the viewer shows`, () => shown(v2).startsWith(s.id + "|"));
         for (const [k, mode] of [["f", "flip"], ["d", "side"], ["e", "error"], ["s", "slide"]]) { key(k); await until(`${s.id}: ${mode}`, () => shown(v2).endsWith("|" + mode)); }
@@ -384,6 +403,20 @@
     if (STUDY || D.scaling || DOCS.length > 1) {
       await visit("speed");
       labels("speed");
+      if (STUDY) check("speed: how far times can be trusted", document.querySelector("#study-trust").textContent.toLowerCase() === (STUDY.noise ? `${STUDY.noise.sentence}.` : "").toLowerCase());
+      const points = D.scaling?.points.filter(wasTooBusy).length;
+      if (points) check("speed: growth says which points are left out", document.querySelector("#growth-trust").textContent.includes(`Too busy to time: ${plural(points, "point")}.`));
+      if (DOCS.length > 1) {
+        const shared = D.comparisons.filter(c => DOCS.every(d => d.comparisons.some(o => o.name === c.name))).map(c => DOCS.map(d => wasTooBusy(d.comparisons.find(o => o.name === c.name))));
+        const asked = DOCS.map((_, i) => shared.some(busy => !busy[i])), left = shared.filter(busy => busy.some((is, i) => is && asked[i])).length;
+        if (shared.length > 1) check("speed: machines are compared over scenes that none was too busy for", document.querySelector("#beside-left").textContent === leaves(left));
+        check("speed: errors of machines stay", [...document.querySelectorAll("#beside td")].every(td => /^(–|(.* ms · .*|–) · [^ ]+ levels)$/.test(td.textContent)));
+      }
+      for (const c of oneLight) {
+        const [first, ...others] = fastest(c), reaches = m => ratioIn(m, c).high >= ratioIn(first, c).low;
+        const row = document.querySelector("#speed-summary tbody tr").cells[1 + oneLight.indexOf(c)].textContent;
+        check(`speed: a fastest method only if its interval is apart: ${row}`, row.startsWith(nameOf(first.method)) && row.includes(" or ") === others.length > 0 && STUDY.methods.every(m => !ratioIn(m, c) || (M[m.method]?.max ?? m.levels_off) > 1 || m === first || others.includes(m) === reaches(m)));
+      }
       if (STUDY) check("speed: the same picture is the Overview's", [...document.querySelectorAll("#corners .hit")].map(a => a.getAttribute("href").slice(9)).every(m => !M[m] || M[m].max === undefined || M[m].max <= 1));
       document.querySelectorAll("#corner-mode button").forEach(b => b.click());
       labels("speed, all");

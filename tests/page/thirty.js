@@ -1,4 +1,5 @@
-/* Adds made-up methods to a page's data until there are 30, to try charts, lists and keys with many methods. */
+/* Adds made-up methods to a page's data until there are 30, to try charts, lists and keys with many methods. The machine is made up, too: too busy
+   in the second scene, where it drew on several threads, and busy elsewhere. Another one beside it was too busy in the first scene. */
 {
   const element = document.getElementById("fastphong-data"), data = JSON.parse(element.textContent);
   const families = ["alpha", "bishop", "cubic", "delta", "eigen", "fourier", "hermite", "weimer"], sources = ["gouraud", "fast-phong", "duff-phong", "slerp-phong"];
@@ -11,8 +12,8 @@
     return made;
   };
   const slower = (ratio, timing, k) => {
-    for (const q of ["median", "low", "high"]) ratio[q] *= k;
-    for (const q of ["median_ns", "p25_ns", "p75_ns"]) timing[q] /= k;
+    for (const q of ["typical", "low", "high"]) ratio[q] *= k;
+    for (const q of ["typical_ns", "low_ns", "high_ns"]) timing[q] /= k;
   };
   for (const [n, m] of added.entries()) {
     Object.assign(copy(data.methods, "name", m), { label: m.name.replaceAll("-", " "), family: families[n % 8] });
@@ -22,6 +23,15 @@
     }
     for (const corner of data.speedups ? copy(data.speedups.methods, "method", m).corners : []) slower(corner.ratio_to_naive, corner.timing, m.factor);
   }
+  const busy = { trust: "busy", clock: "thread", interrupted: .42, rounds: 12, cost_ns: 6e4, doubt: .026, sentence: "busy: 42 % of the samples were interrupted; times are the thread's own, ± 2.6 %" };
+  const tooBusy = { ...busy, trust: "too-busy", clock: "passed", doubt: .12, sentence: "too busy to tell on 2 threads; --threads 1 can" };
+  data.comparisons.forEach((scene, i) => { scene.noise = i === 1 ? tooBusy : busy; });
+  for (const { speed } of data.comparisons[1]?.rows ?? []) speed.work_to_naive = { ...speed.ratio_to_naive };
+  if (data.speedups) data.speedups.noise = busy;
+  data.scaling?.points.forEach((point, i) => { point.noise = i % 4 === 1 ? tooBusy : busy; });
+  const beside = structuredClone({ ...data, figures: [] });
+  beside.comparisons[0].noise = tooBusy;
+  data.beside = [beside];
   element.textContent = JSON.stringify(data);
   for (const pictures of document.querySelectorAll("script[id^=pictures-]")) {
     const stored = JSON.parse(pictures.textContent);
