@@ -31,6 +31,20 @@ mod split_mix {
             let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
             z ^ (z >> 31)
         }
+
+        /// Returns an index below `n`: multiplies 64 random bits, and keeps the high bits.
+        #[cfg(feature = "cli")]
+        pub fn below(&mut self, n: usize) -> usize {
+            ((u128::from(self.next()) * n as u128) >> 64) as usize
+        }
+
+        /// Puts a list into random order (Fisher and Yates).
+        #[cfg(feature = "cli")]
+        pub fn shuffle<T>(&mut self, list: &mut [T]) {
+            for i in (1..list.len()).rev() {
+                list.swap(i, self.below(i + 1));
+            }
+        }
     }
 
     /// The first value for seed 0 of the authors' reference implementation.

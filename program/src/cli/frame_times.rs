@@ -5,7 +5,7 @@ use super::measured::{Measurement, command_line};
 use super::scene_flags::note_frame;
 use super::values::number;
 use super::{CliError, Log, memory};
-use crate::compare::timing::{Machine, Timing};
+use crate::compare::timing::{Clock, End, Machine, Timing};
 use fastphong::drawing::Drawing;
 use fastphong::frame::PreparedScene;
 use fastphong::picture::Picture8;
@@ -13,10 +13,9 @@ use fastphong::raster::{DrawOptions, Plan, Renderer};
 use fastphong::shading::Variant;
 use serde::Serialize;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// The schema of the data: see `docs/bench-json.md`.
-const SCHEMA: &str = "fastphong.frame-times/1";
+const SCHEMA: &str = "fastphong.frame-times/2";
 
 /// The definition of a frame's time.
 const WHAT_IS_TIMED: &str = "from the prepared scene to the stored picture in RGBA8, in the memory of the frame before: \
@@ -58,6 +57,9 @@ struct FrameTime {
     reason: Option<&'static str>,
     #[serde(flatten)]
     count: FrameCount,
+    clock: &'static str,
+    interrupted: usize,
+    ms_typical: f64,
     ms_median: f64,
     ms_min: f64,
 }
@@ -121,15 +123,18 @@ impl FrameTime {
         memory::check_stored(&frame, &Drawing::Variant(variant.clone()), 0)?;
         let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         let mut samples = Vec::with_capacity(count.frames);
+        let clock = Clock::new(rayon::current_num_threads());
+        let mut interrupted = 0;
         for index in 0..count.warmup + count.frames {
-            let started = Instant::now();
+            let first = clock.read(End::First);
             black_box(scene).frame_into(&mut frame)?;
             let drawn = variant.draw(&frame, &mut picture, DrawOptions::by(renderer));
-            let spent = started.elapsed();
+            let last = clock.read(End::Last);
             black_box(&mut picture);
             drawn?;
             if index >= count.warmup {
-                samples.push(spent.as_nanos() as f64);
+                samples.push(clock.time(first, last));
+                interrupted += usize::from(clock.is_interrupted(first, last));
             }
         }
         let timing = Timing::of(samples, 1).expect("one frame or more, each of a finite time");
@@ -143,6 +148,9 @@ impl FrameTime {
             threads: rayon::current_num_threads(),
             reason: plan.reason(),
             count,
+            clock: clock.name(),
+            interrupted,
+            ms_typical: timing.typical_ns / 1e6,
             ms_median: timing.median_ns / 1e6,
             ms_min: timing.min_ns / 1e6,
         }))
@@ -152,10 +160,11 @@ impl FrameTime {
     fn line(&self) -> String {
         let (input, method, engine, level) = (&self.input, &self.method, self.engine, self.level);
         let (width, height, threads) = (self.width, self.height, self.threads);
-        let (frames, median, least) = (self.count.frames, self.ms_median, self.ms_min);
+        let (frames, typical) = (self.count.frames, self.ms_typical);
+        let (median, least, interrupted) = (self.ms_median, self.ms_min, self.interrupted);
         let drawn = format!("{input} {width}x{height} {method} engine {engine} level {level}");
-        let times = format!("ms_median {median:.4} ms_min {least:.4}");
-        format!("{drawn} threads {threads} frames {frames} {times}\n")
+        let times = format!("ms_typical {typical:.4} ms_median {median:.4} ms_min {least:.4}");
+        format!("{drawn} threads {threads} frames {frames} interrupted {interrupted} {times}\n")
     }
 }
 

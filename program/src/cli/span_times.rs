@@ -6,22 +6,21 @@ use super::Log;
 use super::measured::command_line;
 use super::progress::Progress;
 use crate::compare::table::Table;
-use crate::compare::timing::{Candidate, Machine, TimeLimits, time_interleaved};
+use crate::compare::timing::{Candidate, Clock, Machine, Noise, TimeLimits, time_interleaved};
 use fastphong::shading::{SpanBench, Variant};
 use serde::Serialize;
 use std::hint::black_box;
 use std::time::Duration;
 
 /// The schema of the data: see `docs/bench-json.md`.
-const SCHEMA: &str = "fastphong.spans/1";
+const SCHEMA: &str = "fastphong.spans/2";
 
 /// Degrees between the normals at the ends of a span.
 const DEGREES: f32 = 20.0;
 /// The lengths of the spans, in pixels.
 const LENGTHS: [usize; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
-/// How many rounds there are. In each, every method shades a span of every length; the least time
-/// of all rounds is kept.
-const ROUNDS: usize = 15;
+/// How many rounds there are. In each, every method shades a span of every length twice.
+const ROUNDS: usize = 8;
 
 /// The times of a method with a number of lights.
 #[derive(Clone, Debug, Serialize)]
@@ -40,6 +39,7 @@ struct Document<'a> {
     machine: Machine,
     degrees: f32,
     lengths: [usize; LENGTHS.len()],
+    noise: Noise,
     spans: &'a [SpanTimes],
 }
 
@@ -75,20 +75,25 @@ pub fn span_times(methods: &[Variant], log: Log) -> Result<(String, String), Cli
         rounds: ROUNDS,
         warm_up_rounds: 1,
     };
-    let timings = time_interleaved(&mut spans, limits, |part| progress.at(part, "spans"));
-    for (times, timings) in all.iter_mut().zip(timings.chunks(LENGTHS.len())) {
-        times.ns = timings.iter().map(|timing| timing.min_ns).collect();
+    let timed = time_interleaved(Clock::new(1), &mut spans, &[], limits, |part| {
+        progress.at(part, "spans")
+    });
+    for (i, ns) in (0..timed.len()).map(|i| (i, timed.timing(i).typical_ns)) {
+        all[i / LENGTHS.len()].ns.push(ns);
     }
+    let noise = timed.noise(&[]);
+    let text = format!("{}{}\n", table(&all), noise.sentence);
     let document = Document {
         schema: SCHEMA,
         command_line: command_line(),
         machine: Machine::this(),
         degrees: DEGREES,
         lengths: LENGTHS,
+        noise,
         spans: &all,
     };
     let json = serde_json::to_string_pretty(&document)? + "\n";
-    Ok((table(&all), json))
+    Ok((text, json))
 }
 
 /// Returns a table of nanoseconds per pixel, with a row for each method.

@@ -4,7 +4,7 @@ use crate::compare::comparison::{
     Input, MethodRow, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
 };
 use crate::compare::experiments::{MethodSpeedups, SpeedCorner, Speedup, Speedups, Work};
-use crate::compare::timing::{Ratio, Timing};
+use crate::compare::timing::{Noise, Ratio, Timing, Trust};
 use crate::lectures::{FIGURES, FigureContent, Plot, Scale, Series};
 use alloc::borrow::ToOwned;
 use alloc::format;
@@ -60,6 +60,7 @@ fn given(row: &mut MethodRow, of: &[(&str, f64, f64)]) {
         ns_per_covered_pixel: Some(1.0),
         ratio_to_naive: Some(ratio(speed, 1.1)),
         ratio_to_barycentric: None,
+        work_to_naive: None,
     });
 }
 
@@ -83,6 +84,15 @@ fn study(of: &[(&str, u8, f64)]) -> Speedups {
         size: [64, 48],
         span: 64,
         corners: vec![corner],
+        noise: Noise {
+            trust: Trust::Quiet,
+            clock: "thread",
+            interrupted: 0.0,
+            rounds: 5,
+            cost_ns: 0.0,
+            doubt: 0.02,
+            sentence: "quiet".to_owned(),
+        },
         methods: of.iter().map(method).collect(),
     }
 }

@@ -14,7 +14,7 @@ mod tests;
 pub(crate) use speed::{Speed, WHAT_IS_TIMED};
 pub(crate) use table::{TableKind, table};
 
-use super::timing::TimeLimits;
+use super::timing::{Noise, TimeLimits, Trust};
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -91,6 +91,8 @@ pub struct Comparison {
     pub renderer: DrawnBy,
     #[serde(skip)]
     requested: Renderer,
+    /// How far to trust the times; `None` if there are none.
+    pub noise: Option<Noise>,
     /// The variants drawn by scanlines, in the order of the request. Naive Phong comes first if it
     /// was not requested.
     pub rows: Vec<MethodRow>,
@@ -338,6 +340,7 @@ pub fn draw(
         stats: frame.stats(),
         renderer: DrawnBy::new(renderer),
         requested: renderer,
+        noise: None,
         rows,
         left_out,
         barycentric,
@@ -389,6 +392,12 @@ impl Comparison {
     /// Returns all rows: those drawn by scanlines, then the barycentric renderer's.
     pub fn all_rows(&self) -> impl Iterator<Item = &MethodRow> {
         self.rows.iter().chain(&self.barycentric)
+    }
+
+    /// True if it was timed, and nothing can be said about the speeds.
+    pub fn is_too_busy(&self) -> bool {
+        let noise = self.noise.as_ref();
+        noise.is_some_and(|noise| noise.trust == Trust::TooBusy)
     }
 
     /// Times all rows together, on the frame from which they were drawn. Triangulation is not

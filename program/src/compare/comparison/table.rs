@@ -45,10 +45,14 @@ const PER_PIXEL: Column = ("ns per pixel", |row| {
     Some(significant(row.speed.as_ref()?.ns_per_covered_pixel?))
 });
 const NAIVE: Column = ("× naive-phong", |row| {
-    Some(ratio(&row.speed.as_ref()?.ratio_to_naive?))
+    ratio(&row.speed.as_ref()?.ratio_to_naive?)
 });
 const BARYCENTRIC: Column = ("× barycentric", |row| {
-    Some(ratio(&row.speed.as_ref()?.ratio_to_barycentric?))
+    ratio(&row.speed.as_ref()?.ratio_to_barycentric?)
+});
+/// The ratio of the work of all threads, where the machine was too busy to tell speeds.
+const WORK: Column = ("work, × naive-phong", |row| {
+    ratio(&row.speed.as_ref()?.work_to_naive?)
 });
 
 const SHORT: &[Column] = &[
@@ -60,6 +64,7 @@ const SHORT: &[Column] = &[
     TIME,
     NAIVE,
     BARYCENTRIC,
+    WORK,
 ];
 
 const COMPARE: &[Column] = &[
@@ -85,17 +90,12 @@ const COMPARE: &[Column] = &[
     PER_PIXEL,
     NAIVE,
     BARYCENTRIC,
+    WORK,
 ];
 
 const BENCH: &[Column] = &[
     MARKED_METHOD,
     TIME,
-    ("least, ms", |row| {
-        Some(milliseconds(row.speed.as_ref()?.timing.min_ns))
-    }),
-    ("rounds", |row| {
-        Some(row.speed.as_ref()?.timing.samples_ns.len().to_string())
-    }),
     PER_PIXEL,
     NAIVE,
     ("95 %", |row| interval(row.speed.as_ref()?.ratio_to_naive?)),
@@ -103,6 +103,7 @@ const BENCH: &[Column] = &[
     ("95 %", |row| {
         interval(row.speed.as_ref()?.ratio_to_barycentric?)
     }),
+    WORK,
     MAX,
     RMS,
     OTHER_POLYGON,
@@ -132,9 +133,19 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     let has_others = comparison.all_rows().any(|row| row.other_polygon > 0);
     let shows_others = has_others || kind == TableKind::Compare;
     let shows_clamped = comparison.clamping.is_notable() || kind == TableKind::Compare;
+    // Times that say nothing are not shown. What several threads worked says something.
+    let is_too_busy = comparison.is_too_busy();
+    let has_work = |row: &MethodRow| {
+        row.speed
+            .as_ref()
+            .is_some_and(|s| s.work_to_naive.is_some())
+    };
+    let shows_work = is_too_busy && comparison.rows.iter().any(has_work);
     let is_shown = |column: &&Column| match column.0 {
         name if name == OTHER_POLYGON.0 => shows_others,
         name if name == CLAMPED.0 => shows_clamped,
+        name if [TIME.0, PER_PIXEL.0, NAIVE.0, BARYCENTRIC.0].contains(&name) => !is_too_busy,
+        name if name == WORK.0 => shows_work,
         _ => true,
     };
     let columns: Vec<&Column> = columns.iter().filter(is_shown).collect();
@@ -144,6 +155,9 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     let cells = |row| columns.iter().map(|column| cell(row, column)).collect();
     table.rows.extend(comparison.all_rows().map(cells));
     let mut text = head(comparison) + &table.text();
+    if let Some(noise) = &comparison.noise {
+        text += &format!("{} ({} rounds)\n", noise.sentence, noise.rounds);
+    }
     if comparison.all_rows().any(|row| !row.within_bound) {
         text += "! farther from its own closed form than rounding explains\n";
     }
@@ -216,11 +230,9 @@ fn head(c: &Comparison) -> String {
         text += &format!("{crossing} not drawn by the barycentric renderer\n");
     }
     text += "errors against the f64 Phong reference, in grey levels (1/255) of linear light before rounding\n";
-    if c.all_rows().any(|row| row.speed.is_some()) {
-        text +=
-            "time: from projected frame to stored picture, median ± half the interquartile range\n";
-        text +=
-            "× columns: speed-up, above 1 is faster; = is a tie (the 95 % interval contains 1)\n";
+    if c.all_rows().any(|row| row.speed.is_some()) && !c.is_too_busy() {
+        text += "time: from projected frame to stored picture, ± half the 95 % interval\n";
+        text += "× columns: speed-up, above 1 is faster; = is a tie, where the samples do not show which is\n";
     }
     text + "\n"
 }
@@ -266,14 +278,12 @@ fn decibels(difference: &Difference) -> String {
 }
 
 fn time(speed: &Speed) -> String {
-    let half_range = (speed.timing.p75_ns - speed.timing.p25_ns) / 2.0;
-    let median = speed.timing.median_ns;
-    let digits = decimals(median / 1e6);
-    format!("{} ± {:.digits$}", milliseconds(median), half_range / 1e6)
-}
-
-fn milliseconds(ns: f64) -> String {
-    significant(ns / 1e6)
+    let timing = &speed.timing;
+    let half = (timing.high_ns - timing.low_ns) / 2e6;
+    // No more digits than are known.
+    let digits = (0..6).find(|digits| half >= 0.95 * libm::pow(0.1, f64::from(*digits)));
+    let digits = digits.unwrap_or(6) as usize;
+    format!("{:.digits$} ± {half:.digits$}", timing.typical_ns / 1e6)
 }
 
 /// Writes a value with three significant digits, without an exponent and with at most six decimals.
@@ -286,13 +296,13 @@ fn decimals(value: f64) -> usize {
     (0..6).find(is_enough).unwrap_or(6)
 }
 
-/// Writes a ratio, with `=` in front if its interval contains 1. The baseline itself has the ratio
-/// 1 in every round.
-fn ratio(ratio: &Ratio) -> String {
+/// Writes a ratio with the digits that are known, and `=` in front if it is a tie. The baseline
+/// itself has exactly the ratio 1.
+fn ratio(ratio: &Ratio) -> Option<String> {
     let tie = if ratio.tie { "=" } else { "" };
     match (ratio.low, ratio.high) {
-        (1.0, 1.0) => "1".to_string(),
-        _ => format!("{tie}{:.2}", ratio.median),
+        (1.0, 1.0) => Some("1".to_string()),
+        _ => Some(format!("{tie}{}", ratio.known()?)),
     }
 }
 
@@ -335,9 +345,10 @@ mod tests {
     #[test]
     fn ties_are_marked() {
         let text = |low, median, high| ratio(&Ratio::new(low, median, high));
-        assert_eq!(text(1.4, 1.5, 1.6), "1.50");
-        assert_eq!(text(0.99, 1.01, 1.03), "=1.01");
-        assert_eq!(text(1.0, 1.0, 1.0), "1");
+        assert_eq!(text(1.46, 1.5, 1.54).as_deref(), Some("1.5"));
+        assert_eq!(text(0.99, 1.01, 1.03).as_deref(), Some("=1.0"));
+        assert_eq!(text(1.0, 1.0, 1.0).as_deref(), Some("1"));
+        assert_eq!(text(0.5, 1.0, 2.0), None, "not one digit is known");
         assert_eq!(interval(Ratio::new(1.0, 1.0, 1.0)), None);
     }
 }

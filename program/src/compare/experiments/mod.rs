@@ -23,7 +23,7 @@ pub use worst::WorstCase;
 pub(crate) use worst::{SearchSetting, climb};
 
 use super::comparison::with_baseline;
-use super::timing::Candidate;
+use super::timing::{Candidate, Clock};
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
@@ -92,6 +92,11 @@ impl Canvas {
             black_box((frame, picture));
         })
     }
+}
+
+/// Returns the clock for work on the current pool of threads.
+fn clock() -> Clock {
+    Clock::new(rayon::current_num_threads())
 }
 
 /// Returns the methods of `names` that are among `variants` with default parameters. Adds naive

@@ -3,9 +3,9 @@
 //! [`Scaling::measure`] draws and times spheres of more and more triangles, and one sphere on more
 //! and more pixels.
 
-use super::{Canvas, ExperimentError, chosen, prepared_sphere, sphere};
+use super::{Canvas, ExperimentError, chosen, clock, prepared_sphere, sphere};
 use crate::compare::comparison::BASELINE;
-use crate::compare::timing::{Candidate, TimeLimits, Timing, time_interleaved};
+use crate::compare::timing::{Candidate, Noise, TimeLimits, Timing, time_interleaved};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -78,6 +78,8 @@ pub struct ScalingPoint {
     pub drawn: usize,
     /// Pixels that triangles cover, including hidden ones.
     pub pixels: usize,
+    /// How far to trust the times.
+    pub noise: Noise,
     /// The times of projecting only.
     pub projection: Timing,
 }
@@ -176,7 +178,9 @@ impl Scaling {
                 candidates.push(canvas.draws(scene, Some((variant, *renderer))));
             }
         }
-        let mut timings = time_interleaved(&mut candidates, limits, |_| ()).into_iter();
+        let ratios: Vec<(usize, usize)> = (1..candidates.len()).map(|i| (0, i)).collect();
+        let times = time_interleaved(clock(), &mut candidates, &ratios, limits, |_| ());
+        let mut timings = (0..candidates.len()).map(|i| times.timing(i));
         drop(candidates);
         let (frame, _) = &*canvas.0.borrow();
         if self.curves.is_empty() {
@@ -191,6 +195,7 @@ impl Scaling {
             triangles: frame.stats().polygons,
             drawn: frame.polygons().len(),
             pixels,
+            noise: times.noise(&ratios),
             projection: timings.next().expect("a timing a candidate"),
         });
         for (curve, (.., most)) in self.curves.iter_mut().zip(ways) {

@@ -1,9 +1,11 @@
 //! How much faster the methods are than naive Phong: scalar and SIMD, shading only and whole
 //! frames.
 
-use super::{Canvas, ExperimentError, prepared_sphere, sphere};
+use super::{Canvas, ExperimentError, clock, prepared_sphere, sphere};
 use crate::compare::comparison::{is_baseline, with_baseline};
-use crate::compare::timing::{Candidate, Ratio, SpanRow, TimeLimits, Timing, time_interleaved};
+use crate::compare::timing::{
+    Candidate, Noise, Ratio, SpanRow, TimeLimits, Timing, time_interleaved,
+};
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -112,6 +114,8 @@ pub struct Speedups {
     /// The corners: kernels, scalar and SIMD, and frames, scalar and SIMD, with one light; then
     /// kernels with four lights. A machine without SIMD has no SIMD kernels.
     pub corners: Vec<SpeedCorner>,
+    /// How far to trust the times.
+    pub noise: Noise,
     /// The methods; naive Phong is among them.
     pub methods: Vec<MethodSpeedups>,
 }
@@ -144,17 +148,24 @@ impl Speedups {
                 });
             }
         }
-        let timings = time_interleaved(&mut candidates, options.limits, |part| {
+        let naive = variants.iter().position(is_baseline).unwrap_or(0);
+        // The pair of naive Phong and a method in a corner.
+        let pair = |method: usize, corner: usize| {
+            let first = corner * variants.len();
+            (first + naive, first + method)
+        };
+        let methods = 0..variants.len();
+        let ratios = (0..corners.len()).flat_map(|at| methods.clone().map(move |i| pair(i, at)));
+        let ratios: Vec<(usize, usize)> = ratios.collect();
+        let times = time_interleaved(clock(), &mut candidates, &ratios, options.limits, |part| {
             progress(part, "timing")
         });
         drop(candidates);
-        let naive = variants.iter().position(is_baseline).unwrap_or(0);
         let speedup = |method: usize, corner: usize| {
-            let timing = |method: usize| &timings[corner * variants.len() + method];
-            let (naive, timing) = (timing(naive), timing(method));
+            let (naive, candidate) = pair(method, corner);
             Speedup {
-                timing: timing.clone(),
-                ratio_to_naive: Ratio::paired(&naive.samples_ns, &timing.samples_ns),
+                timing: times.timing(candidate),
+                ratio_to_naive: times.ratio(naive, candidate),
             }
         };
         let method = |(i, (variant, levels_off)): (usize, (&Variant, u8))| MethodSpeedups {
@@ -167,6 +178,7 @@ impl Speedups {
             mesh: format!("builtin:{}", sphere(options.triangles)),
             size: options.size,
             span: options.span,
+            noise: times.noise(&ratios),
             methods: methods.map(method).collect(),
             corners,
         })

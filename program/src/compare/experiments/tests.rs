@@ -136,11 +136,11 @@ fn there_are_four_corners_and_naive_phong_is_one_of_the_methods() {
             method
                 .corners
                 .iter()
-                .all(|speedup| speedup.timing.samples_ns.len() >= 5)
+                .all(|speedup| speedup.timing.samples_ns.len() >= 3)
         );
     }
     let itself = naive.corners[0].ratio_to_naive.unwrap();
-    assert_eq!((itself.low, itself.median, itself.high), (1.0, 1.0, 1.0));
+    assert_eq!((itself.low, itself.typical, itself.high), (1.0, 1.0, 1.0));
 }
 
 #[test]

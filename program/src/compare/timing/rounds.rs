@@ -1,9 +1,12 @@
-//! The timing loop: samples the candidates in rounds, in a different order each round.
+//! The timing loop: samples the candidates in rounds, in random order.
 
-use super::statistics::Timing;
+use super::clock::{Clock, End, Moment};
+use super::interruptions::{LONG_NS, Sample};
+use super::times::{FEW_RESAMPLES, RESAMPLES, Times};
+use crate::split_mix::SplitMix;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A function to time. It should pass its results through [`core::hint::black_box`], or the
 /// compiler may remove the work.
@@ -22,8 +25,8 @@ pub struct TimeLimits {
 }
 
 impl TimeLimits {
-    /// The smallest number of rounds, whatever the limits. Quartiles of fewer samples say little.
-    pub const LEAST_ROUNDS: usize = 5;
+    /// The smallest number of rounds, whatever the limits. Most candidates have two samples in each.
+    pub const LEAST_ROUNDS: usize = 3;
 }
 
 impl Default for TimeLimits {
@@ -37,96 +40,124 @@ impl Default for TimeLimits {
     }
 }
 
-/// The shortest sample, in ns: thousands of times the resolution of any clock and the cost of
-/// reading it.
+/// The shortest sample, in ns: hundreds of times the cost of reading the clocks.
 const LEAST_SAMPLE_NS: u64 = 200_000;
 
 /// The largest number of calls per sample. A call that would need more is as short as the loop
 /// around it.
 const MOST_CALLS: u64 = 10_000;
 
-/// Times all candidates in rounds, until one of the limits is reached, but for at least
-/// [`TimeLimits::LEAST_ROUNDS`] rounds. Returns the timings in the order of the candidates.
+/// A ratio counts as known, and needs no more samples, when half its interval is at most this part
+/// of it.
+const KNOWN: f64 = 0.025;
+
+/// Times all candidates in rounds, for at least [`TimeLimits::LEAST_ROUNDS`] of them, until one of
+/// the limits is reached or all `ratios` are known: pairs of a baseline and a candidate.
 ///
-/// Every round samples each candidate once. Rounds come in pairs, and the second round of a pair
-/// runs in the reverse order of the first (A B C, C B A), so that a drift during a pair cancels
-/// out. Each pair starts with another candidate, so that no candidate always has the same
-/// neighbours or the same place. A candidate too short for the clock is called several times per
-/// sample.
+/// Every round takes the candidates in another random order. (A fixed order falls into step with the
+/// system's time slices, and always the same candidate is interrupted.) Each is sampled twice in a
+/// row, because the first sample finds the caches full of another's data; long ones, which lose
+/// little by that, once. A candidate too short for the clock is called several times per sample.
 ///
 /// Calls `progress` between rounds with the used part of the limits, 0..=1. The time that it takes
 /// does not count.
 pub fn time_interleaved(
+    clock: Clock,
     candidates: &mut [Candidate<'_>],
+    ratios: &[(usize, usize)],
     limits: TimeLimits,
     progress: impl FnMut(f32),
-) -> Vec<Timing> {
-    let start = Instant::now();
-    // 584 years of nanoseconds fit.
-    let now = || start.elapsed().as_nanos() as u64;
-    run(candidates, limits, now, progress)
+) -> Times {
+    let read = |end| clock.read(end);
+    run(clock, read, candidates, ratios, limits, progress)
 }
 
-/// Does the work of [`time_interleaved`] with a clock that returns nanoseconds.
+/// Does the work of [`time_interleaved`] with readings of a clock.
 fn run(
+    clock: Clock,
+    mut read: impl FnMut(End) -> Moment,
     candidates: &mut [Candidate<'_>],
+    ratios: &[(usize, usize)],
     limits: TimeLimits,
-    mut now: impl FnMut() -> u64,
     mut progress: impl FnMut(f32),
-) -> Vec<Timing> {
+) -> Times {
     let mut sample = |candidate: &mut Candidate<'_>, calls: u64| {
-        let start = now();
+        let first = read(End::First);
         for _ in 0..calls {
             candidate();
         }
-        now() - start
+        let last = read(End::Last);
+        let sample = Sample {
+            ns: clock.time(first, last),
+            work_ns: (last.own - first.own) as f64,
+            is_interrupted: clock.is_interrupted(first, last),
+            ..Sample::default()
+        };
+        (sample, (last.passed - first.passed) as f64)
     };
-    // Each warm-up round sets the number of calls per sample. The last one counts, because it is
-    // the least disturbed.
-    let mut calls: Vec<u64> = candidates.iter().map(|_| 1).collect();
+    // The least time of the warm-up rounds sets the number of calls per sample.
+    let mut least: Vec<f64> = candidates.iter().map(|_| f64::INFINITY).collect();
     for _ in 0..limits.warm_up_rounds.max(1) {
-        for (candidate, calls) in candidates.iter_mut().zip(&mut calls) {
-            *calls = LEAST_SAMPLE_NS
-                .div_ceil(sample(candidate, 1).max(1))
-                .clamp(1, MOST_CALLS);
+        for (candidate, least) in candidates.iter_mut().zip(&mut least) {
+            *least = least.min(sample(candidate, 1).0.ns);
         }
     }
-    let mut samples: Vec<Vec<f64>> = candidates.iter().map(|_| Vec::new()).collect();
+    let calls_of = |ns: &f64| {
+        LEAST_SAMPLE_NS
+            .div_ceil((*ns as u64).max(1))
+            .clamp(1, MOST_CALLS)
+    };
+    let calls: Vec<u64> = least.iter().map(calls_of).collect();
+    let mut samples: Vec<Vec<Sample>> = candidates.iter().map(|_| Vec::new()).collect();
     let most = limits.rounds.max(TimeLimits::LEAST_ROUNDS);
     let budget = limits.time_budget.as_nanos() as f64;
+    let mut random = SplitMix(ORDER_SEED);
+    let mut order: Vec<usize> = (0..candidates.len()).collect();
     // Only the time in samples counts, not the time in `progress`.
     let mut spent = 0.0;
+    let mut next_look = TimeLimits::LEAST_ROUNDS;
     for round in 0..most {
         let part = (spent / budget).max(round as f64 / most as f64);
         progress(part.min(1.0) as f32);
         if round >= TimeLimits::LEAST_ROUNDS && spent >= budget {
             break;
         }
-        for i in order(candidates.len(), round) {
-            let ns = sample(&mut candidates[i], calls[i]);
-            samples[i].push(ns as f64 / calls[i] as f64);
-            spent += ns as f64;
+        if round == next_look && !ratios.is_empty() {
+            let times = Times::new(samples.clone(), calls.clone(), clock, FEW_RESAMPLES);
+            if times.know(ratios, KNOWN) {
+                break;
+            }
+            // Looking takes time, too, and a few rounds more change little.
+            next_look += next_look.div_ceil(2);
+        }
+        random.shuffle(&mut order);
+        for &i in &order {
+            let is_long = least[i] * calls[i] as f64 >= LONG_NS;
+            for is_second in [false, true] {
+                if is_second && is_long {
+                    break;
+                }
+                let (taken, passed) = sample(&mut candidates[i], calls[i]);
+                spent += passed;
+                samples[i].push(Sample {
+                    round,
+                    is_second,
+                    ..taken
+                });
+            }
         }
     }
     progress(1.0);
-    let timing = |(samples, calls)| Timing::of(samples, calls as u32);
-    let timings = samples.into_iter().zip(calls).map(timing);
-    timings
-        .collect::<Option<_>>()
-        .expect("finite times of five rounds")
+    Times::new(samples, calls, clock, RESAMPLES)
 }
 
-/// Returns the order of the candidates in a round. Each pair of rounds is rotated by one more
-/// place, and its second round reversed.
-fn order(candidates: usize, round: usize) -> impl Iterator<Item = usize> {
-    let (turn, is_forth) = (round / 2, round.is_multiple_of(2));
-    let place = move |i| if is_forth { i } else { candidates - 1 - i };
-    (0..candidates).map(move |i| (place(i) + turn) % candidates)
-}
+/// The seed of the order, so that every run has the same.
+const ORDER_SEED: u64 = 0x4F72_6465_7273;
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compare::timing::Trust;
     use alloc::rc::Rc;
     use alloc::string::String;
     use alloc::vec;
@@ -139,148 +170,228 @@ mod tests {
     };
 
     /// A clock that only candidates advance, and a log of the letters of the candidates that ran.
+    #[derive(Default)]
     struct Stage {
-        clock: Rc<Cell<u64>>,
+        own: Rc<Cell<u64>>,
+        waited: Rc<Cell<u64>>,
         log: Rc<RefCell<String>>,
+        told: Vec<f32>,
     }
 
     impl Stage {
-        fn new() -> Self {
-            Stage {
-                clock: Rc::default(),
-                log: Rc::default(),
-            }
-        }
-
         fn candidate(
             &self,
             letter: char,
             mut ns: impl FnMut() -> u64 + 'static,
         ) -> Candidate<'static> {
-            let (clock, log) = (self.clock.clone(), self.log.clone());
+            let (own, log) = (self.own.clone(), self.log.clone());
             Box::new(move || {
-                clock.set(clock.get() + ns());
+                own.set(own.get() + ns());
                 log.borrow_mut().push(letter);
             })
         }
 
-        fn run(&self, candidates: &mut [Candidate<'_>], limits: TimeLimits) -> Vec<Timing> {
-            run(
-                candidates,
-                limits,
-                || self.clock.get(),
-                |_| self.log.borrow_mut().push(' '),
-            )
+        /// Returns a candidate of this time. Other programs interrupt it for 4 ms now and then, by
+        /// the part `interrupted` of the calls, and then it takes `cost_ns` longer.
+        fn interrupted(&self, ns: u64, interrupted: f64, cost_ns: u64) -> Candidate<'static> {
+            let mut random = SplitMix(ns);
+            let waited = self.waited.clone();
+            self.candidate('i', move || {
+                // Like a real time, none is equal to another.
+                let part = |random: &mut SplitMix| random.below(1_000) as f64 / 1_000.0;
+                let time = ns as f64 * (1.0 + 0.01 * part(&mut random));
+                let mut time = time as u64;
+                if part(&mut random) < interrupted {
+                    waited.set(waited.get() + 4_000_000);
+                    time += cost_ns;
+                }
+                time
+            })
+        }
+
+        fn run(
+            &mut self,
+            candidates: &mut [Candidate<'_>],
+            ratios: &[(usize, usize)],
+            limits: TimeLimits,
+        ) -> Times {
+            let read = |_| Moment {
+                passed: self.own.get() + self.waited.get(),
+                own: self.own.get(),
+                waited: 0,
+            };
+            let hear = |part| {
+                self.told.push(part);
+                self.log.borrow_mut().push(' ');
+            };
+            run(Clock::new(1), read, candidates, ratios, limits, hear)
         }
     }
 
     #[test]
-    fn rounds_run_forth_and_back_and_begin_with_each_in_turn() {
-        let stage = Stage::new();
+    fn rounds_have_everyone_twice_in_a_row_in_random_order() {
+        let mut stage = Stage::default();
         let mut candidates =
             ['A', 'B', 'C'].map(|letter| stage.candidate(letter, || LEAST_SAMPLE_NS));
-        let timings = stage.run(&mut candidates, FOREVER);
+        let limits = TimeLimits {
+            rounds: 60,
+            ..FOREVER
+        };
+        let times = stage.run(&mut candidates, &[], limits);
+        let log = stage.log.borrow();
+        let rounds: Vec<&str> = log.split_whitespace().skip(1).collect();
+        assert_eq!(rounds.len(), 60);
+        for first in ["AABBCC", "AACCBB", "BBAACC", "BBCCAA", "CCAABB", "CCBBAA"] {
+            let count = rounds.iter().filter(|round| **round == first).count();
+            // Ten are expected, with a deviation of 2.9.
+            assert!((2..=20).contains(&count), "{first} {count} times");
+        }
+        let timing = times.timing(1);
         assert_eq!(
-            *stage.log.borrow(),
-            "ABC ABC CBA BCA ACB CAB BAC ",
-            "warm-up, then six rounds"
+            (timing.samples_ns.len(), timing.samples_per_round),
+            (120, 2)
         );
-        assert!(timings.iter().all(|t| t.samples_ns.len() == 6));
     }
 
     #[test]
-    fn samples_are_the_candidates_own_and_in_order() {
-        let stage = Stage::new();
-        let mut time = 300_000;
-        let growing = stage.candidate('G', move || {
-            time += 1;
-            time
-        });
-        let timings = stage.run(&mut [stage.candidate('S', || 500_000), growing], FOREVER);
-        assert_eq!(timings[0].samples_ns, [500_000.0; 6]);
-        // The first call was the warm-up.
-        assert_eq!(
-            timings[1].samples_ns,
-            [
-                300_002.0, 300_003.0, 300_004.0, 300_005.0, 300_006.0, 300_007.0
-            ]
-        );
-        assert_eq!(timings[1].calls_per_sample, 1);
+    fn long_candidates_have_one_sample_in_a_round() {
+        let mut stage = Stage::default();
+        let mut candidates = [
+            stage.candidate('L', || LONG_NS as u64),
+            stage.candidate('s', || LONG_NS as u64 - 1),
+        ];
+        let times = stage.run(&mut candidates, &[], FOREVER);
+        let each = [0, 1].map(|i| times.timing(i).samples_per_round);
+        assert_eq!(each, [1, 2]);
+        assert_eq!(stage.log.borrow().matches('L').count(), 1 + 6);
     }
 
     #[test]
     fn short_calls_are_repeated_and_stated_each() {
-        let stage = Stage::new();
-        let timings = stage.run(
-            &mut [stage.candidate('a', || 60_000), stage.candidate('b', || 0)],
-            FOREVER,
-        );
+        let mut stage = Stage::default();
+        let mut candidates = [stage.candidate('a', || 60_000), stage.candidate('b', || 0)];
+        let times = stage.run(&mut candidates, &[(0, 1)], FOREVER);
+        let (a, b) = (times.timing(0), times.timing(1));
         assert_eq!(
-            (timings[0].calls_per_sample, timings[0].median_ns),
+            (a.calls_per_sample, a.typical_ns),
             (4, 60_000.0),
             "4 · 60 µs ≥ 200 µs"
         );
         assert_eq!(
-            (u64::from(timings[1].calls_per_sample), timings[1].median_ns),
+            (u64::from(b.calls_per_sample), b.typical_ns),
             (MOST_CALLS, 0.0)
         );
+        assert_eq!(times.ratio(0, 1), None, "no time was seen");
+        assert_eq!(times.ratio(1, 0), None);
     }
 
     #[test]
-    fn the_budget_ends_it_but_not_before_the_fifth_round() {
+    fn the_budget_ends_it_but_not_before_the_third_round() {
         let rounds = |budget_ms| {
-            let stage = Stage::new();
+            let mut stage = Stage::default();
             let limits = TimeLimits {
                 time_budget: Duration::from_millis(budget_ms),
                 rounds: 100,
                 warm_up_rounds: 3,
             };
-            stage.run(&mut [stage.candidate('x', || 1_000_000)], limits)[0]
-                .samples_ns
-                .len()
+            let times = stage.run(&mut [stage.candidate('x', || 1_000_000)], &[], limits);
+            times.noise(&[]).rounds
         };
         assert_eq!(rounds(0), TimeLimits::LEAST_ROUNDS);
-        assert_eq!(rounds(8), 8, "warm-up takes nothing from it");
+        assert_eq!(
+            rounds(16),
+            8,
+            "two samples a round, and warm-up takes nothing from it"
+        );
         assert_eq!(rounds(1000), 100);
     }
 
     #[test]
-    fn progress_climbs_to_one() {
-        let stage = Stage::new();
-        let mut told = vec![];
+    fn it_ends_when_all_ratios_are_known() {
+        let rounds = |noise: u64| {
+            let mut stage = Stage::default();
+            let mut random = SplitMix(noise);
+            let mut a = [
+                stage.candidate('a', || 1_000_000),
+                stage.candidate('b', move || 2_000_000 + noise * random.below(1_000) as u64),
+            ];
+            let limits = TimeLimits {
+                rounds: 100,
+                ..FOREVER
+            };
+            let times = stage.run(&mut a, &[(0, 1)], limits);
+            assert!(times.know(&[(0, 1)], KNOWN) || times.noise(&[]).rounds == 100);
+            times.noise(&[]).rounds
+        };
+        assert_eq!(rounds(0), TimeLimits::LEAST_ROUNDS, "nothing is uncertain");
+        assert!(rounds(2_000) > TimeLimits::LEAST_ROUNDS);
+    }
+
+    /// The time of a candidate is found although other programs interrupt nine samples in ten, each
+    /// of which then takes 60 µs longer.
+    #[test]
+    fn interruptions_move_no_ratio() {
         let limits = TimeLimits {
-            time_budget: Duration::from_millis(6),
+            rounds: 40,
+            ..FOREVER
+        };
+        for part in [0.0, 0.3, 0.6, 0.9] {
+            let mut stage = Stage::default();
+            let mut candidates = [
+                stage.interrupted(500_000, part, 60_000),
+                stage.interrupted(2_000_000, part, 60_000),
+                stage.interrupted(1_000_000, part, 60_000),
+            ];
+            let ratios = [(0, 1), (0, 2)];
+            let times = stage.run(&mut candidates, &ratios, limits);
+            for (candidate, truth) in [(1, 0.25), (2, 0.5)] {
+                let ratio = times.ratio(0, candidate).unwrap();
+                assert!(
+                    ratio.low <= truth && truth <= ratio.high,
+                    "{part}: {ratio:?}"
+                );
+                // Times differ by up to 1 %.
+                assert!(
+                    (ratio.typical / truth - 1.0).abs() < 0.01,
+                    "{part}: {ratio:?}"
+                );
+                assert!(!ratio.tie && ratio.doubt() < KNOWN);
+            }
+            let noise = times.noise(&ratios);
+            // Three standard deviations of at least 18 samples.
+            assert!((noise.interrupted - part).abs() < 0.36, "{noise:?}");
+            assert_eq!(noise.trust == Trust::Quiet, noise.interrupted < 0.05);
+            assert!(noise.trust != Trust::TooBusy, "{noise:?}");
+        }
+    }
+
+    #[test]
+    fn progress_climbs_to_one() {
+        let mut stage = Stage::default();
+        let limits = TimeLimits {
+            time_budget: Duration::from_millis(12),
             rounds: 100,
             warm_up_rounds: 1,
         };
-        run(
-            &mut [stage.candidate('x', || 1_000_000)],
-            limits,
-            || stage.clock.get(),
-            |part| told.push(part),
-        );
+        stage.run(&mut [stage.candidate('x', || 1_000_000)], &[], limits);
+        let told = &stage.told;
         assert_eq!((told[0], told[3], told.last()), (0.0, 0.5, Some(&1.0)));
         assert!(told.is_sorted());
-        let mut none = vec![];
-        let limits = TimeLimits {
+        let mut stage = Stage::default();
+        let none = TimeLimits {
             time_budget: Duration::ZERO,
-            rounds: 0,
-            warm_up_rounds: 0,
+            ..limits
         };
-        run(
-            &mut [stage.candidate('x', || 1)],
-            limits,
-            || stage.clock.get(),
-            |part| none.push(part),
-        );
+        stage.run(&mut [stage.candidate('x', || 1)], &[], none);
+        let told = vec![stage.told];
         assert!(
-            none.iter().all(|part| (0.0..=1.0).contains(part)),
-            "{none:?}"
+            told[0].iter().all(|part| (0.0..=1.0).contains(part)),
+            "{told:?}"
         );
     }
 
     #[test]
     fn nothing_to_time_takes_no_time() {
-        assert!(Stage::new().run(&mut [], FOREVER).is_empty());
+        assert_eq!(Stage::default().run(&mut [], &[], FOREVER).len(), 0);
     }
 }

@@ -1,0 +1,149 @@
+//! How far to trust the times of a run.
+
+use super::clock::Clock;
+use alloc::format;
+use alloc::string::String;
+use serde::Serialize;
+
+/// How far to trust a table of times, in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Trust {
+    /// Next to no other program ran, and ratios are known.
+    Quiet,
+    /// Other programs ran, and ratios are known all the same.
+    Busy,
+    /// Ratios are not known.
+    TooBusy,
+}
+
+/// The noise of a run: what disturbed it, and how far its ratios are known.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Noise {
+    /// One word.
+    pub trust: Trust,
+    /// `thread`: times are the thread's own processor time. `passed`: times passed.
+    pub clock: &'static str,
+    /// The part of the samples, 0..=1, in which other programs had the processor.
+    pub interrupted: f64,
+    /// The number of rounds.
+    pub rounds: usize,
+    /// The cost of an interruption, in ns: it is taken off the samples that were interrupted.
+    pub cost_ns: f64,
+    /// Half the interval of a ratio as a part of it: the median over all ratios.
+    pub doubt: f64,
+    /// All of this in a sentence, without its full stop.
+    pub sentence: String,
+}
+
+/// The largest median doubt with which a table says something, and that of a quiet machine, which is
+/// what ends a run early.
+const MOST_DOUBT: f64 = 0.05;
+const QUIET_DOUBT: f64 = 0.025;
+
+/// The largest part of interrupted samples on a quiet machine.
+const QUIET_INTERRUPTED: f64 = 0.05;
+
+/// The largest part of interrupted samples of times that passed. The lowest tenth must lie among
+/// those that were not interrupted, with more than twice as many to choose from.
+const MOST_INTERRUPTED: f64 = 0.75;
+
+impl Noise {
+    /// Judges a run by the part of its samples that was interrupted, and by the median doubt of its
+    /// ratios.
+    pub(super) fn new(
+        clock: Clock,
+        interrupted: f64,
+        rounds: usize,
+        cost_ns: f64,
+        doubt: f64,
+    ) -> Noise {
+        let is_lost = !clock.is_own() && interrupted > MOST_INTERRUPTED;
+        let trust = if doubt > MOST_DOUBT || is_lost {
+            Trust::TooBusy
+        } else if interrupted <= QUIET_INTERRUPTED && doubt <= QUIET_DOUBT {
+            Trust::Quiet
+        } else {
+            Trust::Busy
+        };
+        let share = format!("{} of the samples were interrupted", percent(interrupted));
+        let times = if clock.is_own() {
+            "times are the thread’s own, "
+        } else {
+            ""
+        };
+        let doubt_text = format!("± {}", percent(doubt));
+        let threads = clock.threads();
+        let sentence = match trust {
+            Trust::Quiet => format!("quiet: {share}; {doubt_text}"),
+            Trust::Busy => format!("busy: {share}; {times}{doubt_text}"),
+            Trust::TooBusy if threads > 1 => {
+                format!("too busy to tell on {threads} threads: {share}; --threads 1 can")
+            }
+            Trust::TooBusy => format!(
+                "too busy to tell: {doubt_text}. Run again with five times the --time-budget, or on an idle machine"
+            ),
+        };
+        Noise {
+            trust,
+            clock: clock.name(),
+            interrupted,
+            rounds,
+            cost_ns,
+            doubt,
+            sentence,
+        }
+    }
+}
+
+/// Writes a part as a percentage of two digits, or of one below 1 %.
+fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    if percent < 9.95 {
+        format!("{percent:.1} %")
+    } else {
+        format!("{percent:.0} %")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_says_what_can_be_trusted() {
+        let said = |threads, interrupted, doubt| {
+            let noise = Noise::new(Clock::new(threads), interrupted, 20, 0.0, doubt);
+            (noise.trust, noise.sentence)
+        };
+        let (quiet, text) = said(2, 0.004, 0.018);
+        assert_eq!(quiet, Trust::Quiet);
+        assert_eq!(
+            text,
+            "quiet: 0.4 % of the samples were interrupted; ± 1.8 %"
+        );
+        let (busy, text) = said(2, 0.42, 0.026);
+        assert_eq!(busy, Trust::Busy);
+        assert_eq!(text, "busy: 42 % of the samples were interrupted; ± 2.6 %");
+        let (lost, text) = said(2, 0.97, 0.026);
+        assert_eq!(lost, Trust::TooBusy, "the lowest tenth may be interrupted");
+        assert!(text.starts_with("too busy to tell on 2 threads: 97 % of the samples"));
+        let (noisy, text) = said(1, 0.0, 0.12);
+        assert_eq!(noisy, Trust::TooBusy);
+        assert!(text.starts_with("too busy to tell: ± 12 %. Run again with five times"));
+        if Clock::HAS_OWN {
+            let (busy, text) = said(1, 0.97, 0.026);
+            assert_eq!(busy, Trust::Busy);
+            assert!(
+                text.contains("times are the thread’s own, ± 2.6 %"),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn percentages_have_two_digits() {
+        let texts = [0.0, 0.004, 0.0994, 0.0995, 0.5, 1.0].map(percent);
+        assert_eq!(texts, ["0.0 %", "0.4 %", "9.9 %", "10 %", "50 %", "100 %"]);
+    }
+}
