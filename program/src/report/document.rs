@@ -36,9 +36,6 @@ pub(super) const OLDER: [(&str, &str); 2] = [
     ),
 ];
 
-/// The schema of new documents, until the timing code writes typical times: then [`SCHEMA`].
-const WRITTEN: &str = OLDER[0].0;
-
 /// The results of a run, and the machine that made them.
 #[derive(Clone, Debug, Serialize)]
 pub struct Document {
@@ -149,7 +146,7 @@ impl Document {
     /// Makes a document of comparisons that were made on this machine.
     pub fn new(command_line: Vec<String>, comparisons: Vec<Comparison>) -> Document {
         let mut document = Document {
-            schema: WRITTEN,
+            schema: SCHEMA,
             command_line,
             machine: Machine::this(),
             timed: WHAT_IS_TIMED,
@@ -320,7 +317,7 @@ pub(super) fn older(document: &Value) -> Option<(&'static str, &'static str)> {
 }
 
 /// Replaces the fields of typical times in an example by those of older schemas.
-fn without_typical(example: &mut Value) {
+pub(super) fn without_typical(example: &mut Value) {
     match example {
         Value::Object(fields) => {
             for field in ["typical_ns", "low_ns", "high_ns"] {

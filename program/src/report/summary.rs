@@ -4,6 +4,7 @@
 //! `report/quiet.json` holds the summary of a run on a quiet machine.
 
 use super::document::{list, number, text, title};
+use crate::compare::timing::Ratio;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -96,8 +97,8 @@ pub struct Speed {
     pub low: f64,
     /// The upper end of the interval.
     pub high: f64,
-    /// True if it is not known whether the method is faster or slower. One frame has a wider
-    /// interval for this than `low..=high`.
+    /// True if it is not known whether the method is faster or slower. A wider interval than
+    /// `low..=high` decides.
     pub tie: bool,
 }
 
@@ -236,18 +237,16 @@ fn too_busy<'a>(noises: impl Iterator<Item = &'a Value>) -> Option<String> {
     let worst = noises
         .filter(|noise| is_too_busy(noise))
         .max_by(|a, b| interrupted(a).total_cmp(&interrupted(b)))?;
-    Some(match 100.0 * interrupted(worst) {
-        // Something else than interruptions kept the times apart, for example a busy second thread.
-        share if share < 5.0 => {
-            let sentence = text(worst, "/sentence").trim_end_matches('.');
-            let mut letters = sentence.chars();
-            let first = letters.next().map(|letter| letter.to_ascii_uppercase());
-            let sentence: String = first.into_iter().chain(letters).collect();
-            format!("{sentence}.")
-        }
-        share => {
-            format!("Too busy to tell: {share:.0}\u{A0}% of the samples were interrupted.")
-        }
+    let share = 100.0 * interrupted(worst);
+    Some(if worst["clock"] == "thread" && share >= 5.0 {
+        format!("Too busy to tell: {share:.0}\u{A0}% of the samples were interrupted.")
+    } else {
+        // Too few rounds, or threads that had no processor: the document says more.
+        let sentence = text(worst, "/sentence");
+        let mut letters = sentence.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        let capitalised: String = first.into_iter().chain(letters).collect();
+        format!("{capitalised}.")
     })
 }
 
@@ -271,13 +270,12 @@ impl Speed {
             let sum: f64 = speeds.iter().map(|speed| libm::log(value(speed))).sum();
             libm::exp(sum / speeds.len() as f64)
         };
-        let [low, high] = [mean(|speed| speed.low), mean(|speed| speed.high)];
-        Speed {
-            typical: mean(|speed| speed.typical),
-            low,
-            high,
-            tie: low <= 1.0 && 1.0 <= high,
-        }
+        Ratio::new(
+            mean(|speed| speed.low),
+            mean(|speed| speed.typical),
+            mean(|speed| speed.high),
+        )
+        .into()
     }
 
     /// True if the method is faster than naive Phong beyond doubt.
@@ -294,18 +292,21 @@ impl Speed {
         }
     }
 
-    /// Returns the typical value with the digits that the interval separates, or `None` if it
-    /// separates none.
+    /// Writes the typical value with the digits that are known: see [`Ratio::known`].
     pub fn known(&self) -> Option<String> {
         let Speed {
-            typical, low, high, ..
+            typical,
+            low,
+            high,
+            tie,
         } = *self;
-        match (high - low) / 2.0 {
-            half if half > 0.3 * typical => None,
-            half if half <= 0.005 => Some(format!("{typical:.2}")),
-            half if half <= 0.05 || typical < 10.0 && half <= 0.1 => Some(format!("{typical:.1}")),
-            _ => Some(format!("about {typical:.1}")),
-        }
+        let ratio = Ratio {
+            typical,
+            low,
+            high,
+            tie,
+        };
+        ratio.known()
     }
 
     /// Returns the value and its interval for a table. A `=` before them says that it is a tie.
@@ -318,5 +319,22 @@ impl Speed {
         }
         let tie = if tie { "= " } else { "" };
         format!("{tie}{known} ({low:.2}–{high:.2})")
+    }
+}
+
+impl From<Ratio> for Speed {
+    fn from(ratio: Ratio) -> Speed {
+        let Ratio {
+            typical,
+            low,
+            high,
+            tie,
+        } = ratio;
+        Speed {
+            typical,
+            low,
+            high,
+            tie,
+        }
     }
 }

@@ -143,7 +143,7 @@ pub(super) fn scene(scene: &Value) -> Table {
             cell(row, "/error/max", levels),
             cell(row, "/error/rms", levels),
             cell(row, "/other_polygon", |n| n.to_string()),
-            cell(row, "/speed/timing/typical_ns", |ns| significant(ns / 1e6)),
+            time(row, "/speed/timing/typical_ns", &scene["noise"]),
             ratio(&row["speed"]["ratio_to_naive"], &scene["noise"]),
         ]);
         if is_clamped {
@@ -159,6 +159,15 @@ pub(super) fn scene(scene: &Value) -> Table {
 pub(super) fn clamped_share(scene: &Value) -> f64 {
     let count = |field: &str| number(scene, &format!("/clamping/{field}")).unwrap_or(0.0);
     count("clamped") / count("covered").max(1.0)
+}
+
+/// Writes a time in milliseconds, or [`NONE`] if the machine was too busy.
+fn time(value: &Value, pointer: &str, noise: &Value) -> String {
+    if is_too_busy(noise) {
+        NONE.into()
+    } else {
+        cell(value, pointer, |ns| significant(ns / 1e6))
+    }
 }
 
 /// Writes a ratio with its interval, or [`NONE`] if the machine was too busy. A `=` before it says
@@ -207,16 +216,15 @@ fn growth(scaling: &Value) -> Table {
         let [engine, level] = ["/engine", "/level"].map(|of| text(curve, of));
         format!("{}, {engine}, {level}", label(text(curve, "/method")))
     }));
-    let ms = |value: &Value, at: &str| cell(value, at, |ns| significant(ns / 1e6));
     for (i, point) in list(scaling, "/points").iter().enumerate() {
         let mut row = Vec::from([
             format!("{} × {}", point["size"][0], point["size"][1]),
             point["triangles"].to_string(),
             point["pixels"].to_string(),
-            ms(point, "/projection/typical_ns"),
+            time(point, "/projection/typical_ns", &point["noise"]),
         ]);
-        let time = format!("/times/{i}/typical_ns");
-        row.extend(curves.iter().map(|curve| ms(curve, &time)));
+        let at = format!("/times/{i}/typical_ns");
+        row.extend(curves.iter().map(|curve| time(curve, &at, &point["noise"])));
         table.rows.push(row);
     }
     table

@@ -1,4 +1,4 @@
-use super::document::{OLDER, SCHEMA, list, title};
+use super::document::{OLDER, SCHEMA, list, title, without_typical};
 use super::*;
 use crate::compare::comparison::{
     Input, MethodRow, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
@@ -270,21 +270,22 @@ fn timed(comparison: &mut Comparison) {
     }
 }
 
-/// Returns a timed document with an experiment as JSON of today's schema.
-fn today() -> Value {
+/// Returns a timed document with an experiment and a figure as JSON.
+fn whole() -> Value {
     let mut document = document(&[(SPHERE, "sphere")]);
     timed(&mut document.comparisons[0]);
     document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
+    document.comparisons[0].noise = document.speedups.as_ref().map(|of| of.noise.clone());
     document.figures.push(figure());
-    let mut today = parse(&document.to_text()).unwrap();
-    today["schema"] = SCHEMA.into();
-    let noise = json!({
-        "trust": "quiet", "clock": "thread", "interrupted": 0.01, "rounds": 12, "cost_ns": 6e4, "doubt": null,
-        "sentence": "quiet: 1 % of the samples were interrupted"
-    });
-    today["comparisons"][0]["noise"] = noise.clone();
-    today["speedups"]["noise"] = noise;
-    today
+    serde_json::from_str(&document.to_text()).unwrap()
+}
+
+/// Returns the same document as JSON of an older schema.
+fn older(schema: &str) -> Value {
+    let mut older = whole();
+    without_typical(&mut older);
+    older["schema"] = schema.into();
+    older
 }
 
 #[test]
@@ -293,7 +294,7 @@ fn documents_come_back_as_they_went() {
     timed(&mut document.comparisons[0]);
     document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
     let text = document.to_text();
-    assert!(text.starts_with(&format!("{{\n  \"schema\": \"{}\",\n", document.schema)));
+    assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/3\",\n"));
     let read = Report::read(text.clone()).unwrap();
     assert_eq!((&read.text, &read.data), (&text, &report(&document).data));
     let rows = list(&read.data, "/comparisons/0/rows");
@@ -337,7 +338,7 @@ fn parameters_are_numbers_or_auto() {
 fn the_description_names_every_field() {
     let description = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench-json.md");
     let description = std::fs::read_to_string(description).expect("the page");
-    let document = today();
+    let document = whole();
     let mut left = vec![&document];
     let mut fields = 0;
     while let Some(value) = left.pop() {
@@ -371,7 +372,7 @@ fn the_description_names_every_field() {
 /// The reader requires every field that views need, with its type.
 #[test]
 fn every_field_that_is_read_is_needed_unless_marked() {
-    let whole = today();
+    let whole = whole();
     let message = |data: &Value| parse(&data.to_string()).unwrap_err().to_string();
     for (pointer, field) in [
         ("", "machine"),
@@ -397,8 +398,8 @@ fn every_field_that_is_read_is_needed_unless_marked() {
     without["comparisons"][0]["noise"] = Value::Null;
     assert!(parse(&without.to_string()).is_ok(), "no times were taken");
     // Older documents are checked for their own fields.
-    let mut older = whole;
-    older["schema"] = OLDER[0].0.into();
+    let mut older = older(OLDER[0].0);
+    assert!(parse(&older.to_string()).is_ok());
     let ratio = &mut older["comparisons"][0]["rows"][0]["speed"]["ratio_to_naive"];
     *ratio = json!({ "typical": 1.0, "low": 1.0, "high": 1.0, "tie": true });
     assert!(message(&older).contains("ratio_to_naive: missing field `median`"));
@@ -435,7 +436,7 @@ fn texts_that_are_no_documents_are_refused() {
 /// A field with another kind of value, or with a number out of range, is reported with its place.
 #[test]
 fn values_of_another_kind_are_told_with_their_place() {
-    let whole = today();
+    let whole = whole();
     for (pointer, value, told) in [
         (
             "/comparisons",
@@ -514,10 +515,8 @@ fn values_of_another_kind_are_told_with_their_place() {
 /// so. All others stay.
 #[test]
 fn older_documents_lose_the_numbers_that_changed_their_meaning() {
-    let newer = Report::read(today().to_string()).unwrap();
-    let mut older = today();
-    older["schema"] = OLDER[1].0.into();
-    let mut older = Report::read(older.to_string()).unwrap();
+    let newer = Report::read(whole().to_string()).unwrap();
+    let mut older = Report::read(older(OLDER[1].0).to_string()).unwrap();
     assert_eq!(newer.not_comparable(), None);
     let said = older.not_comparable().expect("an older document");
     assert!(
@@ -554,8 +553,7 @@ fn older_documents_lose_the_numbers_that_changed_their_meaning() {
 fn speeds_of_documents_with_medians_are_shown_with_a_note() {
     let timing = json!({ "median_ns": 4e6, "min_ns": 2e6, "p25_ns": 3e6, "p75_ns": 5e6 });
     let median = json!({ "median": 1.25, "low": 1.23, "high": 1.27, "tie": false });
-    let mut data = today();
-    data["schema"] = "fastphong.bench/2".into();
+    let mut data = older("fastphong.bench/2");
     data["comparisons"][0]["noise"] = Value::Null;
     for row in data["comparisons"][0]["rows"].as_array_mut().unwrap() {
         row["error"]["max"] = json!(if row["variant"] == "duff-phong" {
