@@ -237,10 +237,10 @@ fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
         said.sentences.push(Part::Text(text));
         said.bars.push((names, best.speed));
     } else if let Some(best) = best {
-        let text = format!(
-            "For naive Phong’s picture, nothing is faster than naive Phong beyond doubt {frames}."
-        );
-        said.sentences.push(Part::Text(text));
+        let nothing = plain("For naive Phong’s picture, nothing is faster than ");
+        let doubt = Part::Text(format!(" beyond doubt {frames}."));
+        let naive = Part::Method(BASELINE.into());
+        said.sentences.extend([nothing, naive, doubt]);
         let name = Part::Method(best.variant.clone());
         said.bars.push(([name].into(), best.speed));
     } else {
@@ -253,7 +253,7 @@ fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
     if let Some(fast) = fast.filter(|_| !is_best) {
         let name = Part::Method(FAST.into());
         let is = match fast.speed.word() {
-            "tie" => " ties with it: ".to_string(),
+            "tie" => " ties with naive Phong: ".to_string(),
             word => format!(" is {word} than naive Phong: "),
         };
         let lecture = plain(" The lecture’s ");
@@ -271,7 +271,7 @@ fn times(speed: &Speed) -> Vec<Part> {
     let interval = format!("{:.2} to {:.2}", speed.low, speed.high);
     match speed.known() {
         Some(known) => {
-            let known = Part::Strong(format!("{known}\u{A0}×"));
+            let known = Part::Strong(format!("{known} ×").replace(' ', "\u{A0}"));
             Vec::from([known, Part::Text(format!(" ({interval})"))])
         }
         None => Vec::from([Part::Strong(format!("{interval}\u{A0}×"))]),
@@ -334,7 +334,7 @@ pub(super) fn html(data: &Value, quiet: &Summary) -> String {
             lines += &html_lines(&format!("A {}", place(quiet, said)), said);
         }
         if !lines.is_empty() {
-            html += &format!("<div class=\"lines\">{lines}<i></i>{SCALE}</div>");
+            html += &format!("<div class=\"gains\">{lines}{SCALE}</div>");
         }
         format!("<article class=\"card\">{html}</article>")
     });
@@ -342,7 +342,7 @@ pub(super) fn html(data: &Value, quiet: &Summary) -> String {
 }
 
 /// The scale under the bars.
-const SCALE: &str = "<span class=\"axis\" aria-hidden=\"true\"><s>0.5</s><s>1</s><s>2 ×</s></span>";
+const SCALE: &str = "<span class=\"ends\" aria-hidden=\"true\"><i>0.5</i><i>1</i><i>2 ×</i></span>";
 
 /// Writes a line for each speed of a run: method, bar, value, word. Returns nothing without speeds.
 fn html_lines(by: &str, said: &Said) -> String {
@@ -359,8 +359,8 @@ fn html_lines(by: &str, said: &Said) -> String {
         let (known, low, high) = (speed.known(), speed.low, speed.high);
         let known = known.map_or_else(|| "–".into(), |known| format!("{known}\u{A0}×"));
         format!(
-            "<span>{name}</span><span class=\"line {tone}\" aria-hidden=\"true\">{bar}</span>\
-             <span>{known} ({low:.2}–{high:.2}) <b class=\"{tone}\">{word}</b></span>"
+            "<span>{name}</span><span class=\"worth\">{known} ({low:.2}–{high:.2}) <b class=\"{tone}\">{word}</b></span>\
+             <span class=\"gain {tone}\" aria-hidden=\"true\">{bar}</span>"
         )
     };
     let lines: String = said.bars.iter().map(line).collect();
@@ -369,13 +369,19 @@ fn html_lines(by: &str, said: &Said) -> String {
 
 /// Draws an interval on a logarithmic scale from 0.5 to 2. Arrows say that it goes on.
 fn bar(speed: &Speed) -> String {
+    let Speed { low, high, .. } = *speed;
     let place = |speed: f64| 50.0 + 50.0 * libm::log2(speed).clamp(-1.0, 1.0);
-    // A bar of 2 % is seen, also at the right end.
-    let from = place(speed.low).min(98.0);
-    let width = (place(speed.high) - from).max(2.0);
-    let left = if speed.low < 0.5 { "◂" } else { "" };
-    let right = if speed.high > 2.0 { "▸" } else { "" };
-    format!("<s>{left}</s><i style=\"left:{from:.1}%;width:{width:.1}%\"></i><s>{right}</s>")
+    // 2 % are seen where the interval is narrower.
+    let from = place(low).min(98.0);
+    let width = (place(high) - from).max(2.0);
+    let line = if low < 2.0 && high > 0.5 {
+        format!("<i style=\"left:{from:.1}%;width:{width:.1}%\"></i>")
+    } else {
+        String::new()
+    };
+    let left = if low < 0.5 { "<s>◂</s>" } else { "" };
+    let right = if high > 2.0 { "<u>▸</u>" } else { "" };
+    [left, &line, right].concat()
 }
 
 /// Writes a sentence as HTML. Methods and scenes are links.

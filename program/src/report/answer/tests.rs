@@ -107,8 +107,8 @@ fn nothing_is_called_faster_whose_interval_contains_one() {
     ]);
     assert_eq!(
         text,
-        "For naive Phong’s picture, nothing is faster than naive Phong beyond doubt in this scene. \
-         The lecture’s `fast-phong` ties with it: about 1.0 × (0.80 to 1.20)."
+        "For naive Phong’s picture, nothing is faster than `naive-phong` beyond doubt in this scene. \
+         The lecture’s `fast-phong` ties with naive Phong: about 1.0 × (0.80 to 1.20)."
     );
     // A method that might be slower than naive Phong is not the best, but may be the fastest.
     let text = scalar(&[
@@ -146,7 +146,7 @@ fn speeds_over_scenes_are_geometric_means_of_values_and_intervals() {
     ];
     let text = said(&document(&scenes), "Scalar code");
     assert!(
-        text.contains("nothing is faster than naive Phong beyond doubt over 2"),
+        text.contains("nothing is faster than `naive-phong` beyond doubt over 2"),
         "{text}"
     );
 }
@@ -317,10 +317,10 @@ fn the_quiet_run_stands_beside_this_one() {
     for text in [
         "<small>This run</small>",
         "<small>A quiet Calm &lt;CPU&gt;, 2026-12-01</small>",
-        "<span>1.2\u{A0}× (1.22–1.28) <b class=\"good\">faster</b></span>",
-        "<span>1.3\u{A0}× (1.30–1.36) <b class=\"good\">faster</b></span>",
+        "<span class=\"worth\">1.2\u{A0}× (1.22–1.28) <b class=\"good\">faster</b></span>",
+        "<span class=\"worth\">1.3\u{A0}× (1.30–1.36) <b class=\"good\">faster</b></span>",
         // No study here, so only the quiet run speaks of SIMD.
-        "<h2>SIMD</h2><div class=\"lines\"><small>A quiet Calm &lt;CPU&gt; with AVX2, 2026-12-01</small>",
+        "<h2>SIMD</h2><div class=\"gains\"><small>A quiet Calm &lt;CPU&gt; with AVX2, 2026-12-01</small>",
     ] {
         assert!(html.contains(text), "{text}: {html}");
     }
@@ -345,18 +345,20 @@ fn a_bar_that_leaves_the_scale_ends_in_an_arrow() {
         high,
         tie: false,
     };
-    assert_eq!(
-        bar(&speed(1.0, 2.0)),
-        "<s></s><i style=\"left:50.0%;width:50.0%\"></i><s></s>"
-    );
-    assert_eq!(
-        bar(&speed(0.3, 4.0)),
-        "<s>◂</s><i style=\"left:0.0%;width:100.0%\"></i><s>▸</s>"
-    );
-    assert_eq!(
-        bar(&speed(5.0, 6.0)),
-        "<s></s><i style=\"left:98.0%;width:2.0%\"></i><s>▸</s>"
-    );
+    for (low, high, drawn) in [
+        (1.0, 2.0, "<i style=\"left:50.0%;width:50.0%\"></i>"),
+        (1.0, 1.001, "<i style=\"left:50.0%;width:2.0%\"></i>"),
+        (0.3, 1.0, "<s>◂</s><i style=\"left:0.0%;width:50.0%\"></i>"),
+        (
+            1.999,
+            4.0,
+            "<i style=\"left:98.0%;width:2.0%\"></i><u>▸</u>",
+        ),
+        (5.0, 6.0, "<u>▸</u>"),
+        (0.1, 0.2, "<s>◂</s>"),
+    ] {
+        assert_eq!(bar(&speed(low, high)), drawn, "{low} to {high}");
+    }
 }
 
 /// The stored summary is of an optimised build on a quiet machine, and is small.
