@@ -58,7 +58,7 @@ struct Said {
 const PICTURE: &str = "The picture";
 
 /// Returns the summary of the run on a quiet machine.
-pub fn quiet() -> Summary {
+pub(super) fn quiet() -> Summary {
     serde_json::from_str(fastphong_report::QUIET).expect("a test reads it")
 }
 

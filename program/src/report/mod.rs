@@ -5,8 +5,8 @@
 //! it. Rust writes the data, and the page draws it (`report/template.html`, `app.css`, and
 //! `script/` with a file for each view). Start reading in `document.rs`, then `tables.rs`.
 //!
-//! Only [`Report`] is public, for the fuzzer, and the [`Summary`] of a document with its answer, for
-//! the documents that state it. Everything else serves the program.
+//! Only [`Report`] is public, for the fuzzer, and the [`Summary`] of a document with its answer,
+//! for the documents that state it. Everything else serves the program.
 
 mod answer;
 mod course;
@@ -24,9 +24,9 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use answer::{quiet, sentences};
+pub use answer::sentences;
 pub use document::parse;
-pub use summary::Summary;
+pub use summary::{MethodError, Speed, Summary};
 
 pub(crate) use answer::text_of;
 pub(crate) use date::utc_date;

@@ -261,8 +261,8 @@ impl Speed {
         })
     }
 
-    /// Returns the geometric means of speeds.
-    pub(super) fn mean(speeds: &[Speed]) -> Speed {
+    /// Returns the geometric means of speeds, which are at least one.
+    pub fn mean(speeds: &[Speed]) -> Speed {
         if let [one] = speeds {
             return *one;
         }
